@@ -1,0 +1,33 @@
+// The one exception of the library: it says where, what, and what to do about it.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace pliant {
+
+/// Where an error was found. Every member may be left empty; `line` counts from 1, 0 meaning none.
+struct Location {
+  std::string file;     ///< path as the caller gave it
+  int line = 0;         ///< line in `file`
+  std::string object;   ///< name of the object in the scene
+  std::string element;  ///< the part of it: "vertex 12", "triangle 7", "/objects/0/mesh" (a JSON path), "byte 84"
+};
+
+/// Thrown while a scene is built or a file is read or written; never thrown by World::step.
+///
+/// what() reads "FILE:LINE: object 'NAME', ELEMENT: PROBLEM; ADVICE", parts that are empty being left out.
+class Error : public std::runtime_error {
+ public:
+  Error(Location where, std::string problem, std::string advice = {});
+
+  const Location& where() const noexcept { return where_; }
+  const std::string& problem() const noexcept { return problem_; }
+  const std::string& advice() const noexcept { return advice_; }
+
+ private:
+  Location where_;
+  std::string problem_, advice_;
+};
+
+}  // namespace pliant

@@ -1,0 +1,60 @@
+// Files: meshes and scenes in, geometry out. Part of the library pliant_io; the core knows no file.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pliant/mesh.h"
+#include "pliant/scene.h"
+#include "pliant/world.h"
+
+namespace pliant {
+
+/// A mesh as read, with every repair that was made to it, in words.
+struct MeshFile {
+  TriangleMesh mesh;
+  std::vector<std::string> repairs;
+};
+
+/// What read_mesh mends.
+struct MeshReadOptions {
+  bool merge_duplicates = true;   ///< vertices in exactly one place become one (STL needs it)
+  bool drop_degenerate = true;    ///< triangles that use a vertex twice or have no area
+  bool drop_isolated = true;      ///< vertices of no triangle
+};
+
+/// Reads .obj, .ply (ASCII or binary, either byte order) or .stl (ASCII or binary), told apart by suffix and content;
+/// polygons are triangulated. Throws Error with file and line (or byte) where it can't be read, is empty, claims more than
+/// it holds, or has non-finite coordinates or indices out of range.
+MeshFile read_mesh_file(const std::string& path, const MeshReadOptions& options = {});
+
+/// The mesh of read_mesh_file alone.
+TriangleMesh read_mesh(const std::string& path);
+
+/// Writes .obj or .ply. The file is whole or, where writing fails, as it was before; Error names the path.
+void write_mesh(const std::string& path, const TriangleMesh& mesh);
+
+/// Reads a scene in strict JSON (docs/scene-format.md). Throws Error with file, line and JSON path. Mesh paths are relative to
+/// the scene's own folder and may not leave it unless `allow_outside`.
+Scene read_scene(const std::string& path, bool allow_outside = true);
+
+/// The same from text; `name` stands for the file in errors, `folder` is where meshes are looked for.
+Scene parse_scene(const std::string& text, const std::string& name, const std::string& folder);
+
+/// The JSON Schema (2020-12) of the scene format, as text.
+std::string scene_schema();
+
+/// Takes the frames of a run one by one. The file is complete after finish().
+class FrameWriter {
+ public:
+  virtual ~FrameWriter() = default;
+  virtual void add(const World& world) = 0;  ///< call once a frame, the initial state first
+  virtual void finish() = 0;
+};
+
+/// A writer by suffix: NAME.obj and NAME.ply (one file a frame, NAME_0000.obj, ...), .glb (morph targets), .usda (time
+/// samples), .pc2 (beside NAME.obj), .pvd (with one .vtp a frame and object). Throws Error for another suffix.
+std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Scene& scene, const World& world);
+
+}  // namespace pliant

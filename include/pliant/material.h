@@ -1,0 +1,63 @@
+// How stiff things are, in the two languages of the field, and fabrics in SI units.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pliant {
+
+/// How strongly a constraint is enforced, in one of two ways.
+///
+/// Compliance (XPBD; Macklin, Mueller and Chentanez 2016): the inverse stiffness alpha in the unit of the constraint's type
+/// (m/N for a distance), 0 meaning rigid. It means the same whatever the time step, substeps and iterations.
+/// Stiffness k (PBD; Mueller et al. 2007): the share in [0, 1] of the error that is removed in a step, spread over the
+/// projections by k' = 1 - (1 - k)^(1/n). It still depends on the time step: prefer compliance.
+struct Stiffness {
+  enum class Kind { compliance, pbd };
+  Kind kind = Kind::compliance;
+  float value = 0;    ///< alpha >= 0, or k in [0, 1]
+  float damping = 0;  ///< with compliance: beta >= 0, a damping coefficient in N s/m (the type's own unit), eq. 26 of the paper
+
+  static Stiffness rigid() { return {}; }
+  static Stiffness compliance(float alpha, float beta = 0) { return {Kind::compliance, alpha, beta}; }
+  static Stiffness pbd(float k) { return {Kind::pbd, k, 0}; }
+};
+
+/// What a conversion between k and compliance must know.
+struct ConversionContext {
+  float inverse_mass;  ///< generalised: sum over the particles of w_i |grad_i C|^2; 2/m for a distance between equal masses [1/kg]
+  float dt;            ///< time step of a frame [s]
+  int substeps = 1;
+  int iterations = 1;
+};
+
+/// The compliance that removes the same share k of an isolated constraint's error in a frame as PBD stiffness k does:
+/// alpha = h^2 w (1 - k') / k' with h = dt/substeps and k' = 1 - (1 - k)^(1/substeps). XPBD with multipliers gives the same
+/// answer for any number of iterations, so they do not enter. k = 0 gives infinity, k = 1 gives 0. Throws Error outside [0, 1].
+float compliance_from_stiffness(float k, const ConversionContext& context);
+
+/// The inverse of compliance_from_stiffness. Throws Error where alpha < 0.
+float stiffness_from_compliance(float alpha, const ConversionContext& context);
+
+/// A fabric as measured in the world, independent of any mesh.
+struct Fabric {
+  std::string name;
+  float area_density = 0.15f;          ///< [kg/m^2]
+  float thickness = 0.0004f;           ///< [m]
+  float stretch_stiffness = 2000;      ///< membrane stiffness, force per width and strain [N/m]; infinity: inextensible
+  float bending_stiffness = 1e-5f;     ///< flexural rigidity per width [N m]
+  float bending_damping = 0;           ///< fraction of critical damping of bending, 0..1 [-]
+  float static_friction = 0.4f;        ///< [-]
+  float kinetic_friction = 0.3f;       ///< [-]
+  std::string source;                  ///< where the numbers come from
+};
+
+/// One of the built-in fabrics: "cotton", "silk", "denim", "wool", "leather", "rubber sheet". Throws Error for another name,
+/// listing those there are.
+const Fabric& fabric(std::string_view name);
+
+/// All built-in fabrics.
+const std::vector<Fabric>& fabrics();
+
+}  // namespace pliant

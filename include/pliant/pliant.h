@@ -1,0 +1,11 @@
+// Everything: the core and the files.
+#pragma once
+
+#include "pliant/error.h"
+#include "pliant/io.h"
+#include "pliant/material.h"
+#include "pliant/mesh.h"
+#include "pliant/motion.h"
+#include "pliant/scene.h"
+#include "pliant/vec3.h"
+#include "pliant/world.h"

@@ -1,0 +1,186 @@
+// A Scene is a description: plain data that a World compiles. Nothing here moves.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "pliant/material.h"
+#include "pliant/mesh.h"
+#include "pliant/motion.h"
+#include "pliant/vec3.h"
+
+namespace pliant {
+
+// ---------------------------------------------------------------- what deforms
+
+/// Constraints of one type among the particles of one object. `type` is a name from constraint_types().
+struct ConstraintGroup {
+  std::string type;                ///< "distance", "dihedral_bending", "isometric_bending", ...
+  std::vector<int> particles;      ///< stencil after stencil: size of the stencil x number of constraints
+  std::vector<float> rest;         ///< rest data, fields x number of constraints; empty: measured from the positions
+  Stiffness stiffness;             ///< of every constraint in the group
+  std::vector<float> compliances;  ///< one alpha a constraint instead of stiffness.value; empty: all the same
+};
+
+/// What the library knows about a constraint type.
+struct ConstraintType {
+  std::string name;
+  int stencil_size;                      ///< number of particles
+  std::vector<std::string> rest_fields;  ///< names of its rest data, with units in docs/constraints.md
+};
+
+/// Every constraint type that a ConstraintGroup may name.
+const std::vector<ConstraintType>& constraint_types();
+
+/// The volume of a closed mesh, held at `pressure` times its rest volume: C = sum (x1 x x2) . x3 - pressure * 6 V0.
+/// Mueller et al. 2007, section 4.4.2.
+struct Volume {
+  float pressure = 1;   ///< k_pressure >= 0 [-]
+  Stiffness stiffness;  ///< compliance in m^5/N for C as written, which is six volumes
+};
+
+/// A particle whose place is given: it has no free mass and follows `motion` from its rest place.
+struct Pin {
+  int particle = 0;
+  Motion motion;
+};
+
+/// A particle drawn to a target that moves: a distance constraint of rest length 0.
+struct Attachment {
+  int particle = 0;
+  Vec3f target{};  ///< at time 0 [m]
+  Motion motion;
+  Stiffness stiffness;
+};
+
+/// Anything made of particles. Cloth, balloons and ropes are ways to make one.
+struct Object {
+  std::string name;
+  std::vector<Vec3f> positions;   ///< also the rest shape [m]
+  std::vector<Vec3f> velocities;  ///< empty: at rest [m/s]
+  std::vector<float> masses;      ///< one a particle, > 0, or infinity for a fixed one [kg]
+  std::vector<ConstraintGroup> constraints;
+  std::vector<std::array<int, 3>> triangles;  ///< the surface, for air, volume and pictures; may be empty
+  std::optional<Volume> volume;               ///< needs a closed surface
+  std::vector<Pin> pins;
+  std::vector<Attachment> attachments;
+  float thickness = 0.001f;        ///< distance kept from colliders [m]
+  float static_friction = 0.4f;    ///< [-]
+  float kinetic_friction = 0.3f;   ///< [-], <= static_friction
+  float restitution = 0;           ///< 0..1 [-]
+  float drag = 1.2f;               ///< coefficient of a triangle square to the wind [-]
+  float lift = 0.8f;               ///< [-]
+  float damping = 0;               ///< of velocity: share lost a second is 1 - exp(-damping) [1/s]
+  Vec3f colour{0.75f, 0.35f, 0.30f};  ///< linear RGB, 0..1
+};
+
+/// How a mesh becomes cloth.
+struct ClothOptions {
+  std::string name = "cloth";
+  Fabric material;
+  std::optional<Stiffness> stretch;  ///< overrides the material's
+  std::optional<Stiffness> bending;  ///< overrides the material's
+  enum class Bending { none, dihedral, isometric } bending_model = Bending::dihedral;
+  std::optional<Volume> volume;      ///< makes it a balloon; needs a closed mesh
+  Vec3f velocity{};                  ///< initial [m/s]
+};
+
+/// Cloth from any edge-manifold triangle mesh; its rest shape is the mesh as given, flat or curved: a distance constraint an
+/// edge, a bending constraint an inner edge, a third of each triangle's mass to each corner. Without overrides the
+/// compliance of an edge is L^2 / (Y (A1 + A2)) (Van Gelder 1998) and that of a hinge (A1 + A2) / (3 |e|^2 B) or, isometric,
+/// 1/B, so that stiffness does not depend on the mesh. Throws Error naming the triangle or edge that can't be cloth.
+Object make_cloth(const TriangleMesh& mesh, const ClothOptions& options = {});
+
+/// How a line of points becomes a rope.
+struct RopeOptions {
+  std::string name = "rope";
+  float linear_density = 0.05f;  ///< [kg/m]
+  Stiffness stretch;
+  Stiffness bending = Stiffness::compliance(1);  ///< distance between second neighbours; used where `bends`
+  bool bends = false;
+  float thickness = 0.005f;      ///< radius [m]
+};
+
+/// A rope through `points` (two or more, no two neighbours in one place). Each link's mass goes half to either end.
+Object make_rope(const std::vector<Vec3f>& points, const RopeOptions& options = {});
+
+// ---------------------------------------------------------------- what it meets
+
+struct Plane {};                                             ///< the half-space y <= 0 of its frame is solid
+struct Sphere { float radius = 0.5f; };                      ///< [m]
+struct Capsule { float radius = 0.25f, half_length = 0.5f; };  ///< along the y-axis of its frame; half_length without caps [m]
+struct Box { Vec3f half_extents{0.5f, 0.5f, 0.5f}; };        ///< [m]
+using Shape = std::variant<Plane, Sphere, Capsule, Box>;
+
+/// A solid that nothing pushes: it stands still or follows keyframes.
+struct Collider {
+  std::string name = "collider";
+  Shape shape = Plane{};
+  Vec3f position{};   ///< [m]
+  Quatf rotation{};
+  Motion motion;      ///< applied after position and rotation
+  float thickness = 0;               ///< added to the particle's [m]
+  float static_friction = 0.4f;      ///< a pair has the geometric mean of both sides'
+  float kinetic_friction = 0.3f;
+  float restitution = 0;             ///< a pair has the larger of both sides'
+  Vec3f colour{0.45f, 0.48f, 0.52f};
+};
+
+/// Moving air: a uniform wind with a gust of given period along it.
+struct Wind {
+  Vec3f velocity{};          ///< [m/s]
+  float gust = 0;            ///< 0..1: the wind's strength swings by this share [-]
+  float gust_period = 2;     ///< [s]
+  float air_density = 0;     ///< 0: no air at all; 1.2 at sea level [kg/m^3]
+};
+
+/// A force on a particle [N] from its position [m], velocity [m/s], mass [kg] and the time [s]. Called from one thread at a
+/// time in the particles' order. Use no libm in it if the run must give the same bits elsewhere.
+using ForceField = std::function<Vec3f(const Vec3f& position, const Vec3f& velocity, float mass, float time)>;
+
+// ---------------------------------------------------------------- how it is solved
+
+/// How constraints are visited; all give the same bits where they say so.
+enum class Sweep {
+  tiled,       ///< coloured Gauss-Seidel in tiles, sixteen lanes, all threads: the default
+  sequential,  ///< the same order, one constraint at a time in plain scalar code: the readable reference, bit-equal to `tiled`
+};
+
+struct Settings {
+  int substeps = 20;     ///< 1..10000 a frame
+  int iterations = 1;    ///< 1..10000 a substep
+  int threads = 0;       ///< 0: as many as the machine has
+  Sweep sweep = Sweep::tiled;
+  bool measure = false;  ///< fill Report::residuals and the stretch each frame (costs about one more iteration)
+  bool record_multipliers = false;  ///< keep multipliers readable even where they are not needed (one iteration)
+  std::string isa;       ///< "", or "x86-64-v2", "-v3", "-v4" to force a code path (same bits, other speed)
+};
+
+/// Everything that a World is made from.
+struct Scene {
+  Vec3f gravity{0, -9.81f, 0};  ///< [m/s^2]
+  Wind wind;
+  std::vector<ForceField> forces;
+  Settings settings;
+  float frame_time = 1.f / 60;  ///< of one frame [s]
+  int frames = 120;             ///< how many a run lasts unless told otherwise
+  std::vector<Object> objects;
+  std::vector<Collider> colliders;
+
+  /// Adds an object and returns its index. Its contents are checked when a World is made.
+  int add(Object object);
+  int add(Collider collider);
+  int add_cloth(const TriangleMesh& mesh, const ClothOptions& options = {});
+
+  /// Fixes particles where they are, or moves them. Throws Error where the object or a particle does not exist.
+  void pin(int object, const std::vector<int>& particles, const Motion& motion = {});
+};
+
+/// Checks everything that a World would refuse, and says what is doubtful besides.
+std::vector<Finding> inspect(const Scene& scene);
+
+}  // namespace pliant

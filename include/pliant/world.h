@@ -1,0 +1,129 @@
+// A World is a Scene compiled, with the State that moves. Data runs one way: step, then read.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pliant/mesh.h"
+#include "pliant/scene.h"
+
+namespace pliant {
+
+/// Four floats in one 16-byte record, moved by whole loads.
+struct alignas(16) Record {
+  float x = 0, y = 0, z = 0, w = 0;
+};
+
+/// All that changes as time passes, a plain value: copy it, hash it, put it back, and the next step gives the same bits.
+/// Particles stand in the order of the compiled model, not of the user; read places through World.
+struct State {
+  double time = 0;          ///< [s]
+  std::int64_t frame = 0;   ///< steps taken
+  std::vector<Record> positions;   ///< (x, y, z) [m], w the inverse mass [1/kg]
+  std::vector<Record> remainders;  ///< what a float position could not hold of the motion so far [m]
+  std::vector<Record> velocities;  ///< [m/s]
+};
+
+/// SHA-256 over every member of a State, as 64 hexadecimal digits.
+std::string hash(const State& state);
+
+/// Milliseconds spent in a named phase of a step.
+struct PhaseTime {
+  std::string name;
+  double milliseconds = 0;
+};
+
+/// How far the constraints of one type are from being met, at the end of a frame: |C + alpha~ lambda| over all of them.
+struct Residual {
+  std::string type;
+  std::int64_t constraints = 0;
+  double rms = 0, largest = 0;  ///< in the unit of C
+};
+
+/// Length over rest length of every distance constraint with a rest length.
+struct Stretch {
+  double mean = 1, p99 = 1, largest = 1;
+};
+
+/// Where the first non-finite value came from.
+struct NonFinite {
+  std::string object, element;  ///< "distance constraint 17 (particles 3, 4)", "particle 12"
+  std::int64_t frame = 0;
+  int substep = 0;
+};
+
+/// What a step has to say. A step never throws.
+struct Report {
+  std::int64_t frame = 0;
+  double time = 0;
+  double milliseconds = 0;
+  std::vector<PhaseTime> phases;
+  std::int64_t contacts = 0;        ///< active in the last substep
+  std::vector<Residual> residuals;  ///< where Settings::measure
+  std::optional<Stretch> stretch;   ///< where Settings::measure
+  std::optional<NonFinite> nonfinite;
+  std::vector<std::string> warnings;
+
+  bool ok() const { return !nonfinite; }
+  std::string explain() const;  ///< in words, empty where all is well
+};
+
+/// What was compiled for one object.
+struct ObjectInfo {
+  std::string name;
+  int particles = 0;
+  std::vector<std::pair<std::string, std::int64_t>> constraints;  ///< by type, "volume" included
+};
+
+class World {
+ public:
+  /// Compiles a scene. Throws Error naming the object, the element and what to do where it can't be simulated.
+  explicit World(const Scene& scene);
+  World(const Scene& scene, const Settings& settings);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  /// Advances by dt seconds (finite, > 0; else nothing moves and the Report says so). After a non-finite value the World
+  /// stays at its last finite state and refuses to step until it is restored.
+  Report step(float dt);
+
+  const State& state() const;
+  /// Puts a state of this World back. Throws Error where it does not fit.
+  void restore(const State& state);
+  std::string state_hash() const { return hash(state()); }
+
+  int object_count() const;
+  ObjectInfo info(int object) const;
+  const Settings& settings() const;
+  std::string isa() const;  ///< the code path in use: "x86-64-v2", "-v3" or "-v4"
+  int threads() const;
+
+  /// In the object's own numbering.
+  std::vector<Vec3f> positions(int object) const;
+  std::vector<Vec3f> velocities(int object) const;
+  TriangleMesh mesh(int object) const;
+  /// Where a collider is now.
+  Vec3f collider_position(int collider) const;
+  Quatf collider_rotation(int collider) const;
+
+  /// Multipliers of the last substep in the order of the object's constraint groups of that type; empty where they were not
+  /// kept. The force is lambda / h^2 along the gradient (XPBD, eq. 17).
+  std::vector<float> multipliers(int object, const std::string& type) const;
+
+  /// Kinetic and gravitational energy of all free particles [J]; heights from the origin.
+  double kinetic_energy() const;
+  double potential_energy() const;
+  std::vector<Residual> residuals() const;
+  Stretch stretch() const;
+  double enclosed_volume(int object) const;  ///< of its triangles [m^3]
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> self_;
+};
+
+}  // namespace pliant

@@ -1,0 +1,34 @@
+// How an Error reads.
+#include "pliant/error.h"
+
+#include <utility>
+
+namespace pliant {
+
+namespace {
+
+std::string place(const Location& where) {
+  std::string text = where.file;
+  if (where.line > 0) text += ":" + std::to_string(where.line);
+  if (!where.object.empty()) text += (text.empty() ? "object '" : ": object '") + where.object + "'";
+  if (!where.element.empty()) text += (text.empty() || where.object.empty() ? "" : ", ") + (text.empty() || !where.object.empty() ? where.element : ": " + where.element);
+  return text;
+}
+
+std::string sentence(const Location& where, const std::string& problem, const std::string& advice) {
+  std::string text = place(where);
+  if (!text.empty()) text += ": ";
+  text += problem;
+  if (!advice.empty()) text += "; " + advice;
+  return text;
+}
+
+}  // namespace
+
+Error::Error(Location where, std::string problem, std::string advice)
+    : std::runtime_error(sentence(where, problem, advice)),
+      where_(std::move(where)),
+      problem_(std::move(problem)),
+      advice_(std::move(advice)) {}
+
+}  // namespace pliant
