@@ -1,0 +1,181 @@
+// The temporary file, its checks and its rename. POSIX calls rather than streams, because a stream can neither say why it
+// failed nor force the bytes to the disk.
+#include "atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <bit>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "pliant/error.h"
+
+namespace pliant {
+
+static_assert(std::endian::native == std::endian::little, "binary files are written in the machine's own order");
+
+namespace {
+
+constexpr std::size_t buffer_size = std::size_t{1} << 18;
+
+const char* advice(int code) {
+  switch (code) {
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+      return "free some space, or write somewhere else";
+    case ENOENT:
+    case ENOTDIR:
+      return "make the folder first, or write somewhere else";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "write somewhere you are allowed to";
+    case EISDIR:
+      return "name a file, not a folder";
+    default:
+      return "write somewhere else";
+  }
+}
+
+std::string folder_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  if (slash == std::string::npos) return ".";
+  return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+std::string follow_links(const std::string& path) {
+  char* const resolved = ::realpath(path.c_str(), nullptr);
+  if (resolved == nullptr) return path;
+  std::string result = resolved;
+  std::free(resolved);
+  return result;
+}
+
+/// Writes all of it, in as many calls as it takes. Returns 0 or the error code.
+int write_all(int descriptor, const char* bytes, std::size_t count) {
+  while (count > 0) {
+    const ssize_t done = ::write(descriptor, bytes, count);
+    if (done < 0 && errno == EINTR) continue;
+    if (done < 0) return errno;
+    if (done == 0) return ENOSPC;
+    bytes += done;
+    count -= static_cast<std::size_t>(done);
+  }
+  return 0;
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(path_) {
+  if (path_.empty()) throw Error({}, "there is no name to write a file under", "give a path");
+  if (path_.find('\0') != std::string::npos) throw Error({}, "a path holds a zero byte", "give another path");
+  buffer_.reserve(buffer_size);
+  struct stat status {};
+  const bool exists = ::stat(path_.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) fail("cannot write", EISDIR);
+  if (exists && !S_ISREG(status.st_mode)) {
+    open_directly();
+    return;
+  }
+  if (exists) target_ = follow_links(path_);
+  if (exists && ::access(target_.c_str(), W_OK) != 0) fail("cannot write", errno);
+  open_temporary();
+  // A file system without permissions is no reason to write nothing.
+  if (exists) (void)!::fchmod(descriptor_, status.st_mode & 0777);
+}
+
+AtomicFile::~AtomicFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::fail(const char* what, int code) const {
+  throw Error({.file = path_, .line = 0, .object = {}, .element = {}},
+              std::string(what) + ": " + std::generic_category().message(code), advice(code));
+}
+
+void AtomicFile::open_temporary() {
+  static std::atomic<unsigned> counter{0};
+  constexpr int attempts = 100;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    // A short name of its own: a long target name plus a suffix could exceed what the file system allows.
+    std::string name =
+        folder_of(target_) + "/.pliant-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".part";
+    descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ >= 0) {
+      temporary_ = std::move(name);
+      return;
+    }
+    if (errno != EEXIST) break;
+  }
+  fail("cannot write", errno);
+}
+
+void AtomicFile::open_directly() {
+  // Opening a pipe that nobody reads would wait for ever.
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor_ < 0) fail("cannot write", errno);
+  const int flags = ::fcntl(descriptor_, F_GETFL);
+  if (flags >= 0) ::fcntl(descriptor_, F_SETFL, flags & ~O_NONBLOCK);
+}
+
+void AtomicFile::write(const void* bytes, std::size_t count) {
+  if (buffer_.size() + count > buffer_size) flush();
+  const char* const first = static_cast<const char*>(bytes);
+  if (count < buffer_size) {
+    buffer_.insert(buffer_.end(), first, first + count);
+    return;
+  }
+  if (const int code = write_all(descriptor_, first, count)) fail("cannot write", code);
+  written_ += count;
+}
+
+void AtomicFile::overwrite(std::size_t offset, const void* bytes, std::size_t count) {
+  if (offset + count > size())
+    throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "overwrites what is not there");
+  flush();
+  const char* next = static_cast<const char*>(bytes);
+  while (count > 0) {
+    const ssize_t done = ::pwrite(descriptor_, next, count, static_cast<off_t>(offset));
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) fail("cannot write", done < 0 ? errno : ENOSPC);
+    next += done;
+    offset += static_cast<std::size_t>(done);
+    count -= static_cast<std::size_t>(done);
+  }
+}
+
+void AtomicFile::flush() {
+  if (const int code = write_all(descriptor_, buffer_.data(), buffer_.size())) fail("cannot write", code);
+  written_ += buffer_.size();
+  buffer_.clear();
+}
+
+void AtomicFile::close_checked() {
+  const int descriptor = std::exchange(descriptor_, -1);
+  if (::close(descriptor) != 0 && errno != EINTR) fail("cannot write", errno);
+}
+
+void AtomicFile::commit() {
+  if (descriptor_ < 0) throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "was committed before");
+  flush();
+  if (temporary_.empty()) return close_checked();
+  if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail("cannot write", errno);
+  close_checked();
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot put the file in place", errno);
+  temporary_.clear();
+  // The rename itself lives in the folder. Where a folder cannot be synced the file is whole all the same.
+  const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return;
+  ::fsync(folder);
+  ::close(folder);
+}
+
+}  // namespace pliant
