@@ -1,0 +1,250 @@
+// Painting of charts: find the ranges, frame them, mark them, draw the curves, explain them.
+#include "apps/plot/chart.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <limits>
+
+namespace pliant::plot {
+namespace {
+
+constexpr Colour paper{255, 255, 255}, ink{38, 42, 48}, faint{228, 231, 235}, frame{150, 156, 164};
+constexpr double title_size = 2, text_size = 2, font_height = 7;
+
+// Told apart by readers with any colour vision (Okabe and Ito 2008).
+constexpr Colour palette[] = {{0, 114, 178}, {213, 94, 0},   {0, 158, 115},  {204, 121, 167},
+                              {230, 159, 0}, {86, 180, 233}, {110, 110, 110}};
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+  void include(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+// A position along an axis in the unit that is drawn evenly.
+double even(double value, bool logarithmic) {
+  if (!logarithmic) return value;
+  return value > 0 ? std::log10(value) : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+Range padded(Range range, double share) {
+  if (!(range.low <= range.high)) return {0, 1};
+  double room = (range.high - range.low) * share;
+  if (room < 1e-12 * std::max(1e-30, std::abs(range.high))) room = std::max(std::abs(range.high) * 0.05, 1e-12);
+  return {range.low - room, range.high + room};
+}
+
+// Everything that is known about a chart once it is placed.
+struct Layout {
+  const Chart& chart;
+  Point upper_left, lower_right;  // of the box between the axes
+  Range x, y;                     // in even units
+
+  Point place(double px, double py) const {
+    const double u = (even(px, chart.logarithmic_x) - x.low) / (x.high - x.low);
+    const double v = (even(py, chart.logarithmic_y) - y.low) / (y.high - y.low);
+    return {upper_left.x + u * (lower_right.x - upper_left.x), lower_right.y - v * (lower_right.y - upper_left.y)};
+  }
+};
+
+Layout lay_out(const Chart& chart, Point corner, int width, int height) {
+  Range x, y;
+  for (const Series& series : chart.series)
+    for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
+      const double u = even(series.x[i], chart.logarithmic_x), v = even(series.y[i], chart.logarithmic_y);
+      if (!std::isfinite(u) || !std::isfinite(v)) continue;
+      x.include(u);
+      y.include(v);
+    }
+  return {chart,
+          {corner.x + 104, corner.y + 52},
+          {corner.x + width - 26, corner.y + height - 66},
+          padded(x, 0.02),
+          padded(y, 0.08)};
+}
+
+void draw_grid(Canvas& canvas, const Layout& layout) {
+  const Chart& chart = layout.chart;
+  const Point a = layout.upper_left, b = layout.lower_right;
+  const Ticks xs = chart.logarithmic_x ? logarithmic_ticks(layout.x.low, layout.x.high, 7)
+                                       : linear_ticks(layout.x.low, layout.x.high, 7);
+  const Ticks ys = chart.logarithmic_y ? logarithmic_ticks(layout.y.low, layout.y.high, 6)
+                                       : linear_ticks(layout.y.low, layout.y.high, 6);
+  for (std::size_t i = 0; i < xs.places.size(); ++i) {
+    const double x = layout.place(xs.places[i], 1).x;
+    canvas.line({x, a.y}, {x, b.y}, 1, faint);
+    canvas.line({x, b.y}, {x, b.y + 5}, 1, frame);
+    canvas.text({x - Canvas::text_width(xs.labels[i], text_size) / 2, b.y + 12}, xs.labels[i], text_size, ink);
+  }
+  for (std::size_t i = 0; i < ys.places.size(); ++i) {
+    const double y = layout.place(1, ys.places[i]).y;
+    canvas.line({a.x, y}, {b.x, y}, 1, faint);
+    canvas.line({a.x - 5, y}, {a.x, y}, 1, frame);
+    const double width = Canvas::text_width(ys.labels[i], text_size);
+    canvas.text({a.x - 11 - width, y - font_height * text_size / 2}, ys.labels[i], text_size, ink);
+  }
+}
+
+void draw_frame(Canvas& canvas, const Layout& layout, Point corner, int width, int height) {
+  const Chart& chart = layout.chart;
+  const Point a = layout.upper_left, b = layout.lower_right;
+  canvas.line({a.x, a.y}, {a.x, b.y}, 1.5, frame);
+  canvas.line({a.x, b.y}, {b.x, b.y}, 1.5, frame);
+  canvas.text({a.x, corner.y + 20}, chart.title, title_size, ink);
+  const double x_width = Canvas::text_width(chart.x_label, text_size);
+  canvas.text({(a.x + b.x - x_width) / 2, corner.y + height - 28}, chart.x_label, text_size, ink);
+  const double y_width = Canvas::text_width(chart.y_label, text_size);
+  canvas.text_upwards({corner.x + 16, (a.y + b.y + y_width) / 2}, chart.y_label, text_size, ink);
+  static_cast<void>(width);
+}
+
+// Draws the dashes of a segment and returns how far along the dash pattern it ends.
+double dashes(Canvas& canvas, Point from, Point to, double offset, Colour colour) {
+  constexpr double on = 9, period = 16;
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  auto at = [&](double s) { return Point{from.x + (to.x - from.x) * s / length, from.y + (to.y - from.y) * s / length}; };
+  for (double start = -offset; length > 0 && start < length; start += period)
+    if (start + on > 0) canvas.line(at(std::max(start, 0.0)), at(std::min(start + on, length)), 2, colour);
+  return std::fmod(offset + length, period);
+}
+
+void draw_series(Canvas& canvas, const Layout& layout, const Series& series, Colour colour) {
+  double offset = 0;
+  const std::size_t count = std::min(series.x.size(), series.y.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Point here = layout.place(series.x[i], series.y[i]);
+    if (!std::isfinite(here.x) || !std::isfinite(here.y)) continue;
+    if (series.style == Series::Style::points) {
+      canvas.disc(here, 4.5, paper);
+      canvas.disc(here, 3.5, colour);
+      continue;
+    }
+    if (i == 0) continue;
+    const Point before = layout.place(series.x[i - 1], series.y[i - 1]);
+    if (!std::isfinite(before.x) || !std::isfinite(before.y)) continue;
+    if (series.style == Series::Style::dashed)
+      offset = dashes(canvas, before, here, offset, colour);
+    else
+      canvas.line(before, here, 2.2, colour);
+  }
+}
+
+// How many drawn points of the curves lie in a box; the legend goes where there are fewest.
+int crowd(const Layout& layout, Point a, Point b) {
+  int count = 0;
+  for (const Series& series : layout.chart.series)
+    for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
+      const Point p = layout.place(series.x[i], series.y[i]);
+      count += p.x > a.x && p.x < b.x && p.y > a.y && p.y < b.y;
+    }
+  return count;
+}
+
+Point legend_corner(const Layout& layout, double width, double height) {
+  const Point a = layout.upper_left, b = layout.lower_right;
+  const Point corners[] = {{b.x - width - 10, a.y + 10},
+                           {a.x + 10, a.y + 10},
+                           {b.x - width - 10, b.y - height - 10},
+                           {a.x + 10, b.y - height - 10}};
+  return *std::min_element(std::begin(corners), std::end(corners), [&](Point p, Point q) {
+    return crowd(layout, p, {p.x + width, p.y + height}) < crowd(layout, q, {q.x + width, q.y + height});
+  });
+}
+
+void draw_legend(Canvas& canvas, const Layout& layout) {
+  constexpr double line_height = 22, stroke = 34;
+  double width = 0, lines = 0;
+  for (const Series& series : layout.chart.series)
+    if (!series.name.empty()) {
+      width = std::max(width, Canvas::text_width(series.name, text_size));
+      lines += 1;
+    }
+  if (lines == 0) return;
+  width += stroke + 24;
+  const Point corner = legend_corner(layout, width, lines * line_height + 8);
+  canvas.rectangle(corner, {corner.x + width, corner.y + lines * line_height + 8}, paper, 0.88);
+  double y = corner.y + 4 + line_height / 2;
+  for (std::size_t i = 0; i < layout.chart.series.size(); ++i) {
+    const Series& series = layout.chart.series[i];
+    if (series.name.empty()) continue;
+    const Colour colour = palette[i % std::size(palette)];
+    const Point from{corner.x + 8, y}, to{corner.x + 8 + stroke, y};
+    if (series.style == Series::Style::points)
+      canvas.disc({(from.x + to.x) / 2, y}, 4, colour);
+    else if (series.style == Series::Style::dashed)
+      dashes(canvas, from, to, 0, colour);
+    else
+      canvas.line(from, to, 2.2, colour);
+    canvas.text({to.x + 8, y - font_height * text_size / 2 + 1}, series.name, text_size, ink);
+    y += line_height;
+  }
+}
+
+void draw_chart(Canvas& canvas, const Chart& chart, Point corner, int width, int height) {
+  const Layout layout = lay_out(chart, corner, width, height);
+  draw_grid(canvas, layout);
+  draw_frame(canvas, layout, corner, width, height);
+  canvas.clip(layout.upper_left, layout.lower_right);
+  for (std::size_t i = 0; i < chart.series.size(); ++i)
+    draw_series(canvas, layout, chart.series[i], palette[i % std::size(palette)]);
+  canvas.unclip();
+  draw_legend(canvas, layout);
+}
+
+}  // namespace
+
+Ticks linear_ticks(double low, double high, int wanted) {
+  Ticks ticks;
+  if (!(high > low) || wanted < 1) return ticks;
+  const double power = std::pow(10, std::floor(std::log10((high - low) / wanted)));
+  double step = power;
+  for (double factor : {2.0, 5.0, 10.0})
+    if ((high - low) / step > wanted) step = factor * power;
+  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) {
+    const double place = std::abs(k) < 0.5 ? 0 : k * step;
+    ticks.places.push_back(place);
+    ticks.labels.push_back(number(place));
+  }
+  return ticks;
+}
+
+Ticks logarithmic_ticks(double low, double high, int wanted) {
+  Ticks ticks;
+  const int first = static_cast<int>(std::ceil(low - 1e-9)), last = static_cast<int>(std::floor(high + 1e-9));
+  const bool fine = last - first < 2;  // less than two decades: mark 2 and 5 as well
+  const int stride = std::max(1, (last - first) / std::max(wanted, 1));
+  for (int k = first - 1; k <= last; k += 1) {
+    for (double factor : {1.0, 2.0, 5.0}) {
+      const double place = factor * std::pow(10, k), level = std::log10(place);
+      if (level < low - 1e-9 || level > high + 1e-9) continue;
+      if (factor > 1 && !fine) continue;
+      if (factor == 1 && (k - first) % stride != 0) continue;
+      ticks.places.push_back(place);
+      ticks.labels.push_back(number(place));
+    }
+  }
+  return ticks;
+}
+
+Canvas paint(const std::vector<Chart>& charts, int columns, int width, int height) {
+  const int count = std::max(1, static_cast<int>(charts.size()));
+  const int across = std::clamp(columns, 1, count), down = (count + across - 1) / across;
+  Canvas canvas(across * width, down * height, paper);
+  for (int i = 0; i < static_cast<int>(charts.size()); ++i) {
+    const Point corner{static_cast<double>(i % across * width), static_cast<double>(i / across * height)};
+    draw_chart(canvas, charts[static_cast<std::size_t>(i)], corner, width, height);
+  }
+  return canvas;
+}
+
+}  // namespace pliant::plot
