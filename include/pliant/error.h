@@ -12,11 +12,12 @@ struct Location {
   int line = 0;         ///< line in `file`
   std::string object;   ///< name of the object in the scene
   std::string element;  ///< the part of it: "vertex 12", "triangle 7", "/objects/0/mesh" (a JSON path), "byte 84"
+  int column = 0;       ///< byte of the line, from 1, 0 meaning none
 };
 
 /// Thrown while a scene is built or a file is read or written; never thrown by World::step.
 ///
-/// what() reads "FILE:LINE: object 'NAME', ELEMENT: PROBLEM; ADVICE", parts that are empty being left out.
+/// what() reads "FILE:LINE:COLUMN: object 'NAME', ELEMENT: PROBLEM; ADVICE", parts that are empty being left out.
 class Error : public std::runtime_error {
  public:
   Error(Location where, std::string problem, std::string advice = {});

@@ -10,9 +10,11 @@ namespace {
 std::string place(const Location& where) {
   std::string text = where.file;
   if (where.line > 0) text += ":" + std::to_string(where.line);
-  if (!where.object.empty()) text += (text.empty() ? "object '" : ": object '") + where.object + "'";
-  if (!where.element.empty()) text += (text.empty() || where.object.empty() ? "" : ", ") + (text.empty() || !where.object.empty() ? where.element : ": " + where.element);
-  return text;
+  if (where.line > 0 && where.column > 0) text += ":" + std::to_string(where.column);
+  std::string part = where.object.empty() ? std::string() : "object '" + where.object + "'";
+  if (!where.element.empty()) part += (part.empty() ? "" : ", ") + where.element;
+  if (!text.empty() && !part.empty()) text += ": ";
+  return text + part;
 }
 
 std::string sentence(const Location& where, const std::string& problem, const std::string& advice) {
