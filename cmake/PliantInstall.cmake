@@ -1,1 +1,34 @@
-# Placeholder replaced by the install rules.
+# Install rules, and what find_package(pliant) finds: pliant::pliant, the core and the files, as static libraries. Only the
+# public headers are installed; the folders' own libraries are there because a static library can't be merged portably.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+get_property(PLIANT_INSTALLED_LIBRARIES GLOBAL PROPERTY PLIANT_LIBRARIES)
+foreach(library ${PLIANT_INSTALLED_LIBRARIES})
+  string(REGEX REPLACE "^pliant_" "" short_name ${library})
+  set_target_properties(${library} PROPERTIES EXPORT_NAME ${short_name})
+endforeach()
+
+# The one name that users link.
+add_library(pliant_pliant INTERFACE)
+target_link_libraries(pliant_pliant INTERFACE pliant_io pliant_world)
+set_target_properties(pliant_pliant PROPERTIES EXPORT_NAME pliant)
+add_library(pliant::pliant ALIAS pliant_pliant)
+
+install(TARGETS ${PLIANT_INSTALLED_LIBRARIES} pliant_pliant EXPORT pliant-targets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/pliant DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/pliant)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+if(TARGET pliant_command)
+  install(TARGETS pliant_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+set(pliant_package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/pliant)
+install(EXPORT pliant-targets NAMESPACE pliant:: DESTINATION ${pliant_package_folder})
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/pliant-config.cmake.in
+  ${PROJECT_BINARY_DIR}/pliant-config.cmake INSTALL_DESTINATION ${pliant_package_folder})
+# Before 1.0 any minor version may break what was written for another.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/pliant-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/pliant-config.cmake ${PROJECT_BINARY_DIR}/pliant-config-version.cmake
+  DESTINATION ${pliant_package_folder})

@@ -1,0 +1,46 @@
+// The subcommands of `pliant` as plain functions of plain options: main.cpp alone knows the command line.
+//
+// Every one returns the exit status (0: done; 1: done, and what was asked for is not as it should be, which it has said)
+// and throws pliant::Error, or Interrupted, where it can't be done. Standard output is for results, standard error for the
+// one line that says what went wrong and, on a terminal, for progress.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pliant::command {
+
+/// What run, render and whatever else simulates a scene let the caller change of the scene's own settings.
+struct Overrides {
+  std::optional<int> frames, threads, substeps, iterations;
+  std::string isa;          ///< empty: the best there is
+  bool sequential = false;  ///< the plain reference sweep
+};
+
+struct RunOptions {
+  std::string scene;
+  Overrides overrides;
+  std::vector<std::string> out;  ///< geometry files; the suffix picks the format
+  std::string report;            ///< JSON file, empty: none
+  bool hash_frames = false;      ///< the state's hash of every frame in the report
+  bool quiet = false;            ///< nothing on standard output, no progress
+};
+
+/// Simulates a scene.
+int run(const RunOptions& options);
+
+struct CheckOptions {
+  std::string path;  ///< a scene (.json) or a mesh
+};
+
+/// Says what is wrong or doubtful; 1 where something is wrong.
+int check(const CheckOptions& options);
+
+/// Prints the JSON Schema of the scene format.
+int schema();
+
+/// Prints the version.
+int version();
+
+}  // namespace pliant::command

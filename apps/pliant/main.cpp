@@ -1,0 +1,93 @@
+// The command line: reads it, calls a subcommand, and turns what it throws into one line and an exit status.
+//
+// Exit status: 0 done, 1 an error or a finding that is wrong, 2 the command line itself, 128 + N ended by signal N.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <new>
+
+#include "command.h"
+#include "interrupt.h"
+#include "output.h"
+#include "pliant/error.h"
+
+namespace {
+
+using namespace pliant::command;
+
+constexpr int most = std::numeric_limits<int>::max();
+
+void complain(const std::string& message) { std::fprintf(stderr, "pliant: %s\n", one_line(message).c_str()); }
+
+void add_overrides(CLI::App& app, Overrides& overrides) {
+  app.add_option("--frames", overrides.frames, "frames to simulate, instead of the scene's number")
+      ->check(CLI::Range(0, most));
+  app.add_option("--threads", overrides.threads, "threads; 0: as many as the machine has")->check(CLI::Range(0, 4096));
+  app.add_option("--substeps", overrides.substeps, "substeps a frame")->check(CLI::Range(1, 10000));
+  app.add_option("--iterations", overrides.iterations, "iterations a substep")->check(CLI::Range(1, 10000));
+  app.add_option("--isa", overrides.isa, "code path; the same bits at another speed")
+      ->check(CLI::IsMember({"x86-64-v2", "x86-64-v3", "x86-64-v4"}));
+  app.add_flag("--sequential", overrides.sequential, "the plain reference sweep; the same bits, slowly");
+}
+
+// Every subcommand sets `chosen`, which main then calls.
+using Chosen = std::function<int()>;
+
+void add_run(CLI::App& app, RunOptions& options, Chosen& chosen) {
+  CLI::App* run_app = app.add_subcommand("run", "Simulate a scene");
+  run_app->add_option("SCENE", options.scene, "scene file, JSON")->required();
+  add_overrides(*run_app, options.overrides);
+  run_app->add_option("--out", options.out, "geometry: .obj, .ply, .glb, .usda, .pc2 or .pvd; may be given more than once")
+      ->allow_extra_args(false);
+  run_app->add_option("--report", options.report, "write hashes, times, residuals and stretch as JSON");
+  run_app->add_flag("--hash-frames", options.hash_frames, "the state's hash of every frame in the report");
+  run_app->add_flag("--quiet", options.quiet, "print nothing unless something goes wrong");
+  run_app->callback([&] { chosen = [&] { return run(options); }; });
+}
+
+void add_check(CLI::App& app, CheckOptions& options, Chosen& chosen) {
+  CLI::App* check_app = app.add_subcommand("check", "Say what is wrong or doubtful in a scene or a mesh");
+  check_app->add_option("FILE", options.path, "scene (.json) or mesh (.obj, .ply, .stl)")->required();
+  check_app->callback([&] { chosen = [&] { return check(options); }; });
+}
+
+int run_guarded(const Chosen& chosen) {
+  try {
+    return chosen();
+  } catch (const Interrupted& interrupted) {
+    complain(interrupted.what());
+    return interrupted.exit_status();
+  } catch (const std::bad_alloc&) {
+    complain("out of memory; simulate fewer particles, or close other programs");
+  } catch (const std::exception& error) {
+    complain(error.what());
+  }
+  return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  catch_signals();
+  CLI::App app{"A position based dynamics engine: cloth, soft bodies, ropes", "pliant"};
+  app.set_version_flag("--version", "pliant " PLIANT_VERSION);
+  app.require_subcommand(1);
+
+  Chosen chosen;
+  RunOptions run_options;
+  CheckOptions check_options;
+  add_run(app, run_options, chosen);
+  add_check(app, check_options, chosen);
+  app.add_subcommand("schema", "Print the JSON Schema of the scene format")->callback([&] { chosen = schema; });
+  app.add_subcommand("version", "Print the version")->callback([&] { chosen = version; });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    complain(std::string(error.what()) + "; see pliant --help");
+    return 2;
+  }
+  return run_guarded(chosen);
+}

@@ -1,0 +1,93 @@
+#include "run_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace pliant::command {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json constraints_by_type(const World& world) {
+  std::map<std::string, std::int64_t> sums;
+  for (int object = 0; object < world.object_count(); ++object) {
+    for (const auto& [type, count] : world.info(object).constraints) sums[type] += count;
+  }
+  return sums;
+}
+
+std::int64_t particle_count(const World& world) {
+  std::int64_t count = 0;
+  for (int object = 0; object < world.object_count(); ++object) count += world.info(object).particles;
+  return count;
+}
+
+Json residuals_json(const World& world) {
+  Json json = Json::object();
+  for (const Residual& residual : world.residuals()) {
+    json[residual.type] = {{"constraints", residual.constraints}, {"rms", residual.rms}, {"largest", residual.largest}};
+  }
+  return json;
+}
+
+Json nonfinite_json(const Report& report) {
+  if (!report.nonfinite) return nullptr;
+  const NonFinite& found = *report.nonfinite;
+  return {{"object", found.object},
+          {"element", found.element},
+          {"frame", found.frame},
+          {"substep", found.substep},
+          {"message", report.explain()}};
+}
+
+}  // namespace
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const double place = q * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(std::floor(place));
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+void RunReport::add(const Report& report, const World& world) {
+  last_ = report;
+  milliseconds_.push_back(report.milliseconds);
+  for (const PhaseTime& phase : report.phases) phase_sums_[phase.name] += phase.milliseconds;
+  if (hash_frames_) hashes_.push_back(world.state_hash());
+}
+
+std::string RunReport::json(const std::string& scene_path, const Scene& scene, const World& world) const {
+  const Stretch stretch = world.stretch();
+  const double frames = static_cast<double>(std::max<std::size_t>(milliseconds_.size(), 1));
+  Json json;
+  json["pliant"] = PLIANT_VERSION;
+  json["scene"] = scene_path;
+  json["state_hash"] = world.state_hash();
+  json["frames"] = world.state().frame;
+  json["frame_time"] = scene.frame_time;
+  json["substeps"] = world.settings().substeps;
+  json["iterations"] = world.settings().iterations;
+  json["particles"] = particle_count(world);
+  json["constraints"] = constraints_by_type(world);
+  json["contacts"] = last_.contacts;
+  json["ms_per_frame"] = {{"median", median_milliseconds()}, {"p95", p95_milliseconds()}};
+  json["phases_ms"] = Json::object();
+  for (const auto& [phase, sum] : phase_sums_) json["phases_ms"][phase] = sum / frames;
+  json["residual"] = residuals_json(world);
+  json["max_stretch"] = stretch.largest;
+  json["mean_stretch"] = stretch.mean;
+  json["p99_stretch"] = stretch.p99;
+  json["nonfinite"] = nonfinite_json(last_);
+  json["warnings"] = last_.warnings;
+  json["threads"] = world.threads();
+  json["isa"] = world.isa();
+  if (hash_frames_) json["frame_hashes"] = hashes_;
+  // A path or a name may hold bytes that are no text.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace pliant::command

@@ -1,0 +1,38 @@
+// What a run has to say, collected frame by frame and written as JSON (docs/command.md lists the fields).
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "pliant/scene.h"
+#include "pliant/world.h"
+
+namespace pliant::command {
+
+/// The value below which a share `q` in [0, 1] of the values lie, linear between neighbours; 0 where there are none.
+double quantile(std::vector<double> values, double q);
+
+class RunReport {
+ public:
+  explicit RunReport(bool hash_frames) : hash_frames_(hash_frames) {}
+
+  /// After every frame.
+  void add(const Report& report, const World& world);
+
+  /// The whole as JSON text: figures of the last frame where nothing else is said, times over all frames.
+  std::string json(const std::string& scene_path, const Scene& scene, const World& world) const;
+
+  double median_milliseconds() const { return quantile(milliseconds_, 0.5); }
+  double p95_milliseconds() const { return quantile(milliseconds_, 0.95); }
+  const Report& last() const { return last_; }
+
+ private:
+  bool hash_frames_;
+  Report last_;
+  std::vector<double> milliseconds_;
+  std::map<std::string, double> phase_sums_;
+  std::vector<std::string> hashes_;
+};
+
+}  // namespace pliant::command

@@ -1,0 +1,15 @@
+// pliant schema: the scene format for machines and editors.
+#include "command.h"
+#include "output.h"
+#include "pliant/io.h"
+
+namespace pliant::command {
+
+int schema() {
+  std::string text = scene_schema();
+  if (text.empty() || text.back() != '\n') text += '\n';
+  print(text);
+  return 0;
+}
+
+}  // namespace pliant::command

@@ -1,0 +1,20 @@
+// What run and render share: a scene read with the caller's changes, and the loop over its frames.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "command.h"
+#include "pliant/scene.h"
+#include "pliant/world.h"
+
+namespace pliant::command {
+
+/// Reads a scene and applies what the caller changes of it.
+Scene read_scene_with(const std::string& path, const Overrides& overrides);
+
+/// Steps `frames` frames and calls `after_frame` after each. Stops early, and returns false, after a frame that is not
+/// finite. Shows progress where standard error is a terminal and not `quiet`. Throws Interrupted on a signal to end.
+bool simulate(World& world, const Scene& scene, bool quiet, const std::function<void(const Report&)>& after_frame);
+
+}  // namespace pliant::command

@@ -1,0 +1,36 @@
+# Run by ctest: install, configure, build and run the outside project.
+function(must)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "failed (${result}): ${command}\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+must(${CMAKE_COMMAND} --install ${PLIANT_BUILD} --prefix ${WORK}/prefix --config ${CONFIGURATION})
+must(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -G ${GENERATOR}
+  -D CMAKE_PREFIX_PATH=${WORK}/prefix -D CMAKE_BUILD_TYPE=${CONFIGURATION}
+  -D CMAKE_CXX_COMPILER=${COMPILER} -D "CMAKE_CXX_FLAGS=${FLAGS}")
+must(${CMAKE_COMMAND} --build ${WORK}/build --config ${CONFIGURATION})
+must(${CMAKE_COMMAND} -E chdir ${WORK}/build ./hello_cloth)
+
+file(READ ${WORK}/build/draped.ply draped)
+if(NOT draped MATCHES "element vertex 1600")
+  message(FATAL_ERROR "the outside project wrote no cloth of 1600 vertices")
+endif()
+# Nothing installed may point back to where it was built or written.
+file(GLOB_RECURSE configuration ${WORK}/prefix/lib/*.cmake)
+if(NOT configuration)
+  message(FATAL_ERROR "no package configuration was installed")
+endif()
+foreach(file ${configuration})
+  file(READ ${file} text)
+  if(text MATCHES "${PLIANT_BUILD}/")
+    message(FATAL_ERROR "${file} points into the build folder")
+  endif()
+endforeach()
+if(COMMAND_BUILT)
+  must(${WORK}/prefix/bin/pliant version)
+endif()
