@@ -1,0 +1,66 @@
+// One formula as floats in, floats out: the same text run by the host's compiler and by nvcc, to be compared bit by bit.
+//
+// A probe has a name, how many floats go in and come out, and a function for both machines. The list grows by itself with
+// the list of constraints.
+#pragma once
+
+#include <cstring>
+
+#include "device_headers.h"
+
+namespace pliant::cuda {
+
+/// C, the gradients, and what `measure` reads off the positions, where the type has one.
+template <class T>
+struct ConstraintProbe {
+  using Parameters = typename T::template Params<float>;
+  static constexpr int fields = sizeof(Parameters) / sizeof(float);
+  static constexpr bool measures = requires(const Vec3<float> (&x)[T::size]) { T::template measure<float>(x); };
+
+  static constexpr const char* name = T::name;
+  static constexpr int inputs = 3 * T::size + fields;
+  static constexpr int outputs = 1 + 3 * T::size + (measures ? fields : 0);
+
+  PLIANT_HD static void run(const float* in, float* out) {
+    Vec3<float> x[T::size], gradient[T::size];
+    Parameters parameters;
+    memcpy(static_cast<void*>(x), in, sizeof x);
+    memcpy(static_cast<void*>(&parameters), in + 3 * T::size, sizeof parameters);
+    out[0] = T::evaluate(x, parameters, gradient);
+    memcpy(out + 1, gradient, sizeof gradient);
+    if constexpr (measures) {
+      const Parameters measured = T::measure(x);
+      memcpy(out + 1 + 3 * T::size, &measured, sizeof measured);
+    }
+  }
+};
+
+/// The functions that stand in for libm.
+struct FunctionProbe {
+  static constexpr const char* name = "functions";
+  static constexpr int inputs = 2;
+  static constexpr int outputs = 9;
+
+  PLIANT_HD static void run(const float* in, float* out) {
+    const float x = in[0], y = in[1];
+    out[0] = pliant::atan2(y, x);
+    out[1] = pliant::acos(x);
+    out[2] = pliant::sin(x);
+    out[3] = pliant::cos(x);
+    out[4] = pliant::exp(x);
+    out[5] = pliant::log(x);
+    out[6] = pliant::sqrt(x);
+    out[7] = static_cast<float>(pliant::pow(static_cast<double>(x), static_cast<double>(y)));
+    out[8] = pliant::clamp(x, -1.f, y);
+  }
+};
+
+template <class List>
+struct Probes;
+template <class... Constraints>
+struct Probes<TypeList<Constraints...>> {
+  using Type = TypeList<ConstraintProbe<Constraints>..., ConstraintProbe<PlaneContact>, FunctionProbe>;
+};
+using AllProbes = Probes<AllConstraints>::Type;
+
+}  // namespace pliant::cuda

@@ -1,0 +1,11 @@
+# Run by ctest: the device code holds the formulas (else the search would prove nothing) and no fused multiply-add.
+file(READ ${PTX} text)
+string(REGEX MATCHALL "mul\\.(rn\\.)?f32" products "${text}")
+list(LENGTH products count)
+if(count LESS 100)
+  message(FATAL_ERROR "${PTX} holds ${count} multiplications: the formulas are not in it")
+endif()
+string(REGEX MATCH "[^\n]*(fma\\.|mad\\.(rn\\.)?f)[^\n]*" fused "${text}")
+if(fused)
+  message(FATAL_ERROR "a fused multiply-add in the device code, so other bits than on the host: ${fused}")
+endif()
