@@ -1,0 +1,187 @@
+// From a scene to what writers see, and what they all check.
+#include "write_frames.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "pliant/error.h"
+
+namespace pliant::output {
+
+namespace {
+
+/// A walk over edges, each used once.
+class LineWalk {
+ public:
+  explicit LineWalk(const std::vector<std::array<int, 2>>& edges) : edges_(edges), used_(edges.size(), false) {
+    int particles = 0;
+    for (const auto& edge : edges) particles = std::max({particles, edge[0] + 1, edge[1] + 1});
+    at_.resize(static_cast<std::size_t>(particles));
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      at_[edges[e][0]].push_back(e);
+      if (edges[e][1] != edges[e][0]) at_[edges[e][1]].push_back(e);
+    }
+  }
+
+  std::vector<std::vector<int>> lines() {
+    std::vector<std::vector<int>> result;
+    // Ends and forks first, so that what is left is closed loops.
+    for (const bool loops : {false, true}) {
+      for (int particle = 0; particle < static_cast<int>(at_.size()); ++particle) {
+        if (!loops && at_[particle].size() == 2) continue;
+        for (std::vector<int> line = walk(particle); line.size() > 1; line = walk(particle))
+          result.push_back(std::move(line));
+      }
+    }
+    return result;
+  }
+
+ private:
+  std::vector<int> walk(int particle) {
+    std::vector<int> line{particle};
+    for (bool more = true; more;) {
+      more = false;
+      for (const std::size_t e : at_[particle]) {
+        if (used_[e]) continue;
+        used_[e] = true;
+        particle = edges_[e][0] == particle ? edges_[e][1] : edges_[e][0];
+        line.push_back(particle);
+        more = at_[particle].size() == 2;
+        break;
+      }
+    }
+    return line;
+  }
+
+  const std::vector<std::array<int, 2>>& edges_;
+  std::vector<bool> used_;
+  std::vector<std::vector<std::size_t>> at_;
+};
+
+bool finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+[[noreturn]] void refuse(const std::string& path, const std::string& object, const std::string& element,
+                         const std::string& problem) {
+  throw Error({.file = path, .line = 0, .object = object, .element = element}, problem);
+}
+
+std::string identifier(const std::string& name) {
+  std::string result;
+  for (const char c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    result += plain ? c : '_';
+  }
+  if (result.empty()) result = "object";
+  if (result[0] >= '0' && result[0] <= '9') result.insert(result.begin(), '_');
+  return result.substr(0, 100);
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> join_lines(const std::vector<std::array<int, 2>>& edges) { return LineWalk(edges).lines(); }
+
+FrameObject describe(const Object& object) {
+  FrameObject result{.name = object.name,
+                     .colour = object.colour,
+                     .width = 2 * object.thickness,
+                     .particles = static_cast<int>(object.positions.size()),
+                     .triangles = object.triangles,
+                     .lines = {}};
+  if (!result.triangles.empty()) return result;
+  for (const ConstraintGroup& group : object.constraints) {
+    if (group.type != "distance" || group.particles.size() < 2) continue;
+    std::vector<std::array<int, 2>> edges;
+    for (std::size_t i = 0; i + 1 < group.particles.size(); i += 2)
+      edges.push_back({group.particles[i], group.particles[i + 1]});
+    result.lines = join_lines(edges);
+    break;
+  }
+  return result;
+}
+
+std::vector<FrameObject> describe(const Scene& scene) {
+  std::vector<FrameObject> result;
+  for (const Object& object : scene.objects) result.push_back(describe(object));
+  return result;
+}
+
+void check_frame(const std::string& path, const std::vector<FrameObject>& objects, const Frame& frame, double last_time) {
+  if (!(frame.time > last_time)) refuse(path, {}, {}, "a frame does not come after the one before it");
+  if (frame.positions.size() != objects.size())
+    refuse(path, {}, {}, "a frame has another number of objects than the scene");
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const std::vector<Vec3f>& positions = frame.positions[i];
+    const bool fits = static_cast<int>(positions.size()) == objects[i].particles &&
+                      (frame.velocities.empty() || frame.velocities[i].size() == positions.size());
+    if (!fits) refuse(path, objects[i].name, {}, "a frame has another number of particles than the scene");
+    const auto bad = std::find_if_not(positions.begin(), positions.end(), finite);
+    if (bad != positions.end())
+      refuse(path, objects[i].name, "particle " + std::to_string(bad - positions.begin()),
+             "is at a place that is not finite");
+  }
+}
+
+std::vector<std::string> identifiers(const std::vector<FrameObject>& objects) {
+  std::vector<std::string> result;
+  std::set<std::string> taken;
+  for (const FrameObject& object : objects) {
+    const std::string base = identifier(object.name);
+    std::string name = base;
+    for (int number = 2; !taken.insert(name).second; ++number) name = base + "_" + std::to_string(number);
+    result.push_back(name);
+  }
+  return result;
+}
+
+std::vector<Vec3f> vertex_normals(const std::vector<Vec3f>& positions, const std::vector<std::array<int, 3>>& triangles) {
+  std::vector<Vec3d> sums(positions.size());
+  const auto wide = [&](int i) { return Vec3d{positions[i].x, positions[i].y, positions[i].z}; };
+  for (const auto& [a, b, c] : triangles) {
+    const Vec3d normal = cross(wide(b) - wide(a), wide(c) - wide(a));
+    for (const int i : {a, b, c}) sums[i] += normal;
+  }
+  std::vector<Vec3f> result(positions.size(), Vec3f{0, 1, 0});
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const double length = std::sqrt(length_squared(sums[i]));
+    if (!(length > 1e-30)) continue;
+    const Vec3d unit = sums[i] * (1 / length);
+    result[i] = {static_cast<float>(unit.x), static_cast<float>(unit.y), static_cast<float>(unit.z)};
+  }
+  return result;
+}
+
+SplitPath split_path(const std::string& path) {
+  const std::size_t name = path.rfind('/') + 1;  // npos + 1 is 0
+  const std::size_t point = path.rfind('.');
+  if (point == std::string::npos || point <= name) return {path, ""};
+  std::string suffix = path.substr(point);
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return {path.substr(0, point), suffix};
+}
+
+std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+std::string frame_number(int frame) {
+  const std::string digits = std::to_string(frame);
+  return digits.size() < 4 ? std::string(4 - digits.size(), '0') + digits : digits;
+}
+
+std::unique_ptr<FormatWriter> make_format_writer(const std::string& path, const Objects& objects, double frame_time) {
+  const std::string suffix = split_path(path).suffix;
+  if (suffix == ".obj") return make_obj_sequence(path, objects);
+  if (suffix == ".ply") return make_ply_sequence(path, objects);
+  if (suffix == ".glb") return make_glb_writer(path, objects);
+  if (suffix == ".usda") return make_usda_writer(path, objects, frame_time);
+  if (suffix == ".pc2") return make_pc2_writer(path, objects, frame_time);
+  if (suffix == ".pvd") return make_pvd_writer(path, objects);
+  throw Error({.file = path, .line = 0, .object = {}, .element = {}},
+              "'" + suffix + "' is no format that geometry is written in",
+              "end it in .obj, .ply, .glb, .usda, .pc2 or .pvd");
+}
+
+}  // namespace pliant::output

@@ -1,0 +1,290 @@
+// glTF 2.0 in one file: each object a mesh whose morph targets are its frames, moved by one animation of weights.
+//
+// Frame 0 is the mesh itself and frame k its k-th target, as differences; at the time of frame k the k-th weight is 1 and
+// all others are 0, so between frames a viewer blends two neighbours. Normals are written too, because a viewer shades a
+// mesh without them in facets. The list of frames comes first in the file, so vertices wait in a spool.
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "atomic_file.h"
+#include "pliant/error.h"
+#include "write_frames.h"
+#include "write_spool.h"
+
+namespace pliant::output {
+
+namespace {
+
+using nlohmann::json;
+
+enum Component : int { unsigned_int = 5125, float_32 = 5126 };
+enum Target : int { array_buffer = 34962, element_array_buffer = 34963 };
+enum Mode : int { points = 0, lines = 1, triangles = 4 };
+constexpr std::uint64_t largest_file = 0xFFFFFFFFu;  // sizes are 32 bits in the format
+
+struct Bounds {
+  Vec3f low, high;
+};
+
+Bounds bounds(const std::vector<Vec3f>& positions) {
+  Bounds b{positions[0], positions[0]};
+  for (const Vec3f& p : positions) {
+    b.low = {std::min(b.low.x, p.x), std::min(b.low.y, p.y), std::min(b.low.z, p.z)};
+    b.high = {std::max(b.high.x, p.x), std::max(b.high.y, p.y), std::max(b.high.z, p.z)};
+  }
+  return b;
+}
+
+json as_json(const Vec3f& v) { return json::array({v.x, v.y, v.z}); }
+
+std::vector<Vec3f> difference(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
+  std::vector<Vec3f> result(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) result[i] = a[i] - b[i];
+  return result;
+}
+
+/// One object's vertices: block after block of positions and, for surfaces, normals.
+class Part {
+ public:
+  Part(const std::string& path, const FrameObject& object) : object_(object), spool_(path) {}
+
+  void add(const std::vector<Vec3f>& positions) {
+    if (positions.empty()) return;
+    const std::vector<Vec3f> normals = surface() ? vertex_normals(positions, object_.triangles) : std::vector<Vec3f>{};
+    if (bounds_.empty()) {
+      positions_ = positions;
+      normals_ = normals;
+      put(positions, normals);
+    } else {
+      put(difference(positions, positions_), difference(normals, normals_));
+    }
+  }
+
+  bool surface() const { return !object_.triangles.empty(); }
+  Mode mode() const { return surface() ? triangles : object_.lines.empty() ? points : lines; }
+  const FrameObject& object() const { return object_; }
+  const std::vector<Bounds>& blocks() const { return bounds_; }
+  Spool& vertices() { return spool_; }
+  std::uint64_t size() const { return spool_.size(); }
+
+  std::vector<std::uint32_t> indices() const {
+    std::vector<std::uint32_t> result;
+    for (const auto& triangle : object_.triangles) result.insert(result.end(), triangle.begin(), triangle.end());
+    if (surface()) return result;
+    for (const auto& line : object_.lines) {
+      for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        result.push_back(static_cast<std::uint32_t>(line[i]));
+        result.push_back(static_cast<std::uint32_t>(line[i + 1]));
+      }
+    }
+    return result;
+  }
+
+ private:
+  void put(const std::vector<Vec3f>& positions, const std::vector<Vec3f>& normals) {
+    bounds_.push_back(bounds(positions));
+    spool_.write(positions.data(), positions.size() * sizeof(Vec3f));
+    spool_.write(normals.data(), normals.size() * sizeof(Vec3f));
+  }
+
+  FrameObject object_;
+  Spool spool_;
+  std::vector<Vec3f> positions_, normals_;  // of frame 0
+  std::vector<Bounds> bounds_;              // of each frame's block
+};
+
+/// The JSON of the file and the plan of its binary part, grown together.
+class Document {
+ public:
+  Document() : root_{{"asset", {{"version", "2.0"}, {"generator", "Pliant"}}}, {"scene", 0}} {}
+
+  /// Takes up `size` bytes of the binary part; returns the view's index.
+  int add_view(std::uint64_t size, int target, bool vertices) {
+    json view{{"buffer", 0}, {"byteOffset", binary_size_}, {"byteLength", size}};
+    if (target != 0) view["target"] = target;
+    if (vertices) view["byteStride"] = sizeof(Vec3f);
+    binary_size_ += size;
+    return push("bufferViews", std::move(view));
+  }
+
+  int add_accessor(int view, std::uint64_t offset, int component, std::uint64_t count, const char* type,
+                   const Bounds* range = nullptr) {
+    json accessor{
+        {"bufferView", view}, {"byteOffset", offset}, {"componentType", component}, {"count", count}, {"type", type}};
+    if (range != nullptr) {
+      accessor["min"] = as_json(range->low);
+      accessor["max"] = as_json(range->high);
+    }
+    return push("accessors", std::move(accessor));
+  }
+
+  int push(const char* list, json value) {
+    root_[list].push_back(std::move(value));
+    return static_cast<int>(root_[list].size()) - 1;
+  }
+
+  json& root() { return root_; }
+  std::uint64_t binary_size() const { return binary_size_; }
+
+ private:
+  json root_;
+  std::uint64_t binary_size_ = 0;
+};
+
+/// Adds a part's mesh and node; returns the node's index.
+int add_part(Document& document, const Part& part) {
+  const std::uint64_t count = static_cast<std::uint64_t>(part.object().particles);
+  const std::uint64_t half = count * sizeof(Vec3f), block = part.surface() ? 2 * half : half;
+  const int view = document.add_view(part.size(), array_buffer, true);
+  json base, targets = json::array();
+  for (std::size_t k = 0; k < part.blocks().size(); ++k) {
+    json attributes{{"POSITION", document.add_accessor(view, k * block, float_32, count, "VEC3", &part.blocks()[k])}};
+    if (part.surface()) attributes["NORMAL"] = document.add_accessor(view, k * block + half, float_32, count, "VEC3");
+    if (k == 0)
+      base = std::move(attributes);
+    else
+      targets.push_back(std::move(attributes));
+  }
+  const Vec3f& colour = part.object().colour;
+  const int material = document.push(
+      "materials",
+      {{"name", part.object().name},
+       {"doubleSided", true},
+       {"pbrMetallicRoughness",
+        {{"baseColorFactor",
+          {std::clamp(colour.x, 0.f, 1.f), std::clamp(colour.y, 0.f, 1.f), std::clamp(colour.z, 0.f, 1.f), 1.f}},
+         {"metallicFactor", 0.f},
+         {"roughnessFactor", 0.8f}}}});
+  json primitive{{"attributes", std::move(base)}, {"mode", part.mode()}, {"material", material}};
+  if (const std::uint64_t indices = part.indices().size(); indices > 0)
+    primitive["indices"] = document.add_accessor(document.add_view(indices * 4, element_array_buffer, false), 0,
+                                                 unsigned_int, indices, "SCALAR");
+  json mesh{{"name", part.object().name}};
+  if (!targets.empty()) {
+    mesh["weights"] = std::vector<float>(targets.size(), 0.f);
+    primitive["targets"] = std::move(targets);
+  }
+  mesh["primitives"] = json::array({std::move(primitive)});
+  return document.push("nodes", {{"name", part.object().name}, {"mesh", document.push("meshes", std::move(mesh))}});
+}
+
+class GlbWriter final : public FormatWriter {
+ public:
+  GlbWriter(const std::string& path, const Objects& objects) : path_(path), objects_(objects), file_(path) {
+    for (const FrameObject& object : objects_) parts_.emplace_back(path, object);
+  }
+
+  void add(const Frame& frame) override {
+    check_frame(path_, objects_, frame, last_time_);
+    // Times are floats in the file and must grow there too.
+    if (!times_.empty() && !(static_cast<float>(frame.time) > times_.back()))
+      refuse("has frames too close together in time for floats");
+    for (std::size_t o = 0; o < parts_.size(); ++o) parts_[o].add(frame.positions[o]);
+    times_.push_back(static_cast<float>(frame.time));
+    last_time_ = frame.time;
+    if (estimated_size() > largest_file) refuse("grows beyond the 4 GiB that the format allows");
+  }
+
+  void finish() override {
+    if (std::exchange(finished_, true)) return;
+    if (times_.empty()) refuse("there is no frame to write");
+    Document document;
+    json nodes = json::array();
+    std::vector<int> moving;
+    for (const Part& part : parts_) {
+      if (part.blocks().empty()) continue;  // no particles: the format has no empty mesh
+      nodes.push_back(add_part(document, part));
+      moving.push_back(nodes.back());
+    }
+    const bool animated = times_.size() > 1 && !moving.empty();
+    if (animated) add_animation(document, moving);
+    json scene{{"name", "Pliant"}};
+    if (!nodes.empty()) scene["nodes"] = std::move(nodes);
+    document.push("scenes", std::move(scene));
+    if (document.binary_size() > 0) document.push("buffers", {{"byteLength", document.binary_size()}});
+    write(document, animated);
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& problem) const {
+    throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, problem, "write fewer frames, or .usda or .pvd");
+  }
+
+  std::uint64_t weight_count() const { return times_.size() * (times_.size() - 1); }
+
+  std::uint64_t estimated_size() const {
+    std::uint64_t size = 4 * (weight_count() + times_.size());
+    for (const Part& part : parts_) size += part.size() + 12 * part.object().triangles.size() + 600 * times_.size() + 4096;
+    return size;
+  }
+
+  void add_animation(Document& document, const std::vector<int>& nodes) const {
+    const int time_view = document.add_view(4 * times_.size(), 0, false);
+    const int input = document.add_accessor(time_view, 0, float_32, times_.size(), "SCALAR");
+    document.root()["accessors"][static_cast<std::size_t>(input)]["min"] = json::array({times_.front()});
+    document.root()["accessors"][static_cast<std::size_t>(input)]["max"] = json::array({times_.back()});
+    const int weight_view = document.add_view(4 * weight_count(), 0, false);
+    const int output = document.add_accessor(weight_view, 0, float_32, weight_count(), "SCALAR");
+    json channels = json::array();
+    for (const int node : nodes) channels.push_back({{"sampler", 0}, {"target", {{"node", node}, {"path", "weights"}}}});
+    document.push("animations", {{"name", "simulation"},
+                                 {"channels", std::move(channels)},
+                                 {"samplers", {{{"input", input}, {"output", output}, {"interpolation", "LINEAR"}}}}});
+  }
+
+  void write(Document& document, bool animated) {
+    std::string text = document.root().dump(-1, ' ', false, json::error_handler_t::replace);
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    const std::uint64_t binary = document.binary_size();
+    const std::uint64_t size = 12 + 8 + text.size() + (binary > 0 ? 8 + binary : 0);
+    if (size > largest_file) refuse("grows beyond the 4 GiB that the format allows");
+    file_.write("glTF");
+    for (const std::uint64_t word : {std::uint64_t{2}, size, std::uint64_t{text.size()}})
+      file_.write_value(static_cast<std::uint32_t>(word));
+    file_.write("JSON");
+    file_.write(text);
+    if (binary > 0) {
+      file_.write_value(static_cast<std::uint32_t>(binary));
+      file_.write("BIN", 4);
+      write_binary(animated);
+    }
+    file_.commit();
+  }
+
+  /// In the order in which the document's views were added.
+  void write_binary(bool animated) {
+    for (Part& part : parts_) {
+      if (part.blocks().empty()) continue;
+      part.vertices().copy_to(file_);
+      const std::vector<std::uint32_t> indices = part.indices();
+      file_.write(indices.data(), indices.size() * 4);
+    }
+    if (!animated) return;
+    file_.write(times_.data(), times_.size() * 4);
+    std::vector<float> row(times_.size() - 1, 0.f);
+    for (std::size_t frame = 0; frame < times_.size(); ++frame) {
+      std::fill(row.begin(), row.end(), 0.f);
+      if (frame > 0) row[frame - 1] = 1;
+      file_.write(row.data(), row.size() * 4);
+    }
+  }
+
+  std::string path_;
+  Objects objects_;
+  AtomicFile file_;
+  std::vector<Part> parts_;
+  std::vector<float> times_;
+  bool finished_ = false;
+  double last_time_ = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+std::unique_ptr<FormatWriter> make_glb_writer(const std::string& path, const Objects& objects) {
+  return std::make_unique<GlbWriter>(path, objects);
+}
+
+}  // namespace pliant::output

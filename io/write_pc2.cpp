@@ -1,0 +1,83 @@
+// NAME.pc2, a point cache, beside NAME.obj, the mesh that it moves.
+//
+// The cache is one run of points, so all objects share one .obj, as groups (`g`) and not as objects (`o`): importers cut a
+// file into meshes at `o`, and a cut mesh would not fit the cache. Layout: "POINTCACHE2\0", int version 1, int points,
+// float start frame, float frames per sample, int samples, then the samples.
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "atomic_file.h"
+#include "pliant/error.h"
+#include "write_frames.h"
+#include "write_obj.h"
+
+namespace pliant::output {
+
+namespace {
+
+class Pc2Writer final : public FormatWriter {
+ public:
+  Pc2Writer(const std::string& path, Objects objects) : path_(path), objects_(std::move(objects)), file_(path) {
+    std::int32_t points = 0;
+    for (const FrameObject& object : objects_) points += object.particles;
+    file_.write("POINTCACHE2", 12);
+    file_.write_value(std::int32_t{1});
+    file_.write_value(points);
+    file_.write_value(0.f);
+    file_.write_value(1.f);
+    samples_at_ = file_.size();
+    file_.write_value(std::int32_t{0});
+  }
+
+  void add(const Frame& frame) override {
+    check_frame(path_, objects_, frame, last_time_);
+    if (samples_ == 0) mesh_ = mesh(frame);
+    for (const std::vector<Vec3f>& positions : frame.positions)
+      file_.write(positions.data(), positions.size() * sizeof(Vec3f));
+    last_time_ = frame.time;
+    ++samples_;
+  }
+
+  void finish() override {
+    if (std::exchange(finished_, true)) return;
+    if (samples_ == 0)
+      throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "there is no frame to write",
+                  "add one before finishing");
+    file_.overwrite(samples_at_, &samples_, sizeof samples_);
+    AtomicFile mesh(split_path(path_).stem + ".obj");
+    mesh.write(mesh_);
+    file_.commit();
+    mesh.commit();
+  }
+
+ private:
+  std::string mesh(const Frame& frame) const {
+    std::string text = "# the mesh that " + file_name(path_) + " moves, at its first sample\n";
+    for (const std::vector<Vec3f>& positions : frame.positions) text += obj_vertices(positions);
+    const std::vector<std::string> names = identifiers(objects_);
+    int first = 1;
+    for (std::size_t o = 0; o < objects_.size(); ++o) {
+      text += "g " + names[o] + "\n" + obj_elements(objects_[o], first);
+      first += objects_[o].particles;
+    }
+    return text;
+  }
+
+  std::string path_;
+  Objects objects_;
+  AtomicFile file_;
+  std::string mesh_;  // the .obj, kept so that neither file is replaced before both can be
+  std::size_t samples_at_ = 0;
+  std::int32_t samples_ = 0;
+  bool finished_ = false;
+  double last_time_ = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+std::unique_ptr<FormatWriter> make_pc2_writer(const std::string& path, const Objects& objects, double) {
+  return std::make_unique<Pc2Writer>(path, objects);
+}
+
+}  // namespace pliant::output

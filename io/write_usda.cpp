@@ -1,0 +1,174 @@
+// USD as text: one prim an object under /World, points as time samples.
+//
+// A time code is a frame, so that tools show whole numbers; where a run used other steps its samples lie between. The text
+// keeps one prim's samples together, so each object has a spool of its own until the end.
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "atomic_file.h"
+#include "pliant/error.h"
+#include "write_frames.h"
+#include "write_spool.h"
+#include "write_text.h"
+
+namespace pliant::output {
+
+namespace {
+
+template <class List, class Item>
+std::string listed(const List& items, Item item) {
+  std::string text = "[";
+  for (const auto& i : items) {
+    if (text.size() > 1) text += ", ";
+    item(text, i);
+  }
+  return text + "]";
+}
+
+void tuple(std::string& text, const Vec3f& v) {
+  append(text += '(', v, ", ");
+  text += ')';
+}
+
+std::string quoted(const std::string& name) {
+  std::string text = "\"";
+  for (const char c : name) {
+    if (c == '"' || c == '\\') text += '\\';
+    text += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return text + "\"";
+}
+
+std::string extent(const std::vector<Vec3f>& points, float margin) {
+  if (points.empty()) return "[(0, 0, 0), (0, 0, 0)]";
+  Vec3f low = points[0], high = points[0];
+  for (const Vec3f& p : points) {
+    low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y), std::fmin(low.z, p.z)};
+    high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y), std::fmax(high.z, p.z)};
+  }
+  const Vec3f around{margin, margin, margin};
+  return listed(std::vector<Vec3f>{low - around, high + around}, tuple);
+}
+
+/// One object: its points in the order that its prim wants them, its samples so far.
+class Prim {
+ public:
+  Prim(const std::string& path, const FrameObject& object) : object_(object), points_(path), extents_(path) {
+    for (const auto& line : object.lines) order_.insert(order_.end(), line.begin(), line.end());
+  }
+
+  void add(const std::string& time, const std::vector<Vec3f>& positions) {
+    const std::vector<Vec3f>& points = curves() ? arranged(positions) : positions;
+    points_.write("            " + time + ": " + listed(points, tuple) + ",\n");
+    extents_.write("            " + time + ": " + extent(points, object_.triangles.empty() ? object_.width / 2 : 0) +
+                   ",\n");
+  }
+
+  void write(AtomicFile& file, const std::string& name) {
+    file.write("\n    def " + std::string(type()) + " \"" + name + "\" (\n        doc = " + quoted(object_.name) +
+               "\n    )\n    {\n");
+    file.write(topology());
+    std::string colour;
+    tuple(colour, object_.colour);
+    file.write("        color3f[] primvars:displayColor = [" + colour + "]\n");
+    file.write("        float3[] extent.timeSamples = {\n");
+    extents_.copy_to(file);
+    file.write("        }\n        point3f[] points.timeSamples = {\n");
+    points_.copy_to(file);
+    file.write("        }\n    }\n");
+  }
+
+ private:
+  bool curves() const { return object_.triangles.empty() && !object_.lines.empty(); }
+  const char* type() const { return curves() ? "BasisCurves" : object_.triangles.empty() ? "Points" : "Mesh"; }
+
+  const std::vector<Vec3f>& arranged(const std::vector<Vec3f>& positions) {
+    arranged_.clear();
+    for (const int i : order_) arranged_.push_back(positions[i]);
+    return arranged_;
+  }
+
+  std::string topology() const {
+    const auto number = [](std::string& text, int i) { append(text, i); };
+    std::string text;
+    if (!object_.triangles.empty()) {
+      std::vector<int> indices;
+      for (const auto& triangle : object_.triangles) indices.insert(indices.end(), triangle.begin(), triangle.end());
+      text += "        uniform bool doubleSided = 1\n        uniform token subdivisionScheme = \"none\"\n";
+      text += "        int[] faceVertexCounts = " + listed(std::vector<int>(object_.triangles.size(), 3), number) + "\n";
+      return text + "        int[] faceVertexIndices = " + listed(indices, number) + "\n";
+    }
+    std::string widths = "        float[] widths = [";
+    append(widths, object_.width);
+    widths += "] (\n            interpolation = \"constant\"\n        )\n";
+    if (!curves()) return widths;
+    std::vector<int> counts;
+    for (const auto& line : object_.lines) counts.push_back(static_cast<int>(line.size()));
+    return "        uniform token type = \"linear\"\n        int[] curveVertexCounts = " + listed(counts, number) + "\n" +
+           widths;
+  }
+
+  FrameObject object_;
+  std::vector<int> order_;
+  std::vector<Vec3f> arranged_;
+  Spool points_, extents_;
+};
+
+class UsdaWriter final : public FormatWriter {
+ public:
+  UsdaWriter(const std::string& path, Objects objects, double frame_time)
+      : path_(path), objects_(std::move(objects)), frame_time_(frame_time > 0 ? frame_time : 1. / 60), file_(path) {
+    for (const FrameObject& object : objects_) prims_.emplace_back(path, object);
+  }
+
+  void add(const Frame& frame) override {
+    check_frame(path_, objects_, frame, last_time_);
+    std::string text;
+    append(text, time_code(frame.time));
+    if (first_code_.empty()) first_code_ = text;
+    last_code_ = text;
+    last_time_ = frame.time;
+    for (std::size_t o = 0; o < prims_.size(); ++o) prims_[o].add(text, frame.positions[o]);
+  }
+
+  void finish() override {
+    if (std::exchange(finished_, true)) return;
+    if (first_code_.empty())
+      throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "there is no frame to write",
+                  "add one before finishing");
+    std::string rate;
+    append(rate, std::round(1e6 / frame_time_) / 1e6);
+    file_.write("#usda 1.0\n(\n    defaultPrim = \"World\"\n    startTimeCode = " + first_code_ + "\n    endTimeCode = " +
+                last_code_ + "\n    timeCodesPerSecond = " + rate + "\n    framesPerSecond = " + rate +
+                "\n    metersPerUnit = 1\n    upAxis = \"Y\"\n)\n\ndef Xform \"World\"\n{");
+    const std::vector<std::string> names = identifiers(objects_);
+    for (std::size_t o = 0; o < prims_.size(); ++o) prims_[o].write(file_, names[o]);
+    file_.write("}\n");
+    file_.commit();
+  }
+
+ private:
+  /// The frame that a time belongs to: whole where the run's steps were the frame time, but for rounding.
+  double time_code(double time) const {
+    const double code = time / frame_time_, whole = std::round(code);
+    return std::abs(code - whole) < 1e-3 ? whole : code;
+  }
+
+  std::string path_;
+  Objects objects_;
+  double frame_time_;
+  AtomicFile file_;
+  std::vector<Prim> prims_;
+  std::string first_code_, last_code_;
+  bool finished_ = false;
+  double last_time_ = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+std::unique_ptr<FormatWriter> make_usda_writer(const std::string& path, const Objects& objects, double frame_time) {
+  return std::make_unique<UsdaWriter>(path, objects, frame_time);
+}
+
+}  // namespace pliant::output

@@ -1,0 +1,168 @@
+// NAME.pvd, which lists the time of each file, and NAME/OBJECT_0000.vtp, one a frame and object: what ParaView reads.
+//
+// The numbers lie in the XML as base64, which is exact, a third of the size of digits, and still well-formed XML. The files
+// of the frames go into a folder of their own, since there are many; the .pvd comes last, so it never names a missing file.
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include "atomic_file.h"
+#include "pliant/error.h"
+#include "write_frames.h"
+#include "write_text.h"
+
+namespace pliant::output {
+
+namespace {
+
+/// Groups of three bytes as four digits of base 64 (RFC 4648).
+std::string base64(const std::string& bytes) {
+  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (unsigned k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63];
+  }
+  return text;
+}
+
+std::string escaped(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    if (c == '&')
+      text += "&amp;";
+    else if (c == '<')
+      text += "&lt;";
+    else if (c == '>')
+      text += "&gt;";
+    else if (c == '"')
+      text += "&quot;";
+    else
+      text += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return text;
+}
+
+template <class T>
+std::string array(const char* type, const char* name, int components, const std::vector<T>& values) {
+  const std::uint64_t size = values.size() * sizeof(T);
+  std::string bytes(sizeof size + size, '\0');
+  std::memcpy(bytes.data(), &size, sizeof size);
+  if (size > 0) std::memcpy(bytes.data() + sizeof size, values.data(), size);
+  std::string text = "<DataArray type=\"" + std::string(type) + "\" Name=\"" + name + "\"";
+  if (components > 1) text += " NumberOfComponents=\"" + std::to_string(components) + "\"";
+  return text + " format=\"binary\">" + base64(bytes) + "</DataArray>\n";
+}
+
+/// The cells of one kind, as text that is the same in every frame.
+template <class Cells>
+std::string cells(const char* kind, const Cells& list) {
+  std::vector<std::int64_t> connectivity, offsets;
+  for (const auto& cell : list) {
+    connectivity.insert(connectivity.end(), cell.begin(), cell.end());
+    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+  }
+  return std::string("<") + kind + ">\n" + array("Int64", "connectivity", 1, connectivity) +
+         array("Int64", "offsets", 1, offsets) + "</" + kind + ">\n";
+}
+
+struct Piece {
+  std::string name, head, cells;
+
+  Piece(std::string file, const FrameObject& object) : name(std::move(file)) {
+    const bool surface = !object.triangles.empty(), lines = !surface && !object.lines.empty();
+    std::vector<std::array<int, 1>> points;
+    for (int i = 0; i < object.particles && !surface && !lines; ++i) points.push_back({i});
+    const auto count = [](const char* kind, std::size_t n) {
+      return std::string(" NumberOf") + kind + "=\"" + std::to_string(n) + "\"";
+    };
+    head =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+        "header_type=\"UInt64\">\n<PolyData>\n<Piece" +
+        count("Points", static_cast<std::size_t>(object.particles)) + count("Verts", points.size()) +
+        count("Lines", lines ? object.lines.size() : 0) + count("Strips", 0) + count("Polys", object.triangles.size()) +
+        ">\n";
+    if (surface)
+      cells = output::cells("Polys", object.triangles);
+    else if (lines)
+      cells = output::cells("Lines", object.lines);
+    else
+      cells = output::cells("Verts", points);
+  }
+};
+
+class PvdWriter final : public FormatWriter {
+ public:
+  PvdWriter(const std::string& path, Objects objects)
+      : path_(path), objects_(std::move(objects)), file_(path), folder_(split_path(path).stem) {
+    if (folder_ == path_) folder_ += "_frames";
+    if (::mkdir(folder_.c_str(), 0777) != 0 && errno != EEXIST)
+      throw Error({.file = folder_, .line = 0, .object = {}, .element = {}},
+                  "cannot make the folder of the frames: " + std::generic_category().message(errno),
+                  "write somewhere else");
+    const std::vector<std::string> names = identifiers(objects_);
+    for (std::size_t o = 0; o < objects_.size(); ++o) pieces_.emplace_back(names[o], objects_[o]);
+  }
+
+  void add(const Frame& frame) override {
+    check_frame(path_, objects_, frame, last_time_);
+    std::string time;
+    append(time, frame.time);
+    for (std::size_t o = 0; o < objects_.size(); ++o) {
+      const std::string name = pieces_[o].name + "_" + frame_number(count_) + ".vtp";
+      write_piece(name, frame, o);
+      entries_ += "<DataSet timestep=\"" + time + "\" group=\"\" part=\"" + std::to_string(o) + "\" name=\"" +
+                  escaped(objects_[o].name) + "\" file=\"" + escaped(file_name(folder_)) + "/" + name + "\"/>\n";
+    }
+    last_time_ = frame.time;
+    ++count_;
+  }
+
+  void finish() override {
+    if (std::exchange(finished_, true)) return;
+    file_.write(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+        "byte_order=\"LittleEndian\">\n<Collection>\n");
+    file_.write(entries_);
+    file_.write("</Collection>\n</VTKFile>\n");
+    file_.commit();
+  }
+
+ private:
+  void write_piece(const std::string& name, const Frame& frame, std::size_t o) const {
+    AtomicFile file(folder_ + "/" + name);
+    file.write(pieces_[o].head);
+    if (!frame.velocities.empty())
+      file.write("<PointData Vectors=\"velocity\">\n" + array("Float32", "velocity", 3, frame.velocities[o]) +
+                 "</PointData>\n");
+    file.write("<Points>\n" + array("Float32", "Points", 3, frame.positions[o]) + "</Points>\n");
+    file.write(pieces_[o].cells);
+    file.write("</Piece>\n</PolyData>\n</VTKFile>\n");
+    file.commit();
+  }
+
+  std::string path_;
+  Objects objects_;
+  AtomicFile file_;
+  std::string folder_, entries_;
+  std::vector<Piece> pieces_;
+  int count_ = 0;
+  bool finished_ = false;
+  double last_time_ = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+std::unique_ptr<FormatWriter> make_pvd_writer(const std::string& path, const Objects& objects) {
+  return std::make_unique<PvdWriter>(path, objects);
+}
+
+}  // namespace pliant::output
