@@ -1,0 +1,191 @@
+// The workloads: which engines run on which cloth, and how a frame is timed.
+#include "apps/bench/bench.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/bench/cloth.h"
+#include "pliant/error.h"
+
+namespace pliant::bench {
+namespace {
+
+constexpr float frame_time = 1.f / 60;
+constexpr Steps small_steps{10, 1}, bullets_best{1, 10};
+constexpr int smallest = 2, largest = 4096;
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+// The element that the share `rank` of all lies below. Takes a copy on purpose.
+double quantile(std::vector<double> values, double rank) {
+  if (values.empty()) return 0;
+  const auto index = static_cast<std::ptrdiff_t>(
+      std::min(rank * static_cast<double>(values.size()), static_cast<double>(values.size() - 1)));
+  std::nth_element(values.begin(), values.begin() + index, values.end());
+  return values[static_cast<std::size_t>(index)];
+}
+
+void measure_stretch(const Cloth& cloth, const std::vector<Vec3f>& x, Row& row) {
+  std::vector<double> ratios;
+  double sum = 0;
+  bool finite = true;
+  for (const Edge& edge : cloth.edges) {
+    const Vec3f d = x[edge.b] - x[edge.a];
+    const double dx = d.x, dy = d.y, dz = d.z;
+    ratios.push_back(std::sqrt(dx * dx + dy * dy + dz * dz) / edge.rest_length);
+    sum += ratios.back();
+    finite = finite && std::isfinite(ratios.back());
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  row.stretch_mean = finite ? sum / static_cast<double>(ratios.size()) : nan;
+  row.stretch_p99 = finite ? quantile(ratios, 0.99) : nan;
+  row.stretch_max = finite ? *std::max_element(ratios.begin(), ratios.end()) : nan;
+}
+
+class Bench {
+ public:
+  explicit Bench(const Options& options) : options_(options) {}
+
+  void run(const std::string& workload, int size) {
+    first_ms_ = 0;
+    if (workload == "W1-stretching") run_w1(workload, size, false);
+    if (workload == "W1-bending") run_w1(workload, size, true);
+    if (workload == "W1-1x10") run_1x10(workload, size);
+    if (workload == "W1-set-up") run_set_up(workload, size);
+  }
+
+  std::vector<Row> take_rows() { return std::move(rows_); }
+
+ private:
+  void run_w1(const std::string& workload, int size, bool bending) {
+    const Cloth cloth = make_w1(size, bending);
+    measure({workload, size, "plain loop"}, cloth, small_steps, [&] { return make_plain_loop(cloth, small_steps); });
+    measure_pliant(workload, cloth, size, small_steps);
+  }
+
+  void run_1x10(const std::string& workload, int size) {
+    const Cloth cloth = make_w1(size, false);
+    if (options_.against_bullet) {
+      for (BulletOrder order : {BulletOrder::spread, BulletOrder::shuffled})
+        measure({workload, size, order == BulletOrder::spread ? "bullet" : "bullet, links shuffled"}, cloth, bullets_best,
+                [&] { return make_bullet(cloth, bullets_best, order); });
+    }
+    measure({workload, size, "plain loop"}, cloth, bullets_best, [&] { return make_plain_loop(cloth, bullets_best); });
+    measure_pliant(workload, cloth, size, bullets_best);
+    measure_pliant(workload, cloth, size, small_steps);  // the same work, spent as the engine recommends
+  }
+
+  void run_set_up(const std::string& workload, int size) {
+    const auto start = std::chrono::steady_clock::now();
+    Cloth cloth;
+    cloth.object = make_w1_object(size, true);
+    const auto engine = make_pliant(cloth, small_steps, options_.threads);
+    Row row{workload, size, "pliant"};
+    row.ms_per_frame = milliseconds_since(start);
+    row.threads = engine->threads();
+    const double cells = static_cast<double>(size - 1) * (size - 1), border = 4.0 * (size - 1);
+    const double edges = 3 * cells + border / 2;
+    finish(row, edges + (edges - border));
+  }
+
+  void measure_pliant(const std::string& workload, const Cloth& cloth, int size, Steps steps) {
+    measure({workload, size, "pliant"}, cloth, steps, [&] { return make_pliant(cloth, steps, 1); });
+    const auto many = make_pliant(cloth, steps, options_.threads)->threads();
+    if (many > 1)
+      measure({workload, size, "pliant"}, cloth, steps, [&] { return make_pliant(cloth, steps, options_.threads); });
+  }
+
+  template <class Make>
+  void measure(Row row, const Cloth& cloth, Steps steps, const Make& make) {
+    const std::unique_ptr<Engine> engine = make();
+    row.threads = engine->threads();
+    row.substeps = steps.substeps;
+    row.iterations = steps.iterations;
+    for (int i = 0; i < options_.warm_up; ++i) engine->step(frame_time);
+    std::vector<double> times;
+    for (int i = 0; i < options_.frames; ++i) {
+      const auto start = std::chrono::steady_clock::now();
+      engine->step(frame_time);
+      times.push_back(milliseconds_since(start));
+    }
+    row.ms_per_frame = quantile(times, 0.5);
+    measure_stretch(cloth, engine->positions(), row);
+    finish(row, static_cast<double>(cloth.edges.size() + cloth.hinges.size()) * steps.substeps * steps.iterations);
+  }
+
+  void finish(Row row, double projections) {
+    row.ns_per_projection = row.ms_per_frame * 1e6 / projections;
+    if (first_ms_ == 0) first_ms_ = row.ms_per_frame;
+    row.ratio = first_ms_ / row.ms_per_frame;
+    rows_.push_back(row);
+    if (options_.on_row) options_.on_row(row);
+  }
+
+  const Options& options_;
+  std::vector<Row> rows_;
+  double first_ms_ = 0;  // of the row that the others of its workload and size are compared with
+};
+
+void check(const Options& options) {
+  std::string names;
+  for (const Workload& workload : workloads()) names += (names.empty() ? "" : ", ") + workload.name;
+  const auto known = [&](const Workload& workload) { return workload.name == options.workload; };
+  if (!options.workload.empty() && std::none_of(workloads().begin(), workloads().end(), known))
+    throw Error({}, "there is no workload '" + options.workload + "'", "choose one of " + names);
+  for (int size : options.sizes)
+    if (size < smallest || size > largest)
+      throw Error({}, "a cloth of " + std::to_string(size) + " x " + std::to_string(size) + " can't be measured",
+                  "choose a size in " + std::to_string(smallest) + ".." + std::to_string(largest));
+  if (options.frames < 1 || options.warm_up < 0) throw Error({}, "there are no frames to measure", "measure at least 1");
+  if (options.against_bullet && !has_bullet())
+    throw Error({}, "this program was built without Bullet", "install libbullet-dev and configure again");
+}
+
+}  // namespace
+
+const std::vector<Workload>& workloads() {
+  static const std::vector<Workload> all{
+      {"W1-stretching", "N x N cloth hung by two corners, edges only, 10 substeps of 1 iteration"},
+      {"W1-bending", "the same with a dihedral bending constraint for each inner edge"},
+      {"W1-1x10", "edges only, 1 step of 10 iterations, where Bullet is fastest; last the engine at 10 substeps of 1"},
+      {"W1-set-up", "making and compiling the cloth with bending (once, not a frame)"},
+  };
+  return all;
+}
+
+bool has_bullet() { return PLIANT_HAS_BULLET != 0; }
+
+std::vector<Row> run(const Options& options) {
+  check(options);
+  Bench bench(options);
+  for (const Workload& workload : workloads())
+    if (options.workload.empty() || options.workload == workload.name)
+      for (int size : options.sizes) bench.run(workload.name, size);
+  return bench.take_rows();
+}
+
+std::string to_json(const std::vector<Row>& rows) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Row& row : rows)
+    list.push_back({{"workload", row.workload},
+                    {"size", row.size},
+                    {"engine", row.engine},
+                    {"threads", row.threads},
+                    {"substeps", row.substeps},
+                    {"iterations", row.iterations},
+                    {"ms_per_frame", row.ms_per_frame},
+                    {"ns_per_projection", row.ns_per_projection},
+                    {"stretch_mean", row.stretch_mean},
+                    {"stretch_p99", row.stretch_p99},
+                    {"stretch_max", row.stretch_max},
+                    {"ratio", row.ratio}});
+  return list.dump(2) + "\n";
+}
+
+}  // namespace pliant::bench

@@ -1,0 +1,76 @@
+// The workload is taken from the object that Pliant itself simulates, so that every engine has the same constraints.
+#include "apps/bench/cloth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "pliant/mesh.h"
+
+namespace pliant::bench {
+namespace {
+
+const ConstraintGroup* find(const Object& object, const std::string& type) {
+  for (const ConstraintGroup& group : object.constraints)
+    if (group.type == type) return &group;
+  return nullptr;
+}
+
+float distance(const Vec3f& a, const Vec3f& b) { return std::sqrt(length_squared(b - a)); }
+
+std::pair<int, int> key(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+// When each edge is first named by a triangle. A sweep in the order of sorted edges, away from the pins, goes to infinity.
+std::map<std::pair<int, int>, int> mesh_order(const Object& object) {
+  std::map<std::pair<int, int>, int> rank;
+  for (const std::array<int, 3>& t : object.triangles)
+    for (int corner = 0; corner < 3; ++corner)
+      rank.emplace(key(t[corner], t[(corner + 1) % 3]), static_cast<int>(rank.size()));
+  return rank;
+}
+
+// Sorts items by the mesh order of the edge that each stands on.
+template <class Item, class EdgeOf>
+void sort_by_mesh(std::vector<Item>& items, const std::map<std::pair<int, int>, int>& rank, const EdgeOf& edge_of) {
+  std::vector<std::pair<int, int>> order;
+  for (std::size_t i = 0; i < items.size(); ++i) order.push_back({rank.at(edge_of(items[i])), static_cast<int>(i)});
+  std::sort(order.begin(), order.end());
+  std::vector<Item> sorted;
+  for (const auto& [place, index] : order) sorted.push_back(items[index]);
+  items = std::move(sorted);
+}
+
+}  // namespace
+
+Object make_w1_object(int size, bool with_bending) {
+  ClothOptions options;
+  options.material = fabric("cotton");
+  options.stretch = Stiffness::rigid();
+  options.bending_model = with_bending ? ClothOptions::Bending::dihedral : ClothOptions::Bending::none;
+  Object object = make_cloth(grid_mesh(size, size, 1, 1), options);
+  for (int corner : {0, size - 1}) object.pins.push_back({corner, {}});
+  return object;
+}
+
+Cloth make_w1(int size, bool with_bending) {
+  Cloth cloth;
+  cloth.object = make_w1_object(size, with_bending);
+  cloth.pins = {0, size - 1};
+  if (const ConstraintGroup* group = find(cloth.object, "distance"))
+    for (std::size_t i = 0; i + 1 < group->particles.size(); i += 2) {
+      const int a = group->particles[i], b = group->particles[i + 1];
+      cloth.edges.push_back({a, b, distance(cloth.object.positions[a], cloth.object.positions[b])});
+    }
+  if (const ConstraintGroup* group = find(cloth.object, "dihedral_bending"))
+    for (std::size_t i = 0; i + 3 < group->particles.size(); i += 4) {
+      const int* v = &group->particles[i];
+      const float compliance = group->compliances.empty() ? group->stiffness.value : group->compliances[i / 4];
+      cloth.hinges.push_back({v[0], v[1], v[2], v[3], compliance});
+    }
+  const auto rank = mesh_order(cloth.object);
+  sort_by_mesh(cloth.edges, rank, [](const Edge& edge) { return key(edge.a, edge.b); });
+  sort_by_mesh(cloth.hinges, rank, [](const Hinge& hinge) { return key(hinge.v0, hinge.v1); });
+  return cloth;
+}
+
+}  // namespace pliant::bench

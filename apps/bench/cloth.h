@@ -1,0 +1,62 @@
+// W1, the cloth that everything is measured on: N x N particles, 1 m, hung by two corners, one stretching constraint an
+// edge, one bending constraint an inner edge if wanted; and what an engine must offer to be measured on it.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pliant/scene.h"
+
+namespace pliant::bench {
+
+struct Edge {
+  int a, b;
+  float rest_length;
+};
+
+/// v0-v1 is the shared edge, v2 and v3 are the opposite corners; the rest angle is 0.
+struct Hinge {
+  int v0, v1, v2, v3;
+  float compliance;
+};
+
+/// The workload, free of any engine.
+struct Cloth {
+  Object object;              ///< as Pliant takes it, pins included
+  std::vector<Edge> edges;    ///< the object's own, in the order in which its triangles first name them
+  std::vector<Hinge> hinges;  ///< likewise; empty without bending
+  std::array<int, 2> pins{};
+};
+
+/// The object alone, without the lists that other engines need.
+Object make_w1_object(int size, bool with_bending);
+Cloth make_w1(int size, bool with_bending);
+
+/// An engine at work on a Cloth.
+class Engine {
+ public:
+  virtual ~Engine() = default;
+  virtual void step(float dt) = 0;
+  virtual std::vector<Vec3f> positions() const = 0;
+  virtual int threads() const { return 1; }
+};
+
+struct Steps {
+  int substeps, iterations;
+};
+
+std::unique_ptr<Engine> make_plain_loop(const Cloth& cloth, Steps steps);
+std::unique_ptr<Engine> make_pliant(const Cloth& cloth, Steps steps, int threads);
+
+/// The order in which Bullet solves its links.
+enum class BulletOrder {
+  shuffled,  ///< as its helper that makes a body from a mesh leaves them
+  spread,    ///< as its ReoptimizeLinkOrder leaves them: neighbours do not wait for each other; the faster one
+};
+
+/// Null where Bullet was not found when this was built. Edges only.
+std::unique_ptr<Engine> make_bullet(const Cloth& cloth, Steps steps, BulletOrder order);
+
+}  // namespace pliant::bench
