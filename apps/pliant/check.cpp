@@ -1,25 +1,15 @@
 // pliant check: reads a scene or a mesh and says, in words, what is wrong or doubtful and what to do about it.
-#include <algorithm>
-
 #include "command.h"
 #include "output.h"
 #include "pliant/error.h"
 #include "pliant/io.h"
 #include "pliant/mesh.h"
 #include "pliant/scene.h"
+#include "simulate.h"
 
 namespace pliant::command {
 
 namespace {
-
-bool is_scene(const std::string& path) {
-  const std::size_t dot = path.rfind('.');
-  if (dot == std::string::npos) return false;
-  std::string suffix = path.substr(dot);
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                 [](unsigned char letter) { return letter >= 'A' && letter <= 'Z' ? letter - 'A' + 'a' : letter; });
-  return suffix == ".json";
-}
 
 std::string counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
@@ -63,7 +53,8 @@ std::vector<Finding> check_scene(const std::string& path) {
 }  // namespace
 
 int check(const CheckOptions& options) {
-  const bool grave = print_findings(is_scene(options.path) ? check_scene(options.path) : check_mesh(options.path));
+  const bool grave =
+      print_findings(has_suffix(options.path, ".json") ? check_scene(options.path) : check_mesh(options.path));
   if (!grave) return 0;
   Location where;
   where.file = options.path;

@@ -30,6 +30,18 @@ struct RunOptions {
 /// Simulates a scene.
 int run(const RunOptions& options);
 
+struct RenderOptions {
+  std::string scene;
+  Overrides overrides;                 ///< `frames` is the frame of a picture, and the length of a movie
+  std::string out;                     ///< .png or .mp4
+  std::string size = "1280x720";       ///< WxH in pixels
+  float azimuth = 28, elevation = 18;  ///< where the camera stands [degrees]
+  bool quiet = false;
+};
+
+/// Draws a scene after some frames, or all of them as a movie.
+int render(const RenderOptions& options);
+
 struct CheckOptions {
   std::string path;  ///< a scene (.json) or a mesh
 };

@@ -46,6 +46,25 @@ void add_run(CLI::App& app, RunOptions& options, Chosen& chosen) {
   run_app->callback([&] { chosen = [&] { return run(options); }; });
 }
 
+void add_render(CLI::App& app, RenderOptions& options, Chosen& chosen) {
+  CLI::App* render_app = app.add_subcommand("render", "Draw a scene, without a screen");
+  render_app->add_option("SCENE", options.scene, "scene file, JSON")->required();
+  render_app->add_option("--out", options.out, "picture (.png) or movie (.mp4)")->required();
+  render_app->add_option("--frame", options.overrides.frames, "the frame drawn, the last by default; a movie ends with it")
+      ->check(CLI::Range(0, most));
+  render_app->add_option("--size", options.size, "width and height in pixels, as 1280x720")->capture_default_str();
+  render_app->add_option("--azimuth", options.azimuth, "camera from the front to the right [degrees]")
+      ->check(CLI::Range(-360.f, 360.f))
+      ->capture_default_str();
+  render_app->add_option("--elevation", options.elevation, "camera above the horizon [degrees]")
+      ->check(CLI::Range(-89.f, 89.f))
+      ->capture_default_str();
+  render_app->add_option("--threads", options.overrides.threads, "threads; 0: as many as the machine has")
+      ->check(CLI::Range(0, 4096));
+  render_app->add_flag("--quiet", options.quiet, "print nothing unless something goes wrong");
+  render_app->callback([&] { chosen = [&] { return render(options); }; });
+}
+
 void add_check(CLI::App& app, CheckOptions& options, Chosen& chosen) {
   CLI::App* check_app = app.add_subcommand("check", "Say what is wrong or doubtful in a scene or a mesh");
   check_app->add_option("FILE", options.path, "scene (.json) or mesh (.obj, .ply, .stl)")->required();
@@ -76,8 +95,10 @@ int main(int argc, char** argv) {
 
   Chosen chosen;
   RunOptions run_options;
+  RenderOptions render_options;
   CheckOptions check_options;
   add_run(app, run_options, chosen);
+  add_render(app, render_options, chosen);
   add_check(app, check_options, chosen);
   app.add_subcommand("schema", "Print the JSON Schema of the scene format")->callback([&] { chosen = schema; });
   app.add_subcommand("version", "Print the version")->callback([&] { chosen = version; });

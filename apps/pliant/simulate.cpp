@@ -1,6 +1,7 @@
 #include "simulate.h"
 
 #include "interrupt.h"
+#include "pliant/error.h"
 #include "pliant/io.h"
 #include "progress.h"
 
@@ -29,6 +30,28 @@ bool simulate(World& world, const Scene& scene, bool quiet, const std::function<
   }
   throw_if_interrupted();
   return true;
+}
+
+bool has_suffix(const std::string& path, std::string_view suffix) {
+  if (path.size() < suffix.size()) return false;
+  for (std::size_t i = 0; i < suffix.size(); ++i) {
+    const char letter = path[path.size() - suffix.size() + i];
+    if ((letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter) != suffix[i]) return false;
+  }
+  return true;
+}
+
+void simulate_finite(World& world, const Scene& scene, const std::string& path, bool quiet,
+                     const std::function<void()>& after_frame) {
+  std::string words;
+  const bool finite = simulate(world, scene, quiet, [&](const Report& report) {
+    if (report.ok()) return after_frame();
+    words = report.explain();
+  });
+  if (finite) return;
+  Location where;
+  where.file = path;
+  throw Error(where, words);
 }
 
 }  // namespace pliant::command

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "command.h"
 #include "pliant/scene.h"
@@ -16,5 +17,12 @@ Scene read_scene_with(const std::string& path, const Overrides& overrides);
 /// Steps `frames` frames and calls `after_frame` after each. Stops early, and returns false, after a frame that is not
 /// finite. Shows progress where standard error is a terminal and not `quiet`. Throws Interrupted on a signal to end.
 bool simulate(World& world, const Scene& scene, bool quiet, const std::function<void(const Report&)>& after_frame);
+
+/// Whether `path` ends in `suffix` (".png"), capitals or not.
+bool has_suffix(const std::string& path, std::string_view suffix);
+
+/// Simulates as simulate() does, and throws Error with the report's own words where a frame is not finite.
+void simulate_finite(World& world, const Scene& scene, const std::string& path, bool quiet,
+                     const std::function<void()>& after_frame);
 
 }  // namespace pliant::command

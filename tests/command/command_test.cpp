@@ -1,0 +1,196 @@
+// The command as a user meets it: exit status, the one line on standard error, files whole or not there.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+std::string slurp(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// A folder for one test, gone with it.
+class Command : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "pliant_command_XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+    std::ofstream(folder_ / "small.json") << small_scene(4);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// A cloth of 12 x 12 over a sphere.
+  static std::string small_scene(int frames) {
+    return R"({"frames": )" + std::to_string(frames) + R"(, "settings": {"substeps": 4},
+      "objects": [{"cloth": {"mesh": {"grid": {"columns": 12, "rows": 12, "width": 1, "depth": 1}}, "material": "cotton"}}],
+      "colliders": [{"sphere": {"radius": 0.3}, "position": [0, -0.4, 0]}]})";
+  }
+
+  struct Result {
+    int status;
+    std::string out, err;
+  };
+
+  /// Runs `pliant ARGUMENTS` through the shell in the test's folder.
+  Result pliant(const std::string& arguments) {
+    const std::string line = "cd '" + folder_.string() + "' && '" PLIANT_COMMAND "' " + arguments + " >stdout 2>stderr";
+    const int status = std::system(line.c_str());
+    Result result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(folder_ / "stdout"), slurp(folder_ / "stderr")};
+    fs::remove(folder_ / "stdout");
+    fs::remove(folder_ / "stderr");
+    return result;
+  }
+
+  /// Refused with one line that says so.
+  void expect_refused(const std::string& arguments, int status, const std::string& word) {
+    SCOPED_TRACE(arguments);
+    const Result result = pliant(arguments);
+    EXPECT_EQ(result.status, status);
+    EXPECT_EQ(result.err.rfind("pliant: ", 0), 0u) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_NE(result.err.find(word), std::string::npos) << result.err;
+  }
+
+  Json report(const std::string& arguments) {
+    const Result result = pliant("run small.json --quiet --report report.json " + arguments);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return Json::parse(slurp(folder_ / "report.json"));
+  }
+
+  int files() const { return static_cast<int>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator())); }
+
+  fs::path folder_;
+};
+
+TEST_F(Command, HelpAndVersion) {
+  EXPECT_EQ(pliant("--help").status, 0);
+  EXPECT_NE(pliant("run --help").out.find("--hash-frames"), std::string::npos);
+  EXPECT_EQ(pliant("version").out.rfind("pliant ", 0), 0u);
+  EXPECT_EQ(pliant("--version").out, pliant("version").out);
+}
+
+TEST_F(Command, UsageErrorsGiveTwo) {
+  expect_refused("", 2, "subcommand");
+  expect_refused("fly", 2, "fly");
+  expect_refused("run", 2, "SCENE");
+  expect_refused("run small.json --frames -1", 2, "frames");
+  expect_refused("run small.json --frames many", 2, "frames");
+  expect_refused("run small.json --wings", 2, "wings");
+  expect_refused("run small.json --isa 6502", 2, "isa");
+}
+
+TEST_F(Command, ErrorsGiveOneAndOneLine) {
+  expect_refused("run missing.json", 1, "missing.json");
+  expect_refused("run small.json --out cloth.doc", 1, "cloth.doc");
+  expect_refused("run small.json --out nowhere/cloth.glb", 1, "nowhere");
+  expect_refused("run small.json --report nowhere/report.json", 1, "nowhere/report.json");
+  expect_refused("run small.json --report small.json", 1, "twice");
+  expect_refused("check missing.obj", 1, "missing.obj");
+  expect_refused("render small.json --out picture.gif", 1, "picture.gif");
+  expect_refused("render small.json --out picture.png --size big", 1, "big");
+  std::ofstream(folder_ / "bad.json") << "{\"frames\": 3,}";
+  expect_refused("run bad.json", 1, "bad.json:1");
+  expect_refused("run 'no\nsuch.json'", 1, "no\\nsuch.json");
+  EXPECT_EQ(files(), 2) << "an error left a file behind";
+}
+
+TEST_F(Command, AFullDiskIsAnError) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const std::string line = "'" PLIANT_COMMAND "' schema >/dev/full 2>/dev/null";
+  const int status = std::system(line.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  expect_refused("run small.json --quiet --report /dev/full", 1, "/dev/full");
+}
+
+TEST_F(Command, SchemaIsJson) {
+  const Json schema = Json::parse(pliant("schema").out);
+  EXPECT_EQ(schema.at("$schema"), "https://json-schema.org/draft/2020-12/schema");
+}
+
+TEST_F(Command, ReportHoldsWhatIsPromised) {
+  const Json json = report("--hash-frames --threads 2");
+  for (const char* key : {"state_hash", "frames", "particles", "constraints", "ms_per_frame", "phases_ms", "residual",
+                          "max_stretch", "mean_stretch", "nonfinite", "threads", "isa"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  EXPECT_EQ(json.at("frames"), 4);
+  EXPECT_EQ(json.at("particles"), 144);
+  EXPECT_EQ(json.at("constraints").at("distance"), 385);  // 2 * 11 * 12 edges along the grid, 11 * 11 diagonals
+  EXPECT_EQ(json.at("frame_hashes").size(), 4u);
+  EXPECT_EQ(json.at("frame_hashes").back(), json.at("state_hash"));
+  EXPECT_TRUE(json.at("nonfinite").is_null());
+  EXPECT_GT(json.at("ms_per_frame").at("p95").get<double>(), 0);
+}
+
+TEST_F(Command, OverridesChangeTheRunAndNotItsBits) {
+  const auto hash = [&](const std::string& arguments) { return report(arguments).at("state_hash").get<std::string>(); };
+  const std::string plain = hash("");
+  EXPECT_EQ(plain.size(), 64u);
+  EXPECT_EQ(hash("--threads 1"), plain);
+  EXPECT_EQ(hash("--threads 3"), plain);
+  EXPECT_EQ(hash("--sequential"), plain);
+  EXPECT_EQ(hash("--isa x86-64-v2"), plain);
+  EXPECT_NE(hash("--frames 3"), plain);
+  EXPECT_NE(hash("--substeps 5"), plain);
+  EXPECT_EQ(report("--frames 0").at("frames"), 0);
+}
+
+TEST_F(Command, SaysNothingInAPipeThatIsNoResult) {
+  const Result result = pliant("run small.json");
+  EXPECT_EQ(result.err, "");
+  EXPECT_NE(result.out.find("state "), std::string::npos);
+  EXPECT_EQ(pliant("run small.json --quiet").out, "");
+}
+
+TEST_F(Command, WritesEveryFormatThatWasAskedFor) {
+  EXPECT_EQ(pliant("run small.json --quiet --out a.glb --out b.usda").status, 0);
+  EXPECT_GT(fs::file_size(folder_ / "a.glb"), 144u * 12);
+  EXPECT_GT(fs::file_size(folder_ / "b.usda"), 144u * 12);
+}
+
+TEST_F(Command, CheckFindsNothingWrongInASoundScene) {
+  const Result result = pliant("check small.json");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("1 object of 144 particles"), std::string::npos) << result.out;
+}
+
+TEST_F(Command, AnInterruptedRunLeavesNothingHalfWritten) {
+  std::ofstream(folder_ / "long.json") << small_scene(100000000);
+  const int before = files();
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    if (chdir(folder_.c_str()) != 0 || std::freopen("/dev/null", "w", stderr) == nullptr) _exit(99);
+    execl(PLIANT_COMMAND, PLIANT_COMMAND, "run", "long.json", "--out", "long.pc2", "--report", "long-report.json", nullptr);
+    _exit(98);
+  }
+  // Only once the run has begun, which the temporary files show, is there something to leave behind.
+  for (int wait = 0; wait < 3000 && files() == before; ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_GT(files(), before);
+  kill(child, SIGINT);
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 128 + SIGINT);
+  EXPECT_EQ(files(), before);
+}
+
+}  // namespace
