@@ -1,0 +1,10 @@
+# Run by ctest: docs/dependencies.md names every package of scripts/packages.txt.
+file(STRINGS ${PACKAGES} lines REGEX "^[a-z]")
+file(READ ${DOCUMENT} document)
+foreach(line ${lines})
+  string(REGEX REPLACE "^[a-z]+ +" "" package "${line}")
+  string(FIND "${document}" "${package}" place)
+  if(place EQUAL -1)
+    message(FATAL_ERROR "${DOCUMENT} says nothing of ${package}")
+  endif()
+endforeach()
