@@ -117,6 +117,9 @@ TEST(Edges, HingeOfTrianglesWoundAgainstEachOther) {
   EXPECT_EQ(hinges[0].v0, 0);
   EXPECT_EQ(hinges[0].v2, 2);
   EXPECT_EQ(hinges[0].v3, 3);
+  const Hinge backward = find_hinges(find_edges({{1, 0, 2}, {1, 0, 3}}, 4)).front();
+  EXPECT_EQ(backward.v0, 1);
+  EXPECT_EQ(backward.v2, 2);
 }
 
 TEST(Edges, IndexOutOfRangeIsNamed) {

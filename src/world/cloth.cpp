@@ -1,0 +1,294 @@
+// Cloth from a triangle mesh: masses by area, a distance constraint an edge, a bending constraint an inner edge.
+//
+// Stiffness is a property of the material, so each compliance is computed from the areas that its edge stands for: a finer
+// mesh of the same piece then stretches and folds alike. All of it is computed in double and rounded once.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "constraints/dihedral_bending.h"
+#include "constraints/isometric_bending.h"
+#include "pliant/error.h"
+#include "pliant/scene.h"
+#include "topology/boundary.h"
+#include "topology/edges.h"
+
+namespace pliant {
+
+namespace {
+
+/// No compliance is larger: in float its square over a substep would overflow, and long before it does nothing.
+constexpr double largest_compliance = 1e12;
+
+float as_compliance(double alpha) { return static_cast<float>(std::min(alpha, largest_compliance)); }
+
+std::string name_of(const Edge& edge) { return "edge " + std::to_string(edge.a) + "-" + std::to_string(edge.b); }
+
+/// A mesh on its way to becoming cloth, with all that is measured on it.
+struct Piece {
+  const TriangleMesh& mesh;
+  const ClothOptions& options;
+  std::vector<Triangle> triangles;  ///< wound alike where that is possible
+  std::vector<Edge> edges;
+  std::vector<double> areas;   ///< of triangles [m^2]
+  std::vector<double> masses;  ///< of particles [kg]
+
+  Vec3d at(int vertex) const {
+    const Vec3f& p = mesh.positions[static_cast<std::size_t>(vertex)];
+    return {p.x, p.y, p.z};
+  }
+  int vertex_count() const { return static_cast<int>(mesh.positions.size()); }
+  void find_edges_again() { edges = find_edges(triangles, vertex_count()); }
+
+  /// The area of the one or two triangles at an edge [m^2].
+  double area_at(const Edge& edge) const {
+    double area = 0;
+    for (int t : edge.triangles)
+      if (t >= 0) area += areas[static_cast<std::size_t>(t)];
+    return area;
+  }
+
+  [[noreturn]] void refuse(const std::string& element, const std::string& problem, const std::string& advice) const {
+    throw Error({"", 0, options.name, element}, problem, advice);
+  }
+};
+
+// ------------------------------------------------------------------------------------------------ what can't be cloth
+
+void require_fraction(const Piece& piece, const char* field, float value) {
+  if (!(value >= 0 && value <= 1)) piece.refuse(field, "is " + std::to_string(value), "give 0 to 1");
+}
+
+void require_material(const Piece& piece) {
+  const Fabric& m = piece.options.material;
+  const auto refuse = [&](const char* field, float value, const char* advice) {
+    piece.refuse(std::string("material, ") + field, "is " + std::to_string(value), advice);
+  };
+  if (!(m.area_density > 0) || std::isinf(m.area_density))
+    refuse("area_density", m.area_density, "give more than 0 kg/m^2");
+  if (!(m.thickness >= 0) || std::isinf(m.thickness)) refuse("thickness", m.thickness, "give 0 m or more");
+  if (!(m.stretch_stiffness > 0))
+    refuse("stretch_stiffness", m.stretch_stiffness, "give more than 0 N/m; infinity makes it inextensible");
+  if (!(m.bending_stiffness >= 0)) refuse("bending_stiffness", m.bending_stiffness, "give 0 N m or more");
+  require_fraction(piece, "material, bending_damping", m.bending_damping);
+}
+
+void require_positions(const Piece& piece) {
+  if (piece.mesh.positions.empty() || piece.mesh.triangles.empty())
+    piece.refuse("", "the mesh has no triangle", "cloth needs at least one");
+  for (int v = 0; v < piece.vertex_count(); ++v) {
+    const Vec3d p = piece.at(v);
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+      piece.refuse("vertex " + std::to_string(v), "is not finite", "give finite coordinates in metres");
+  }
+}
+
+void require_manifold(const Piece& piece) {
+  for (const Edge& edge : piece.edges) {
+    if (edge.triangle_count > 2)
+      piece.refuse(name_of(edge), "joins " + std::to_string(edge.triangle_count) + " triangles",
+                   "cloth has at most two triangles at an edge: split the mesh there");
+    if (edge.is_inner() && edge.opposites[0] == edge.opposites[1])
+      piece.refuse("triangle " + std::to_string(edge.triangles[1]),
+                   "has the same corners as triangle " + std::to_string(edge.triangles[0]), "leave one of them out");
+  }
+}
+
+// ------------------------------------------------------------------------------------------------ winding
+
+/// Six times the enclosed volume [m^3].
+double six_volumes(const Piece& piece) {
+  double sum = 0;
+  for (const Triangle& t : piece.triangles) {
+    // Measured from a corner of the mesh, so that a far-away balloon loses no digits.
+    const Vec3d origin = piece.at(0);
+    sum += dot(cross(piece.at(t[0]) - origin, piece.at(t[1]) - origin), piece.at(t[2]) - origin);
+  }
+  return sum;
+}
+
+/// Neither distances nor hinges need it (a hinge's four corners alone define its sign), but pictures and balloons do.
+void wind_alike(Piece& piece) {
+  if (is_wound_consistently(piece.edges)) return;
+  const Pieces pieces = find_pieces(piece.edges, static_cast<int>(piece.triangles.size()));
+  if (piece.options.volume && !pieces.one_sided_edges.empty())
+    piece.refuse(name_of(piece.edges[static_cast<std::size_t>(pieces.one_sided_edges.front())]),
+                 "can't be wound like its neighbours: the surface has but one side", "a balloon needs an inside");
+  flip(piece.triangles, pieces.flipped);
+  piece.find_edges_again();
+}
+
+/// Makes the outside of a balloon its outside.
+void require_balloon(Piece& piece) {
+  for (const Edge& edge : piece.edges)
+    if (edge.is_border())
+      piece.refuse(name_of(edge), "is open", "a balloon needs a closed mesh: fill the hole or leave the volume out");
+  const double volume = six_volumes(piece);
+  if (!(std::fabs(volume) > 0)) piece.refuse("", "the mesh encloses no volume", "leave the volume out");
+  if (volume > 0) return;
+  for (Triangle& t : piece.triangles) std::swap(t[1], t[2]);
+  piece.find_edges_again();
+}
+
+// ------------------------------------------------------------------------------------------------ masses
+
+void measure_areas(Piece& piece) {
+  for (std::size_t t = 0; t < piece.triangles.size(); ++t) {
+    const Triangle& corners = piece.triangles[t];
+    const Vec3d origin = piece.at(corners[0]);
+    const Vec3d normal = cross(piece.at(corners[1]) - origin, piece.at(corners[2]) - origin);
+    const double area = std::sqrt(length_squared(normal)) / 2;
+    if (!(area > 0) || !std::isfinite(area))
+      piece.refuse("triangle " + std::to_string(t), area > 0 ? "is too large" : "has no area",
+                   area > 0 ? "scale the mesh to metres" : "drop it, or let read_mesh do so");
+    piece.areas.push_back(area);
+  }
+}
+
+/// A third of each triangle's mass goes to each of its corners.
+void lump_masses(Piece& piece) {
+  piece.masses.assign(piece.mesh.positions.size(), 0);
+  const double density = piece.options.material.area_density;
+  for (std::size_t t = 0; t < piece.triangles.size(); ++t)
+    for (int corner : piece.triangles[t]) piece.masses[static_cast<std::size_t>(corner)] += density * piece.areas[t] / 3;
+  for (std::size_t v = 0; v < piece.masses.size(); ++v) {
+    const std::string vertex = "vertex " + std::to_string(v);
+    if (piece.masses[v] == 0) piece.refuse(vertex, "belongs to no triangle, so it has no mass", "drop it");
+    if (!(piece.masses[v] > 1e-30 && piece.masses[v] < 1e30))
+      piece.refuse(vertex, "would weigh " + std::to_string(piece.masses[v]) + " kg", "scale the mesh to metres");
+  }
+}
+
+// ------------------------------------------------------------------------------------------------ constraints
+
+/// Van Gelder 1998: an edge stands for the strip of material beside it, alpha = L^2 / (Y (A1 + A2)).
+ConstraintGroup stretch_group(const Piece& piece) {
+  ConstraintGroup group;
+  group.type = "distance";
+  const double stiffness = piece.options.material.stretch_stiffness;
+  const bool measured = !piece.options.stretch && std::isfinite(stiffness);
+  if (piece.options.stretch) group.stiffness = *piece.options.stretch;
+  group.particles.reserve(2 * piece.edges.size());
+  group.rest.reserve(piece.edges.size());
+  if (measured) group.compliances.reserve(piece.edges.size());
+  for (const Edge& edge : piece.edges) {
+    const double squared = length_squared(piece.at(edge.b) - piece.at(edge.a));
+    group.particles.push_back(edge.a);
+    group.particles.push_back(edge.b);
+    group.rest.push_back(static_cast<float>(std::sqrt(squared)));
+    if (measured) group.compliances.push_back(as_compliance(squared / (stiffness * piece.area_at(edge))));
+  }
+  return group;
+}
+
+struct HingeProperties {
+  double compliance;    ///< [1/(N m)]
+  double inverse_mass;  ///< sum of w |grad C|^2 in the rest shape
+};
+
+template <int n>
+double generalised(const Piece& piece, const std::array<int, n>& particles,
+                   const std::array<double, n>& squared_gradients) {
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i) sum += squared_gradients[i] / piece.masses[static_cast<std::size_t>(particles[i])];
+  return sum;
+}
+
+/// The discrete shells of Grinspun et al. 2003: energy B/2 . 3 |e|^2 / (A1 + A2) . theta^2.
+HingeProperties dihedral_properties(const Piece& piece, const Edge& edge, const std::array<int, 4>& v) {
+  const Vec3d x[4] = {piece.at(v[0]), piece.at(v[1]), piece.at(v[2]), piece.at(v[3])};
+  Vec3d gradient[4];
+  DihedralBending::evaluate(x, DihedralBending::Params<double>{0}, gradient);
+  const double compliance =
+      piece.area_at(edge) / (3 * length_squared(x[1] - x[0]) * piece.options.material.bending_stiffness);
+  return {compliance, generalised<4>(piece, v,
+                                     {length_squared(gradient[0]), length_squared(gradient[1]), length_squared(gradient[2]),
+                                      length_squared(gradient[3])})};
+}
+
+/// Its gradients are the coefficients of the rest shape times one direction, so their lengths never change.
+HingeProperties isometric_properties(const Piece& piece, const std::array<int, 4>& v) {
+  const Vec3d x[4] = {piece.at(v[0]), piece.at(v[1]), piece.at(v[2]), piece.at(v[3])};
+  const auto k = IsometricBending::measure(x);
+  const double k0 = k.k1 + k.k2 + k.k3;
+  return {1 / static_cast<double>(piece.options.material.bending_stiffness),
+          generalised<4>(piece, v, {k0 * k0, k.k1 * k.k1, k.k2 * k.k2, k.k3 * k.k3})};
+}
+
+/// The compliances of all hinges and the one damping coefficient of their group. A hinge alone swings as a mass 1 / w on a
+/// spring 1 / alpha, so its critical damping is 2 sqrt(1 / (w alpha)); the group's beta is the wanted fraction of their
+/// mean.
+void apply_material(const Piece& piece, ConstraintGroup& group, bool isometric) {
+  double critical = 0;
+  std::size_t hinge = 0;
+  for (const Edge& edge : piece.edges) {
+    if (!edge.is_inner()) continue;
+    const auto first = group.particles.begin() + static_cast<std::ptrdiff_t>(4 * hinge++);
+    const std::array<int, 4> v{first[0], first[1], first[2], first[3]};
+    const HingeProperties p = isometric ? isometric_properties(piece, v) : dihedral_properties(piece, edge, v);
+    group.compliances.push_back(as_compliance(p.compliance));
+    critical += 2 / std::sqrt(p.inverse_mass * p.compliance);
+  }
+  const double mean = hinge > 0 ? critical / static_cast<double>(hinge) : 0;
+  group.stiffness.damping = static_cast<float>(std::min(piece.options.material.bending_damping * mean, largest_compliance));
+}
+
+/// Rest angles are left to be measured where the constraint type is known.
+ConstraintGroup bending_group(const Piece& piece) {
+  const bool isometric = piece.options.bending_model == ClothOptions::Bending::isometric;
+  ConstraintGroup group;
+  group.type = isometric ? "isometric_bending" : "dihedral_bending";
+  const std::vector<Hinge> hinges = find_hinges(piece.edges);
+  group.particles.reserve(4 * hinges.size());
+  for (const Hinge& h : hinges) group.particles.insert(group.particles.end(), {h.v0, h.v1, h.v2, h.v3});
+  if (piece.options.bending)
+    group.stiffness = *piece.options.bending;
+  else if (std::isfinite(piece.options.material.bending_stiffness))
+    apply_material(piece, group, isometric);
+  return group;
+}
+
+bool bends(const ClothOptions& options) {
+  return options.bending_model != ClothOptions::Bending::none &&
+         (options.bending || options.material.bending_stiffness > 0);
+}
+
+Object assemble(const Piece& piece) {
+  const ClothOptions& options = piece.options;
+  Object cloth;
+  cloth.name = options.name;
+  cloth.positions = piece.mesh.positions;
+  cloth.triangles = piece.triangles;
+  cloth.masses.assign(piece.masses.begin(), piece.masses.end());
+  if (!(options.velocity == Vec3f{})) cloth.velocities.assign(cloth.positions.size(), options.velocity);
+  cloth.constraints.push_back(stretch_group(piece));
+  if (bends(options)) cloth.constraints.push_back(bending_group(piece));
+  if (cloth.constraints.back().particles.empty()) cloth.constraints.pop_back();
+  cloth.volume = options.volume;
+  cloth.thickness = options.material.thickness;
+  cloth.static_friction = options.material.static_friction;
+  cloth.kinetic_friction = options.material.kinetic_friction;
+  return cloth;
+}
+
+}  // namespace
+
+Object make_cloth(const TriangleMesh& mesh, const ClothOptions& options) {
+  Piece piece{mesh, options, mesh.triangles, {}, {}, {}};
+  require_material(piece);
+  require_positions(piece);
+  try {
+    piece.find_edges_again();
+  } catch (const Error& error) {  // it knows the triangle, not whose it is
+    piece.refuse(error.where().element, error.problem(), error.advice());
+  }
+  measure_areas(piece);
+  require_manifold(piece);
+  wind_alike(piece);
+  if (options.volume) require_balloon(piece);
+  lump_masses(piece);
+  return assemble(piece);
+}
+
+}  // namespace pliant

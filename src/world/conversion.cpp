@@ -1,0 +1,81 @@
+// From PBD stiffness to XPBD compliance and back, without a logarithm.
+//
+// Of an isolated constraint's error C one PBD projection leaves (1 - k'') C; the m iterations of a substep leave 1 - k',
+// the n substeps of a frame 1 - k. XPBD leaves alpha~ / (w + alpha~) of it in a substep, alpha~ = alpha / h^2, whatever m
+// is, because the multiplier remembers what was already done. Equal shares in a substep, k' = w / (w + alpha~), make both
+// take the very same path, inertia included. Only k' = 1 - (1 - k)^(1/n) is not elementary arithmetic. It is found by
+// Newton's method on K(k') = 1 - (1 - k')^n, and K by repeated doubling from terms of one sign, so that small shares lose
+// no digits.
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "pliant/error.h"
+#include "pliant/material.h"
+
+namespace pliant {
+
+namespace {
+
+void require_context(const ConversionContext& context) {
+  if (!(context.inverse_mass > 0) || !std::isfinite(context.inverse_mass))
+    throw Error({"", 0, "", "inverse_mass"}, "is " + std::to_string(context.inverse_mass),
+                "give the sum over the particles of w |grad C|^2, positive and finite [1/kg]");
+  if (!(context.dt > 0) || !std::isfinite(context.dt))
+    throw Error({"", 0, "", "dt"}, "is " + std::to_string(context.dt), "give a positive, finite time step [s]");
+  if (context.substeps < 1 || context.iterations < 1)
+    throw Error({"", 0, "", context.substeps < 1 ? "substeps" : "iterations"}, "must be at least 1");
+}
+
+/// 1 - (1 - share)^times. Shares add up as a + b - a b = a + b (1 - a); no term is negative.
+double repeated_share(double share, int times) {
+  double result = 0, power = share;
+  for (int bits = times; bits > 0; bits >>= 1) {
+    if (bits & 1) result += power * (1 - result);
+    power += power * (1 - power);
+  }
+  return result;
+}
+
+/// The share that done `times` times makes `whole`, for 0 < whole < 1. K is concave and K(whole / times) <= whole, so
+/// Newton's method climbs to the root from below and never passes it; a step that gains nothing more ends it. The climb
+/// gains at least a factor e of what is left to do in each step, so that floats need some twenty steps at most.
+double single_share(double whole, int times) {
+  double share = whole / times;
+  for (int step = 0; step < 200; ++step) {
+    const double left = 1 - repeated_share(share, times - 1);  // (1 - share)^(times - 1)
+    const double next = share + (whole - repeated_share(share, times)) / (times * left);
+    if (!(next > share)) break;
+    share = next;
+  }
+  return share;
+}
+
+double squared_substep(const ConversionContext& context) {
+  const double substep = static_cast<double>(context.dt) / context.substeps;
+  return substep * substep;
+}
+
+}  // namespace
+
+float compliance_from_stiffness(float k, const ConversionContext& context) {
+  require_context(context);
+  if (!(k >= 0 && k <= 1))
+    throw Error({"", 0, "", "stiffness"}, "is " + std::to_string(k), "PBD stiffness is a share: give 0 to 1");
+  if (k == 0) return std::numeric_limits<float>::infinity();
+  if (k == 1) return 0;
+  const double share = single_share(k, context.substeps);
+  const double alpha = squared_substep(context) * context.inverse_mass * (1 - share) / share;
+  const bool fits = alpha <= static_cast<double>(std::numeric_limits<float>::max());
+  return fits ? static_cast<float>(alpha) : std::numeric_limits<float>::infinity();
+}
+
+float stiffness_from_compliance(float alpha, const ConversionContext& context) {
+  require_context(context);
+  if (!(alpha >= 0)) throw Error({"", 0, "", "compliance"}, "is " + std::to_string(alpha), "compliance is never negative");
+  if (std::isinf(alpha)) return 0;
+  const double weight = squared_substep(context) * context.inverse_mass;
+  return static_cast<float>(repeated_share(weight / (weight + alpha), context.substeps));
+}
+
+}  // namespace pliant

@@ -1,0 +1,74 @@
+// Fabrics as the textile trade measures them, in SI units. docs/materials.md holds the same table, with how to read it and
+// how far to trust it; a test compares the two.
+//
+// The Kawabata evaluation system (KES-F) reports bending rigidity per width in gf cm^2/cm (1 = 9.81e-5 N m) and the
+// extension at 500 gf/cm (490 N/m), which gives the membrane stiffness as a secant: 490 N/m over the strain. Woven fabrics
+// spread over a factor of three and more, differ between warp and weft, and stiffen as they stretch: one number each is a
+// typical one.
+#include <string>
+
+#include "pliant/error.h"
+#include "pliant/material.h"
+
+namespace pliant {
+
+namespace {
+
+Fabric woven(const char* name, float area_density, float thickness, float stretch, float bending, float static_friction,
+             float kinetic_friction, const char* source) {
+  return {name, area_density, thickness, stretch, bending, 0.05f, static_friction, kinetic_friction, source};
+}
+
+/// A homogeneous sheet: Y = E t and B = E t^3 / (12 (1 - nu^2)).
+Fabric sheet(const char* name, double density, double thickness, double young, double poisson, float damping,
+             float static_friction, float kinetic_friction, const char* source) {
+  return {name,
+          static_cast<float>(density * thickness),
+          static_cast<float>(thickness),
+          static_cast<float>(young * thickness),
+          static_cast<float>(young * thickness * thickness * thickness / (12 * (1 - poisson * poisson))),
+          damping,
+          static_friction,
+          kinetic_friction,
+          source};
+}
+
+std::vector<Fabric> make_fabrics() {
+  return {
+      woven(
+          "cotton", 0.12f, 0.0003f, 7000, 8e-6f, 0.4f, 0.3f,
+          "typical of plain-woven cotton shirting: KES-F bending 0.03 to 0.15 gf cm^2/cm, extension at 490 N/m 4 to 12 %"),
+      woven("silk", 0.06f, 0.0002f, 12000, 2.5e-6f, 0.3f, 0.2f,
+            "typical of light plain-woven silk: KES-F bending 0.01 to 0.06 gf cm^2/cm, extension at 490 N/m 2 to 6 %"),
+      woven("denim", 0.4f, 0.0009f, 15000, 8e-5f, 0.5f, 0.4f,
+            "typical of 400 g/m^2 cotton denim: KES-F bending 0.3 to 2 gf cm^2/cm, extension at 490 N/m 2 to 6 %"),
+      woven("wool", 0.2f, 0.0005f, 6000, 1.2e-5f, 0.45f, 0.35f,
+            "typical of worsted suiting: KES-F bending 0.06 to 0.25 gf cm^2/cm, extension at 490 N/m 4 to 12 %"),
+      sheet("leather", 650, 0.0009, 1e7, 0.4, 0.1f, 0.6f, 0.5f,
+            "a homogeneous sheet with E = 10 MPa, typical of soft chrome-tanned garment leather (5 to 30 MPa at small "
+            "strain), "
+            "Poisson's ratio 0.4, 650 kg/m^3, 0.9 mm"),
+      sheet("rubber sheet", 950, 0.001, 1.5e6, 0.5, 0.03f, 0.9f, 0.8f,
+            "a homogeneous sheet with E = 1.5 MPa, typical of soft natural rubber (1 to 2 MPa at small strain), "
+            "incompressible, "
+            "950 kg/m^3, 1 mm"),
+  };
+}
+
+}  // namespace
+
+const std::vector<Fabric>& fabrics() {
+  static const std::vector<Fabric> all = make_fabrics();
+  return all;
+}
+
+const Fabric& fabric(std::string_view name) {
+  std::string names;
+  for (const Fabric& each : fabrics()) {
+    if (each.name == name) return each;
+    names += (names.empty() ? "" : ", ") + each.name;
+  }
+  throw Error({}, "there is no fabric '" + std::string(name) + "'", "choose one of " + names + ", or fill in a Fabric");
+}
+
+}  // namespace pliant
