@@ -1,0 +1,83 @@
+// POSIX calls rather than streams: a stream waits for ever on a pipe, reads a device without end, and cannot say what it
+// was that failed.
+#include "file_bytes.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+#include "pliant/error.h"
+
+namespace pliant {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& path, const std::string& problem, const char* advice) {
+  throw Error({.file = path, .line = 0, .object = {}, .element = {}}, problem, advice);
+}
+
+/// Closes the file on every way out.
+class Descriptor {
+ public:
+  explicit Descriptor(const std::string& path)
+      // Without O_NONBLOCK opening a pipe that nobody writes would never return.
+      : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
+    if (number_ >= 0) return;
+    const int code = errno;
+    fail(path, "cannot open: " + std::generic_category().message(code),
+         code == ENOENT ? "check the path; a relative one starts at the current folder"
+                        : "check the path and its permissions");
+  }
+  ~Descriptor() { ::close(number_); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+void refuse_what_is_no_file(const struct stat& status, const std::string& path) {
+  if (S_ISREG(status.st_mode)) return;
+  if (S_ISDIR(status.st_mode)) fail(path, "is a folder", "name a file");
+  fail(path, "is a pipe, socket or device, not a regular file", "copy what it gives into a file first");
+}
+
+void refuse_large(std::uint64_t size, std::uint64_t most, const std::string& path) {
+  if (size <= most) return;
+  fail(path, "is larger than " + std::to_string(most) + " bytes, the most that is read", "split it or simplify it");
+}
+
+}  // namespace
+
+std::string read_file_bytes(const std::string& path, std::uint64_t most) {
+  if (path.empty()) throw Error({}, "there is no name of a file to read", "give a path");
+  if (path.find('\0') != std::string::npos) throw Error({}, "a path holds a zero byte", "give another path");
+  const Descriptor file(path);
+  struct stat status {};
+  if (::fstat(file.number(), &status) != 0) fail(path, "cannot be examined", "check its permissions");
+  refuse_what_is_no_file(status, path);
+  refuse_large(static_cast<std::uint64_t>(status.st_size), most, path);
+
+  // A file may grow or shrink meanwhile, and some systems' own files say 0: the end is where reading says it is.
+  std::string bytes;
+  bytes.resize(static_cast<std::size_t>(status.st_size) + 1);
+  std::size_t done = 0;
+  for (;;) {
+    const ssize_t got = ::read(file.number(), bytes.data() + done, bytes.size() - done);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail(path, "cannot read: " + std::generic_category().message(errno), "check the disk");
+    if (got == 0) break;
+    done += static_cast<std::size_t>(got);
+    refuse_large(done, most, path);
+    if (done == bytes.size()) bytes.resize(done + std::max<std::size_t>(done, 4096));
+  }
+  bytes.resize(done);
+  return bytes;
+}
+
+}  // namespace pliant

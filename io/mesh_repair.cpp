@@ -1,0 +1,236 @@
+// What read_mesh mends, and the account that it gives of it.
+//
+// Merging is welding, and welding can do harm: a sheet folded flat onto itself would become one layer that branches
+// everywhere. So vertices in one place stay apart where merging them would join more than two triangles at an edge that had
+// two at most. Triangles without connections of their own (STL) are always merged, as they would fall apart otherwise.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "mesh_polygons.h"
+
+namespace pliant {
+
+namespace {
+
+using Triangle = std::array<int, 3>;
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+bool has_area(const TriangleMesh& mesh, const Triangle& t) {
+  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
+  const auto at = [&](int i) {
+    const Vec3f& p = mesh.positions[index(i)];
+    return Vec3d{p.x, p.y, p.z};
+  };
+  // Differences of floats and their products are exact in double for points of like size, so that this is zero where the
+  // corners lie on one line, and only there.
+  return length_squared(cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]))) > 0;
+}
+
+/// Counts something with its first place.
+struct Tally {
+  std::size_t count = 0, first = 0;
+  void add(std::size_t place) {
+    if (count++ == 0) first = place;
+  }
+};
+
+/// A mesh under repair: `numbers` are its triangles' places in the file, so that reports speak of those.
+struct Work {
+  TriangleMesh& mesh;
+  std::vector<std::string>& repairs;
+  std::vector<std::size_t> numbers;
+};
+
+/// Drops the triangles for which drop(i) holds.
+template <class Drop>
+Tally drop_triangles(Work& work, const Drop& drop) {
+  Tally dropped;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < work.mesh.triangles.size(); ++i) {
+    if (drop(i)) {
+      dropped.add(work.numbers[i]);
+      continue;
+    }
+    work.mesh.triangles[kept] = work.mesh.triangles[i];
+    work.numbers[kept++] = work.numbers[i];
+  }
+  work.mesh.triangles.resize(kept);
+  work.numbers.resize(kept);
+  return dropped;
+}
+
+void drop_degenerate(Work& work) {
+  const Tally dropped = drop_triangles(work, [&](std::size_t i) { return !has_area(work.mesh, work.mesh.triangles[i]); });
+  if (dropped.count > 0)
+    work.repairs.push_back("dropped " + counted(dropped.count, "triangle", "triangles") + " without area, the first " +
+                           std::to_string(dropped.first));
+}
+
+/// For each vertex the first one in the same place.
+std::vector<int> find_first_in_place(const std::vector<Vec3f>& positions) {
+  std::vector<int> order(positions.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](int i) {
+    const Vec3f& p = positions[index(i)];
+    return std::make_tuple(p.x, p.y, p.z, i);
+  };
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
+  std::vector<int> first(positions.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool same = i > 0 && positions[index(order[i])] == positions[index(order[i - 1])];
+    first[index(order[i])] = same ? first[index(order[i - 1])] : order[i];
+  }
+  return first;
+}
+
+/// For each vertex the first one in the same place that sides of no length connect it with: neighbours, so to speak, that
+/// are one whatever else may lie there.
+std::vector<int> find_connected_in_place(const TriangleMesh& mesh) {
+  std::vector<int> parent(mesh.positions.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int i) {
+    while (parent[index(i)] != i) i = parent[index(i)] = parent[index(parent[index(i)])];
+    return i;
+  };
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int a = t[k], b = t[(k + 1) % 3];
+      if (!(mesh.positions[index(a)] == mesh.positions[index(b)])) continue;
+      const auto [first, second] = std::minmax({root(a), root(b)});
+      parent[index(second)] = first;
+    }
+  for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = root(static_cast<int>(i));
+  return parent;
+}
+
+/// A triangle begun at its smallest corner: equal for triangles that differ only in where they begin.
+Triangle canonical(Triangle t) {
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return t;
+}
+
+/// Marks every triangle that repeats an earlier one, corner for corner and wound alike.
+std::vector<bool> find_repeated(const std::vector<Triangle>& triangles) {
+  std::vector<std::pair<Triangle, std::size_t>> sorted(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) sorted[i] = {canonical(triangles[i]), i};
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<bool> repeated(triangles.size(), false);
+  for (std::size_t i = 1; i < sorted.size(); ++i)
+    if (sorted[i].first == sorted[i - 1].first) repeated[sorted[i].second] = true;
+  return repeated;
+}
+
+/// A triangle's side before and after merging, both with the smaller end first.
+struct Side {
+  std::pair<int, int> after, before;
+};
+
+/// Vertices (as merged) at edges that merging would make branch.
+std::vector<bool> find_branching(const std::vector<Triangle>& triangles, const std::vector<int>& merged) {
+  std::vector<Triangle> welded = triangles;
+  for (Triangle& t : welded) t = {merged[index(t[0])], merged[index(t[1])], merged[index(t[2])]};
+  const std::vector<bool> repeated = find_repeated(welded);
+  std::vector<Side> sides;
+  sides.reserve(3 * triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3 && !repeated[i]; ++k)
+      sides.push_back(
+          {std::minmax({welded[i][k], welded[i][(k + 1) % 3]}), std::minmax({triangles[i][k], triangles[i][(k + 1) % 3]})});
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return std::tie(a.after, a.before) < std::tie(b.after, b.before); });
+
+  std::vector<bool> branching(merged.size(), false);
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    while (end < sides.size() && sides[end].after == sides[begin].after) ++end;
+    const bool joined_anew = sides[begin].before != sides[end - 1].before;
+    if (end - begin > 2 && joined_anew)
+      branching[index(sides[begin].after.first)] = branching[index(sides[begin].after.second)] = true;
+  }
+  return branching;
+}
+
+/// Lets triangles use the first vertex in each place, or of those in `connected` where more would do harm. Returns which
+/// vertices have become superfluous by that.
+std::vector<bool> merge_vertices(Work& work, const std::vector<int>& connected, bool is_soup) {
+  TriangleMesh& mesh = work.mesh;
+  std::vector<int> merged = find_first_in_place(mesh.positions);
+  for (Triangle& t : mesh.triangles) t = {connected[index(t[0])], connected[index(t[1])], connected[index(t[2])]};
+  const std::vector<bool> branching =
+      is_soup ? std::vector<bool>(merged.size(), false) : find_branching(mesh.triangles, merged);
+  std::vector<bool> emptied(merged.size(), false);
+  Tally joined, apart;
+  for (std::size_t i = 0; i < merged.size(); ++i) {
+    if (index(merged[i]) == i) continue;
+    if (branching[index(merged[i])]) merged[i] = connected[i];
+    emptied[i] = index(merged[i]) != i;
+    (emptied[i] ? joined : apart).add(i);
+  }
+  for (Triangle& t : mesh.triangles) t = {merged[index(t[0])], merged[index(t[1])], merged[index(t[2])]};
+  if (joined.count > 0)
+    work.repairs.push_back("merged " + counted(joined.count, "vertex", "vertices") +
+                           " into another in the same place, the first " + std::to_string(joined.first));
+  if (apart.count > 0)
+    work.repairs.push_back("kept " + counted(apart.count, "vertex", "vertices") +
+                           " apart from another in the same place, the first " + std::to_string(apart.first) +
+                           ", because merging would join more than two triangles at an edge");
+  return emptied;
+}
+
+void drop_repeated(Work& work) {
+  const std::vector<bool> repeated = find_repeated(work.mesh.triangles);
+  const Tally dropped = drop_triangles(work, [&](std::size_t i) { return repeated[i]; });
+  if (dropped.count > 0)
+    work.repairs.push_back("dropped " + counted(dropped.count, "triangle", "triangles") +
+                           " that repeat another, the first " + std::to_string(dropped.first));
+}
+
+/// Renumbers the vertices without those that merging emptied and, where asked, without those of no triangle.
+void drop_vertices(Work& work, const std::vector<bool>& emptied, bool drop_isolated) {
+  TriangleMesh& mesh = work.mesh;
+  std::vector<bool> used(mesh.positions.size(), false);
+  for (const Triangle& t : mesh.triangles)
+    for (const int corner : t) used[index(corner)] = true;
+  std::vector<int> number(mesh.positions.size(), -1);
+  Tally dropped;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    const bool isolated = !used[i] && !emptied[i];
+    if (isolated && drop_isolated) dropped.add(i);
+    if (emptied[i] || (isolated && drop_isolated)) continue;
+    mesh.positions[kept] = mesh.positions[i];
+    number[i] = static_cast<int>(kept++);
+  }
+  mesh.positions.resize(kept);
+  for (Triangle& t : mesh.triangles) t = {number[index(t[0])], number[index(t[1])], number[index(t[2])]};
+  if (dropped.count > 0)
+    work.repairs.push_back("dropped " + counted(dropped.count, "vertex", "vertices") + " of no triangle, the first " +
+                           std::to_string(dropped.first));
+}
+
+}  // namespace
+
+void repair(MeshFile& file, bool is_soup, const MeshReadOptions& options) {
+  Work work{file.mesh, file.repairs, {}};
+  work.numbers.resize(file.mesh.triangles.size());
+  std::iota(work.numbers.begin(), work.numbers.end(), std::size_t{0});
+  // Before degenerate triangles go, because it is they that tell: a strip without width still holds its two sides together.
+  const std::vector<int> connected = options.merge_duplicates ? find_connected_in_place(file.mesh) : std::vector<int>();
+  if (options.drop_degenerate) drop_degenerate(work);
+  std::vector<bool> emptied(file.mesh.positions.size(), false);
+  if (options.merge_duplicates) {
+    emptied = merge_vertices(work, connected, is_soup);
+    drop_repeated(work);
+  }
+  drop_vertices(work, emptied, options.drop_isolated);
+}
+
+}  // namespace pliant

@@ -1,0 +1,196 @@
+// Polygons to triangles. A strictly convex polygon becomes a fan about its first corner, which is what the programs that
+// write quads expect; any other is cut up by clipping ears, because a fan over a concave polygon covers what is outside it.
+//
+// Both look at the polygon along the axis in which its normal is largest. That projection drops a coordinate and rounds
+// nothing; and twice the area of a triangle of floats, computed in double, has the right sign in all but absurd cases.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "mesh_polygons.h"
+#include "pliant/error.h"
+
+namespace pliant {
+
+namespace {
+
+/// Ear clipping takes time that grows with the square of the corners; this many take a fraction of a second.
+constexpr std::size_t most_corners_of_a_concave_polygon = 4096;
+
+struct Point {
+  double x, y;
+};
+
+/// Twice the signed area of a triangle, positive where it is counter-clockwise.
+double turn(const Point& a, const Point& b, const Point& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+bool same_place(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y; }
+
+/// Twice the polygon's area times its normal, by Newell's sum over its sides.
+Vec3d newell_normal(const PolygonMesh& mesh, const int* corners, std::size_t count) {
+  const Vec3f& origin = mesh.positions[static_cast<std::size_t>(corners[0])];
+  const auto relative = [&](std::size_t i) {
+    const Vec3f& p = mesh.positions[static_cast<std::size_t>(corners[i])];
+    return Vec3d{double{p.x} - double{origin.x}, double{p.y} - double{origin.y}, double{p.z} - double{origin.z}};
+  };
+  Vec3d sum;
+  Vec3d last = relative(count - 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3d next = relative(i);
+    sum += cross(last, next);
+    last = next;
+  }
+  return sum;
+}
+
+/// The polygon as seen against its normal, so that it runs counter-clockwise.
+std::vector<Point> flatten(const PolygonMesh& mesh, const int* corners, std::size_t count) {
+  const Vec3d normal = newell_normal(mesh, corners, count);
+  const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
+  std::vector<Point> points(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3f& p = mesh.positions[static_cast<std::size_t>(corners[i])];
+    Point flat = z >= x && z >= y ? Point{p.x, p.y} : x >= y ? Point{p.y, p.z} : Point{p.z, p.x};
+    const double along = z >= x && z >= y ? normal.z : x >= y ? normal.x : normal.y;
+    points[i] = along < 0 ? Point{flat.y, flat.x} : flat;
+  }
+  return points;
+}
+
+/// Turning left at every corner and going round once, which a star does not: it moves from right to left only once.
+bool is_strictly_convex(const std::vector<Point>& points) {
+  const std::size_t count = points.size();
+  int reversals = 0;
+  bool leftwards_before = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Point& a = points[i];
+    const Point& b = points[(i + 1) % count];
+    const Point& c = points[(i + 2) % count];
+    if (!(turn(a, b, c) > 0)) return false;
+    const auto leftwards = [](const Point& from, const Point& to) {
+      return to.x < from.x || (to.x == from.x && to.y < from.y);
+    };
+    if (i == 0) leftwards_before = leftwards(points[count - 1], a);
+    const bool now = leftwards(a, b);
+    reversals += now != leftwards_before;
+    leftwards_before = now;
+  }
+  return reversals == 2;
+}
+
+/// Clips ears off one polygon, after Meisters (1975): a corner whose triangle holds no other corner may be cut off, and a
+/// simple polygon always has two such.
+class EarClipper {
+ public:
+  explicit EarClipper(const std::vector<Point>& points) : points_(points), next_(points.size()), previous_(points.size()) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      next_[i] = (i + 1) % points.size();
+      previous_[i] = (i + points.size() - 1) % points.size();
+    }
+  }
+
+  /// Calls emit(i, j, k) for each triangle. False where the polygon crosses or touches itself, so that a corner had to be
+  /// cut off that is no ear.
+  template <class Emit>
+  bool clip(const Emit& emit) {
+    bool simple = true;
+    std::size_t at = 0, since_last = 0;
+    for (std::size_t left = points_.size(); left > 3;) {
+      const bool stuck = since_last >= left;
+      if (!stuck && !is_ear(at)) {
+        at = next_[at];
+        ++since_last;
+        continue;
+      }
+      if (stuck) {
+        simple = false;
+        at = least_bad(at, left);
+      }
+      emit(previous_[at], at, next_[at]);
+      // Going on behind the next corner rather than at it keeps the triangles from all meeting in one corner.
+      const std::size_t after = next_[at];
+      next_[previous_[at]] = after;
+      previous_[after] = previous_[at];
+      at = next_[after];
+      since_last = 0;
+      --left;
+    }
+    emit(previous_[at], at, next_[at]);
+    return simple;
+  }
+
+ private:
+  bool is_ear(std::size_t corner) const {
+    const Point& a = points_[previous_[corner]];
+    const Point& b = points_[corner];
+    const Point& c = points_[next_[corner]];
+    if (!(turn(a, b, c) > 0)) return false;
+    for (std::size_t i = next_[next_[corner]]; i != previous_[corner]; i = next_[i]) {
+      const Point& p = points_[i];
+      // A bridge to a hole comes by the same place twice; that alone does not block an ear.
+      if (same_place(p, a) || same_place(p, b) || same_place(p, c)) continue;
+      if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
+    }
+    return true;
+  }
+
+  /// Where nothing is an ear: a corner that turns left if there is one, else where we are.
+  std::size_t least_bad(std::size_t at, std::size_t left) const {
+    std::size_t corner = at;
+    for (std::size_t i = 0; i < left; ++i, corner = next_[corner])
+      if (turn(points_[previous_[corner]], points_[corner], points_[next_[corner]]) > 0) return corner;
+    return at;
+  }
+
+  const std::vector<Point>& points_;
+  std::vector<std::size_t> next_, previous_;
+};
+
+/// Counts something with its first place.
+struct Tally {
+  std::size_t count = 0, first = 0;
+  void add(std::size_t place) {
+    if (count++ == 0) first = place;
+  }
+};
+
+}  // namespace
+
+std::vector<std::array<int, 3>> triangulate(const PolygonMesh& mesh, const std::string& name,
+                                            std::vector<std::string>& notes) {
+  std::vector<std::array<int, 3>> triangles;
+  triangles.reserve(mesh.corners.size() - 2 * mesh.ends.size());
+  Tally crossing;
+  std::size_t begin = 0;
+  for (std::size_t polygon = 0; polygon < mesh.ends.size(); ++polygon) {
+    const int* const corners = mesh.corners.data() + begin;
+    const std::size_t count = mesh.ends[polygon] - begin;
+    begin = mesh.ends[polygon];
+    const auto emit = [&](std::size_t i, std::size_t j, std::size_t k) {
+      triangles.push_back({corners[i], corners[j], corners[k]});
+    };
+    if (count == 3) {
+      emit(0, 1, 2);
+      continue;
+    }
+    const std::vector<Point> points = flatten(mesh, corners, count);
+    if (is_strictly_convex(points)) {
+      for (std::size_t i = 2; i < count; ++i) emit(0, i - 1, i);
+      continue;
+    }
+    if (count > most_corners_of_a_concave_polygon)
+      throw Error({.file = name, .line = 0, .object = {}, .element = "polygon " + std::to_string(polygon)},
+                  "is concave and has " + std::to_string(count) + " corners", "triangulate it in the program that made it");
+    if (!EarClipper(points).clip(emit)) crossing.add(polygon);
+  }
+  if (crossing.count > 0)
+    notes.push_back(std::to_string(crossing.count) +
+                    (crossing.count == 1 ? " polygon that crosses or touches itself was"
+                                         : " polygons that cross or touch themselves were") +
+                    " cut up as well as could be, the first " + std::to_string(crossing.first));
+  return triangles;
+}
+
+}  // namespace pliant

@@ -1,0 +1,107 @@
+// See text_lines.h for why this is own code: it is a page, and every rule in it is one that a file of somebody's broke.
+#include "text_lines.h"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace pliant {
+
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// std::from_chars takes no plus, and after it no second sign may follow.
+bool strip_plus(std::string_view& word) {
+  if (word.empty() || word.front() != '+') return true;
+  word.remove_prefix(1);
+  return !word.empty() && word.front() != '-' && word.front() != '+';
+}
+
+/// Whether a number that does not fit is too small rather than too large. It is small when its exponent is negative or,
+/// without one, when nothing but zeros stands before the point.
+bool is_small(std::string_view word) {
+  const std::size_t exponent = word.find_first_of("eE");
+  if (exponent != std::string_view::npos) return exponent + 1 < word.size() && word[exponent + 1] == '-';
+  for (const char c : word) {
+    if (c == '.') return true;
+    if (is_digit(c) && c != '0') return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool LineReader::next() {
+  if (position_ >= text_.size()) return false;
+  std::size_t end = text_.find_first_of("\r\n", position_);
+  if (end == std::string_view::npos) end = text_.size();
+  line_ = text_.substr(position_, end - position_);
+  position_ = end;
+  if (position_ < text_.size()) {
+    const bool pair = text_[position_] == '\r' && position_ + 1 < text_.size() && text_[position_ + 1] == '\n';
+    position_ += pair ? 2 : 1;
+  }
+  number_ = next_number_;
+  if (next_number_ < std::numeric_limits<int>::max()) ++next_number_;
+  return true;
+}
+
+std::string_view take_word(std::string_view& rest) {
+  std::size_t begin = 0;
+  while (begin < rest.size() && is_blank(rest[begin])) ++begin;
+  std::size_t end = begin;
+  while (end < rest.size() && !is_blank(rest[end])) ++end;
+  const std::string_view word = rest.substr(begin, end - begin);
+  rest.remove_prefix(end);
+  return word;
+}
+
+std::string quoted(std::string_view word) {
+  constexpr std::size_t most = 40;
+  std::string text = "'";
+  for (const char c : word.substr(0, most)) text += c >= ' ' && c <= '~' ? c : '?';
+  return text + (word.size() > most ? "...'" : "'");
+}
+
+const char* describe(NumberProblem problem) {
+  switch (problem) {
+    case NumberProblem::none:
+      return "is a number";
+    case NumberProblem::not_a_number:
+      return "is not a number";
+    case NumberProblem::not_finite:
+      return "is not finite";
+    case NumberProblem::too_large:
+      return "is too large for single precision";
+  }
+  return "is not a number";
+}
+
+NumberProblem parse_float(std::string_view word, float& value) {
+  if (!strip_plus(word)) return NumberProblem::not_a_number;
+  const char* const end = word.data() + word.size();
+  float parsed = 0;
+  const auto [stop, code] = std::from_chars(word.data(), end, parsed);
+  if (code == std::errc::invalid_argument || stop != end) return NumberProblem::not_a_number;
+  if (code == std::errc::result_out_of_range) {
+    if (!is_small(word)) return NumberProblem::too_large;
+    parsed = 0;
+  }
+  if (!std::isfinite(parsed)) return NumberProblem::not_finite;
+  value = parsed;
+  return NumberProblem::none;
+}
+
+bool parse_integer(std::string_view word, std::int64_t& value) {
+  if (!strip_plus(word)) return false;
+  const char* const end = word.data() + word.size();
+  std::int64_t parsed = 0;
+  const auto [stop, code] = std::from_chars(word.data(), end, parsed);
+  if (code != std::errc() || stop != end) return false;
+  value = parsed;
+  return true;
+}
+
+}  // namespace pliant
