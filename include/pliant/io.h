@@ -35,12 +35,22 @@ TriangleMesh read_mesh(const std::string& path);
 /// Writes .obj or .ply. The file is whole or, where writing fails, as it was before; Error names the path.
 void write_mesh(const std::string& path, const TriangleMesh& mesh);
 
-/// Reads a scene in strict JSON (docs/scene-format.md). Throws Error with file, line and JSON path. Mesh paths are relative to
-/// the scene's own folder and may not leave it unless `allow_outside`.
+/// A scene as read, with every repair that was made to its meshes, in words.
+struct SceneFile {
+  Scene scene;
+  std::string description;  ///< what the file says about itself; may be empty
+  std::vector<std::string> repairs;
+};
+
+/// Reads a scene in strict JSON (docs/scene-format.md). Throws Error with file, line, column and JSON path. Mesh paths are
+/// relative to the scene's own folder and may not leave it, by links neither, unless `allow_outside`.
+SceneFile read_scene_file(const std::string& path, bool allow_outside = true);
+
+/// The scene of read_scene_file alone.
 Scene read_scene(const std::string& path, bool allow_outside = true);
 
 /// The same from text; `name` stands for the file in errors, `folder` is where meshes are looked for.
-Scene parse_scene(const std::string& text, const std::string& name, const std::string& folder);
+Scene parse_scene(const std::string& text, const std::string& name, const std::string& folder, bool allow_outside = true);
 
 /// The JSON Schema (2020-12) of the scene format, as text.
 std::string scene_schema();

@@ -1,0 +1,176 @@
+// The whole scene: settings, objects with their pins, colliders.
+#include "scene_build.h"
+
+#include <algorithm>
+#include <set>
+
+#include "scene_grammar.h"
+#include "scene_values.h"
+
+namespace pliant::scene_file {
+
+namespace {
+
+Settings settings_of(const JsonValue& at) {
+  Settings settings;
+  set(at, "substeps", settings.substeps);
+  set(at, "iterations", settings.iterations);
+  set(at, "threads", settings.threads);
+  set(at, "measure", settings.measure);
+  set(at, "record_multipliers", settings.record_multipliers);
+  set(at, "isa", settings.isa);
+  std::string sweep = "tiled";
+  set(at, "sweep", sweep);
+  settings.sweep = sweep == "sequential" ? Sweep::sequential : Sweep::tiled;
+  return settings;
+}
+
+Wind wind_of(const JsonValue& at) {
+  Wind wind;
+  set(at, "velocity", wind.velocity);
+  set(at, "air_density", wind.air_density);
+  set(at, "gust", wind.gust);
+  set(at, "gust_period", wind.gust_period);
+  return wind;
+}
+
+/// The names taken so far among objects or among colliders.
+class Names {
+ public:
+  /// The name that `at` gives itself, or one made from `kind`. Throws Error where two have the same.
+  std::string of(const JsonDocument& document, const JsonValue& at, const std::string& kind) {
+    std::string name = kind;
+    if (const JsonValue* given = at.find("name")) {
+      name = given->text;
+      if (taken_.count(name) > 0) document.fail(*given, "the name '" + printable(name) + "' is taken", "names differ");
+    }
+    for (int number = 2; taken_.count(name) > 0; ++number) name = kind + "_" + std::to_string(number);
+    taken_.insert(name);
+    return name;
+  }
+
+ private:
+  std::set<std::string> taken_;
+};
+
+void set_pins(const JsonDocument& document, const JsonValue& at, BuiltObject& built) {
+  std::vector<bool> taken(built.object.positions.size(), false);
+  for (const JsonValue& item : elements(at, "pins")) {
+    Pin pin;
+    set(document, item, "motion", pin.motion);
+    const JsonValue& particles = *item.find("particles");
+    for (const int particle : selected(document, particles, built)) {
+      if (taken[static_cast<std::size_t>(particle)])
+        document.fail(particles, "particle " + std::to_string(particle) + " is pinned already", "pin it once");
+      taken[static_cast<std::size_t>(particle)] = true;
+      pin.particle = particle;
+      built.object.pins.push_back(pin);
+    }
+  }
+}
+
+void set_attachments(const JsonDocument& document, const JsonValue& at, BuiltObject& built) {
+  for (const JsonValue& item : elements(at, "attachments")) {
+    Attachment attachment;
+    set(document, item, "motion", attachment.motion);
+    set(document, item, "stiffness", attachment.stiffness);
+    const bool one_target = set(item, "target", attachment.target);
+    for (const int particle : selected(document, *item.find("particles"), built)) {
+      attachment.particle = particle;
+      if (!one_target) attachment.target = built.object.positions[static_cast<std::size_t>(particle)];
+      built.object.attachments.push_back(attachment);
+    }
+  }
+}
+
+void set_properties(const JsonDocument& document, const JsonValue& at, Object& object) {
+  set(at, "thickness", object.thickness);
+  set_friction(document, at, object.static_friction, object.kinetic_friction);
+  set(at, "restitution", object.restitution);
+  set(at, "drag", object.drag);
+  set(at, "lift", object.lift);
+  set(at, "damping", object.damping);
+  set(at, "colour", object.colour);
+  Vec3f velocity;
+  if (!set(at, "velocity", velocity)) return;
+  if (!object.velocities.empty())
+    document.fail_key(*at.find("velocity"), "this object has a velocity for each particle already", "give one of the two");
+  object.velocities.assign(object.positions.size(), velocity);
+}
+
+const JsonValue& one_of(const JsonValue& at, std::initializer_list<const char*> names) {
+  for (const char* name : names)
+    if (const JsonValue* found = at.find(name)) return *found;
+  return at;  // not reached: check() made sure of one
+}
+
+Object object_of(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, Names& names,
+                 std::vector<std::string>& repairs) {
+  const JsonValue& what = one_of(at, {"cloth", "rope", "particles"});
+  BuiltObject built = build_matter(document, what, names.of(document, at, what.key), folder, repairs);
+  set_properties(document, at, built.object);
+  set_pins(document, at, built);
+  set_attachments(document, at, built);
+  return std::move(built.object);
+}
+
+Shape shape_of(const JsonValue& at) {
+  if (at.key == "plane") return Plane{};
+  if (at.key == "sphere") {
+    Sphere sphere;
+    set(at, "radius", sphere.radius);
+    return sphere;
+  }
+  if (at.key == "capsule") {
+    Capsule capsule;
+    set(at, "radius", capsule.radius);
+    set(at, "half_length", capsule.half_length);
+    return capsule;
+  }
+  Box box;
+  set(at, "half_extents", box.half_extents);
+  return box;
+}
+
+Collider collider_of(const JsonDocument& document, const JsonValue& at, Names& names) {
+  Collider collider;
+  const JsonValue& shape = one_of(at, {"plane", "sphere", "capsule", "box"});
+  collider.name = names.of(document, at, shape.key);
+  collider.shape = shape_of(shape);
+  set(at, "position", collider.position);
+  set(document, at, "rotation", collider.rotation);
+  set(document, at, "motion", collider.motion);
+  set(at, "thickness", collider.thickness);
+  set_friction(document, at, collider.static_friction, collider.kinetic_friction);
+  set(at, "restitution", collider.restitution);
+  set(at, "colour", collider.colour);
+  return collider;
+}
+
+}  // namespace
+
+SceneFile build(const JsonDocument& document, const MeshFolder& folder) {
+  const JsonValue& root = document.root;
+  SceneFile file;
+  Scene& scene = file.scene;
+  root.find("$schema");  // for editors
+  set(root, "description", file.description);
+  set(root, "gravity", scene.gravity);
+  set(root, "frame_time", scene.frame_time);
+  set(root, "frames", scene.frames);
+  if (const JsonValue* wind = root.find("wind")) scene.wind = wind_of(*wind);
+  if (const JsonValue* settings = root.find("settings")) scene.settings = settings_of(*settings);
+  Names objects, colliders;
+  std::size_t particles = 0;
+  for (const JsonValue& item : elements(root, "objects")) {
+    scene.objects.push_back(object_of(document, item, folder, objects, file.repairs));
+    particles += scene.objects.back().positions.size();
+    if (particles > largest_scene)
+      document.fail(item, "more than " + std::to_string(largest_scene) + " particles so far", "make it smaller");
+  }
+  for (const JsonValue& item : elements(root, "colliders"))
+    scene.colliders.push_back(collider_of(document, item, colliders));
+  return file;
+}
+
+}  // namespace pliant::scene_file

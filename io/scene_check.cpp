@@ -1,0 +1,259 @@
+// The table of scene_grammar against a JSON tree.
+#include "scene_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <initializer_list>
+
+namespace pliant::scene_file {
+
+namespace {
+
+using Json = JsonValue::Kind;
+using Kind = Type::Kind;
+
+std::string words(double value) {
+  char digits[40];
+  std::snprintf(digits, sizeof digits, "%.9g", value);
+  return digits;
+}
+
+std::string joined(const std::vector<std::string>& names, const char* last) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? last : ", ") + ("'" + names[i] + "'");
+  return text;
+}
+
+const char* found(const JsonValue& value) {
+  switch (value.kind) {
+    case Json::null:
+      return "null";
+    case Json::boolean:
+      return value.truth ? "true" : "false";
+    case Json::number:
+      return "a number";
+    case Json::string:
+      return "a string";
+    case Json::array:
+      return "an array";
+    case Json::object:
+      return "an object";
+  }
+  return "something else";
+}
+
+std::string range(const Type& type) {
+  return (type.above_minimum ? "above " : "from ") + words(type.minimum) + (type.above_minimum ? ", up to " : " to ") +
+         words(type.maximum);
+}
+
+std::string expected(const Type& type) {
+  const std::string unit = type.unit.empty() || type.unit == "-" ? "" : " [" + type.unit + "]";
+  switch (type.kind) {
+    case Kind::boolean:
+      return "true or false";
+    case Kind::integer:
+      return "an integer " + range(type);
+    case Kind::number:
+      return "a number " + range(type) + unit;
+    case Kind::string:
+      return "a string";
+    case Kind::choice:
+      return joined(type.choices, " or ");
+    case Kind::vector:
+      return "an array of three numbers" + unit;
+    case Kind::list:
+      return "an array";
+    case Kind::record:
+      return "an object (" + type.record->name + ")";
+    case Kind::any_of:
+      break;
+  }
+  std::string text;
+  for (std::size_t i = 0; i < type.parts.size(); ++i) text += (i == 0 ? "" : ", or ") + expected(type.parts[i]);
+  return text;
+}
+
+bool fits(const Type& type, Json kind) {
+  switch (type.kind) {
+    case Kind::boolean:
+      return kind == Json::boolean;
+    case Kind::integer:
+    case Kind::number:
+      return kind == Json::number;
+    case Kind::string:
+    case Kind::choice:
+      return kind == Json::string;
+    case Kind::vector:
+    case Kind::list:
+      return kind == Json::array;
+    case Kind::record:
+      return kind == Json::object;
+    case Kind::any_of:
+      break;
+  }
+  return std::any_of(type.parts.begin(), type.parts.end(), [&](const Type& part) { return fits(part, kind); });
+}
+
+/// The name most like `wanted`, or nothing where none is near.
+std::string nearest_name(const std::string& wanted, const std::vector<std::string>& names) {
+  if (wanted.size() > 64) return {};
+  std::string best;
+  std::size_t least = std::max<std::size_t>(1, wanted.size() / 3) + 1;
+  for (const std::string& name : names) {
+    const std::size_t distance = edit_distance(wanted, name);
+    if (distance < least) best = name, least = distance;
+  }
+  return best;
+}
+
+class Checker {
+ public:
+  explicit Checker(const JsonDocument& document) : document_(document) {}
+
+  void value(const JsonValue& at, const Type& type) const {
+    if (!fits(type, at.kind)) document_.fail(at, "expected " + expected(type) + ", found " + found(at));
+    switch (type.kind) {
+      case Kind::boolean:
+        return;
+      case Kind::integer:
+      case Kind::number:
+        return number(at, type);
+      case Kind::string:
+        return string(at, type);
+      case Kind::choice:
+        return choice(at, type);
+      case Kind::vector:
+        return vector(at, type);
+      case Kind::list:
+        return list(at, type);
+      case Kind::record:
+        return record(at, *type.record);
+      case Kind::any_of:
+        break;
+    }
+    for (const Type& part : type.parts)
+      if (fits(part, at.kind)) return value(at, part);
+  }
+
+  void record(const JsonValue& at, const Record& record) const {
+    if (at.kind != Json::object) document_.fail(at, "expected an object (" + record.name + "), found " + found(at));
+    for (std::size_t i = 0; i < at.items.size(); ++i) {
+      const JsonValue& member = at.items[i];
+      const Field* field = record.find(member.key);
+      if (field == nullptr) unknown(member, record);
+      for (std::size_t k = 0; k < i;
+           ++k)  // every earlier one is known and unlike the others: no more than there are fields
+        if (at.items[k].key == member.key)
+          document_.fail_key(member, "'" + member.key + "' is there twice", "keep one of the two");
+      value(member, field->type);
+    }
+    presence(at, record);
+  }
+
+ private:
+  void number(const JsonValue& at, const Type& type) const {
+    if (type.kind == Kind::integer && at.number != std::floor(at.number))
+      document_.fail(at, "expected " + expected(type) + ", found " + words(at.number));
+    if (!inside(at.number, type)) document_.fail(at, words(at.number) + " is out of range", "expected " + expected(type));
+  }
+
+  /// What is positive as a double may still be zero as a float, and floats are what is kept.
+  static bool inside(double number, const Type& type) {
+    if (!(number >= type.minimum && number <= type.maximum)) return false;
+    return !type.above_minimum || static_cast<float>(number) > static_cast<float>(type.minimum);
+  }
+
+  void string(const JsonValue& at, const Type& type) const {
+    if (at.text.empty()) document_.fail(at, "this string is empty");
+    const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
+    if (type.single_line && std::any_of(at.text.begin(), at.text.end(), control))
+      document_.fail(at, "this string has control characters in it", "write it in one line");
+  }
+
+  void choice(const JsonValue& at, const Type& type) const {
+    if (std::find(type.choices.begin(), type.choices.end(), at.text) != type.choices.end()) return;
+    const std::string near = nearest_name(at.text, type.choices);
+    document_.fail(at, "there is no '" + printable(at.text) + "' here",
+                   (near.empty() ? "" : "did you mean '" + near + "'? ") + ("expected " + expected(type)));
+  }
+
+  void vector(const JsonValue& at, const Type& type) const {
+    if (at.items.size() != 3)
+      document_.fail(at, "expected " + expected(type) + ", found " + std::to_string(at.items.size()) + " elements");
+    for (const JsonValue& item : at.items) {
+      if (item.kind == Json::number && inside(item.number, type)) continue;
+      Type part = type;
+      part.kind = Kind::number;
+      value(item, part);
+    }
+  }
+
+  void list(const JsonValue& at, const Type& type) const {
+    const std::size_t size = at.items.size();
+    if (size < type.minimum_items || (type.maximum_items > 0 && size > type.maximum_items))
+      document_.fail(at, "expected " + std::string(type.maximum_items > 0 ? "" : "at least ") +
+                             std::to_string(type.minimum_items) + " elements, found " + std::to_string(size));
+    for (const JsonValue& item : at.items) value(item, type.parts.front());
+  }
+
+  void presence(const JsonValue& at, const Record& record) const {
+    const auto there = [&](const std::string& name) {
+      return std::any_of(at.items.begin(), at.items.end(), [&](const JsonValue& item) { return item.key == name; });
+    };
+    for (const Field& field : record.fields)
+      if (field.required && !there(field.name))
+        document_.fail(at, "'" + field.name + "' is missing", "expected " + expected(field.type));
+    const auto given = std::count_if(record.exactly_one.begin(), record.exactly_one.end(), there);
+    if (record.exactly_one.empty() || given == 1) return;
+    document_.fail(at, given == 0 ? "it isn't said what this " + record.name + " is" : "more than one of a kind",
+                   "give exactly one of " + joined(record.exactly_one, " and "));
+  }
+
+  [[noreturn]] void unknown(const JsonValue& member, const Record& record) const {
+    std::vector<std::string> names;
+    for (const Field& field : record.fields) names.push_back(field.name);
+    const std::string near = nearest_name(member.key, names);
+    std::string advice = near.empty() ? "" : "did you mean '" + near + "'?";
+    for (const Record* other : all_records())
+      if (advice.empty() && other->find(member.key) != nullptr) advice = "it belongs into " + other->name;
+    if (advice.empty()) advice = names.empty() ? "nothing is expected here" : "known are " + joined(names, " and ");
+    document_.fail_key(member, "'" + printable(member.key) + "' is unknown in " + record.name, advice);
+  }
+
+  const JsonDocument& document_;
+};
+
+void check_used_below(const JsonDocument& document, const JsonValue& at) {
+  for (const JsonValue& item : at.items) {
+    if (at.kind == Json::object && !item.used)
+      document.fail_key(item, "'" + item.key + "' has no meaning here", "remove it");
+    check_used_below(document, item);
+  }
+}
+
+}  // namespace
+
+void check(const JsonDocument& document, const Record& record) { Checker(document).record(document.root, record); }
+
+void check_all_used(const JsonDocument& document) { check_used_below(document, document.root); }
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);  // rows i - 2, i - 1, i
+  for (std::size_t k = 0; k <= b.size(); ++k) row[k] = k;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    before.swap(last), last.swap(row);
+    row[0] = i;
+    for (std::size_t k = 1; k <= b.size(); ++k) {
+      const std::size_t changed = last[k - 1] + (a[i - 1] == b[k - 1] ? 0 : 1);
+      row[k] = std::min({last[k] + 1, row[k - 1] + 1, changed});
+      const bool swapped = i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1];
+      if (swapped) row[k] = std::min(row[k], before[k - 2] + 1);
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace pliant::scene_file

@@ -1,0 +1,552 @@
+// The table of the scene format. Ranges are wide: they stop what can only be a slip or an attack, not what is unusual.
+#include "scene_grammar.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "pliant/scene.h"
+
+namespace pliant::scene_file {
+
+namespace {
+
+constexpr double largest_velocity = 1e5;   // [m/s]
+constexpr double largest_quantity = 1e30;  // of anything else: products of two still fit a double
+
+// ------------------------------------------------------------------------------------------------ types
+
+Type boolean() { return {}; }
+
+Type integer(double minimum, double maximum) {
+  Type type;
+  type.kind = Type::Kind::integer;
+  type.minimum = minimum, type.maximum = maximum;
+  return type;
+}
+
+Type number(const char* unit, double minimum, double maximum = largest_quantity) {
+  Type type = integer(minimum, maximum);
+  type.kind = Type::Kind::number;
+  type.unit = unit;
+  return type;
+}
+
+Type positive(const char* unit, double maximum = largest_quantity) {
+  Type type = number(unit, 0, maximum);
+  type.above_minimum = true;
+  return type;
+}
+
+Type share() { return number("-", 0, 1); }
+
+Type vector(const char* unit, double minimum, double maximum) {
+  Type type = number(unit, minimum, maximum);
+  type.kind = Type::Kind::vector;
+  return type;
+}
+
+Type vector(const char* unit, double largest) { return vector(unit, -largest, largest); }
+
+Type positive_vector(const char* unit, double maximum) {
+  Type type = vector(unit, 0, maximum);
+  type.above_minimum = true;
+  return type;
+}
+
+Type place() { return vector("m", largest_place); }
+Type colour() { return vector("-", 0, 1); }
+
+Type string() {
+  Type type;
+  type.kind = Type::Kind::string;
+  return type;
+}
+
+Type text() {
+  Type type = string();
+  type.single_line = false;
+  return type;
+}
+
+Type choice(std::vector<std::string> choices, std::string documented = {}) {
+  Type type;
+  type.kind = Type::Kind::choice;
+  type.choices = std::move(choices);
+  type.choices_documented = std::move(documented);
+  return type;
+}
+
+Type list(Type item, std::size_t minimum = 0, std::size_t maximum = 0) {
+  Type type;
+  type.kind = Type::Kind::list;
+  type.minimum_items = minimum, type.maximum_items = maximum;
+  type.parts = {std::move(item)};
+  return type;
+}
+
+Type record(const Record& fields) {
+  Type type;
+  type.kind = Type::Kind::record;
+  type.record = &fields;
+  return type;
+}
+
+Type any_of(std::vector<Type> alternatives) {
+  Type type;
+  type.kind = Type::Kind::any_of;
+  type.parts = std::move(alternatives);
+  return type;
+}
+
+Type particle_index() { return integer(0, 2147483647); }
+
+// ------------------------------------------------------------------------------------------------ defaults, in words
+
+std::string words(float value) {
+  std::array<char, 32> digits{};  // the shortest that reads back as the same float
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+}
+std::string words(int value) { return std::to_string(value); }
+std::string words(bool value) { return value ? "true" : "false"; }
+std::string words(const Vec3f& v) { return "[" + words(v.x) + ", " + words(v.y) + ", " + words(v.z) + "]"; }
+std::string words(const char* value) { return value; }
+
+template <class T>
+Field field(const char* name, Type type, const T& fallback, const char* meaning) {
+  return {name, std::move(type), words(fallback), meaning, false};
+}
+
+Field needed(const char* name, Type type, const char* meaning) { return {name, std::move(type), {}, meaning, true}; }
+
+/// One of a group of which exactly one is given.
+Field either(const char* name, Type type, const char* meaning) { return {name, std::move(type), {}, meaning, false}; }
+
+// ------------------------------------------------------------------------------------------------ what many share
+
+const Record& stiffness_record() {
+  static const Record result{
+      "stiffness",
+      "How strongly constraints are enforced. Prefer `compliance`: it means the same whatever the time step, the substeps "
+      "and "
+      "the iterations.",
+      {either("compliance", number("inverse of stiffness; m/N for a distance", 0),
+              "XPBD: the inverse stiffness alpha in the unit of the constraint's type; 0 is rigid."),
+       either(
+           "stiffness", share(),
+           "PBD: the share k of the error that is removed in a step. The result depends on the time step and the masses."),
+       field("damping", number("N s/m for a distance", 0), Stiffness{}.damping,
+             "XPBD damping beta; only together with `compliance`.")},
+      {"compliance", "stiffness"}};
+  return result;
+}
+
+Type stiffness() { return any_of({choice({"rigid"}), record(stiffness_record())}); }
+
+const Record& rotation_record() {
+  static const Record result{
+      "rotation",
+      "A rotation about an axis.",
+      {needed("axis", vector("-", largest_place), "Direction of the axis; any length but zero."),
+       needed("degrees", number("degree", -1e6, 1e6), "Angle, counter-clockwise seen against the axis.")},
+      {}};
+  return result;
+}
+
+const Record& keyframe_record() {
+  static const Record result{"keyframe",
+                             "A rigid pose at a moment.",
+                             {needed("time", number("s", 0, 1e9), "When; increasing along the motion."),
+                              field("position", place(), Keyframe{}.position, "Translation away from where it is at rest."),
+                              field("rotation", record(rotation_record()), "none", "Rotation about the motion's `pivot`.")},
+                             {}};
+  return result;
+}
+
+const Record& motion_record() {
+  static const Record result{"motion",
+                             "A rigid motion by keyframes, linear between them, held before the first and after the last.",
+                             {needed("keyframes", list(record(keyframe_record()), 1), "The poses."),
+                              field("pivot", place(), Motion{}.pivot, "The point that rotations leave in place."),
+                              field("repeat", boolean(), Motion{}.repeat, "Start again after the last keyframe.")},
+                             {}};
+  return result;
+}
+
+const Record& volume_record() {
+  static const Record result{
+      "volume",
+      "The volume inside a closed surface, held at a pressure: what makes a balloon.",
+      {field("pressure", number("-", 0, 1000), Volume{}.pressure,
+             "Rest volume over the volume of the mesh as given: above 1 inflates, below 1 deflates."),
+       field("stiffness", stiffness(), "\"rigid\"", "Compliance in m^5/N, of six times the volume.")},
+      {}};
+  return result;
+}
+
+// ------------------------------------------------------------------------------------------------ meshes and fabrics
+
+const Record& grid_record() {
+  static const Record result{"grid",
+                             "A flat rectangle in the xz-plane about the origin, facing +y. Vertex (row r, column c) has "
+                             "index r * columns + c; columns "
+                             "run along x, rows along z.",
+                             {needed("columns", integer(2, largest_grid), "Vertices along x."),
+                              needed("rows", integer(2, largest_grid), "Vertices along z."),
+                              needed("width", positive("m", largest_place), "Size along x."),
+                              needed("depth", positive("m", largest_place), "Size along z.")},
+                             {}};
+  return result;
+}
+
+const Record& sphere_mesh_record() {
+  static const Record result{"sphere mesh",
+                             "A closed sphere about the origin: an icosahedron split again and again.",
+                             {needed("subdivisions", integer(0, 7), "How often each triangle is split in four."),
+                              field("radius", positive("m", largest_place), 1.f, "Radius.")},
+                             {}};
+  return result;
+}
+
+const Record& tube_record() {
+  static const Record result{"tube",
+                             "An open tube around the y-axis, its upper rim at y = 0 and its lower one at y = -length: a "
+                             "sleeve, a skirt. Vertex (row r, "
+                             "column c) has index r * columns + c, row 0 being the upper rim.",
+                             {needed("columns", integer(3, largest_grid), "Vertices around."),
+                              needed("rows", integer(2, largest_grid), "Vertices along the length, both rims included."),
+                              needed("length", positive("m", largest_place), "Height."),
+                              needed("top_radius", positive("m", largest_place), "Radius of the upper rim."),
+                              needed("bottom_radius", positive("m", largest_place), "Radius of the lower rim."),
+                              field("folds", integer(0, 256), 0, "Waves around the tube; 0 for none."),
+                              field("fold_depth", number("-", 0, 0.9), 0.f,
+                                    "Height of the waves as a share of the radius at the lower rim; it grows evenly from "
+                                    "nothing at the upper one.")},
+                             {}};
+  return result;
+}
+
+const Record& mesh_record() {
+  static const Record result{
+      "mesh",
+      "Where a surface comes from, and where it is put: scaled, then rotated, then moved. This is also its rest shape.",
+      {either(
+           "file", string(),
+           "Path of an .obj, .ply or .stl file, relative to the folder of the scene. URLs, devices and pipes are refused."),
+       either("grid", record(grid_record()), "A rectangle."),
+       either("sphere", record(sphere_mesh_record()), "A closed sphere."),
+       either("tube", record(tube_record()), "An open tube."),
+       field("scale", any_of({positive("-", 1e6), positive_vector("-", 1e6)}), 1,
+             "Factor, the same along all axes or one each."),
+       field("rotate", record(rotation_record()), "none", "Rotation about the origin."),
+       field("translate", place(), Vec3f{}, "Translation.")},
+      {"file", "grid", "sphere", "tube"}};
+  return result;
+}
+
+std::vector<std::string> fabric_names() {
+  std::vector<std::string> names;
+  for (const Fabric& one : fabrics()) names.push_back(one.name);
+  return names;
+}
+
+const Record& fabric_record() {
+  static const Record result{
+      "fabric",
+      "A fabric in SI units, independent of the mesh. What is left out comes from `base`, and without a base from the "
+      "defaults.",
+      {field("base", choice(fabric_names()), "none", "A built-in fabric to start from."),
+       field("name", string(), "none", "Its name."), field("source", text(), "none", "Where the numbers come from."),
+       field("area_density", positive("kg/m^2"), Fabric{}.area_density, "Mass per area."),
+       field("thickness", positive("m", largest_place), Fabric{}.thickness,
+             "Thickness; also the distance kept from colliders."),
+       field("stretch_stiffness", any_of({choice({"inextensible"}), positive("N/m")}), Fabric{}.stretch_stiffness,
+             "Membrane stiffness: force per width and strain."),
+       field("bending_stiffness", number("N m", 0), Fabric{}.bending_stiffness, "Flexural rigidity per width."),
+       field("bending_damping", share(), Fabric{}.bending_damping, "Fraction of critical damping of bending."),
+       field("static_friction", number("-", 0, 1000), Fabric{}.static_friction, "Coefficient of friction at rest."),
+       field("kinetic_friction", number("-", 0, 1000), "0.3, or the static one where that is less",
+             "Coefficient of friction in motion; at most the static one.")},
+      {}};
+  return result;
+}
+
+// ------------------------------------------------------------------------------------------------ objects
+
+const Record& cloth_record() {
+  static const Record result{
+      "cloth",
+      "A surface that resists stretching and bending; with `volume`, a balloon.",
+      {needed("mesh", record(mesh_record()),
+              "The surface and its rest shape, flat or curved; any edge-manifold triangle mesh."),
+       field("material", any_of({choice(fabric_names()), record(fabric_record())}), "the defaults of fabric",
+             "What it is made of: the name of a built-in fabric, or a fabric."),
+       field("stretch", stiffness(), "from the material", "Of every edge, instead of the material's."),
+       field("bending", stiffness(), "from the material", "Of every inner edge, instead of the material's."),
+       field("bending_model", choice({"none", "dihedral", "isometric"}), "dihedral",
+             "Bending by the angle between triangles, or by the isometric bending energy."),
+       field("volume", record(volume_record()), "none", "Makes it a balloon; the surface must be closed.")},
+      {}};
+  return result;
+}
+
+const Record& line_record() {
+  static const Record result{"line",
+                             "Points in a straight line, evenly spaced.",
+                             {needed("from", place(), "First point."), needed("to", place(), "Last point."),
+                              needed("points", integer(2, 1000000), "How many, both ends included.")},
+                             {}};
+  return result;
+}
+
+const Record& rope_record() {
+  static const Record result{"rope",
+                             "A line of particles at fixed distances.",
+                             {either("points", list(place(), 2), "Where its particles are."),
+                              either("line", record(line_record()), "The same in a straight line."),
+                              field("linear_density", positive("kg/m"), RopeOptions{}.linear_density, "Mass per length."),
+                              field("stretch", stiffness(), "\"rigid\"", "Of the distance between neighbours."),
+                              field("bending", stiffness(), "none", "Of the distance between second neighbours.")},
+                             {"points", "line"}};
+  return result;
+}
+
+std::vector<std::string> constraint_names() {
+  std::vector<std::string> names;
+  for (const ConstraintType& type : constraint_types()) names.push_back(type.name);
+  return names;
+}
+
+const Record& constraint_record() {
+  static const Record result{"constraints",
+                             "Constraints of one type. Any type that the library has can be named; its particles and rest "
+                             "data are in constraints.md.",
+                             {needed("type", choice(constraint_names(), "a type of constraints.md"), "Which."),
+                              needed("particles", list(list(particle_index(), 1)), "The particles of each constraint."),
+                              field("rest", list(list(number("as the type has it", -largest_quantity))),
+                                    "measured from the positions", "The rest data of each constraint."),
+                              field("stiffness", stiffness(), "\"rigid\"", "Of all of them."),
+                              field("compliances", list(number("as the type has it", 0)), "none",
+                                    "One compliance a constraint, instead of the one in `stiffness`.")},
+                             {}};
+  return result;
+}
+
+const Record& particles_record() {
+  static const Record result{
+      "particles",
+      "Anything else: particles with constraints of any type among them.",
+      {needed("positions", list(place(), 1), "Where they are; also the rest shape."),
+       needed("masses", any_of({positive("kg"), list(any_of({positive("kg"), choice({"fixed"})}), 1)}),
+              "One mass for all, or one each; \"fixed\" for a particle that never moves."),
+       field("velocities", list(vector("m/s", largest_velocity)), "at rest", "One each."),
+       field("constraints", list(record(constraint_record())), "none", "What holds them together."),
+       field("triangles", list(list(particle_index(), 3, 3)), "none",
+             "The surface, counter-clockwise seen from outside: for air, volume and pictures."),
+       field("volume", record(volume_record()), "none", "Pressure inside the surface, which must be closed.")},
+      {}};
+  return result;
+}
+
+const Record& box_select_record() {
+  static const Record result{"box of particles",
+                             "The particles inside a box with sides along the axes, its surface included.",
+                             {needed("min", place(), "Corner with the smallest coordinates."),
+                              needed("max", place(), "Corner with the largest coordinates.")},
+                             {}};
+  return result;
+}
+
+const Record& select_record() {
+  static const Record result{"selection",
+                             "Particles chosen by where they are at rest.",
+                             {either("box", record(box_select_record()), "Those inside a box."),
+                              either("nearest", place(), "The one nearest to a point.")},
+                             {"box", "nearest"}};
+  return result;
+}
+
+Type selection() {
+  return any_of({choice({"all", "corners", "ends"}), list(particle_index(), 1), record(select_record())});
+}
+
+constexpr const char* selection_meaning =
+    "Which: indices, a selection, or \"all\", \"corners\" (the four of a grid) or \"ends\" (the first and the last).";
+
+const Record& pin_record() {
+  static const Record result{
+      "pin",
+      "Particles that stay where they are or follow a motion, whatever pulls at them.",
+      {needed("particles", selection(), selection_meaning),
+       field("motion", record(motion_record()), "none", "How they move, from their places at rest.")},
+      {}};
+  return result;
+}
+
+const Record& attachment_record() {
+  static const Record result{"attachment",
+                             "Particles drawn to targets that may move.",
+                             {needed("particles", selection(), selection_meaning),
+                              field("target", place(), "each particle's own place", "Where they are drawn to at time 0."),
+                              field("motion", record(motion_record()), "none", "How the targets move."),
+                              field("stiffness", stiffness(), "\"rigid\"", "Of the bond.")},
+                             {}};
+  return result;
+}
+
+const Record& object_record() {
+  static const Record result{
+      "object",
+      "Something made of particles: a cloth, a rope, or particles as such.",
+      {field("name", string(), "the kind, and a number where that is taken",
+             "A name of its own, used in messages and files."),
+       either("cloth", record(cloth_record()), "A cloth, garment or balloon."),
+       either("rope", record(rope_record()), "A rope."),
+       either("particles", record(particles_record()), "Particles with constraints."),
+       field("velocity", vector("m/s", largest_velocity), Vec3f{}, "Velocity of all its particles at the start."),
+       field("pins", list(record(pin_record())), "none", "Particles whose place is given."),
+       field("attachments", list(record(attachment_record())), "none", "Particles drawn to targets."),
+       field("thickness", number("m", 0, largest_place), "the material's; 0.005 for a rope, else 0.001",
+             "Distance kept from colliders."),
+       field("static_friction", number("-", 0, 1000), "the material's, else 0.4", "Coefficient of friction at rest."),
+       field("kinetic_friction", number("-", 0, 1000), "the material's, else 0.3, or the static one where that is less",
+             "Coefficient of friction in motion; at most the static one."),
+       field("restitution", share(), Object{}.restitution, "Share of the speed kept in a bounce."),
+       field("drag", number("-", 0, 1000), Object{}.drag, "Drag coefficient of a triangle square to the wind."),
+       field("lift", number("-", 0, 1000), Object{}.lift, "Lift coefficient."),
+       field("damping", number("1/s", 0, 1e6), Object{}.damping,
+             "The share of velocity lost in a second is 1 - exp(-damping)."),
+       field("colour", colour(), Object{}.colour, "Linear red, green and blue.")},
+      {"cloth", "rope", "particles"}};
+  return result;
+}
+
+// ------------------------------------------------------------------------------------------------ what they meet
+
+const Record& plane_record() {
+  static const Record result{"plane", "The half-space y <= 0 of its frame is solid.", {}, {}};
+  return result;
+}
+
+const Record& sphere_record() {
+  static const Record result{
+      "sphere", "A ball.", {field("radius", positive("m", largest_place), Sphere{}.radius, "Radius.")}, {}};
+  return result;
+}
+
+const Record& capsule_record() {
+  static const Record result{"capsule",
+                             "A cylinder along the y-axis of its frame with half a ball on either end.",
+                             {field("radius", positive("m", largest_place), Capsule{}.radius, "Radius."),
+                              field("half_length", number("m", 0, largest_place), Capsule{}.half_length,
+                                    "Half the length of the cylinder, without the caps.")},
+                             {}};
+  return result;
+}
+
+const Record& box_record() {
+  static const Record result{
+      "box",
+      "A box about the origin of its frame.",
+      {field("half_extents", positive_vector("m", largest_place), Box{}.half_extents, "Half its sizes.")},
+      {}};
+  return result;
+}
+
+const Record& collider_record() {
+  static const Record result{
+      "collider",
+      "A solid that nothing pushes. It stands still or follows keyframes.",
+      {field("name", string(), "the shape, and a number where that is taken", "A name of its own."),
+       either("plane", record(plane_record()), "A half-space."), either("sphere", record(sphere_record()), "A ball."),
+       either("capsule", record(capsule_record()), "A capsule."), either("box", record(box_record()), "A box."),
+       field("position", place(), Collider{}.position, "Where its frame is."),
+       field("rotation", record(rotation_record()), "none", "How its frame is turned."),
+       field("motion", record(motion_record()), "none", "How it moves from there."),
+       field("thickness", number("m", 0, largest_place), Collider{}.thickness,
+             "Added to the thickness of what touches it."),
+       field("static_friction", number("-", 0, 1000), Collider{}.static_friction,
+             "Coefficient of friction at rest; a pair has the geometric mean of both sides'."),
+       field("kinetic_friction", number("-", 0, 1000), "0.3, or the static one where that is less",
+             "Coefficient of friction in motion; at most the static one."),
+       field("restitution", share(), Collider{}.restitution,
+             "Share of the speed kept in a bounce; a pair has the larger one."),
+       field("colour", colour(), Collider{}.colour, "Linear red, green and blue.")},
+      {"plane", "sphere", "capsule", "box"}};
+  return result;
+}
+
+const Record& wind_record() {
+  static const Record result{
+      "wind",
+      "Moving air that pushes triangles by drag and lift.",
+      {needed("velocity", vector("m/s", largest_velocity), "Mean velocity."),
+       needed("air_density", number("kg/m^3", 0, 1e5), "Density of the air: 1.2 at sea level; 0 means no air at all."),
+       field("gust", share(), Wind{}.gust, "Share by which the wind's strength swings."),
+       field("gust_period", positive("s", 1e6), Wind{}.gust_period, "Period of the gusts.")},
+      {}};
+  return result;
+}
+
+const Record& settings_record() {
+  static const Record result{"settings",
+                             "How the constraints are solved. Only `substeps` and `iterations` change the result.",
+                             {field("substeps", integer(1, 10000), Settings{}.substeps, "Substeps a frame."),
+                              field("iterations", integer(1, 10000), Settings{}.iterations, "Iterations a substep."),
+                              field("threads", integer(0, 1024), Settings{}.threads, "0: as many as the machine has."),
+                              field("sweep", choice({"tiled", "sequential"}), "tiled",
+                                    "`sequential` is the slow, readable reference with the same bits."),
+                              field("measure", boolean(), Settings{}.measure, "Measure residuals and stretch each frame."),
+                              field("record_multipliers", boolean(), Settings{}.record_multipliers,
+                                    "Keep multipliers readable with one iteration too."),
+                              field("isa", choice({"x86-64-v2", "x86-64-v3", "x86-64-v4"}), "the best that the machine has",
+                                    "Forces a code path: the same bits at another speed.")},
+                             {}};
+  return result;
+}
+
+void collect(const Type& type, std::vector<const Record*>& found);
+
+void collect(const Record& record, std::vector<const Record*>& found) {
+  if (std::find(found.begin(), found.end(), &record) != found.end()) return;
+  found.push_back(&record);
+  for (const Field& one : record.fields) collect(one.type, found);
+}
+
+void collect(const Type& type, std::vector<const Record*>& found) {
+  if (type.record != nullptr) collect(*type.record, found);
+  for (const Type& part : type.parts) collect(part, found);
+}
+
+}  // namespace
+
+const Field* Record::find(const std::string& wanted) const {
+  for (const Field& one : fields)
+    if (one.name == wanted) return &one;
+  return nullptr;
+}
+
+const Record& scene_record() {
+  static const Record result{
+      "scene",
+      "The whole file.",
+      {field("$schema", string(), "none", "For editors, which check the file as it is written; Pliant ignores it."),
+       field("description", text(), "none", "What the scene shows; Pliant ignores it."),
+       field("gravity", vector("m/s^2", 1e5), Scene{}.gravity, "Acceleration of everything."),
+       field("wind", record(wind_record()), "no air", "Moving air."),
+       field("frame_time", positive("s", 10), Scene{}.frame_time, "Duration of a frame."),
+       field("frames", integer(0, 10000000), Scene{}.frames, "How many a run lasts unless told otherwise."),
+       field("settings", record(settings_record()), "the defaults", "How it is solved."),
+       needed("objects", list(record(object_record())), "What moves."),
+       field("colliders", list(record(collider_record())), "none", "What it meets.")},
+      {}};
+  return result;
+}
+
+std::vector<const Record*> all_records() {
+  std::vector<const Record*> found;
+  collect(scene_record(), found);
+  return found;
+}
+
+}  // namespace pliant::scene_file

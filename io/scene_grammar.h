@@ -1,0 +1,60 @@
+// What a scene may say, as one table.
+//
+// Checking (scene_check), the JSON Schema and the reference in docs/scene-format.md (scene_schema) are all read off it, so
+// that a field is described in one place: name, type, unit, range, default and meaning. Defaults are written out from the
+// structures of the public headers, where they belong.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pliant::scene_file {
+
+struct Record;
+
+/// The type of a JSON value.
+struct Type {
+  enum class Kind { boolean, integer, number, string, choice, vector, list, record, any_of };
+  Kind kind = Kind::boolean;
+  double minimum = 0, maximum = 0;   ///< of an integer, a number or each part of a vector
+  bool above_minimum = false;        ///< the minimum itself is not allowed
+  std::string unit;                  ///< of a number or vector; "-" for a ratio
+  std::vector<std::string> choices;  ///< of a choice
+  std::string choices_documented;    ///< where these words stand for the list in the reference, which must not grow with it
+  bool single_line = true;           ///< of a string: no control characters
+  std::size_t minimum_items = 0;     ///< of a list
+  std::size_t maximum_items = 0;     ///< of a list; 0: as many as fit
+  const Record* record = nullptr;
+  std::vector<Type> parts;  ///< the item of a list, or the alternatives of any_of, which differ in their kind of JSON value
+};
+
+/// A member of a JSON object.
+struct Field {
+  std::string name;
+  Type type;
+  std::string fallback;  ///< default in words; empty: required, unless in a group `exactly_one`
+  std::string meaning;
+  bool required = false;
+};
+
+/// An object with known members.
+struct Record {
+  std::string name;
+  std::string meaning;
+  std::vector<Field> fields;
+  std::vector<std::string> exactly_one;  ///< names of which one and only one must be there; empty: no such rule
+
+  const Field* find(const std::string& field) const;
+};
+
+/// The record that a whole scene is. It lives as long as the program.
+const Record& scene_record();
+
+/// Every record of the format, the scene first, each before those that it is the first to use.
+std::vector<const Record*> all_records();
+
+constexpr double largest_place = 1e6;   ///< coordinate [m]: there a float still tells 6 cm apart
+constexpr int largest_scene = 1 << 24;  ///< particles; what is more is taken for an attack on the memory
+constexpr int largest_grid = 2048;      ///< vertices along one side of a generated mesh
+
+}  // namespace pliant::scene_file

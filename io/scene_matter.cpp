@@ -1,0 +1,161 @@
+// The three things that an object of a scene may be: cloth, rope, particles.
+#include <algorithm>
+#include <limits>
+
+#include "scene_build.h"
+#include "scene_grammar.h"
+#include "scene_values.h"
+
+namespace pliant::scene_file {
+
+namespace {
+
+ClothOptions cloth_options(const JsonDocument& document, const JsonValue& at, const std::string& name) {
+  ClothOptions options;
+  options.name = name;
+  set(document, at, "material", options.material);
+  if (Stiffness stretch; set(document, at, "stretch", stretch)) options.stretch = stretch;
+  if (Stiffness bending; set(document, at, "bending", bending)) options.bending = bending;
+  set(document, at, "volume", options.volume);
+  std::string model = "dihedral";
+  set(at, "bending_model", model);
+  options.bending_model = model == "none"        ? ClothOptions::Bending::none
+                          : model == "isometric" ? ClothOptions::Bending::isometric
+                                                 : ClothOptions::Bending::dihedral;
+  return options;
+}
+
+BuiltObject cloth_of(const JsonDocument& document, const JsonValue& at, const std::string& name, const MeshFolder& folder,
+                     std::vector<std::string>& repairs) {
+  SceneMesh surface = make_mesh(document, *at.find("mesh"), folder);
+  for (const std::string& repair : surface.repairs) repairs.push_back("object '" + name + "', " + repair);
+  return {make_cloth(surface.mesh, cloth_options(document, at, name)), surface.columns, surface.rows};
+}
+
+std::vector<Vec3f> line_points(const JsonValue& at) {
+  Vec3f from, to;
+  int count = 2;
+  set(at, "from", from);
+  set(at, "to", to);
+  set(at, "points", count);
+  std::vector<Vec3f> points;
+  for (int i = 0; i < count; ++i) {
+    const float share = static_cast<float>(i) / static_cast<float>(count - 1);
+    points.push_back((1 - share) * from + share * to);
+  }
+  return points;
+}
+
+BuiltObject rope_of(const JsonDocument& document, const JsonValue& at, const std::string& name) {
+  RopeOptions options;
+  options.name = name;
+  set(at, "linear_density", options.linear_density);
+  set(document, at, "stretch", options.stretch);
+  options.bends = set(document, at, "bending", options.bending);
+  std::vector<Vec3f> points;
+  for (const JsonValue& point : elements(at, "points")) points.push_back(vector_of(point));
+  if (const JsonValue* line = at.find("line")) points = line_points(*line);
+  return {make_rope(points, options)};
+}
+
+std::vector<float> masses_of(const JsonDocument& document, const JsonValue& at, std::size_t particles) {
+  if (at.kind == JsonValue::Kind::number) return std::vector<float>(particles, static_cast<float>(at.number));
+  if (at.items.size() != particles)
+    document.fail(at, std::to_string(at.items.size()) + " masses for " + std::to_string(particles) + " particles",
+                  "give one number for all, or one each");
+  std::vector<float> masses;
+  for (const JsonValue& item : at.items) {
+    const bool fixed = item.kind == JsonValue::Kind::string;
+    masses.push_back(fixed ? std::numeric_limits<float>::infinity() : static_cast<float>(item.number));
+  }
+  return masses;
+}
+
+int particle_of(const JsonDocument& document, const JsonValue& at, std::size_t particles) {
+  if (at.number < static_cast<double>(particles)) return static_cast<int>(at.number);
+  document.fail(at, "there is no particle " + std::to_string(static_cast<long long>(at.number)),
+                "the object has " + std::to_string(particles) + ", counted from 0");
+}
+
+const ConstraintType& type_named(const std::string& name) {
+  const std::vector<ConstraintType>& types = constraint_types();
+  return *std::find_if(types.begin(), types.end(), [&](const ConstraintType& type) { return type.name == name; });
+}
+
+/// Throws unless a row has as many elements as the constraint's type asks for.
+void check_width(const JsonDocument& document, const JsonValue& row, std::size_t wanted, const std::string& of) {
+  if (row.items.size() == wanted) return;
+  document.fail(row, std::to_string(row.items.size()) + " elements", of + " takes " + std::to_string(wanted));
+}
+
+void check_rows(const JsonDocument& document, const JsonValue& at, std::size_t found, std::size_t wanted) {
+  if (found == wanted) return;
+  document.fail(at, std::to_string(found) + " elements for " + std::to_string(wanted) + " constraints", "give one each");
+}
+
+ConstraintGroup constraints_of(const JsonDocument& document, const JsonValue& at, std::size_t particles) {
+  ConstraintGroup group;
+  set(at, "type", group.type);
+  set(document, at, "stiffness", group.stiffness);
+  const ConstraintType& type = type_named(group.type);
+  const std::vector<JsonValue>& stencils = elements(at, "particles");
+  for (const JsonValue& stencil : stencils) {
+    check_width(document, stencil, static_cast<std::size_t>(type.stencil_size), "a " + type.name + " constraint");
+    for (const JsonValue& item : stencil.items) group.particles.push_back(particle_of(document, item, particles));
+  }
+  if (const JsonValue* rest = at.find("rest")) {
+    check_rows(document, *rest, rest->items.size(), stencils.size());
+    for (const JsonValue& row : rest->items) {
+      check_width(document, row, type.rest_fields.size(), "the rest data of a " + type.name + " constraint");
+      for (const JsonValue& item : row.items) group.rest.push_back(static_cast<float>(item.number));
+    }
+  }
+  if (const JsonValue* compliances = at.find("compliances")) {
+    check_rows(document, *compliances, compliances->items.size(), stencils.size());
+    if (group.stiffness.kind == Stiffness::Kind::pbd)
+      document.fail_key(*compliances, "compliances beside a PBD stiffness", "give one of the two");
+    for (const JsonValue& item : compliances->items) group.compliances.push_back(static_cast<float>(item.number));
+  }
+  return group;
+}
+
+BuiltObject particles_of(const JsonDocument& document, const JsonValue& at, const std::string& name) {
+  Object object;
+  object.name = name;
+  for (const JsonValue& item : elements(at, "positions")) object.positions.push_back(vector_of(item));
+  const std::size_t count = object.positions.size();
+  object.masses = masses_of(document, *at.find("masses"), count);
+  if (const JsonValue* velocities = at.find("velocities")) {
+    if (velocities->items.size() != count)
+      document.fail(*velocities,
+                    std::to_string(velocities->items.size()) + " velocities for " + std::to_string(count) + " particles",
+                    "give one each, or the object's velocity");
+    for (const JsonValue& item : velocities->items) object.velocities.push_back(vector_of(item));
+  }
+  for (const JsonValue& item : elements(at, "constraints"))
+    object.constraints.push_back(constraints_of(document, item, count));
+  for (const JsonValue& item : elements(at, "triangles"))
+    object.triangles.push_back({particle_of(document, item.items[0], count), particle_of(document, item.items[1], count),
+                                particle_of(document, item.items[2], count)});
+  set(document, at, "volume", object.volume);
+  return {std::move(object)};
+}
+
+}  // namespace
+
+BuiltObject build_matter(const JsonDocument& document, const JsonValue& what, const std::string& name,
+                         const MeshFolder& folder, std::vector<std::string>& repairs) {
+  try {
+    if (what.key == "cloth") return cloth_of(document, what, name, folder, repairs);
+    if (what.key == "rope") return rope_of(document, what, name);
+  } catch (const Error& error) {
+    if (!error.where().file.empty()) throw;  // it knows its place: this file, or the mesh's
+    Location place = document.locate(what);
+    place.object = name;
+    if (!error.where().element.empty()) place.element += ", " + error.where().element;
+    throw Error(place, error.problem(), error.advice());
+  }
+  return particles_of(document, what, name);
+}
+
+}  // namespace pliant::scene_file

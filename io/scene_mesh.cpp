@@ -1,0 +1,165 @@
+// Which files a scene may name: regular ones, and in a scene that isn't trusted only those in its own folder, links
+// followed. A scene may come from anywhere; it must not make a program wait at a pipe, read a device, or publish a private
+// file.
+#include "scene_mesh.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <system_error>
+
+#include "pliant/io.h"
+#include "scene_grammar.h"
+#include "scene_values.h"
+
+namespace pliant::scene_file {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_url(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos || colon < 2) return false;
+  const auto of_scheme = [](unsigned char c) { return std::isalnum(c) != 0 || c == '+' || c == '.' || c == '-'; };
+  return std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(colon), of_scheme);
+}
+
+bool leaves_folder(const fs::path& path) {
+  return path.is_absolute() || std::find(path.begin(), path.end(), fs::path("..")) != path.end();
+}
+
+/// Whether `path` with all links followed lies below `folder`.
+bool lies_below(const fs::path& path, const fs::path& folder) {
+  std::error_code no_path, no_folder;
+  const fs::path inner = fs::canonical(path, no_path);
+  const fs::path outer = fs::canonical(folder, no_folder);
+  if (no_path || no_folder) return false;
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+std::string allowed_path(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder) {
+  if (is_url(at.text)) document.fail(at, "this is a URL", "name a file beside the scene");
+  const fs::path home = folder.path.empty() ? fs::path(".") : fs::path(folder.path);
+  const fs::path path = folder.path.empty() ? fs::path(at.text) : home / at.text;
+  const char* advice = "put the mesh into the scene's folder, or allow the scene to read files outside of it";
+  if (!folder.allow_outside && leaves_folder(at.text)) document.fail(at, "this path leaves the scene's folder", advice);
+  std::error_code unknown;
+  const fs::file_status status = fs::status(path, unknown);
+  if (!fs::exists(status))
+    document.fail(at, "there is no file " + printable(path.string()), "the path is relative to the scene");
+  if (!fs::is_regular_file(status))
+    document.fail(at, printable(path.string()) + " is not a regular file", "name a mesh file");
+  if (!folder.allow_outside && !lies_below(path, home)) document.fail(at, "this link leaves the scene's folder", advice);
+  return path.string();
+}
+
+TriangleMesh grid_of(const JsonValue& at, SceneMesh& result) {
+  float width = 0, depth = 0;
+  set(at, "columns", result.columns);
+  set(at, "rows", result.rows);
+  set(at, "width", width);
+  set(at, "depth", depth);
+  return grid_mesh(result.columns, result.rows, width, depth);
+}
+
+TriangleMesh sphere_of(const JsonValue& at) {
+  int subdivisions = 0;
+  float radius = 1;
+  set(at, "subdivisions", subdivisions);
+  set(at, "radius", radius);
+  TriangleMesh mesh = sphere_mesh(subdivisions);
+  for (Vec3f& p : mesh.positions) p = radius * p;
+  return mesh;
+}
+
+TriangleMesh tube_of(const JsonValue& at) {
+  int columns = 0, rows = 0, folds = 0;
+  float length = 0, top_radius = 0, bottom_radius = 0, fold_depth = 0;
+  set(at, "columns", columns);
+  set(at, "rows", rows);
+  set(at, "length", length);
+  set(at, "top_radius", top_radius);
+  set(at, "bottom_radius", bottom_radius);
+  set(at, "folds", folds);
+  set(at, "fold_depth", fold_depth);
+  return tube_mesh(columns, rows, length, top_radius, bottom_radius, folds, fold_depth);
+}
+
+void transform(const JsonDocument& document, const JsonValue& at, TriangleMesh& mesh) {
+  Vec3f scale{1, 1, 1}, translation;
+  if (const JsonValue* value = at.find("scale")) {
+    const float factor = static_cast<float>(value->number);
+    scale = value->kind == JsonValue::Kind::array ? vector_of(*value) : Vec3f{factor, factor, factor};
+  }
+  Quatf turn;
+  const bool turns = set(document, at, "rotate", turn);
+  set(at, "translate", translation);
+  for (Vec3f& p : mesh.positions) {
+    p = {p.x * scale.x, p.y * scale.y, p.z * scale.z};
+    if (turns) p = rotated(turn, p);
+    p += translation;
+  }
+}
+
+void check_places(const JsonDocument& document, const JsonValue& at, const TriangleMesh& mesh) {
+  const auto inside = [](float x) { return x >= -largest_place && x <= largest_place; };  // false for what is no number
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Vec3f& p = mesh.positions[i];
+    if (!inside(p.x) || !inside(p.y) || !inside(p.z))
+      document.fail(at, "vertex " + std::to_string(i) + " lies more than 1000 km from the origin",
+                    "scale or move the mesh");
+  }
+}
+
+}  // namespace
+
+SceneMesh make_mesh(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder) {
+  SceneMesh result;
+  if (const JsonValue* file = at.find("file")) {
+    MeshFile read = read_mesh_file(allowed_path(document, *file, folder));
+    result.mesh = std::move(read.mesh);
+    for (const std::string& repair : read.repairs) result.repairs.push_back(file->text + ": " + repair);
+  }
+  if (const JsonValue* grid = at.find("grid")) result.mesh = grid_of(*grid, result);
+  if (const JsonValue* sphere = at.find("sphere")) result.mesh = sphere_of(*sphere);
+  if (const JsonValue* tube = at.find("tube")) result.mesh = tube_of(*tube);
+  transform(document, at, result.mesh);
+  check_places(document, at, result.mesh);
+  return result;
+}
+
+TriangleMesh tube_mesh(int columns, int rows, float length, float top_radius, float bottom_radius, int folds,
+                       float fold_depth) {
+  TriangleMesh mesh;
+  mesh.positions.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  for (int r = 0; r < rows; ++r) {
+    const float down = static_cast<float>(r) / static_cast<float>(rows - 1);
+    for (int c = 0; c < columns; ++c) {
+      const float turn = 360.f * static_cast<float>(c) / static_cast<float>(columns);
+      // The phase of the waves within one turn, so that large angles lose no digits.
+      const float phase = 360.f * static_cast<float>(c * folds % columns) / static_cast<float>(columns);
+      const float wave = 1 + fold_depth * down * rotated(rotation({0, 1, 0}, phase), {1, 0, 0}).x;
+      const float radius = (top_radius + (bottom_radius - top_radius) * down) * wave;
+      const Vec3f around = rotated(rotation({0, 1, 0}, turn), {radius, 0, 0});
+      mesh.positions.push_back({around.x, -length * down, around.z});
+    }
+  }
+  for (int r = 0; r + 1 < rows; ++r) {
+    for (int c = 0; c < columns; ++c) {
+      const int a = r * columns + c, b = r * columns + (c + 1) % columns;
+      const int below_a = a + columns, below_b = b + columns;
+      // Alternating diagonals, for one direction alone would make the tube twist as it stretches.
+      if ((r + c) % 2 == 0) {
+        mesh.triangles.push_back({a, below_a, below_b});
+        mesh.triangles.push_back({a, below_b, b});
+      } else {
+        mesh.triangles.push_back({a, below_a, b});
+        mesh.triangles.push_back({b, below_a, below_b});
+      }
+    }
+  }
+  return mesh;
+}
+
+}  // namespace pliant::scene_file

@@ -1,0 +1,35 @@
+// Where the surfaces of a scene come from: files that may be read, and generated shapes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pliant/mesh.h"
+#include "scene_json.h"
+
+namespace pliant::scene_file {
+
+/// Where meshes may be looked for.
+struct MeshFolder {
+  std::string path;            ///< of the scene
+  bool allow_outside = false;  ///< whether files elsewhere may be read
+};
+
+/// A surface in its place, with what selections need to know about it.
+struct SceneMesh {
+  TriangleMesh mesh;
+  std::vector<std::string> repairs;
+  int columns = 0, rows = 0;  ///< of a grid, else 0
+};
+
+/// Reads or generates the surface that a checked record "mesh" describes. Throws Error where a path is not allowed, is no
+/// file, can't be read as a mesh, or where a vertex ends up beyond `largest_place`.
+SceneMesh make_mesh(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder);
+
+/// Vertex (row r, column c) of an open tube about the y-axis has index r * columns + c; row 0 is at y = 0, the last one at
+/// y = -length. The radius goes evenly from `top_radius` to `bottom_radius`; `folds` waves around grow evenly to
+/// `fold_depth` times the radius at the bottom. Triangles face outwards.
+TriangleMesh tube_mesh(int columns, int rows, float length, float top_radius, float bottom_radius, int folds,
+                       float fold_depth);
+
+}  // namespace pliant::scene_file

@@ -1,0 +1,58 @@
+// The public functions: text to scene in four steps, each its own file. Parse JSON, check it against the table of fields,
+// build, and refuse what nothing asked for.
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "pliant/io.h"
+#include "scene_build.h"
+#include "scene_check.h"
+#include "scene_grammar.h"
+#include "scene_json.h"
+
+namespace pliant {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+SceneFile scene_from(std::string text, const std::string& name, const scene_file::MeshFolder& folder) {
+  const scene_file::JsonDocument document = scene_file::parse_json(std::move(text), name);
+  scene_file::check(document, scene_file::scene_record());
+  SceneFile file = scene_file::build(document, folder);
+  scene_file::check_all_used(document);
+  return file;
+}
+
+/// The bytes of a regular file: a pipe might never end, a device has no size.
+std::string text_of(const std::string& path) {
+  std::error_code unknown;
+  const fs::file_status status = fs::status(path, unknown);
+  if (!fs::exists(status)) throw Error({path, 0, {}, {}}, "there is no such file");
+  if (!fs::is_regular_file(status)) throw Error({path, 0, {}, {}}, "not a regular file", "name a scene in JSON");
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw Error({path, 0, {}, {}}, "can't be opened", "check its permissions");
+  std::string text;
+  std::string block(1 << 16, '\0');
+  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) || stream.gcount() > 0) {
+    text.append(block, 0, static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > scene_file::largest_text + 3) break;  // parse_json refuses it
+  }
+  if (stream.bad()) throw Error({path, 0, {}, {}}, "can't be read");
+  return text;
+}
+
+}  // namespace
+
+SceneFile read_scene_file(const std::string& path, bool allow_outside) {
+  const std::string folder = fs::path(path).parent_path().string();
+  return scene_from(text_of(path), path, {folder, allow_outside});
+}
+
+Scene read_scene(const std::string& path, bool allow_outside) { return read_scene_file(path, allow_outside).scene; }
+
+Scene parse_scene(const std::string& text, const std::string& name, const std::string& folder, bool allow_outside) {
+  return scene_from(text, name, {folder, allow_outside}).scene;
+}
+
+}  // namespace pliant

@@ -1,0 +1,140 @@
+// See scene_values.h.
+#include "scene_values.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace pliant::scene_file {
+
+Vec3f vector_of(const JsonValue& value) {
+  return {static_cast<float>(value.items[0].number), static_cast<float>(value.items[1].number),
+          static_cast<float>(value.items[2].number)};
+}
+
+bool set(const JsonValue& at, const char* name, bool& target) {
+  const JsonValue* value = at.find(name);
+  if (value != nullptr) target = value->truth;
+  return value != nullptr;
+}
+
+bool set(const JsonValue& at, const char* name, int& target) {
+  const JsonValue* value = at.find(name);
+  if (value != nullptr) target = static_cast<int>(value->number);
+  return value != nullptr;
+}
+
+bool set(const JsonValue& at, const char* name, float& target) {
+  const JsonValue* value = at.find(name);
+  if (value != nullptr) target = static_cast<float>(value->number);
+  return value != nullptr;
+}
+
+bool set(const JsonValue& at, const char* name, std::string& target) {
+  const JsonValue* value = at.find(name);
+  if (value != nullptr) target = value->text;
+  return value != nullptr;
+}
+
+bool set(const JsonValue& at, const char* name, Vec3f& target) {
+  const JsonValue* value = at.find(name);
+  if (value != nullptr) target = vector_of(*value);
+  return value != nullptr;
+}
+
+const std::vector<JsonValue>& elements(const JsonValue& at, const char* name) {
+  static const std::vector<JsonValue> none;
+  const JsonValue* value = at.find(name);
+  return value != nullptr ? value->items : none;
+}
+
+bool set(const JsonDocument& document, const JsonValue& at, const char* name, Quatf& target) {
+  const JsonValue* value = at.find(name);
+  if (value == nullptr) return false;
+  Vec3f axis;
+  float degrees = 0;
+  set(*value, "axis", axis);
+  set(*value, "degrees", degrees);
+  // Scaled to a largest part of 1, for the square of a tiny axis would vanish.
+  const float largest = std::max({axis.x, -axis.x, axis.y, -axis.y, axis.z, -axis.z});
+  if (largest < std::numeric_limits<float>::min())
+    document.fail(*value->find("axis"), "this axis has no direction", "[0, 1, 0] is upright");
+  target = rotation({axis.x / largest, axis.y / largest, axis.z / largest}, degrees);
+  return true;
+}
+
+bool set(const JsonDocument& document, const JsonValue& at, const char* name, Stiffness& target) {
+  const JsonValue* value = at.find(name);
+  if (value == nullptr) return false;
+  target = Stiffness::rigid();
+  if (value->kind == JsonValue::Kind::string) return true;  // "rigid" is the only word that passes the check
+  set(*value, "compliance", target.value);
+  set(*value, "damping", target.damping);
+  if (!set(*value, "stiffness", target.value)) return true;
+  target.kind = Stiffness::Kind::pbd;
+  if (const JsonValue* damping = value->find("damping"))
+    document.fail_key(*damping, "damping goes with compliance, not with a PBD stiffness",
+                      "remove it, or give a compliance instead of the stiffness");
+  return true;
+}
+
+bool set(const JsonDocument& document, const JsonValue& at, const char* name, Motion& target) {
+  const JsonValue* value = at.find(name);
+  if (value == nullptr) return false;
+  for (const JsonValue& item : elements(*value, "keyframes")) {
+    Keyframe keyframe;
+    set(item, "time", keyframe.time);
+    set(item, "position", keyframe.position);
+    set(document, item, "rotation", keyframe.rotation);
+    if (!target.keyframes.empty() && !(keyframe.time > target.keyframes.back().time))
+      document.fail(*item.find("time"), "this time is not after the one before", "keyframes go forward in time");
+    target.keyframes.push_back(keyframe);
+  }
+  set(*value, "pivot", target.pivot);
+  set(*value, "repeat", target.repeat);
+  return true;
+}
+
+bool set(const JsonDocument& document, const JsonValue& at, const char* name, std::optional<Volume>& target) {
+  const JsonValue* value = at.find(name);
+  if (value == nullptr) return false;
+  target.emplace();
+  set(*value, "pressure", target->pressure);
+  set(document, *value, "stiffness", target->stiffness);
+  return true;
+}
+
+bool set(const JsonDocument& document, const JsonValue& at, const char* name, Fabric& target) {
+  const JsonValue* value = at.find(name);
+  if (value == nullptr) return false;
+  if (value->kind == JsonValue::Kind::string) return target = fabric(value->text), true;
+  if (const JsonValue* base = value->find("base")) target = fabric(base->text);
+  set(*value, "name", target.name);
+  set(*value, "source", target.source);
+  set(*value, "area_density", target.area_density);
+  set(*value, "thickness", target.thickness);
+  set(*value, "bending_stiffness", target.bending_stiffness);
+  set(*value, "bending_damping", target.bending_damping);
+  set_friction(document, *value, target.static_friction, target.kinetic_friction);
+  const JsonValue* stretch = value->find("stretch_stiffness");
+  if (stretch == nullptr) return true;
+  const bool inextensible = stretch->kind == JsonValue::Kind::string;
+  target.stretch_stiffness = inextensible ? std::numeric_limits<float>::infinity() : static_cast<float>(stretch->number);
+  return true;
+}
+
+void set_friction(const JsonDocument& document, const JsonValue& at, float& static_friction, float& kinetic_friction) {
+  const bool has_static = set(at, "static_friction", static_friction);
+  if (has_static) kinetic_friction = std::min(kinetic_friction, static_friction);
+  const bool has_kinetic = set(at, "kinetic_friction", kinetic_friction);
+  if (!has_kinetic || kinetic_friction <= static_friction) return;
+  document.fail(*at.find("kinetic_friction"), "kinetic friction is larger than static friction",
+                has_static ? "it is at most as large" : "give static_friction too");
+}
+
+Vec3f rotated(const Quatf& q, const Vec3f& v) {
+  const Vec3f imaginary{q.x, q.y, q.z};
+  const Vec3f half = cross(imaginary, v);
+  return v + 2.f * (q.w * half + cross(imaginary, half));
+}
+
+}  // namespace pliant::scene_file
