@@ -49,6 +49,18 @@ struct CheckOptions {
 /// Says what is wrong or doubtful; 1 where something is wrong.
 int check(const CheckOptions& options);
 
+struct BenchOptions {
+  std::string workload;    ///< empty: all
+  std::string against;     ///< "bullet", or empty
+  std::vector<int> sizes;  ///< empty: 64, 128, 256, 512
+  int frames = 120;        ///< measured, after 20 that are not
+  int threads = 0;         ///< of the run beside that with one thread; 0: all
+  std::string json;        ///< file for the rows as JSON, empty: none
+};
+
+/// Measures and prints a table.
+int bench(const BenchOptions& options);
+
 /// Prints the JSON Schema of the scene format.
 int schema();
 

@@ -71,6 +71,22 @@ void add_check(CLI::App& app, CheckOptions& options, Chosen& chosen) {
   check_app->callback([&] { chosen = [&] { return check(options); }; });
 }
 
+void add_bench(CLI::App& app, BenchOptions& options, Chosen& chosen) {
+  CLI::App* bench_app = app.add_subcommand("bench", "Measure whole frames, beside plain loops and another engine");
+  bench_app->add_option("NAME", options.workload, "the workload, all by default");
+  bench_app->add_option("--against", options.against, "another engine in the same run")->check(CLI::IsMember({"bullet"}));
+  bench_app->add_option("--sizes", options.sizes, "particles along a side, as 64,128")
+      ->delimiter(',')
+      ->check(CLI::Range(2, 4096));
+  bench_app->add_option("--frames", options.frames, "frames measured, after 20 that are not")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  bench_app->add_option("--threads", options.threads, "of the run beside that with one thread; 0: all")
+      ->check(CLI::Range(0, 4096));
+  bench_app->add_option("--json", options.json, "write the rows as JSON");
+  bench_app->callback([&] { chosen = [&] { return bench(options); }; });
+}
+
 int run_guarded(const Chosen& chosen) {
   try {
     return chosen();
@@ -97,9 +113,11 @@ int main(int argc, char** argv) {
   RunOptions run_options;
   RenderOptions render_options;
   CheckOptions check_options;
+  BenchOptions bench_options;
   add_run(app, run_options, chosen);
   add_render(app, render_options, chosen);
   add_check(app, check_options, chosen);
+  add_bench(app, bench_options, chosen);
   app.add_subcommand("schema", "Print the JSON Schema of the scene format")->callback([&] { chosen = schema; });
   app.add_subcommand("version", "Print the version")->callback([&] { chosen = version; });
 
