@@ -91,8 +91,8 @@ struct ClothOptions {
 
 /// Cloth from any edge-manifold triangle mesh; its rest shape is the mesh as given, flat or curved: a distance constraint an
 /// edge, a bending constraint an inner edge, a third of each triangle's mass to each corner. Without overrides the
-/// compliance of an edge is L^2 / (Y (A1 + A2)) (Van Gelder 1998) and that of a hinge (A1 + A2) / (3 |e|^2 B) or, isometric,
-/// 1/B, so that stiffness does not depend on the mesh. Throws Error naming the triangle or edge that can't be cloth.
+/// compliance of an edge is L^2 / (Y (A1 + A2)) (Van Gelder 1998) and that of a hinge (A1 + A2) / (|e|^2 B) or, isometric,
+/// 3/B, so that stiffness does not depend on the mesh. Throws Error naming the triangle or edge that can't be cloth.
 Object make_cloth(const TriangleMesh& mesh, const ClothOptions& options = {});
 
 /// How a line of points becomes a rope.

@@ -195,16 +195,21 @@ double generalised(const Piece& piece, const std::array<int, n>& particles,
   return sum;
 }
 
-/// The discrete shells of Grinspun et al. 2003: energy B/2 . 3 |e|^2 / (A1 + A2) . theta^2.
+/// A third of the energy of Grinspun et al. 2003 and of Bergou et al. 2006, B/2 . 3 |e|^2 / (A1 + A2) . theta^2. Theirs is
+/// right for a sheet that curves alike in all directions, but cloth hardly stretches and so curves in one: rolled up, the
+/// hinges across the roll are bent and those along it are not, and the mean of the squares is three times the square of the
+/// mean. Without the 3 a roll of radius R stores B / (2 R^2) an area, which is what flexural rigidity means.
+constexpr double share_of_rolled_sheet = 3;
+
 HingeProperties dihedral_properties(const Piece& piece, const Edge& edge, const std::array<int, 4>& v) {
   const Vec3d x[4] = {piece.at(v[0]), piece.at(v[1]), piece.at(v[2]), piece.at(v[3])};
   Vec3d gradient[4];
   DihedralBending::evaluate(x, DihedralBending::Params<double>{0}, gradient);
-  const double compliance =
-      piece.area_at(edge) / (3 * length_squared(x[1] - x[0]) * piece.options.material.bending_stiffness);
-  return {compliance, generalised<4>(piece, v,
-                                     {length_squared(gradient[0]), length_squared(gradient[1]), length_squared(gradient[2]),
-                                      length_squared(gradient[3])})};
+  const double stiffness = piece.options.material.bending_stiffness / share_of_rolled_sheet;
+  return {piece.area_at(edge) / (3 * length_squared(x[1] - x[0]) * stiffness),
+          generalised<4>(piece, v,
+                         {length_squared(gradient[0]), length_squared(gradient[1]), length_squared(gradient[2]),
+                          length_squared(gradient[3])})};
 }
 
 /// Its gradients are the coefficients of the rest shape times one direction, so their lengths never change.
@@ -212,7 +217,7 @@ HingeProperties isometric_properties(const Piece& piece, const std::array<int, 4
   const Vec3d x[4] = {piece.at(v[0]), piece.at(v[1]), piece.at(v[2]), piece.at(v[3])};
   const auto k = IsometricBending::measure(x);
   const double k0 = k.k1 + k.k2 + k.k3;
-  return {1 / static_cast<double>(piece.options.material.bending_stiffness),
+  return {share_of_rolled_sheet / piece.options.material.bending_stiffness,
           generalised<4>(piece, v, {k0 * k0, k.k1 * k.k1, k.k2 * k.k2, k.k3 * k.k3})};
 }
 

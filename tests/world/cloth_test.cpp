@@ -148,6 +148,36 @@ TEST(Cloth, EquilateralSheetHasTheYoungsModulusAskedFor) {
   EXPECT_NEAR(energy<Distance>(cloth, cloth.constraints[0], pulled) / (s * s * 12000 / 2 * area_of(mesh)), 1, 1e-3);
 }
 
+/// The energy an area of a sheet rolled to radius 1 m about an axis at `degrees` to the z-axis, as a share of B / 2.
+template <class Type>
+double rolled_energy(const TriangleMesh& mesh, ClothOptions::Bending model, double degrees) {
+  ClothOptions options = with_material(fabric("wool"));
+  options.bending_model = model;
+  const Object cloth = make_cloth(mesh, options);
+  const double cosine = std::cos(degrees * 0.017453292519943295), sine = std::sin(degrees * 0.017453292519943295);
+  const auto rolled = moved(cloth, [&](const Vec3d& p) {
+    const double around = cosine * p.x + sine * p.z, along = cosine * p.z - sine * p.x, away = std::sin(around);
+    return Vec3d{cosine * away - sine * along, 1 - std::cos(around), sine * away + cosine * along};
+  });
+  return energy<Type>(cloth, cloth.constraints[1], rolled) / (0.5 * 1.2e-5 * area_of(mesh));
+}
+
+TEST(Cloth, RolledSheetStoresWhatItsFlexuralRigiditySays) {
+  // Half of the border's hinges are missing, hence up to 2 % less. A lattice of equilateral triangles has no grain; a grid
+  // rolled along its sides or its diagonals is exact too.
+  using Bending = ClothOptions::Bending;
+  for (double degrees : {0., 20., 45., 70., 90.}) {
+    const TriangleMesh sheet = equilateral_sheet(80, 80, 0.01f);
+    EXPECT_NEAR(rolled_energy<DihedralBending>(sheet, Bending::dihedral, degrees), 1, 0.02) << degrees;
+    EXPECT_NEAR(rolled_energy<IsometricBending>(sheet, Bending::isometric, degrees), 1, 0.02) << degrees;
+  }
+  for (int columns : {51, 101}) {
+    const TriangleMesh grid = grid_mesh(columns, columns, 1, 1);
+    EXPECT_NEAR(rolled_energy<DihedralBending>(grid, Bending::dihedral, 0), 1, 0.025);
+    EXPECT_NEAR(rolled_energy<IsometricBending>(grid, Bending::isometric, 90), 1, 0.025);
+  }
+}
+
 TEST(Cloth, InfiniteStretchStiffnessIsRigidAndOverridesWin) {
   ClothOptions options;
   options.material.stretch_stiffness = infinity;
