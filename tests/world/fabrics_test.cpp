@@ -1,0 +1,83 @@
+// The fabrics: their table in docs/materials.md says what the code says, and the numbers are physically possible.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "pliant/error.h"
+#include "pliant/material.h"
+
+namespace pliant {
+namespace {
+
+std::string table_row(const Fabric& f) {
+  char text[256];
+  std::snprintf(text, sizeof text, "| %s | %g | %g | %g | %g | %g | %g | %g |", f.name.c_str(), double{f.area_density},
+                1000 * double{f.thickness}, double{f.stretch_stiffness}, double{f.bending_stiffness},
+                double{f.bending_damping}, double{f.static_friction}, double{f.kinetic_friction});
+  return text;
+}
+
+/// What docs/materials.md must hold; printed where it does not, to be copied.
+std::string table() {
+  std::string rows =
+      "| name | kg/m^2 | thickness, mm | Y, N/m | B, N m | damping | static friction | kinetic friction |\n"
+      "|---|---|---|---|---|---|---|---|\n";
+  for (const Fabric& f : fabrics()) rows += table_row(f) + "\n";
+  return rows;
+}
+
+TEST(Fabrics, DocumentedTableIsTheTruth) {
+  std::ifstream file(PLIANT_SOURCE_DIR "/docs/materials.md");
+  ASSERT_TRUE(file) << "docs/materials.md is missing";
+  std::stringstream text;
+  text << file.rdbuf();
+  EXPECT_NE(text.str().find(table()), std::string::npos) << "docs/materials.md should hold\n" << table();
+  for (const Fabric& f : fabrics()) {
+    const std::string line = "- **" + f.name + "**: " + f.source + "\n";
+    EXPECT_NE(text.str().find(line), std::string::npos) << "docs/materials.md should hold\n" << line;
+  }
+}
+
+TEST(Fabrics, AllThatWerePromisedAreThere) {
+  std::set<std::string> names;
+  for (const Fabric& f : fabrics()) names.insert(f.name);
+  for (const char* name : {"cotton", "silk", "denim", "wool", "leather", "rubber sheet"}) {
+    EXPECT_EQ(fabric(name).name, name);
+    names.erase(name);
+  }
+  EXPECT_TRUE(names.empty());
+}
+
+TEST(Fabrics, NumbersArePossible) {
+  for (const Fabric& f : fabrics()) {
+    EXPECT_FALSE(f.source.empty());
+    EXPECT_GT(f.area_density / f.thickness, 100) << f.name;   // kg/m^3: airy
+    EXPECT_LT(f.area_density / f.thickness, 1600) << f.name;  // cellulose without air
+    EXPECT_LE(f.kinetic_friction, f.static_friction) << f.name;
+    // Yarns that slide make a sheet softer in bending than the same stuff in one piece, never stiffer.
+    EXPECT_LE(f.bending_stiffness, f.stretch_stiffness * f.thickness * f.thickness / 9 * 1.0001f) << f.name;
+    EXPECT_GT(f.bending_stiffness, 0) << f.name;
+  }
+}
+
+TEST(Fabrics, RubberIsAHomogeneousSheet) {
+  const Fabric& rubber = fabric("rubber sheet");
+  EXPECT_FLOAT_EQ(rubber.stretch_stiffness, 1500);
+  EXPECT_FLOAT_EQ(rubber.bending_stiffness, 1.5e6f * 1e-9f / 9);
+}
+
+TEST(Fabrics, UnknownNameListsTheOthers) {
+  try {
+    fabric("chainmail");
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(error.problem().find("chainmail"), std::string::npos);
+    EXPECT_NE(error.advice().find("denim"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace pliant
