@@ -3,10 +3,16 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-get_property(PLIANT_INSTALLED_LIBRARIES GLOBAL PROPERTY PLIANT_LIBRARIES)
-foreach(library ${PLIANT_INSTALLED_LIBRARIES})
-  string(REGEX REPLACE "^pliant_" "" short_name ${library})
-  set_target_properties(${library} PROPERTIES EXPORT_NAME ${short_name})
+# The core and the files; what belongs to the programs of apps/ stays here.
+get_property(folders GLOBAL PROPERTY PLIANT_LIBRARIES)
+set(PLIANT_INSTALLED_LIBRARIES "")
+foreach(library ${folders})
+  get_target_property(folder ${library} SOURCE_DIR)
+  if(folder MATCHES "^${PROJECT_SOURCE_DIR}/(src|io)")
+    string(REGEX REPLACE "^pliant_" "" short_name ${library})
+    set_target_properties(${library} PROPERTIES EXPORT_NAME ${short_name})
+    list(APPEND PLIANT_INSTALLED_LIBRARIES ${library})
+  endif()
 endforeach()
 
 # The one name that users link.

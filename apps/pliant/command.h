@@ -49,6 +49,16 @@ struct CheckOptions {
 /// Says what is wrong or doubtful; 1 where something is wrong.
 int check(const CheckOptions& options);
 
+struct ValidateOptions {
+  std::string group;  ///< empty: all
+  bool slow = false;  ///< also what takes minutes
+  std::string json;   ///< file for the rows as JSON, empty: none; "-": standard output instead of the table
+  std::string plot;   ///< PNG file for the curves, empty: none
+};
+
+/// Compares with known answers and prints a table; throws Error where a row fails.
+int validate(const ValidateOptions& options);
+
 struct BenchOptions {
   std::string workload;    ///< empty: all
   std::string against;     ///< "bullet", or empty

@@ -71,6 +71,17 @@ void add_check(CLI::App& app, CheckOptions& options, Chosen& chosen) {
   check_app->callback([&] { chosen = [&] { return check(options); }; });
 }
 
+void add_validate(CLI::App& app, ValidateOptions& options, Chosen& chosen) {
+  CLI::App* validate_app = app.add_subcommand("validate", "Compare with known answers of mechanics");
+  validate_app->add_option("NAME", options.group, "the group of answers, all by default");
+  validate_app->add_flag("--slow", options.slow, "also what takes minutes");
+  validate_app->add_option("--json", options.json, "write the rows as JSON; without a file in place of the table")
+      ->expected(0, 1)
+      ->default_str("-");
+  validate_app->add_option("--plot", options.plot, "draw the curves as a picture (.png)");
+  validate_app->callback([&] { chosen = [&] { return validate(options); }; });
+}
+
 void add_bench(CLI::App& app, BenchOptions& options, Chosen& chosen) {
   CLI::App* bench_app = app.add_subcommand("bench", "Measure whole frames, beside plain loops and another engine");
   bench_app->add_option("NAME", options.workload, "the workload, all by default");
@@ -113,10 +124,12 @@ int main(int argc, char** argv) {
   RunOptions run_options;
   RenderOptions render_options;
   CheckOptions check_options;
+  ValidateOptions validate_options;
   BenchOptions bench_options;
   add_run(app, run_options, chosen);
   add_render(app, render_options, chosen);
   add_check(app, check_options, chosen);
+  add_validate(app, validate_options, chosen);
   add_bench(app, bench_options, chosen);
   app.add_subcommand("schema", "Print the JSON Schema of the scene format")->callback([&] { chosen = schema; });
   app.add_subcommand("version", "Print the version")->callback([&] { chosen = version; });
