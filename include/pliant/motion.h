@@ -24,7 +24,8 @@ struct Motion {
   bool moves() const { return !keyframes.empty(); }
 };
 
-/// The rotation by `degrees` about `axis` (any length but zero), in the same bits on every machine.
+/// The rotation by `degrees` about `axis` (any length but zero), in the same bits on every machine. Throws Error where the axis
+/// has no direction or a number is not finite.
 Quatf rotation(const Vec3f& axis, float degrees);
 
 }  // namespace pliant

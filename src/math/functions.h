@@ -105,26 +105,44 @@ struct SineCosine {
   double sine, cosine;
 };
 
+namespace detail {
+
+/// Of r radians, |r| <= 0.8, by Taylor's series: the first terms left out, r^19/19! and r^18/18!, are below 1e-17.
+PLIANT_HD SineCosine sine_cosine_near_zero(double r) {
+  const double z = r * r, z2 = z * z, z4 = z2 * z2;
+  const double s =
+      ((-1.0 / 6 + z * (1.0 / 120)) + z2 * (-1.0 / 5040 + z * (1.0 / 362880))) +
+      z4 * ((-1.0 / 39916800 + z * (1.0 / 6227020800)) + z2 * (-1.0 / 1307674368000 + z * (1.0 / 355687428096000)));
+  const double c = ((1.0 / 24 + z * (-1.0 / 720)) + z2 * (1.0 / 40320 + z * (-1.0 / 3628800))) +
+                   z4 * ((1.0 / 479001600 + z * (-1.0 / 87178291200)) + z2 * (1.0 / 20922789888000));
+  return {r + r * (z * s), (1 - 0.5 * z) + z2 * c};
+}
+
+/// The sine and cosine of an angle larger by `quarters` right angles (a whole number).
+PLIANT_HD SineCosine turned(const SineCosine& of, double quarters) {
+  const double quadrant = quarters - 4 * __builtin_floor(quarters * 0.25);
+  const bool swapped = quadrant == 1 || quadrant == 3;
+  const double first = swapped ? of.cosine : of.sine, second = swapped ? of.sine : of.cosine;
+  return {quadrant >= 2 ? -first : first, quadrant == 1 || quadrant == 2 ? -second : second};
+}
+
+}  // namespace detail
+
 /// Both at once, x in radians: within 3 units in the last place up to |x| = 1.6e6, then as if x were off by 2^-51 |x|,
 /// always in
 /// [-1, 1]; NaN where x is not finite.
 PLIANT_HD SineCosine sine_cosine(double x) {
   // x = k pi/2 + r, |r| <= pi/4. The first two parts of pi/2 have 33 bits, so that k times them is exact (Cody and Waite).
   const double k = __builtin_floor(x * 0.6366197723675814 + 0.5);
-  const double reduced = ((x - k * 0x1.921fb544p+0) - k * 0x1.0b4611a6p-34) - k * 0x1.3198a2e037073p-69;
-  const double r = select(abs(reduced) > 0.8, 0.0, reduced);  // reached only where k is too large for the parts to help
-  const double z = r * r, z2 = z * z, z4 = z2 * z2;
-  // Taylor's series: the first terms left out, r^19/19! and r^18/18!, are below 1e-17.
-  const double s =
-      ((-1.0 / 6 + z * (1.0 / 120)) + z2 * (-1.0 / 5040 + z * (1.0 / 362880))) +
-      z4 * ((-1.0 / 39916800 + z * (1.0 / 6227020800)) + z2 * (-1.0 / 1307674368000 + z * (1.0 / 355687428096000)));
-  const double c = ((1.0 / 24 + z * (-1.0 / 720)) + z2 * (1.0 / 40320 + z * (-1.0 / 3628800))) +
-                   z4 * ((1.0 / 479001600 + z * (-1.0 / 87178291200)) + z2 * (1.0 / 20922789888000));
-  const double sine = r + r * (z * s), cosine = (1 - 0.5 * z) + z2 * c;
-  const double quadrant = k - 4 * __builtin_floor(k * 0.25);
-  const bool swapped = quadrant == 1 || quadrant == 3;
-  const double first = swapped ? cosine : sine, second = swapped ? sine : cosine;
-  return {quadrant >= 2 ? -first : first, quadrant == 1 || quadrant == 2 ? -second : second};
+  const double r = ((x - k * 0x1.921fb544p+0) - k * 0x1.0b4611a6p-34) - k * 0x1.3198a2e037073p-69;
+  // The 0 is reached only where k is too large for the parts to help.
+  return detail::turned(detail::sine_cosine_near_zero(select(abs(r) > 0.8, 0.0, r)), k);
+}
+
+/// The same of an angle in degrees: exact at whole right angles.
+PLIANT_HD SineCosine sine_cosine_of_degrees(double degrees) {
+  const double k = __builtin_floor(degrees * (1.0 / 90) + 0.5);
+  return detail::turned(detail::sine_cosine_near_zero((degrees - 90 * k) * 0.017453292519943295), k);
 }
 
 PLIANT_HD double sin(double x) { return sine_cosine(x).sine; }

@@ -205,6 +205,23 @@ TEST(SineCosine, StayInRangeForEveryFiniteNumber) {
   }
 }
 
+TEST(SineCosine, OfDegreesAreExactAtRightAngles) {
+  for (int turns = -3; turns <= 3; ++turns) {
+    const double whole = 360.0 * turns;
+    const double expected[4][2] = {{0, 1}, {1, 0}, {0, -1}, {-1, 0}};
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      const SineCosine of = sine_cosine_of_degrees(whole + 90 * quarter);
+      EXPECT_EQ(of.sine, expected[quarter][0]);
+      EXPECT_EQ(of.cosine, expected[quarter][1]);
+    }
+  }
+  for (double degrees = -1000; degrees < 1000; degrees += 0.37) {
+    const long double x = static_cast<long double>(degrees) * std::acos(-1.0L) / 180;
+    EXPECT_NEAR(sine_cosine_of_degrees(degrees).sine, static_cast<double>(std::sin(x)), 3e-16) << degrees;
+    EXPECT_NEAR(sine_cosine_of_degrees(degrees).cosine, static_cast<double>(std::cos(x)), 3e-16) << degrees;
+  }
+}
+
 TEST(Exp, IsWithinTwoUlp) {
   Worst worst, shifted;
   for (int i = -200000; i <= 200000; ++i) {

@@ -1,0 +1,56 @@
+// Keyframes searched and interpolated, and the public way to write a rotation. In .cpp since no device evaluates a motion:
+// the few poses of a substep are made once and handed on.
+#include "math/motion.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "pliant/error.h"
+
+namespace pliant {
+namespace {
+
+/// The time within the keyframes that stands for `time`.
+double time_in_cycle(const Motion& motion, double time) {
+  const double first = motion.keyframes.front().time, last = motion.keyframes.back().time;
+  const double period = last - first;
+  if (!motion.repeat || !(period > 0) || !(time > last)) return time;
+  return time - period * __builtin_floor((time - first) / period);
+}
+
+Quatd rotation_of(const Keyframe& key) { return normalise(convert<double>(key.rotation)); }
+
+/// The pose without the pivot: translation and rotation of the two keyframes about `time`.
+Posed interpolated(const std::vector<Keyframe>& keys, double time) {
+  const auto after =
+      std::upper_bound(keys.begin(), keys.end(), time, [](double t, const Keyframe& key) { return t < key.time; });
+  if (after == keys.begin()) return {convert<double>(keys.front().position), rotation_of(keys.front())};
+  const Keyframe& before = *(after - 1);
+  if (after == keys.end()) return {convert<double>(before.position), rotation_of(before)};
+  const double from = before.time, share = clamp((time - from) / (after->time - from), 0.0, 1.0);
+  const Vec3d start = convert<double>(before.position), end = convert<double>(after->position);
+  return {start + (end - start) * share, slerp(rotation_of(before), rotation_of(*after), share)};
+}
+
+}  // namespace
+
+Posed pose_at(const Motion& motion, double time) {
+  if (motion.keyframes.empty()) return {};
+  Posed pose = interpolated(motion.keyframes, time_in_cycle(motion, time));
+  const Vec3d pivot = convert<double>(motion.pivot);
+  pose.position += pivot - rotate(pose.rotation, pivot);
+  return pose;
+}
+
+Quatf rotation(const Vec3f& axis, float degrees) {
+  const Vec3d direction = convert<double>(axis);
+  const double size = length(direction);
+  if (!(size > 0 && size < 1e300))
+    throw Error({}, "the axis of a rotation has no direction", "give one of finite length > 0");
+  if (!(abs(degrees) < 1e30f)) throw Error({}, "the angle of a rotation is not a number of degrees", "give a finite one");
+  const SineCosine half = sine_cosine_of_degrees(0.5 * static_cast<double>(degrees));
+  const Vec3d imaginary = direction * (half.sine / size);
+  return convert<float>(Quatd{imaginary.x, imaginary.y, imaginary.z, half.cosine});
+}
+
+}  // namespace pliant
