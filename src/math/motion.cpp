@@ -27,7 +27,7 @@ Posed interpolated(const std::vector<Keyframe>& keys, double time) {
   if (after == keys.begin()) return {convert<double>(keys.front().position), rotation_of(keys.front())};
   const Keyframe& before = *(after - 1);
   if (after == keys.end()) return {convert<double>(before.position), rotation_of(before)};
-  const double from = before.time, share = clamp((time - from) / (after->time - from), 0.0, 1.0);
+  const double from = before.time, share = (time - from) / (after->time - from);  // from <= time < after->time
   const Vec3d start = convert<double>(before.position), end = convert<double>(after->position);
   return {start + (end - start) * share, slerp(rotation_of(before), rotation_of(*after), share)};
 }

@@ -11,7 +11,8 @@ namespace pliant {
 
 /// The rigid transform of `motion` at `time` [s]: translations linear and rotations at even angular speed along the shorter
 /// arc between keyframes, held before the first and after the last, or begun again there where it repeats. The identity
-/// without keyframes. Times are taken to increase; whatever they are, the answer is some pose.
+/// without keyframes. Keyframes are finite and their times increase, which a World checks; in any other order some pose
+/// results.
 Posed pose_at(const Motion& motion, double time);
 
 /// A point that `pose` carries along, from its place at rest.
