@@ -1,0 +1,134 @@
+// One hash a scene, whatever runs it: threads, lanes, sweep, compiler, build type. The hashes are kept in hashes.txt; every
+// build of every compiler compares itself with them, so that they compare the builds with one another.
+//
+// A change of a hash is a decision: PLIANT_UPDATE_GOLDEN=1 writes hashes.txt anew, and the commit says why.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "pliant/pliant.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const hash_file = PLIANT_SOURCE_DIR "/tests/golden/hashes.txt";
+
+bool updating() { return std::getenv("PLIANT_UPDATE_GOLDEN") != nullptr; }
+
+/// Long enough for what falls to land: the bits of a frame depend on all before it.
+constexpr int golden_frames = 40;
+
+/// PLIANT_THOROUGH=1 runs everything three times, in case threads give the same bits only mostly.
+int repetitions() { return std::getenv("PLIANT_THOROUGH") != nullptr ? 3 : 1; }
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(PLIANT_SOURCE_DIR "/scenes")) {
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::map<std::string, std::string> read_hashes() {
+  std::map<std::string, std::string> hashes;
+  std::ifstream file(hash_file);
+  std::string name, hash;
+  while (file >> name >> hash) hashes[name] = hash;
+  return hashes;
+}
+
+std::string run(const pliant::Scene& scene, const pliant::Settings& settings) {
+  pliant::World world(scene, settings);
+  for (int frame = 0; frame < golden_frames; ++frame) {
+    const pliant::Report report = world.step(scene.frame_time);
+    if (!report.ok()) return report.explain();
+  }
+  return world.state_hash();
+}
+
+class Golden : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    scene_ = pliant::read_scene(PLIANT_SOURCE_DIR "/scenes/" + GetParam() + ".json");
+    golden_ = updating() ? run(scene_, scene_.settings) : read_hashes()[GetParam()];
+  }
+  /// The golden hash, or why there is none.
+  std::string hash_with(int threads, const std::string& isa = {}, pliant::Sweep sweep = pliant::Sweep::tiled) const {
+    pliant::Settings settings = scene_.settings;
+    settings.threads = threads;
+    settings.isa = isa;
+    settings.sweep = sweep;
+    return run(scene_, settings);
+  }
+
+  pliant::Scene scene_;
+  std::string golden_;
+};
+
+TEST_P(Golden, OnAnyNumberOfThreads) {
+  for (const int threads : {1, 2, 3, 4, 8}) {
+    for (int again = 0; again < repetitions(); ++again) {
+      EXPECT_EQ(hash_with(threads), golden_) << threads << " threads, run " << again;
+    }
+  }
+}
+
+TEST_P(Golden, OnAnyInstructionSet) {
+  int tried = 0;
+  for (const char* isa : {"x86-64-v2", "x86-64-v3", "x86-64-v4"}) {
+    try {
+      EXPECT_EQ(hash_with(2, isa), golden_) << isa;
+      ++tried;
+    } catch (const pliant::Error& error) {
+      RecordProperty(isa, error.what());  // this machine does not have it
+    }
+  }
+  EXPECT_GE(tried, 1);
+}
+
+TEST_P(Golden, InTheReferenceSweep) { EXPECT_EQ(hash_with(1, {}, pliant::Sweep::sequential), golden_); }
+
+TEST_P(Golden, AfterARestore) {
+  pliant::World world(scene_);
+  for (int frame = 0; frame < golden_frames / 2; ++frame) (void)world.step(scene_.frame_time);
+  const pliant::State middle = world.state();
+  for (int frame = 0; frame < 2; ++frame) (void)world.step(scene_.frame_time);
+  world.restore(middle);
+  for (int frame = golden_frames / 2; frame < golden_frames; ++frame) (void)world.step(scene_.frame_time);
+  EXPECT_EQ(world.state_hash(), golden_);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Golden, testing::ValuesIn(scene_names()), [](const auto& scene) {
+  std::string name = scene.param;
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+  return name;
+});
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Golden);
+
+TEST(GoldenFile, HoldsEverySceneAndNoOther) {
+  const std::vector<std::string> names = scene_names();
+  if (updating()) {
+    std::ofstream file(hash_file);
+    for (const std::string& name : names) {
+      const pliant::Scene scene = pliant::read_scene(PLIANT_SOURCE_DIR "/scenes/" + name + ".json");
+      file << name << " " << run(scene, scene.settings) << "\n";
+    }
+  }
+  std::vector<std::string> listed;
+  for (const auto& [name, hash] : read_hashes()) {
+    listed.push_back(name);
+    EXPECT_EQ(hash.size(), 64u) << name;
+  }
+  EXPECT_EQ(listed, names);
+}
+
+}  // namespace
