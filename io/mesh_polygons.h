@@ -32,7 +32,8 @@ PolygonMesh parse_obj(std::string_view bytes, const std::string& name);
 PolygonMesh parse_ply(std::string_view bytes, const std::string& name);
 PolygonMesh parse_stl(std::string_view bytes, const std::string& name);
 
-/// Cuts all polygons into triangles, n - 2 for n corners, and says in `notes` where that was doubtful. Throws Error for a
+/// Cuts all polygons into triangles, n - 2 for n corners, and says in `notes` where that was doubtful; a polygon that goes
+/// round several times counts once. Throws Error for a
 /// concave polygon of more corners than can be cut up in reasonable time.
 std::vector<std::array<int, 3>> triangulate(const PolygonMesh& mesh, const std::string& name,
                                             std::vector<std::string>& notes);

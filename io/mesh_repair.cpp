@@ -134,8 +134,8 @@ struct Side {
   std::pair<int, int> after, before;
 };
 
-/// Vertices (as merged) at edges that merging would make branch.
-std::vector<bool> find_branching(const std::vector<Triangle>& triangles, const std::vector<int>& merged) {
+/// The sides of all triangles that merging leaves, sorted by where they come to lie.
+std::vector<Side> find_sides(const std::vector<Triangle>& triangles, const std::vector<int>& merged) {
   std::vector<Triangle> welded = triangles;
   for (Triangle& t : welded) t = {merged[index(t[0])], merged[index(t[1])], merged[index(t[2])]};
   const std::vector<bool> repeated = find_repeated(welded);
@@ -147,14 +147,35 @@ std::vector<bool> find_branching(const std::vector<Triangle>& triangles, const s
           {std::minmax({welded[i][k], welded[i][(k + 1) % 3]}), std::minmax({triangles[i][k], triangles[i][(k + 1) % 3]})});
   std::sort(sides.begin(), sides.end(),
             [](const Side& a, const Side& b) { return std::tie(a.after, a.before) < std::tie(b.after, b.before); });
+  return sides;
+}
 
-  std::vector<bool> branching(merged.size(), false);
+/// Calls visit(a, b, count, joined_anew) for each edge a-b of the merged mesh: how many triangles it has, and whether it
+/// comes of several edges.
+template <class Visit>
+void for_each_edge(const std::vector<Side>& sides, const Visit& visit) {
   for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
     while (end < sides.size() && sides[end].after == sides[begin].after) ++end;
-    const bool joined_anew = sides[begin].before != sides[end - 1].before;
-    if (end - begin > 2 && joined_anew)
-      branching[index(sides[begin].after.first)] = branching[index(sides[begin].after.second)] = true;
+    visit(index(sides[begin].after.first), index(sides[begin].after.second), end - begin,
+          sides[begin].before != sides[end - 1].before);
   }
+}
+
+/// Vertices (as merged) that had better stay apart: those at edges that merging would make branch, and beside them those
+/// that would be joined in a point alone, like the corners of a sheet folded in two.
+std::vector<bool> find_branching(const std::vector<Triangle>& triangles, const std::vector<int>& merged) {
+  const std::vector<Side> sides = find_sides(triangles, merged);
+  std::vector<bool> branching(merged.size(), false), beside(merged.size(), false), on_seam(merged.size(), false);
+  for_each_edge(sides, [&](std::size_t a, std::size_t b, std::size_t count, bool joined_anew) {
+    if (count > 2 && joined_anew) branching[a] = branching[b] = true;
+  });
+  for_each_edge(sides, [&](std::size_t a, std::size_t b, std::size_t, bool joined_anew) {
+    if (branching[a]) beside[b] = true;
+    if (branching[b]) beside[a] = true;
+    if (joined_anew && !branching[a] && !branching[b]) on_seam[a] = on_seam[b] = true;
+  });
+  for (std::size_t i = 0; i < branching.size(); ++i)
+    if (beside[i] && !on_seam[i]) branching[i] = true;
   return branching;
 }
 
@@ -181,7 +202,7 @@ std::vector<bool> merge_vertices(Work& work, const std::vector<int>& connected, 
   if (apart.count > 0)
     work.repairs.push_back("kept " + counted(apart.count, "vertex", "vertices") +
                            " apart from another in the same place, the first " + std::to_string(apart.first) +
-                           ", because merging would join more than two triangles at an edge");
+                           ", because merging would join more than two triangles at an edge there");
   return emptied;
 }
 

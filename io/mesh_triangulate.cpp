@@ -1,7 +1,8 @@
-// Polygons to triangles. A strictly convex polygon becomes a fan about its first corner, which is what the programs that
-// write quads expect; any other is cut up by clipping ears, because a fan over a concave polygon covers what is outside it.
+// Polygons to triangles. A strictly convex quad is cut from its first corner, as the programs that write quads expect. Any
+// other polygon is cut up by clipping ears, because a fan over a concave one covers what is outside it, and a fan over many
+// corners is made of needles.
 //
-// Both look at the polygon along the axis in which its normal is largest. That projection drops a coordinate and rounds
+// The polygon is looked at along the axis in which its normal is largest. That projection drops a coordinate and rounds
 // nothing; and twice the area of a triangle of floats, computed in double, has the right sign in all but absurd cases.
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,7 @@ namespace pliant {
 namespace {
 
 /// Ear clipping takes time that grows with the square of the corners; this many take a fraction of a second.
-constexpr std::size_t most_corners_of_a_concave_polygon = 4096;
+constexpr std::size_t most_corners_to_clip = 4096;
 
 struct Point {
   double x, y;
@@ -25,6 +26,8 @@ struct Point {
 double turn(const Point& a, const Point& b, const Point& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
+
+double distance_squared(const Point& a, const Point& b) { return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y); }
 
 bool same_place(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y; }
 
@@ -81,10 +84,12 @@ bool is_strictly_convex(const std::vector<Point>& points) {
 }
 
 /// Clips ears off one polygon, after Meisters (1975): a corner whose triangle holds no other corner may be cut off, and a
-/// simple polygon always has two such.
+/// simple polygon always has two such. The best shaped one goes first, which keeps corners that lie on a line but for
+/// rounding from becoming needles.
 class EarClipper {
  public:
-  explicit EarClipper(const std::vector<Point>& points) : points_(points), next_(points.size()), previous_(points.size()) {
+  explicit EarClipper(const std::vector<Point>& points)
+      : points_(points), next_(points.size()), previous_(points.size()), quality_(points.size()) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       next_[i] = (i + 1) % points.size();
       previous_[i] = (i + points.size() - 1) % points.size();
@@ -96,56 +101,76 @@ class EarClipper {
   template <class Emit>
   bool clip(const Emit& emit) {
     bool simple = true;
-    std::size_t at = 0, since_last = 0;
-    for (std::size_t left = points_.size(); left > 3;) {
-      const bool stuck = since_last >= left;
-      if (!stuck && !is_ear(at)) {
-        at = next_[at];
-        ++since_last;
-        continue;
+    std::size_t first = 0;
+    judge_all(first);
+    for (std::size_t left = points_.size(); left > 3; --left) {
+      std::size_t at = best(first);
+      if (quality_[at] <= 0) {
+        // Cutting one off changes what its neighbours are, and others only where corners touch; so look at all again.
+        judge_all(first);
+        at = best(first);
       }
-      if (stuck) {
+      if (quality_[at] <= 0) {
         simple = false;
-        at = least_bad(at, left);
+        at = least_bad(first);
       }
       emit(previous_[at], at, next_[at]);
-      // Going on behind the next corner rather than at it keeps the triangles from all meeting in one corner.
-      const std::size_t after = next_[at];
-      next_[previous_[at]] = after;
-      previous_[after] = previous_[at];
-      at = next_[after];
-      since_last = 0;
-      --left;
+      first = next_[at];
+      next_[previous_[at]] = first;
+      previous_[first] = previous_[at];
+      quality_[first] = judge(first);
+      quality_[previous_[at]] = judge(previous_[at]);
     }
-    emit(previous_[at], at, next_[at]);
+    emit(previous_[first], first, next_[first]);
     return simple;
   }
 
  private:
-  bool is_ear(std::size_t corner) const {
+  /// The shape of the triangle at a corner, up to about 0.87 for an equilateral one; 0 where it is no ear.
+  double judge(std::size_t corner) const {
     const Point& a = points_[previous_[corner]];
     const Point& b = points_[corner];
     const Point& c = points_[next_[corner]];
-    if (!(turn(a, b, c) > 0)) return false;
+    const double area = turn(a, b, c);
+    if (!(area > 0)) return 0;
     for (std::size_t i = next_[next_[corner]]; i != previous_[corner]; i = next_[i]) {
       const Point& p = points_[i];
       // A bridge to a hole comes by the same place twice; that alone does not block an ear.
       if (same_place(p, a) || same_place(p, b) || same_place(p, c)) continue;
-      if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
+      if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return 0;
     }
-    return true;
+    return area / std::max({distance_squared(a, b), distance_squared(b, c), distance_squared(c, a)});
   }
 
-  /// Where nothing is an ear: a corner that turns left if there is one, else where we are.
-  std::size_t least_bad(std::size_t at, std::size_t left) const {
-    std::size_t corner = at;
-    for (std::size_t i = 0; i < left; ++i, corner = next_[corner])
-      if (turn(points_[previous_[corner]], points_[corner], points_[next_[corner]]) > 0) return corner;
-    return at;
+  void judge_all(std::size_t first) {
+    std::size_t i = first;
+    do {
+      quality_[i] = judge(i);
+      i = next_[i];
+    } while (i != first);
+  }
+
+  /// The corner of best quality; the first of them counted round from `first`.
+  std::size_t best(std::size_t first) const {
+    std::size_t found = first;
+    for (std::size_t i = next_[first]; i != first; i = next_[i])
+      if (quality_[i] > quality_[found]) found = i;
+    return found;
+  }
+
+  /// Where nothing is an ear: a corner that turns left if there is one, else the first.
+  std::size_t least_bad(std::size_t first) const {
+    std::size_t i = first;
+    do {
+      if (turn(points_[previous_[i]], points_[i], points_[next_[i]]) > 0) return i;
+      i = next_[i];
+    } while (i != first);
+    return first;
   }
 
   const std::vector<Point>& points_;
   std::vector<std::size_t> next_, previous_;
+  std::vector<double> quality_;
 };
 
 /// Counts something with its first place.
@@ -156,40 +181,62 @@ struct Tally {
   }
 };
 
+/// Cuts up one polygon of four corners or more. False where it is not simple.
+template <class Emit>
+bool cut_up(const std::vector<Point>& points, std::size_t polygon, const std::string& name, const Emit& emit) {
+  const std::size_t count = points.size();
+  const bool is_large = count > most_corners_to_clip;
+  if ((count == 4 || is_large) && is_strictly_convex(points)) {
+    for (std::size_t i = 2; i < count; ++i) emit(0, i - 1, i);
+    return true;
+  }
+  if (is_large)
+    throw Error({.file = name, .line = 0, .object = {}, .element = "polygon " + std::to_string(polygon)},
+                "is concave and has " + std::to_string(count) + " corners", "triangulate it in the program that made it");
+  return EarClipper(points).clip(emit);
+}
+
+/// How many corners there are before a polygon that goes round several times comes back to its first: all of them, mostly.
+std::size_t once_round(const int* corners, std::size_t count) {
+  std::size_t period = 1;
+  while (period < count && corners[period] != corners[0]) ++period;
+  if (period < 3 || count % period != 0) return count;
+  for (std::size_t i = period; i < count; ++i)
+    if (corners[i] != corners[i - period]) return count;
+  return period;
+}
+
+void note(const Tally& tally, const char* one, const char* many, const char* what, std::vector<std::string>& notes) {
+  if (tally.count == 0) return;
+  notes.push_back(std::to_string(tally.count) + (tally.count == 1 ? one : many) + what + ", the first " +
+                  std::to_string(tally.first));
+}
+
 }  // namespace
 
 std::vector<std::array<int, 3>> triangulate(const PolygonMesh& mesh, const std::string& name,
                                             std::vector<std::string>& notes) {
   std::vector<std::array<int, 3>> triangles;
   triangles.reserve(mesh.corners.size() - 2 * mesh.ends.size());
-  Tally crossing;
+  Tally crossing, winding;
   std::size_t begin = 0;
   for (std::size_t polygon = 0; polygon < mesh.ends.size(); ++polygon) {
     const int* const corners = mesh.corners.data() + begin;
-    const std::size_t count = mesh.ends[polygon] - begin;
+    const std::size_t all = mesh.ends[polygon] - begin;
+    const std::size_t count = once_round(corners, all);
+    if (count < all) winding.add(polygon);
     begin = mesh.ends[polygon];
     const auto emit = [&](std::size_t i, std::size_t j, std::size_t k) {
       triangles.push_back({corners[i], corners[j], corners[k]});
     };
-    if (count == 3) {
+    if (count == 3)
       emit(0, 1, 2);
-      continue;
-    }
-    const std::vector<Point> points = flatten(mesh, corners, count);
-    if (is_strictly_convex(points)) {
-      for (std::size_t i = 2; i < count; ++i) emit(0, i - 1, i);
-      continue;
-    }
-    if (count > most_corners_of_a_concave_polygon)
-      throw Error({.file = name, .line = 0, .object = {}, .element = "polygon " + std::to_string(polygon)},
-                  "is concave and has " + std::to_string(count) + " corners", "triangulate it in the program that made it");
-    if (!EarClipper(points).clip(emit)) crossing.add(polygon);
+    else if (!cut_up(flatten(mesh, corners, count), polygon, name, emit))
+      crossing.add(polygon);
   }
-  if (crossing.count > 0)
-    notes.push_back(std::to_string(crossing.count) +
-                    (crossing.count == 1 ? " polygon that crosses or touches itself was"
-                                         : " polygons that cross or touch themselves were") +
-                    " cut up as well as could be, the first " + std::to_string(crossing.first));
+  note(winding, " polygon that goes", " polygons that go", " round several times taken once", notes);
+  note(crossing, " polygon that crosses or touches itself", " polygons that cross or touch themselves",
+       " cut up as well as could be", notes);
   return triangles;
 }
 

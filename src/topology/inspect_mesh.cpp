@@ -1,0 +1,319 @@
+// inspect(): everything that can be said about a mesh without a scene, worst first.
+//
+// Grave is what no simulation can be made of (no triangles, vertices that are not there, coordinates that are not finite or
+// whose squared areas leave single precision). All else is told, with what it will do to the simulation, because many a
+// good mesh has a sliver and every cloth has a border.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pliant/mesh.h"
+#include "topology/boundary.h"
+#include "topology/edges.h"
+#include "topology/self_intersection.h"
+
+namespace pliant {
+
+namespace {
+
+/// Beyond it the square of a triangle's area is no longer a float.
+constexpr float most_coordinate = 1e9f;
+/// Beyond it neighbouring floats are a millimetre apart.
+constexpr float doubtful_coordinate = 1e4f;
+/// Longest side over smallest height. Beyond it a triangle is worth a look.
+constexpr double doubtful_aspect = 100;
+/// The search for self-intersections grows faster than the mesh.
+constexpr std::size_t most_triangles_to_intersect = 20000;
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+/// Counts something with its first place.
+struct Tally {
+  std::size_t count = 0, first = 0;
+  void add(std::size_t place) {
+    if (count++ == 0) first = place;
+  }
+};
+
+std::string name_of(const Edge& edge) { return std::to_string(edge.a) + "-" + std::to_string(edge.b); }
+
+class Inspector {
+ public:
+  explicit Inspector(const TriangleMesh& mesh) : mesh_(mesh) {}
+
+  std::vector<Finding> inspect() {
+    if (mesh_.triangles.empty()) grave("the mesh has no triangles", "give a mesh with faces");
+    check_coordinates();
+    check_indices();
+    if (!findings_.empty() && findings_.front().grave) return std::move(findings_);
+    edges_ = find_edges(mesh_.triangles, static_cast<int>(mesh_.positions.size()));
+    check_shapes();
+    check_places();
+    check_repeated();
+    check_isolated();
+    check_edges();
+    check_corners();
+    check_whole();
+    check_self_intersections();
+    return std::move(findings_);
+  }
+
+ private:
+  void grave(std::string message, std::string advice) {
+    findings_.push_back({true, std::move(message), std::move(advice)});
+  }
+  void tell(std::string message, std::string advice) {
+    findings_.push_back({false, std::move(message), std::move(advice)});
+  }
+
+  Vec3d at(int vertex) const {
+    const Vec3f& p = mesh_.positions[index(vertex)];
+    return {p.x, p.y, p.z};
+  }
+
+  void check_coordinates() {
+    Tally not_finite, huge, large;
+    for (std::size_t i = 0; i < mesh_.positions.size(); ++i) {
+      const Vec3f& p = mesh_.positions[i];
+      const float most = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        not_finite.add(i);
+      else if (most > most_coordinate)
+        huge.add(i);
+      else if (most > doubtful_coordinate)
+        large.add(i);
+    }
+    if (not_finite.count > 0)
+      grave(counted(not_finite.count, "vertex is", "vertices are") + " not finite, the first " +
+                std::to_string(not_finite.first),
+            "give finite coordinates");
+    if (huge.count > 0)
+      grave(counted(huge.count, "vertex lies", "vertices lie") + " more than 1e9 m from the origin, the first " +
+                std::to_string(huge.first),
+            "scale the mesh to metres and move it to the origin");
+    if (large.count > 0)
+      tell(counted(large.count, "vertex lies", "vertices lie") + " more than 10 km from the origin, the first " +
+               std::to_string(large.first),
+           "positions are rounded to a millimetre or more there; scale the mesh to metres or move it to the origin");
+  }
+
+  void check_indices() {
+    Tally outside, twice;
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const Triangle& t = mesh_.triangles[i];
+      const auto is_outside = [&](int corner) { return corner < 0 || index(corner) >= mesh_.positions.size(); };
+      if (std::any_of(t.begin(), t.end(), is_outside))
+        outside.add(i);
+      else if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+        twice.add(i);
+    }
+    if (outside.count > 0)
+      grave(counted(outside.count, "triangle uses", "triangles use") + " vertices that are not there, the first " +
+                std::to_string(outside.first),
+            "correct the indices; there are " + counted(mesh_.positions.size(), "vertex", "vertices"));
+    if (twice.count > 0)
+      grave(counted(twice.count, "triangle uses", "triangles use") + " a vertex twice, the first " +
+                std::to_string(twice.first),
+            "drop them, as read_mesh does");
+  }
+
+  void check_shapes() {
+    Tally flat, sliver;
+    double worst = 0;
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const Triangle& t = mesh_.triangles[i];
+      const Vec3d a = at(t[0]), b = at(t[1]), c = at(t[2]);
+      const double twice_area = std::sqrt(length_squared(cross(b - a, c - a)));
+      const double longest = std::max({length_squared(b - a), length_squared(c - b), length_squared(a - c)});
+      const double aspect = longest / twice_area;
+      if (!(twice_area > 0))
+        flat.add(i);
+      else if (aspect > doubtful_aspect)
+        sliver.add(i);
+      if (twice_area > 0) worst = std::max(worst, aspect);
+    }
+    if (flat.count > 0)
+      tell(counted(flat.count, "triangle has", "triangles have") + " no area, the first " + std::to_string(flat.first),
+           "they bear neither mass nor wind; drop them, as read_mesh does");
+    if (sliver.count > 0)
+      tell(counted(sliver.count, "sliver triangle", "sliver triangles") + ", the first " + std::to_string(sliver.first) +
+               " (worst aspect 1:" + std::to_string(static_cast<long long>(std::min(worst, 1e15))) + ")",
+           "they make light vertices that jitter; remesh there");
+  }
+
+  void check_places() {
+    std::vector<int> order(mesh_.positions.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto before = [&](int a, int b) {
+      const Vec3f &p = mesh_.positions[index(a)], &q = mesh_.positions[index(b)];
+      if (p.x != q.x) return p.x < q.x;
+      if (p.y != q.y) return p.y < q.y;
+      if (p.z != q.z) return p.z < q.z;
+      return a < b;
+    };
+    std::sort(order.begin(), order.end(), before);
+    Tally shared;
+    for (std::size_t i = 1; i < order.size(); ++i)
+      if (mesh_.positions[index(order[i])] == mesh_.positions[index(order[i - 1])]) {
+        ++shared.count;
+        shared.first = shared.count == 1 ? index(order[i]) : std::min(shared.first, index(order[i]));
+      }
+    if (shared.count > 0)
+      tell(counted(shared.count, "vertex lies", "vertices lie") + " in the place of another, the first " +
+               std::to_string(shared.first),
+           "the surface is not joined there; merge them, as read_mesh does, unless a seam is meant to be open");
+  }
+
+  void check_repeated() {
+    std::vector<std::pair<Triangle, std::size_t>> sorted(mesh_.triangles.size());
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+      sorted[i] = {mesh_.triangles[i], i};
+      std::sort(sorted[i].first.begin(), sorted[i].first.end());
+    }
+    std::sort(sorted.begin(), sorted.end());
+    Tally repeated;
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+      if (sorted[i].first == sorted[i - 1].first) {
+        ++repeated.count;
+        repeated.first = repeated.count == 1 ? sorted[i].second : std::min(repeated.first, sorted[i].second);
+      }
+    if (repeated.count > 0)
+      tell(counted(repeated.count, "triangle has", "triangles have") + " the vertices of another, the first " +
+               std::to_string(repeated.first),
+           "they count twice for mass and stiffness; drop one of each pair");
+  }
+
+  void check_isolated() {
+    std::vector<bool> used(mesh_.positions.size(), false);
+    for (const Triangle& t : mesh_.triangles)
+      for (const int corner : t) used[index(corner)] = true;
+    Tally isolated;
+    for (std::size_t i = 0; i < used.size(); ++i)
+      if (!used[i]) isolated.add(i);
+    if (isolated.count > 0)
+      tell(counted(isolated.count, "vertex belongs", "vertices belong") + " to no triangle, the first " +
+               std::to_string(isolated.first),
+           "they have no mass; drop them, as read_mesh does");
+  }
+
+  void check_edges() {
+    Tally branching, turned;
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      if (edges_[i].triangle_count > 2) branching.add(i);
+      if (!edges_[i].is_wound_consistently()) turned.add(i);
+    }
+    if (branching.count > 0)
+      tell(counted(branching.count, "edge has", "edges have") + " more than two triangles, the first " +
+               name_of(edges_[branching.first]),
+           "the surface is no manifold: no bending is made there and it encloses no volume; split it there");
+    if (turned.count == 0) return;
+    const Pieces pieces = find_pieces(edges_, static_cast<int>(mesh_.triangles.size()));
+    tell(counted(turned.count, "edge joins", "edges join") + " triangles that are wound differently, the first " +
+             name_of(edges_[turned.first]),
+         pieces.one_sided_edges.empty()
+             ? "turn " + counted(pieces.flipped.size(), "triangle", "triangles") + " over, the first " +
+                   std::to_string(pieces.flipped.front())
+             : "the surface has but one side, like a Moebius band; it can be a cloth but no balloon");
+  }
+
+  /// Vertices whose triangles are more than one fan. Each corner of each triangle is a node, joined over edges.
+  void check_corners() {
+    std::vector<std::size_t> parent(3 * mesh_.triangles.size());
+    std::iota(parent.begin(), parent.end(), std::size_t{0});
+    const auto root = [&](std::size_t i) {
+      while (parent[i] != i) i = parent[i] = parent[parent[i]];
+      return i;
+    };
+    const auto node = [&](int triangle, int vertex) {
+      const Triangle& t = mesh_.triangles[index(triangle)];
+      return 3 * index(triangle) + static_cast<std::size_t>(std::find(t.begin(), t.end(), vertex) - t.begin());
+    };
+    for (const Edge& edge : edges_) {
+      if (edge.triangle_count > 2) return;  // said already, and fans are not defined there
+      if (!edge.is_inner()) continue;
+      for (const int vertex : {edge.a, edge.b})
+        parent[root(node(edge.triangles[0], vertex))] = root(node(edge.triangles[1], vertex));
+    }
+    std::vector<std::size_t> fans(mesh_.positions.size(), 0);
+    for (std::size_t i = 0; i < parent.size(); ++i)
+      if (root(i) == i) ++fans[index(mesh_.triangles[i / 3][i % 3])];
+    Tally pinched;
+    for (std::size_t i = 0; i < fans.size(); ++i)
+      if (fans[i] > 1) pinched.add(i);
+    if (pinched.count > 0)
+      tell(counted(pinched.count, "vertex joins", "vertices join") + " parts of the surface in a point alone, the first " +
+               std::to_string(pinched.first),
+           "the surface turns freely about it; split the vertex or close the gap");
+  }
+
+  void check_whole() {
+    const Pieces pieces = find_pieces(edges_, static_cast<int>(mesh_.triangles.size()));
+    if (pieces.count > 1)
+      tell(counted(static_cast<std::size_t>(pieces.count), "piece", "pieces") + " that no edge joins",
+           "each moves by itself; merge their vertices if they belong together");
+    const std::size_t border = static_cast<std::size_t>(
+        std::count_if(edges_.begin(), edges_.end(), [](const Edge& edge) { return edge.is_border(); }));
+    if (border > 0) {
+      const std::size_t loops = boundary_loops(edges_, static_cast<int>(mesh_.positions.size())).size();
+      tell("open, with " + counted(loops, "border", "borders") + " of " + counted(border, "edge", "edges"),
+           "right for a cloth; a balloon needs a closed surface");
+      return;
+    }
+    if (is_closed(edges_) && is_wound_consistently(edges_)) check_volume(pieces);
+  }
+
+  void check_volume(const Pieces& pieces) {
+    // Relative to one of its own vertices, so that a far-away mesh loses nothing.
+    std::vector<double> volume(index(pieces.count), 0);
+    const Vec3d origin = at(mesh_.triangles.front()[0]);
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const Triangle& t = mesh_.triangles[i];
+      volume[index(pieces.of_triangle[i])] += dot(at(t[0]) - origin, cross(at(t[1]) - origin, at(t[2]) - origin));
+    }
+    Tally inside_out;
+    for (std::size_t i = 0; i < volume.size(); ++i)
+      if (volume[i] < 0) inside_out.add(i);
+    if (inside_out.count == 0) return;
+    tell(counted(inside_out.count, "closed piece is", "closed pieces are") + " wound inside out, the first with triangle " +
+             std::to_string(
+                 std::find(pieces.of_triangle.begin(), pieces.of_triangle.end(), static_cast<int>(inside_out.first)) -
+                 pieces.of_triangle.begin()),
+         "swap two corners of every triangle, unless it is the wall of a hollow");
+  }
+
+  void check_self_intersections() {
+    SelfIntersections found;
+    if (mesh_.triangles.size() <= most_triangles_to_intersect)
+      found = find_self_intersections(mesh_.positions, mesh_.triangles, edges_);
+    if (!found.complete)
+      tell("was not searched for self-intersections, being large", "check it in the program that made it");
+    else if (found.count > 0)
+      tell("passes through itself: an edge pierces a triangle in " + counted(found.count, "place", "places") +
+               ", the first edge " + std::to_string(found.edge[0]) + "-" + std::to_string(found.edge[1]) +
+               " and triangle " + std::to_string(found.triangle),
+           "self-collision cannot mend what starts crossed; move the parts apart");
+  }
+
+  const TriangleMesh& mesh_;
+  std::vector<Edge> edges_;
+  std::vector<Finding> findings_;
+};
+
+}  // namespace
+
+std::vector<Finding> inspect(const TriangleMesh& mesh) {
+  std::vector<Finding> findings = Inspector(mesh).inspect();
+  std::stable_partition(findings.begin(), findings.end(), [](const Finding& finding) { return finding.grave; });
+  return findings;
+}
+
+}  // namespace pliant
