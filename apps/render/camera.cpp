@@ -1,0 +1,56 @@
+// Where to stand so that everything is in the picture.
+#include <algorithm>
+#include <cmath>
+
+#include "geometry.h"
+#include "matrix.h"
+#include "render.h"
+
+namespace pliant::render {
+
+namespace {
+constexpr float degree = 3.14159265f / 180;
+constexpr float used_share = 0.86f;  // of the picture's width and height
+
+/// In one direction of the picture a point at (x, z) is inside where |x - eye_x| <= (eye_z - z) * slope. The nearest eye
+/// that has all points inside follows from the largest x + z slope and the largest -x + z slope.
+struct Side {
+  float slope = 1, largest_plus = -1e30f, largest_minus = -1e30f;
+
+  void include(float x, float z) {
+    largest_plus = std::max(largest_plus, x + z * slope);
+    largest_minus = std::max(largest_minus, -x + z * slope);
+  }
+  float eye() const { return (largest_plus - largest_minus) / 2; }
+  float distance() const { return (largest_plus + largest_minus) / (2 * slope); }
+};
+}  // namespace
+
+Camera frame_camera(const std::vector<RenderScene>& scenes, int width, int height, float azimuth, float elevation) {
+  Camera camera;
+  const float a = azimuth * degree, e = std::clamp(elevation, -89.f, 89.f) * degree;
+  const ViewFrame frame = view_frame(Vec3f{-std::sin(a) * std::cos(e), -std::sin(e), -std::cos(a) * std::cos(e)});
+  const float tangent = std::tan(camera.field_of_view * degree / 2) * used_share;
+  Side across{.slope = tangent * static_cast<float>(width) / static_cast<float>(height)}, upright{.slope = tangent};
+  Bounds all;
+  for (const RenderScene& scene : scenes) {
+    for (const Vec3f& point : points_of_interest(scene)) {
+      all.include(point);
+      const float z = dot(frame.back, point);
+      across.include(dot(frame.right, point), z);
+      upright.include(dot(frame.up, point), z);
+    }
+  }
+  if (all.empty() || all.radius() < 1e-6f) {
+    const Vec3f centre = all.empty() ? Vec3f{0, 0.5f, 0} : all.centre();
+    return {centre + frame.back * 3.f, centre, camera.field_of_view};
+  }
+  const float middle = dot(frame.back, all.centre());
+  const float eye_z = std::max({across.distance(), upright.distance(), middle + all.radius() * 0.5f});
+  const auto at = [&](float z) { return frame.right * across.eye() + frame.up * upright.eye() + frame.back * z; };
+  camera.eye = at(eye_z);
+  camera.target = at(std::min(middle, eye_z - 1e-3f * all.radius()));
+  return camera;
+}
+
+}  // namespace pliant::render

@@ -1,0 +1,239 @@
+// Shapes as triangles.
+#include "geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/write_frames.h"
+#include "matrix.h"
+#include "pliant/error.h"
+
+namespace pliant::render {
+
+namespace {
+
+constexpr float pi = 3.14159265f;
+constexpr int around_steps = 64;  // of round shapes, about their axis
+constexpr int tube_sides = 12;
+
+/// Joins rings of equally many vertices, first to last, by quads.
+void join_rings(Geometry& geometry, std::uint32_t first, std::uint32_t rings, std::uint32_t sides) {
+  for (std::uint32_t ring = 0; ring + 1 < rings; ++ring) {
+    for (std::uint32_t side = 0; side < sides; ++side) {
+      const std::uint32_t next = (side + 1) % sides;
+      const std::uint32_t a = first + ring * sides + side, b = first + ring * sides + next;
+      geometry.indices.insert(geometry.indices.end(), {a, a + sides, b, b, a + sides, b + sides});
+    }
+  }
+}
+
+/// A sphere pulled apart along y by twice `half_length`; with 0 a plain sphere.
+void add_capsule(Geometry& geometry, float radius, float half_length, int steps) {
+  const auto first = static_cast<std::uint32_t>(geometry.vertices.size());
+  const int rings = steps / 2 + 2;
+  for (int ring = 0; ring < rings; ++ring) {
+    // The equator comes twice, once for each end.
+    const int step = ring < rings / 2 ? ring : ring - 1;
+    const float polar = pi * static_cast<float>(step) / static_cast<float>(rings - 2);
+    for (int side = 0; side < steps; ++side) {
+      const float angle = 2 * pi * static_cast<float>(side) / static_cast<float>(steps);
+      const Vec3f normal{std::sin(polar) * std::sin(angle), std::cos(polar), std::sin(polar) * std::cos(angle)};
+      const Vec3f shift{0, ring < rings / 2 ? half_length : -half_length, 0};
+      geometry.vertices.push_back({normal * radius + shift, normal});
+    }
+  }
+  join_rings(geometry, first, static_cast<std::uint32_t>(rings), static_cast<std::uint32_t>(steps));
+}
+
+void add_box(Geometry& geometry, const Vec3f& low, const Vec3f& high) {
+  const Vec3f middle = (low + high) * 0.5f, half = (high - low) * 0.5f;
+  const Vec3f axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const auto scaled = [&](const Vec3f& v) { return Vec3f{v.x * half.x, v.y * half.y, v.z * half.z}; };
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float sign : {-1.f, 1.f}) {
+      const Vec3f normal = axes[axis] * sign, u = axes[(axis + 1) % 3], v = cross(normal, u);
+      const auto first = static_cast<std::uint32_t>(geometry.vertices.size());
+      for (const auto& [a, b] : {std::pair{-1.f, -1.f}, {1.f, -1.f}, {1.f, 1.f}, {-1.f, 1.f}})
+        geometry.vertices.push_back({middle + scaled(normal + u * a + v * b), normal});
+      geometry.indices.insert(geometry.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
+    }
+  }
+}
+
+void place(Geometry& geometry, const Vec3f& position, const Quatf& rotation) {
+  for (Vertex& vertex : geometry.vertices) {
+    vertex.position = rotate(rotation, vertex.position) + position;
+    vertex.normal = rotate(rotation, vertex.normal);
+  }
+}
+
+Geometry build_ball(const Vec3f& centre, float radius, const Vec3f& colour) {
+  Geometry ball{.vertices = {}, .indices = {}, .colour = colour, .material = Material::solid};
+  add_capsule(ball, radius, 0, 16);
+  place(ball, centre, {});
+  return ball;
+}
+
+void append(Geometry& geometry, const Geometry& other) {
+  const auto first = static_cast<std::uint32_t>(geometry.vertices.size());
+  geometry.vertices.insert(geometry.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const std::uint32_t i : other.indices) geometry.indices.push_back(first + i);
+}
+
+/// Rings carried along the line without twisting about it, and a ball at either end.
+Geometry build_tube(const RenderTube& tube, float radius) {
+  Geometry result{.vertices = {}, .indices = {}, .colour = tube.colour, .material = Material::solid};
+  const std::size_t count = tube.points.size();
+  if (count == 0) return result;
+  append(result, build_ball(tube.points.front(), radius, tube.colour));
+  if (count == 1) return result;
+  append(result, build_ball(tube.points.back(), radius, tube.colour));
+  const auto first = static_cast<std::uint32_t>(result.vertices.size());
+  Vec3f side = view_frame(tube.points[1] - tube.points[0]).right;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3f before = tube.points[i == 0 ? 0 : i - 1], after = tube.points[std::min(i + 1, count - 1)];
+    const Vec3f along = unit(after - before);
+    side = unit(side - along * dot(side, along), view_frame(along).right);
+    const Vec3f other = cross(side, along);
+    for (int k = 0; k < tube_sides; ++k) {
+      const float angle = 2 * pi * static_cast<float>(k) / tube_sides;
+      const Vec3f normal = side * std::cos(angle) + other * std::sin(angle);
+      result.vertices.push_back({tube.points[i] + normal * radius, normal});
+    }
+  }
+  join_rings(result, first, static_cast<std::uint32_t>(count), tube_sides);
+  return result;
+}
+
+/// A plane reaches for ever; what is drawn is a slab of it under the middle of the scene.
+void add_slab(Geometry& geometry, const RenderCollider& plane, const Vec3f& around, float radius) {
+  const Quatf back{-plane.rotation.x, -plane.rotation.y, -plane.rotation.z, plane.rotation.w};
+  Vec3f middle = rotate(back, around - plane.position);
+  middle.y = 0;
+  const float half = 1.25f * radius;
+  add_box(geometry, middle - Vec3f{half, 0.04f * radius, half}, middle + Vec3f{half, 0, half});
+}
+
+Geometry build_collider(const RenderCollider& collider, const Vec3f& around, float radius) {
+  Geometry geometry{.vertices = {}, .indices = {}, .colour = collider.colour, .material = Material::solid};
+  if (const auto* sphere = std::get_if<Sphere>(&collider.shape)) add_capsule(geometry, sphere->radius, 0, around_steps);
+  if (const auto* c = std::get_if<Capsule>(&collider.shape)) add_capsule(geometry, c->radius, c->half_length, around_steps);
+  if (const auto* box = std::get_if<Box>(&collider.shape)) add_box(geometry, -box->half_extents, box->half_extents);
+  if (std::holds_alternative<Plane>(collider.shape)) add_slab(geometry, collider, around, radius);
+  place(geometry, collider.position, collider.rotation);
+  return geometry;
+}
+
+Geometry build_mesh(const RenderMesh& mesh) {
+  Geometry geometry{.vertices = {}, .indices = {}, .colour = mesh.colour, .material = Material::cloth};
+  const std::vector<Vec3f> normals = output::vertex_normals(mesh.positions, mesh.triangles);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) geometry.vertices.push_back({mesh.positions[i], normals[i]});
+  for (const auto& triangle : mesh.triangles)
+    for (const int i : triangle) geometry.indices.push_back(static_cast<std::uint32_t>(i));
+  return geometry;
+}
+
+/// Half the size of a collider that ends somewhere.
+Vec3f half_size(const Shape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return {sphere->radius, sphere->radius, sphere->radius};
+  if (const auto* c = std::get_if<Capsule>(&shape)) return {c->radius, c->radius + c->half_length, c->radius};
+  if (const auto* box = std::get_if<Box>(&shape)) return box->half_extents;
+  return {};
+}
+
+bool finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+[[noreturn]] void refuse(const char* kind, std::size_t index, const std::string& problem) {
+  throw Error({.file = {}, .line = 0, .object = {}, .element = kind + (" " + std::to_string(index)) + " of the picture"},
+              problem);
+}
+
+}  // namespace
+
+void Bounds::include(const Vec3f& point, float margin) {
+  const Vec3f around{margin, margin, margin}, l = point - around, h = point + around;
+  if (empty()) {
+    low = l;
+    high = h;
+    return;
+  }
+  low = {std::min(low.x, l.x), std::min(low.y, l.y), std::min(low.z, l.z)};
+  high = {std::max(high.x, h.x), std::max(high.y, h.y), std::max(high.z, h.z)};
+}
+
+void Bounds::include(const Bounds& other) {
+  if (other.empty()) return;
+  include(other.low);
+  include(other.high);
+}
+
+float Bounds::radius() const { return empty() ? 0 : length(high - low) * 0.5f; }
+
+Bounds bounds(const std::vector<Vec3f>& points) {
+  Bounds result;
+  for (const Vec3f& point : points) result.include(point);
+  return result;
+}
+
+bool is_level_plane(const RenderCollider& collider) {
+  return std::holds_alternative<Plane>(collider.shape) && rotate(collider.rotation, {0, 1, 0}).y > 0.99999f;
+}
+
+std::vector<Vec3f> points_of_interest(const RenderScene& scene) {
+  std::vector<Vec3f> points;
+  for (const RenderMesh& mesh : scene.meshes) points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
+  for (const RenderTube& tube : scene.tubes) points.insert(points.end(), tube.points.begin(), tube.points.end());
+  const float size = bounds(points).radius();
+  for (const RenderCollider& collider : scene.colliders) {
+    const Vec3f half = half_size(collider.shape);
+    const bool fits = size == 0 || length(half) < 2.5f * size;
+    if (std::holds_alternative<Plane>(collider.shape) || !fits) continue;
+    Geometry shape = build_collider(collider, {}, 1);
+    for (const Vertex& vertex : shape.vertices) points.push_back(vertex.position);
+  }
+  return points;
+}
+
+std::vector<Geometry> build_geometry(const RenderScene& scene, const Vec3f& around, float radius, float least_radius) {
+  std::vector<Geometry> result;
+  for (const RenderMesh& mesh : scene.meshes) result.push_back(build_mesh(mesh));
+  for (const RenderTube& tube : scene.tubes) result.push_back(build_tube(tube, std::max(tube.radius, least_radius)));
+  for (const RenderCollider& collider : scene.colliders) {
+    const bool is_ground = scene.ground && is_level_plane(collider) && collider.position.y <= *scene.ground + 1e-6f;
+    if (!is_ground) result.push_back(build_collider(collider, around, radius));
+  }
+  return result;
+}
+
+Geometry build_ground(const Vec3f& centre, float half_size_, const Vec3f& colour) {
+  Geometry geometry{.vertices = {}, .indices = {0, 1, 2, 0, 2, 3}, .colour = colour, .material = Material::ground};
+  for (const auto& [x, z] : {std::pair{-1.f, -1.f}, {-1.f, 1.f}, {1.f, 1.f}, {1.f, -1.f}})
+    geometry.vertices.push_back({centre + Vec3f{x * half_size_, 0, z * half_size_}, {0, 1, 0}});
+  return geometry;
+}
+
+void check(const RenderScene& scene) {
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    const RenderMesh& mesh = scene.meshes[m];
+    if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), finite))
+      refuse("mesh", m, "has a vertex at a place that is not finite");
+    const int count = static_cast<int>(mesh.positions.size());
+    for (const auto& triangle : mesh.triangles)
+      for (const int i : triangle)
+        if (i < 0 || i >= count)
+          refuse("mesh", m, "has a triangle with vertex " + std::to_string(i) + " of " + std::to_string(count));
+  }
+  for (std::size_t t = 0; t < scene.tubes.size(); ++t) {
+    const RenderTube& tube = scene.tubes[t];
+    const bool fine = std::all_of(tube.points.begin(), tube.points.end(), finite) && std::isfinite(tube.radius);
+    if (!fine) refuse("tube", t, "is at a place that is not finite");
+  }
+  for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
+    const Quatf& q = scene.colliders[c].rotation;
+    const bool fine = finite(scene.colliders[c].position) && finite({q.x, q.y, q.z}) && std::isfinite(q.w) &&
+                      finite(half_size(scene.colliders[c].shape));
+    if (!fine) refuse("collider", c, "is at a place that is not finite");
+  }
+}
+
+}  // namespace pliant::render

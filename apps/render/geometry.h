@@ -1,0 +1,54 @@
+// What a RenderScene is drawn from: triangles with normals, and how far they reach.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render.h"
+
+namespace pliant::render {
+
+struct Vertex {
+  Vec3f position, normal;
+};
+
+/// How light meets a surface.
+enum class Material { cloth, solid, ground };
+
+/// Triangles of one colour.
+struct Geometry {
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;
+  Vec3f colour{};
+  Material material = Material::solid;
+};
+
+/// A box around points; empty until one is included.
+struct Bounds {
+  Vec3f low{1, 1, 1}, high{-1, -1, -1};
+
+  bool empty() const { return low.x > high.x; }
+  void include(const Vec3f& point, float margin = 0);
+  void include(const Bounds& other);
+  Vec3f centre() const { return (low + high) * 0.5f; }
+  float radius() const;  ///< of the sphere around the box
+};
+
+/// Every point that a picture should show: surfaces, tubes, and colliders that are not much larger than those.
+std::vector<Vec3f> points_of_interest(const RenderScene& scene);
+Bounds bounds(const std::vector<Vec3f>& points);
+
+/// Whether a collider is a level plane facing up.
+bool is_level_plane(const RenderCollider& collider);
+
+/// Everything but the ground. `around` and `radius` say how large a slab for a plane must be; tubes get at least
+/// `least_radius`.
+std::vector<Geometry> build_geometry(const RenderScene& scene, const Vec3f& around, float radius, float least_radius);
+
+/// A level square about `centre`.
+Geometry build_ground(const Vec3f& centre, float half_size, const Vec3f& colour);
+
+/// Throws Error naming the mesh and element where a place is not finite or an index is out of range.
+void check(const RenderScene& scene);
+
+}  // namespace pliant::render

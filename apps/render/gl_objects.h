@@ -1,0 +1,80 @@
+// OpenGL's objects as values with an owner.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "matrix.h"
+
+namespace pliant::render {
+
+/// A name given by OpenGL, deleted with its owner. `Delete` takes it.
+template <void (*Delete)(GLuint)>
+class Name {
+ public:
+  explicit Name(GLuint name = 0) : name_(name) {}
+  ~Name() {
+    if (name_ != 0) Delete(name_);
+  }
+  Name(Name&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+  Name& operator=(Name&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+  }
+  GLuint get() const { return name_; }
+
+ private:
+  GLuint name_;
+};
+
+inline void delete_texture(GLuint name) { glDeleteTextures(1, &name); }
+inline void delete_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
+inline void delete_renderbuffer(GLuint name) { glDeleteRenderbuffers(1, &name); }
+inline void delete_buffer(GLuint name) { glDeleteBuffers(1, &name); }
+inline void delete_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
+inline void delete_program(GLuint name) { glDeleteProgram(name); }
+
+using Texture = Name<delete_texture>;
+using Framebuffer = Name<delete_framebuffer>;
+using Renderbuffer = Name<delete_renderbuffer>;
+using Buffer = Name<delete_buffer>;
+using VertexArray = Name<delete_vertex_array>;
+
+/// A program from GLSL source. Throws Error with the driver's words where it does not compile.
+class Program {
+ public:
+  Program(const std::string& vertex, const std::string& fragment);
+
+  void use() const { glUseProgram(name_.get()); }
+  void set(const char* name, int value) const { glUniform1i(at(name), value); }
+  void set(const char* name, float value) const { glUniform1f(at(name), value); }
+  void set(const char* name, float x, float y) const { glUniform2f(at(name), x, y); }
+  void set(const char* name, const Vec3f& v) const { glUniform3f(at(name), v.x, v.y, v.z); }
+  void set(const char* name, const Matrix& m) const { glUniformMatrix4fv(at(name), 1, GL_FALSE, m.data()); }
+
+ private:
+  GLint at(const char* name) const { return glGetUniformLocation(name_.get(), name); }
+  Name<delete_program> name_;
+};
+
+/// A texture of one level that is read without wrapping around; `filter` GL_NEAREST or GL_LINEAR.
+Texture make_texture(GLint internal, int width, int height, GLenum format, GLenum type, GLint filter);
+
+/// A framebuffer with a colour and a depth texture, either of them 0 for none. Throws Error where it is not complete.
+Framebuffer make_framebuffer(GLuint colour, GLuint depth);
+
+/// One with several samples a pixel: what is drawn first, before it is averaged.
+struct SampledTarget {
+  Renderbuffer colour, depth;
+  Framebuffer framebuffer;
+
+  SampledTarget(int width, int height, int samples);
+};
+
+/// Throws Error where the bound framebuffer can't be drawn to.
+void require_complete();
+
+}  // namespace pliant::render

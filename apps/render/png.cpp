@@ -1,0 +1,35 @@
+// Pictures as files.
+#include "io/atomic_file.h"
+#include "pliant/error.h"
+#include "render.h"
+
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#define STBI_WRITE_NO_STDIO
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#endif
+#include <stb/stb_image_write.h>
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
+
+namespace pliant::render {
+
+void write_png(const std::string& path, int width, int height, const std::vector<std::uint8_t>& rgb) {
+  const Location where{.file = path, .line = 0, .object = {}, .element = {}};
+  if (width <= 0 || height <= 0 || rgb.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3)
+    throw Error(where, "a picture does not have the size that it says");
+  AtomicFile file(path);
+  std::string bytes;  // gathered first: an exception must not pass through stb's C
+  const auto gather = [](void* to, void* data, int size) {
+    static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+  };
+  if (stbi_write_png_to_func(gather, &bytes, width, height, 3, rgb.data(), width * 3) == 0)
+    throw Error(where, "a picture can't be made into a PNG");
+  file.write(bytes);
+  file.commit();
+}
+
+}  // namespace pliant::render

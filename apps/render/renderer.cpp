@@ -1,0 +1,332 @@
+// One picture in five passes: shadow map, depth, how open each pixel is to the sky, the picture with several samples a
+// pixel, and its mean.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "context.h"
+#include "geometry.h"
+#include "gl_objects.h"
+#include "matrix.h"
+#include "pliant/error.h"
+#include "render.h"
+#include "shaders.h"
+
+namespace pliant::render {
+
+namespace {
+
+constexpr int shadow_size = 2048;
+constexpr float degree = 3.14159265f / 180;
+
+/// The part of the buffers that one Geometry takes.
+struct Range {
+  GLsizei count = 0;
+  std::size_t first = 0;  // byte in the index buffer
+  Vec3f colour{};
+  Material material = Material::solid;
+};
+
+/// The eye, and all that follows from it.
+struct Eye {
+  Camera camera;
+  ViewFrame frame;
+  float half_width = 1, half_height = 1;  // of the picture at distance 1
+  float near = 0.1f, far = 100;
+  Matrix view_projection;
+};
+
+Eye make_eye(const Camera& camera, int width, int height, const Bounds& content) {
+  Eye eye{.camera = camera, .frame = view_frame(camera.target - camera.eye), .view_projection = {}};
+  eye.half_height = std::tan(std::clamp(camera.field_of_view, 5.f, 120.f) * degree / 2);
+  eye.half_width = eye.half_height * static_cast<float>(width) / static_cast<float>(height);
+  const float size = std::max(content.radius(), 1e-4f);
+  const float distance = dot(eye.frame.back, camera.eye - content.centre());
+  eye.near = std::max(distance - 2 * size, 0.05f * size);
+  eye.far = std::max(distance, 0.f) + 40 * size;
+  eye.view_projection =
+      perspective(eye.half_width, eye.half_height, eye.near, eye.far) * view_matrix(eye.frame, camera.eye);
+  return eye;
+}
+
+/// The sun stands left of the viewer and behind, so that folds throw short shadows to the right.
+Vec3f sun_direction(const ViewFrame& view) {
+  const Vec3f level_back = unit({view.back.x, 0, view.back.z}, {0, 0, 1});
+  const Vec3f level_right{level_back.z, 0, -level_back.x};
+  return unit(Vec3f{0, 1.25f, 0} + level_back * 0.45f - level_right * 0.95f);
+}
+
+/// A parallel view along the sun's rays that holds all content.
+Matrix shadow_view(const Vec3f& sun, const std::vector<Geometry>& geometries) {
+  const ViewFrame frame = view_frame(-sun);
+  Bounds box;
+  for (const Geometry& geometry : geometries) {
+    if (geometry.material == Material::ground) continue;
+    for (const Vertex& v : geometry.vertices)
+      box.include(Vec3f{dot(frame.right, v.position), dot(frame.up, v.position), dot(frame.back, v.position)});
+  }
+  const float margin = 0.03f * std::max(box.radius(), 1e-4f);
+  // Downwind the map reaches far, so that what lies in the shadow is in it too.
+  const Vec3f around{margin, margin, margin}, behind{0, 0, 20 * margin / 0.03f};
+  return orthographic(box.low - around - behind, box.high + around) * view_matrix(frame, {});
+}
+
+Matrix to_texture(const Matrix& clip) {
+  const Matrix halve{{0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1}};
+  return halve * clip;
+}
+
+int best_samples() {
+  GLint most = 4;
+  glGetIntegerv(GL_MAX_SAMPLES, &most);
+  return std::clamp(most, 1, 8);
+}
+
+/// The grid's spacing: a power of ten that gives a handful of lines.
+float grid_spacing(float radius) {
+  float spacing = 1;
+  while (spacing > radius) spacing /= 10;
+  while (spacing * 10 <= radius) spacing *= 10;
+  return spacing;
+}
+
+}  // namespace
+
+struct Renderer::Implementation {
+  Implementation(int w, int h);
+  std::vector<std::uint8_t> draw(const RenderScene& scene);
+
+  void upload(const std::vector<Geometry>& geometries);
+  void draw_ranges(bool ground) const;
+  void draw_shadows(const Matrix& clip) const;
+  void draw_depth(const Eye& eye) const;
+  void draw_occlusion(const Eye& eye, float reach) const;
+  void draw_sky(const Eye& eye) const;
+  void draw_surfaces(const Eye& eye, const Matrix& light, const Vec3f& sun, const Bounds& content) const;
+  std::vector<std::uint8_t> read_back() const;
+
+  int width, height, half_width, half_height;
+  Context context;
+  Program depth_program{depth_vertex, depth_fragment};
+  Program occlusion_program{screen_vertex, occlusion_fragment};
+  Program blur_program{screen_vertex, blur_fragment};
+  Program sky_program{screen_vertex, std::string(light_functions) + sky_fragment};
+  Program surface_program{surface_vertex, std::string(light_functions) + surface_fragment};
+  VertexArray array, nothing;
+  Buffer vertices, indices;
+  Texture shadow_map, depth, raw_occlusion, occlusion, picture;
+  Framebuffer shadow_target, depth_target, raw_target, occlusion_target, picture_target;
+  SampledTarget sampled;
+  std::vector<Range> ranges;
+};
+
+Renderer::Implementation::Implementation(int w, int h)
+    : width(w), height(h), half_width((w + 1) / 2), half_height((h + 1) / 2), sampled(w, h, best_samples()) {
+  GLuint names[2];
+  glGenVertexArrays(2, names);
+  array = VertexArray(names[0]);
+  nothing = VertexArray(names[1]);
+  glGenBuffers(2, names);
+  vertices = Buffer(names[0]);
+  indices = Buffer(names[1]);
+  glBindVertexArray(array.get());
+  glBindBuffer(GL_ARRAY_BUFFER, vertices.get());
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.get());
+  for (GLuint i = 0; i < 2; ++i) {
+    glEnableVertexAttribArray(i);
+    glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), reinterpret_cast<const void*>(i * sizeof(Vec3f)));
+  }
+  shadow_map = make_texture(GL_DEPTH_COMPONENT24, shadow_size, shadow_size, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  shadow_target = make_framebuffer(0, shadow_map.get());
+  depth = make_texture(GL_DEPTH_COMPONENT24, width, height, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_NEAREST);
+  depth_target = make_framebuffer(0, depth.get());
+  raw_occlusion = make_texture(GL_R8, half_width, half_height, GL_RED, GL_UNSIGNED_BYTE, GL_NEAREST);
+  raw_target = make_framebuffer(raw_occlusion.get(), 0);
+  occlusion = make_texture(GL_R8, half_width, half_height, GL_RED, GL_UNSIGNED_BYTE, GL_LINEAR);
+  occlusion_target = make_framebuffer(occlusion.get(), 0);
+  picture = make_texture(GL_RGBA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE, GL_NEAREST);
+  picture_target = make_framebuffer(picture.get(), 0);
+}
+
+void Renderer::Implementation::upload(const std::vector<Geometry>& geometries) {
+  std::vector<Vertex> all_vertices;
+  std::vector<std::uint32_t> all_indices;
+  ranges.clear();
+  for (const Geometry& geometry : geometries) {
+    const auto first = static_cast<std::uint32_t>(all_vertices.size());
+    ranges.push_back({static_cast<GLsizei>(geometry.indices.size()), all_indices.size() * sizeof(std::uint32_t),
+                      geometry.colour, geometry.material});
+    all_vertices.insert(all_vertices.end(), geometry.vertices.begin(), geometry.vertices.end());
+    for (const std::uint32_t i : geometry.indices) all_indices.push_back(first + i);
+  }
+  glBindVertexArray(array.get());
+  glBindBuffer(GL_ARRAY_BUFFER, vertices.get());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(all_vertices.size() * sizeof(Vertex)), all_vertices.data(),
+               GL_STREAM_DRAW);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(all_indices.size() * sizeof(std::uint32_t)),
+               all_indices.data(), GL_STREAM_DRAW);
+}
+
+void Renderer::Implementation::draw_ranges(bool ground) const {
+  for (const Range& range : ranges) {
+    if (range.material == Material::ground && !ground) continue;
+    glDrawElements(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(range.first));
+  }
+}
+
+void Renderer::Implementation::draw_shadows(const Matrix& clip) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, shadow_target.get());
+  glViewport(0, 0, shadow_size, shadow_size);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.5f, 2.f);
+  depth_program.use();
+  depth_program.set("view_projection", clip);
+  draw_ranges(false);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+void Renderer::Implementation::draw_depth(const Eye& eye) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, depth_target.get());
+  glViewport(0, 0, width, height);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  depth_program.use();
+  depth_program.set("view_projection", eye.view_projection);
+  draw_ranges(true);
+}
+
+void Renderer::Implementation::draw_occlusion(const Eye& eye, float reach) const {
+  const auto texel_x = 1 / static_cast<float>(half_width), texel_y = 1 / static_cast<float>(half_height);
+  glBindVertexArray(nothing.get());
+  glDisable(GL_DEPTH_TEST);
+  glViewport(0, 0, half_width, half_height);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, depth.get());
+  glBindFramebuffer(GL_FRAMEBUFFER, raw_target.get());
+  occlusion_program.use();
+  occlusion_program.set("depth", 0);
+  occlusion_program.set("slope", eye.half_width, eye.half_height);
+  occlusion_program.set("near_far", eye.near, eye.far);
+  occlusion_program.set("texel", texel_x, texel_y);
+  occlusion_program.set("reach", reach);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindFramebuffer(GL_FRAMEBUFFER, occlusion_target.get());
+  glActiveTexture(GL_TEXTURE1);
+  glBindTexture(GL_TEXTURE_2D, raw_occlusion.get());
+  blur_program.use();
+  blur_program.set("depth", 0);
+  blur_program.set("occlusion", 1);
+  blur_program.set("texel", texel_x, texel_y);
+  blur_program.set("near_far", eye.near, eye.far);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Renderer::Implementation::draw_sky(const Eye& eye) const {
+  glBindVertexArray(nothing.get());
+  glDisable(GL_DEPTH_TEST);
+  sky_program.use();
+  sky_program.set("right", eye.frame.right);
+  sky_program.set("up", eye.frame.up);
+  sky_program.set("forward", -eye.frame.back);
+  sky_program.set("slope", eye.half_width, eye.half_height);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Renderer::Implementation::draw_surfaces(const Eye& eye, const Matrix& light, const Vec3f& sun,
+                                             const Bounds& content) const {
+  glBindVertexArray(array.get());
+  glEnable(GL_DEPTH_TEST);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, shadow_map.get());
+  glActiveTexture(GL_TEXTURE1);
+  glBindTexture(GL_TEXTURE_2D, occlusion.get());
+  const Program& program = surface_program;
+  const float size = content.radius();
+  program.use();
+  program.set("shadow", 0);
+  program.set("occlusion", 1);
+  program.set("view_projection", eye.view_projection);
+  program.set("light", light);
+  program.set("eye", eye.camera.eye);
+  program.set("sun", sun);
+  program.set("centre", content.centre());
+  program.set("radius", size);
+  program.set("spacing", grid_spacing(size));
+  program.set("picture", static_cast<float>(width), static_cast<float>(height));
+  program.set("blur", 5.5f / shadow_size);
+  program.set("bias", 5 * size / shadow_size);
+  for (const Range& range : ranges) {
+    program.set("albedo", range.colour);
+    program.set("material", static_cast<int>(range.material));
+    glDrawElements(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(range.first));
+  }
+}
+
+std::vector<std::uint8_t> Renderer::Implementation::read_back() const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, sampled.framebuffer.get());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, picture_target.get());
+  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_target.get());
+  const std::size_t row = static_cast<std::size_t>(width) * 3, rows = static_cast<std::size_t>(height);
+  std::vector<std::uint8_t> upside_down(row * rows), result(row * rows);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, upside_down.data());
+  if (glGetError() != GL_NO_ERROR) throw Error({}, "the OpenGL driver failed while it drew", "ask for a smaller picture");
+  for (std::size_t y = 0; y < rows; ++y) std::memcpy(&result[y * row], &upside_down[(rows - 1 - y) * row], row);
+  return result;
+}
+
+std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scene) {
+  check(scene);
+  context.make_current();
+  Bounds content = bounds(points_of_interest(scene));
+  if (content.empty()) content.include({0, 0.5f, 0}, 0.5f);
+  if (content.radius() < 1e-6f) content.include(content.centre(), 0.5f);
+  const Camera camera = scene.camera ? *scene.camera : frame_camera({scene}, width, height);
+  const Eye eye = make_eye(camera, width, height, content);
+  const float pixel = 2 * eye.half_height * length(camera.eye - content.centre()) / static_cast<float>(height);
+  std::vector<Geometry> geometries = build_geometry(scene, content.centre(), content.radius(), 0.9f * pixel);
+  const Vec3f sun = sun_direction(eye.frame);
+  const Matrix light = shadow_view(sun, geometries);
+  if (scene.ground) {
+    Vec3f colour{0.52f, 0.52f, 0.51f};
+    for (const RenderCollider& c : scene.colliders)
+      if (is_level_plane(c) && std::abs(c.position.y - *scene.ground) < 1e-6f) colour = c.colour;
+    const Vec3f centre = content.centre();
+    geometries.push_back(build_ground({centre.x, *scene.ground, centre.z}, 30 * content.radius(), colour));
+  }
+  upload(geometries);
+  glEnable(GL_DEPTH_TEST);
+  draw_shadows(light);
+  draw_depth(eye);
+  draw_occlusion(eye, 0.10f * content.radius());
+  glBindFramebuffer(GL_FRAMEBUFFER, sampled.framebuffer.get());
+  glViewport(0, 0, width, height);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  draw_sky(eye);
+  draw_surfaces(eye, to_texture(light), sun, content);
+  return read_back();
+}
+
+Renderer::Renderer(int width, int height) {
+  constexpr int smallest = 16, largest = 8192;
+  if (width < smallest || height < smallest || width > largest || height > largest)
+    throw Error({}, "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels can't be drawn",
+                "ask for 16 to 8192 pixels either way");
+  self_ = std::make_unique<Implementation>(width, height);
+}
+
+Renderer::~Renderer() {
+  // What it owns in OpenGL is deleted in its own context, whichever is current.
+  if (self_) self_->context.make_current();
+}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+std::vector<std::uint8_t> Renderer::draw(const RenderScene& scene) { return self_->draw(scene); }
+int Renderer::width() const { return self_->width; }
+int Renderer::height() const { return self_->height; }
+std::string Renderer::device() const { return self_->context.device(); }
+
+}  // namespace pliant::render

@@ -1,0 +1,89 @@
+// From a Scene and the World made from it to what is drawn.
+#include <algorithm>
+#include <cmath>
+
+#include "geometry.h"
+#include "io/write_frames.h"
+#include "matrix.h"
+#include "render.h"
+
+namespace pliant::render {
+
+namespace {
+
+/// How low an object may come: what hangs can swing down by its size, what falls comes to rest on something.
+float lowest(const Object& object) {
+  Bounds all, held;
+  for (std::size_t i = 0; i < object.positions.size(); ++i) {
+    all.include(object.positions[i]);
+    if (i < object.masses.size() && !std::isfinite(object.masses[i])) held.include(object.positions[i]);
+  }
+  for (const Pin& pin : object.pins)
+    if (pin.particle >= 0 && pin.particle < static_cast<int>(object.positions.size()))
+      held.include(object.positions[pin.particle]);
+  for (const Attachment& attachment : object.attachments) held.include(attachment.target);
+  if (all.empty()) return 0;
+  return held.empty() ? all.low.y : std::min(all.low.y, held.low.y - 2 * all.radius());
+}
+
+/// The ground: the lowest level plane, or else 0 unless the scene reaches below that. It depends on the Scene alone, so it
+/// stands still in a movie.
+float ground_height(const Scene& scene, const std::vector<RenderCollider>& at_rest) {
+  bool level = false, tilted = false;
+  float plane = 0, low = 0;
+  for (const RenderCollider& collider : at_rest) {
+    if (is_level_plane(collider)) {
+      plane = level ? std::min(plane, collider.position.y) : collider.position.y;
+      level = true;
+    } else if (std::holds_alternative<Plane>(collider.shape)) {
+      tilted = true;
+    }
+  }
+  if (level) return plane;
+  Bounds all;
+  for (const Object& object : scene.objects) {
+    low = std::min(low, lowest(object));
+    for (const Vec3f& position : object.positions) all.include(position);
+  }
+  for (const Vec3f& point :
+       points_of_interest({.meshes = {}, .tubes = {}, .colliders = at_rest, .ground = {}, .camera = {}}))
+    low = std::min(low, point.y);
+  if (tilted && !all.empty()) low = std::min(low, all.low.y - all.radius());
+  return low < 0 ? low - 0.02f * all.radius() : 0;
+}
+
+void add_object(RenderScene& result, const Object& object, std::vector<Vec3f> positions) {
+  const output::FrameObject shape = output::describe(object);
+  if (!shape.triangles.empty()) {
+    result.meshes.push_back({std::move(positions), shape.triangles, shape.colour});
+    return;
+  }
+  for (const auto& line : shape.lines) {
+    RenderTube tube{.points = {}, .radius = object.thickness, .colour = shape.colour};
+    for (const int i : line) tube.points.push_back(positions[i]);
+    result.tubes.push_back(std::move(tube));
+  }
+  if (!shape.lines.empty()) return;
+  for (const Vec3f& position : positions)
+    result.tubes.push_back({.points = {position}, .radius = object.thickness, .colour = shape.colour});
+}
+
+}  // namespace
+
+RenderScene make_render_scene(const Scene& scene, const World& world) {
+  RenderScene result;
+  std::vector<RenderCollider> at_rest;
+  for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
+    const Collider& collider = scene.colliders[i];
+    const int index = static_cast<int>(i);
+    at_rest.push_back({collider.shape, collider.position, collider.rotation, collider.colour});
+    result.colliders.push_back(
+        {collider.shape, world.collider_position(index), world.collider_rotation(index), collider.colour});
+  }
+  result.ground = ground_height(scene, at_rest);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    add_object(result, scene.objects[i], world.positions(static_cast<int>(i)));
+  return result;
+}
+
+}  // namespace pliant::render

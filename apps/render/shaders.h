@@ -1,0 +1,190 @@
+// The programs that run per vertex and per pixel, in GLSL.
+#pragma once
+
+namespace pliant::render {
+
+/// Places only: for the shadow map and the first look at depth.
+inline constexpr const char* depth_vertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+uniform mat4 view_projection;
+void main() { gl_Position = view_projection * vec4(position, 1.0); }
+)";
+
+inline constexpr const char* depth_fragment = R"(#version 330 core
+void main() {}
+)";
+
+/// One triangle over the whole picture.
+inline constexpr const char* screen_vertex = R"(#version 330 core
+out vec2 place;
+void main() {
+  place = vec2(gl_VertexID == 1 ? 2.0 : 0.0, gl_VertexID == 2 ? 2.0 : 0.0);
+  gl_Position = vec4(place * 2.0 - 1.0, 1.0, 1.0);
+}
+)";
+
+/// How much of the sky each pixel sees, from depth alone: points around it that rise above its surface hide the sky in
+/// proportion to the angle at which they rise (McGuire et al. 2011, "The Alchemy screen-space ambient obscurance
+/// algorithm"). The sixteen directions turn from pixel to pixel in a 4 x 4 pattern that the blur then averages exactly.
+inline constexpr const char* occlusion_fragment = R"(#version 330 core
+in vec2 place;
+out float openness;
+uniform sampler2D depth;
+uniform vec2 slope;        // half the picture's extent at distance 1
+uniform vec2 near_far;
+uniform vec2 texel;
+uniform float reach;       // how far others are looked for [m]
+vec3 seen(vec2 at) {
+  float d = texture(depth, at).r * 2.0 - 1.0;
+  float distance = 2.0 * near_far.x * near_far.y / (near_far.y + near_far.x - d * (near_far.y - near_far.x));
+  return vec3((at * 2.0 - 1.0) * slope * distance, -distance);
+}
+vec3 smaller(vec3 a, vec3 b) { return abs(a.z) < abs(b.z) ? a : b; }
+void main() {
+  vec3 here = seen(place);
+  if (texture(depth, place).r >= 1.0) { openness = 1.0; return; }
+  vec3 across = smaller(seen(place + vec2(texel.x, 0.0)) - here, here - seen(place - vec2(texel.x, 0.0)));
+  vec3 upward = smaller(seen(place + vec2(0.0, texel.y)) - here, here - seen(place - vec2(0.0, texel.y)));
+  vec3 normal = normalize(cross(across, upward));
+  ivec2 cell = ivec2(gl_FragCoord.xy) & 3;
+  float turn = float(cell.x * 4 + cell.y) * 6.2831853 / 16.0;
+  float hidden = 0.0;
+  for (int i = 0; i < 16; ++i) {
+    float share = (float(i) + 0.5) / 16.0, angle = turn + float(i) * 2.3999632;
+    vec2 shift = vec2(cos(angle), sin(angle)) * share * reach / (-here.z) / slope * 0.5;
+    vec3 way = seen(place + shift) - here;
+    float rise = max(0.0, dot(way, normal) + 0.0015 * here.z);
+    hidden += rise / (dot(way, way) + 0.0004 * reach * reach) * smoothstep(2.0 * reach, 0.5 * reach, length(way));
+  }
+  openness = pow(max(0.0, 1.0 - hidden * reach * 0.11), 1.3);
+}
+)";
+
+/// The mean over 4 x 4 pixels of about the same distance.
+inline constexpr const char* blur_fragment = R"(#version 330 core
+in vec2 place;
+out float openness;
+uniform sampler2D occlusion, depth;
+uniform vec2 texel, near_far;
+float distance_at(vec2 at) {
+  float d = texture(depth, at).r * 2.0 - 1.0;
+  return 2.0 * near_far.x * near_far.y / (near_far.y + near_far.x - d * (near_far.y - near_far.x));
+}
+void main() {
+  float here = distance_at(place), sum = 0.0, weights = 0.0;
+  for (int y = -2; y < 2; ++y) {
+    for (int x = -2; x < 2; ++x) {
+      vec2 at = place + (vec2(x, y) + 0.5) * texel;
+      float weight = max(1e-3, 1.0 - 40.0 * abs(distance_at(at) / here - 1.0));
+      sum += weight * texture(occlusion, at).r;
+      weights += weight;
+    }
+  }
+  openness = sum / weights;
+}
+)";
+
+/// Colours of the air and the curve from light to a picture, shared by sky and surfaces. The curve is Narkowicz's fit
+/// (2015) of the Academy's filmic tone scale.
+inline constexpr const char* light_functions = R"(#version 330 core
+uniform vec3 eye;
+vec3 sky(vec3 direction) {
+  float height = clamp(direction.y, 0.0, 1.0);
+  return mix(vec3(0.78, 0.80, 0.82), vec3(0.30, 0.42, 0.60), pow(height, 0.55));
+}
+vec3 developed(vec3 light) {
+  vec3 x = light * 0.78;
+  x = clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+  return mix(12.92 * x, 1.055 * pow(x, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, x));
+}
+)";
+
+inline constexpr const char* sky_fragment = R"(
+in vec2 place;
+out vec4 colour;
+uniform vec3 right, up, forward;
+uniform vec2 slope;
+void main() {
+  vec2 at = (place * 2.0 - 1.0) * slope;
+  colour = vec4(developed(sky(normalize(forward + at.x * right + at.y * up))), 1.0);
+}
+)";
+
+inline constexpr const char* surface_vertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+uniform mat4 view_projection;
+out vec3 at, facing;
+void main() {
+  at = position;
+  facing = normal;
+  gl_Position = view_projection * vec4(position, 1.0);
+}
+)";
+
+/// Cloth, solids and the ground: a sun with a soft shadow, a sky that is bluer above than the ground is bright below, and
+/// for cloth a sheen at grazing angles and a little light through it.
+inline constexpr const char* surface_fragment = R"(
+in vec3 at, facing;
+out vec4 colour;
+uniform vec3 albedo, sun, centre;
+uniform int material;      // 0 cloth, 1 solid, 2 ground
+uniform mat4 light;        // from the world into the shadow map, 0..1
+uniform sampler2DShadow shadow;
+uniform sampler2D occlusion;
+uniform vec2 picture;      // width, height
+uniform float blur, bias, radius, spacing;
+float lit(vec3 normal) {
+  vec3 place = (light * vec4(at + normal * bias, 1.0)).xyz;
+  if (any(greaterThan(abs(place - 0.5), vec3(0.5)))) return 1.0;
+  float sum = 0.0;
+  for (int i = 0; i < 24; ++i) {
+    float angle = float(i) * 2.3999632;
+    vec2 shift = vec2(cos(angle), sin(angle)) * sqrt((float(i) + 0.5) / 24.0) * blur;
+    sum += texture(shadow, vec3(place.xy + shift, place.z));
+  }
+  return sum / 24.0;
+}
+float lines(float x) {
+  float width = fwidth(x);
+  float away = abs(fract(x + 0.5) - 0.5) / max(width, 1e-6);
+  return clamp(1.2 - away, 0.0, 1.0) * clamp(1.0 - width * 6.0, 0.0, 1.0);
+}
+void main() {
+  vec3 normal = normalize(facing), view = normalize(eye - at);
+  float open = texture(occlusion, gl_FragCoord.xy / picture).r;
+  vec3 base = albedo;
+  bool back = material == 0 && !gl_FrontFacing;
+  if (back) {
+    normal = -normal;
+    base = mix(base, vec3(dot(base, vec3(0.3, 0.5, 0.2))), 0.30) * 0.72;
+  }
+  float toward = dot(normal, sun), across = max(dot(normal, view), 0.0);
+  float seen = lit(toward < 0.0 && material == 0 ? -normal : normal);
+  float direct = material == 0 ? clamp((toward + 0.10) / 1.10, 0.0, 1.0) : max(toward, 0.0);
+  vec3 sunlight = vec3(2.55, 2.42, 2.20);
+  vec3 above = vec3(0.62, 0.70, 0.82), below = vec3(0.34, 0.32, 0.30);
+  vec3 around = mix(below, above, normal.y * 0.5 + 0.5) * open;
+  vec3 fill = vec3(0.20, 0.21, 0.24) * max(dot(normal, normalize(vec3(-sun.x, 0.25, -sun.z) + 0.6 * view)), 0.0) * open;
+  vec3 result = base * (sunlight * direct * seen * mix(0.75, 1.0, open) + around + fill);
+  vec3 half_way = normalize(sun + view);
+  if (material == 0) {
+    result += base * sunlight * 0.16 * max(-toward, 0.0) * seen;
+    float graze = pow(1.0 - across, 4.0);
+    result += (0.35 * base + 0.06) * graze * (above * open + sunlight * direct * seen * 0.4);
+    result += sunlight * 0.020 * pow(max(dot(normal, half_way), 0.0), 14.0) * seen;
+  } else if (material == 1) {
+    float graze = pow(1.0 - across, 5.0);
+    result += sunlight * 0.10 * pow(max(dot(normal, half_way), 0.0), 60.0) * seen * max(toward, 0.0);
+    result += (0.03 + 0.25 * graze) * sky(reflect(-view, normal)) * open * 0.6;
+  } else {
+    float grid = max(lines(at.x / spacing), lines(at.z / spacing));
+    result *= 1.0 - 0.13 * grid;
+    float away = length(at.xz - centre.xz) / radius;
+    result = mix(result, sky(normalize(at - eye)), smoothstep(2.5, 13.0, away));
+  }
+  colour = vec4(developed(result), 1.0);
+}
+)";
+
+}  // namespace pliant::render
