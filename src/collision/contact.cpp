@@ -1,0 +1,144 @@
+#include "collision/contact.h"
+
+#include "constraints/plane_contact.h"
+
+namespace pliant {
+
+namespace {
+
+/// What overlaps at the start separates at this speed at most, so that it neither explodes nor tears its own constraints [m/s].
+constexpr float largest_separation_speed = 2;
+
+BoundingBox<float> merge(const BoundingBox<float>& a, const BoundingBox<float>& b) {
+  return {min(a.low, b.low), max(a.high, b.high)};
+}
+
+bool overlap(const Bounds& a, const BoundingBox<float>& b, float margin) {
+  return a.low.x - margin <= b.high.x && a.low.y - margin <= b.high.y && a.low.z - margin <= b.high.z &&
+         b.low.x <= a.high.x + margin && b.low.y <= a.high.y + margin && b.low.z <= a.high.z + margin;
+}
+
+/// A plane that a particle must stay above.
+struct SurfacePlane {
+  bool found = false;
+  Vec3f normal{};  // in the collider's frame, like the point
+  Vec3f point{};   // of the surface
+  float offset = 0;
+};
+
+/// The plane for a particle on its way from a to b, in the collider's frame. Continuous where the path enters from outside, else
+/// static: the closest point of the surface.
+SurfacePlane surface_plane(const LocalShape& shape, const Vec3f& a, const Vec3f& b, float thickness, float h) {
+  const SurfaceDistance<float> end = signed_distance(shape, b);
+  const float path = length(b - a);
+  if (!(end.distance < thickness + path)) return {};  // a path that meets the shape ends no farther from it than it is long
+  if (path > 0.25f * thickness) {
+    const FirstHit<float> hit = first_hit(shape, a, b, 0.5f * thickness);
+    if (hit.hit && hit.t > 0) {
+      return {true, hit.normal, hit.point - hit.normal * hit.distance, dot(hit.normal, hit.point) - hit.distance + thickness};
+    }
+  }
+  // From inside, out no faster than the cap; from outside, this is the thickness itself.
+  const float start = signed_distance(shape, a).distance;
+  const float kept = min(thickness, start + largest_separation_speed * h);
+  return {true, end.normal, b - end.normal * end.distance, dot(end.normal, b) - end.distance + kept};
+}
+
+}  // namespace
+
+void move_colliders(const Model& model, double time_before, double time_after, std::vector<MovingCollider>& colliders) {
+  colliders.resize(model.colliders.size());
+  for (std::size_t i = 0; i < colliders.size(); ++i) {
+    const Collider& from = model.colliders[i];
+    MovingCollider& to = colliders[i];
+    to.shape = local_shape(from.shape);
+    to.before = convert<float>(collider_pose(from, time_before));
+    to.moves = from.motion.moves();
+    to.after = to.moves ? convert<float>(collider_pose(from, time_after)) : to.before;
+    to.thickness = from.thickness;
+    to.static_friction = from.static_friction;
+    to.kinetic_friction = from.kinetic_friction;
+    to.restitution = from.restitution;
+    to.swept = merge(bounding_box(to.shape, to.before, to.thickness), bounding_box(to.shape, to.after, to.thickness));
+  }
+}
+
+namespace {
+
+void find_with(const CompiledObject& object, const AdvanceArguments& a, int number, const MovingCollider& collider,
+               std::vector<Contact>& contacts) {
+  const float thickness = object.thickness + collider.thickness;
+  for (int i = a.first; i < a.last; ++i) {
+    const Record& x = a.positions[i];
+    if (x.w == 0) continue;
+    const Vec3f position{x.x, x.y, x.z}, velocity{a.velocities[i].x, a.velocities[i].y, a.velocities[i].z};
+    const Vec3f to = to_local(collider.after, position);
+    const Vec3f from = to_local(collider.before, position - velocity * a.h);
+    const SurfacePlane plane = surface_plane(collider.shape, from, to, thickness, a.h);
+    if (!plane.found) continue;
+    Contact contact;
+    contact.particle = i;
+    contact.collider = number;
+    contact.normal = rotate(collider.after.rotation, plane.normal);
+    // The plane in the world: through the same point, at the same distance from it.
+    const float above = plane.offset - dot(plane.normal, plane.point);
+    contact.offset = dot(contact.normal, to_world(collider.after, plane.point)) + above;
+    if (collider.moves) contact.surface_motion = to_world(collider.after, plane.point) - to_world(collider.before, plane.point);
+    contact.static_friction = sqrt(object.static_friction * collider.static_friction);
+    contact.kinetic_friction = sqrt(object.kinetic_friction * collider.kinetic_friction);
+    contact.restitution = max(object.restitution, collider.restitution);
+    contact.approach = dot(contact.normal, velocity - a.gravity_step - contact.surface_motion * a.inverse_h);
+    contacts.push_back(contact);
+  }
+}
+
+}  // namespace
+
+void find_contacts(const CompiledObject& object, const AdvanceArguments& particles, const Bounds& bounds,
+                   const std::vector<MovingCollider>& colliders, std::vector<Contact>& contacts) {
+  for (std::size_t c = 0; c < colliders.size(); ++c) {
+    if (!overlap(bounds, colliders[c].swept, object.thickness)) continue;
+    find_with(object, particles, static_cast<int>(c), colliders[c], contacts);
+  }
+}
+
+void project_contacts(std::vector<Contact>& contacts, const SweepArguments& a) {
+  for (Contact& contact : contacts) {
+    Record& p = a.positions[contact.particle];
+    Vec3f x[1] = {{p.x, p.y, p.z}}, gradient[1];
+    const float c = PlaneContact::evaluate(x, {contact.normal, contact.offset}, gradient);
+    if (c < 0) {
+      x[0] -= gradient[0] * c;
+      contact.push -= c;
+    }
+    if (contact.push > 0) {
+      // The sum of the tangential corrections that would keep the particle with the surface, cut to the cone of friction.
+      const Record &v = a.velocities[contact.particle], &q = a.predicted[contact.particle];
+      const Vec3f motion = Vec3f{v.x, v.y, v.z} * a.h + (x[0] - Vec3f{q.x, q.y, q.z}) - contact.surface_motion;
+      const Vec3f slip = motion - contact.normal * dot(contact.normal, motion);
+      Vec3f friction = contact.friction - slip;
+      const float wanted = length(friction);
+      if (wanted > contact.static_friction * contact.push) {
+        friction = friction * (contact.kinetic_friction * contact.push / max(wanted, 1e-30f));
+      }
+      x[0] += friction - contact.friction;
+      contact.friction = friction;
+    }
+    p = {x[0].x, x[0].y, x[0].z, p.w};
+  }
+}
+
+void respond(const std::vector<Contact>& contacts, Record* velocities, const AdvanceArguments& a) {
+  const float slow = 2 * length(a.gravity_step);
+  for (const Contact& contact : contacts) {
+    if (!(contact.push > 0)) continue;
+    Record& v = velocities[contact.particle];
+    const Vec3f surface_velocity = contact.surface_motion * a.inverse_h;
+    const float normal_velocity = dot(contact.normal, Vec3f{v.x, v.y, v.z} - surface_velocity);
+    const float wanted = -contact.approach > slow ? -contact.restitution * contact.approach : 0.f;
+    const Vec3f change = contact.normal * (wanted - normal_velocity);
+    v = {v.x + change.x, v.y + change.y, v.z + change.z, 0};
+  }
+}
+
+}  // namespace pliant

@@ -1,0 +1,15 @@
+// Every constraint type that acts on a fixed stencil of particles. To add one: write its header, include it here and put it
+// in the list; pools, sweeps, files, tests and docs follow from the list (docs/architecture.md, "Adding a constraint").
+#pragma once
+
+#include "constraints/dihedral_bending.h"
+#include "constraints/distance.h"
+#include "constraints/isometric_bending.h"
+#include "constraints/type_list.h"
+
+namespace pliant {
+
+/// In the order in which a sweep visits them.
+using AllConstraints = TypeList<Distance, DihedralBending, IsometricBending>;
+
+}  // namespace pliant

@@ -1,0 +1,65 @@
+// Bending of a sheet whose rest shape is flat and which hardly stretches: a quadratic energy, cheap and steady.
+//
+//         2
+//       /   \          C(x) = |k1 (x1 - x0) + k2 (x2 - x0) + k3 (x3 - x0)|
+//      0 --- 1
+//       \   /          k from the cotangents of the rest angles, times sqrt(3 / (A1 + A2))
+//         3
+//
+// Bergou et al. 2006, "A quadratic bending model for inextensible surfaces", eq. 4: the energy C^2 / 2 alpha is theirs with
+// alpha = 1 / B, B the flexural rigidity in N m. The vector under the norm is the discrete mean curvature normal: it vanishes
+// for any flat hinge, whatever its rest shape, so this type can't hold a fold. Compliance in 1/(N m).
+#pragma once
+
+#include <array>
+
+#include "math/scalar.h"
+#include "pliant/vec3.h"
+
+namespace pliant {
+
+struct IsometricBending {
+  static constexpr const char* name = "isometric_bending";
+  static constexpr int size = 4;
+  static constexpr bool unit_gradients = false;
+
+  template <class R>
+  struct Params {
+    R k1, k2, k3;  ///< [1/m]
+  };
+  static constexpr std::array<const char*, 3> fields{"k1", "k2", "k3"};
+
+  /// A flat hinge has no direction to push in and is left alone.
+  template <class R>
+  PLIANT_HD static R evaluate(const Vec3<R> (&x)[4], const Params<R>& p, Vec3<R> (&gradient)[4]) {
+    const Vec3<R> sum = (x[1] - x[0]) * p.k1 + (x[2] - x[0]) * p.k2 + (x[3] - x[0]) * p.k3;
+    const R c = sqrt(dot(sum, sum));
+    const Vec3<R> direction = sum * (R(1) / max(c, R(1e-20f)));
+    gradient[1] = direction * p.k1;
+    gradient[2] = direction * p.k2;
+    gradient[3] = direction * p.k3;
+    gradient[0] = -(gradient[1] + gradient[2] + gradient[3]);
+    return c;
+  }
+
+  template <class R>
+  PLIANT_HD static R cotangent(const Vec3<R>& u, const Vec3<R>& v) {
+    const Vec3<R> n = cross(u, v);
+    return dot(u, v) / max(sqrt(dot(n, n)), R(1e-20f));
+  }
+
+  template <class R>
+  PLIANT_HD static Params<R> measure(const Vec3<R> (&x)[4]) {
+    const Vec3<R> e = x[1] - x[0], a = x[2] - x[0], b = x[3] - x[0];
+    const R at0 = cotangent(e, a), at0_other = cotangent(e, b);
+    const R at1 = cotangent(-e, x[2] - x[1]), at1_other = cotangent(-e, x[3] - x[1]);
+    const Vec3<R> n1 = cross(e, a), n2 = cross(b, e);
+    const R area = (sqrt(dot(n1, n1)) + sqrt(dot(n2, n2))) * R(0.5f);
+    const R scale = sqrt(R(3) / max(area, R(1e-20f)));
+    return {(at0 + at0_other) * scale, -(at0 + at1) * scale, -(at0_other + at1_other) * scale};
+  }
+
+  static void canonical(std::array<int, 4>&, Params<float>&) {}
+};
+
+}  // namespace pliant

@@ -1,0 +1,36 @@
+// Contact: a particle stays on the outer side of a plane.
+//
+//         x            C(x) = n . x - offset >= 0
+//     ----+----        n the surface's normal, offset = n . (point on the surface) + thickness
+//
+// Mueller et al. 2007, section 3.4: both the continuous case (the plane of the point where the path entered) and the static one
+// (the plane of the closest surface point) are this constraint; it is projected only where C < 0.
+#pragma once
+
+#include <array>
+
+#include "math/scalar.h"
+#include "pliant/vec3.h"
+
+namespace pliant {
+
+struct PlaneContact {
+  static constexpr const char* name = "plane_contact";
+  static constexpr int size = 1;
+  static constexpr bool unit_gradients = true;
+  static constexpr bool unilateral = true;
+
+  template <class R>
+  struct Params {
+    Vec3<R> normal;  ///< unit
+    R offset;        ///< [m]
+  };
+
+  template <class R>
+  PLIANT_HD static R evaluate(const Vec3<R> (&x)[1], const Params<R>& p, Vec3<R> (&gradient)[1]) {
+    gradient[0] = p.normal;
+    return dot(p.normal, x[0]) - p.offset;
+  }
+};
+
+}  // namespace pliant

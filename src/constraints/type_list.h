@@ -1,0 +1,33 @@
+// A list of types, and a loop over it.
+#pragma once
+
+#include <utility>
+
+namespace pliant {
+
+template <class... Types>
+struct TypeList {
+  static constexpr int size = sizeof...(Types);
+};
+
+template <class T>
+struct TypeTag {
+  using type = T;
+};
+
+/// Calls visit(TypeTag<T>{}, index) for every T of the list in order.
+template <class... Types, class Visit>
+constexpr void for_each_type(TypeList<Types...>, Visit&& visit) {
+  int index = 0;
+  (visit(TypeTag<Types>{}, index++), ...);
+}
+
+/// Calls visit(TypeTag<T>{}) for the T at `index` alone.
+template <class... Types, class Visit>
+constexpr void with_type(TypeList<Types...> list, int index, Visit&& visit) {
+  for_each_type(list, [&](auto tag, int i) {
+    if (i == index) visit(tag);
+  });
+}
+
+}  // namespace pliant

@@ -1,0 +1,342 @@
+// Wide: sixteen floats that behave like one.
+//
+// One logical width on every machine, so that how constraints are grouped never depends on where they run; underneath, an
+// array of native vectors (four of SSE, two of AVX2, one of AVX-512). A raw 64-byte vector would compile too, but g++ spills it
+// on AVX2 and runs four times slower. Every operation is the IEEE operation of each lane, so a lane gives the bits that a plain
+// float would: that is what the tests of "wide equals scalar" hold.
+//
+// Everything lives in an inline namespace named after the instruction set that this unit is compiled for: the sweeps are built
+// three times into one program, and nothing of one build may be linked into another.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#include "math/scalar.h"
+#include "pliant/vec3.h"
+#include "pliant/world.h"
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#if defined(__AVX512F__)
+#define PLIANT_ISA isa_v4
+#define PLIANT_PART_WIDTH 16
+#elif defined(__AVX2__)
+#define PLIANT_ISA isa_v3
+#define PLIANT_PART_WIDTH 8
+#else
+#define PLIANT_ISA isa_v2
+#define PLIANT_PART_WIDTH 4
+#endif
+
+namespace pliant {
+inline namespace PLIANT_ISA {
+
+inline constexpr int wide_width = 16;
+inline constexpr int part_width = PLIANT_PART_WIDTH;
+inline constexpr int wide_parts = wide_width / part_width;
+
+typedef float Part __attribute__((vector_size(4 * PLIANT_PART_WIDTH)));
+typedef std::int32_t PartMask __attribute__((vector_size(4 * PLIANT_PART_WIDTH)));
+typedef float Quad __attribute__((vector_size(16)));
+
+/// Sixteen truth values, all bits set meaning true.
+struct WideMask {
+  PartMask part[wide_parts];
+};
+
+/// Sixteen floats.
+struct Wide {
+  Part part[wide_parts];
+
+  Wide() = default;
+  /// The same value in every lane.
+  PLIANT_HD explicit Wide(float value) {
+    for (int i = 0; i < wide_parts; ++i) part[i] = Part{} + value;
+  }
+};
+
+// Loops over parts are written out, since not every compiler unrolls them early enough to keep the parts in registers.
+#if PLIANT_PART_WIDTH == 16
+#define PLIANT_EACH_PART(...) \
+  {                                 \
+    constexpr int i = 0;            \
+    __VA_ARGS__;                     \
+  }
+#elif PLIANT_PART_WIDTH == 8
+#define PLIANT_EACH_PART(...) \
+  {                                 \
+    {                               \
+      constexpr int i = 0;          \
+      __VA_ARGS__;                   \
+    }                               \
+    {                               \
+      constexpr int i = 1;          \
+      __VA_ARGS__;                   \
+    }                               \
+  }
+#else
+#define PLIANT_EACH_PART(...) \
+  {                                 \
+    {                               \
+      constexpr int i = 0;          \
+      __VA_ARGS__;                   \
+    }                               \
+    {                               \
+      constexpr int i = 1;          \
+      __VA_ARGS__;                   \
+    }                               \
+    {                               \
+      constexpr int i = 2;          \
+      __VA_ARGS__;                   \
+    }                               \
+    {                               \
+      constexpr int i = 3;          \
+      __VA_ARGS__;                   \
+    }                               \
+  }
+#endif
+
+#define PLIANT_WIDE_OPERATOR(op)                               \
+  PLIANT_HD Wide operator op(const Wide& a, const Wide& b) {   \
+    Wide r;                                                    \
+    PLIANT_EACH_PART(r.part[i] = a.part[i] op b.part[i])       \
+    return r;                                                  \
+  }
+PLIANT_WIDE_OPERATOR(+)
+PLIANT_WIDE_OPERATOR(-)
+PLIANT_WIDE_OPERATOR(*)
+PLIANT_WIDE_OPERATOR(/)
+#undef PLIANT_WIDE_OPERATOR
+
+#define PLIANT_WIDE_COMPARISON(op)                                 \
+  PLIANT_HD WideMask operator op(const Wide& a, const Wide& b) {   \
+    WideMask r;                                                    \
+    PLIANT_EACH_PART(r.part[i] = a.part[i] op b.part[i])           \
+    return r;                                                      \
+  }
+PLIANT_WIDE_COMPARISON(<)
+PLIANT_WIDE_COMPARISON(>)
+PLIANT_WIDE_COMPARISON(<=)
+PLIANT_WIDE_COMPARISON(>=)
+PLIANT_WIDE_COMPARISON(==)
+#undef PLIANT_WIDE_COMPARISON
+
+PLIANT_HD Wide operator-(const Wide& a) {
+  Wide r;
+  PLIANT_EACH_PART(r.part[i] = -a.part[i])
+  return r;
+}
+PLIANT_HD Wide& operator+=(Wide& a, const Wide& b) { return a = a + b; }
+PLIANT_HD Wide& operator-=(Wide& a, const Wide& b) { return a = a - b; }
+
+/// Lane by lane: a where the mask is set, else b.
+PLIANT_HD Wide select(const WideMask& mask, const Wide& a, const Wide& b) {
+  Wide r;
+  PLIANT_EACH_PART(r.part[i] = mask.part[i] ? a.part[i] : b.part[i])
+  return r;
+}
+PLIANT_HD Wide min(const Wide& a, const Wide& b) {
+  Wide r;
+  PLIANT_EACH_PART(r.part[i] = a.part[i] < b.part[i] ? a.part[i] : b.part[i])
+  return r;
+}
+PLIANT_HD Wide max(const Wide& a, const Wide& b) {
+  Wide r;
+  PLIANT_EACH_PART(r.part[i] = a.part[i] > b.part[i] ? a.part[i] : b.part[i])
+  return r;
+}
+PLIANT_HD Wide abs(const Wide& a) {
+  Wide r;
+  PLIANT_EACH_PART(r.part[i] = (Part)((PartMask)a.part[i] & 0x7fffffff))
+  return r;
+}
+PLIANT_HD Part sqrt_part(const Part& a) {
+#if defined(__AVX512F__)
+  return (Part)_mm512_maskz_sqrt_ps(0xffff, (__m512)a);  // the plain form makes g++ 12 warn of its own header
+#elif defined(__AVX2__)
+  return (Part)_mm256_sqrt_ps((__m256)a);
+#elif defined(__SSE2__)
+  return (Part)_mm_sqrt_ps((__m128)a);
+#else
+  Part r;
+  for (int lane = 0; lane < part_width; ++lane) r[lane] = pliant::sqrt(a[lane]);
+  return r;
+#endif
+}
+PLIANT_HD Wide sqrt(const Wide& a) {
+  Wide r;
+  PLIANT_EACH_PART(r.part[i] = sqrt_part(a.part[i]))
+  return r;
+}
+
+/// Sixteen consecutive floats.
+PLIANT_HD Wide load_wide(const float* from) {
+  Wide r;
+  std::memcpy(&r, from, sizeof(Wide));
+  return r;
+}
+PLIANT_HD void store_wide(float* to, const Wide& a) { std::memcpy(to, &a, sizeof(Wide)); }
+
+// ---------------------------------------------------------------- records in and out
+//
+// Lane 4 L + j of a Wide holds the particle of constraint 4 L + j. Register j is filled with the records of lanes j, 4 + j,
+// 8 + j and 12 + j; the 4 x 4 transpose inside each 128-bit part then gives x, y, z and w. A run, four records that follow one
+// another, fills a register with one load: it is stored as one base for four constraints.
+
+#if PLIANT_PART_WIDTH == 16
+#define PLIANT_SHUFFLE(a, b, p, q, r, s)                                                                                     \
+  __builtin_shufflevector(a, b, p, q, 12 + (r), 12 + (s), 4 + (p), 4 + (q), 16 + (r), 16 + (s), 8 + (p), 8 + (q), 20 + (r), \
+                          20 + (s), 12 + (p), 12 + (q), 24 + (r), 24 + (s))
+#elif PLIANT_PART_WIDTH == 8
+#define PLIANT_SHUFFLE(a, b, p, q, r, s) \
+  __builtin_shufflevector(a, b, p, q, 4 + (r), 4 + (s), 4 + (p), 4 + (q), 8 + (r), 8 + (s))
+#else
+#define PLIANT_SHUFFLE(a, b, p, q, r, s) __builtin_shufflevector(a, b, p, q, r, s)
+#endif
+// PLIANT_SHUFFLE(a, b, p, q, r, s): in each 128-bit part, elements p and q of a, then r and s (counted from 4) of b.
+
+/// The 4 x 4 transpose inside each 128-bit part; it is its own inverse.
+PLIANT_HD void transpose(Part& a, Part& b, Part& c, Part& d) {
+  const Part ab_xy = PLIANT_SHUFFLE(a, b, 0, 1, 4, 5);
+  const Part cd_xy = PLIANT_SHUFFLE(c, d, 0, 1, 4, 5);
+  const Part ab_zw = PLIANT_SHUFFLE(a, b, 2, 3, 6, 7);
+  const Part cd_zw = PLIANT_SHUFFLE(c, d, 2, 3, 6, 7);
+  a = PLIANT_SHUFFLE(ab_xy, cd_xy, 0, 2, 4, 6);
+  b = PLIANT_SHUFFLE(ab_xy, cd_xy, 1, 3, 5, 7);
+  c = PLIANT_SHUFFLE(ab_zw, cd_zw, 0, 2, 4, 6);
+  d = PLIANT_SHUFFLE(ab_zw, cd_zw, 1, 3, 5, 7);
+}
+
+struct WideRecords {
+  Vec3<Wide> position;
+  Wide w;
+};
+
+PLIANT_HD Quad load_quad(const Record* from) {
+  Quad q;
+  std::memcpy(&q, from, sizeof q);
+  return q;
+}
+
+/// Part i of the register that holds records at[0], at[4], at[8], at[12].
+PLIANT_HD Part gather_part(const Record* base, const std::int32_t* at, int i) {
+#if PLIANT_PART_WIDTH == 16
+  (void)i;
+  using Half = float __attribute__((vector_size(32)));
+  const Half low = __builtin_shufflevector(load_quad(base + at[0]), load_quad(base + at[4]), 0, 1, 2, 3, 4, 5, 6, 7);
+  const Half high = __builtin_shufflevector(load_quad(base + at[8]), load_quad(base + at[12]), 0, 1, 2, 3, 4, 5, 6, 7);
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+#elif PLIANT_PART_WIDTH == 8
+  return __builtin_shufflevector(load_quad(base + at[8 * i]), load_quad(base + at[8 * i + 4]), 0, 1, 2, 3, 4, 5, 6, 7);
+#else
+  return load_quad(base + at[4 * i]);
+#endif
+}
+
+PLIANT_HD WideRecords from_registers(Part (&r)[4][wide_parts]) {
+  WideRecords out;
+  PLIANT_EACH_PART({
+    transpose(r[0][i], r[1][i], r[2][i], r[3][i]);
+    out.position.x.part[i] = r[0][i];
+    out.position.y.part[i] = r[1][i];
+    out.position.z.part[i] = r[2][i];
+    out.w.part[i] = r[3][i];
+  })
+  return out;
+}
+
+/// Sixteen records by index, lane l at index[l].
+PLIANT_HD WideRecords load_indexed(const Record* base, const std::int32_t* index) {
+  Part r[4][wide_parts];
+  PLIANT_EACH_PART({
+    r[0][i] = gather_part(base, index, i);
+    r[1][i] = gather_part(base, index + 1, i);
+    r[2][i] = gather_part(base, index + 2, i);
+    r[3][i] = gather_part(base, index + 3, i);
+  })
+  return from_registers(r);
+}
+
+/// Four runs of four records, run j from run[j] on: lane 4 L + j is record run[j] + L.
+PLIANT_HD WideRecords load_runs(const Record* base, const std::int32_t* run) {
+  Part r[4][wide_parts];
+  std::memcpy(r[0], base + run[0], 64);
+  std::memcpy(r[1], base + run[1], 64);
+  std::memcpy(r[2], base + run[2], 64);
+  std::memcpy(r[3], base + run[3], 64);
+  return from_registers(r);
+}
+
+PLIANT_HD void to_registers(const WideRecords& a, Part (&r)[4][wide_parts]) {
+  PLIANT_EACH_PART({
+    r[0][i] = a.position.x.part[i];
+    r[1][i] = a.position.y.part[i];
+    r[2][i] = a.position.z.part[i];
+    r[3][i] = a.w.part[i];
+    transpose(r[0][i], r[1][i], r[2][i], r[3][i]);
+  })
+}
+
+/// The inverse of load_runs for the first `runs` (1..4) of them.
+PLIANT_HD void store_runs(Record* base, const std::int32_t* run, const WideRecords& a, int runs) {
+  Part r[4][wide_parts];
+  to_registers(a, r);
+  std::memcpy(static_cast<void*>(base + run[0]), r[0], 64);
+  if (runs > 1) std::memcpy(static_cast<void*>(base + run[1]), r[1], 64);
+  if (runs > 2) std::memcpy(static_cast<void*>(base + run[2]), r[2], 64);
+  if (runs > 3) std::memcpy(static_cast<void*>(base + run[3]), r[3], 64);
+}
+
+PLIANT_HD void store_all_runs(Record* base, const std::int32_t* run, const WideRecords& a) { store_runs(base, run, a, 4); }
+
+template <int part>
+PLIANT_HD Quad quad_of(const Part& a) {
+#if PLIANT_PART_WIDTH == 4
+  static_assert(part == 0);
+  return a;
+#else
+  return __builtin_shufflevector(a, a, 4 * part, 4 * part + 1, 4 * part + 2, 4 * part + 3);
+#endif
+}
+
+PLIANT_HD void store_quad(Record* to, const Quad& q) { std::memcpy(static_cast<void*>(to), &q, sizeof q); }
+
+/// The inverse of load_indexed.
+PLIANT_HD void store_indexed(Record* base, const std::int32_t* index, const WideRecords& a) {
+  Part r[4][wide_parts];
+  to_registers(a, r);
+#if PLIANT_PART_WIDTH == 16
+#define PLIANT_QUAD(j, quad) quad_of<quad>(r[j][0])
+#elif PLIANT_PART_WIDTH == 8
+#define PLIANT_QUAD(j, quad) quad_of<(quad) % 2>(r[j][(quad) / 2])
+#else
+#define PLIANT_QUAD(j, quad) quad_of<0>(r[j][quad])
+#endif
+#define PLIANT_STORE(j)                                     \
+  store_quad(base + index[0 + (j)], PLIANT_QUAD(j, 0));     \
+  store_quad(base + index[4 + (j)], PLIANT_QUAD(j, 1));     \
+  store_quad(base + index[8 + (j)], PLIANT_QUAD(j, 2));     \
+  store_quad(base + index[12 + (j)], PLIANT_QUAD(j, 3));
+  PLIANT_STORE(0)
+  PLIANT_STORE(1)
+  PLIANT_STORE(2)
+  PLIANT_STORE(3)
+#undef PLIANT_STORE
+#undef PLIANT_QUAD
+}
+
+/// store_indexed for the first `lanes` (1..16) lanes alone: those after them are padding.
+PLIANT_HD void store_indexed_some(Record* base, const std::int32_t* index, const WideRecords& a, int lanes) {
+  Part r[4][wide_parts];
+  to_registers(a, r);
+  Record records[4][4];
+  static_assert(sizeof records == sizeof r);
+  std::memcpy(static_cast<void*>(records), r, sizeof r);
+  for (int lane = 0; lane < lanes; ++lane) base[index[lane]] = records[lane % 4][lane / 4];
+}
+
+}  // namespace PLIANT_ISA
+}  // namespace pliant

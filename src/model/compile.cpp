@@ -1,0 +1,276 @@
+// From a description to a schedule: tiles, numbering, colours, batches.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "constraints/all.h"
+#include "model/compiled_object.h"
+#include "model/gather_constraints.h"
+#include "model/stiffness.h"
+#include "topology/colouring.h"
+#include "topology/numbering.h"
+#include "topology/tiles.h"
+
+namespace pliant {
+
+namespace {
+
+constexpr int batches_per_straddler_task = 32;
+
+// ---------------------------------------------------------------- particles
+
+std::vector<Vec3f> all_positions(const Object& object) {
+  std::vector<Vec3f> positions = object.positions;
+  for (const Attachment& attachment : object.attachments) positions.push_back(attachment.target);
+  return positions;
+}
+
+/// Marks every particle i that some constraint shares with i + 1.
+std::vector<char> find_links(const std::vector<ConstraintList>& lists, std::size_t particles) {
+  std::vector<char> linked(particles, 0);
+  for (const ConstraintList& list : lists) {
+    for (std::size_t first = 0; first < list.stencils.size(); first += list.size) {
+      for (int a = 0; a < list.size; ++a) {
+        for (int b = 0; b < list.size; ++b) {
+          if (list.stencils[first + a] + 1 == list.stencils[first + b]) linked[list.stencils[first + a]] = 1;
+        }
+      }
+    }
+  }
+  return linked;
+}
+
+void fill_particles(const Object& object, const std::vector<Vec3f>& positions, CompiledObject& out) {
+  std::vector<float> inverse_mass(positions.size(), 0.f);
+  for (std::size_t i = 0; i < object.masses.size(); ++i) {
+    inverse_mass[i] = std::isinf(object.masses[i]) ? 0.f : 1.f / object.masses[i];
+  }
+  for (const Pin& pin : object.pins) inverse_mass[pin.particle] = 0;
+  out.positions.resize(positions.size());
+  out.velocities.resize(positions.size());
+  for (std::size_t storage = 0; storage < positions.size(); ++storage) {
+    const int user = out.order[storage];
+    const Vec3f& p = positions[user];
+    out.positions[storage] = {p.x, p.y, p.z, inverse_mass[user]};
+    if (inverse_mass[user] == 0 || user >= static_cast<int>(object.velocities.size())) continue;
+    const Vec3f& v = object.velocities[user];
+    out.velocities[storage] = {v.x, v.y, v.z, 0};
+  }
+}
+
+void fill_kinematics(const Object& object, CompiledObject& out) {
+  for (const Pin& pin : object.pins) {
+    if (pin.motion.moves()) out.kinematics.push_back({out.place[pin.particle], object.positions[pin.particle], pin.motion});
+  }
+  for (std::size_t i = 0; i < object.attachments.size(); ++i) {
+    const Attachment& attachment = object.attachments[i];
+    if (!attachment.motion.moves()) continue;
+    out.kinematics.push_back({out.place[object.positions.size() + i], attachment.target, attachment.motion});
+  }
+}
+
+void number_particles(const std::vector<Vec3f>& positions, const std::vector<ConstraintList>& lists, int largest_tile,
+                      std::vector<int>& tile, CompiledObject& out) {
+  tile = cut_into_tiles(positions, largest_tile);
+  out.order = number_in_chains(tile, find_links(lists, positions.size()));
+  out.place.resize(out.order.size());
+  for (int storage = 0; storage < static_cast<int>(out.order.size()); ++storage) out.place[out.order[storage]] = storage;
+  for (int storage = 0; storage < static_cast<int>(out.order.size()); ++storage) {
+    const std::size_t t = tile[out.order[storage]];
+    if (t >= out.tiles.size()) out.tiles.push_back({storage, storage, 0, 0});
+    out.tiles[t].last_particle = storage + 1;
+  }
+}
+
+// ---------------------------------------------------------------- constraints
+
+/// Renames particles to their storage and brings each stencil into the type's canonical order.
+void renumber(ConstraintList& list, const std::vector<int>& place) {
+  for (int& particle : list.stencils) particle = place[particle];
+  with_type(AllConstraints{}, list.type, [&](auto tag) {
+    using T = typename decltype(tag)::type;
+    for (int i = 0; i < list.count(); ++i) {
+      std::array<int, T::size> stencil;
+      typename T::template Params<float> params;
+      std::copy_n(&list.stencils[static_cast<std::size_t>(i) * T::size], T::size, stencil.begin());
+      std::memcpy(&params, &list.rest[static_cast<std::size_t>(i) * list.fields], sizeof params);
+      T::canonical(stencil, params);
+      std::copy_n(stencil.begin(), T::size, &list.stencils[static_cast<std::size_t>(i) * T::size]);
+      std::memcpy(&list.rest[static_cast<std::size_t>(i) * list.fields], &params, sizeof params);
+    }
+  });
+}
+
+/// Constraints of a list by the tile that holds all their particles; those of no tile come last, at [tiles].
+std::vector<std::vector<int>> split_by_tile(const ConstraintList& list, const std::vector<int>& tile_of, int tiles) {
+  std::vector<std::vector<int>> members(static_cast<std::size_t>(tiles) + 1);
+  for (int i = 0; i < list.count(); ++i) {
+    const int* stencil = &list.stencils[static_cast<std::size_t>(i) * list.size];
+    int tile = tile_of[stencil[0]];
+    for (int slot = 1; slot < list.size; ++slot) {
+      if (tile_of[stencil[slot]] != tile) tile = tiles;
+    }
+    members[tile].push_back(i);
+  }
+  return members;
+}
+
+Pool make_pool(const ConstraintList& list) {
+  Pool pool;
+  pool.type = list.type;
+  pool.law = list.law;
+  pool.stencil = list.size;
+  pool.block_floats = batch_width * (list.fields + 1 + (list.law == Law::damped ? 1 : 0));
+  pool.constraints = list.count();
+  return pool;
+}
+
+/// The constraint in a lane of a batch: runs interleave, lane 4 l + j being member l of run j (math/wide.h says why). Lanes past
+/// the end repeat the first, which is then read but never written.
+int member_in_lane(const Colour& colour, int batch, int lane, bool& valid) {
+  const int position = colour.runs ? batch * batch_width + 4 * (lane % 4) + lane / 4 : batch * batch_width + lane;
+  valid = position < static_cast<int>(colour.members.size());
+  return colour.members[valid ? position : batch * batch_width];
+}
+
+void append_batch(const ConstraintList& list, const Colour& colour, int batch, Pool& pool) {
+  const std::size_t block = pool.blocks.size();
+  pool.blocks.resize(block + pool.block_floats);
+  bool valid = true;
+  for (int lane = 0; lane < batch_width; ++lane) {
+    const int member = member_in_lane(colour, batch, lane, valid);
+    float* at = &pool.blocks[block + lane];
+    for (int field = 0; field < list.fields; ++field, at += batch_width) {
+      *at = list.rest[static_cast<std::size_t>(member) * list.fields + field];
+    }
+    *at = list.response[member];
+    if (list.law == Law::damped) at[batch_width] = list.damping[member];
+    pool.origin.push_back(valid ? list.origin[member] : -1);
+  }
+  for (int slot = 0; slot < list.size; ++slot) {
+    for (int lane = 0; lane < (colour.runs ? 4 : batch_width); ++lane) {
+      const int member = member_in_lane(colour, batch, lane, valid);
+      pool.indices.push_back(list.stencils[static_cast<std::size_t>(member) * list.size + slot]);
+    }
+  }
+  ++pool.batches;
+}
+
+/// Appends batches [first, last) of a colour.
+Segment append_segment(const ConstraintList& list, const Colour& colour, int first, int last, int pool_number, Pool& pool) {
+  const int count = static_cast<int>(colour.members.size());
+  Segment segment;
+  segment.pool = pool_number;
+  segment.runs = colour.runs ? 1 : 0;
+  segment.first_batch = pool.batches;
+  segment.batches = last - first;
+  const int in_last = std::min(batch_width, count - (last - 1) * batch_width);
+  segment.last_count = colour.runs ? in_last / 4 : in_last;
+  segment.index_offset = static_cast<std::int64_t>(pool.indices.size());
+  for (int batch = first; batch < last; ++batch) append_batch(list, colour, batch, pool);
+  return segment;
+}
+
+/// Appends a colour in segments of at most `largest` batches: threads share out the segments of what straddles tiles.
+void append_colour(const ConstraintList& list, const Colour& colour, int largest, int pool_number, CompiledObject& out) {
+  const int batches = (static_cast<int>(colour.members.size()) + batch_width - 1) / batch_width;
+  for (int first = 0; first < batches;) {
+    const int last = first + std::min(batches - first, largest);
+    out.segments.push_back(append_segment(list, colour, first, last, pool_number, out.pools[pool_number]));
+    first = last;
+  }
+}
+
+void schedule(std::vector<ConstraintList>& lists, const std::vector<int>& tile, CompiledObject& out) {
+  std::vector<int> tile_of(tile.size());  // by storage
+  for (std::size_t storage = 0; storage < tile.size(); ++storage) tile_of[storage] = tile[out.order[storage]];
+  const int tiles = static_cast<int>(out.tiles.size());
+  std::vector<std::vector<std::vector<int>>> members;
+  for (ConstraintList& list : lists) {
+    renumber(list, out.place);
+    members.push_back(split_by_tile(list, tile_of, tiles));
+    out.pools.push_back(make_pool(list));
+  }
+  Colouring colouring(out.particles);
+  const auto append = [&](std::size_t i, int t) {
+    const bool straddles = t == tiles;
+    for (const Colour& colour : colouring.colour(lists[i].stencils, lists[i].size, members[i][t])) {
+      const int first = static_cast<int>(out.segments.size());
+      append_colour(lists[i], colour, straddles ? batches_per_straddler_task : 1 << 30, static_cast<int>(i), out);
+      if (straddles) out.straddlers.push_back({first, static_cast<int>(out.segments.size())});
+    }
+  };
+  for (int t = 0; t <= tiles; ++t) {
+    const int first = static_cast<int>(out.segments.size());
+    for (std::size_t i = 0; i < lists.size(); ++i) append(i, t);
+    if (t < tiles) {
+      out.tiles[t].first_segment = first;
+      out.tiles[t].last_segment = static_cast<int>(out.segments.size());
+    }
+  }
+}
+
+// ---------------------------------------------------------------- surface and volume
+
+void fill_surface(const Object& object, CompiledObject& out) {
+  Surface& surface = out.surface;
+  surface.corner_begin.assign(static_cast<std::size_t>(out.particles) + 1, 0);
+  for (const auto& triangle : object.triangles) {
+    surface.triangles.push_back({out.place[triangle[0]], out.place[triangle[1]], out.place[triangle[2]]});
+    for (int corner : surface.triangles.back()) ++surface.corner_begin[corner + 1];
+  }
+  for (int p = 0; p < out.particles; ++p) surface.corner_begin[p + 1] += surface.corner_begin[p];
+  surface.corners.resize(3 * surface.triangles.size());
+  std::vector<int> next(surface.corner_begin.begin(), surface.corner_begin.end() - 1);
+  for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
+    for (int corner = 0; corner < 3; ++corner) surface.corners[next[surface.triangles[t][corner]]++] = 3 * t + corner;
+  }
+}
+
+void fill_volume(const Object& object, int passes, CompiledObject& out) {
+  if (!object.volume) return;
+  double six_volumes = 0;
+  const Vec3f& o = object.positions[object.triangles.empty() ? 0 : object.triangles[0][0]];
+  const auto from_origin = [&](int i) {
+    const Vec3f& p = object.positions[i];
+    return Vec3<double>{double(p.x) - o.x, double(p.y) - o.y, double(p.z) - o.z};
+  };
+  for (const auto& t : object.triangles) six_volumes += dot(cross(from_origin(t[0]), from_origin(t[1])), from_origin(t[2]));
+  const Stiffness& stiffness = object.volume->stiffness;
+  const bool pbd = stiffness.kind == Stiffness::Kind::pbd;
+  out.has_volume = true;
+  out.volume.target = object.volume->pressure * six_volumes;
+  out.volume.law = pbd ? Law::pbd : stiffness.damping > 0 ? Law::damped : Law::compliant;
+  out.volume.response = pbd ? static_cast<float>(stiffness_per_projection(stiffness.value, passes)) : stiffness.value;
+  out.volume.damping = stiffness.damping;
+}
+
+}  // namespace
+
+CompiledObject compile(const Object& object, const CompileOptions& options) {
+  CompiledObject out;
+  out.name = object.name;
+  const std::vector<Vec3f> positions = all_positions(object);
+  out.particles = static_cast<int>(positions.size());
+  out.user_particles = static_cast<int>(object.positions.size());
+
+  std::vector<ConstraintList> lists = gather_constraints(object, options.passes);
+  std::vector<int> tile;
+  number_particles(positions, lists, options.largest_tile, tile, out);
+  fill_particles(object, positions, out);
+  fill_kinematics(object, out);
+  schedule(lists, tile, out);
+  fill_surface(object, out);
+  fill_volume(object, options.passes, out);
+
+  out.thickness = object.thickness;
+  out.static_friction = object.static_friction;
+  out.kinetic_friction = object.kinetic_friction;
+  out.restitution = object.restitution;
+  out.drag = object.drag;
+  out.lift = object.lift;
+  out.damping = object.damping;
+  return out;
+}
+
+}  // namespace pliant

@@ -1,0 +1,29 @@
+// From the groups of an Object to one list of constraints for each type and law.
+#pragma once
+
+#include <vector>
+
+#include "model/pool.h"
+#include "pliant/scene.h"
+
+namespace pliant {
+
+/// Constraints of one type and law, not yet scheduled, in the object's own numbering.
+struct ConstraintList {
+  int type = 0;
+  Law law = Law::compliant;
+  int size = 0, fields = 0;
+  std::vector<int> stencils;  ///< size x constraints
+  std::vector<float> rest;    ///< fields x constraints
+  std::vector<float> response;
+  std::vector<float> damping;
+  std::vector<int> origin;  ///< number among the object's constraints of this type
+
+  int count() const { return static_cast<int>(response.size()); }
+};
+
+/// All constraints of an object, its attachments last as distances of rest length zero to the particles after its own. Types in
+/// the order of AllConstraints, laws within them. Rest data that a group leaves out is measured from the positions in double.
+std::vector<ConstraintList> gather_constraints(const Object& object, int passes);
+
+}  // namespace pliant

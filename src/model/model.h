@@ -1,0 +1,45 @@
+// Everything of a World that does not change as time passes: objects compiled, colliders, the field they are in, and one list of
+// tasks over all objects. It changes only when objects come or go.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/compiled_object.h"
+#include "pliant/scene.h"
+
+namespace pliant {
+
+/// One tile of one object.
+struct TileTask {
+  int object = 0, tile = 0;
+};
+
+/// Segments of straddling constraints that share no particle, over all objects.
+struct StraddlerPhase {
+  struct Task {
+    int object = 0, segment = 0;
+  };
+  std::vector<Task> tasks;
+  int batches = 0;
+};
+
+struct Model {
+  Vec3f gravity{};
+  Wind wind;
+  std::vector<ForceField> forces;
+  std::vector<Collider> colliders;
+  std::vector<CompiledObject> objects;
+  std::vector<int> first;  ///< first[o] is object o's first particle in a State; one more at the end
+  std::vector<TileTask> tiles;
+  std::vector<StraddlerPhase> straddlers;
+
+  /// Appends an object and its tasks.
+  void add(CompiledObject object);
+  int particles() const { return first.empty() ? 0 : first.back(); }
+};
+
+/// The state in which a model's objects begin.
+State initial_state(const Model& model);
+
+}  // namespace pliant

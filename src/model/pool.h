@@ -1,0 +1,72 @@
+// Constraints as the sweeps read them.
+//
+// A pool holds all constraints of one type and law of one object. Sixteen of them are a batch. Each batch's numbers lie together,
+// field after field, sixteen floats a field, in the order in which the sweep comes by: memory is read once, forwards. A segment is
+// a stretch of batches that share no particle.
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+namespace pliant {
+
+/// An allocator for whole-vector loads.
+template <class T>
+struct CacheLineAllocator {
+  using value_type = T;
+  CacheLineAllocator() = default;
+  template <class U>
+  CacheLineAllocator(const CacheLineAllocator<U>&) {}  // NOLINT(google-explicit-constructor): as allocators must
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{64})); }
+  void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t{64}); }
+  friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
+};
+
+template <class T>
+using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
+
+/// How a pool's constraints answer: by compliance, by compliance with damping, or by PBD stiffness.
+enum class Law : std::int32_t { compliant, damped, pbd };
+
+inline constexpr int batch_width = 16;
+
+/// Batches of one pool that share no particle and are projected together.
+struct Segment {
+  std::int32_t pool = 0;
+  std::int32_t runs = 0;         ///< 1: a slot's indices are four bases of runs; 0: sixteen particles
+  std::int32_t first_batch = 0;  ///< in the pool
+  std::int32_t batches = 0;
+  std::int32_t last_count = 0;   ///< valid runs (1..4) or lanes (1..16) in the last batch; the rest is padding
+  std::int64_t index_offset = 0;  ///< into Pool::indices
+};
+
+struct Pool {
+  std::int32_t type = 0;  ///< number in AllConstraints
+  Law law = Law::compliant;
+  std::int32_t stencil = 0;          ///< particles a constraint
+  std::int32_t block_floats = 0;     ///< floats a batch in `blocks`
+  std::int32_t batches = 0;
+  std::int64_t constraints = 0;
+  std::vector<std::int32_t> indices;
+  AlignedVector<float> blocks;       ///< a batch: the type's rest fields, then alpha or k', then beta where damped
+  std::vector<std::int32_t> origin;  ///< one a lane: number among the object's constraints of this type, -1 for padding
+};
+
+/// Indices that one batch of a segment takes.
+inline std::int32_t indices_per_batch(const Pool& pool, const Segment& segment) {
+  return pool.stencil * (segment.runs != 0 ? 4 : batch_width);
+}
+
+/// The particle in `slot` of `lane` of a batch whose indices start at `index`.
+inline std::int32_t particle_of(const Segment& segment, const std::int32_t* index, int slot, int lane) {
+  return segment.runs != 0 ? index[4 * slot + lane % 4] + lane / 4 : index[batch_width * slot + lane];
+}
+
+/// Whether a lane of the segment's batch number `batch` (from its first) is a constraint and not padding.
+inline bool lane_is_valid(const Segment& segment, int batch, int lane) {
+  return batch + 1 < segment.batches || (segment.runs != 0 ? lane % 4 : lane) < segment.last_count;
+}
+
+}  // namespace pliant

@@ -1,0 +1,13 @@
+#include "model/stiffness.h"
+
+#include "math/functions.h"
+
+namespace pliant {
+
+double stiffness_per_projection(double k, int projections) {
+  if (k >= 1) return 1;
+  if (k <= 0) return 0;
+  return 1 - exp(log(1 - k) / projections);
+}
+
+}  // namespace pliant

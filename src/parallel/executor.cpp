@@ -1,0 +1,65 @@
+// The parallel loop on oneTBB.
+#include "parallel/executor.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <utility>
+
+namespace pliant {
+
+namespace {
+long long nanoseconds() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+}  // namespace
+
+void Timings::add(const char* name, double milliseconds) {
+  for (Entry& entry : entries_) {
+    if (entry.name == name || std::strcmp(entry.name, name) == 0) {
+      entry.milliseconds += milliseconds;
+      return;
+    }
+  }
+  entries_.push_back({name, milliseconds});
+}
+
+void Timings::clear() {
+  for (Entry& entry : entries_) entry.milliseconds = 0;
+}
+
+Stopwatch::Stopwatch(Timings& timings, const char* name) : timings_(timings), name_(name), start_(nanoseconds()) {}
+Stopwatch::~Stopwatch() { timings_.add(name_, static_cast<double>(nanoseconds() - start_) * 1e-6); }
+
+struct Executor::Arena {
+  tbb::task_arena arena;
+};
+
+Executor::Executor(int threads)
+    : threads_(threads > 0 ? threads : std::max(1, tbb::this_task_arena::max_concurrency())),
+      arena_(std::make_unique<Arena>(Arena{tbb::task_arena(threads_)})) {}
+Executor::~Executor() = default;
+Executor::Executor(Executor&&) noexcept = default;
+Executor& Executor::operator=(Executor&&) noexcept = default;
+
+void Executor::enter(FunctionRef<void()> f) {
+  if (threads_ == 1) {
+    f();
+  } else {
+    arena_->arena.execute([&] { f(); });
+  }
+}
+
+void Executor::parallel_for(const char* name, int n, FunctionRef<void(int)> body) {
+  Stopwatch watch(timings_, name);
+  if (n <= 1 || threads_ == 1) {
+    for (int i = 0; i < n; ++i) body(i);
+  } else {
+    tbb::parallel_for(0, n, 1, [&](int i) { body(i); }, tbb::simple_partitioner{});
+  }
+}
+
+}  // namespace pliant

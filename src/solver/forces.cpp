@@ -1,0 +1,117 @@
+#include "solver/forces.h"
+
+#include "math/functions.h"
+#include "math/vector.h"
+
+namespace pliant {
+
+namespace {
+
+constexpr int triangles_per_task = 1024;
+
+Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
+
+void push(Record& velocity, const Vec3f& change) {
+  velocity = {velocity.x + change.x, velocity.y + change.y, velocity.z + change.z, 0};
+}
+
+void forces_of_air(const CompiledObject& object, const Record* positions, const Record* velocities, const Wind& wind,
+                   const Vec3f& air, float h, int first, int last, std::vector<Vec3f>& forces) {
+  for (int t = first; t < last; ++t) {
+    const auto& corner = object.surface.triangles[t];
+    const Vec3f x[3] = {vector_of(positions[corner[0]]), vector_of(positions[corner[1]]), vector_of(positions[corner[2]])};
+    const float third = 1.f / 3;
+    const Vec3f velocity =
+        (vector_of(velocities[corner[0]]) + vector_of(velocities[corner[1]]) + vector_of(velocities[corner[2]])) * third;
+    const float inverse_mass = (positions[corner[0]].w + positions[corner[1]].w + positions[corner[2]].w) * third;
+    forces[t] = air_force(x, air - velocity, wind.air_density, object.drag, object.lift, 2 * h * inverse_mass);
+  }
+}
+
+/// A third of the force of every triangle around each particle.
+void gather_air(const CompiledObject& object, const Record* positions, Record* velocities, float h,
+                const std::vector<Vec3f>& forces, const Tile& tile) {
+  for (int i = tile.first_particle; i < tile.last_particle; ++i) {
+    Vec3f sum{};
+    for (int c = object.surface.corner_begin[i]; c < object.surface.corner_begin[i + 1]; ++c) {
+      sum += forces[object.surface.corners[c] / 3];
+    }
+    push(velocities[i], sum * (h * positions[i].w * (1.f / 3)));
+  }
+}
+
+void apply_air(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h) {
+  const Vec3f air = wind_at(model.wind, time);
+  for (std::size_t o = 0; o < model.objects.size(); ++o) {
+    const CompiledObject& object = model.objects[o];
+    const int triangles = static_cast<int>(object.surface.triangles.size());
+    std::vector<Vec3f>& forces = workspace.triangle_forces[o];
+    forces.resize(triangles);
+    const Record* positions = state.positions.data() + model.first[o];
+    Record* velocities = state.velocities.data() + model.first[o];
+    executor.parallel_for("forces: air", (triangles + triangles_per_task - 1) / triangles_per_task, [&](int task) {
+      const int first = task * triangles_per_task;
+      forces_of_air(object, positions, velocities, model.wind, air, h, first, std::min(triangles, first + triangles_per_task),
+                    forces);
+    });
+    executor.parallel_for("forces: air", static_cast<int>(object.tiles.size()), [&](int tile) {
+      gather_air(object, positions, velocities, h, forces, object.tiles[tile]);
+    });
+  }
+}
+
+bool is_finite(const Vec3f& v) { return (v.x - v.x) + (v.y - v.y) + (v.z - v.z) == 0; }
+
+void apply_fields(const Model& model, State& state, double time, float h, std::vector<std::string>& warnings) {
+  for (std::size_t o = 0; o < model.objects.size(); ++o) {
+    const CompiledObject& object = model.objects[o];
+    for (int user = 0; user < object.user_particles; ++user) {
+      const int i = model.first[o] + object.place[user];
+      const Record& x = state.positions[i];
+      if (x.w == 0) continue;
+      for (std::size_t f = 0; f < model.forces.size(); ++f) {
+        const Vec3f force = model.forces[f](vector_of(x), vector_of(state.velocities[i]), 1 / x.w, static_cast<float>(time));
+        if (is_finite(force)) {
+          push(state.velocities[i], force * (h * x.w));
+        } else if (warnings.empty()) {
+          warnings.push_back("force field " + std::to_string(f) + " is not finite at particle " + std::to_string(user) +
+                             " of object '" + object.name + "' and was left out there");
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+bool has_forces(const Model& model) { return model.wind.air_density > 0 || !model.forces.empty(); }
+
+Vec3f wind_at(const Wind& wind, double time) {
+  if (wind.gust == 0) return wind.velocity;
+  const double phase = time / wind.gust_period;
+  const double turn = phase - static_cast<double>(static_cast<long long>(phase));
+  return wind.velocity * (1 + wind.gust * static_cast<float>(sin(turn * 6.283185307179586)));
+}
+
+Vec3f air_force(const Vec3f (&x)[3], const Vec3f& u, float air_density, float drag, float lift, float response) {
+  const Vec3f doubled = cross(x[1] - x[0], x[2] - x[0]);
+  const float doubled_area = length(doubled), speed = length(u);
+  if (!(doubled_area > 0) || !(speed > 0)) return {};
+  Vec3f n = doubled * (1 / doubled_area);
+  if (dot(u, n) < 0) n = -n;
+  const float through = dot(u, n);
+  const float scale = 0.25f * air_density * doubled_area * through;
+  const Vec3f force = u * (scale * drag) + (n - u * (through / (speed * speed))) * (scale * lift * speed);
+  return force * (1 / (1 + response * length(force) / speed));
+}
+
+void apply_forces(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h,
+                  std::vector<std::string>& warnings) {
+  if (model.wind.air_density > 0) apply_air(model, state, workspace, executor, time, h);
+  if (!model.forces.empty()) {
+    Stopwatch watch(executor.timings(), "forces: fields");
+    apply_fields(model, state, time, h, warnings);
+  }
+}
+
+}  // namespace pliant

@@ -1,0 +1,41 @@
+// The innermost loops of a step, behind one table of functions for each instruction set.
+//
+// Every table gives the same bits; they differ in speed alone. The sequential one is the readable reference: plain floats, one
+// constraint after the other, in the order of the same schedule.
+#pragma once
+
+#include <string>
+
+#include "model/pool.h"
+#include "model/substep.h"
+
+namespace pliant {
+
+struct Kernels {
+  const char* isa;
+
+  /// Projects every constraint of the segments, one segment after the other.
+  void (*sweep)(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& arguments);
+
+  /// Whether every position is finite.
+  bool (*all_finite)(const Record* positions, int first, int last);
+
+  /// v += (x - predicted) / h, then damping. Equal to v = (x - x_start) / h, but what is divided is the solver's own correction,
+  /// which a float holds even where a substep's whole motion is below the last bit of the position.
+  void (*update)(const AdvanceArguments& arguments);
+
+  /// v += h g and x += h v for particles with mass; the part of the motion that x can't hold is kept in `remainders` and added the
+  /// next time. Adds the places before and after to `bounds` where it is not null.
+  void (*predict)(const AdvanceArguments& arguments, Bounds* bounds);
+};
+
+const Kernels& kernels_v2();
+const Kernels& kernels_v3();
+const Kernels& kernels_v4();
+const Kernels& kernels_sequential();
+
+/// The widest kernels that this machine runs, or those named ("x86-64-v2", "x86-64-v3", "x86-64-v4"). Throws Error where the name
+/// is unknown or the machine can't.
+const Kernels& pick_kernels(const std::string& isa);
+
+}  // namespace pliant

@@ -1,0 +1,281 @@
+// The sweeps in sixteen lanes. This unit is compiled once for each instruction set, with kernels_NAME() telling them apart; see
+// CMakeLists.txt beside it. It uses nothing but always-inlined functions and the inline namespace of its instruction set, so that
+// no code of one build is ever linked into another.
+#include "constraints/all.h"
+#include "math/wide.h"
+#include "solver/kernels.h"
+#include "solver/project.h"
+
+namespace pliant {
+inline namespace PLIANT_ISA {
+namespace {
+
+// ---------------------------------------------------------------- constraints
+
+template <bool runs>
+PLIANT_HD WideRecords load(const Record* base, const std::int32_t* index) {
+  if constexpr (runs) {
+    return load_runs(base, index);
+  } else {
+    return load_indexed(base, index);
+  }
+}
+
+template <bool runs>
+PLIANT_HD void store(Record* base, const std::int32_t* index, const WideRecords& records, bool whole, int count) {
+  if constexpr (runs) {
+    if (whole) return store_all_runs(base, index, records);
+    store_runs(base, index, records, count);
+  } else {
+    if (whole) return store_indexed(base, index, records);
+    store_indexed_some(base, index, records, count);
+  }
+}
+
+/// x - x_start = h v + (x - predicted) for one slot.
+template <bool runs>
+PLIANT_HD Vec3<Wide> load_motion(const SweepArguments& a, const std::int32_t* index, const Vec3<Wide>& x) {
+  const Vec3<Wide> predicted = load<runs>(a.predicted, index).position;
+  const Vec3<Wide> velocity = load<runs>(a.velocities, index).position;
+  return velocity * Wide(a.h) + (x - predicted);
+}
+
+/// One batch of sixteen constraints: their numbers at `block`, their particles at `index`. `count` lanes or runs are written.
+template <class T, Law law, bool keeps_multipliers, bool runs>
+PLIANT_HD void project_batch(const float* block, const std::int32_t* index, float* multiplier, bool whole, int count,
+                             const SweepArguments& a) {
+  constexpr int stride = runs ? 4 : batch_width;
+  constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
+  Vec3<Wide> x[T::size];
+  Wide w[T::size];
+  for (int slot = 0; slot < T::size; ++slot) {
+    const WideRecords records = load<runs>(a.positions, index + slot * stride);
+    x[slot] = records.position;
+    w[slot] = records.w;
+  }
+  typename T::template Params<Wide> params;
+  std::memcpy(&params, block, sizeof params);
+  Answer<Wide> answer{load_wide(block + fields * batch_width), Wide(0.f), Wide(0.f)};
+  if constexpr (keeps_multipliers) {
+    if (!a.first_pass) answer.multiplier = load_wide(multiplier);
+  }
+  Vec3<Wide> motion[T::size];
+  if constexpr (law == Law::damped) {
+    answer.damping = load_wide(block + (fields + 1) * batch_width);
+    for (int slot = 0; slot < T::size; ++slot) motion[slot] = load_motion<runs>(a, index + slot * stride, x[slot]);
+  }
+  project<T, law, keeps_multipliers>(x, w, params, motion, answer, a);
+  if constexpr (keeps_multipliers) store_wide(multiplier, answer.multiplier);
+  for (int slot = 0; slot < T::size; ++slot) {
+    store<runs>(a.positions, index + slot * stride, {x[slot], w[slot]}, whole, count);
+  }
+}
+
+template <class T, Law law, bool keeps_multipliers, bool runs>
+void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
+  constexpr int indices = T::size * (runs ? 4 : batch_width);
+  const std::int32_t* index = pool.indices.data() + segment.index_offset;
+  const float* block = pool.blocks.data() + static_cast<std::int64_t>(segment.first_batch) * pool.block_floats;
+  float* multiplier = keeps_multipliers ? multipliers + static_cast<std::int64_t>(segment.first_batch) * batch_width : nullptr;
+  for (int batch = 0; batch + 1 < segment.batches; ++batch) {
+    project_batch<T, law, keeps_multipliers, runs>(block, index, multiplier, true, 0, a);
+    index += indices;
+    block += pool.block_floats;
+    if constexpr (keeps_multipliers) multiplier += batch_width;
+  }
+  const bool whole = segment.last_count == (runs ? 4 : batch_width);
+  project_batch<T, law, keeps_multipliers, runs>(block, index, multiplier, whole, segment.last_count, a);
+}
+
+template <class T, Law law, bool keeps_multipliers>
+void sweep_either(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
+  if (segment.runs != 0) return sweep_segment<T, law, keeps_multipliers, true>(pool, segment, multipliers, a);
+  sweep_segment<T, law, keeps_multipliers, false>(pool, segment, multipliers, a);
+}
+
+template <class T>
+void sweep_type(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
+  const bool keeps = multipliers != nullptr;
+  switch (pool.law) {
+    case Law::compliant:
+      return keeps ? sweep_either<T, Law::compliant, true>(pool, segment, multipliers, a)
+                   : sweep_either<T, Law::compliant, false>(pool, segment, multipliers, a);
+    case Law::damped:
+      return keeps ? sweep_either<T, Law::damped, true>(pool, segment, multipliers, a)
+                   : sweep_either<T, Law::damped, false>(pool, segment, multipliers, a);
+    case Law::pbd:
+      return sweep_either<T, Law::pbd, false>(pool, segment, multipliers, a);
+  }
+}
+
+template <class... Types>
+void sweep_any(TypeList<Types...>, const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
+  using Function = void (*)(const Pool&, const Segment&, float*, const SweepArguments&);
+  static constexpr Function table[] = {&sweep_type<Types>...};
+  table[pool.type](pool, segment, multipliers, a);
+}
+
+void sweep(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& a) {
+  for (const Segment* segment = first; segment != last; ++segment) {
+    float* multipliers = a.multipliers != nullptr ? a.multipliers[segment->pool] : nullptr;
+    sweep_any(AllConstraints{}, pools[segment->pool], *segment, multipliers, a);
+  }
+}
+
+// ---------------------------------------------------------------- particles, four records at a time
+
+PLIANT_HD const float* floats(const Record* r) { return &r->x; }
+PLIANT_HD float* floats(Record* r) { return &r->x; }
+
+/// Each record's w in all four of its places.
+PLIANT_HD Wide spread_w(const Wide& a) {
+  Wide r;
+  PLIANT_EACH_PART(r.part[i] = PLIANT_SHUFFLE(a.part[i], a.part[i], 3, 3, 7, 7))
+  return r;
+}
+
+/// The same (x, y, z, 0) in four records.
+PLIANT_HD Wide spread(const Vec3f& v) {
+  float all[wide_width];
+  for (int i = 0; i < wide_width; i += 4) {
+    all[i] = v.x;
+    all[i + 1] = v.y;
+    all[i + 2] = v.z;
+    all[i + 3] = 0;
+  }
+  return load_wide(all);
+}
+
+struct FourParticles {
+  Wide position, predicted, remainder, velocity;
+};
+
+PLIANT_HD void update_four(FourParticles& p, const AdvanceArguments& a) {
+  p.velocity = (p.velocity + (p.position - p.predicted) * Wide(a.inverse_h)) * Wide(a.velocity_kept);
+}
+
+PLIANT_HD void predict_four(FourParticles& p, const Wide& gravity_step, const AdvanceArguments& a) {
+  p.velocity = p.velocity + select(spread_w(p.position) > Wide(0.f), gravity_step, Wide(0.f));
+  const Wide step = p.remainder + p.velocity * Wide(a.h);
+  const Wide moved = p.position + step;
+  p.remainder = step - (moved - p.position);
+  p.position = moved;
+  p.predicted = moved;
+}
+
+PLIANT_HD FourParticles load_four(const AdvanceArguments& a, int i) {
+  return {load_wide(floats(a.positions + i)), load_wide(floats(a.predicted + i)), load_wide(floats(a.remainders + i)),
+          load_wide(floats(a.velocities + i))};
+}
+
+/// Up to three particles at the end, in four-record buffers of their own.
+struct Tail {
+  Record positions[4], predicted[4], remainders[4], velocities[4];
+  AdvanceArguments arguments;
+  int first, count;
+
+  PLIANT_HD Tail(const AdvanceArguments& a, int from) : arguments(a), first(from), count(a.last - from) {
+    for (int i = 0; i < 4; ++i) {
+      const int at = from + (i < count ? i : count - 1);
+      positions[i] = a.positions[at];
+      predicted[i] = a.predicted[at];
+      remainders[i] = a.remainders[at];
+      velocities[i] = a.velocities[at];
+    }
+    arguments.positions = positions;
+    arguments.predicted = predicted;
+    arguments.remainders = remainders;
+    arguments.velocities = velocities;
+  }
+  PLIANT_HD void write_back(const AdvanceArguments& a) const {
+    for (int i = 0; i < count; ++i) {
+      a.positions[first + i] = positions[i];
+      a.predicted[first + i] = predicted[i];
+      a.remainders[first + i] = remainders[i];
+      a.velocities[first + i] = velocities[i];
+    }
+  }
+};
+
+PLIANT_HD void update_at(const AdvanceArguments& a, int i) {
+  FourParticles p = load_four(a, i);
+  update_four(p, a);
+  store_wide(floats(a.velocities + i), p.velocity);
+}
+
+void update(const AdvanceArguments& a) {
+  int i = a.first;
+  for (; i + 4 <= a.last; i += 4) update_at(a, i);
+  if (i == a.last) return;
+  Tail tail(a, i);
+  update_at(tail.arguments, 0);
+  tail.write_back(a);
+}
+
+struct WideBounds {
+  Wide low{3e38f}, high{-3e38f};
+};
+
+PLIANT_HD void predict_at(const AdvanceArguments& a, int i, const Wide& gravity_step, WideBounds& bounds) {
+  FourParticles p = load_four(a, i);
+  const Wide before = p.position;
+  predict_four(p, gravity_step, a);
+  bounds.low = min(bounds.low, min(before, p.position));
+  bounds.high = max(bounds.high, max(before, p.position));
+  store_wide(floats(a.positions + i), p.position);
+  store_wide(floats(a.predicted + i), p.predicted);
+  store_wide(floats(a.remainders + i), p.remainder);
+  store_wide(floats(a.velocities + i), p.velocity);
+}
+
+PLIANT_HD void add_bounds(const WideBounds& wide, Bounds& bounds) {
+  float low[wide_width], high[wide_width];
+  store_wide(low, wide.low);
+  store_wide(high, wide.high);
+  for (int i = 0; i < wide_width; i += 4) {
+    Record &l = bounds.low, &h = bounds.high;
+    l = {pliant::min(l.x, low[i]), pliant::min(l.y, low[i + 1]), pliant::min(l.z, low[i + 2]), 0};
+    h = {pliant::max(h.x, high[i]), pliant::max(h.y, high[i + 1]), pliant::max(h.z, high[i + 2]), 0};
+  }
+}
+
+void predict(const AdvanceArguments& a, Bounds* bounds) {
+  const Wide gravity_step = spread(a.gravity_step);
+  WideBounds wide;
+  int i = a.first;
+  for (; i + 4 <= a.last; i += 4) predict_at(a, i, gravity_step, wide);
+  if (i < a.last) {
+    Tail tail(a, i);
+    predict_at(tail.arguments, 0, gravity_step, wide);
+    tail.write_back(a);
+  }
+  if (bounds != nullptr) add_bounds(wide, *bounds);
+}
+
+/// x - x is zero for what is finite and not a number else, and a sum keeps what is not a number.
+bool all_finite(const Record* positions, int first, int last) {
+  Wide sum(0.f);
+  int i = first;
+  for (; i + 4 <= last; i += 4) {
+    const Wide x = load_wide(floats(positions + i));
+    sum = sum + (x - x);
+  }
+  float lanes[wide_width], rest = 0;
+  store_wide(lanes, sum);
+  for (float lane : lanes) rest = rest + lane;
+  for (; i < last; ++i) {
+    const Record& p = positions[i];
+    rest = rest + (p.x - p.x) + (p.y - p.y) + (p.z - p.z);
+  }
+  return rest == 0;
+}
+
+}  // namespace
+}  // namespace PLIANT_ISA
+
+const Kernels& PLIANT_KERNELS() {
+  static constexpr Kernels table{PLIANT_ISA_NAME, &sweep, &all_finite, &update, &predict};
+  return table;
+}
+
+}  // namespace pliant

@@ -1,0 +1,70 @@
+// The projection of one constraint, written once for a float and for sixteen lanes.
+#pragma once
+
+#include "math/scalar.h"
+#include "model/pool.h"
+#include "solver/kernels.h"
+
+namespace pliant {
+
+/// Smallest denominator: constraints among fixed particles alone divide by it and then move nothing.
+inline constexpr float smallest_denominator = 1e-20f;
+/// Largest alpha / h^2: infinite compliance times a zero multiplier must stay a number.
+inline constexpr float largest_compliance = 1e30f;
+
+/// How far the stencil has moved along the gradients since the substep's start: grad C . (x - x_start).
+template <class T, class R>
+PLIANT_HD R motion_along(const Vec3<R> (&gradient)[T::size], const Vec3<R> (&motion)[T::size]) {
+  R sum = dot(gradient[0], motion[0]);
+  for (int slot = 1; slot < T::size; ++slot) sum = sum + dot(gradient[slot], motion[slot]);
+  return sum;
+}
+
+/// sum_i w_i |grad_i C|^2.
+template <class T, class R>
+PLIANT_HD R generalised_inverse_mass(const Vec3<R> (&gradient)[T::size], const R (&w)[T::size]) {
+  R sum = T::unit_gradients ? w[0] : w[0] * length_squared(gradient[0]);
+  for (int slot = 1; slot < T::size; ++slot) {
+    sum = sum + (T::unit_gradients ? w[slot] : w[slot] * length_squared(gradient[slot]));
+  }
+  return sum;
+}
+
+/// What a law needs besides positions.
+template <class R>
+struct Answer {
+  R response;    ///< alpha, or k'
+  R damping;     ///< beta
+  R multiplier;  ///< lambda so far in this substep; advanced by project
+};
+
+/// Moves the particles of one constraint (of each lane).
+///   PBD:   dlambda = -k' C / sum w |grad C|^2                                              (Mueller 2007, eq. 5 and 3.3)
+///   XPBD:  dlambda = (-C - a lambda - g grad C . (x - x_start)) / ((1 + g) sum w |grad C|^2 + a)   (Macklin 2016, eq. 18, 26)
+///          with a = alpha / h^2 and g = alpha beta / h
+///   x_i += w_i grad_i C dlambda
+template <class T, Law law, bool keeps_multiplier, class R>
+PLIANT_HD void project(Vec3<R> (&x)[T::size], const R (&w)[T::size], const typename T::template Params<R>& params,
+                       const Vec3<R> (&motion)[T::size], Answer<R>& answer, const SweepArguments& a) {
+  Vec3<R> gradient[T::size];
+  const R c = T::evaluate(x, params, gradient);
+  const R mass = generalised_inverse_mass<T>(gradient, w);
+  R change;
+  if constexpr (law == Law::pbd) {
+    change = -(answer.response * c) / max(mass, R(smallest_denominator));
+  } else {
+    const R compliance = min(answer.response * R(a.inverse_h2), R(largest_compliance));
+    R numerator = -c, denominator = mass + compliance;
+    if constexpr (keeps_multiplier) numerator = numerator - compliance * answer.multiplier;
+    if constexpr (law == Law::damped) {
+      const R gamma = min(answer.response * answer.damping * R(a.inverse_h), R(largest_compliance));
+      numerator = numerator - gamma * motion_along<T>(gradient, motion);
+      denominator = denominator + gamma * mass;
+    }
+    change = numerator / max(denominator, R(smallest_denominator));
+  }
+  if constexpr (keeps_multiplier) answer.multiplier = answer.multiplier + change;
+  for (int slot = 0; slot < T::size; ++slot) x[slot] = x[slot] + gradient[slot] * (w[slot] * change);
+}
+
+}  // namespace pliant

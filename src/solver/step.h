@@ -1,0 +1,25 @@
+// One frame: how a World moves.
+#pragma once
+
+#include "model/model.h"
+#include "parallel/executor.h"
+#include "pliant/world.h"
+#include "solver/kernels.h"
+#include "solver/workspace.h"
+
+namespace pliant {
+
+/// Everything that a step works with.
+struct StepContext {
+  const Model& model;
+  State& state;
+  Workspace& workspace;
+  Executor& executor;
+  const Kernels& kernels;
+  int substeps = 1, iterations = 1;
+};
+
+/// Advances the state by dt. Never throws; what went wrong is in the report.
+void step(const StepContext& context, double dt, Report& report);
+
+}  // namespace pliant

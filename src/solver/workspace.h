@@ -1,0 +1,34 @@
+// What a step needs besides model and state, kept between steps only so that nothing is allocated in one.
+#pragma once
+
+#include <vector>
+
+#include "collision/contact.h"
+#include "model/model.h"
+#include "pliant/world.h"
+
+namespace pliant {
+
+/// Results of one tile.
+struct alignas(64) TileScratch {
+  std::vector<Contact> contacts;
+  Bounds bounds;
+  bool finite = true;
+  double gradient_squared = 0, position_along = 0, motion_along = 0;  ///< sums of the volume constraint
+};
+
+struct Workspace {
+  std::vector<Record> predicted;
+  std::vector<std::vector<AlignedVector<float>>> multipliers;  ///< [object][pool], a float a lane; empty where none are kept
+  std::vector<std::vector<float*>> multiplier_pointers;
+  std::vector<double> volume_multipliers;  ///< one an object
+  std::vector<Record> volume_gradients;    ///< one a particle where some object has a volume constraint
+  std::vector<std::vector<Vec3f>> triangle_forces;  ///< [object], where there is air
+  std::vector<TileScratch> tiles;          ///< one a tile task
+  std::vector<MovingCollider> colliders;
+};
+
+/// Makes everything the right size for a model.
+void prepare(const Model& model, bool keeps_multipliers, Workspace& workspace);
+
+}  // namespace pliant

@@ -1,0 +1,238 @@
+// What is doubtful about an object: nothing that a World refuses, but most likely not what was meant.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "collision/collider_pose.h"
+#include "constraints/dihedral_bending.h"
+#include "geometry/shapes.h"
+#include "topology/boundary.h"
+#include "topology/edges.h"
+#include "world/problems.h"
+
+namespace pliant {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Masses further apart than this make heavy things hang on light ones like on rubber.
+constexpr double large_mass_ratio = 1e4;
+/// The speed of sound [m/s], which nothing that this engine is made for exceeds.
+constexpr double large_speed = 343;
+/// Where a mesh in millimetres or centimetres usually ends up [m].
+constexpr float large_place = 1e4f;
+/// Share of its rest length by which a constraint may be off at the start.
+constexpr double large_strain = 0.5;
+/// Angle [rad] from which a rest shape counts as curved.
+constexpr double large_angle = 0.1;
+
+/// One object being doubted, with what several doubts need.
+struct Doubts {
+  Problems& problems;
+  const Object& object;
+  const Scene& scene;
+  std::vector<bool> fixed;  ///< pinned, or of infinite mass
+
+  Vec3d at(int particle) const {
+    const Vec3f& p = object.positions[static_cast<std::size_t>(particle)];
+    return {p.x, p.y, p.z};
+  }
+  double inverse_mass(int particle) const {
+    const auto i = static_cast<std::size_t>(particle);
+    return fixed[i] ? 0 : 1 / static_cast<double>(object.masses[i]);
+  }
+  std::size_t count() const { return object.positions.size(); }
+};
+
+double distance_between(const Doubts& d, const int* pair) {
+  return std::sqrt(length_squared(d.at(pair[1]) - d.at(pair[0])));
+}
+
+double rest_length(const Doubts& d, const ConstraintGroup& group, std::size_t constraint) {
+  return group.rest.empty() ? distance_between(d, &group.particles[2 * constraint]) : group.rest[constraint];
+}
+
+// ------------------------------------------------------------------------------------------------ particles
+
+void doubt_masses(const Doubts& d) {
+  std::size_t lightest = d.count(), heaviest = d.count();
+  for (std::size_t i = 0; i < d.count(); ++i) {
+    if (d.fixed[i]) continue;
+    if (lightest == d.count() || d.object.masses[i] < d.object.masses[lightest]) lightest = i;
+    if (heaviest == d.count() || d.object.masses[i] > d.object.masses[heaviest]) heaviest = i;
+  }
+  if (lightest == d.count())
+    return d.problems.doubtful("", "all particles are pinned or fixed, so nothing of it moves by itself", "pin fewer");
+  const double ratio = static_cast<double>(d.object.masses[heaviest]) / static_cast<double>(d.object.masses[lightest]);
+  if (ratio > large_mass_ratio)
+    d.problems.doubtful("particle " + std::to_string(heaviest),
+                        "is " + words(ratio) + " times as heavy as particle " + std::to_string(lightest),
+                        "use more substeps, or even out the masses (slivers in a mesh make light particles)");
+}
+
+void doubt_pins(const Doubts& d) {
+  std::vector<bool> seen(d.count(), false);
+  Tally twice;
+  for (const Pin& pin : d.object.pins) {
+    if (seen[static_cast<std::size_t>(pin.particle)]) twice.add(pin.particle);
+    seen[static_cast<std::size_t>(pin.particle)] = true;
+  }
+  d.problems.doubtful(twice, "particle", "is pinned more than once", "one of the motions will be ignored: pin it once");
+}
+
+void doubt_references(const Doubts& d) {
+  std::vector<bool> used = d.fixed;
+  const auto use = [&](int particle) { used[static_cast<std::size_t>(particle)] = true; };
+  for (const ConstraintGroup& group : d.object.constraints)
+    std::for_each(group.particles.begin(), group.particles.end(), use);
+  for (const auto& triangle : d.object.triangles) std::for_each(triangle.begin(), triangle.end(), use);
+  for (const Attachment& attachment : d.object.attachments) use(attachment.particle);
+  Tally loose;
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (!used[i]) loose.add(static_cast<std::int64_t>(i));
+  if (static_cast<std::size_t>(loose.count) == d.count()) return;  // a cloud of particles is meant to be one
+  d.problems.doubtful(loose, "particle", "is in no constraint and no triangle, so it flies by itself",
+                      "drop it, or tie it");
+}
+
+void doubt_places(const Doubts& d) {
+  Tally far, fast;
+  for (std::size_t i = 0; i < d.count(); ++i) {
+    const Vec3f& p = d.object.positions[i];
+    if (std::fabs(p.x) > large_place || std::fabs(p.y) > large_place || std::fabs(p.z) > large_place)
+      far.add(static_cast<std::int64_t>(i));
+    if (i < d.object.velocities.size() &&
+        static_cast<double>(length_squared(d.object.velocities[i])) > large_speed * large_speed)
+      fast.add(static_cast<std::int64_t>(i));
+  }
+  d.problems.doubtful(far, "particle", "is more than 10 km from the origin, where a float can't tell 1 mm apart",
+                      "move the scene to the origin; lengths are in metres");
+  d.problems.doubtful(fast, "particle", "is faster than sound at the start", "velocities are in m/s");
+}
+
+// ------------------------------------------------------------------------------------------------ constraints
+
+/// Hung on it, half of its own mass would stretch it to more than ten times its length.
+bool does_nothing(const Doubts& d, const ConstraintGroup& group, std::size_t c) {
+  const double alpha = group.compliances.empty() ? group.stiffness.value : group.compliances[c];
+  const int* pair = &group.particles[2 * c];
+  const double inverse = d.inverse_mass(pair[0]) + d.inverse_mass(pair[1]);
+  return inverse > 0 && alpha * 9.81 / inverse > 10 * std::max(rest_length(d, group, c), 1e-6);
+}
+
+void doubt_distances(const Doubts& d, const ConstraintGroup& group) {
+  Tally strained, idle;
+  double shortest = infinity;
+  for (std::size_t c = 0; c < group.particles.size() / 2; ++c) {
+    const double rest = rest_length(d, group, c), now = distance_between(d, &group.particles[2 * c]);
+    if (std::fabs(now - rest) > large_strain * std::max(rest, 1e-6)) strained.add(static_cast<std::int64_t>(c));
+    if (rest > 0) shortest = std::min(shortest, rest);
+    if (group.stiffness.kind == Stiffness::Kind::compliance && does_nothing(d, group, c))
+      idle.add(static_cast<std::int64_t>(c));
+  }
+  d.problems.doubtful(strained, "distance constraint", "starts more than half its rest length away from it",
+                      "it will jump; check rest lengths and units");
+  d.problems.doubtful(idle, "distance constraint", "is so compliant that its own weight stretches it tenfold",
+                      "compliance is the inverse of stiffness, in m/N: 0 is rigid");
+  if (static_cast<double>(d.object.thickness) > shortest)
+    d.problems.doubtful("thickness",
+                        "is " + words(d.object.thickness) + " m, more than the shortest edge, " + words(shortest) + " m",
+                        "it will hover: lengths are in metres");
+}
+
+void doubt_hinges(const Doubts& d, const ConstraintGroup& group) {
+  Tally flat, curved;
+  for (std::size_t c = 0; c < group.particles.size() / 4; ++c) {
+    const int* v = &group.particles[4 * c];
+    const Vec3d x[4] = {d.at(v[0]), d.at(v[1]), d.at(v[2]), d.at(v[3])};
+    const Vec3d edge = x[1] - x[0];
+    if (length_squared(cross(edge, x[2] - x[0])) == 0 || length_squared(cross(edge, x[3] - x[0])) == 0)
+      flat.add(static_cast<std::int64_t>(c));
+    else if (std::fabs(DihedralBending::measure(x).rest_angle) > large_angle)
+      curved.add(static_cast<std::int64_t>(c));
+  }
+  const std::string kind = group.type + " constraint";
+  d.problems.doubtful(flat, kind, "has a triangle without area", "it can't measure an angle: leave it out");
+  if (group.type == "isometric_bending")
+    d.problems.doubtful(curved, kind, "is curved at rest, but this type knows only flat sheets",
+                        "it will flatten: use dihedral bending");
+}
+
+void doubt_surface(const Doubts& d) {
+  if (d.object.triangles.empty()) return;
+  const std::vector<Edge> edges = find_edges(d.object.triangles, static_cast<int>(d.count()));
+  Tally torn, against;
+  for (const Edge& edge : edges) {
+    if (edge.triangle_count > 2) torn.add(edge.triangles[0]);
+    if (!edge.is_wound_consistently()) against.add(edge.triangles[1]);
+  }
+  d.problems.doubtful(torn, "triangle", "shares an edge with two others or more", "the surface is no manifold there");
+  if (against.count == 0) return;
+  const bool one_sided = !find_pieces(edges, static_cast<int>(d.object.triangles.size())).one_sided_edges.empty();
+  d.problems.doubtful(
+      against, "triangle", "is wound against its neighbour",
+      one_sided ? "the surface has but one side: pictures will show a seam" : "turn it, so that pictures are smooth there");
+}
+
+void doubt_volume(const Doubts& d) {
+  if (!d.object.volume) return;
+  double six_volumes = 0;
+  const Vec3d origin = d.at(0);
+  for (const auto& t : d.object.triangles)
+    six_volumes += dot(cross(d.at(t[0]) - origin, d.at(t[1]) - origin), d.at(t[2]) - origin);
+  if (six_volumes < 0)
+    d.problems.doubtful("volume", "is inside out: its triangles face inward",
+                        "turn them all; make_cloth does it by itself");
+}
+
+// ------------------------------------------------------------------------------------------------ surroundings
+
+void doubt_overlaps(const Doubts& d) {
+  for (const Collider& collider : d.scene.colliders) {
+    const LocalShape shape = local_shape(collider.shape);
+    const Posed pose = collider_pose(collider, 0);
+    Tally inside;
+    for (std::size_t i = 0; i < d.count(); ++i) {
+      if (d.fixed[i]) continue;
+      const Vec3d local = to_local(pose, d.at(static_cast<int>(i)));
+      if (signed_distance(shape, local).distance < -1e-4) inside.add(static_cast<std::int64_t>(i));
+    }
+    d.problems.doubtful(inside, "particle", "is inside of collider '" + collider.name + "' at the start",
+                        "it will be pushed out: move one of them");
+  }
+}
+
+void doubt_air(const Doubts& d) {
+  const Wind& wind = d.scene.wind;
+  if (length_squared(wind.velocity) > 0 && wind.air_density == 0 && !d.object.triangles.empty())
+    d.problems.doubtful("", "will not feel the wind, because the air weighs nothing",
+                        "set the wind's air_density: 1.2 kg/m^3");
+}
+
+std::vector<bool> fixed_particles(const Object& object) {
+  std::vector<bool> fixed(object.positions.size());
+  for (std::size_t i = 0; i < fixed.size(); ++i) fixed[i] = std::isinf(object.masses[i]);
+  for (const Pin& pin : object.pins) fixed[static_cast<std::size_t>(pin.particle)] = true;
+  return fixed;
+}
+
+}  // namespace
+
+void doubt_object(Problems& problems, const Object& object, const Scene& scene) {
+  const Doubts doubts{problems, object, scene, fixed_particles(object)};
+  doubt_masses(doubts);
+  doubt_pins(doubts);
+  doubt_references(doubts);
+  doubt_places(doubts);
+  for (const ConstraintGroup& group : object.constraints) {
+    if (group.type == "distance") doubt_distances(doubts, group);
+    if (group.type == "dihedral_bending" || group.type == "isometric_bending") doubt_hinges(doubts, group);
+  }
+  doubt_surface(doubts);
+  doubt_volume(doubts);
+  doubt_overlaps(doubts);
+  doubt_air(doubts);
+}
+
+}  // namespace pliant

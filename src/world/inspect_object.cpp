@@ -1,0 +1,239 @@
+// What a World refuses in an object: sizes that do not fit, indices out of range, numbers that mean nothing.
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "pliant/error.h"
+#include "topology/boundary.h"
+#include "topology/edges.h"
+#include "world/problems.h"
+
+namespace pliant {
+
+namespace {
+
+bool exists(const Object& object, int particle) {
+  return particle >= 0 && particle < static_cast<int>(object.positions.size());
+}
+
+std::string of(std::size_t count) { return std::to_string(count); }
+
+// ------------------------------------------------------------------------------------------------ particles
+
+void check_positions(Problems& problems, const Object& object) {
+  if (object.positions.empty()) problems.grave("", "has no particles", "add some, or leave the object out");
+  if (object.positions.size() > std::numeric_limits<int>::max() / 4)
+    problems.grave("", "has " + of(object.positions.size()) + " particles", "split it: so many can't be numbered");
+  Tally infinite, far;
+  for (std::size_t i = 0; i < object.positions.size(); ++i) {
+    const Vec3f& p = object.positions[i];
+    if (is_place(p)) continue;
+    (is_finite(p) ? far : infinite).add(static_cast<std::int64_t>(i));
+  }
+  problems.grave(infinite, "particle", "has a position that is not finite", "give finite coordinates in metres");
+  problems.grave(far, "particle", "is more than 1e9 m away", "scale the scene to metres, near the origin");
+}
+
+void check_velocities(Problems& problems, const Object& object) {
+  if (object.velocities.empty()) return;
+  if (object.velocities.size() != object.positions.size())
+    problems.grave("velocities", of(object.velocities.size()) + " for " + of(object.positions.size()) + " particles",
+                   "give one a particle, or none");
+  Tally bad;
+  for (std::size_t i = 0; i < object.velocities.size(); ++i)
+    if (!is_place(object.velocities[i])) bad.add(static_cast<std::int64_t>(i));
+  problems.grave(bad, "particle", "has a velocity that is not finite or beyond 1e9 m/s", "give a velocity in m/s");
+}
+
+void check_masses(Problems& problems, const Object& object) {
+  if (object.masses.size() != object.positions.size())
+    problems.grave("masses", of(object.masses.size()) + " for " + of(object.positions.size()) + " particles",
+                   "give one a particle; infinity for a fixed one");
+  Tally none, extreme;
+  for (std::size_t i = 0; i < object.masses.size(); ++i) {
+    const float mass = object.masses[i];
+    if (!(mass > 0))
+      none.add(static_cast<std::int64_t>(i));
+    else if (!std::isinf(mass) && (mass > largest_quantity || mass < 1 / largest_quantity))
+      extreme.add(static_cast<std::int64_t>(i));
+  }
+  problems.grave(none, "particle", "has no mass", "give more than 0 kg, or infinity for a fixed one");
+  problems.grave(extreme, "particle", "has a mass outside 1e-20 to 1e20 kg",
+                 "give masses in kg, or infinity for a fixed one");
+}
+
+// ------------------------------------------------------------------------------------------------ constraints
+
+const ConstraintType* find_type(const std::string& name) {
+  for (const ConstraintType& type : constraint_types())
+    if (type.name == name) return &type;
+  return nullptr;
+}
+
+std::string type_names() {
+  std::string names;
+  for (const ConstraintType& type : constraint_types()) names += (names.empty() ? "" : ", ") + type.name;
+  return names;
+}
+
+void check_stencils(Problems& problems, const Object& object, const ConstraintGroup& group, std::size_t size,
+                    const std::string& kind) {
+  Tally outside, repeated;
+  for (std::size_t c = 0; c < group.particles.size() / size; ++c) {
+    const int* stencil = &group.particles[c * size];
+    bool known = true, distinct = true;
+    for (std::size_t i = 0; i < size; ++i) {
+      known = known && exists(object, stencil[i]);
+      for (std::size_t j = 0; j < i; ++j) distinct = distinct && stencil[i] != stencil[j];
+    }
+    if (!known) outside.add(static_cast<std::int64_t>(c));
+    if (!distinct) repeated.add(static_cast<std::int64_t>(c));
+  }
+  problems.grave(outside, kind, "uses a particle that does not exist; there are " + of(object.positions.size()),
+                 "indices count from 0");
+  problems.grave(repeated, kind, "uses a particle twice", "give different particles, or leave it out");
+}
+
+void check_rest(Problems& problems, const ConstraintGroup& group, const ConstraintType& type, std::size_t count,
+                const std::string& kind) {
+  const std::size_t fields = type.rest_fields.size();
+  if (group.rest.empty()) return;
+  if (group.rest.size() != count * fields) {
+    problems.grave("rest of " + group.type + " constraints",
+                   of(group.rest.size()) + " values where " + of(count * fields) + " are needed",
+                   "give all of them, or none to have them measured");
+    return;
+  }
+  Tally bad;
+  for (std::size_t i = 0; i < group.rest.size(); ++i) {
+    const bool is_length = type.rest_fields[i % fields] == "rest_length";
+    if (!std::isfinite(group.rest[i]) || (is_length && group.rest[i] < 0)) bad.add(static_cast<std::int64_t>(i / fields));
+  }
+  problems.grave(bad, kind, "has rest data that is not finite, or a negative length",
+                 "leave `rest` empty to have it measured");
+}
+
+void check_compliances(Problems& problems, const ConstraintGroup& group, std::size_t count, const std::string& kind) {
+  if (group.compliances.empty()) return;
+  if (group.stiffness.kind == Stiffness::Kind::pbd)
+    problems.grave("compliances of " + group.type + " constraints", "can't be had together with a PBD stiffness",
+                   "give one or the other");
+  if (group.compliances.size() != count)
+    problems.grave("compliances of " + group.type + " constraints",
+                   of(group.compliances.size()) + " for " + of(count) + " constraints", "give one each, or none");
+  Tally bad;
+  for (std::size_t i = 0; i < group.compliances.size(); ++i)
+    if (!(group.compliances[i] >= 0 && group.compliances[i] <= largest_quantity)) bad.add(static_cast<std::int64_t>(i));
+  problems.grave(bad, kind, "has a compliance outside 0 to 1e20", "0 is rigid; leave out what should do nothing");
+}
+
+void check_group(Problems& problems, const Object& object, const ConstraintGroup& group) {
+  const ConstraintType* type = find_type(group.type);
+  if (type == nullptr) {
+    problems.grave("constraints", "there is no type '" + group.type + "'", "use one of " + type_names());
+    return;
+  }
+  const auto size = static_cast<std::size_t>(type->stencil_size);
+  if (group.particles.size() % size != 0) {
+    problems.grave(group.type + " constraints",
+                   of(group.particles.size()) + " particles do not divide into stencils of " + of(size),
+                   "give " + of(size) + " particles a constraint");
+    return;
+  }
+  const std::string kind = group.type + " constraint";
+  const std::size_t count = group.particles.size() / size;
+  check_stencils(problems, object, group, size, kind);
+  check_rest(problems, group, *type, count, kind);
+  check_stiffness(problems, group.type + " constraints", group.stiffness);
+  check_compliances(problems, group, count, kind);
+}
+
+// ------------------------------------------------------------------------------------------------ surface and volume
+
+bool check_triangles(Problems& problems, const Object& object) {
+  Tally outside, repeated;
+  for (std::size_t t = 0; t < object.triangles.size(); ++t) {
+    const auto [a, b, c] = object.triangles[t];
+    if (!exists(object, a) || !exists(object, b) || !exists(object, c)) outside.add(static_cast<std::int64_t>(t));
+    if (a == b || b == c || c == a) repeated.add(static_cast<std::int64_t>(t));
+  }
+  problems.grave(outside, "triangle", "uses a particle that does not exist; there are " + of(object.positions.size()),
+                 "indices count from 0");
+  problems.grave(repeated, "triangle", "uses a particle twice", "leave it out");
+  return outside.count == 0 && repeated.count == 0;
+}
+
+double enclosed(const Object& object) {
+  double six_volumes = 0;
+  const auto at = [&](int particle) {
+    const Vec3f offset = object.positions[static_cast<std::size_t>(particle)] - object.positions[0];
+    return Vec3d{offset.x, offset.y, offset.z};
+  };
+  for (const auto& t : object.triangles) six_volumes += dot(cross(at(t[0]), at(t[1])), at(t[2]));
+  return six_volumes / 6;
+}
+
+void check_closed(Problems& problems, const Object& object) {
+  if (object.triangles.empty()) {
+    problems.grave("volume", "needs triangles that enclose it", "give the object a closed surface");
+    return;
+  }
+  for (const Edge& edge : find_edges(object.triangles, static_cast<int>(object.positions.size()))) {
+    const std::string name = "edge " + std::to_string(edge.a) + "-" + std::to_string(edge.b);
+    if (!edge.is_inner())
+      return problems.grave(name, "has " + std::to_string(edge.triangle_count) + " triangles where a closed surface has 2",
+                            "close the surface, or leave the volume out");
+    if (!edge.is_wound_consistently())
+      return problems.grave(name, "joins triangles that are wound against each other",
+                            "turn one of them; make_cloth does it by itself");
+  }
+  if (enclosed(object) == 0) problems.grave("volume", "is 0 at rest", "leave the volume out, or start from a full shape");
+}
+
+void check_volume(Problems& problems, const Object& object, bool triangles_are_sound) {
+  if (!object.volume) return;
+  require_range(problems, "volume, pressure", object.volume->pressure, 0, largest_place);
+  check_stiffness(problems, "volume", object.volume->stiffness);
+  if (triangles_are_sound) check_closed(problems, object);
+}
+
+// ------------------------------------------------------------------------------------------------ control
+
+void check_control(Problems& problems, const Object& object) {
+  Tally pins, attachments;
+  for (std::size_t i = 0; i < object.pins.size(); ++i) {
+    if (!exists(object, object.pins[i].particle)) pins.add(static_cast<std::int64_t>(i));
+    check_motion(problems, "pin " + of(i), object.pins[i].motion);
+  }
+  for (std::size_t i = 0; i < object.attachments.size(); ++i) {
+    const Attachment& attachment = object.attachments[i];
+    const std::string name = "attachment " + of(i);
+    if (!exists(object, attachment.particle)) attachments.add(static_cast<std::int64_t>(i));
+    require_place(problems, name + ", target", attachment.target);
+    check_motion(problems, name, attachment.motion);
+    check_stiffness(problems, name, attachment.stiffness);
+  }
+  const std::string missing = "names a particle that does not exist; there are " + of(object.positions.size());
+  problems.grave(pins, "pin", missing, "indices count from 0");
+  problems.grave(attachments, "attachment", missing, "indices count from 0");
+}
+
+}  // namespace
+
+void check_object(Problems& problems, const Object& object) {
+  check_positions(problems, object);
+  check_velocities(problems, object);
+  check_masses(problems, object);
+  for (const ConstraintGroup& group : object.constraints) check_group(problems, object, group);
+  const bool sound = check_triangles(problems, object);
+  check_volume(problems, object, sound);
+  check_control(problems, object);
+  require_range(problems, "thickness", object.thickness, 0, largest_place);
+  check_friction(problems, object.static_friction, object.kinetic_friction, object.restitution);
+  require_range(problems, "drag", object.drag, 0, largest_place);
+  require_range(problems, "lift", object.lift, 0, largest_place);
+  require_range(problems, "damping", object.damping, 0, largest_place);
+  if (!is_finite(object.colour)) problems.grave("colour", "is not finite", "give red, green and blue from 0 to 1");
+}
+
+}  // namespace pliant

@@ -1,0 +1,141 @@
+// The whole of a scene looked through: settings, air, colliders, and each object in turn.
+#include "world/inspect_scene.h"
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <variant>
+
+#include "world/problems.h"
+
+namespace pliant {
+
+namespace {
+
+void check_settings(Problems& problems, const Scene& scene) {
+  const Settings& settings = scene.settings;
+  require_range(problems, "settings, substeps", settings.substeps, 1, 10000);
+  require_range(problems, "settings, iterations", settings.iterations, 1, 10000);
+  require_range(problems, "settings, threads", settings.threads, 0, 1024);
+  require_range(problems, "frames", scene.frames, 0, std::numeric_limits<int>::max());
+  if (!(scene.frame_time > 0) || std::isinf(scene.frame_time))
+    problems.grave("frame_time", "is " + words(scene.frame_time) + " s", "give a positive, finite time, such as 1/60 s");
+}
+
+void check_forces(Problems& problems, const Scene& scene) {
+  require_place(problems, "gravity", scene.gravity);
+  require_place(problems, "wind, velocity", scene.wind.velocity);
+  require_range(problems, "wind, gust", scene.wind.gust, 0, 1);
+  require_range(problems, "wind, air_density", scene.wind.air_density, 0, largest_place);
+  if (scene.wind.gust > 0 && !(scene.wind.gust_period > 0 && scene.wind.gust_period <= largest_place))
+    problems.grave("wind, gust_period", "is " + words(scene.wind.gust_period) + " s", "give a positive, finite time");
+  for (std::size_t i = 0; i < scene.forces.size(); ++i)
+    if (!scene.forces[i]) problems.grave("force " + std::to_string(i), "is an empty function", "leave it out");
+}
+
+/// Sizes of a collider's shape, each with the least that it may be.
+struct CheckShape {
+  Problems& problems;
+
+  void size(const char* name, float value) const {
+    if (!(value > 0 && value <= largest_place))
+      problems.grave(name, "is " + words(value) + " m", "give a positive, finite size in metres");
+  }
+  void operator()(const Plane&) const {}
+  void operator()(const Sphere& sphere) const { size("radius", sphere.radius); }
+  void operator()(const Capsule& capsule) const {
+    size("radius", capsule.radius);
+    require_range(problems, "half_length", capsule.half_length, 0, largest_place);
+  }
+  void operator()(const Box& box) const {
+    size("half_extents, x", box.half_extents.x);
+    size("half_extents, y", box.half_extents.y);
+    size("half_extents, z", box.half_extents.z);
+  }
+};
+
+void check_collider(Problems& problems, const Collider& collider) {
+  std::visit(CheckShape{problems}, collider.shape);
+  require_place(problems, "position", collider.position);
+  check_rotation(problems, "rotation", collider.rotation);
+  check_motion(problems, "motion", collider.motion);
+  require_range(problems, "thickness", collider.thickness, 0, largest_place);
+  check_friction(problems, collider.static_friction, collider.kinetic_friction, collider.restitution);
+  if (!is_finite(collider.colour)) problems.grave("colour", "is not finite", "give red, green and blue from 0 to 1");
+}
+
+void check_count(Problems& problems, const Scene& scene) {
+  std::size_t particles = 0;
+  for (const Object& object : scene.objects) particles += object.positions.size() + object.attachments.size();
+  if (particles > std::numeric_limits<int>::max() / 4)
+    problems.grave("", std::to_string(particles) + " particles are more than can be numbered", "make the scene smaller");
+}
+
+void doubt_settings(Problems& problems, const Scene& scene) {
+  const Settings& settings = scene.settings;
+  const double substep = static_cast<double>(scene.frame_time) / settings.substeps;
+  const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
+  if (scene.objects.empty()) problems.doubtful("", "the scene has no objects, so nothing will move", "add one");
+  if (gravity > 1000)
+    problems.doubtful("gravity", "is " + words(gravity) + " m/s^2", "lengths are in metres: 9.81 on earth");
+  if (scene.frame_time > 0.1f || scene.frame_time < 1e-4f)
+    problems.doubtful("frame_time", "is " + words(scene.frame_time) + " s", "films have 1/24 s, games 1/60 s");
+  if (substep < 1e-6)
+    problems.doubtful("settings, substeps", "make substeps of " + words(substep) + " s, where floats begin to lose motion",
+                      "use fewer");
+  if (settings.substeps * static_cast<std::int64_t>(settings.iterations) < 5)
+    problems.doubtful("settings, substeps", "and iterations together visit each constraint fewer than 5 times a frame",
+                      "stiff things will look like rubber: 10 to 20 substeps are usual");
+  if (settings.iterations > 10 && settings.iterations > settings.substeps)
+    problems.doubtful("settings, iterations", "are more than substeps",
+                      "the same work spent on substeps converges far better");
+}
+
+void doubt_names(Problems& problems, const Scene& scene) {
+  std::map<std::string, int> count;
+  for (const Object& object : scene.objects) ++count[object.name];
+  for (const auto& [name, times] : count) {
+    if (name.empty()) problems.doubtful("", std::to_string(times) + " objects have no name", "messages can't name them");
+    if (!name.empty() && times > 1)
+      problems.doubtful("", std::to_string(times) + " objects are called '" + name + "'", "give each a name of its own");
+  }
+}
+
+void look_through(Problems& problems, const Scene& scene) {
+  check_settings(problems, scene);
+  check_forces(problems, scene);
+  check_count(problems, scene);
+  for (const Collider& collider : scene.colliders) {
+    problems.at(collider.name);
+    check_collider(problems, collider);
+  }
+  const bool surroundings_are_sound = problems.grave_count() == 0;
+  for (const Object& object : scene.objects) {
+    problems.at(object.name);
+    const int before = problems.grave_count();
+    check_object(problems, object);
+    // Doubts are measured, which needs indices and numbers that are sound.
+    const bool sound = surroundings_are_sound && problems.grave_count() == before;
+    if (sound && problems.wants_doubts()) doubt_object(problems, object, scene);
+  }
+  problems.at("");
+  if (!problems.wants_doubts() || !surroundings_are_sound) return;
+  doubt_settings(problems, scene);
+  doubt_names(problems, scene);
+}
+
+}  // namespace
+
+std::vector<Finding> inspect(const Scene& scene) {
+  Problems problems(Problems::Mode::collect);
+  look_through(problems, scene);
+  return problems.take();
+}
+
+void refuse_grave(const Scene& scene) {
+  Problems problems(Problems::Mode::throw_grave);
+  look_through(problems, scene);
+}
+
+}  // namespace pliant

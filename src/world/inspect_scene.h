@@ -1,0 +1,13 @@
+// What is wrong with a scene, found before anything is compiled.
+#pragma once
+
+#include "pliant/scene.h"
+
+namespace pliant {
+
+/// Throws Error for the first grave finding of inspect(scene), naming object and element. Looks for nothing else, so it
+/// costs one pass over the scene's data. After it a scene may be compiled without further checks of indices, sizes and
+/// ranges.
+void refuse_grave(const Scene& scene);
+
+}  // namespace pliant

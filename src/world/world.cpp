@@ -1,0 +1,238 @@
+// A World: a Scene compiled, a State owned, and the step that joins them.
+#include "pliant/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "constraints/all.h"
+#include "math/quat.h"
+#include "model/model.h"
+#include "parallel/executor.h"
+#include "pliant/error.h"
+#include "solver/kernels.h"
+#include "solver/measure.h"
+#include "solver/step.h"
+#include "world/inspect_scene.h"
+#include "world/sha256.h"
+
+namespace pliant {
+
+namespace {
+
+const Kernels& kernels_for(const Settings& settings) {
+  return settings.sweep == Sweep::sequential ? kernels_sequential() : pick_kernels(settings.isa);
+}
+
+void add_records(Sha256& sha, const std::vector<Record>& records) { sha.add(records.data(), records.size() * sizeof(Record)); }
+
+}  // namespace
+
+struct World::Implementation {
+  Implementation(const Scene& scene, const Settings& with)
+      : settings(with), executor(with.threads), kernels(kernels_for(with)) {
+    model.gravity = scene.gravity;
+    model.wind = scene.wind;
+    model.forces = scene.forces;
+    model.colliders = scene.colliders;
+    for (const Object& object : scene.objects) {
+      CompileOptions options;
+      options.passes = settings.substeps * settings.iterations;
+      model.add(compile(object, options));
+    }
+    if (model.first.empty()) model.first.push_back(0);
+    state = initial_state(model);
+    prepare(model, settings.iterations > 1 || settings.record_multipliers, workspace);
+  }
+
+  const CompiledObject& object(int index) const {
+    if (index < 0 || index >= static_cast<int>(model.objects.size())) {
+      throw Error({}, "there is no object " + std::to_string(index), "object_count() says how many there are");
+    }
+    return model.objects[index];
+  }
+
+  const Record* positions_of(int index) const { return state.positions.data() + model.first[index]; }
+
+  std::vector<Vec3f> in_user_order(int index, const std::vector<Record>& records) const {
+    const CompiledObject& from = object(index);
+    std::vector<Vec3f> out(from.user_particles);
+    for (int user = 0; user < from.user_particles; ++user) {
+      const Record& r = records[static_cast<std::size_t>(model.first[index]) + from.place[user]];
+      out[user] = {r.x, r.y, r.z};
+    }
+    return out;
+  }
+
+  Posef collider_pose_now(int index) const {
+    if (index < 0 || index >= static_cast<int>(model.colliders.size())) {
+      throw Error({}, "there is no collider " + std::to_string(index), "use an index that Scene::add returned");
+    }
+    return convert<float>(collider_pose(model.colliders[index], state.time));
+  }
+
+  Settings settings;
+  Executor executor;
+  const Kernels& kernels;
+  Model model;
+  State state;
+  Workspace workspace;
+  float last_h = 1;
+  bool stopped = false;
+};
+
+World::World(const Scene& scene) : World(scene, scene.settings) {}
+
+World::World(const Scene& scene, const Settings& settings) {
+  Scene checked = scene;
+  checked.settings = settings;
+  refuse_grave(checked);
+  self_ = std::make_unique<Implementation>(checked, settings);
+}
+
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+Report World::step(float dt) {
+  Report report;
+  report.frame = self_->state.frame;
+  report.time = self_->state.time;
+  if (!(dt > 0) || !std::isfinite(dt)) {
+    report.warnings.push_back("a time step must be finite and above zero; nothing moved");
+    return report;
+  }
+  if (self_->stopped) {
+    report.nonfinite = NonFinite{"", "nothing: the world stopped at an earlier step; restore a state to go on", report.frame, 0};
+    return report;
+  }
+  self_->last_h = static_cast<float>(double(dt) / self_->settings.substeps);
+  pliant::step({self_->model, self_->state, self_->workspace, self_->executor, self_->kernels, self_->settings.substeps,
+                self_->settings.iterations},
+               dt, report);
+  self_->stopped = report.nonfinite.has_value();
+  if (self_->settings.measure) {
+    report.residuals = residuals();
+    report.stretch = stretch();
+  }
+  return report;
+}
+
+const State& World::state() const { return self_->state; }
+
+void World::restore(const State& state) {
+  const std::size_t particles = self_->state.positions.size();
+  if (state.positions.size() != particles || state.velocities.size() != particles || state.remainders.size() != particles) {
+    throw Error({}, "the state has " + std::to_string(state.positions.size()) + " particles, the world " + std::to_string(particles),
+                "restore a state of this world");
+  }
+  const auto is_finite = [](const Record& r) { return std::isfinite(r.x) && std::isfinite(r.y) && std::isfinite(r.z); };
+  for (std::size_t i = 0; i < particles; ++i) {
+    if (state.positions[i].w != self_->state.positions[i].w) {
+      throw Error({.element = "particle " + std::to_string(i)}, "its mass is not this world's", "restore a state of this world");
+    }
+    if (!is_finite(state.positions[i]) || !is_finite(state.velocities[i]) || !is_finite(state.remainders[i])) {
+      throw Error({.element = "particle " + std::to_string(i)}, "its position or velocity is not finite", "restore an earlier state");
+    }
+  }
+  if (!std::isfinite(state.time)) throw Error({}, "the state's time is not finite", "restore an earlier state");
+  self_->state = state;
+  self_->stopped = false;
+}
+
+int World::object_count() const { return static_cast<int>(self_->model.objects.size()); }
+
+ObjectInfo World::info(int object) const {
+  const CompiledObject& from = self_->object(object);
+  ObjectInfo info{from.name, from.user_particles, {}};
+  for_each_type(AllConstraints{}, [&](auto tag, int type) {
+    std::int64_t count = 0;
+    for (const Pool& pool : from.pools) count += pool.type == type ? pool.constraints : 0;
+    if (count > 0) info.constraints.emplace_back(decltype(tag)::type::name, count);
+  });
+  if (from.has_volume) info.constraints.emplace_back("volume", 1);
+  return info;
+}
+
+const Settings& World::settings() const { return self_->settings; }
+std::string World::isa() const { return self_->kernels.isa; }
+int World::threads() const { return self_->executor.threads(); }
+
+std::vector<Vec3f> World::positions(int object) const { return self_->in_user_order(object, self_->state.positions); }
+std::vector<Vec3f> World::velocities(int object) const { return self_->in_user_order(object, self_->state.velocities); }
+
+TriangleMesh World::mesh(int object) const {
+  TriangleMesh mesh{positions(object), {}};
+  const CompiledObject& from = self_->object(object);
+  for (const auto& t : from.surface.triangles) mesh.triangles.push_back({from.order[t[0]], from.order[t[1]], from.order[t[2]]});
+  return mesh;
+}
+
+Vec3f World::collider_position(int collider) const { return self_->collider_pose_now(collider).position; }
+Quatf World::collider_rotation(int collider) const { return self_->collider_pose_now(collider).rotation; }
+
+std::vector<float> World::multipliers(int object, const std::string& type) const {
+  const CompiledObject& from = self_->object(object);
+  std::vector<float> out;
+  if (type == "volume" && from.has_volume) return {static_cast<float>(self_->workspace.volume_multipliers[object])};
+  if (self_->workspace.multipliers[object].empty()) return out;
+  for (std::size_t p = 0; p < from.pools.size(); ++p) {
+    const Pool& pool = from.pools[p];
+    if (type != constraint_types()[pool.type].name || pool.law == Law::pbd) continue;
+    for (std::size_t lane = 0; lane < pool.origin.size(); ++lane) {
+      if (pool.origin[lane] < 0) continue;
+      if (out.size() <= static_cast<std::size_t>(pool.origin[lane])) out.resize(pool.origin[lane] + 1, 0.f);
+      out[pool.origin[lane]] = self_->workspace.multipliers[object][p][lane];
+    }
+  }
+  return out;
+}
+
+double World::kinetic_energy() const {
+  double energy = 0;
+  for (std::size_t i = 0; i < self_->state.positions.size(); ++i) {
+    const Record &v = self_->state.velocities[i], &x = self_->state.positions[i];
+    if (x.w > 0) energy += 0.5 / x.w * (double(v.x) * v.x + double(v.y) * v.y + double(v.z) * v.z);
+  }
+  return energy;
+}
+
+double World::potential_energy() const {
+  double energy = 0;
+  const Vec3f& g = self_->model.gravity;
+  for (const Record& x : self_->state.positions) {
+    if (x.w > 0) energy -= 1.0 / x.w * (double(g.x) * x.x + double(g.y) * x.y + double(g.z) * x.z);
+  }
+  return energy;
+}
+
+std::vector<Residual> World::residuals() const {
+  return measure_residuals(self_->model, self_->state, self_->workspace, self_->last_h);
+}
+Stretch World::stretch() const { return measure_stretch(self_->model, self_->state); }
+double World::enclosed_volume(int object) const {
+  return measure_volume(self_->object(object), self_->positions_of(object));
+}
+
+std::string hash(const State& state) {
+  Sha256 sha;
+  sha.add(&state.time, sizeof state.time);
+  sha.add(&state.frame, sizeof state.frame);
+  add_records(sha, state.positions);
+  add_records(sha, state.remainders);
+  add_records(sha, state.velocities);
+  return sha.finish();
+}
+
+std::string Report::explain() const {
+  std::string text;
+  if (nonfinite) {
+    text = "frame " + std::to_string(nonfinite->frame) + ", substep " + std::to_string(nonfinite->substep) + ": object '" +
+           nonfinite->object + "', " + nonfinite->element +
+           " is the first with a value that is not finite; more substeps, less stiffness or a smaller velocity may help";
+  }
+  for (const std::string& warning : warnings) text += (text.empty() ? "" : "\n") + warning;
+  return text;
+}
+
+}  // namespace pliant
