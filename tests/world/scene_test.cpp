@@ -16,13 +16,28 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 const float nan = std::numeric_limits<float>::quiet_NaN();
 
+Collider solid(const char* name, const Shape& shape, const Vec3f& position) {
+  Collider collider;
+  collider.name = name;
+  collider.shape = shape;
+  collider.position = position;
+  return collider;
+}
+
+Attachment bond(int particle, const Vec3f& target) {
+  Attachment attachment;
+  attachment.particle = particle;
+  attachment.target = target;
+  return attachment;
+}
+
 /// A cloth above a ball, of which nothing is doubtful.
 Scene good_scene() {
   Scene scene;
   ClothOptions options;
   options.name = "sheet";
   scene.add_cloth(grid_mesh(6, 5, 1, 0.8f), options);
-  scene.add(Collider{.name = "ball", .shape = Sphere{0.2f}, .position = {0, -0.5f, 0}});
+  scene.add(solid("ball", Sphere{0.2f}, {0, -0.5f, 0}));
   scene.pin(0, {0, 5});
   return scene;
 }
@@ -196,10 +211,8 @@ TEST(InspectScene, GraveSurfacesAndVolumes) {
 
 TEST(InspectScene, GraveControl) {
   expect_grave("pin 1", [](Scene& s) { s.objects[0].pins[1].particle = 30; });
-  expect_grave("attachment 0", [](Scene& s) { s.objects[0].attachments.push_back({.particle = -1}); });
-  expect_grave("attachment 0, target", [](Scene& s) {
-    s.objects[0].attachments.push_back({.particle = 1, .target = {nan, 0, 0}});
-  });
+  expect_grave("attachment 0", [](Scene& s) { s.objects[0].attachments.push_back(bond(-1, {})); });
+  expect_grave("attachment 0, target", [](Scene& s) { s.objects[0].attachments.push_back(bond(1, {nan, 0, 0})); });
   expect_grave("attachment 0, stiffness k", [](Scene& s) {
     s.objects[0].attachments.push_back({1, {}, {}, Stiffness::pbd(2)});
   });
@@ -281,9 +294,7 @@ TEST(InspectScene, DoubtfulOverlaps) {
   expect_doubt("inside of collider 'ball'", [](Scene& s) {  // there at time 0 only by its motion
     s.colliders[0].motion.keyframes = {{0, {0, 0.5f, 0}}, {1}};
   });
-  expect_doubt("inside of collider 'ground'", [](Scene& s) {
-    s.add(Collider{.name = "ground", .shape = Plane{}, .position = {0, 0.1f, 0}});
-  });
+  expect_doubt("inside of collider 'ground'", [](Scene& s) { s.add(solid("ground", Plane{}, {0, 0.1f, 0})); });
 }
 
 }  // namespace
