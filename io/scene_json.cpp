@@ -198,10 +198,13 @@ JsonDocument parse_json(std::string text, std::string name) {
   if (text.size() > largest_text)
     throw Error({name, 0, {}, {}}, "longer than " + std::to_string(largest_text >> 20) + " MiB",
                 "put geometry into mesh files beside the scene");
-  if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
+  constexpr const char* mark = "\xEF\xBB\xBF";
+  if (text.compare(0, 3, mark) == 0) text.erase(0, 3);
   JsonDocument document{std::move(name), std::move(text), {}};
   const std::size_t zero = document.text.find('\0');  // the parser would take it for the end of the text
   if (zero != std::string::npos) throw Error(document.locate_byte(zero), "not valid JSON: a zero byte");
+  if (document.text.compare(0, 3, mark) == 0)  // which the parser would skip in its turn
+    throw Error(document.locate_byte(0), "not valid JSON: two byte order marks");
   TreeBuilder builder(document);
   nlohmann::json::sax_parse(document.text, &builder);
   return document;

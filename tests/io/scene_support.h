@@ -1,0 +1,36 @@
+// What the tests of scenes share.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "pliant/error.h"
+#include "pliant/io.h"
+
+namespace pliant::test {
+
+inline std::string text_of(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// What reading a scene throws; an Error without text where it throws nothing.
+inline Error scene_error(const std::string& text, const std::string& folder = ".", bool allow_outside = true) {
+  try {
+    parse_scene(text, "x.json", folder, allow_outside);
+  } catch (const Error& error) {
+    return error;
+  }
+  return Error({}, "");
+}
+
+inline std::string scene_message(const std::string& text) { return scene_error(text).what(); }
+
+/// A scene in which every field of the format appears once or more, but for mesh files.
+inline std::string full_scene() { return text_of(PLIANT_SOURCE_DIR "/tests/io/every_field.json"); }
+
+}  // namespace pliant::test
