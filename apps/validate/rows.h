@@ -1,0 +1,56 @@
+// What the files of rows have in common: the groups themselves, makers of rows, and small scenes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/validate/validate.h"
+#include "pliant/world.h"
+
+namespace pliant::validate {
+
+// Each adds its rows and charts.
+void spring_rows(Result& result, bool slow);
+void chain_rows(Result& result, bool slow);
+void momentum_rows(Result& result, bool slow);
+void pendulum_rows(Result& result, bool slow);
+void contact_rows(Result& result, bool slow);
+void stiffness_rows(Result& result, bool slow);
+void balloon_rows(Result& result, bool slow);
+void steadiness_rows(Result& result, bool slow);
+
+/// Rows with their verdict; what is not finite fails.
+Row relative(std::string name, double expected, double measured, double tolerance, std::string unit, std::string note = {});
+Row absolute(std::string name, double expected, double measured, double tolerance, std::string unit, std::string note = {});
+Row at_most(std::string name, double bound, double measured, std::string unit, std::string note = {});
+
+/// "1e-08", "50", "0.0166667": as few digits as tell it.
+std::string brief(double value);
+
+/// The measured value that lies farthest from `expected`; not a number if any is.
+double farthest(double expected, const std::vector<double>& measured);
+
+/// An object of free particles. A mass of infinity fixes one.
+Object particles(const std::vector<Vec3f>& positions, const std::vector<float>& masses);
+
+/// Adds distance constraints between the pairs, with one stiffness and given rest lengths.
+void connect(Object& object, const std::vector<int>& pairs, const std::vector<float>& lengths, const Stiffness& stiffness);
+
+/// A straight hanging line of `count` particles, `length` apart, the first fixed at the origin.
+Object hanging_line(int count, float length, float mass, float last_mass, const Stiffness& stiffness);
+
+/// A scene with one object, one thread, and gravity (0, -g, 0).
+Scene scene_with(Object object, double g, int substeps, int iterations);
+
+/// The deterministic random numbers of Lehmer (Park and Miller 1988), so that every run has the same rows.
+class Random {
+ public:
+  explicit Random(unsigned seed) : state_(seed % 2147483646U + 1) {}
+  double uniform(double low, double high);
+  Vec3d vector(double reach) { return {uniform(-reach, reach), uniform(-reach, reach), uniform(-reach, reach)}; }
+
+ private:
+  unsigned long long state_;
+};
+
+}  // namespace pliant::validate

@@ -1,0 +1,106 @@
+// Stiffness means the same whatever the iterations, the time step and the mesh: a sheet of rubber hangs from its upper
+// edge, and how far its lower edge sinks under its own weight may depend on neither. (Iterations alone, without the
+// multiplier of XPBD or with one that is reset in every iteration, change it at once.)
+#include <cmath>
+
+#include "apps/validate/rows.h"
+
+namespace pliant::validate {
+namespace {
+
+constexpr double g = 9.81;
+constexpr double density = 0.5, membrane = 25;  // [kg/m^2], [N/m]: about a tenth longer under its own weight
+
+struct Run {
+  int side = 9, substeps = 20, iterations = 2;
+  double dt = 1.0 / 60;
+};
+
+// A square of 1 m standing in the xy-plane.
+TriangleMesh upright(int side) {
+  TriangleMesh mesh = grid_mesh(side, side, 1, 1);
+  for (Vec3f& x : mesh.positions) x = {x.x, -x.z, 0};
+  return mesh;
+}
+
+bool at_top(const Vec3f& x) { return x.y > 0.4999f; }
+bool at_bottom(const Vec3f& x) { return x.y < -0.4999f; }
+
+// How far the lower edge has sunk on average once the sheet is at rest.
+double sinking(const Run& run) {
+  ClothOptions options;
+  options.material.area_density = static_cast<float>(density);
+  options.material.stretch_stiffness = static_cast<float>(membrane);
+  options.bending_model = ClothOptions::Bending::none;
+  Object object = make_cloth(upright(run.side), options);
+  object.damping = 6;
+  for (std::size_t i = 0; i < object.positions.size(); ++i)
+    if (at_top(object.positions[i])) object.pins.push_back({static_cast<int>(i), {}});
+  const std::vector<Vec3f> start = object.positions;
+  World world(scene_with(std::move(object), g, run.substeps, run.iterations));
+  for (int i = 0; i * run.dt < 4; ++i) world.step(static_cast<float>(run.dt));
+  const std::vector<Vec3f> end = world.positions(0);
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < start.size(); ++i)
+    if (at_bottom(start[i])) {
+      sum += static_cast<double>(start[i].y - end[i].y);
+      ++count;
+    }
+  return sum / count;
+}
+
+plot::Series empty(const std::string& name) { return {name, {}, {}, plot::Series::Style::points}; }
+
+void iteration_rows(Result& result, double expected) {
+  plot::Series curve = empty("engine");
+  for (int iterations : {1, 2, 5, 20, 50, 200}) {
+    Run run;
+    run.iterations = iterations;
+    const double measured = sinking(run);
+    result.rows.push_back(
+        relative("stiffness: engine, sinking, " + brief(iterations) + (iterations > 1 ? " iterations" : " iteration"),
+                 expected, measured, 0.01, "m", "20 substeps, dt 1/60 s, 9 x 9; expected: 50 substeps of 50"));
+    curve.x.push_back(iterations);
+    curve.y.push_back(measured);
+  }
+  plot::Series line{"converged", {1, 200}, {expected, expected}, plot::Series::Style::dashed};
+  result.charts.push_back(
+      {"A hanging sheet sinks as far whatever the iterations", "iterations", "sinking [m]", true, false, {line, curve}});
+}
+
+void time_step_rows(Result& result, double expected) {
+  for (int rate : {30, 60, 120, 240, 1000}) {
+    Run run;
+    run.dt = 1.0 / rate;
+    run.iterations = 10;
+    result.rows.push_back(relative("stiffness: engine, sinking, dt 1/" + brief(rate) + " s", expected, sinking(run), 0.01,
+                                   "m", "20 substeps of 10 iterations, 9 x 9; expected: 50 substeps of 50"));
+  }
+}
+
+void mesh_rows(Result& result) {
+  Run finest;
+  finest.side = 33;
+  finest.iterations = 30;
+  const double expected = sinking(finest);
+  for (int side : {9, 17}) {
+    Run run = finest;
+    run.side = side;
+    result.rows.push_back(relative("stiffness: engine, sinking, mesh " + brief(side) + " x " + brief(side), expected,
+                                   sinking(run), 0.02, "m", "20 substeps of 30 iterations, dt 1/60 s; expected: 33 x 33"));
+  }
+}
+
+}  // namespace
+
+void stiffness_rows(Result& result, bool) {
+  Run converged;
+  converged.substeps = converged.iterations = 50;
+  const double expected = sinking(converged);
+  iteration_rows(result, expected);
+  time_step_rows(result, expected);
+  mesh_rows(result);
+}
+
+}  // namespace pliant::validate

@@ -1,0 +1,112 @@
+// The list of groups, and the two ways to print rows.
+#include "apps/validate/validate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "apps/validate/rows.h"
+#include "pliant/error.h"
+
+namespace pliant::validate {
+namespace {
+
+using AddRows = void (*)(Result&, bool);
+
+const AddRows adders[] = {spring_rows,  chain_rows,     momentum_rows, pendulum_rows,
+                          contact_rows, stiffness_rows, balloon_rows,  steadiness_rows};
+
+const char* word(Comparison comparison) {
+  switch (comparison) {
+    case Comparison::relative:
+      return "relative";
+    case Comparison::absolute:
+      return "absolute";
+    default:
+      return "at most";
+  }
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.7g", value);
+  return text;
+}
+
+// JSON has no infinity and no NaN.
+nlohmann::ordered_json json_number(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text.size() < width ? text + std::string(width - text.size(), ' ') : text;
+}
+
+}  // namespace
+
+const std::vector<Group>& groups() {
+  static const std::vector<Group> all{
+      {"spring", "a mass on a spring: backward Euler step by step, static stretch, free fall"},
+      {"chain", "a hanging chain, a chain with a heavy end, a chain between two nails"},
+      {"momentum", "what internal constraints must not change; their gradients"},
+      {"pendulum", "period against amplitude, energy"},
+      {"contact", "incline, stopping distance, bounce"},
+      {"stiffness", "one rest shape whatever the iterations, the time step and the mesh"},
+      {"balloon", "volume against pressure"},
+      {"steadiness", "the inextensible cloth hung by two corners stays bounded"},
+  };
+  return all;
+}
+
+Result run_validation(const Options& options) {
+  Result result;
+  std::string names;
+  bool found = false;
+  for (std::size_t i = 0; i < groups().size(); ++i) {
+    names += (i == 0 ? "" : ", ") + groups()[i].name;
+    if (options.name && *options.name != groups()[i].name) continue;
+    found = true;
+    adders[i](result, options.slow);
+  }
+  if (!found) throw Error({}, "there is nothing called '" + *options.name + "' to validate", "choose one of " + names);
+  return result;
+}
+
+std::string to_table(const std::vector<Row>& rows) {
+  const std::vector<std::string> heads{"what", "expected", "measured", "tolerance", "unit", "verdict", "how"};
+  std::vector<std::vector<std::string>> lines{heads};
+  for (const Row& row : rows) {
+    const char* before = row.comparison == Comparison::at_most ? "<= " : "";
+    std::string tolerance = number(row.tolerance) + (row.comparison == Comparison::relative ? " x" : "");
+    if (row.comparison == Comparison::at_most) tolerance = "-";
+    lines.push_back({row.name, before + number(row.expected), number(row.measured), tolerance,
+                     row.unit.empty() ? "-" : row.unit, row.pass ? "pass" : "FAIL", row.note});
+  }
+  std::vector<std::size_t> widths(heads.size());
+  for (const auto& line : lines)
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  std::string text;
+  for (const auto& line : lines) {
+    std::string printed;
+    for (std::size_t i = 0; i < line.size(); ++i) printed += padded(line[i], widths[i] + 2);
+    text += printed.substr(0, printed.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+std::string to_json(const std::vector<Row>& rows) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Row& row : rows)
+    list.push_back({{"name", row.name},
+                    {"expected", json_number(row.expected)},
+                    {"measured", json_number(row.measured)},
+                    {"tolerance", row.tolerance},
+                    {"comparison", word(row.comparison)},
+                    {"unit", row.unit},
+                    {"pass", row.pass},
+                    {"note", row.note}});
+  return list.dump(2) + "\n";
+}
+
+}  // namespace pliant::validate
