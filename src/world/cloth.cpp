@@ -134,6 +134,7 @@ void require_balloon(Piece& piece) {
 // ------------------------------------------------------------------------------------------------ masses
 
 void measure_areas(Piece& piece) {
+  piece.areas.reserve(piece.triangles.size());
   for (std::size_t t = 0; t < piece.triangles.size(); ++t) {
     const Triangle& corners = piece.triangles[t];
     const Vec3d origin = piece.at(corners[0]);
@@ -182,61 +183,60 @@ ConstraintGroup stretch_group(const Piece& piece) {
   return group;
 }
 
-struct HingeProperties {
-  double compliance;    ///< [1/(N m)]
-  double inverse_mass;  ///< sum of w |grad C|^2 in the rest shape
-};
-
-template <int n>
-double generalised(const Piece& piece, const std::array<int, n>& particles,
-                   const std::array<double, n>& squared_gradients) {
-  double sum = 0;
-  for (std::size_t i = 0; i < n; ++i) sum += squared_gradients[i] / piece.masses[static_cast<std::size_t>(particles[i])];
-  return sum;
-}
-
-/// A third of the energy of Grinspun et al. 2003 and of Bergou et al. 2006, B/2 . 3 |e|^2 / (A1 + A2) . theta^2. Theirs is
-/// right for a sheet that curves alike in all directions, but cloth hardly stretches and so curves in one: rolled up, the
-/// hinges across the roll are bent and those along it are not, and the mean of the squares is three times the square of the
-/// mean. Without the 3 a roll of radius R stores B / (2 R^2) an area, which is what flexural rigidity means.
+/// Grinspun et al. 2003 and Bergou et al. 2006 give a hinge the energy B/2 . 3 |e|^2 / (A1 + A2) . theta^2; here it has a
+/// third of that. Theirs is right for a sheet that curves alike in all directions, but cloth hardly stretches and so curves
+/// in one. Rolled up, the hinges across the roll are bent and those along it are not, so that the mean of their squares is
+/// three times what one curvature would give. Without the 3 a roll of radius R stores B / (2 R^2) an area, which is what
+/// flexural rigidity means.
 constexpr double share_of_rolled_sheet = 3;
 
-HingeProperties dihedral_properties(const Piece& piece, const Edge& edge, const std::array<int, 4>& v) {
-  const Vec3d x[4] = {piece.at(v[0]), piece.at(v[1]), piece.at(v[2]), piece.at(v[3])};
-  Vec3d gradient[4];
-  DihedralBending::evaluate(x, DihedralBending::Params<double>{0}, gradient);
-  const double stiffness = piece.options.material.bending_stiffness / share_of_rolled_sheet;
-  return {piece.area_at(edge) / (3 * length_squared(x[1] - x[0]) * stiffness),
-          generalised<4>(piece, v,
-                         {length_squared(gradient[0]), length_squared(gradient[1]), length_squared(gradient[2]),
-                          length_squared(gradient[3])})};
+/// Compliance of the bending constraint across an inner edge [1/(N m)].
+double hinge_compliance(const Piece& piece, const Edge& edge, bool isometric) {
+  const double stiffness = piece.options.material.bending_stiffness;
+  if (isometric) return share_of_rolled_sheet / stiffness;
+  return piece.area_at(edge) / (length_squared(piece.at(edge.b) - piece.at(edge.a)) * stiffness);
 }
 
-/// Its gradients are the coefficients of the rest shape times one direction, so their lengths never change.
-HingeProperties isometric_properties(const Piece& piece, const std::array<int, 4>& v) {
-  const Vec3d x[4] = {piece.at(v[0]), piece.at(v[1]), piece.at(v[2]), piece.at(v[3])};
-  const auto k = IsometricBending::measure(x);
-  const double k0 = k.k1 + k.k2 + k.k3;
-  return {share_of_rolled_sheet / piece.options.material.bending_stiffness,
-          generalised<4>(piece, v, {k0 * k0, k.k1 * k.k1, k.k2 * k.k2, k.k3 * k.k3})};
+/// Squared lengths of the gradients in the rest shape. Those of the isometric type are the coefficients of the rest shape
+/// times one direction, so their lengths never change.
+std::array<double, 4> squared_gradients(const Vec3d (&x)[4], bool isometric) {
+  if (isometric) {
+    const auto k = IsometricBending::measure(x);
+    const double k0 = k.k1 + k.k2 + k.k3;
+    return {k0 * k0, k.k1 * k.k1, k.k2 * k.k2, k.k3 * k.k3};
+  }
+  Vec3d g[4];
+  DihedralBending::evaluate(x, DihedralBending::Params<double>{0}, g);
+  return {length_squared(g[0]), length_squared(g[1]), length_squared(g[2]), length_squared(g[3])};
 }
 
-/// The compliances of all hinges and the one damping coefficient of their group. A hinge alone swings as a mass 1 / w on a
-/// spring 1 / alpha, so its critical damping is 2 sqrt(1 / (w alpha)); the group's beta is the wanted fraction of their
-/// mean.
+/// A hinge alone swings as a mass 1 / w on a spring 1 / alpha, w being the sum of w_i |grad_i C|^2: its critical damping is
+/// 2 / sqrt(w alpha) [N m s].
+double critical_damping(const Piece& piece, const int* v, double compliance, bool isometric) {
+  const Vec3d x[4] = {piece.at(v[0]), piece.at(v[1]), piece.at(v[2]), piece.at(v[3])};
+  const std::array<double, 4> squared = squared_gradients(x, isometric);
+  double inverse_mass = 0;
+  for (std::size_t i = 0; i < 4; ++i) inverse_mass += squared[i] / piece.masses[static_cast<std::size_t>(v[i])];
+  return 2 / std::sqrt(inverse_mass * compliance);
+}
+
+/// The compliances of all hinges, and the one damping coefficient of their group: the wanted fraction of the mean critical
+/// one.
 void apply_material(const Piece& piece, ConstraintGroup& group, bool isometric) {
+  const double fraction = piece.options.material.bending_damping;
+  const std::size_t count = group.particles.size() / 4;
   double critical = 0;
-  std::size_t hinge = 0;
+  group.compliances.reserve(count);
   for (const Edge& edge : piece.edges) {
     if (!edge.is_inner()) continue;
-    const auto first = group.particles.begin() + static_cast<std::ptrdiff_t>(4 * hinge++);
-    const std::array<int, 4> v{first[0], first[1], first[2], first[3]};
-    const HingeProperties p = isometric ? isometric_properties(piece, v) : dihedral_properties(piece, edge, v);
-    group.compliances.push_back(as_compliance(p.compliance));
-    critical += 2 / std::sqrt(p.inverse_mass * p.compliance);
+    const int* hinge = &group.particles[4 * group.compliances.size()];
+    const double compliance = hinge_compliance(piece, edge, isometric);
+    if (fraction > 0) critical += critical_damping(piece, hinge, compliance, isometric);
+    group.compliances.push_back(as_compliance(compliance));
   }
-  const double mean = hinge > 0 ? critical / static_cast<double>(hinge) : 0;
-  group.stiffness.damping = static_cast<float>(std::min(piece.options.material.bending_damping * mean, largest_compliance));
+  if (count == 0) return;
+  group.stiffness.damping =
+      static_cast<float>(std::min(fraction * critical / static_cast<double>(count), largest_compliance));
 }
 
 /// Rest angles are left to be measured where the constraint type is known.
@@ -246,7 +246,8 @@ ConstraintGroup bending_group(const Piece& piece) {
   group.type = isometric ? "isometric_bending" : "dihedral_bending";
   const std::vector<Hinge> hinges = find_hinges(piece.edges);
   group.particles.reserve(4 * hinges.size());
-  for (const Hinge& h : hinges) group.particles.insert(group.particles.end(), {h.v0, h.v1, h.v2, h.v3});
+  for (const Hinge& h : hinges)
+    for (int v : {h.v0, h.v1, h.v2, h.v3}) group.particles.push_back(v);
   if (piece.options.bending)
     group.stiffness = *piece.options.bending;
   else if (std::isfinite(piece.options.material.bending_stiffness))
