@@ -1,12 +1,14 @@
 // The parallel loop on oneTBB.
 #include "parallel/executor.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 namespace pliant {
@@ -35,12 +37,17 @@ Stopwatch::Stopwatch(Timings& timings, const char* name) : timings_(timings), na
 Stopwatch::~Stopwatch() { timings_.add(name_, static_cast<double>(nanoseconds() - start_) * 1e-6); }
 
 struct Executor::Arena {
+  explicit Arena(int threads)
+      : limit(tbb::global_control::max_allowed_parallelism, std::max<std::size_t>(threads, hardware())), arena(threads) {}
+  static std::size_t hardware() { return std::max(1U, std::thread::hardware_concurrency()); }
+
+  tbb::global_control limit;  // without it oneTBB caps the threads at the machine's
   tbb::task_arena arena;
 };
 
 Executor::Executor(int threads)
     : threads_(threads > 0 ? threads : std::max(1, tbb::this_task_arena::max_concurrency())),
-      arena_(std::make_unique<Arena>(Arena{tbb::task_arena(threads_)})) {}
+      arena_(std::make_unique<Arena>(threads_)) {}
 Executor::~Executor() = default;
 Executor::Executor(Executor&&) noexcept = default;
 Executor& Executor::operator=(Executor&&) noexcept = default;
