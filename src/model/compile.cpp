@@ -115,13 +115,40 @@ std::vector<std::vector<int>> split_by_tile(const ConstraintList& list, const st
   return members;
 }
 
+/// A row of numbers, one a constraint: a rest field, the responses or the dampings.
+struct Row {
+  const float* first;
+  int stride;
+  float at(int constraint) const { return first[static_cast<std::size_t>(constraint) * stride]; }
+};
+
+std::vector<Row> rows_of(const ConstraintList& list) {
+  std::vector<Row> rows;
+  for (int field = 0; field < list.fields; ++field) rows.push_back({list.rest.data() + field, list.fields});
+  rows.push_back({list.response.data(), 1});
+  if (list.law == Law::damped) rows.push_back({list.damping.data(), 1});
+  return rows;
+}
+
+bool is_constant(const Row& row, int count) {
+  for (int i = 1; i < count; ++i) {
+    if (std::memcmp(&row.first[static_cast<std::size_t>(i) * row.stride], row.first, sizeof(float)) != 0) return false;
+  }
+  return true;
+}
+
 Pool make_pool(const ConstraintList& list) {
   Pool pool;
   pool.type = list.type;
   pool.law = list.law;
   pool.stencil = list.size;
-  pool.block_floats = batch_width * (list.fields + 1 + (list.law == Law::damped ? 1 : 0));
   pool.constraints = list.count();
+  for (const Row& row : rows_of(list)) {
+    const bool constant = is_constant(row, list.count());
+    pool.constants.insert(pool.constants.end(), batch_width, row.at(0));
+    pool.row_offset.push_back(constant ? -1 : pool.block_floats);
+    pool.block_floats += constant ? 0 : batch_width;
+  }
   return pool;
 }
 
@@ -133,18 +160,15 @@ int member_in_lane(const Colour& colour, int batch, int lane, bool& valid) {
   return colour.members[valid ? position : batch * batch_width];
 }
 
-void append_batch(const ConstraintList& list, const Colour& colour, int batch, Pool& pool) {
+void append_batch(const ConstraintList& list, const std::vector<Row>& rows, const Colour& colour, int batch, Pool& pool) {
   const std::size_t block = pool.blocks.size();
   pool.blocks.resize(block + pool.block_floats);
   bool valid = true;
   for (int lane = 0; lane < batch_width; ++lane) {
     const int member = member_in_lane(colour, batch, lane, valid);
-    float* at = &pool.blocks[block + lane];
-    for (int field = 0; field < list.fields; ++field, at += batch_width) {
-      *at = list.rest[static_cast<std::size_t>(member) * list.fields + field];
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      if (pool.row_offset[row] >= 0) pool.blocks[block + pool.row_offset[row] + lane] = rows[row].at(member);
     }
-    *at = list.response[member];
-    if (list.law == Law::damped) at[batch_width] = list.damping[member];
     pool.origin.push_back(valid ? list.origin[member] : -1);
   }
   for (int slot = 0; slot < list.size; ++slot) {
@@ -167,7 +191,8 @@ Segment append_segment(const ConstraintList& list, const Colour& colour, int fir
   const int in_last = std::min(batch_width, count - (last - 1) * batch_width);
   segment.last_count = colour.runs ? in_last / 4 : in_last;
   segment.index_offset = static_cast<std::int64_t>(pool.indices.size());
-  for (int batch = first; batch < last; ++batch) append_batch(list, colour, batch, pool);
+  const std::vector<Row> rows = rows_of(list);
+  for (int batch = first; batch < last; ++batch) append_batch(list, rows, colour, batch, pool);
   return segment;
 }
 

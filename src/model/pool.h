@@ -47,11 +47,21 @@ struct Pool {
   Law law = Law::compliant;
   std::int32_t stencil = 0;          ///< particles a constraint
   std::int32_t block_floats = 0;     ///< floats a batch in `blocks`
+  std::vector<std::int32_t> row_offset;  ///< of each row in a batch's block, or -1: the same for all, in `constants`
   std::int32_t batches = 0;
   std::int64_t constraints = 0;
   std::vector<std::int32_t> indices;
-  AlignedVector<float> blocks;       ///< a batch: the type's rest fields, then alpha or k', then beta where damped
+  AlignedVector<float> blocks;     ///< a batch: rows of sixteen: the type's rest fields, alpha or k', beta where damped
+  AlignedVector<float> constants;  ///< one row for each field, response and damping
   std::vector<std::int32_t> origin;  ///< one a lane: number among the object's constraints of this type, -1 for padding
+
+  /// The sixteen floats of a row for a batch, and how far on they are for the next batch. A row that is the same for every
+  /// constraint (zero compliance, flat hinges) is kept once: memory not read is time not spent.
+  const float* row(int number, std::int64_t batch) const {
+    return row_offset[number] < 0 ? constants.data() + static_cast<std::ptrdiff_t>(number) * batch_width
+                                  : blocks.data() + batch * block_floats + row_offset[number];
+  }
+  std::int32_t row_step(int number) const { return row_offset[number] < 0 ? 0 : block_floats; }
 };
 
 /// Indices that one batch of a segment takes.

@@ -27,6 +27,9 @@ struct Kernels {
   /// v += h g and x += h v for particles with mass; the part of the motion that x can't hold is kept in `remainders` and added the
   /// next time. Adds the places before and after to `bounds` where it is not null.
   void (*predict)(const AdvanceArguments& arguments, Bounds* bounds);
+
+  /// update, then predict, in one pass over memory: for where nothing responds in between.
+  void (*advance)(const AdvanceArguments& arguments, Bounds* bounds);
 };
 
 const Kernels& kernels_v2();

@@ -40,9 +40,26 @@ PLIANT_HD Vec3<Wide> load_motion(const SweepArguments& a, const std::int32_t* in
   return velocity * Wide(a.h) + (x - predicted);
 }
 
-/// One batch of sixteen constraints: their numbers at `block`, their particles at `index`. `count` lanes or runs are written.
-template <class T, Law law, bool keeps_multipliers, bool runs>
-PLIANT_HD void project_batch(const float* block, const std::int32_t* index, float* multiplier, bool whole, int count,
+/// Where a pool's rows are for one batch: those that are the same for all constraints stay where they are.
+template <int rows>
+struct Rows {
+  const float* at[rows];
+  std::int32_t step[rows];
+
+  PLIANT_HD Rows(const Pool& pool, int batch) {
+    for (int row = 0; row < rows; ++row) {
+      at[row] = pool.row(row, batch);
+      step[row] = pool.row_step(row);
+    }
+  }
+  PLIANT_HD void next() {
+    for (int row = 0; row < rows; ++row) at[row] += step[row];
+  }
+};
+
+/// One batch of sixteen constraints: their numbers in `rows`, their particles at `index`. `count` lanes or runs are written.
+template <class T, Law law, bool keeps_multipliers, bool runs, int row_count>
+PLIANT_HD void project_batch(const Rows<row_count>& rows, const std::int32_t* index, float* multiplier, bool whole, int count,
                              const SweepArguments& a) {
   constexpr int stride = runs ? 4 : batch_width;
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
@@ -53,15 +70,17 @@ PLIANT_HD void project_batch(const float* block, const std::int32_t* index, floa
     x[slot] = records.position;
     w[slot] = records.w;
   }
+  Wide rest[fields];
+  for (int field = 0; field < fields; ++field) rest[field] = load_wide(rows.at[field]);
   typename T::template Params<Wide> params;
-  std::memcpy(&params, block, sizeof params);
-  Answer<Wide> answer{load_wide(block + fields * batch_width), Wide(0.f), Wide(0.f)};
+  std::memcpy(&params, rest, sizeof params);
+  Answer<Wide> answer{load_wide(rows.at[fields]), Wide(0.f), Wide(0.f)};
   if constexpr (keeps_multipliers) {
     if (!a.first_pass) answer.multiplier = load_wide(multiplier);
   }
   Vec3<Wide> motion[T::size];
   if constexpr (law == Law::damped) {
-    answer.damping = load_wide(block + (fields + 1) * batch_width);
+    answer.damping = load_wide(rows.at[fields + 1]);
     for (int slot = 0; slot < T::size; ++slot) motion[slot] = load_motion<runs>(a, index + slot * stride, x[slot]);
   }
   project<T, law, keeps_multipliers>(x, w, params, motion, answer, a);
@@ -74,17 +93,18 @@ PLIANT_HD void project_batch(const float* block, const std::int32_t* index, floa
 template <class T, Law law, bool keeps_multipliers, bool runs>
 void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
   constexpr int indices = T::size * (runs ? 4 : batch_width);
+  constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
+  Rows<fields + 1 + (law == Law::damped ? 1 : 0)> rows(pool, segment.first_batch);
   const std::int32_t* index = pool.indices.data() + segment.index_offset;
-  const float* block = pool.blocks.data() + static_cast<std::int64_t>(segment.first_batch) * pool.block_floats;
   float* multiplier = keeps_multipliers ? multipliers + static_cast<std::int64_t>(segment.first_batch) * batch_width : nullptr;
   for (int batch = 0; batch + 1 < segment.batches; ++batch) {
-    project_batch<T, law, keeps_multipliers, runs>(block, index, multiplier, true, 0, a);
+    project_batch<T, law, keeps_multipliers, runs>(rows, index, multiplier, true, 0, a);
     index += indices;
-    block += pool.block_floats;
+    rows.next();
     if constexpr (keeps_multipliers) multiplier += batch_width;
   }
   const bool whole = segment.last_count == (runs ? 4 : batch_width);
-  project_batch<T, law, keeps_multipliers, runs>(block, index, multiplier, whole, segment.last_count, a);
+  project_batch<T, law, keeps_multipliers, runs>(rows, index, multiplier, whole, segment.last_count, a);
 }
 
 template <class T, Law law, bool keeps_multipliers>
@@ -216,8 +236,10 @@ struct WideBounds {
   Wide low{3e38f}, high{-3e38f};
 };
 
+template <bool updates>
 PLIANT_HD void predict_at(const AdvanceArguments& a, int i, const Wide& gravity_step, WideBounds& bounds) {
   FourParticles p = load_four(a, i);
+  if constexpr (updates) update_four(p, a);
   const Wide before = p.position;
   predict_four(p, gravity_step, a);
   bounds.low = min(bounds.low, min(before, p.position));
@@ -239,18 +261,22 @@ PLIANT_HD void add_bounds(const WideBounds& wide, Bounds& bounds) {
   }
 }
 
-void predict(const AdvanceArguments& a, Bounds* bounds) {
+template <bool updates>
+PLIANT_HD void predict_all(const AdvanceArguments& a, Bounds* bounds) {
   const Wide gravity_step = spread(a.gravity_step);
   WideBounds wide;
   int i = a.first;
-  for (; i + 4 <= a.last; i += 4) predict_at(a, i, gravity_step, wide);
+  for (; i + 4 <= a.last; i += 4) predict_at<updates>(a, i, gravity_step, wide);
   if (i < a.last) {
     Tail tail(a, i);
-    predict_at(tail.arguments, 0, gravity_step, wide);
+    predict_at<updates>(tail.arguments, 0, gravity_step, wide);
     tail.write_back(a);
   }
   if (bounds != nullptr) add_bounds(wide, *bounds);
 }
+
+void predict(const AdvanceArguments& a, Bounds* bounds) { predict_all<false>(a, bounds); }
+void advance(const AdvanceArguments& a, Bounds* bounds) { predict_all<true>(a, bounds); }
 
 /// x - x is zero for what is finite and not a number else, and a sum keeps what is not a number.
 bool all_finite(const Record* positions, int first, int last) {
@@ -274,7 +300,7 @@ bool all_finite(const Record* positions, int first, int last) {
 }  // namespace PLIANT_ISA
 
 const Kernels& PLIANT_KERNELS() {
-  static constexpr Kernels table{PLIANT_ISA_NAME, &sweep, &all_finite, &update, &predict};
+  static constexpr Kernels table{PLIANT_ISA_NAME, &sweep, &all_finite, &update, &predict, &advance};
   return table;
 }
 

@@ -12,7 +12,7 @@ namespace pliant {
 
 namespace {
 
-/// Calls visit(x, params, block, number of the lane in the pool) for every constraint of a pool of type T.
+/// Calls visit(x, params, response, number of the lane in the pool) for every constraint of a pool of type T.
 template <class T, class Visit>
 void for_constraints(const CompiledObject& object, const Pool& pool, int pool_number, const Record* positions, const Visit& visit) {
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
@@ -23,9 +23,8 @@ void for_constraints(const CompiledObject& object, const Pool& pool, int pool_nu
       const std::int64_t number = segment.first_batch + batch;
       for (int lane = 0; lane < batch_width; ++lane) {
         if (!lane_is_valid(segment, batch, lane)) continue;
-        const float* block = pool.blocks.data() + number * pool.block_floats + lane;
         float rest[fields];
-        for (int field = 0; field < fields; ++field) rest[field] = block[field * batch_width];
+        for (int field = 0; field < fields; ++field) rest[field] = pool.row(field, number)[lane];
         typename T::template Params<float> params;
         std::memcpy(&params, rest, sizeof params);
         Vec3f x[T::size];
@@ -33,7 +32,7 @@ void for_constraints(const CompiledObject& object, const Pool& pool, int pool_nu
           const Record& p = positions[particle_of(segment, index, slot, lane)];
           x[slot] = {p.x, p.y, p.z};
         }
-        visit(x, params, block + fields * batch_width, number * batch_width + lane);
+        visit(x, params, pool.row(fields, number)[lane], number * batch_width + lane);
       }
     }
   }
@@ -56,11 +55,11 @@ template <class T>
 void add_residuals(const CompiledObject& object, int pool_number, const Record* positions, const float* multipliers, float h,
                    Sum& sum) {
   const Pool& pool = object.pools[pool_number];
-  for_constraints<T>(object, pool, pool_number, positions, [&](const auto& x, const auto& params, const float* response, auto lane) {
+  for_constraints<T>(object, pool, pool_number, positions, [&](const auto& x, const auto& params, float response, auto lane) {
     Vec3f gradient[T::size];
     double c = T::evaluate(x, params, gradient);
     if (multipliers != nullptr && pool.law != Law::pbd) {
-      c += std::min(double(*response) / (double(h) * h), double(largest_compliance)) * multipliers[lane];
+      c += std::min(double(response) / (double(h) * h), double(largest_compliance)) * multipliers[lane];
     }
     sum.add(c);
   });
@@ -104,7 +103,7 @@ Stretch measure_stretch(const Model& model, const State& state) {
       with_type(AllConstraints{}, object.pools[p].type, [&](auto tag) { is_distance = std::is_same_v<typename decltype(tag)::type, Distance>; });
       if (!is_distance) continue;
       for_constraints<Distance>(object, object.pools[p], static_cast<int>(p), state.positions.data() + model.first[o],
-                                [&](const auto& x, const auto& params, const float*, auto) {
+                                [&](const auto& x, const auto& params, float, auto) {
                                   if (!(params.rest_length > 0)) return;
                                   const Vec3f d = x[1] - x[0];
                                   ratios.push_back(std::sqrt(dot(d, d)) / params.rest_length);

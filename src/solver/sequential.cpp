@@ -11,10 +11,11 @@ namespace pliant {
 namespace {
 
 template <class T, Law law, bool keeps_multipliers>
-void project_lane(const float* block, const std::int32_t (&particle)[T::size], float* multiplier, const SweepArguments& a) {
+void project_lane(const Pool& pool, std::int64_t batch, int lane, const std::int32_t (&particle)[T::size], float* multiplier,
+                  const SweepArguments& a) {
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
   float rest[fields];
-  for (int field = 0; field < fields; ++field) rest[field] = block[field * batch_width];
+  for (int field = 0; field < fields; ++field) rest[field] = pool.row(field, batch)[lane];
   typename T::template Params<float> params;
   std::memcpy(&params, rest, sizeof params);
 
@@ -28,7 +29,7 @@ void project_lane(const float* block, const std::int32_t (&particle)[T::size], f
     w[slot] = p.w;
     motion[slot] = Vec3f{v.x, v.y, v.z} * a.h + (x[slot] - Vec3f{q.x, q.y, q.z});
   }
-  Answer<float> answer{block[fields * batch_width], law == Law::damped ? block[(fields + 1) * batch_width] : 0.f,
+  Answer<float> answer{pool.row(fields, batch)[lane], law == Law::damped ? pool.row(fields + 1, batch)[lane] : 0.f,
                        keeps_multipliers && !a.first_pass ? *multiplier : 0.f};
   project<T, law, keeps_multipliers>(x, w, params, motion, answer, a);
   if (keeps_multipliers) *multiplier = answer.multiplier;
@@ -45,7 +46,7 @@ void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers,
       std::int32_t particle[T::size];
       for (int slot = 0; slot < T::size; ++slot) particle[slot] = particle_of(segment, index, slot, lane);
       float* multiplier = keeps_multipliers ? multipliers + number * batch_width + lane : nullptr;
-      project_lane<T, law, keeps_multipliers>(pool.blocks.data() + number * pool.block_floats + lane, particle, multiplier, a);
+      project_lane<T, law, keeps_multipliers>(pool, number, lane, particle, multiplier, a);
     }
   }
 }
@@ -112,6 +113,11 @@ void predict(const AdvanceArguments& a, Bounds* bounds) {
   }
 }
 
+void advance(const AdvanceArguments& a, Bounds* bounds) {
+  update(a);
+  predict(a, bounds);
+}
+
 bool all_finite(const Record* positions, int first, int last) {
   for (int i = first; i < last; ++i) {
     const Record& p = positions[i];
@@ -123,7 +129,7 @@ bool all_finite(const Record* positions, int first, int last) {
 }  // namespace
 
 const Kernels& kernels_sequential() {
-  static constexpr Kernels table{"sequential", &sweep, &all_finite, &update, &predict};
+  static constexpr Kernels table{"sequential", &sweep, &all_finite, &update, &predict, &advance};
   return table;
 }
 

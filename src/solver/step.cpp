@@ -44,9 +44,7 @@ class Frame {
       }
       const bool finishes_first = substep > 0 && !has_forces_;
       for_tiles("solve: tiles", [&](int task) {
-        if (finishes_first && !finish(task)) return;
-        predict_and_collide(task);
-        sweep_tile(task, true);
+        if (enter_substep(task, finishes_first)) sweep_tile(task, true);
       });
       if (give_up(substep - 1)) return;
       for (int iteration = 0; iteration < context_.iterations; ++iteration) {
@@ -119,15 +117,24 @@ class Frame {
     }
   }
 
-  void predict_and_collide(int task) {
+  /// A tile's end of one substep and start of the next; false where it must stop.
+  bool enter_substep(int task, bool finishes_first) {
     const TileTask& tile = model_.tiles[task];
     const AdvanceArguments a = particles(tile);
     TileScratch& scratch = work_.tiles[task];
+    const bool in_one_pass = finishes_first && scratch.contacts.empty();
+    if (in_one_pass) {
+      scratch.finite = kernels_.all_finite(a.positions, a.first, a.last);
+      if (!scratch.finite) return false;
+    } else if (finishes_first && !finish(task)) {
+      return false;
+    }
     scratch.contacts.clear();
-    if (work_.colliders.empty()) return kernels_.predict(a, nullptr);
     scratch.bounds = {};
-    kernels_.predict(a, &scratch.bounds);
-    find_contacts(model_.objects[tile.object], a, scratch.bounds, work_.colliders, scratch.contacts);
+    Bounds* bounds = work_.colliders.empty() ? nullptr : &scratch.bounds;
+    (in_one_pass ? kernels_.advance : kernels_.predict)(a, bounds);
+    if (bounds != nullptr) find_contacts(model_.objects[tile.object], a, *bounds, work_.colliders, scratch.contacts);
+    return true;
   }
 
   void sweep_tile(int task, bool first_pass) {
