@@ -1,0 +1,6 @@
+// Any bytes as PLY: a sound mesh or an Error. Start it with a folder of small PLY files as its corpus.
+#include "fuzz_mesh.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return pliant::fuzz::read_as("fuzz.ply", data, size);
+}
