@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
   catch_signals();
   CLI::App app{"A position based dynamics engine: cloth, soft bodies, ropes", "pliant"};
   app.set_version_flag("--version", "pliant " PLIANT_VERSION);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);  // so that an unknown one is named instead of one being missed
 
   Chosen chosen;
   RunOptions run_options;
@@ -139,6 +139,10 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     complain(std::string(error.what()) + "; see pliant --help");
+    return 2;
+  }
+  if (!chosen) {
+    complain("name what to do, as pliant run; see pliant --help");
     return 2;
   }
   return run_guarded(chosen);

@@ -88,7 +88,7 @@ TEST_F(Command, HelpAndVersion) {
 }
 
 TEST_F(Command, UsageErrorsGiveTwo) {
-  expect_refused("", 2, "subcommand");
+  expect_refused("", 2, "pliant run");
   expect_refused("fly", 2, "fly");
   expect_refused("run", 2, "SCENE");
   expect_refused("run small.json --frames -1", 2, "frames");
@@ -173,7 +173,7 @@ TEST_F(Command, CheckFindsNothingWrongInASoundScene) {
 }
 
 TEST_F(Command, AnInterruptedRunLeavesNothingHalfWritten) {
-  std::ofstream(folder_ / "long.json") << small_scene(100000000);
+  std::ofstream(folder_ / "long.json") << small_scene(10000000);
   const int before = files();
   const pid_t child = fork();
   ASSERT_GE(child, 0);
