@@ -190,13 +190,11 @@ double nail_weight(int i) { return i == 0 || i == nail_links ? infinity : nail_m
 Solver nails_reference() {
   Solver solver;
   solver.gravity = {0, -nail_g, 0};
-  solver.damping = 4;
+  solver.damping = 20;
   for (int i = 0; i <= nail_links; ++i) solver.add(nail_start(i), nail_weight(i));
   for (int i = 0; i < nail_links; ++i) solver.add<Distance>({i, i + 1}, {nail_length / nail_links});
-  solver.iterations = 20;
-  for (int i = 0; i < 8000; ++i) solver.step(1e-3);
-  solver.iterations = 400;  // the links' stretch goes with how well each step converges
-  for (int i = 0; i < 4000; ++i) solver.step(1e-3);
+  for (int i = 0; i < 30000; ++i) solver.step(1e-4);
+  for (int i = 0; i < 150000; ++i) solver.step(1e-5);  // what remains of the links' stretch goes with h^2
   return solver;
 }
 
@@ -211,7 +209,7 @@ std::vector<Vec3f> nails_engine() {
     if (i > 0) pairs.insert(pairs.end(), {i - 1, i});
   }
   Object object = particles(positions, masses);
-  object.damping = 4;
+  object.damping = 20;
   connect(object, pairs, std::vector<float>(nail_links, static_cast<float>(nail_length / nail_links)), Stiffness::rigid());
   World world(scene_with(object, nail_g, 100, 1));
   for (int i = 0; i < 600; ++i) world.step(1.f / 60);

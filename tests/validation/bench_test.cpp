@@ -1,0 +1,94 @@
+// What `pliant bench` compares must be one and the same cloth, or its ratios mean nothing. No test here looks at a clock.
+#include "apps/bench/bench.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/bench/cloth.h"
+#include "pliant/error.h"
+
+namespace pliant::bench {
+namespace {
+
+constexpr int side = 12;
+constexpr Steps steps{10, 4};
+
+Vec3d centre_after(Engine& engine, int frames) {
+  for (int i = 0; i < frames; ++i) engine.step(1.f / 60);
+  Vec3d sum{};
+  const std::vector<Vec3f> positions = engine.positions();
+  for (const Vec3f& x : positions) sum += Vec3d{x.x, x.y, x.z};
+  return sum * (1 / static_cast<double>(positions.size()));
+}
+
+void expect_near(const Vec3d& a, const Vec3d& b, double tolerance) {
+  EXPECT_NEAR(a.x, b.x, tolerance);
+  EXPECT_NEAR(a.y, b.y, tolerance);
+  EXPECT_NEAR(a.z, b.z, tolerance);
+}
+
+TEST(Bench, W1HasAConstraintAnEdgeAndAHingeAnInnerEdge) {
+  const Cloth cloth = make_w1(side, true);
+  const int cells = (side - 1) * (side - 1), edges = 3 * cells + 2 * (side - 1);
+  EXPECT_EQ(static_cast<int>(cloth.edges.size()), edges);
+  EXPECT_EQ(static_cast<int>(cloth.hinges.size()), edges - 4 * (side - 1));
+  EXPECT_TRUE(make_w1(side, false).hinges.empty());
+}
+
+// Another order of the sweep gives another crumple; where the cloth as a whole goes must agree.
+TEST(Bench, ThePlainLoopSwingsAsTheEngineDoes) {
+  for (bool bending : {false, true}) {
+    const Cloth cloth = make_w1(side, bending);
+    const auto plain = make_plain_loop(cloth, steps), pliant = make_pliant(cloth, steps, 1);
+    const Vec3d centre = centre_after(*plain, 15);
+    EXPECT_LT(centre.y, -0.1);
+    expect_near(centre, centre_after(*pliant, 15), 0.01);
+  }
+}
+
+TEST(Bench, BulletSwingsAsTheEngineDoes) {
+  if (!has_bullet()) GTEST_SKIP() << "built without Bullet";
+  const Cloth cloth = make_w1(side, false);
+  for (BulletOrder order : {BulletOrder::spread, BulletOrder::shuffled}) {
+    const auto bullet = make_bullet(cloth, steps, order), pliant = make_pliant(cloth, steps, 1);
+    expect_near(centre_after(*bullet, 15), centre_after(*pliant, 15), 0.02);
+  }
+}
+
+TEST(Bench, ARunYieldsARowForEachEngineAndTheJsonHoldsThem) {
+  Options options;
+  options.workload = "W1-stretching";
+  options.sizes = {8};
+  options.warm_up = 1;
+  options.frames = 3;
+  options.threads = 1;
+  int seen = 0;
+  options.on_row = [&](const Row&) { ++seen; };
+  const std::vector<Row> rows = run(options);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(seen, 2);
+  EXPECT_EQ(rows[0].engine, "plain loop");
+  EXPECT_EQ(rows[0].ratio, 1);
+  EXPECT_EQ(rows[1].engine, "pliant");
+  EXPECT_NEAR(rows[1].ratio, rows[0].ms_per_frame / rows[1].ms_per_frame, 1e-12);
+  EXPECT_GE(rows[1].stretch_max, rows[1].stretch_p99);
+  const nlohmann::json json = nlohmann::json::parse(to_json(rows));
+  ASSERT_EQ(json.size(), 2U);
+  for (const char* key : {"workload", "size", "engine", "threads", "substeps", "iterations", "ms_per_frame",
+                          "ns_per_projection", "stretch_mean", "stretch_p99", "stretch_max", "ratio"})
+    EXPECT_TRUE(json[1].contains(key)) << key;
+}
+
+TEST(Bench, WhatIsUnknownIsRefused) {
+  Options options;
+  options.workload = "W9";
+  EXPECT_THROW(run(options), Error);
+  options.workload.clear();
+  options.sizes = {1};
+  EXPECT_THROW(run(options), Error);
+}
+
+}  // namespace
+}  // namespace pliant::bench

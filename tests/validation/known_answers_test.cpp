@@ -1,0 +1,32 @@
+// Every row that `pliant validate` shows, asserted: one test a group, so that they run side by side.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "apps/validate/validate.h"
+
+namespace pliant::validate {
+namespace {
+
+class KnownAnswers : public testing::TestWithParam<std::string> {};
+
+TEST_P(KnownAnswers, EveryRowPasses) {
+  Options options;
+  options.name = GetParam();
+  const Result result = run_validation(options);
+  EXPECT_FALSE(result.rows.empty());
+  for (const Row& row : result.rows) EXPECT_TRUE(row.pass) << to_table({row});
+}
+
+std::vector<std::string> names() {
+  std::vector<std::string> result;
+  for (const Group& group : groups()) result.push_back(group.name);
+  return result;
+}
+
+INSTANTIATE_TEST_SUITE_P(Groups, KnownAnswers, testing::ValuesIn(names()),
+                         [](const testing::TestParamInfo<std::string>& group) { return group.param; });
+
+}  // namespace
+}  // namespace pliant::validate

@@ -1,0 +1,75 @@
+// Charts: marks where a reader expects them, ink where the curve is, and no crash whatever the data.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <limits>
+
+#include "apps/plot/chart.h"
+#include "pliant/error.h"
+
+namespace pliant::plot {
+namespace {
+
+bool is(const Canvas& canvas, int x, int y, Colour colour) {
+  const std::size_t i =
+      (static_cast<std::size_t>(y) * static_cast<std::size_t>(canvas.width()) + static_cast<std::size_t>(x)) * 3;
+  return canvas.pixels()[i] == colour.red && canvas.pixels()[i + 1] == colour.green &&
+         canvas.pixels()[i + 2] == colour.blue;
+}
+
+TEST(Plot, TicksAreRoundNumbersWithinTheRange) {
+  EXPECT_EQ(linear_ticks(-0.3, 10.2, 6).labels, (std::vector<std::string>{"0", "2", "4", "6", "8", "10"}));
+  EXPECT_EQ(linear_ticks(0.0012, 0.0031, 4).labels, (std::vector<std::string>{"0.0015", "0.002", "0.0025", "0.003"}));
+  EXPECT_EQ(logarithmic_ticks(0, 3, 7).labels, (std::vector<std::string>{"1", "10", "100", "1000"}));
+  EXPECT_TRUE(linear_ticks(1, 1, 5).places.empty());
+}
+
+TEST(Plot, ALineCoversItsPixelsAndNoOthers) {
+  Canvas canvas(40, 20, {255, 255, 255});
+  canvas.line({5, 10}, {35, 10}, 4, {200, 0, 0});
+  EXPECT_TRUE(is(canvas, 20, 10, {200, 0, 0}));
+  EXPECT_TRUE(is(canvas, 20, 15, {255, 255, 255}));
+  EXPECT_TRUE(is(canvas, 1, 10, {255, 255, 255}));
+}
+
+TEST(Plot, NothingIsPaintedOutsideTheClip) {
+  Canvas canvas(40, 20, {255, 255, 255});
+  canvas.clip({10, 5}, {20, 15});
+  canvas.line({-1e9, 10}, {1e9, 10}, 30, {0, 0, 0});
+  EXPECT_TRUE(is(canvas, 15, 10, {0, 0, 0}));
+  EXPECT_TRUE(is(canvas, 30, 10, {255, 255, 255}));
+  EXPECT_TRUE(is(canvas, 15, 2, {255, 255, 255}));
+}
+
+TEST(Plot, LettersLeaveInkAndOthersAreLeftOut) {
+  Canvas canvas(200, 20, {255, 255, 255});
+  canvas.text({2, 2}, "Pliant", 2, {0, 0, 0});
+  EXPECT_NE(canvas.pixels(), Canvas(200, 20, {255, 255, 255}).pixels());
+  EXPECT_EQ(Canvas::text_width("\xff\n", 2), 0);
+}
+
+TEST(Plot, AnyDataMakesAPicture) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  const std::vector<Chart> charts{
+      {"empty", "", "", false, false, {}},
+      {"one point", "", "", true, true, {{"a", {1}, {1}, Series::Style::points}}},
+      {"constant", "", "", false, false, {{"a", {0, 1}, {0, 0}, Series::Style::dashed}}},
+      {"gaps", "", "", true, true, {{"a", {-1, 0, nan, 1, 2}, {1, nan, infinity, -2, 3}, Series::Style::line}}},
+      {"ragged", "", "", false, false, {{"a", {0, 1, 2}, {5}, Series::Style::line}}}};
+  const Canvas canvas = paint(charts, 2, 320, 240);
+  EXPECT_EQ(canvas.width(), 640);
+  EXPECT_EQ(canvas.height(), 720);
+}
+
+TEST(Plot, APathThatCannotBeWrittenIsNamed) {
+  try {
+    write_png("/no/such/folder/chart.png", Canvas(4, 4, {}));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("/no/such/folder/chart.png"), std::string::npos);
+  }
+  EXPECT_THROW(Canvas(0, 4, {}), Error);
+}
+
+}  // namespace
+}  // namespace pliant::plot
