@@ -34,6 +34,7 @@ inline void delete_texture(GLuint name) { glDeleteTextures(1, &name); }
 inline void delete_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
 inline void delete_renderbuffer(GLuint name) { glDeleteRenderbuffers(1, &name); }
 inline void delete_buffer(GLuint name) { glDeleteBuffers(1, &name); }
+inline void delete_sampler(GLuint name) { glDeleteSamplers(1, &name); }
 inline void delete_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
 inline void delete_program(GLuint name) { glDeleteProgram(name); }
 
@@ -41,6 +42,7 @@ using Texture = Name<delete_texture>;
 using Framebuffer = Name<delete_framebuffer>;
 using Renderbuffer = Name<delete_renderbuffer>;
 using Buffer = Name<delete_buffer>;
+using Sampler = Name<delete_sampler>;
 using VertexArray = Name<delete_vertex_array>;
 
 /// A program from GLSL source. Throws Error with the driver's words where it does not compile.

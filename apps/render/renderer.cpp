@@ -53,22 +53,33 @@ Eye make_eye(const Camera& camera, int width, int height, const Bounds& content)
 Vec3f sun_direction(const ViewFrame& view) {
   const Vec3f level_back = unit({view.back.x, 0, view.back.z}, {0, 0, 1});
   const Vec3f level_right{level_back.z, 0, -level_back.x};
-  return unit(Vec3f{0, 1.25f, 0} + level_back * 0.45f - level_right * 0.95f);
+  return unit(Vec3f{0, 1.15f, 0} + level_back * 0.38f - level_right * 1.0f);
 }
 
-/// A parallel view along the sun's rays that holds all content.
-Matrix shadow_view(const Vec3f& sun, const std::vector<Geometry>& geometries) {
-  const ViewFrame frame = view_frame(-sun);
+/// The sun, and a parallel view along its rays that holds all content.
+struct Sun {
+  Vec3f direction{};
+  Matrix clip;
+  float softness = 0;  // radius of a shadow's edge over the distance from what casts it, in the map's own units
+};
+
+Sun make_sun(const ViewFrame& view, const std::vector<Geometry>& geometries) {
+  constexpr float angular_radius = 0.03f;  // seven times the real sun's, as through thin cloud
+  Sun sun{.direction = sun_direction(view), .clip = {}};
+  const ViewFrame frame = view_frame(-sun.direction);
   Bounds box;
   for (const Geometry& geometry : geometries) {
     if (geometry.material == Material::ground) continue;
     for (const Vertex& v : geometry.vertices)
       box.include(Vec3f{dot(frame.right, v.position), dot(frame.up, v.position), dot(frame.back, v.position)});
   }
-  const float margin = 0.03f * std::max(box.radius(), 1e-4f);
-  // Downwind the map reaches far, so that what lies in the shadow is in it too.
-  const Vec3f around{margin, margin, margin}, behind{0, 0, 20 * margin / 0.03f};
-  return orthographic(box.low - around - behind, box.high + around) * view_matrix(frame, {});
+  if (box.empty()) box.include(Vec3f{}, 1);
+  const float margin = 0.04f * std::max(box.radius(), 1e-4f);
+  // Along the rays the map reaches far, so that the ground in the shadow is in it too.
+  const Vec3f low = box.low - Vec3f{margin, margin, 150 * margin}, high = box.high + Vec3f{margin, margin, margin};
+  sun.clip = orthographic(low, high) * view_matrix(frame, {});
+  sun.softness = angular_radius * (high.z - low.z) / std::max(high.x - low.x, high.y - low.y);
+  return sun;
 }
 
 Matrix to_texture(const Matrix& clip) {
@@ -85,8 +96,8 @@ int best_samples() {
 /// The grid's spacing: a power of ten that gives a handful of lines.
 float grid_spacing(float radius) {
   float spacing = 1;
-  while (spacing > radius) spacing /= 10;
-  while (spacing * 10 <= radius) spacing *= 10;
+  while (spacing > 0.5f * radius) spacing /= 10;
+  while (spacing * 10 <= 0.5f * radius) spacing *= 10;
   return spacing;
 }
 
@@ -102,7 +113,7 @@ struct Renderer::Implementation {
   void draw_depth(const Eye& eye) const;
   void draw_occlusion(const Eye& eye, float reach) const;
   void draw_sky(const Eye& eye) const;
-  void draw_surfaces(const Eye& eye, const Matrix& light, const Vec3f& sun, const Bounds& content) const;
+  void draw_surfaces(const Eye& eye, const Sun& sun, const Bounds& content) const;
   std::vector<std::uint8_t> read_back() const;
 
   int width, height, half_width, half_height;
@@ -113,6 +124,7 @@ struct Renderer::Implementation {
   Program sky_program{screen_vertex, std::string(light_functions) + sky_fragment};
   Program surface_program{surface_vertex, std::string(light_functions) + surface_fragment};
   VertexArray array, nothing;
+  Sampler plain_sampler;  // reads the shadow map's depth itself
   Buffer vertices, indices;
   Texture shadow_map, depth, raw_occlusion, occlusion, picture;
   Framebuffer shadow_target, depth_target, raw_target, occlusion_target, picture_target;
@@ -138,6 +150,12 @@ Renderer::Implementation::Implementation(int w, int h)
   }
   shadow_map = make_texture(GL_DEPTH_COMPONENT24, shadow_size, shadow_size, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  GLuint sampler = 0;
+  glGenSamplers(1, &sampler);
+  plain_sampler = Sampler(sampler);
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    glSamplerParameteri(sampler, filter, GL_NEAREST);
+  glSamplerParameteri(sampler, GL_TEXTURE_COMPARE_MODE, GL_NONE);
   shadow_target = make_framebuffer(0, shadow_map.get());
   depth = make_texture(GL_DEPTH_COMPONENT24, width, height, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_NEAREST);
   depth_target = make_framebuffer(0, depth.get());
@@ -233,28 +251,32 @@ void Renderer::Implementation::draw_sky(const Eye& eye) const {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Renderer::Implementation::draw_surfaces(const Eye& eye, const Matrix& light, const Vec3f& sun,
-                                             const Bounds& content) const {
+void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, const Bounds& content) const {
   glBindVertexArray(array.get());
   glEnable(GL_DEPTH_TEST);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, shadow_map.get());
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, occlusion.get());
+  glActiveTexture(GL_TEXTURE2);
+  glBindTexture(GL_TEXTURE_2D, shadow_map.get());
+  glBindSampler(2, plain_sampler.get());
   const Program& program = surface_program;
   const float size = content.radius();
   program.use();
   program.set("shadow", 0);
+  program.set("shadow_depth", 2);
   program.set("occlusion", 1);
   program.set("view_projection", eye.view_projection);
-  program.set("light", light);
+  program.set("light", to_texture(sun.clip));
   program.set("eye", eye.camera.eye);
-  program.set("sun", sun);
+  program.set("sun", sun.direction);
   program.set("centre", content.centre());
   program.set("radius", size);
   program.set("spacing", grid_spacing(size));
   program.set("picture", static_cast<float>(width), static_cast<float>(height));
-  program.set("blur", 5.5f / shadow_size);
+  program.set("widest", 18.f / shadow_size);
+  program.set("softness", sun.softness);
   program.set("bias", 5 * size / shadow_size);
   for (const Range& range : ranges) {
     program.set("albedo", range.colour);
@@ -287,10 +309,9 @@ std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scen
   const Eye eye = make_eye(camera, width, height, content);
   const float pixel = 2 * eye.half_height * length(camera.eye - content.centre()) / static_cast<float>(height);
   std::vector<Geometry> geometries = build_geometry(scene, content.centre(), content.radius(), 0.9f * pixel);
-  const Vec3f sun = sun_direction(eye.frame);
-  const Matrix light = shadow_view(sun, geometries);
+  const Sun sun = make_sun(eye.frame, geometries);
   if (scene.ground) {
-    Vec3f colour{0.52f, 0.52f, 0.51f};
+    Vec3f colour{0.60f, 0.60f, 0.59f};
     for (const RenderCollider& c : scene.colliders)
       if (is_level_plane(c) && std::abs(c.position.y - *scene.ground) < 1e-6f) colour = c.colour;
     const Vec3f centre = content.centre();
@@ -298,14 +319,14 @@ std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scen
   }
   upload(geometries);
   glEnable(GL_DEPTH_TEST);
-  draw_shadows(light);
+  draw_shadows(sun.clip);
   draw_depth(eye);
-  draw_occlusion(eye, 0.10f * content.radius());
+  draw_occlusion(eye, 0.08f * content.radius());
   glBindFramebuffer(GL_FRAMEBUFFER, sampled.framebuffer.get());
   glViewport(0, 0, width, height);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   draw_sky(eye);
-  draw_surfaces(eye, to_texture(light), sun, content);
+  draw_surfaces(eye, sun, content);
   return read_back();
 }
 

@@ -34,7 +34,9 @@ uniform vec2 slope;        // half the picture's extent at distance 1
 uniform vec2 near_far;
 uniform vec2 texel;
 uniform float reach;       // how far others are looked for [m]
-vec3 seen(vec2 at) {
+vec3 seen(vec2 near_by) {
+  // Depth belongs to the middle of its own pixel.
+  vec2 size = vec2(textureSize(depth, 0)), at = (floor(near_by * size) + 0.5) / size;
   float d = texture(depth, at).r * 2.0 - 1.0;
   float distance = 2.0 * near_far.x * near_far.y / (near_far.y + near_far.x - d * (near_far.y - near_far.x));
   return vec3((at * 2.0 - 1.0) * slope * distance, -distance);
@@ -56,7 +58,7 @@ void main() {
     float rise = max(0.0, dot(way, normal) + 0.0015 * here.z);
     hidden += rise / (dot(way, way) + 0.0004 * reach * reach) * smoothstep(2.0 * reach, 0.5 * reach, length(way));
   }
-  openness = pow(max(0.0, 1.0 - hidden * reach * 0.11), 1.3);
+  openness = 0.2 + 0.8 * pow(max(0.0, 1.0 - hidden * reach * 0.15), 1.5);
 }
 )";
 
@@ -90,10 +92,10 @@ inline constexpr const char* light_functions = R"(#version 330 core
 uniform vec3 eye;
 vec3 sky(vec3 direction) {
   float height = clamp(direction.y, 0.0, 1.0);
-  return mix(vec3(0.78, 0.80, 0.82), vec3(0.30, 0.42, 0.60), pow(height, 0.55));
+  return mix(vec3(1.60, 1.63, 1.66), vec3(0.46, 0.66, 0.96), pow(height, 0.55));
 }
 vec3 developed(vec3 light) {
-  vec3 x = light * 0.78;
+  vec3 x = light * 0.47;
   x = clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
   return mix(12.92 * x, 1.055 * pow(x, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, x));
 }
@@ -131,19 +133,31 @@ uniform vec3 albedo, sun, centre;
 uniform int material;      // 0 cloth, 1 solid, 2 ground
 uniform mat4 light;        // from the world into the shadow map, 0..1
 uniform sampler2DShadow shadow;
+uniform sampler2D shadow_depth;
 uniform sampler2D occlusion;
 uniform vec2 picture;      // width, height
-uniform float blur, bias, radius, spacing;
+uniform float widest, softness, bias, radius, spacing;
+vec2 spiral(int i, float count) {
+  float angle = float(i) * 2.3999632;
+  return vec2(cos(angle), sin(angle)) * sqrt((float(i) + 0.5) / count);
+}
 float lit(vec3 normal) {
   vec3 place = (light * vec4(at + normal * bias, 1.0)).xyz;
-  if (any(greaterThan(abs(place - 0.5), vec3(0.5)))) return 1.0;
-  float sum = 0.0;
-  for (int i = 0; i < 24; ++i) {
-    float angle = float(i) * 2.3999632;
-    vec2 shift = vec2(cos(angle), sin(angle)) * sqrt((float(i) + 0.5) / 24.0) * blur;
-    sum += texture(shadow, vec3(place.xy + shift, place.z));
+  // Loops end early where nothing can be in the way; a branch would not save software rendering anything.
+  int probes = any(greaterThan(abs(place - 0.5), vec3(0.5))) ? 0 : 12;
+  float gap = 0.0, found = 0.0;
+  for (int i = 0; i < probes; ++i) {
+    float blocker = texture(shadow_depth, place.xy + spiral(i, 12.0) * widest).r;
+    float covers = step(blocker, place.z - 0.0005);
+    gap += (place.z - blocker) * covers;
+    found += covers;
   }
-  return sum / 24.0;
+  // The further what casts it, the softer a shadow (Fernando 2005).
+  float wide = clamp(gap / max(found, 1.0) * softness, 1.2 / textureSize(shadow_depth, 0).x, widest);
+  int taps = found > 0.0 ? 20 : 0;
+  float sum = 0.0;
+  for (int i = 0; i < taps; ++i) sum += texture(shadow, vec3(place.xy + spiral(i, 20.0) * wide, place.z));
+  return taps > 0 ? sum / 20.0 : 1.0;
 }
 float lines(float x) {
   float width = fwidth(x);
@@ -161,22 +175,23 @@ void main() {
   }
   float toward = dot(normal, sun), across = max(dot(normal, view), 0.0);
   float seen = lit(toward < 0.0 && material == 0 ? -normal : normal);
-  float direct = material == 0 ? clamp((toward + 0.10) / 1.10, 0.0, 1.0) : max(toward, 0.0);
-  vec3 sunlight = vec3(2.55, 2.42, 2.20);
-  vec3 above = vec3(0.62, 0.70, 0.82), below = vec3(0.34, 0.32, 0.30);
+  // Where a surface turns from the sun its own shadow begins, in steps as large as the mesh's; fading hides them.
+  float direct = max(toward, 0.0) * smoothstep(0.0, 0.3, toward);
+  vec3 sunlight = vec3(1.90, 1.80, 1.62);
+  vec3 above = vec3(0.32, 0.365, 0.44), below = vec3(0.19, 0.175, 0.16);
   vec3 around = mix(below, above, normal.y * 0.5 + 0.5) * open;
-  vec3 fill = vec3(0.20, 0.21, 0.24) * max(dot(normal, normalize(vec3(-sun.x, 0.25, -sun.z) + 0.6 * view)), 0.0) * open;
+  vec3 fill = vec3(0.10, 0.105, 0.12) * max(dot(normal, normalize(vec3(-sun.x, 0.25, -sun.z) + 0.6 * view)), 0.0) * open;
   vec3 result = base * (sunlight * direct * seen * mix(0.75, 1.0, open) + around + fill);
   vec3 half_way = normalize(sun + view);
   if (material == 0) {
-    result += base * sunlight * 0.16 * max(-toward, 0.0) * seen;
+    result += base * sunlight * 0.16 * max(-toward, 0.0) * smoothstep(0.0, 0.3, -toward) * seen;
     float graze = pow(1.0 - across, 4.0);
     result += (0.35 * base + 0.06) * graze * (above * open + sunlight * direct * seen * 0.4);
     result += sunlight * 0.020 * pow(max(dot(normal, half_way), 0.0), 14.0) * seen;
   } else if (material == 1) {
     float graze = pow(1.0 - across, 5.0);
     result += sunlight * 0.10 * pow(max(dot(normal, half_way), 0.0), 60.0) * seen * max(toward, 0.0);
-    result += (0.03 + 0.25 * graze) * sky(reflect(-view, normal)) * open * 0.6;
+    result += (0.03 + 0.25 * graze) * sky(reflect(-view, normal)) * open * 0.45;
   } else {
     float grid = max(lines(at.x / spacing), lines(at.z / spacing));
     result *= 1.0 - 0.13 * grid;
