@@ -28,10 +28,9 @@ constexpr std::string_view silent_keywords[] = {
     "c_interp", "d_interp", "deg",    "step",  "parm",       "trim",      "hole", "scrv", "sp",
     "con",      "end",      "ctech",  "stech", "bmat",       "cstype",    "call"};
 
-/// Shapes that are no polygons, and what they are called.
+/// Shapes that are no polygons, and what one of them is called.
 constexpr std::pair<std::string_view, const char*> noted_keywords[] = {
-    {"p", "point elements (p)"}, {"l", "line elements (l)"},  {"curv", "curves (curv)"},
-    {"curv2", "curves (curv2)"}, {"surf", "surfaces (surf)"},
+    {"p", "point"}, {"l", "line"}, {"curv", "curve"}, {"curv2", "curve"}, {"surf", "surface"},
 };
 
 class ObjParser {
@@ -180,7 +179,8 @@ class ObjParser {
     for (std::size_t i = 0; i < std::size(noted_keywords); ++i)
       if (passed_over_[i].count > 0)
         mesh_.notes.push_back("ignored " + std::to_string(passed_over_[i].count) + " " + noted_keywords[i].second +
-                              ", the first on line " + std::to_string(passed_over_[i].first_line));
+                              (passed_over_[i].count == 1 ? "" : "s") + ", the first on line " +
+                              std::to_string(passed_over_[i].first_line));
   }
 
   std::string nothing_found() const {

@@ -210,8 +210,8 @@ void drop_repeated(Work& work) {
   const std::vector<bool> repeated = find_repeated(work.mesh.triangles);
   const Tally dropped = drop_triangles(work, [&](std::size_t i) { return repeated[i]; });
   if (dropped.count > 0)
-    work.repairs.push_back("dropped " + counted(dropped.count, "triangle", "triangles") +
-                           " that repeat another, the first " + std::to_string(dropped.first));
+    work.repairs.push_back("dropped " + counted(dropped.count, "triangle that repeats", "triangles that repeat") +
+                           " another, the first " + std::to_string(dropped.first));
 }
 
 /// Renumbers the vertices without those that merging emptied and, where asked, without those of no triangle.

@@ -83,6 +83,18 @@ bool is_strictly_convex(const std::vector<Point>& points) {
   return reversals == 2;
 }
 
+/// Whether two sides that are no neighbours cross in their insides.
+bool crosses_itself(const std::vector<Point>& points) {
+  const std::size_t count = points.size();
+  const auto apart = [](double left, double right) { return (left > 0 && right < 0) || (left < 0 && right > 0); };
+  for (std::size_t i = 0; i + 2 < count; ++i)
+    for (std::size_t j = i + 2; j < count; ++j) {
+      const Point &a = points[i], &b = points[i + 1], &c = points[j], &d = points[(j + 1) % count];
+      if (apart(turn(a, b, c), turn(a, b, d)) && apart(turn(c, d, a), turn(c, d, b))) return true;
+    }
+  return false;
+}
+
 /// Clips ears off one polygon, after Meisters (1975): a corner whose triangle holds no other corner may be cut off, and a
 /// simple polygon always has two such. The best shaped one goes first, which keeps corners that lie on a line but for
 /// rounding from becoming needles.
@@ -96,8 +108,8 @@ class EarClipper {
     }
   }
 
-  /// Calls emit(i, j, k) for each triangle. False where the polygon crosses or touches itself, so that a corner had to be
-  /// cut off that is no ear.
+  /// Calls emit(i, j, k) for each triangle. False where the polygon touches itself, so that a corner had to be cut off that
+  /// is no ear.
   template <class Emit>
   bool clip(const Emit& emit) {
     bool simple = true;
@@ -193,7 +205,8 @@ bool cut_up(const std::vector<Point>& points, std::size_t polygon, const std::st
   if (is_large)
     throw Error({.file = name, .line = 0, .object = {}, .element = "polygon " + std::to_string(polygon)},
                 "is concave and has " + std::to_string(count) + " corners", "triangulate it in the program that made it");
-  return EarClipper(points).clip(emit);
+  const bool has_ears = EarClipper(points).clip(emit);
+  return has_ears && !crosses_itself(points);
 }
 
 /// How many corners there are before a polygon that goes round several times comes back to its first: all of them, mostly.

@@ -146,7 +146,7 @@ class Inspector {
            "they bear neither mass nor wind; drop them, as read_mesh does");
     if (sliver.count > 0)
       tell(counted(sliver.count, "sliver triangle", "sliver triangles") + ", the first " + std::to_string(sliver.first) +
-               " (worst aspect 1:" + std::to_string(static_cast<long long>(std::min(worst, 1e15))) + ")",
+               " (worst aspect 1:" + std::to_string(static_cast<long long>(std::min(worst, 1e15) + 0.5)) + ")",
            "they make light vertices that jitter; remesh there");
   }
 
