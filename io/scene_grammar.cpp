@@ -278,7 +278,7 @@ const Record& cloth_record() {
       "cloth",
       "A surface that resists stretching and bending; with `volume`, a balloon.",
       {needed("mesh", record(mesh_record()),
-              "The surface and its rest shape, flat or curved; any edge-manifold triangle mesh."),
+              "The surface and its rest shape, flat or curved; any triangle mesh; an edge of three triangles or more is not bent."),
        field("material", any_of({choice(fabric_names()), record(fabric_record())}), "the defaults of fabric",
              "What it is made of: the name of a built-in fabric, or a fabric."),
        field("stretch", stiffness(), "from the material", "Of every edge, instead of the material's."),

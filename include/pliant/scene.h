@@ -22,7 +22,7 @@ struct ConstraintGroup {
   std::string type;                ///< "distance", "dihedral_bending", "isometric_bending", ...
   std::vector<int> particles;      ///< stencil after stencil: size of the stencil x number of constraints
   std::vector<float> rest;         ///< rest data, fields x number of constraints; empty: measured from the positions
-  Stiffness stiffness;             ///< of every constraint in the group
+  Stiffness stiffness{};           ///< of every constraint in the group
   std::vector<float> compliances;  ///< one alpha a constraint instead of stiffness.value; empty: all the same
 };
 
@@ -40,21 +40,21 @@ const std::vector<ConstraintType>& constraint_types();
 /// Mueller et al. 2007, section 4.4.2.
 struct Volume {
   float pressure = 1;   ///< k_pressure >= 0 [-]
-  Stiffness stiffness;  ///< compliance in m^5/N for C as written, which is six volumes
+  Stiffness stiffness{};  ///< compliance in m^5/N for C as written, which is six volumes
 };
 
 /// A particle whose place is given: it has no free mass and follows `motion` from its rest place.
 struct Pin {
   int particle = 0;
-  Motion motion;
+  Motion motion{};
 };
 
 /// A particle drawn to a target that moves: a distance constraint of rest length 0.
 struct Attachment {
   int particle = 0;
   Vec3f target{};  ///< at time 0 [m]
-  Motion motion;
-  Stiffness stiffness;
+  Motion motion{};
+  Stiffness stiffness{};
 };
 
 /// Anything made of particles. Cloth, balloons and ropes are ways to make one.
@@ -74,22 +74,22 @@ struct Object {
   float restitution = 0;           ///< 0..1 [-]
   float drag = 1.2f;               ///< coefficient of a triangle square to the wind [-]
   float lift = 0.8f;               ///< [-]
-  float damping = 0;               ///< of velocity: share lost a second is 1 - exp(-damping) [1/s]
+  float damping = 0;               ///< of velocity: each substep divides it by 1 + h damping, about exp(-damping) a second [1/s]
   Vec3f colour{0.75f, 0.35f, 0.30f};  ///< linear RGB, 0..1
 };
 
 /// How a mesh becomes cloth.
 struct ClothOptions {
   std::string name = "cloth";
-  Fabric material;
-  std::optional<Stiffness> stretch;  ///< overrides the material's
-  std::optional<Stiffness> bending;  ///< overrides the material's
+  Fabric material{};
+  std::optional<Stiffness> stretch{};  ///< overrides the material's
+  std::optional<Stiffness> bending{};  ///< overrides the material's
   enum class Bending { none, dihedral, isometric } bending_model = Bending::dihedral;
-  std::optional<Volume> volume;      ///< makes it a balloon; needs a closed mesh
+  std::optional<Volume> volume{};    ///< makes it a balloon; needs a closed mesh
   Vec3f velocity{};                  ///< initial [m/s]
 };
 
-/// Cloth from any edge-manifold triangle mesh; its rest shape is the mesh as given, flat or curved: a distance constraint an
+/// Cloth from any triangle mesh; its rest shape is the mesh as given, flat or curved: a distance constraint an
 /// edge, a bending constraint an inner edge, a third of each triangle's mass to each corner. Without overrides the
 /// compliance of an edge is L^2 / (Y (A1 + A2)) (Van Gelder 1998) and that of a hinge (A1 + A2) / (|e|^2 B) or, isometric,
 /// 3/B, so that stiffness does not depend on the mesh. Throws Error naming the triangle or edge that can't be cloth.
@@ -99,7 +99,7 @@ Object make_cloth(const TriangleMesh& mesh, const ClothOptions& options = {});
 struct RopeOptions {
   std::string name = "rope";
   float linear_density = 0.05f;  ///< [kg/m]
-  Stiffness stretch;
+  Stiffness stretch{};
   Stiffness bending = Stiffness::compliance(1);  ///< distance between second neighbours; used where `bends`
   bool bends = false;
   float thickness = 0.005f;      ///< radius [m]
@@ -122,7 +122,7 @@ struct Collider {
   Shape shape = Plane{};
   Vec3f position{};   ///< [m]
   Quatf rotation{};
-  Motion motion;      ///< applied after position and rotation
+  Motion motion{};    ///< applied after position and rotation
   float thickness = 0;               ///< added to the particle's [m]
   float static_friction = 0.4f;      ///< a pair has the geometric mean of both sides'
   float kinetic_friction = 0.3f;

@@ -84,11 +84,9 @@ void require_positions(const Piece& piece) {
   }
 }
 
-void require_manifold(const Piece& piece) {
+/// An edge of three triangles or more stretches like any other and has no hinge: real meshes have a few of them.
+void require_distinct_triangles(const Piece& piece) {
   for (const Edge& edge : piece.edges) {
-    if (edge.triangle_count > 2)
-      piece.refuse(name_of(edge), "joins " + std::to_string(edge.triangle_count) + " triangles",
-                   "cloth has at most two triangles at an edge: split the mesh there");
     if (edge.is_inner() && edge.opposites[0] == edge.opposites[1])
       piece.refuse("triangle " + std::to_string(edge.triangles[1]),
                    "has the same corners as triangle " + std::to_string(edge.triangles[0]), "leave one of them out");
@@ -121,9 +119,13 @@ void wind_alike(Piece& piece) {
 
 /// Makes the outside of a balloon its outside.
 void require_balloon(Piece& piece) {
-  for (const Edge& edge : piece.edges)
+  for (const Edge& edge : piece.edges) {
     if (edge.is_border())
       piece.refuse(name_of(edge), "is open", "a balloon needs a closed mesh: fill the hole or leave the volume out");
+    if (edge.triangle_count > 2)
+      piece.refuse(name_of(edge), "joins " + std::to_string(edge.triangle_count) + " triangles",
+                   "a balloon has two triangles at every edge: split the mesh there");
+  }
   const double volume = six_volumes(piece);
   if (!(std::fabs(volume) > 0)) piece.refuse("", "the mesh encloses no volume", "leave the volume out");
   if (volume > 0) return;
@@ -290,7 +292,7 @@ Object make_cloth(const TriangleMesh& mesh, const ClothOptions& options) {
     piece.refuse(error.where().element, error.problem(), error.advice());
   }
   measure_areas(piece);
-  require_manifold(piece);
+  require_distinct_triangles(piece);
   wind_alike(piece);
   if (options.volume) require_balloon(piece);
   lump_masses(piece);
