@@ -12,6 +12,7 @@ namespace {
 
 constexpr Colour paper{255, 255, 255}, ink{38, 42, 48}, faint{228, 231, 235}, frame{150, 156, 164};
 constexpr double title_size = 2, text_size = 2, font_height = 7;
+constexpr double left_margin = 104, right_margin = 26, title_height = 44, legend_line = 22, legend_stroke = 34;
 
 // Told apart by readers with any colour vision (Okabe and Ito 2008).
 constexpr Colour palette[] = {{0, 114, 178}, {213, 94, 0},   {0, 158, 115},  {204, 121, 167},
@@ -57,6 +58,28 @@ struct Layout {
   }
 };
 
+// Where the legend's entries begin, from the chart's corner: under the title, as many a line as there is room for, so that
+// they never hide a curve.
+std::vector<Point> legend_places(const Chart& chart, int width) {
+  std::vector<Point> places;
+  Point at{left_margin, title_height + legend_line / 2};
+  for (const Series& series : chart.series) {
+    const double needed = series.name.empty() ? 0 : legend_stroke + 32 + Canvas::text_width(series.name, text_size);
+    if (at.x > left_margin && at.x + needed > width - right_margin) at = {left_margin, at.y + legend_line};
+    places.push_back(at);
+    at.x += needed;
+  }
+  return places;
+}
+
+double top_margin(const Chart& chart, int width) {
+  double bottom = title_height + 8;
+  const std::vector<Point> places = legend_places(chart, width);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (!chart.series[i].name.empty()) bottom = std::max(bottom, places[i].y + legend_line);
+  return bottom;
+}
+
 Layout lay_out(const Chart& chart, Point corner, int width, int height) {
   Range x, y;
   for (const Series& series : chart.series)
@@ -67,8 +90,8 @@ Layout lay_out(const Chart& chart, Point corner, int width, int height) {
       y.include(v);
     }
   return {chart,
-          {corner.x + 104, corner.y + 52},
-          {corner.x + width - 26, corner.y + height - 66},
+          {corner.x + left_margin, corner.y + top_margin(chart, width)},
+          {corner.x + width - right_margin, corner.y + height - 66},
           padded(x, 0.02),
           padded(y, 0.08)};
 }
@@ -95,7 +118,7 @@ void draw_grid(Canvas& canvas, const Layout& layout) {
   }
 }
 
-void draw_frame(Canvas& canvas, const Layout& layout, Point corner, int width, int height) {
+void draw_frame(Canvas& canvas, const Layout& layout, Point corner, int height) {
   const Chart& chart = layout.chart;
   const Point a = layout.upper_left, b = layout.lower_right;
   canvas.line({a.x, a.y}, {a.x, b.y}, 1.5, frame);
@@ -105,7 +128,6 @@ void draw_frame(Canvas& canvas, const Layout& layout, Point corner, int width, i
   canvas.text({(a.x + b.x - x_width) / 2, corner.y + height - 28}, chart.x_label, text_size, ink);
   const double y_width = Canvas::text_width(chart.y_label, text_size);
   canvas.text_upwards({corner.x + 16, (a.y + b.y + y_width) / 2}, chart.y_label, text_size, ink);
-  static_cast<void>(width);
 }
 
 // Draws the dashes of a segment and returns how far along the dash pattern it ends.
@@ -139,66 +161,36 @@ void draw_series(Canvas& canvas, const Layout& layout, const Series& series, Col
   }
 }
 
-// How many drawn points of the curves lie in a box; the legend goes where there are fewest.
-int crowd(const Layout& layout, Point a, Point b) {
-  int count = 0;
-  for (const Series& series : layout.chart.series)
-    for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
-      const Point p = layout.place(series.x[i], series.y[i]);
-      count += p.x > a.x && p.x < b.x && p.y > a.y && p.y < b.y;
-    }
-  return count;
+void draw_sample(Canvas& canvas, Series::Style style, Point from, Colour colour) {
+  const Point to{from.x + legend_stroke, from.y};
+  if (style == Series::Style::points)
+    canvas.disc({(from.x + to.x) / 2, from.y}, 4, colour);
+  else if (style == Series::Style::dashed)
+    dashes(canvas, from, to, 0, colour);
+  else
+    canvas.line(from, to, 2.2, colour);
 }
 
-Point legend_corner(const Layout& layout, double width, double height) {
-  const Point a = layout.upper_left, b = layout.lower_right;
-  const Point corners[] = {{b.x - width - 10, a.y + 10},
-                           {a.x + 10, a.y + 10},
-                           {b.x - width - 10, b.y - height - 10},
-                           {a.x + 10, b.y - height - 10}};
-  return *std::min_element(std::begin(corners), std::end(corners), [&](Point p, Point q) {
-    return crowd(layout, p, {p.x + width, p.y + height}) < crowd(layout, q, {q.x + width, q.y + height});
-  });
-}
-
-void draw_legend(Canvas& canvas, const Layout& layout) {
-  constexpr double line_height = 22, stroke = 34;
-  double width = 0, lines = 0;
-  for (const Series& series : layout.chart.series)
-    if (!series.name.empty()) {
-      width = std::max(width, Canvas::text_width(series.name, text_size));
-      lines += 1;
-    }
-  if (lines == 0) return;
-  width += stroke + 24;
-  const Point corner = legend_corner(layout, width, lines * line_height + 8);
-  canvas.rectangle(corner, {corner.x + width, corner.y + lines * line_height + 8}, paper, 0.88);
-  double y = corner.y + 4 + line_height / 2;
-  for (std::size_t i = 0; i < layout.chart.series.size(); ++i) {
-    const Series& series = layout.chart.series[i];
+void draw_legend(Canvas& canvas, const Chart& chart, Point corner, int width) {
+  const std::vector<Point> places = legend_places(chart, width);
+  for (std::size_t i = 0; i < chart.series.size(); ++i) {
+    const Series& series = chart.series[i];
     if (series.name.empty()) continue;
-    const Colour colour = palette[i % std::size(palette)];
-    const Point from{corner.x + 8, y}, to{corner.x + 8 + stroke, y};
-    if (series.style == Series::Style::points)
-      canvas.disc({(from.x + to.x) / 2, y}, 4, colour);
-    else if (series.style == Series::Style::dashed)
-      dashes(canvas, from, to, 0, colour);
-    else
-      canvas.line(from, to, 2.2, colour);
-    canvas.text({to.x + 8, y - font_height * text_size / 2 + 1}, series.name, text_size, ink);
-    y += line_height;
+    const Point at{corner.x + places[i].x, corner.y + places[i].y};
+    draw_sample(canvas, series.style, at, palette[i % std::size(palette)]);
+    canvas.text({at.x + legend_stroke + 8, at.y - font_height * text_size / 2 + 1}, series.name, text_size, ink);
   }
 }
 
 void draw_chart(Canvas& canvas, const Chart& chart, Point corner, int width, int height) {
   const Layout layout = lay_out(chart, corner, width, height);
   draw_grid(canvas, layout);
-  draw_frame(canvas, layout, corner, width, height);
+  draw_frame(canvas, layout, corner, height);
   canvas.clip(layout.upper_left, layout.lower_right);
   for (std::size_t i = 0; i < chart.series.size(); ++i)
     draw_series(canvas, layout, chart.series[i], palette[i % std::size(palette)]);
   canvas.unclip();
-  draw_legend(canvas, layout);
+  draw_legend(canvas, chart, corner, width);
 }
 
 }  // namespace
