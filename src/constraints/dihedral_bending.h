@@ -51,7 +51,7 @@ struct DihedralBending {
     gradient[0] = -(gradient[1] + gradient[2] + gradient[3]);
 
     // The shorter way round: a hinge folded past pi comes out at the other end of the range.
-    const R pi(3.14159265f), turn(6.28318531f);
+    const R pi = constant<R>(3.14159265358979324), turn = constant<R>(6.28318530717958648);
     const R c = angle - p.rest_angle;
     return select(c > pi, c - turn, select(c < -pi, c + turn, c));
   }

@@ -7,7 +7,7 @@
 //         3
 //
 // Bergou et al. 2006, "A quadratic bending model for inextensible surfaces", eq. 4: the energy C^2 / 2 alpha is theirs with
-// alpha = 1 / B, B the flexural rigidity in N m. The vector under the norm is the discrete mean curvature normal: it vanishes
+// alpha = 1 / B; a sheet that can only roll up needs alpha = 3 / B to have the flexural rigidity B (world/cloth.cpp). The vector under the norm is the discrete mean curvature normal: it vanishes
 // for any flat hinge, whatever its rest shape, so this type can't hold a fold. Compliance in 1/(N m).
 #pragma once
 
@@ -42,10 +42,12 @@ struct IsometricBending {
     return c;
   }
 
+  /// Up to a million: beyond, a triangle is a line, and the float that holds its weight would not square.
   template <class R>
   PLIANT_HD static R cotangent(const Vec3<R>& u, const Vec3<R>& v) {
     const Vec3<R> n = cross(u, v);
-    return dot(u, v) / max(sqrt(dot(n, n)), R(1e-20f));
+    const R along = dot(u, v);
+    return along / max(max(sqrt(dot(n, n)), abs(along) * R(1e-6f)), R(1e-20f));
   }
 
   template <class R>
@@ -55,7 +57,7 @@ struct IsometricBending {
     const R at1 = cotangent(-e, x[2] - x[1]), at1_other = cotangent(-e, x[3] - x[1]);
     const Vec3<R> n1 = cross(e, a), n2 = cross(b, e);
     const R area = (sqrt(dot(n1, n1)) + sqrt(dot(n2, n2))) * R(0.5f);
-    const R scale = sqrt(R(3) / max(area, R(1e-20f)));
+    const R scale = sqrt(R(3) / max(max(area, dot(e, e) * R(1e-6f)), R(1e-20f)));
     return {(at0 + at0_other) * scale, -(at0 + at1) * scale, -(at0_other + at1_other) * scale};
   }
 

@@ -1,0 +1,156 @@
+// What the typed tests of constraints share: the list of types as GoogleTest takes it, and stencils to try them on.
+//
+// Everything is asked of the types themselves, so that a type put into constraints/all.h is tested without a change here.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <random>
+#include <string>
+
+#include "constraints/all.h"
+#include "constraints/plane_contact.h"
+#include "math/quat.h"
+#include "math/vector.h"
+
+namespace pliant::testing_support {
+
+template <class List>
+struct AsTypes;
+template <class... Types>
+struct AsTypes<TypeList<Types...>> {
+  using Alone = ::testing::Types<Types...>;
+  using WithContact = ::testing::Types<Types..., PlaneContact>;
+};
+/// Every type of all.h.
+using ConstraintTypes = AsTypes<AllConstraints>::Alone;
+/// The same with contacts, for what holds for them too.
+using ConstraintAndContactTypes = AsTypes<AllConstraints>::WithContact;
+
+struct NameOfType {
+  template <class T>
+  static std::string GetName(int) {
+    return T::name;
+  }
+};
+
+template <class T>
+inline constexpr std::size_t size_of = static_cast<std::size_t>(T::size);
+template <class T, class R>
+using Stencil = std::array<Vec3<R>, size_of<T>>;
+template <class T, class R>
+using ParamsOf = typename T::template Params<R>;
+template <class T>
+inline constexpr int field_count = static_cast<int>(sizeof(ParamsOf<T, float>) / sizeof(float));
+
+/// Whether the type can read its rest data off a stencil; contacts have none.
+template <class T>
+inline constexpr bool measures = requires(const Vec3<double> (&x)[size_of<T>]) {
+  T::template measure<double>(x);
+};
+
+/// The parameters in another precision.
+template <class T, class To, class From>
+ParamsOf<T, To> convert_params(const ParamsOf<T, From>& from) {
+  From in[field_count<T>];
+  To out[field_count<T>];
+  static_assert(sizeof in == sizeof from);
+  std::memcpy(in, &from, sizeof in);
+  for (int i = 0; i < field_count<T>; ++i) out[i] = static_cast<To>(in[i]);
+  ParamsOf<T, To> to;
+  std::memcpy(static_cast<void*>(&to), out, sizeof to);
+  return to;
+}
+
+/// C and its gradients.
+template <class T, class R>
+struct Value {
+  R c;
+  Stencil<T, R> gradient;
+};
+
+template <class T, class R>
+Value<T, R> evaluate(const Stencil<T, R>& at, const ParamsOf<T, R>& params) {
+  Vec3<R> x[size_of<T>], gradient[size_of<T>];
+  for (std::size_t i = 0; i < size_of<T>; ++i) x[i] = at[i];
+  Value<T, R> value{T::template evaluate<R>(x, params, gradient), {}};
+  for (std::size_t i = 0; i < size_of<T>; ++i) value.gradient[i] = gradient[i];
+  return value;
+}
+
+template <class T, class R>
+ParamsOf<T, R> measure(const Stencil<T, R>& at) {
+  Vec3<R> x[size_of<T>];
+  for (std::size_t i = 0; i < size_of<T>; ++i) x[i] = at[i];
+  return T::template measure<R>(x);
+}
+
+using Random = std::mt19937;
+
+inline double uniform(Random& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random()) / 4294967295.0;
+}
+inline Vec3d random_point(Random& random, double reach) {
+  return {uniform(random, -reach, reach), uniform(random, -reach, reach), uniform(random, -reach, reach)};
+}
+inline Quatd random_rotation(Random& random) {
+  const Vec3d v = random_point(random, 1);
+  return normalise(Quatd{v.x, v.y, v.z, uniform(random, 0.2, 1)});
+}
+
+/// Whether no two points are close and no three nearly on a line: far from where any formula has its corners.
+template <std::size_t n>
+bool is_well_spread(const std::array<Vec3d, n>& x) {
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (length(x[i] - x[j]) < 0.5) return false;
+      for (std::size_t k = 0; k < j; ++k) {
+        if (length(cross(x[i] - x[k], x[j] - x[k])) < 0.4) return false;
+      }
+    }
+  }
+  return true;
+}
+
+template <class T>
+Stencil<T, double> random_stencil(Random& random) {
+  for (;;) {
+    Stencil<T, double> x;
+    for (Vec3d& p : x) p = random_point(random, 1);
+    if (is_well_spread(x)) return x;
+  }
+}
+
+/// Rest data that some other stencil has, so that C is not zero; for a contact, some plane.
+template <class T>
+ParamsOf<T, double> random_params(Random& random) {
+  if constexpr (measures<T>) {
+    return measure<T, double>(random_stencil<T>(random));
+  } else {
+    const Vec3d normal = rotate(random_rotation(random), Vec3d{0, 1, 0});
+    double fields[] = {normal.x, normal.y, normal.z, uniform(random, -1, 1)};
+    static_assert(sizeof fields == sizeof(ParamsOf<T, double>), "what can't be measured is taken to be a plane");
+    ParamsOf<T, double> params;
+    std::memcpy(static_cast<void*>(&params), fields, sizeof fields);
+    return params;
+  }
+}
+
+/// All points in the plane z = 0, the third and the fourth on either side of the first two: what is flat at rest.
+template <class T>
+Stencil<T, double> flat_stencil(Random& random) {
+  for (;;) {
+    Stencil<T, double> x;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double side = i == 2 ? 1 : i == 3 ? -1 : 0;
+      x[i] = {uniform(random, -1, 1), side * uniform(random, 0.3, 1), 0};
+    }
+    if (is_well_spread(x)) return x;
+  }
+}
+
+}  // namespace pliant::testing_support
