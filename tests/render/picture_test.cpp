@@ -1,0 +1,241 @@
+// Pictures measured, not compared with stored ones: a driver may round otherwise, but a sphere covers what it covers.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+
+#include "pliant/error.h"
+#include "pliant/mesh.h"
+#include "render/render.h"
+
+namespace pliant::render {
+namespace {
+
+constexpr int width = 320, height = 240;
+
+/// A renderer, or none where this machine has no OpenGL; then `why` says so.
+std::unique_ptr<Renderer> make_renderer(std::string& why) {
+  try {
+    return std::make_unique<Renderer>(width, height);
+  } catch (const Error& error) {
+    why = error.what();
+    return nullptr;
+  }
+}
+
+/// Everything that draws needs one; a machine without OpenGL skips these tests and says why.
+class Picture : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string why;
+    renderer = make_renderer(why);
+    if (!renderer) GTEST_SKIP() << why;
+  }
+
+  struct Pixel {
+    int r, g, b;
+    int brightness() const { return r + g + b; }
+  };
+  static Pixel at(const std::vector<std::uint8_t>& picture, int x, int y) {
+    const std::size_t i = (static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)) * 3;
+    return {picture[i], picture[i + 1], picture[i + 2]};
+  }
+
+  /// How many pixels two pictures do not share.
+  static int different(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+    int count = 0;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const Pixel p = at(a, x, y), q = at(b, x, y);
+        count += std::abs(p.r - q.r) + std::abs(p.g - q.g) + std::abs(p.b - q.b) > 24;
+      }
+    }
+    return count;
+  }
+
+  /// Looks along -z at the origin, so that 1 m there is `pixels_per_metre` high.
+  static Camera straight(float distance = 4) { return {{0, 0, distance}, {}, 40}; }
+  static float pixels_per_metre(float distance = 4) { return height / (2 * distance * std::tan(20 * 3.14159265f / 180)); }
+
+  std::unique_ptr<Renderer> renderer;
+};
+
+RenderMesh square(float half, Vec3f centre, Vec3f colour) {
+  return {{centre + Vec3f{-half, -half, 0}, centre + Vec3f{half, -half, 0}, centre + Vec3f{half, half, 0},
+           centre + Vec3f{-half, half, 0}},
+          {{0, 1, 2}, {0, 2, 3}},
+          colour};
+}
+
+RenderScene with_sphere(float radius) {
+  RenderScene scene;
+  scene.ground.reset();
+  scene.colliders.push_back({Sphere{radius}, {}, {}, {0.8f, 0.1f, 0.1f}});
+  return scene;
+}
+
+TEST_F(Picture, OfASphereCoversItsDisc) {
+  RenderScene scene = with_sphere(0.5f);
+  scene.camera = straight();
+  RenderScene empty = scene;
+  empty.colliders.clear();
+  const int covered = different(renderer->draw(scene), renderer->draw(empty));
+  // The visible disc of a sphere at distance d is that of its tangent cone: tan = r / sqrt(d^2 - r^2).
+  const float pixels = 0.5f / std::sqrt(16 - 0.25f) * 4 * pixels_per_metre();
+  const float expected = 3.14159265f * pixels * pixels;
+  EXPECT_NEAR(static_cast<float>(covered), expected, 0.03f * expected);
+}
+
+TEST_F(Picture, OfAMeshSphereCoversTheSame) {
+  RenderScene collider = with_sphere(0.5f), mesh;
+  collider.camera = mesh.camera = straight();
+  mesh.ground.reset();
+  const TriangleMesh ball = sphere_mesh(4);
+  RenderMesh half{ball.positions, ball.triangles, {0.8f, 0.1f, 0.1f}};
+  for (Vec3f& p : half.positions) p = p * 0.5f;
+  mesh.meshes.push_back(half);
+  RenderScene empty;
+  empty.ground.reset();
+  empty.camera = straight();
+  const auto nothing = renderer->draw(empty);
+  const int a = different(renderer->draw(collider), nothing), b = different(renderer->draw(mesh), nothing);
+  EXPECT_NEAR(a, b, 0.03 * a);
+}
+
+TEST_F(Picture, OfABoxACapsuleAndATubeCoversWhatTheyMeasure) {
+  RenderScene empty;
+  empty.ground.reset();
+  empty.camera = straight(40);
+  empty.camera->field_of_view = 5;
+  const float metre = height / (2 * 40 * std::tan(2.5f * 3.14159265f / 180));
+  const auto nothing = renderer->draw(empty);
+  RenderScene box = empty, capsule = empty, tube = empty;
+  box.colliders.push_back({Box{{0.6f, 0.4f, 0.05f}}, {}, {}, {0.1f, 0.1f, 0.8f}});
+  capsule.colliders.push_back({Capsule{0.2f, 0.5f}, {}, {}, {0.1f, 0.1f, 0.8f}});
+  tube.tubes.push_back({{{-0.5f, 0, 0}, {0, 0, 0}, {0.5f, 0, 0}}, 0.2f, {0.1f, 0.1f, 0.8f}});
+  constexpr float round = 3.14159265f * 0.2f * 0.2f;
+  const auto expect_area = [&](const RenderScene& scene, float area, const char* what) {
+    const auto covered = static_cast<float>(different(renderer->draw(scene), nothing));
+    EXPECT_NEAR(covered / (metre * metre), area, 0.05f * area) << what;
+  };
+  expect_area(box, 1.2f * 0.8f, "box");
+  expect_area(capsule, 0.4f + round, "capsule");
+  expect_area(tube, 0.4f + round, "tube");
+}
+
+TEST_F(Picture, OfOneSceneIsTheSameTwice) {
+  RenderScene scene = with_sphere(0.5f);
+  scene.ground = -0.5f;
+  scene.meshes.push_back(square(0.7f, {0.5f, 0.2f, -0.3f}, {0.2f, 0.6f, 0.3f}));
+  const auto first = renderer->draw(scene);
+  renderer->draw(with_sphere(1));
+  EXPECT_EQ(first, renderer->draw(scene));
+  std::string why;
+  EXPECT_EQ(first, make_renderer(why)->draw(scene));
+}
+
+TEST_F(Picture, HasShadowsOnTheGround) {
+  RenderScene scene;
+  scene.camera = Camera{{0, 6, 0.01f}, {}, 40};  // from above: left is -x, up is -z
+  RenderScene lit = scene;
+  scene.colliders.push_back({Sphere{0.4f}, {0, 1.2f, 0}, {}, {0.5f, 0.5f, 0.5f}});
+  lit.colliders.push_back({Sphere{0.01f}, {0, 1.2f, 0}, {}, {0.5f, 0.5f, 0.5f}});
+  const auto shaded = renderer->draw(scene), bare = renderer->draw(lit);
+  int darker = 0, brighter = 0, left = 0, right = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const float from_sphere = std::hypot(static_cast<float>(x) - width / 2.f, static_cast<float>(y) - height / 2.f);
+      if (from_sphere < 35) continue;  // the sphere itself, and the sky that it hides from the ground
+      const int change = at(shaded, x, y).brightness() - at(bare, x, y).brightness();
+      darker += change < -90;
+      brighter += change > 30;
+      (x < width / 2 ? left : right) += change < -90;
+    }
+  }
+  EXPECT_GT(darker, 300);
+  EXPECT_EQ(brighter, 0);
+  EXPECT_GT(right, 10 * left) << "the sun stands left of the viewer";
+}
+
+TEST_F(Picture, ShowsClothFromBothSidesAndTheBackDuller) {
+  RenderScene front, back;
+  front.ground.reset();
+  front.camera = straight();
+  front.meshes.push_back(square(0.8f, {}, {0.8f, 0.1f, 0.1f}));
+  back = front;
+  for (auto& triangle : back.meshes[0].triangles) std::swap(triangle[1], triangle[2]);
+  const Pixel a = at(renderer->draw(front), width / 2, height / 2), b = at(renderer->draw(back), width / 2, height / 2);
+  EXPECT_GT(a.r, b.r + 8);
+  EXPECT_GT(b.r, b.g + 40) << "the back keeps the cloth's colour";
+}
+
+TEST_F(Picture, HidesWhatIsBehind) {
+  RenderScene scene;
+  scene.ground.reset();
+  scene.camera = straight();
+  scene.meshes = {square(0.5f, {0, 0, 0.5f}, {0.9f, 0, 0}), square(0.5f, {}, {0, 0.9f, 0})};
+  const Pixel near_first = at(renderer->draw(scene), width / 2, height / 2);
+  std::swap(scene.meshes[0], scene.meshes[1]);
+  const Pixel near_last = at(renderer->draw(scene), width / 2, height / 2);
+  for (const Pixel& pixel : {near_first, near_last}) EXPECT_GT(pixel.r, pixel.g + 60);
+}
+
+TEST_F(Picture, OfAnEmptySceneIsSkyAndGround) {
+  const auto picture = renderer->draw({});
+  ASSERT_EQ(picture.size(), std::size_t{3} * width * height);
+  EXPECT_GT(at(picture, width / 2, 2).b, at(picture, width / 2, height - 2).b);
+}
+
+TEST_F(Picture, RefusesWhatItCannotDraw) {
+  RenderScene scene;
+  scene.meshes.push_back(square(1, {}, {}));
+  scene.meshes[0].triangles.push_back({0, 1, 4});
+  EXPECT_THROW(renderer->draw(scene), Error);
+  scene.meshes[0].triangles.back() = {0, 1, -1};
+  EXPECT_THROW(renderer->draw(scene), Error);
+  scene.meshes[0].triangles.pop_back();
+  scene.meshes[0].positions[0].x = NAN;
+  EXPECT_THROW(renderer->draw(scene), Error);
+  EXPECT_THROW(Renderer(8, 100), Error);
+  EXPECT_THROW(Renderer(100, 100000), Error);
+}
+
+TEST(FrameCamera, HasEveryPointInThePicture) {
+  for (const float azimuth : {-120.f, 0.f, 28.f, 90.f}) {
+    for (const float elevation : {-80.f, 0.f, 18.f, 89.f}) {
+      RenderScene scene = with_sphere(0.5f);
+      scene.meshes.push_back(square(0.3f, {2, 1, -3}, {}));
+      const Camera camera = frame_camera({scene}, 300, 200, azimuth, elevation);
+      const Vec3f forward = camera.target - camera.eye;
+      const float distance = std::sqrt(length_squared(forward));
+      const Vec3f ahead = forward * (1 / distance);
+      Vec3f right = cross(ahead, Vec3f{0, 1, 0});
+      right = right * (1 / std::sqrt(length_squared(right)));
+      const Vec3f up = cross(right, ahead);
+      const float slope = std::tan(camera.field_of_view / 2 * 3.14159265f / 180);
+      float widest = 0;
+      for (const Vec3f& point : scene.meshes[0].positions) {
+        const Vec3f way = point - camera.eye;
+        const float depth = dot(way, ahead);
+        widest =
+            std::max({widest, std::abs(dot(way, right)) / depth / (1.5f * slope), std::abs(dot(way, up)) / depth / slope});
+        EXPECT_GT(depth, 0);
+      }
+      EXPECT_LT(widest, 0.95f) << azimuth << ", " << elevation;
+      EXPECT_GT(distance, 1);
+    }
+  }
+}
+
+TEST(FrameCamera, StaysNearForOneAndMovesBackForTwo) {
+  RenderScene one = with_sphere(0.5f), two = with_sphere(0.5f);
+  two.colliders[0].position = {4, 0, 0};
+  const auto distance = [](const Camera& c) { return std::sqrt(length_squared(c.eye - c.target)); };
+  EXPECT_GT(distance(frame_camera({one, two}, 100, 100)), 2 * distance(frame_camera({one}, 100, 100)));
+  EXPECT_TRUE(std::isfinite(distance(frame_camera({}, 100, 100))));
+}
+
+}  // namespace
+}  // namespace pliant::render
