@@ -61,22 +61,4 @@ std::string bytes_of(T value, bool big_endian = false) {
   return bytes;
 }
 
-/// Sum of the triangles' areas, and of their signed areas seen from +z.
-struct Areas {
-  double all = 0, seen_from_above = 0;
-};
-inline Areas areas_of(const TriangleMesh& mesh) {
-  Areas areas;
-  for (const auto& t : mesh.triangles) {
-    const auto at = [&](int k) {
-      const Vec3f& p = mesh.positions[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
-      return Vec3d{p.x, p.y, p.z};
-    };
-    const Vec3d normal = cross(at(1) - at(0), at(2) - at(0));
-    areas.all += 0.5 * std::sqrt(length_squared(normal));
-    areas.seen_from_above += 0.5 * normal.z;
-  }
-  return areas;
-}
-
 }  // namespace pliant::test
