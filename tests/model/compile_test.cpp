@@ -1,0 +1,390 @@
+// From an Object to a schedule: every constraint once, padding never a constraint, tasks that share no particle, numbers
+// that find their way back.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <random>
+#include <set>
+
+#include "constraints/all.h"
+#include "math/vector.h"
+#include "model/compiled_object.h"
+#include "model/gather_constraints.h"
+#include "model/model.h"
+#include "model/stiffness.h"
+#include "pliant/error.h"
+
+namespace pliant {
+namespace {
+
+/// A rumpled grid with edges, hinges of both kinds by every law, pins, attachments: something of everything.
+Object rumpled_grid(int columns, int rows) {
+  Object object;
+  object.name = "grid";
+  std::mt19937 random(11);
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) {
+      const float bump = static_cast<float>(random() % 1000) * 1e-4f;
+      object.positions.push_back({static_cast<float>(c) * 0.1f, bump, static_cast<float>(r) * 0.1f});
+      object.masses.push_back(0.5f + bump);
+      object.velocities.push_back({bump, 0, -bump});
+    }
+  }
+  object.masses[1] = std::numeric_limits<float>::infinity();
+  const auto at = [&](int r, int c) { return r * columns + c; };
+  ConstraintGroup edges{"distance", {}, {}, Stiffness::compliance(1e-6f), {}},
+      pbd{"distance", {}, {}, Stiffness::pbd(0.9f), {}};
+  ConstraintGroup damped{"distance", {}, {}, Stiffness::compliance(1e-5f, 2), {}};
+  ConstraintGroup hinges{"dihedral_bending", {}, {}, Stiffness::compliance(0.1f), {}};
+  ConstraintGroup isometric{"isometric_bending", {}, {}, Stiffness::compliance(0.2f), {}};
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) {
+      if (c + 1 < columns) edges.particles.insert(edges.particles.end(), {at(r, c + 1), at(r, c)});
+      if (r + 1 < rows) pbd.particles.insert(pbd.particles.end(), {at(r, c), at(r + 1, c)});
+      if (r + 1 < rows && c + 1 < columns) {
+        damped.particles.insert(damped.particles.end(), {at(r, c), at(r + 1, c + 1)});
+        hinges.particles.insert(hinges.particles.end(), {at(r + 1, c + 1), at(r, c), at(r, c + 1), at(r + 1, c)});
+        isometric.particles.insert(isometric.particles.end(), {at(r, c), at(r + 1, c + 1), at(r + 1, c), at(r, c + 1)});
+        object.triangles.push_back({at(r, c), at(r + 1, c + 1), at(r, c + 1)});
+        object.triangles.push_back({at(r, c), at(r + 1, c), at(r + 1, c + 1)});
+      }
+    }
+  }
+  object.constraints = {edges, hinges, pbd, isometric, damped};
+  object.pins.push_back({0, Motion{{Keyframe{0, {0, 0, 0}, {}}, Keyframe{1, {1, 0, 0}, {}}}, {}, false}});
+  object.attachments.push_back({columns - 1, {5, 5, 5}, {}, Stiffness::compliance(1e-3f)});
+  return object;
+}
+
+/// A lane of a segment as the user gave it.
+struct Found {
+  std::array<int, 4> particles{};
+  float first_field = 0, response = 0;
+  Law law = Law::compliant;
+};
+
+/// Every valid lane by (type, origin). Fails where one comes twice, and where padding has a number.
+std::map<std::pair<int, int>, Found> all_lanes(const CompiledObject& object) {
+  std::map<std::pair<int, int>, Found> found;
+  for (const Segment& segment : object.segments) {
+    const Pool& pool = object.pools[static_cast<std::size_t>(segment.pool)];
+    const std::int32_t* index = pool.indices.data() + segment.index_offset;
+    for (int batch = 0; batch < segment.batches; ++batch, index += indices_per_batch(pool, segment)) {
+      for (int lane = 0; lane < batch_width; ++lane) {
+        const auto number =
+            static_cast<std::size_t>(segment.first_batch + batch) * batch_width + static_cast<std::size_t>(lane);
+        const int origin = pool.origin[number];
+        EXPECT_EQ(origin >= 0, lane_is_valid(segment, batch, lane));
+        if (origin < 0) continue;
+        Found here;
+        const float* block = pool.blocks.data() + static_cast<std::size_t>(segment.first_batch + batch) *
+                                                      static_cast<std::size_t>(pool.block_floats);
+        const int fields = pool.block_floats / batch_width - (pool.law == Law::damped ? 2 : 1);
+        here.first_field = block[lane];
+        here.response = block[fields * batch_width + lane];
+        here.law = pool.law;
+        for (int slot = 0; slot < pool.stencil; ++slot) {
+          const int storage = particle_of(segment, index, slot, lane);
+          EXPECT_GE(storage, 0);
+          EXPECT_LT(storage, object.particles);
+          here.particles[static_cast<std::size_t>(slot)] = object.order[static_cast<std::size_t>(storage)];
+        }
+        EXPECT_TRUE(found.emplace(std::make_pair(pool.type, origin), here).second) << "constraint " << origin << " twice";
+      }
+    }
+  }
+  return found;
+}
+
+int count_of(const Object& object, const std::string& type, int size) {
+  std::size_t count = 0;
+  for (const ConstraintGroup& group : object.constraints) {
+    if (group.type == type) count += group.particles.size() / static_cast<std::size_t>(size);
+  }
+  return static_cast<int>(count);
+}
+
+/// The stencil that the user gave to number `origin` of a type; attachments come after all groups.
+std::vector<int> stencil_given(const Object& object, const std::string& type, int size, int origin) {
+  for (const ConstraintGroup& group : object.constraints) {
+    if (group.type != type) continue;
+    const int count = static_cast<int>(group.particles.size()) / size;
+    if (origin < count) return {group.particles.begin() + origin * size, group.particles.begin() + (origin + 1) * size};
+    origin -= count;
+  }
+  const Attachment& attachment = object.attachments.at(static_cast<std::size_t>(origin));
+  return {attachment.particle, static_cast<int>(object.positions.size()) + origin};
+}
+
+class Compiled : public testing::TestWithParam<int> {
+ protected:
+  Object object_ = rumpled_grid(23, 17);
+  CompiledObject compiled_ = compile(object_, {10, GetParam()});
+};
+INSTANTIATE_TEST_SUITE_P(TileSizes, Compiled, testing::Values(1, 7, 40, 4096));
+
+TEST_P(Compiled, HasEveryConstraintOnceWithItsParticles) {
+  const auto lanes = all_lanes(compiled_);
+  std::size_t total = 0;
+  for_each_type(AllConstraints{}, [&](auto tag, int type) {
+    using T = typename decltype(tag)::type;
+    const int attachments = std::is_same_v<T, Distance> ? static_cast<int>(object_.attachments.size()) : 0;
+    const int count = count_of(object_, T::name, T::size) + attachments;
+    total += static_cast<std::size_t>(count);
+    for (int origin = 0; origin < count; ++origin) {
+      const auto found = lanes.find({type, origin});
+      ASSERT_NE(found, lanes.end()) << T::name << " " << origin;
+      std::vector<int> given = stencil_given(object_, T::name, T::size, origin);
+      std::vector<int> compiled(found->second.particles.begin(), found->second.particles.begin() + T::size);
+      std::sort(given.begin(), given.end());
+      std::sort(compiled.begin(), compiled.end());
+      EXPECT_EQ(given, compiled) << T::name << " " << origin;
+    }
+  });
+  EXPECT_EQ(lanes.size(), total);
+}
+
+TEST_P(Compiled, KeepsRestDataRightAfterReordering) {
+  const int type = 1;
+  for (const auto& [key, lane] : all_lanes(compiled_)) {
+    if (key.first != type) continue;
+    Vec3<double> x[4];
+    for (std::size_t slot = 0; slot < 4; ++slot)
+      x[slot] = convert<double>(object_.positions[static_cast<std::size_t>(lane.particles[slot])]);
+    EXPECT_NEAR(DihedralBending::measure(x).rest_angle, lane.first_field, 1e-6) << "hinge " << key.second;
+  }
+}
+
+TEST_P(Compiled, NumbersParticlesBothWays) {
+  ASSERT_EQ(compiled_.particles, static_cast<int>(object_.positions.size() + object_.attachments.size()));
+  EXPECT_EQ(compiled_.user_particles, static_cast<int>(object_.positions.size()));
+  for (int user = 0; user < compiled_.particles; ++user) {
+    const int storage = compiled_.place[static_cast<std::size_t>(user)];
+    ASSERT_EQ(compiled_.order[static_cast<std::size_t>(storage)], user);
+    const Record& r = compiled_.positions[static_cast<std::size_t>(storage)];
+    const Vec3f given =
+        user < compiled_.user_particles ? object_.positions[static_cast<std::size_t>(user)] : object_.attachments[0].target;
+    EXPECT_EQ((Vec3f{r.x, r.y, r.z}), given);
+    const bool fixed = user <= 1 || user >= compiled_.user_particles;
+    EXPECT_EQ(r.w, fixed ? 0.f : 1 / object_.masses[static_cast<std::size_t>(user)]);
+    const Record& v = compiled_.velocities[static_cast<std::size_t>(storage)];
+    EXPECT_EQ((Vec3f{v.x, v.y, v.z}), fixed ? Vec3f{} : object_.velocities[static_cast<std::size_t>(user)]);
+  }
+}
+
+TEST_P(Compiled, TilesPartitionParticlesAndSegments) {
+  int particle = 0, segment = 0;
+  for (const Tile& tile : compiled_.tiles) {
+    EXPECT_EQ(tile.first_particle, particle);
+    EXPECT_EQ(tile.first_segment, segment);
+    EXPECT_GT(tile.last_particle, tile.first_particle);
+    EXPECT_LE(tile.last_particle - tile.first_particle, GetParam());
+    particle = tile.last_particle;
+    segment = tile.last_segment;
+  }
+  EXPECT_EQ(particle, compiled_.particles);
+  for (const StraddlerColour& colour : compiled_.straddlers) {
+    EXPECT_EQ(colour.first_segment, segment);
+    segment = colour.last_segment;
+  }
+  EXPECT_EQ(segment, static_cast<int>(compiled_.segments.size()));
+}
+
+/// Storage numbers of all particles that the valid lanes of a segment write, and those of its padding read.
+std::vector<int> particles_of(const CompiledObject& object, const Segment& segment) {
+  std::vector<int> particles;
+  const Pool& pool = object.pools[static_cast<std::size_t>(segment.pool)];
+  const std::int32_t* index = pool.indices.data() + segment.index_offset;
+  for (int batch = 0; batch < segment.batches; ++batch, index += indices_per_batch(pool, segment)) {
+    for (int lane = 0; lane < batch_width; ++lane) {
+      for (int slot = 0; slot < pool.stencil; ++slot) {
+        const int particle = particle_of(segment, index, slot, lane);
+        EXPECT_TRUE(particle >= 0 && particle < object.particles) << "padding must be readable";
+        if (lane_is_valid(segment, batch, lane)) particles.push_back(particle);
+      }
+    }
+  }
+  return particles;
+}
+
+TEST_P(Compiled, NoSegmentTouchesAParticleTwice) {
+  for (const Segment& segment : compiled_.segments) {
+    const std::vector<int> particles = particles_of(compiled_, segment);
+    EXPECT_EQ(std::set<int>(particles.begin(), particles.end()).size(), particles.size());
+  }
+}
+
+TEST_P(Compiled, TilesTouchTheirOwnParticlesAlone) {
+  for (const Tile& tile : compiled_.tiles) {
+    for (int s = tile.first_segment; s < tile.last_segment; ++s) {
+      for (int particle : particles_of(compiled_, compiled_.segments[static_cast<std::size_t>(s)])) {
+        EXPECT_GE(particle, tile.first_particle);
+        EXPECT_LT(particle, tile.last_particle);
+      }
+    }
+  }
+}
+
+TEST_P(Compiled, SegmentsOfAStraddlingColourShareNothing) {
+  for (const StraddlerColour& colour : compiled_.straddlers) {
+    std::set<int> met;
+    for (int s = colour.first_segment; s < colour.last_segment; ++s) {
+      for (int particle : particles_of(compiled_, compiled_.segments[static_cast<std::size_t>(s)])) {
+        EXPECT_TRUE(met.insert(particle).second);
+      }
+    }
+  }
+}
+
+TEST_P(Compiled, PadsEveryStretchOfMemory) {
+  for (const Segment& segment : compiled_.segments) {
+    const Pool& pool = compiled_.pools[static_cast<std::size_t>(segment.pool)];
+    EXPECT_GT(segment.batches, 0);
+    EXPECT_GE(segment.last_count, 1);
+    EXPECT_LE(segment.last_count, segment.runs != 0 ? 4 : 16);
+    EXPECT_LE(segment.first_batch + segment.batches, pool.batches);
+    EXPECT_LE(segment.index_offset + static_cast<std::int64_t>(segment.batches) * indices_per_batch(pool, segment),
+              static_cast<std::int64_t>(pool.indices.size()));
+  }
+  for (const Pool& pool : compiled_.pools) {
+    EXPECT_EQ(pool.blocks.size(), static_cast<std::size_t>(pool.batches) * static_cast<std::size_t>(pool.block_floats));
+    EXPECT_EQ(pool.origin.size(), static_cast<std::size_t>(pool.batches) * batch_width);
+  }
+}
+
+TEST_P(Compiled, FindsTheTrianglesAroundEachParticle) {
+  const Surface& surface = compiled_.surface;
+  ASSERT_EQ(surface.triangles.size(), object_.triangles.size());
+  std::size_t corners = 0;
+  for (int p = 0; p < compiled_.particles; ++p) {
+    for (int c = surface.corner_begin[static_cast<std::size_t>(p)];
+         c < surface.corner_begin[static_cast<std::size_t>(p) + 1]; ++c, ++corners) {
+      const int corner = surface.corners[static_cast<std::size_t>(c)];
+      EXPECT_EQ(surface.triangles[static_cast<std::size_t>(corner / 3)][static_cast<std::size_t>(corner % 3)], p);
+    }
+  }
+  EXPECT_EQ(corners, 3 * object_.triangles.size());
+}
+
+TEST(Compile, IsTheSameEachTime) {
+  const Object object = rumpled_grid(9, 9);
+  const CompiledObject a = compile(object, {10, 16}), b = compile(object, {10, 16});
+  EXPECT_EQ(a.order, b.order);
+  ASSERT_EQ(a.pools.size(), b.pools.size());
+  for (std::size_t p = 0; p < a.pools.size(); ++p) {
+    EXPECT_EQ(a.pools[p].indices, b.pools[p].indices);
+    EXPECT_EQ(a.pools[p].origin, b.pools[p].origin);
+    EXPECT_TRUE(
+        std::equal(a.pools[p].blocks.begin(), a.pools[p].blocks.end(), b.pools[p].blocks.begin(), b.pools[p].blocks.end()));
+  }
+}
+
+TEST(Compile, OneParticleAndNothingElse) {
+  Object object;
+  object.positions = {{1, 2, 3}};
+  object.masses = {2};
+  const CompiledObject compiled = compile(object, {});
+  EXPECT_EQ(compiled.particles, 1);
+  EXPECT_EQ(compiled.positions[0].w, 0.5f);
+  EXPECT_TRUE(compiled.segments.empty());
+  EXPECT_EQ(compiled.tiles.size(), 1u);
+}
+
+TEST(Compile, MovingPinsAndTargetsAreKinematic) {
+  const Object object = rumpled_grid(5, 5);
+  const CompiledObject compiled = compile(object, {});
+  ASSERT_EQ(compiled.kinematics.size(), 1u);  // the attachment's target stands still
+  EXPECT_EQ(compiled.order[static_cast<std::size_t>(compiled.kinematics[0].particle)], 0);
+  EXPECT_EQ(compiled.kinematics[0].rest, object.positions[0]);
+}
+
+TEST(Compile, TheStarOfFiveHundredEdges) {
+  Object star;
+  star.positions.push_back({});
+  ConstraintGroup edges{"distance", {}, {}, {}, {}};
+  for (int i = 1; i <= 500; ++i) {
+    const float a = static_cast<float>(i);
+    star.positions.push_back({1, a * 0.01f, a * 0.001f});
+    edges.particles.insert(edges.particles.end(), {0, i});
+  }
+  star.masses.assign(star.positions.size(), 1);
+  star.constraints = {edges};
+  for (int largest : {16, 100, 4096}) {
+    const CompiledObject compiled = compile(star, {10, largest});
+    EXPECT_EQ(all_lanes(compiled).size(), 500u);
+  }
+}
+
+// ------------------------------------------------------------------------------------------------ what is refused, and
+// small parts
+
+TEST(Gather, RefusesWhatDoesNotFit) {
+  Object object;
+  object.name = "thing";
+  object.positions.resize(3);
+  object.masses.assign(3, 1);
+  const auto refused = [&](ConstraintGroup group) {
+    object.constraints = {std::move(group)};
+    try {
+      gather_constraints(object, 1);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refused({"elastic", {0, 1}, {}, {}, {}}).find("elastic"), std::string::npos);
+  EXPECT_NE(refused({"distance", {0, 1, 2}, {}, {}, {}}).find("thing"), std::string::npos);
+  EXPECT_NE(refused({"distance", {0, 3}, {}, {}, {}}).find("particle 3"), std::string::npos);
+  EXPECT_NE(refused({"distance", {0, -1}, {}, {}, {}}).find("particle -1"), std::string::npos);
+  EXPECT_NE(refused({"distance", {0, 1}, {1, 2}, {}, {}}).find("rest"), std::string::npos);
+  EXPECT_NE(refused({"distance", {0, 1}, {}, {}, {1, 2}}).find("compliances"), std::string::npos);
+  EXPECT_EQ(refused({"distance", {}, {}, {}, {}}), "");
+}
+
+TEST(Gather, GivesEachConstraintItsOwnCompliance) {
+  Object object;
+  object.positions = {{0, 0, 0}, {1, 0, 0}, {3, 0, 0}};
+  object.masses.assign(3, 1);
+  object.constraints = {{"distance", {0, 1, 1, 2}, {}, Stiffness::compliance(7), {0.5f, 0.25f}}};
+  const auto lists = gather_constraints(object, 1);
+  ASSERT_EQ(lists.size(), 1u);
+  EXPECT_EQ(lists[0].response, (std::vector<float>{0.5f, 0.25f}));
+  EXPECT_EQ(lists[0].rest, (std::vector<float>{1, 2}));
+  EXPECT_EQ(lists[0].origin, (std::vector<int>{0, 1}));
+}
+
+TEST(StiffnessPerProjection, LeavesTheShareThatWasAskedFor) {
+  for (double k : {0.0, 1e-6, 0.1, 0.5, 0.9, 0.999, 1.0}) {
+    for (int n : {1, 2, 10, 200, 100000}) {
+      const double each = stiffness_per_projection(k, n);
+      EXPECT_NEAR(std::pow(1 - each, n), 1 - k, 1e-10) << k << ", " << n;
+    }
+  }
+}
+
+TEST(Model, JoinsObjectsEndToEnd) {
+  Model model;
+  model.add(compile(rumpled_grid(6, 6), {10, 9}));
+  model.add(compile(rumpled_grid(3, 3), {10, 9}));
+  ASSERT_EQ(model.first, (std::vector<int>{0, 37, 47}));
+  EXPECT_EQ(model.particles(), 47);
+  const State state = initial_state(model);
+  EXPECT_EQ(state.positions.size(), 47u);
+  EXPECT_EQ(state.velocities.size(), 47u);
+  EXPECT_EQ(state.remainders.size(), 47u);
+  // A phase runs over the objects, whose particles are apart anyway.
+  std::size_t tasks = 0, segments = 0;
+  for (const StraddlerPhase& phase : model.straddlers) tasks += phase.tasks.size();
+  for (const CompiledObject& object : model.objects) {
+    for (const StraddlerColour& colour : object.straddlers)
+      segments += static_cast<std::size_t>(colour.last_segment - colour.first_segment);
+  }
+  EXPECT_GT(tasks, 0u);
+  EXPECT_EQ(tasks, segments);
+}
+
+}  // namespace
+}  // namespace pliant

@@ -1,0 +1,82 @@
+// The parallel loop: every index once, on any number of threads, inside and outside of enter; and what it says of its time.
+#include "parallel/executor.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstring>
+#include <utility>
+
+namespace pliant {
+namespace {
+
+TEST(Executor, VisitsEveryIndexOnce) {
+  for (int threads : {1, 2, 3, 8}) {
+    Executor executor(threads);
+    EXPECT_EQ(executor.threads(), threads);
+    for (int n : {0, 1, 2, 17, 1000}) {
+      std::vector<std::atomic<int>> visits(static_cast<std::size_t>(n));
+      executor.enter([&] { executor.parallel_for("visits", n, [&](int i) { ++visits[static_cast<std::size_t>(i)]; }); });
+      executor.parallel_for("visits", n, [&](int i) { ++visits[static_cast<std::size_t>(i)]; });
+      for (const auto& count : visits) EXPECT_EQ(count, 2);
+    }
+  }
+}
+
+TEST(Executor, TakesAllThreadsUnlessTold) { EXPECT_GE(Executor(0).threads(), 1); }
+
+TEST(Executor, SumsInSlotsAreTheSameOnAnyNumberOfThreads) {
+  const auto sum_with = [](int threads) {
+    Executor executor(threads);
+    std::vector<float> parts(64);
+    executor.enter([&] {
+      executor.parallel_for("sum", 64, [&](int part) {
+        float sum = 0;
+        for (int i = 0; i < 1000; ++i) sum += 1.f / static_cast<float>(1 + part * 1000 + i);
+        parts[static_cast<std::size_t>(part)] = sum;
+      });
+    });
+    float sum = 0;
+    for (float part : parts) sum += part;
+    return sum;
+  };
+  for (int threads : {2, 3, 4, 8}) EXPECT_EQ(sum_with(threads), sum_with(1));
+}
+
+TEST(Executor, CanBeMoved) {
+  Executor first(3);
+  Executor second(std::move(first));
+  std::atomic<int> visits{0};
+  second.enter([&] { second.parallel_for("visits", 100, [&](int) { ++visits; }); });
+  EXPECT_EQ(visits, 100);
+  first = std::move(second);
+  EXPECT_EQ(first.threads(), 3);
+}
+
+TEST(Timings, AddUpUnderTheirNames) {
+  Timings timings;
+  char copy[] = "solve";  // another pointer, the same name
+  timings.add("solve", 1);
+  timings.add("predict", 10);
+  timings.add(copy, 2);
+  ASSERT_EQ(timings.entries().size(), 2u);
+  EXPECT_STREQ(timings.entries()[0].name, "solve");
+  EXPECT_EQ(timings.entries()[0].milliseconds, 3);
+  EXPECT_EQ(timings.entries()[1].milliseconds, 10);
+  timings.clear();
+  EXPECT_EQ(timings.entries()[0].milliseconds, 0);
+}
+
+TEST(Timings, EveryLoopTimesItself) {
+  Executor executor(2);
+  executor.parallel_for("first", 3, [](int) {});
+  executor.parallel_for("second", 1, [](int) {});
+  executor.parallel_for("first", 3, [](int) {});
+  const auto& entries = executor.timings().entries();
+  ASSERT_EQ(entries.size(), 2u);
+  EXPECT_EQ(std::strcmp(entries[0].name, "first"), 0);
+  EXPECT_GE(entries[0].milliseconds, 0);
+}
+
+}  // namespace
+}  // namespace pliant
