@@ -65,40 +65,57 @@ void move_colliders(const Model& model, double time_before, double time_after, s
 
 namespace {
 
-void find_with(const CompiledObject& object, const AdvanceArguments& a, int number, const MovingCollider& collider,
-               std::vector<Contact>& contacts) {
-  const float thickness = object.thickness + collider.thickness;
-  for (int i = a.first; i < a.last; ++i) {
-    const Record& x = a.positions[i];
-    if (x.w == 0) continue;
-    const Vec3f position{x.x, x.y, x.z}, velocity{a.velocities[i].x, a.velocities[i].y, a.velocities[i].z};
-    const Vec3f to = to_local(collider.after, position);
-    const Vec3f from = to_local(collider.before, position - velocity * a.h);
-    const SurfacePlane plane = surface_plane(collider.shape, from, to, thickness, a.h);
-    if (!plane.found) continue;
-    Contact contact;
-    contact.particle = i;
-    contact.collider = number;
-    contact.normal = rotate(collider.after.rotation, plane.normal);
-    // The plane in the world: through the same point, at the same distance from it.
-    const float above = plane.offset - dot(plane.normal, plane.point);
-    contact.offset = dot(contact.normal, to_world(collider.after, plane.point)) + above;
-    if (collider.moves) contact.surface_motion = to_world(collider.after, plane.point) - to_world(collider.before, plane.point);
-    contact.static_friction = sqrt(object.static_friction * collider.static_friction);
-    contact.kinetic_friction = sqrt(object.kinetic_friction * collider.kinetic_friction);
-    contact.restitution = max(object.restitution, collider.restitution);
-    contact.approach = dot(contact.normal, velocity - a.gravity_step - contact.surface_motion * a.inverse_h);
-    contacts.push_back(contact);
+/// A contact of particle i, appended where there is one.
+void find_contact(const ContactSearch& search, int i, int number, float thickness, std::vector<Contact>& contacts) {
+  const MovingCollider& collider = search.colliders[number];
+  const AdvanceArguments& a = search.particles;
+  const Record& x = a.positions[i];
+  if (x.w == 0) return;
+  const Vec3f position{x.x, x.y, x.z}, velocity{a.velocities[i].x, a.velocities[i].y, a.velocities[i].z};
+  const Vec3f to = to_local(collider.after, position);
+  const Vec3f from = to_local(collider.before, position - velocity * a.h);
+  const SurfacePlane plane = surface_plane(collider.shape, from, to, thickness, a.h);
+  if (!plane.found) return;
+  Contact contact;
+  contact.particle = i;
+  contact.collider = number;
+  contact.normal = rotate(collider.after.rotation, plane.normal);
+  // The plane in the world: through the same point, at the same distance from it.
+  const float above = plane.offset - dot(plane.normal, plane.point);
+  contact.offset = dot(contact.normal, to_world(collider.after, plane.point)) + above;
+  if (collider.moves) contact.surface_motion = to_world(collider.after, plane.point) - to_world(collider.before, plane.point);
+  contact.static_friction = sqrt(search.object.static_friction * collider.static_friction);
+  contact.kinetic_friction = sqrt(search.object.kinetic_friction * collider.kinetic_friction);
+  contact.restitution = max(search.object.restitution, collider.restitution);
+  contact.approach = dot(contact.normal, velocity - a.gravity_step - contact.surface_motion * a.inverse_h);
+  contacts.push_back(contact);
+}
+
+/// Particles that need a closer look at a collider: all of the tile's where the collider moves, since its motion counts too.
+int find_near(const ContactSearch& search, const MovingCollider& collider, float thickness, std::vector<std::int32_t>& near) {
+  const AdvanceArguments& a = search.particles;
+  near.resize(a.last - a.first + batch_width);
+  if (collider.moves) {
+    for (int i = a.first; i < a.last; ++i) near[i - a.first] = i;
+    return a.last - a.first;
   }
+  // More than the rounding by which the two ways to a distance differ.
+  const Bounds& b = search.bounds;
+  const float reach = max(largest(Vec3f{b.low.x, b.low.y, b.low.z}), largest(Vec3f{b.high.x, b.high.y, b.high.z}));
+  const float slack = 1e-6f + 1e-5f * (reach + largest(collider.after.position) + thickness);
+  return search.find_near({a.positions, a.velocities, a.first, a.last, a.h, collider.shape, collider.after, thickness + slack},
+                          near.data());
 }
 
 }  // namespace
 
-void find_contacts(const CompiledObject& object, const AdvanceArguments& particles, const Bounds& bounds,
-                   const std::vector<MovingCollider>& colliders, std::vector<Contact>& contacts) {
-  for (std::size_t c = 0; c < colliders.size(); ++c) {
-    if (!overlap(bounds, colliders[c].swept, object.thickness)) continue;
-    find_with(object, particles, static_cast<int>(c), colliders[c], contacts);
+void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near, std::vector<Contact>& contacts) {
+  for (int c = 0; c < static_cast<int>(search.colliders.size()); ++c) {
+    const MovingCollider& collider = search.colliders[c];
+    if (!overlap(search.bounds, collider.swept, search.object.thickness)) continue;
+    const float thickness = search.object.thickness + collider.thickness;
+    const int count = find_near(search, collider, thickness, near);
+    for (int k = 0; k < count; ++k) find_contact(search, near[k], c, thickness, contacts);
   }
 }
 

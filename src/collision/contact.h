@@ -40,10 +40,17 @@ struct Contact {
 /// The colliders of a model between two times.
 void move_colliders(const Model& model, double time_before, double time_after, std::vector<MovingCollider>& colliders);
 
-/// Appends the contacts of particles [first, last) of an object; its positions are those predicted. `bounds` holds the
-/// particles' places before and after.
-void find_contacts(const CompiledObject& object, const AdvanceArguments& particles, const Bounds& bounds,
-                   const std::vector<MovingCollider>& colliders, std::vector<Contact>& contacts);
+/// What finding the contacts of one tile needs.
+struct ContactSearch {
+  const CompiledObject& object;
+  const AdvanceArguments& particles;  ///< the tile's, with positions as predicted
+  const Bounds& bounds;               ///< holds the particles' places before and after
+  const std::vector<MovingCollider>& colliders;
+  int (*find_near)(const NearQuery& query, std::int32_t* near);  ///< of Kernels
+};
+
+/// Appends the contacts of a tile, by collider, then by particle. `near` is scratch.
+void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near, std::vector<Contact>& contacts);
 
 /// Projects each contact once: the normal constraint, then friction within the cone of the pushes so far.
 void project_contacts(std::vector<Contact>& contacts, const SweepArguments& arguments);

@@ -1,6 +1,7 @@
 // What the parts of a substep hand one another: plain views of particle data.
 #pragma once
 
+#include "geometry/shapes.h"
 #include "pliant/world.h"
 
 namespace pliant {
@@ -25,6 +26,17 @@ struct AdvanceArguments {
   float h = 0, inverse_h = 0;
   Vec3f gravity_step{};      ///< h times gravity [m/s]
   float velocity_kept = 1;   ///< share of velocity that damping leaves
+};
+
+/// Which particles a solid could touch in the substep that led to their positions.
+struct NearQuery {
+  const Record* positions = nullptr;
+  const Record* velocities = nullptr;
+  int first = 0, last = 0;  ///< particles, half open
+  float h = 0;
+  LocalShape shape;
+  Pose<float> pose;  ///< of the solid at the substep's end
+  float margin = 0;  ///< a particle is near within this and its own motion [m]
 };
 
 /// A box around points, empty until something is added.

@@ -30,6 +30,9 @@ struct Kernels {
 
   /// update, then predict, in one pass over memory: for where nothing responds in between.
   void (*advance)(const AdvanceArguments& arguments, Bounds* bounds);
+
+  /// Writes the particles near a solid to `near`, ascending, and returns how many; room for all is needed.
+  int (*find_near)(const NearQuery& query, std::int32_t* near);
 };
 
 const Kernels& kernels_v2();

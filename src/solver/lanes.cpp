@@ -296,11 +296,38 @@ bool all_finite(const Record* positions, int first, int last) {
   return rest == 0;
 }
 
+// ---------------------------------------------------------------- particles near a solid
+
+/// How much nearer than it may be to count a particle is, lane by lane.
+PLIANT_HD Wide nearness(const NearQuery& q, const WideRecords& x, const WideRecords& v) {
+  const Vec3<Wide> away{x.position.x - Wide(q.pose.position.x), x.position.y - Wide(q.pose.position.y),
+                        x.position.z - Wide(q.pose.position.z)};
+  const Quat<Wide> back{Wide(-q.pose.rotation.x), Wide(-q.pose.rotation.y), Wide(-q.pose.rotation.z), Wide(q.pose.rotation.w)};
+  const Wide distance = signed_distance(q.shape, rotate(back, away)).distance;
+  const Wide motion = sqrt(length_squared(v.position)) * Wide(q.h);
+  return Wide(q.margin) + motion - distance;
+}
+
+int find_near(const NearQuery& q, std::int32_t* near) {
+  int count = 0, i = q.first;
+  for (; i + batch_width <= q.last; i += batch_width) {
+    const std::int32_t runs[4] = {i, i + 4, i + 8, i + 12};
+    float lanes[batch_width];
+    store_wide(lanes, nearness(q, load_runs(q.positions, runs), load_runs(q.velocities, runs)));
+    for (int k = 0; k < batch_width; ++k) {
+      near[count] = i + k;
+      count += lanes[4 * (k % 4) + k / 4] >= 0 ? 1 : 0;
+    }
+  }
+  for (; i < q.last; ++i) near[count++] = i;  // the few at the end are all said to be near
+  return count;
+}
+
 }  // namespace
 }  // namespace PLIANT_ISA
 
 const Kernels& PLIANT_KERNELS() {
-  static constexpr Kernels table{PLIANT_ISA_NAME, &sweep, &all_finite, &update, &predict, &advance};
+  static constexpr Kernels table{PLIANT_ISA_NAME, &sweep, &all_finite, &update, &predict, &advance, &find_near};
   return table;
 }
 

@@ -118,6 +118,12 @@ void advance(const AdvanceArguments& a, Bounds* bounds) {
   predict(a, bounds);
 }
 
+/// The reference looks closely at every particle.
+int find_near(const NearQuery& q, std::int32_t* near) {
+  for (int i = q.first; i < q.last; ++i) near[i - q.first] = i;
+  return q.last - q.first;
+}
+
 bool all_finite(const Record* positions, int first, int last) {
   for (int i = first; i < last; ++i) {
     const Record& p = positions[i];
@@ -129,7 +135,7 @@ bool all_finite(const Record* positions, int first, int last) {
 }  // namespace
 
 const Kernels& kernels_sequential() {
-  static constexpr Kernels table{"sequential", &sweep, &all_finite, &update, &predict, &advance};
+  static constexpr Kernels table{"sequential", &sweep, &all_finite, &update, &predict, &advance, &find_near};
   return table;
 }
 

@@ -133,7 +133,9 @@ class Frame {
     scratch.bounds = {};
     Bounds* bounds = work_.colliders.empty() ? nullptr : &scratch.bounds;
     (in_one_pass ? kernels_.advance : kernels_.predict)(a, bounds);
-    if (bounds != nullptr) find_contacts(model_.objects[tile.object], a, *bounds, work_.colliders, scratch.contacts);
+    if (bounds != nullptr) {
+      find_contacts({model_.objects[tile.object], a, *bounds, work_.colliders, kernels_.find_near}, scratch.near, scratch.contacts);
+    }
     return true;
   }
 

@@ -12,6 +12,7 @@ namespace pliant {
 /// Results of one tile.
 struct alignas(64) TileScratch {
   std::vector<Contact> contacts;
+  std::vector<std::int32_t> near;  ///< particles that a collider could touch
   Bounds bounds;
   bool finite = true;
   double gradient_squared = 0, position_along = 0, motion_along = 0;  ///< sums of the volume constraint
