@@ -1,0 +1,59 @@
+// What of a Scene and a World is drawn, and where the ground lies.
+#include <gtest/gtest.h>
+
+#include "render/render.h"
+
+namespace pliant::render {
+namespace {
+
+TEST(SceneView, TakesSurfacesRopesAndColliders) {
+  Scene scene;
+  scene.add_cloth(grid_mesh(4, 3, 1, 1));
+  scene.objects[0].colour = {0.1f, 0.2f, 0.3f};
+  const int rope = scene.add(make_rope({{0, 1, 0}, {0.1f, 1, 0}, {0.2f, 1, 0}}));
+  Collider ball;
+  ball.shape = Sphere{0.3f};
+  ball.position = {2, 0.3f, 0};
+  scene.add(ball);
+  World world(scene);
+  world.step(1.f / 60);
+  const RenderScene picture = make_render_scene(scene, world);
+  ASSERT_EQ(picture.meshes.size(), 1u);
+  EXPECT_EQ(picture.meshes[0].positions, world.positions(0));
+  EXPECT_EQ(picture.meshes[0].triangles, scene.objects[0].triangles);
+  EXPECT_EQ(picture.meshes[0].colour, (Vec3f{0.1f, 0.2f, 0.3f}));
+  ASSERT_EQ(picture.tubes.size(), 1u);
+  EXPECT_EQ(picture.tubes[0].points, world.positions(rope));
+  EXPECT_FLOAT_EQ(picture.tubes[0].radius, scene.objects[1].thickness);
+  ASSERT_EQ(picture.colliders.size(), 1u);
+  EXPECT_EQ(picture.colliders[0].position, (Vec3f{2, 0.3f, 0}));
+}
+
+TEST(SceneView, PutsTheGroundUnderEverything) {
+  const auto ground = [](const Scene& scene) { return make_render_scene(scene, World(scene)).ground.value_or(1e9f); };
+  Scene scene;
+  scene.add_cloth(grid_mesh(4, 3, 1, 1));
+  EXPECT_EQ(ground(scene), 0) << "what lies at 0 lies on the ground";
+  for (Vec3f& position : scene.objects[0].positions) position.y -= 2;
+  EXPECT_LT(ground(scene), -2);
+  Collider floor;
+  floor.position = {0, -3, 0};
+  scene.add(floor);
+  EXPECT_EQ(ground(scene), -3) << "a level plane is the ground";
+}
+
+TEST(SceneView, KeepsTheGroundStillWhileThingsSwing) {
+  Scene scene;
+  scene.settings.threads = 1;
+  scene.add_cloth(grid_mesh(8, 8, 1, 1));
+  scene.pin(0, {0, 7});
+  World world(scene);
+  const float before = *make_render_scene(scene, world).ground;
+  for (int frame = 0; frame < 60; ++frame) world.step(1.f / 60);
+  const RenderScene after = make_render_scene(scene, world);
+  EXPECT_EQ(*after.ground, before);
+  for (const Vec3f& position : after.meshes[0].positions) EXPECT_GT(position.y, before);
+}
+
+}  // namespace
+}  // namespace pliant::render
