@@ -172,7 +172,8 @@ std::string frame_number(int frame) {
 }
 
 std::unique_ptr<FormatWriter> make_format_writer(const std::string& path, const Objects& objects, double frame_time) {
-  const std::string suffix = split_path(path).suffix;
+  const SplitPath parts = split_path(path);
+  const std::string& suffix = parts.suffix;
   if (suffix == ".obj") return make_obj_sequence(path, objects);
   if (suffix == ".ply") return make_ply_sequence(path, objects);
   if (suffix == ".glb") return make_glb_writer(path, objects);
