@@ -51,6 +51,19 @@ TEST(ReferenceSolver, CompliantProjectionIsTheSameHoweverManyIterations) {
   }
 }
 
+// Only with a multiplier that starts anew in each substep does a spring hold its load where it balances it.
+TEST(ReferenceSolver, AHangingMassStaysAtItsStaticStretch) {
+  Solver solver;
+  solver.gravity = {0, -10, 0};
+  solver.substeps = 3;
+  solver.iterations = 2;
+  solver.add({0, 0, 0}, infinity);
+  solver.add({0, -1.1, 0}, 1);
+  solver.add<Distance>({0, 1}, {1}, {0.01, 0, -1});
+  for (int i = 0; i < 20; ++i) solver.step(0.02);
+  EXPECT_NEAR(solver.value(0), 0.1, 1e-13);
+}
+
 TEST(ReferenceSolver, PinsStayAndFreeParticlesFall) {
   Solver solver;
   solver.gravity = {0, -10, 0};
