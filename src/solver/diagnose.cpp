@@ -23,9 +23,9 @@ std::string describe(const CompiledObject& object, const Pool& pool, const Segme
   std::string particles;
   for (int slot = 0; slot < pool.stencil; ++slot) {
     const int user = object.order[particle_of(segment, index, slot, lane)];
-    particles += (slot == 0 ? "" : ", ") +
-                 (user < object.user_particles ? std::to_string(user)
-                                               : "target of attachment " + std::to_string(user - object.user_particles));
+    particles += (slot == 0 ? "" : ", ") + (user < object.user_particles
+                                                ? std::to_string(user)
+                                                : "target of attachment " + std::to_string(user - object.user_particles));
   }
   const int number = pool.origin[static_cast<std::size_t>(segment.first_batch + batch) * batch_width + lane];
   return type_name(pool.type) + " constraint " + std::to_string(number) + " (particles " + particles + ")";
@@ -39,7 +39,8 @@ std::optional<std::string> find_culprit(const CompiledObject& object, const Segm
     for (int lane = 0; lane < batch_width; ++lane) {
       if (!lane_is_valid(segment, batch, lane)) continue;
       for (int slot = 0; slot < pool.stencil; ++slot) {
-        if (!is_finite(positions[particle_of(segment, index, slot, lane)])) return describe(object, pool, segment, batch, lane);
+        if (!is_finite(positions[particle_of(segment, index, slot, lane)]))
+          return describe(object, pool, segment, batch, lane);
       }
     }
   }
@@ -62,26 +63,43 @@ std::string first_bad_particle(const CompiledObject& object, const Tile& tile, c
   return "a particle";
 }
 
-/// The name of what went wrong in one tile.
-std::string explain_tile(const StepContext& context, const CompiledObject& object, const Tile& tile, SweepArguments arguments) {
-  const std::string particle = first_bad_particle(object, tile, arguments.positions);
-  for (int i = tile.first_particle; i < tile.last_particle; ++i) {
-    if (!is_finite(arguments.predicted[i])) {
-      return "particle " + std::to_string(object.order[i]) + " (its velocity or the force on it is too large)";
+/// The name of what went wrong in the tiles of one object that are not finite. They are replayed together, since what
+/// straddles two of them needs both as they were: a constraint that spoils its particles spoils every tile they are in.
+std::string explain(const StepContext& context, const CompiledObject& object, const std::vector<const Tile*>& bad,
+                    SweepArguments arguments) {
+  const std::string particle = first_bad_particle(object, *bad.front(), arguments.positions);
+  std::vector<Record> positions(arguments.positions, arguments.positions + object.particles);
+  for (const Tile* tile : bad) {
+    for (int i = tile->first_particle; i < tile->last_particle; ++i) {
+      if (!is_finite(arguments.predicted[i])) {
+        return "particle " + std::to_string(object.order[i]) + " (its velocity or the force on it is too large)";
+      }
+      positions[i] = arguments.predicted[i];
     }
   }
-  std::vector<Record> positions(arguments.positions, arguments.positions + object.particles);
-  std::copy(arguments.predicted + tile.first_particle, arguments.predicted + tile.last_particle,
-            positions.begin() + tile.first_particle);
   arguments.positions = positions.data();
   for (int iteration = 0; iteration < context.iterations; ++iteration) {
     arguments.first_pass = iteration == 0;
-    if (auto culprit = replay(context, object, tile.first_segment, tile.last_segment, arguments)) return *culprit;
+    for (const Tile* tile : bad) {
+      if (auto culprit = replay(context, object, tile->first_segment, tile->last_segment, arguments)) return *culprit;
+    }
     for (const StraddlerColour& colour : object.straddlers) {
       if (auto culprit = replay(context, object, colour.first_segment, colour.last_segment, arguments)) return *culprit;
     }
   }
   return object.has_volume ? "volume constraint (seen at " + particle + ")" : particle;
+}
+
+/// The tiles of the first object that has some which are not finite.
+std::vector<const Tile*> bad_tiles(const StepContext& context, int& object) {
+  const Model& model = context.model;
+  std::vector<const Tile*> bad;
+  for (std::size_t task = 0; task < model.tiles.size(); ++task) {
+    if (context.workspace.tiles[task].finite) continue;
+    if (bad.empty()) object = model.tiles[task].object;
+    if (object == model.tiles[task].object) bad.push_back(&model.objects[object].tiles[model.tiles[task].tile]);
+  }
+  return bad;
 }
 
 void put_back(const CompiledObject& object, const Tile& tile, const SweepArguments& a) {
@@ -102,14 +120,11 @@ void stop_what_is_not_finite(State& state) {
 NonFinite diagnose(const StepContext& context, FunctionRef<SweepArguments(int)> arguments) {
   NonFinite found;
   const Model& model = context.model;
-  for (std::size_t task = 0; task < model.tiles.size(); ++task) {
-    if (context.workspace.tiles[task].finite) continue;
-    const CompiledObject& object = model.objects[model.tiles[task].object];
-    const Tile& tile = object.tiles[model.tiles[task].tile];
-    if (!found.object.empty()) continue;
-    found.object = object.name;
-    found.element = explain_tile(context, object, tile, arguments(model.tiles[task].object));
-  }
+  int number = 0;
+  const std::vector<const Tile*> bad = bad_tiles(context, number);
+  if (bad.empty()) return found;
+  found.object = model.objects[number].name;
+  found.element = explain(context, model.objects[number], bad, arguments(number));
   for (std::size_t task = 0; task < model.tiles.size(); ++task) {
     if (context.workspace.tiles[task].finite) continue;
     const CompiledObject& object = model.objects[model.tiles[task].object];

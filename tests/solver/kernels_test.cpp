@@ -1,0 +1,305 @@
+// Every build of the kernels against the sequential reference, bit by bit: sweeps of every type by every law with and
+// without multipliers, over runs and over single particles; prediction, update, bounds and the search for what is not
+// finite, over all lengths that leave a tail.
+#include "solver/kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "model/compiled_object.h"
+#include "support/bits.h"
+#include "support/constraint_support.h"
+#include "support/kernels.h"
+
+namespace pliant {
+namespace {
+
+using namespace testing_support;
+
+std::vector<const Kernels*> kernels_in_lanes() {
+  std::vector<const Kernels*> all;
+  for (const std::string& name : available_isas()) all.push_back(&pick_kernels(name));
+  return all;
+}
+
+/// `count` constraints that share no particle. As a ladder, slot s of constraint i is particle s * count + i, which makes
+/// runs of four; else particles are dealt at random.
+template <class T>
+Object separate_constraints(int count, Law law, bool ladder, Random& random) {
+  Object object;
+  std::vector<int> deal(static_cast<std::size_t>(count * T::size));
+  std::iota(deal.begin(), deal.end(), 0);
+  if (!ladder) std::shuffle(deal.begin(), deal.end(), random);
+  object.positions.assign(deal.size(), Vec3f{});
+  object.masses.assign(deal.size(), 1);
+  ConstraintGroup group{T::name, {}, {}, {}, {}};
+  for (int i = 0; i < count; ++i) {
+    for (int slot = 0; slot < T::size; ++slot) group.particles.push_back(deal[static_cast<std::size_t>(slot * count + i)]);
+  }
+  group.rest.assign(static_cast<std::size_t>(count * field_count<T>), 0);
+  group.stiffness = law == Law::pbd ? Stiffness::pbd(0.5f) : Stiffness::compliance(1, law == Law::damped ? 1.f : 0.f);
+  object.constraints.push_back(group);
+  return object;
+}
+
+/// Numbers for a sweep: mostly plain, some nasty.
+struct Numbers {
+  std::vector<Record> positions, predicted, velocities;
+  Numbers(std::size_t particles, Random& random, bool nasty) {
+    const auto number = [&] { return nasty ? nasty_float(random) : static_cast<float>(uniform(random, -1, 1)); };
+    for (std::size_t i = 0; i < particles; ++i) {
+      const float w = random() % 5 == 0 ? 0.f : static_cast<float>(uniform(random, 0.1, 10));
+      positions.push_back({number(), number(), number(), w});
+      predicted.push_back({number(), number(), number(), w});
+      velocities.push_back({number(), number(), number(), 0});
+    }
+  }
+};
+
+void expect_same(const std::vector<Record>& a, const std::vector<Record>& b, const std::string& what) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_TRUE(same_bits(a[i].x, b[i].x) && same_bits(a[i].y, b[i].y) && same_bits(a[i].z, b[i].z) &&
+                same_bits(a[i].w, b[i].w))
+        << what << ", record " << i << ": " << a[i].x << " " << a[i].y << " " << a[i].z << " " << a[i].w << " and "
+        << b[i].x << " " << b[i].y << " " << b[i].z << " " << b[i].w;
+  }
+}
+
+/// Three passes of one substep.
+std::vector<Record> swept(const Kernels& kernels, const CompiledObject& object, Numbers numbers,
+                          AlignedVector<float>* multipliers) {
+  SweepArguments a;
+  a.positions = numbers.positions.data();
+  a.predicted = numbers.predicted.data();
+  a.velocities = numbers.velocities.data();
+  float* pools[1] = {multipliers != nullptr ? multipliers->data() : nullptr};
+  a.multipliers = multipliers != nullptr ? pools : nullptr;
+  a.h = 1.f / 240;
+  a.inverse_h = 1 / a.h;
+  a.inverse_h2 = a.inverse_h * a.inverse_h;
+  for (int pass = 0; pass < 3; ++pass) {
+    a.first_pass = pass == 0;
+    kernels.sweep(object.pools.data(), object.segments.data(), object.segments.data() + object.segments.size(), a);
+  }
+  return numbers.positions;
+}
+
+void compare_sweeps(const CompiledObject& object, const Numbers& numbers, bool keeps, const std::string& what) {
+  const Pool& pool = object.pools[0];
+  AlignedVector<float> reference(pool.origin.size(), 0.f);
+  const std::vector<Record> expected = swept(kernels_sequential(), object, numbers, keeps ? &reference : nullptr);
+  for (const Kernels* kernels : kernels_in_lanes()) {
+    AlignedVector<float> multipliers(pool.origin.size(), 0.f);
+    const std::vector<Record> found = swept(*kernels, object, numbers, keeps ? &multipliers : nullptr);
+    ASSERT_NO_FATAL_FAILURE(expect_same(found, expected, what + ", " + kernels->isa));
+    for (std::size_t lane = 0; lane < pool.origin.size(); ++lane) {
+      ASSERT_TRUE(pool.origin[lane] < 0 || same_bits(multipliers[lane], reference[lane])) << what << ", " << kernels->isa;
+    }
+  }
+}
+
+template <class T>
+class Sweeps : public testing::Test {
+ protected:
+  Random random_{5};
+};
+TYPED_TEST_SUITE(Sweeps, ConstraintTypes, NameOfType);
+
+TYPED_TEST(Sweeps, GiveTheBitsOfTheReference) {
+  using T = TypeParam;
+  for (Law law : {Law::compliant, Law::damped, Law::pbd}) {
+    for (bool ladder : {true, false}) {
+      for (int count : {1, 3, 4, 15, 16, 17, 20, 31, 600}) {
+        const Object object = separate_constraints<T>(count, law, ladder, this->random_);
+        CompiledObject compiled = compile(object, {10, 4096});
+        ASSERT_EQ(compiled.pools.size(), 1u);
+        for (bool nasty : {false, true}) {
+          for (float& value : compiled.pools[0].blocks) {
+            value = nasty ? nasty_float(this->random_) : static_cast<float>(uniform(this->random_, 0, 1));
+          }
+          const Numbers numbers(static_cast<std::size_t>(compiled.particles), this->random_, nasty);
+          for (bool keeps : {false, true}) {
+            ASSERT_NO_FATAL_FAILURE(compare_sweeps(compiled, numbers, keeps,
+                                                   std::to_string(count) + (ladder ? " in runs" : " singly") +
+                                                       (nasty ? ", nasty" : "") + ", law " +
+                                                       std::to_string(static_cast<int>(law))));
+          }
+        }
+      }
+    }
+  }
+}
+
+TYPED_TEST(Sweeps, MeetRunsAndSinglesInThisTest) {
+  using T = TypeParam;
+  const auto runs_of = [&](bool ladder) {
+    const CompiledObject compiled =
+        compile(separate_constraints<T>(160, Law::compliant, ladder, this->random_), {10, 4096});
+    int runs = 0;
+    for (const Segment& segment : compiled.segments) runs += segment.runs != 0 ? segment.batches : 0;
+    return runs;
+  };
+  EXPECT_EQ(runs_of(true), 10);
+  EXPECT_EQ(runs_of(false), 0);
+}
+
+TYPED_TEST(Sweeps, LeaveOthersAloneAndPaddingUnwritten) {
+  using T = TypeParam;
+  CompiledObject compiled = compile(separate_constraints<T>(5, Law::pbd, false, this->random_), {10, 4096});
+  for (float& value : compiled.pools[0].blocks) value = static_cast<float>(uniform(this->random_, 0.2, 1));
+  Numbers numbers(static_cast<std::size_t>(compiled.particles), this->random_, false);
+  for (Record& p : numbers.positions) p.w = 1;
+  // Five constraints alone: what moves is what their lanes name. With padding written the first would be projected 12
+  // times.
+  const std::vector<Record> once = swept(kernels_sequential(), compiled, numbers, nullptr);
+  for (const Kernels* kernels : kernels_in_lanes()) {
+    ASSERT_NO_FATAL_FAILURE(expect_same(swept(*kernels, compiled, numbers, nullptr), once, kernels->isa));
+  }
+}
+
+// ------------------------------------------------------------------------------------------------ particles
+
+struct Particles {
+  std::vector<Record> positions, predicted, remainders, velocities;
+  Particles(int count, Random& random, bool nasty) {
+    const auto number = [&] { return nasty ? nasty_float(random) : static_cast<float>(uniform(random, -1, 1)); };
+    for (int i = 0; i < count; ++i) {
+      const float w = random() % 3 == 0 ? 0.f : static_cast<float>(uniform(random, 0.1, 10));
+      positions.push_back({number(), number(), number(), w});
+      predicted.push_back({number(), number(), number(), w});
+      remainders.push_back({1e-8f * number(), 1e-8f * number(), 1e-8f * number(), 0});
+      velocities.push_back({number(), number(), number(), 0});
+    }
+  }
+  AdvanceArguments arguments(int first, int last) {
+    AdvanceArguments a;
+    a.positions = positions.data();
+    a.predicted = predicted.data();
+    a.remainders = remainders.data();
+    a.velocities = velocities.data();
+    a.first = first;
+    a.last = last;
+    a.h = 1.f / 1200;
+    a.inverse_h = 1 / a.h;
+    a.gravity_step = Vec3f{0.1f, -9.81f, 0.2f} * a.h;
+    a.velocity_kept = 0.99f;
+    return a;
+  }
+};
+
+void expect_same(const Particles& a, const Particles& b, const std::string& what) {
+  ASSERT_NO_FATAL_FAILURE(expect_same(a.positions, b.positions, what + ", positions"));
+  ASSERT_NO_FATAL_FAILURE(expect_same(a.predicted, b.predicted, what + ", predicted"));
+  ASSERT_NO_FATAL_FAILURE(expect_same(a.remainders, b.remainders, what + ", remainders"));
+  ASSERT_NO_FATAL_FAILURE(expect_same(a.velocities, b.velocities, what + ", velocities"));
+}
+
+/// act(kernels, arguments) on particles [first, last) of 24, for every kind of tail, compared with the reference.
+template <class Act>
+void compare_on_all_lengths(const Act& act) {
+  Random random(17);
+  for (bool nasty : {false, true}) {
+    for (int first = 0; first < 5; ++first) {
+      for (int last = first; last <= 24; ++last) {
+        const Particles start(24, random, nasty);
+        Particles expected = start;
+        act(kernels_sequential(), expected.arguments(first, last));
+        for (const Kernels* kernels : kernels_in_lanes()) {
+          Particles found = start;
+          act(*kernels, found.arguments(first, last));
+          ASSERT_NO_FATAL_FAILURE(expect_same(
+              found, expected, std::string(kernels->isa) + ", " + std::to_string(first) + " to " + std::to_string(last)));
+        }
+      }
+    }
+  }
+}
+
+TEST(Kernels, PredictAsTheReference) {
+  compare_on_all_lengths([](const Kernels& kernels, const AdvanceArguments& a) { kernels.predict(a, nullptr); });
+}
+TEST(Kernels, UpdateAsTheReference) {
+  compare_on_all_lengths([](const Kernels& kernels, const AdvanceArguments& a) { kernels.update(a); });
+}
+
+TEST(Kernels, BoundThePathsAsTheReference) {
+  Random random(2);
+  for (int count = 0; count <= 21; ++count) {
+    const Particles start(std::max(count, 1), random, false);
+    Particles particles = start;
+    Bounds expected;
+    kernels_sequential().predict(particles.arguments(0, count), &expected);
+    for (int i = 0; i < count; ++i) {
+      for (const Record& p :
+           {start.positions[static_cast<std::size_t>(i)], particles.positions[static_cast<std::size_t>(i)]}) {
+        EXPECT_TRUE(p.x >= expected.low.x && p.y >= expected.low.y && p.z >= expected.low.z);
+        EXPECT_TRUE(p.x <= expected.high.x && p.y <= expected.high.y && p.z <= expected.high.z);
+      }
+    }
+    for (const Kernels* kernels : kernels_in_lanes()) {
+      Particles again = start;
+      Bounds found;
+      kernels->predict(again.arguments(0, count), &found);
+      EXPECT_TRUE(found.low.x == expected.low.x && found.low.y == expected.low.y && found.low.z == expected.low.z) << count;
+      EXPECT_TRUE(found.high.x == expected.high.x && found.high.y == expected.high.y && found.high.z == expected.high.z)
+          << count;
+    }
+  }
+}
+
+TEST(Kernels, FindAnythingThatIsNotFinite) {
+  std::vector<const Kernels*> all = kernels_in_lanes();
+  all.push_back(&kernels_sequential());
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+  for (const Kernels* kernels : all) {
+    for (int count = 0; count <= 20; ++count) {
+      std::vector<Record> records(24, Record{3.4e38f, -3.4e38f, 1e-45f, 1});
+      for (int first = 0; first < 4; ++first) {
+        const int last = first + count;
+        EXPECT_TRUE(kernels->all_finite(records.data(), first, last));
+        for (int bad = 0; bad < 24; ++bad) {
+          for (int axis = 0; axis < 3; ++axis) {
+            Record& r = records[static_cast<std::size_t>(bad)];
+            const Record whole = r;
+            (axis == 0 ? r.x : axis == 1 ? r.y : r.z) = bad % 3 == 0 ? nan : bad % 3 == 1 ? infinity : -infinity;
+            EXPECT_EQ(kernels->all_finite(records.data(), first, last), bad < first || bad >= last)
+                << kernels->isa << " " << bad;
+            r = whole;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Kernels, PredictKeepsWhatAFloatCannotHold) {
+  // A step far below the last bit of the position, taken a million times, arrives.
+  Record position{1, 0, 0, 1}, predicted, remainder, velocity{1e-3f, 0, 0, 0};
+  AdvanceArguments a;
+  a.positions = &position;
+  a.predicted = &predicted;
+  a.remainders = &remainder;
+  a.velocities = &velocity;
+  a.last = 1;
+  a.h = 1e-6f;
+  for (const Kernels* kernels : kernels_in_lanes()) {
+    position = {1, 0, 0, 1};
+    remainder = {};
+    for (int i = 0; i < 1000000; ++i) kernels->predict(a, nullptr);
+    EXPECT_NEAR(position.x - 1, 1e-3, 1e-6);
+    EXPECT_EQ(position.w, 1);
+  }
+}
+
+TEST(PickKernels, NamesWhatItGives) {
+  for (const std::string& name : available_isas()) EXPECT_EQ(pick_kernels(name).isa, name);
+  EXPECT_EQ(pick_kernels("").isa, available_isas().back()) << "the widest";
+  EXPECT_THROW(pick_kernels("x86-64-v9"), Error);
+  EXPECT_THROW(pick_kernels("x86-64"), Error);
+}
+
+}  // namespace
+}  // namespace pliant
