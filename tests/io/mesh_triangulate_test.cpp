@@ -105,7 +105,8 @@ TEST(MeshTriangulate, KeepsNeedlesAwayWhereItCan) {
         text += (axis == 0 ? "v " : " ") + number.str();
       }
       text += " 0\n";
-      face += " " + std::to_string(side * parts + i + 1);
+      // It begins at a corner that is a needle by itself.
+      face += " " + std::to_string((side * parts + i + 1) % (4 * parts) + 1);
     }
   const TriangleMesh mesh = parse_mesh(text + face, "a.obj").mesh;
   EXPECT_EQ(mesh.triangles.size(), 4u * parts - 2);
@@ -127,16 +128,11 @@ TEST(MeshTriangulate, SaysWhereAPolygonIsNotSimple) {
 }
 
 TEST(MeshTriangulate, RefusesWhatWouldTakeTooLong) {
-  PolygonMesh circle, zigzag;
+  PolygonMesh zigzag;
   for (int i = 0; i < 20000; ++i) {
-    const double angle = 2 * 3.14159265358979 * i / 20000, radius = 1000;
-    circle.positions.push_back(
-        {static_cast<float>(radius * std::cos(angle)), static_cast<float>(radius * std::sin(angle)), 0});
     zigzag.positions.push_back({static_cast<float>(i), i % 2 == 0 ? 0.f : -1.f, 0});
-    circle.corners.push_back(i);
     zigzag.corners.push_back(i);
   }
-  circle.close_polygon();
   zigzag.close_polygon();
   std::vector<std::string> notes;
   try {
