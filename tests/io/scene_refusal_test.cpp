@@ -8,6 +8,7 @@
 
 #include "io/scene_check.h"
 #include "io/scene_grammar.h"
+#include "io/scene_json.h"
 #include "scene_support.h"
 
 namespace pliant {
@@ -208,6 +209,20 @@ TEST(SceneRefusal, StopsScenesThatWouldFillTheMemory) {
   EXPECT_NE(scene_message(R"({"objects": [{"rope": {"line": {"from": [0,0,0], "to": [1,0,0], "points": 2147483647}}}]})"),
             "");
   EXPECT_EQ(scene_message("{\"objects\": [" + object + "]}"), "");
+}
+
+TEST(SceneRefusal, LeavesNothingUnread) {
+  const auto document = scene_file::parse_json("{\"a\": [{\"b\": 1}]}", "x.json");
+  EXPECT_THROW(scene_file::check_all_used(document), Error);
+  const scene_file::JsonValue& list = *document.root.find("a");
+  try {
+    scene_file::check_all_used(document);
+    ADD_FAILURE() << "nobody asked for b";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "x.json:1:9: /a/0/b: 'b' has no meaning here; remove it");
+  }
+  list.items.at(0).find("b");
+  EXPECT_NO_THROW(scene_file::check_all_used(document));
 }
 
 TEST(SceneRefusal, CountsEditsAsAHandMakesThem) {
