@@ -184,10 +184,12 @@ std::vector<bool> find_branching(const std::vector<Triangle>& triangles, const s
 std::vector<bool> merge_vertices(Work& work, const std::vector<int>& connected, bool is_soup) {
   TriangleMesh& mesh = work.mesh;
   std::vector<int> merged = find_first_in_place(mesh.positions);
+  std::vector<bool> emptied(merged.size(), false);
+  const auto stays = [&, i = 0](int to) mutable { return to == i++; };
+  if (std::all_of(merged.begin(), merged.end(), stays)) return emptied;  // the usual case, and the rest takes time
   for (Triangle& t : mesh.triangles) t = {connected[index(t[0])], connected[index(t[1])], connected[index(t[2])]};
   const std::vector<bool> branching =
       is_soup ? std::vector<bool>(merged.size(), false) : find_branching(mesh.triangles, merged);
-  std::vector<bool> emptied(merged.size(), false);
   Tally joined, apart;
   for (std::size_t i = 0; i < merged.size(); ++i) {
     if (index(merged[i]) == i) continue;
