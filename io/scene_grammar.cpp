@@ -2,125 +2,13 @@
 #include "scene_grammar.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 
 #include "pliant/scene.h"
+#include "scene_grammar_words.h"
 
 namespace pliant::scene_file {
 
 namespace {
-
-constexpr double largest_velocity = 1e5;   // [m/s]
-constexpr double largest_quantity = 1e30;  // of anything else: products of two still fit a double
-
-// ------------------------------------------------------------------------------------------------ types
-
-Type boolean() { return {}; }
-
-Type integer(double minimum, double maximum) {
-  Type type;
-  type.kind = Type::Kind::integer;
-  type.minimum = minimum, type.maximum = maximum;
-  return type;
-}
-
-Type number(const char* unit, double minimum, double maximum = largest_quantity) {
-  Type type = integer(minimum, maximum);
-  type.kind = Type::Kind::number;
-  type.unit = unit;
-  return type;
-}
-
-Type positive(const char* unit, double maximum = largest_quantity) {
-  Type type = number(unit, 0, maximum);
-  type.above_minimum = true;
-  return type;
-}
-
-Type share() { return number("-", 0, 1); }
-
-Type vector(const char* unit, double minimum, double maximum) {
-  Type type = number(unit, minimum, maximum);
-  type.kind = Type::Kind::vector;
-  return type;
-}
-
-Type vector(const char* unit, double largest) { return vector(unit, -largest, largest); }
-
-Type positive_vector(const char* unit, double maximum) {
-  Type type = vector(unit, 0, maximum);
-  type.above_minimum = true;
-  return type;
-}
-
-Type place() { return vector("m", largest_place); }
-Type colour() { return vector("-", 0, 1); }
-
-Type string() {
-  Type type;
-  type.kind = Type::Kind::string;
-  return type;
-}
-
-Type text() {
-  Type type = string();
-  type.single_line = false;
-  return type;
-}
-
-Type choice(std::vector<std::string> choices, std::string documented = {}) {
-  Type type;
-  type.kind = Type::Kind::choice;
-  type.choices = std::move(choices);
-  type.choices_documented = std::move(documented);
-  return type;
-}
-
-Type list(Type item, std::size_t minimum = 0, std::size_t maximum = 0) {
-  Type type;
-  type.kind = Type::Kind::list;
-  type.minimum_items = minimum, type.maximum_items = maximum;
-  type.parts = {std::move(item)};
-  return type;
-}
-
-Type record(const Record& fields) {
-  Type type;
-  type.kind = Type::Kind::record;
-  type.record = &fields;
-  return type;
-}
-
-Type any_of(std::vector<Type> alternatives) {
-  Type type;
-  type.kind = Type::Kind::any_of;
-  type.parts = std::move(alternatives);
-  return type;
-}
-
-Type particle_index() { return integer(0, 2147483647); }
-
-// ------------------------------------------------------------------------------------------------ defaults, in words
-
-std::string words(float value) {
-  std::array<char, 32> digits{};  // the shortest that reads back as the same float
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
-}
-std::string words(int value) { return std::to_string(value); }
-std::string words(bool value) { return value ? "true" : "false"; }
-std::string words(const Vec3f& v) { return "[" + words(v.x) + ", " + words(v.y) + ", " + words(v.z) + "]"; }
-std::string words(const char* value) { return value; }
-
-template <class T>
-Field field(const char* name, Type type, const T& fallback, const char* meaning) {
-  return {name, std::move(type), words(fallback), meaning, false};
-}
-
-Field needed(const char* name, Type type, const char* meaning) { return {name, std::move(type), {}, meaning, true}; }
-
-/// One of a group of which exactly one is given.
-Field either(const char* name, Type type, const char* meaning) { return {name, std::move(type), {}, meaning, false}; }
 
 // ------------------------------------------------------------------------------------------------ what many share
 
@@ -278,7 +166,8 @@ const Record& cloth_record() {
       "cloth",
       "A surface that resists stretching and bending; with `volume`, a balloon.",
       {needed("mesh", record(mesh_record()),
-              "The surface and its rest shape, flat or curved; any triangle mesh; an edge of three triangles or more is not bent."),
+              "The surface and its rest shape, flat or curved; any triangle mesh; an edge of three triangles or more is "
+              "not bent."),
        field("material", any_of({choice(fabric_names()), record(fabric_record())}), "the defaults of fabric",
              "What it is made of: the name of a built-in fabric, or a fabric."),
        field("stretch", stiffness(), "from the material", "Of every edge, instead of the material's."),

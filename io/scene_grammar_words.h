@@ -1,0 +1,128 @@
+// The words that the table in scene_grammar.cpp is written with: one function a type of value, one a kind of field.
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pliant/vec3.h"
+#include "scene_grammar.h"
+
+namespace pliant::scene_file {
+
+constexpr double largest_velocity = 1e5;   // [m/s]
+constexpr double largest_quantity = 1e30;  // of anything else: products of two still fit a double
+
+// ------------------------------------------------------------------------------------------------ types
+
+inline Type boolean() { return {}; }
+
+inline Type integer(double minimum, double maximum) {
+  Type type;
+  type.kind = Type::Kind::integer;
+  type.minimum = minimum, type.maximum = maximum;
+  return type;
+}
+
+inline Type number(const char* unit, double minimum, double maximum = largest_quantity) {
+  Type type = integer(minimum, maximum);
+  type.kind = Type::Kind::number;
+  type.unit = unit;
+  return type;
+}
+
+inline Type positive(const char* unit, double maximum = largest_quantity) {
+  Type type = number(unit, 0, maximum);
+  type.above_minimum = true;
+  return type;
+}
+
+inline Type share() { return number("-", 0, 1); }
+
+inline Type vector(const char* unit, double minimum, double maximum) {
+  Type type = number(unit, minimum, maximum);
+  type.kind = Type::Kind::vector;
+  return type;
+}
+
+inline Type vector(const char* unit, double largest) { return vector(unit, -largest, largest); }
+
+inline Type positive_vector(const char* unit, double maximum) {
+  Type type = vector(unit, 0, maximum);
+  type.above_minimum = true;
+  return type;
+}
+
+inline Type place() { return vector("m", largest_place); }
+inline Type colour() { return vector("-", 0, 1); }
+
+inline Type string() {
+  Type type;
+  type.kind = Type::Kind::string;
+  return type;
+}
+
+inline Type text() {
+  Type type = string();
+  type.single_line = false;
+  return type;
+}
+
+inline Type choice(std::vector<std::string> choices, std::string documented = {}) {
+  Type type;
+  type.kind = Type::Kind::choice;
+  type.choices = std::move(choices);
+  type.choices_documented = std::move(documented);
+  return type;
+}
+
+inline Type list(Type item, std::size_t minimum = 0, std::size_t maximum = 0) {
+  Type type;
+  type.kind = Type::Kind::list;
+  type.minimum_items = minimum, type.maximum_items = maximum;
+  type.parts = {std::move(item)};
+  return type;
+}
+
+inline Type record(const Record& fields) {
+  Type type;
+  type.kind = Type::Kind::record;
+  type.record = &fields;
+  return type;
+}
+
+inline Type any_of(std::vector<Type> alternatives) {
+  Type type;
+  type.kind = Type::Kind::any_of;
+  type.parts = std::move(alternatives);
+  return type;
+}
+
+inline Type particle_index() { return integer(0, 2147483647); }
+
+// ------------------------------------------------------------------------------------------------ defaults, in words
+
+inline std::string words(float value) {
+  std::array<char, 32> digits{};  // the shortest that reads back as the same float
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+}
+inline std::string words(int value) { return std::to_string(value); }
+inline std::string words(bool value) { return value ? "true" : "false"; }
+inline std::string words(const Vec3f& v) { return "[" + words(v.x) + ", " + words(v.y) + ", " + words(v.z) + "]"; }
+inline std::string words(const char* value) { return value; }
+
+template <class T>
+inline Field field(const char* name, Type type, const T& fallback, const char* meaning) {
+  return {name, std::move(type), words(fallback), meaning, false};
+}
+
+inline Field needed(const char* name, Type type, const char* meaning) { return {name, std::move(type), {}, meaning, true}; }
+
+/// One of a group of which exactly one is given.
+inline Field either(const char* name, Type type, const char* meaning) {
+  return {name, std::move(type), {}, meaning, false};
+}
+
+}  // namespace pliant::scene_file
