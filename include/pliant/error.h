@@ -8,11 +8,11 @@ namespace pliant {
 
 /// Where an error was found. Every member may be left empty; `line` counts from 1, 0 meaning none.
 struct Location {
-  std::string file;     ///< path as the caller gave it
-  int line = 0;         ///< line in `file`
-  std::string object;   ///< name of the object in the scene
-  std::string element;  ///< the part of it: "vertex 12", "triangle 7", "/objects/0/mesh" (a JSON path), "byte 84"
-  int column = 0;       ///< byte of the line, from 1, 0 meaning none
+  std::string file{};     ///< path as the caller gave it
+  int line = 0;           ///< line in `file`
+  std::string object{};   ///< name of the object in the scene
+  std::string element{};  ///< the part of it: "vertex 12", "triangle 7", "/objects/0/mesh" (a JSON path), "byte 84"
+  int column = 0;         ///< byte of the line, from 1, 0 meaning none
 };
 
 /// Thrown while a scene is built or a file is read or written; never thrown by World::step.
