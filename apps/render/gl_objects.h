@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "matrix.h"
 
@@ -55,6 +56,10 @@ class Program {
   void set(const char* name, float value) const { glUniform1f(at(name), value); }
   void set(const char* name, float x, float y) const { glUniform2f(at(name), x, y); }
   void set(const char* name, const Vec3f& v) const { glUniform3f(at(name), v.x, v.y, v.z); }
+  void set(const char* name, const std::vector<std::pair<float, float>>& list) const {
+    static_assert(sizeof(std::pair<float, float>) == 2 * sizeof(float));
+    glUniform2fv(at(name), static_cast<GLsizei>(list.size()), &list.front().first);
+  }
   void set(const char* name, const Matrix& m) const { glUniformMatrix4fv(at(name), 1, GL_FALSE, m.data()); }
 
  private:

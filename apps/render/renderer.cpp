@@ -87,6 +87,17 @@ Matrix to_texture(const Matrix& clip) {
   return halve * clip;
 }
 
+/// Places evenly spread over the unit disc: steps of the golden angle along a spiral (Vogel 1979).
+std::vector<std::pair<float, float>> spiral(int count) {
+  std::vector<std::pair<float, float>> places;
+  for (int i = 0; i < count; ++i) {
+    const float angle = static_cast<float>(i) * 2.3999632f;
+    const float radius = std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(count));
+    places.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  return places;
+}
+
 int best_samples() {
   GLint most = 4;
   glGetIntegerv(GL_MAX_SAMPLES, &most);
@@ -275,8 +286,9 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   program.set("radius", size);
   program.set("spacing", grid_spacing(size));
   program.set("picture", static_cast<float>(width), static_cast<float>(height));
-  program.set("widest", 18.f / shadow_size);
-  program.set("softness", sun.softness);
+  program.set("widest", 18.f);
+  program.set("softness", sun.softness * shadow_size);
+  program.set("spiral", spiral(16));
   program.set("bias", 5 * size / shadow_size);
   for (const Range& range : ranges) {
     program.set("albedo", range.colour);

@@ -136,28 +136,26 @@ uniform sampler2DShadow shadow;
 uniform sampler2D shadow_depth;
 uniform sampler2D occlusion;
 uniform vec2 picture;      // width, height
-uniform float widest, softness, bias, radius, spacing;
-vec2 spiral(int i, float count) {
-  float angle = float(i) * 2.3999632;
-  return vec2(cos(angle), sin(angle)) * sqrt((float(i) + 0.5) / count);
-}
+uniform vec2 spiral[16];   // places in the unit disc, evenly spread
+uniform float widest, softness;  // of shadows' edges [texel], [texel per depth]
+uniform float bias, radius, spacing;
 float lit(vec3 normal) {
   vec3 place = (light * vec4(at + normal * bias, 1.0)).xyz;
-  // Loops end early where nothing can be in the way; a branch would not save software rendering anything.
-  int probes = any(greaterThan(abs(place - 0.5), vec3(0.5))) ? 0 : 12;
-  float gap = 0.0, found = 0.0;
+  // Loops of no rounds where all or nothing is in the way; a branch would not save software rendering anything.
+  int probes = any(greaterThan(abs(place - 0.5), vec3(0.5))) ? 0 : 10;
+  float gap = 0.0, found = 0.0, texels = float(textureSize(shadow_depth, 0).x);
   for (int i = 0; i < probes; ++i) {
-    float blocker = texture(shadow_depth, place.xy + spiral(i, 12.0) * widest).r;
+    float blocker = texelFetch(shadow_depth, ivec2(place.xy * texels + spiral[i] * 1.26 * widest), 0).r;
     float covers = step(blocker, place.z - 0.0005);
     gap += (place.z - blocker) * covers;
     found += covers;
   }
   // The further what casts it, the softer a shadow (Fernando 2005).
-  float wide = clamp(gap / max(found, 1.0) * softness, 1.2 / textureSize(shadow_depth, 0).x, widest);
-  int taps = found > 0.0 ? 20 : 0;
+  float wide = clamp(gap / max(found, 1.0) * softness, 1.2, widest) / texels;
+  int taps = found > 0.0 && found < 9.5 ? 16 : 0;
   float sum = 0.0;
-  for (int i = 0; i < taps; ++i) sum += texture(shadow, vec3(place.xy + spiral(i, 20.0) * wide, place.z));
-  return taps > 0 ? sum / 20.0 : 1.0;
+  for (int i = 0; i < taps; ++i) sum += texture(shadow, vec3(place.xy + spiral[i] * wide, place.z));
+  return taps > 0 ? sum / 16.0 : float(found == 0.0);
 }
 float lines(float x) {
   float width = fwidth(x);
