@@ -104,21 +104,23 @@ int in_child(Action action) {
 }
 
 TEST(AtomicFile, RefusesAFolderOrFileThatIsReadOnly) {
-  const Folder folder;
-  test::put(folder / "file", "old");
-  ASSERT_EQ(chmod((folder / "file").c_str(), 0444), 0);
+  const Folder open, folder;
+  test::put(open / "file", "old");
+  ASSERT_EQ(chmod((open / "file").c_str(), 0444), 0);
+  ASSERT_EQ(chmod(open.path().c_str(), 0777), 0);
   ASSERT_EQ(chmod(folder.path().c_str(), 0555), 0);
   // Root may write anywhere, so the child is nobody.
   const int refused = in_child([&] {
     if (geteuid() == 0 && setuid(65534) != 0) return 0;
     int count = 0;
-    for (const std::string name : {"file", "other"}) {
-      if (problem([&] { AtomicFile file(folder / name); }).find(folder / name) != std::string::npos) ++count;
+    for (const std::string& path : {open / "file", folder / "file"}) {
+      if (problem([&] { AtomicFile file(path); }).find(path) != std::string::npos) ++count;
     }
     return count;
   });
   EXPECT_EQ(refused, 2);
-  EXPECT_EQ(test::read(folder / "file"), "old");
+  EXPECT_EQ(test::read(open / "file"), "old");
+  EXPECT_EQ(open.names().size(), 1u);
 }
 
 /// The same where no file may grow longer than `bytes`.

@@ -57,7 +57,7 @@ TEST(ObjSequence, HoldsEveryFrame) {
   const Obj obj = read_obj(folder / "run_0002.obj");
   EXPECT_EQ(obj.vertices, joined(test::sample_frame(2)));
   EXPECT_EQ(obj.faces, (std::vector<std::vector<int>>{{1, 2, 3}, {2, 4, 3}}));
-  EXPECT_EQ(obj.lines, (std::vector<std::vector<int>>{{5, 6, 7}}));
+  EXPECT_EQ(obj.lines, (std::vector<std::vector<int>>{{5, 7, 6}}));
   EXPECT_EQ(obj.points, (std::vector<std::vector<int>>{{8}, {9}}));
   EXPECT_EQ(obj.objects, (std::vector<std::string>{"a__sheet_____more_", "rope", "rope_2"}));
 }
@@ -240,7 +240,8 @@ TEST(Usda, IsBalancedAndHoldsEverySample) {
   EXPECT_EQ(occurrences(text, "points.timeSamples"), 3);
   EXPECT_EQ(occurrences(text, "extent.timeSamples"), 3);
   EXPECT_NE(text.find("2: [(0, 2, 0), (1, 2, 0), (0, 2, 1), (1, 2.1, 1)],"), std::string::npos);
-  EXPECT_NE(text.find("2: [(0, 2, 0), (1, 2.1, 1)],"), std::string::npos);  // the sheet's extent
+  EXPECT_NE(text.find("2: [(0, 2, 0), (1, 2.1, 1)],"), std::string::npos);           // the sheet's extent
+  EXPECT_NE(text.find("2: [(0, 2, 0), (4, 0, 0), (2, 1, 0)],"), std::string::npos);  // along the rope
 }
 
 /// A reader of XML that is only as good as it must be: tags nest, attributes are quoted, text has no stray signs.

@@ -59,10 +59,11 @@ T value_at(const std::string& bytes, std::size_t at) {
   return value;
 }
 
-/// A sheet of two triangles, a rope of three particles, two loose particles; names that no format can take as they are.
+/// A sheet of two triangles, a rope of three particles out of order, two loose particles; names that no format can take as
+/// they are.
 inline output::Objects sample_objects() {
   return {{"a <sheet> & \"more\"", {0.5f, 0.25f, 1}, 0.002f, 4, {{0, 1, 2}, {1, 3, 2}}, {}},
-          {"rope", {1, 0, 0}, 0.02f, 3, {}, {{0, 1, 2}}},
+          {"rope", {1, 0, 0}, 0.02f, 3, {}, {{0, 2, 1}}},
           {"rope", {0, 1, 0}, 0.1f, 2, {}, {}}};
 }
 
