@@ -6,7 +6,8 @@ namespace pliant {
 
 namespace {
 
-/// What overlaps at the start separates at this speed at most, so that it neither explodes nor tears its own constraints [m/s].
+/// What overlaps at the start separates at this speed at most, so that it neither explodes nor tears its own constraints
+/// [m/s].
 constexpr float largest_separation_speed = 2;
 
 BoundingBox<float> merge(const BoundingBox<float>& a, const BoundingBox<float>& b) {
@@ -26,22 +27,24 @@ struct SurfacePlane {
   float offset = 0;
 };
 
-/// The plane for a particle on its way from a to b, in the collider's frame. Continuous where the path enters from outside, else
-/// static: the closest point of the surface.
+/// The plane for a particle on its way from a to b, in the collider's frame. Continuous where the path is long: the surface
+/// where it enters, or where it begins if that is within the thickness or inside, since the side that a particle is on is
+/// the side it stays on. Else static: the closest point of the surface.
 SurfacePlane surface_plane(const LocalShape& shape, const Vec3f& a, const Vec3f& b, float thickness, float h) {
   const SurfaceDistance<float> end = signed_distance(shape, b);
   const float path = length(b - a);
   if (!(end.distance < thickness + path)) return {};  // a path that meets the shape ends no farther from it than it is long
+  // From inside, out no faster than the cap; from outside, this is the thickness itself.
+  const auto kept = [&](float start) { return min(thickness, start + largest_separation_speed * h); };
   if (path > 0.25f * thickness) {
     const FirstHit<float> hit = first_hit(shape, a, b, 0.5f * thickness);
-    if (hit.hit && hit.t > 0) {
-      return {true, hit.normal, hit.point - hit.normal * hit.distance, dot(hit.normal, hit.point) - hit.distance + thickness};
+    if (hit.hit) {
+      const float height = hit.t > 0 ? thickness : kept(hit.distance);
+      return {true, hit.normal, hit.point - hit.normal * hit.distance, dot(hit.normal, hit.point) - hit.distance + height};
     }
   }
-  // From inside, out no faster than the cap; from outside, this is the thickness itself.
-  const float start = signed_distance(shape, a).distance;
-  const float kept = min(thickness, start + largest_separation_speed * h);
-  return {true, end.normal, b - end.normal * end.distance, dot(end.normal, b) - end.distance + kept};
+  const float height = kept(signed_distance(shape, a).distance);
+  return {true, end.normal, b - end.normal * end.distance, dot(end.normal, b) - end.distance + height};
 }
 
 }  // namespace
@@ -83,7 +86,8 @@ void find_contact(const ContactSearch& search, int i, int number, float thicknes
   // The plane in the world: through the same point, at the same distance from it.
   const float above = plane.offset - dot(plane.normal, plane.point);
   contact.offset = dot(contact.normal, to_world(collider.after, plane.point)) + above;
-  if (collider.moves) contact.surface_motion = to_world(collider.after, plane.point) - to_world(collider.before, plane.point);
+  if (collider.moves)
+    contact.surface_motion = to_world(collider.after, plane.point) - to_world(collider.before, plane.point);
   contact.static_friction = sqrt(search.object.static_friction * collider.static_friction);
   contact.kinetic_friction = sqrt(search.object.kinetic_friction * collider.kinetic_friction);
   contact.restitution = max(search.object.restitution, collider.restitution);
@@ -91,8 +95,10 @@ void find_contact(const ContactSearch& search, int i, int number, float thicknes
   contacts.push_back(contact);
 }
 
-/// Particles that need a closer look at a collider: all of the tile's where the collider moves, since its motion counts too.
-int find_near(const ContactSearch& search, const MovingCollider& collider, float thickness, std::vector<std::int32_t>& near) {
+/// Particles that need a closer look at a collider: all of the tile's where the collider moves, since its motion counts
+/// too.
+int find_near(const ContactSearch& search, const MovingCollider& collider, float thickness,
+              std::vector<std::int32_t>& near) {
   const AdvanceArguments& a = search.particles;
   near.resize(a.last - a.first + batch_width);
   if (collider.moves) {
@@ -103,8 +109,8 @@ int find_near(const ContactSearch& search, const MovingCollider& collider, float
   const Bounds& b = search.bounds;
   const float reach = max(largest(Vec3f{b.low.x, b.low.y, b.low.z}), largest(Vec3f{b.high.x, b.high.y, b.high.z}));
   const float slack = 1e-6f + 1e-5f * (reach + largest(collider.after.position) + thickness);
-  return search.find_near({a.positions, a.velocities, a.first, a.last, a.h, collider.shape, collider.after, thickness + slack},
-                          near.data());
+  return search.find_near(
+      {a.positions, a.velocities, a.first, a.last, a.h, collider.shape, collider.after, thickness + slack}, near.data());
 }
 
 }  // namespace
