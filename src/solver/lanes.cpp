@@ -284,7 +284,7 @@ bool all_finite(const Record* positions, int first, int last) {
   int i = first;
   for (; i + 4 <= last; i += 4) {
     const Wide x = load_wide(floats(positions + i));
-    sum = sum + (x - x);
+    sum = sum + (x - x);  // NOLINT(misc-redundant-expression): see above
   }
   float lanes[wide_width], rest = 0;
   store_wide(lanes, sum);
