@@ -85,7 +85,13 @@ struct MovieWriter::Implementation {
     posix_spawn_file_actions_adddup2(&actions, input, 0);
     posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, words, 2);
-    const int code = ::posix_spawnp(&process, "ffmpeg", &actions, nullptr, arguments.data(), environ);
+    // A group of its own, so that an interrupt from the terminal reaches only this program, which can then end the movie
+    // well.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    const int code = ::posix_spawnp(&process, "ffmpeg", &actions, &attributes, arguments.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (code != 0) process = -1;
     return code;

@@ -168,6 +168,7 @@ TEST_F(Picture, ShowsClothFromBothSidesAndTheBackDuller) {
   for (auto& triangle : back.meshes[0].triangles) std::swap(triangle[1], triangle[2]);
   const Pixel a = at(renderer->draw(front), width / 2, height / 2), b = at(renderer->draw(back), width / 2, height / 2);
   EXPECT_GT(a.r, b.r + 8);
+  EXPECT_GT(4 * b.r, 3 * a.r) << "the back is lit as the front is";
   EXPECT_GT(b.r, b.g + 40) << "the back keeps the cloth's colour";
 }
 
