@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "geometry/shapes.h"
 #include "model/compiled_object.h"
 #include "support/bits.h"
 #include "support/constraint_support.h"
@@ -223,6 +224,53 @@ TEST(Kernels, PredictAsTheReference) {
 }
 TEST(Kernels, UpdateAsTheReference) {
   compare_on_all_lengths([](const Kernels& kernels, const AdvanceArguments& a) { kernels.update(a); });
+}
+
+TEST(Kernels, AdvanceAsUpdateAndThenPredict) {
+  compare_on_all_lengths([](const Kernels& kernels, const AdvanceArguments& a) { kernels.advance(a, nullptr); });
+  Random random(18);
+  for (const Kernels* kernels : kernels_in_lanes()) {
+    const Particles start(23, random, false);
+    Particles together = start, apart = start;
+    kernels->advance(together.arguments(1, 22), nullptr);
+    kernels->update(apart.arguments(1, 22));
+    kernels->predict(apart.arguments(1, 22), nullptr);
+    ASSERT_NO_FATAL_FAILURE(expect_same(together, apart, kernels->isa));
+  }
+}
+
+TEST(Kernels, FindEveryParticleThatCouldTouch) {
+  Random random(6);
+  const LocalShape shapes[] = {{ShapeKind::plane, 0, 0, 0},
+                               {ShapeKind::sphere, 0.3f, 0, 0},
+                               {ShapeKind::capsule, 0.1f, 0.4f, 0},
+                               {ShapeKind::box, 0.5f, 0.02f, 0.3f}};
+  for (const Kernels* kernels : kernels_in_lanes()) {
+    for (const LocalShape& shape : shapes) {
+      int left_out = 0;
+      for (int count : {0, 1, 15, 16, 17, 33, 200}) {
+        Particles particles(std::max(count, 1), random, false);
+        for (Record& v : particles.velocities) v = {v.x * 20, v.y * 20, v.z * 20, 0};
+        const Posed pose{random_point(random, 0.3), random_rotation(random)};
+        const NearQuery query{
+            particles.positions.data(), particles.velocities.data(), 0, count, 0.01f, shape, convert<float>(pose), 0.05f};
+        std::vector<std::int32_t> near(static_cast<std::size_t>(count) + batch_width, -1);
+        near.resize(static_cast<std::size_t>(kernels->find_near(query, near.data())));
+        EXPECT_TRUE(std::is_sorted(near.begin(), near.end()));
+        EXPECT_EQ(std::adjacent_find(near.begin(), near.end()), near.end()) << "one twice";
+        for (int i = 0; i < count; ++i) {
+          const Record &x = particles.positions[static_cast<std::size_t>(i)],
+                       &v = particles.velocities[static_cast<std::size_t>(i)];
+          const double distance = signed_distance(shape, to_local(pose, Vec3d{x.x, x.y, x.z})).distance;
+          const bool could = distance < 0.05 + 0.01 * length(Vec3d{v.x, v.y, v.z}) - 1e-5;
+          const bool found = std::binary_search(near.begin(), near.end(), i);
+          EXPECT_TRUE(found || !could) << kernels->isa << ", particle " << i << " of " << count;
+          left_out += found ? 0 : 1;
+        }
+      }
+      EXPECT_GT(left_out, 20) << "nobody is spared a closer look";
+    }
+  }
 }
 
 TEST(Kernels, BoundThePathsAsTheReference) {
