@@ -72,11 +72,11 @@ namespace {
 void find_contact(const ContactSearch& search, int i, int number, float thickness, std::vector<Contact>& contacts) {
   const MovingCollider& collider = search.colliders[number];
   const AdvanceArguments& a = search.particles;
-  const Record& x = a.positions[i];
+  const Record &x = a.positions[i], &d = a.displacements[i], &v = a.velocities[i];
   if (x.w == 0) return;
-  const Vec3f position{x.x, x.y, x.z}, velocity{a.velocities[i].x, a.velocities[i].y, a.velocities[i].z};
-  const Vec3f to = to_local(collider.after, position);
-  const Vec3f from = to_local(collider.before, position - velocity * a.h);
+  const Vec3f position{x.x, x.y, x.z};
+  const Vec3f to = to_local(collider.after, position + Vec3f{d.x, d.y, d.z});
+  const Vec3f from = to_local(collider.before, position);
   const SurfacePlane plane = surface_plane(collider.shape, from, to, thickness, a.h);
   if (!plane.found) return;
   Contact contact;
@@ -85,13 +85,14 @@ void find_contact(const ContactSearch& search, int i, int number, float thicknes
   contact.normal = rotate(collider.after.rotation, plane.normal);
   // The plane in the world: through the same point, at the same distance from it.
   const float above = plane.offset - dot(plane.normal, plane.point);
-  contact.offset = dot(contact.normal, to_world(collider.after, plane.point)) + above;
+  contact.gap = dot(contact.normal, position - to_world(collider.after, plane.point)) - above;
   if (collider.moves)
     contact.surface_motion = to_world(collider.after, plane.point) - to_world(collider.before, plane.point);
   contact.static_friction = sqrt(search.object.static_friction * collider.static_friction);
   contact.kinetic_friction = sqrt(search.object.kinetic_friction * collider.kinetic_friction);
   contact.restitution = max(search.object.restitution, collider.restitution);
-  contact.approach = dot(contact.normal, velocity - a.gravity_step - contact.surface_motion * a.inverse_h);
+  const Vec3f velocity = Vec3f{v.x, v.y, v.z} + (a.gravity_begun - a.gravity_step);  // before this substep's gravity
+  contact.approach = dot(contact.normal, velocity - contact.surface_motion * a.inverse_h);
   contacts.push_back(contact);
 }
 
@@ -110,7 +111,7 @@ int find_near(const ContactSearch& search, const MovingCollider& collider, float
   const float reach = max(largest(Vec3f{b.low.x, b.low.y, b.low.z}), largest(Vec3f{b.high.x, b.high.y, b.high.z}));
   const float slack = 1e-6f + 1e-5f * (reach + largest(collider.after.position) + thickness);
   return search.find_near(
-      {a.positions, a.velocities, a.first, a.last, a.h, collider.shape, collider.after, thickness + slack}, near.data());
+      {a.positions, a.displacements, a.first, a.last, collider.shape, collider.after, thickness + slack}, near.data());
 }
 
 }  // namespace
@@ -127,17 +128,17 @@ void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near,
 
 void project_contacts(std::vector<Contact>& contacts, const SweepArguments& a) {
   for (Contact& contact : contacts) {
-    Record& p = a.positions[contact.particle];
-    Vec3f x[1] = {{p.x, p.y, p.z}}, gradient[1];
-    const float c = PlaneContact::evaluate(x, {contact.normal, contact.offset}, gradient);
+    Record& d = a.displacements[contact.particle];
+    Vec3f x[1] = {{d.x, d.y, d.z}}, gradient[1];
+    const float c = PlaneContact::evaluate(x, {contact.normal, -contact.gap}, gradient);
     if (c < 0) {
       x[0] -= gradient[0] * c;
       contact.push -= c;
     }
     if (contact.push > 0) {
       // The sum of the tangential corrections that would keep the particle with the surface, cut to the cone of friction.
-      const Record &v = a.velocities[contact.particle], &q = a.predicted[contact.particle];
-      const Vec3f motion = Vec3f{v.x, v.y, v.z} * a.h + (x[0] - Vec3f{q.x, q.y, q.z}) - contact.surface_motion;
+      const Record& r = a.remainders[contact.particle];
+      const Vec3f motion = x[0] - Vec3f{r.x, r.y, r.z} - contact.surface_motion;
       const Vec3f slip = motion - contact.normal * dot(contact.normal, motion);
       Vec3f friction = contact.friction - slip;
       const float wanted = length(friction);
@@ -147,19 +148,18 @@ void project_contacts(std::vector<Contact>& contacts, const SweepArguments& a) {
       x[0] += friction - contact.friction;
       contact.friction = friction;
     }
-    p = {x[0].x, x[0].y, x[0].z, p.w};
+    d = {x[0].x, x[0].y, x[0].z, 0};
   }
 }
 
-void respond(const std::vector<Contact>& contacts, Record* velocities, const AdvanceArguments& a) {
+void respond(const std::vector<Contact>& contacts, const Vec3f& gravity, const AdvanceArguments& a) {
   const float slow = 2 * length(a.gravity_step);
   for (const Contact& contact : contacts) {
     if (!(contact.push > 0)) continue;
-    Record& v = velocities[contact.particle];
-    const Vec3f surface_velocity = contact.surface_motion * a.inverse_h;
-    const float normal_velocity = dot(contact.normal, Vec3f{v.x, v.y, v.z} - surface_velocity);
+    Record& v = a.velocities[contact.particle];
+    const Vec3f relative = Vec3f{v.x, v.y, v.z} + gravity - contact.surface_motion * a.inverse_h;
     const float wanted = -contact.approach > slow ? -contact.restitution * contact.approach : 0.f;
-    const Vec3f change = contact.normal * (wanted - normal_velocity);
+    const Vec3f change = contact.normal * (wanted - dot(contact.normal, relative));
     v = {v.x + change.x, v.y + change.y, v.z + change.z, 0};
   }
 }

@@ -29,7 +29,7 @@ struct Contact {
   int particle = 0;  ///< in the object's storage order
   int collider = 0;
   Vec3f normal{};    ///< unit, away from the collider
-  float offset = 0;  ///< the particle is free where normal . x >= offset [m]
+  float gap = 0;     ///< of the particle's position above the plane: it is free where gap + normal . displacement >= 0 [m]
   Vec3f surface_motion{};  ///< of the surface during the substep [m]
   float static_friction = 0, kinetic_friction = 0, restitution = 0;
   float approach = 0;  ///< normal velocity relative to the surface before the substep; negative where it comes closer [m/s]
@@ -43,7 +43,7 @@ void move_colliders(const Model& model, double time_before, double time_after, s
 /// What finding the contacts of one tile needs.
 struct ContactSearch {
   const CompiledObject& object;
-  const AdvanceArguments& particles;  ///< the tile's, with positions as predicted
+  const AdvanceArguments& particles;  ///< the tile's, with displacements as predicted
   const Bounds& bounds;               ///< holds the particles' places before and after
   const std::vector<MovingCollider>& colliders;
   int (*find_near)(const NearQuery& query, std::int32_t* near);  ///< of Kernels
@@ -57,6 +57,8 @@ void project_contacts(std::vector<Contact>& contacts, const SweepArguments& argu
 
 /// After the velocity update: the normal velocity of what touched becomes -e times that of the approach, or zero where the approach
 /// was no faster than gravity makes it in two substeps.
-void respond(const std::vector<Contact>& contacts, Record* velocities, const AdvanceArguments& particles);
+///
+/// `gravity` is what the velocities do not hold yet of this frame's.
+void respond(const std::vector<Contact>& contacts, const Vec3f& gravity, const AdvanceArguments& particles);
 
 }  // namespace pliant

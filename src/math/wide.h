@@ -236,61 +236,117 @@ PLIANT_HD Part gather_part(const Record* base, const std::int32_t* at, int i) {
 #endif
 }
 
-PLIANT_HD WideRecords from_registers(Part (&r)[4][wide_parts]) {
+/// Four registers of records; register j holds those of lanes j, 4 + j, 8 + j and 12 + j.
+struct Registers {
+  Part at[4][wide_parts];
+};
+
+/// Sixteen records by index, lane l at index[l].
+PLIANT_HD Registers load_indexed(const Record* base, const std::int32_t* index) {
+  Registers r;
+  PLIANT_EACH_PART({
+    r.at[0][i] = gather_part(base, index, i);
+    r.at[1][i] = gather_part(base, index + 1, i);
+    r.at[2][i] = gather_part(base, index + 2, i);
+    r.at[3][i] = gather_part(base, index + 3, i);
+  })
+  return r;
+}
+
+/// Four runs of four records, run j from run[j] on: lane 4 L + j is record run[j] + L.
+PLIANT_HD Registers load_runs(const Record* base, const std::int32_t* run) {
+  Registers r;
+  std::memcpy(r.at[0], base + run[0], 64);
+  std::memcpy(r.at[1], base + run[1], 64);
+  std::memcpy(r.at[2], base + run[2], 64);
+  std::memcpy(r.at[3], base + run[3], 64);
+  return r;
+}
+
+#define PLIANT_REGISTER_OPERATOR(op)                                          \
+  PLIANT_HD Registers operator op(const Registers& a, const Registers& b) {   \
+    Registers r;                                                              \
+    PLIANT_EACH_PART({                                                        \
+      r.at[0][i] = a.at[0][i] op b.at[0][i];                                  \
+      r.at[1][i] = a.at[1][i] op b.at[1][i];                                  \
+      r.at[2][i] = a.at[2][i] op b.at[2][i];                                  \
+      r.at[3][i] = a.at[3][i] op b.at[3][i];                                  \
+    })                                                                        \
+    return r;                                                                 \
+  }
+PLIANT_REGISTER_OPERATOR(+)
+PLIANT_REGISTER_OPERATOR(-)
+#undef PLIANT_REGISTER_OPERATOR
+
+/// All bits set where a record has x, y and z.
+alignas(64) inline constexpr std::int32_t xyz_bits[wide_width] = {-1, -1, -1, 0, -1, -1, -1, 0, -1, -1, -1, 0, -1, -1, -1, 0};
+
+PLIANT_HD PartMask xyz_mask() {
+  PartMask mask;
+  std::memcpy(&mask, xyz_bits, sizeof mask);
+  return mask;
+}
+
+/// The records with w zero.
+PLIANT_HD Registers without_w(const Registers& a) {
+  Registers r;
+  const PartMask mask = xyz_mask();
+  PLIANT_EACH_PART({
+    r.at[0][i] = (Part)((PartMask)a.at[0][i] & mask);
+    r.at[1][i] = (Part)((PartMask)a.at[1][i] & mask);
+    r.at[2][i] = (Part)((PartMask)a.at[2][i] & mask);
+    r.at[3][i] = (Part)((PartMask)a.at[3][i] & mask);
+  })
+  return r;
+}
+
+/// The records with x, y and z zero.
+PLIANT_HD Registers w_alone(const Registers& a) {
+  Registers r;
+  const PartMask mask = ~xyz_mask();
+  PLIANT_EACH_PART({
+    r.at[0][i] = (Part)((PartMask)a.at[0][i] & mask);
+    r.at[1][i] = (Part)((PartMask)a.at[1][i] & mask);
+    r.at[2][i] = (Part)((PartMask)a.at[2][i] & mask);
+    r.at[3][i] = (Part)((PartMask)a.at[3][i] & mask);
+  })
+  return r;
+}
+
+/// The records' fields, lane by lane.
+PLIANT_HD WideRecords from_registers(const Registers& from) {
+  Registers r = from;
   WideRecords out;
   PLIANT_EACH_PART({
-    transpose(r[0][i], r[1][i], r[2][i], r[3][i]);
-    out.position.x.part[i] = r[0][i];
-    out.position.y.part[i] = r[1][i];
-    out.position.z.part[i] = r[2][i];
-    out.w.part[i] = r[3][i];
+    transpose(r.at[0][i], r.at[1][i], r.at[2][i], r.at[3][i]);
+    out.position.x.part[i] = r.at[0][i];
+    out.position.y.part[i] = r.at[1][i];
+    out.position.z.part[i] = r.at[2][i];
+    out.w.part[i] = r.at[3][i];
   })
   return out;
 }
 
-/// Sixteen records by index, lane l at index[l].
-PLIANT_HD WideRecords load_indexed(const Record* base, const std::int32_t* index) {
-  Part r[4][wide_parts];
+/// The inverse of from_registers.
+PLIANT_HD Registers to_registers(const WideRecords& a) {
+  Registers r;
   PLIANT_EACH_PART({
-    r[0][i] = gather_part(base, index, i);
-    r[1][i] = gather_part(base, index + 1, i);
-    r[2][i] = gather_part(base, index + 2, i);
-    r[3][i] = gather_part(base, index + 3, i);
+    r.at[0][i] = a.position.x.part[i];
+    r.at[1][i] = a.position.y.part[i];
+    r.at[2][i] = a.position.z.part[i];
+    r.at[3][i] = a.w.part[i];
+    transpose(r.at[0][i], r.at[1][i], r.at[2][i], r.at[3][i]);
   })
-  return from_registers(r);
-}
-
-/// Four runs of four records, run j from run[j] on: lane 4 L + j is record run[j] + L.
-PLIANT_HD WideRecords load_runs(const Record* base, const std::int32_t* run) {
-  Part r[4][wide_parts];
-  std::memcpy(r[0], base + run[0], 64);
-  std::memcpy(r[1], base + run[1], 64);
-  std::memcpy(r[2], base + run[2], 64);
-  std::memcpy(r[3], base + run[3], 64);
-  return from_registers(r);
-}
-
-PLIANT_HD void to_registers(const WideRecords& a, Part (&r)[4][wide_parts]) {
-  PLIANT_EACH_PART({
-    r[0][i] = a.position.x.part[i];
-    r[1][i] = a.position.y.part[i];
-    r[2][i] = a.position.z.part[i];
-    r[3][i] = a.w.part[i];
-    transpose(r[0][i], r[1][i], r[2][i], r[3][i]);
-  })
+  return r;
 }
 
 /// The inverse of load_runs for the first `runs` (1..4) of them.
-PLIANT_HD void store_runs(Record* base, const std::int32_t* run, const WideRecords& a, int runs) {
-  Part r[4][wide_parts];
-  to_registers(a, r);
-  std::memcpy(static_cast<void*>(base + run[0]), r[0], 64);
-  if (runs > 1) std::memcpy(static_cast<void*>(base + run[1]), r[1], 64);
-  if (runs > 2) std::memcpy(static_cast<void*>(base + run[2]), r[2], 64);
-  if (runs > 3) std::memcpy(static_cast<void*>(base + run[3]), r[3], 64);
+PLIANT_HD void store_runs(Record* base, const std::int32_t* run, const Registers& r, int runs) {
+  std::memcpy(static_cast<void*>(base + run[0]), r.at[0], 64);
+  if (runs > 1) std::memcpy(static_cast<void*>(base + run[1]), r.at[1], 64);
+  if (runs > 2) std::memcpy(static_cast<void*>(base + run[2]), r.at[2], 64);
+  if (runs > 3) std::memcpy(static_cast<void*>(base + run[3]), r.at[3], 64);
 }
-
-PLIANT_HD void store_all_runs(Record* base, const std::int32_t* run, const WideRecords& a) { store_runs(base, run, a, 4); }
 
 template <int part>
 PLIANT_HD Quad quad_of(const Part& a) {
@@ -305,15 +361,13 @@ PLIANT_HD Quad quad_of(const Part& a) {
 PLIANT_HD void store_quad(Record* to, const Quad& q) { std::memcpy(static_cast<void*>(to), &q, sizeof q); }
 
 /// The inverse of load_indexed.
-PLIANT_HD void store_indexed(Record* base, const std::int32_t* index, const WideRecords& a) {
-  Part r[4][wide_parts];
-  to_registers(a, r);
+PLIANT_HD void store_indexed(Record* base, const std::int32_t* index, const Registers& r) {
 #if PLIANT_PART_WIDTH == 16
-#define PLIANT_QUAD(j, quad) quad_of<quad>(r[j][0])
+#define PLIANT_QUAD(j, quad) quad_of<quad>(r.at[j][0])
 #elif PLIANT_PART_WIDTH == 8
-#define PLIANT_QUAD(j, quad) quad_of<(quad) % 2>(r[j][(quad) / 2])
+#define PLIANT_QUAD(j, quad) quad_of<(quad) % 2>(r.at[j][(quad) / 2])
 #else
-#define PLIANT_QUAD(j, quad) quad_of<0>(r[j][quad])
+#define PLIANT_QUAD(j, quad) quad_of<0>(r.at[j][quad])
 #endif
 #define PLIANT_STORE(j)                                     \
   store_quad(base + index[0 + (j)], PLIANT_QUAD(j, 0));     \
@@ -329,12 +383,10 @@ PLIANT_HD void store_indexed(Record* base, const std::int32_t* index, const Wide
 }
 
 /// store_indexed for the first `lanes` (1..16) lanes alone: those after them are padding.
-PLIANT_HD void store_indexed_some(Record* base, const std::int32_t* index, const WideRecords& a, int lanes) {
-  Part r[4][wide_parts];
-  to_registers(a, r);
+PLIANT_HD void store_indexed_some(Record* base, const std::int32_t* index, const Registers& r, int lanes) {
   Record records[4][4];
   static_assert(sizeof records == sizeof r);
-  std::memcpy(static_cast<void*>(records), r, sizeof r);
+  std::memcpy(static_cast<void*>(records), &r, sizeof r);
   for (int lane = 0; lane < lanes; ++lane) base[index[lane]] = records[lane % 4][lane / 4];
 }
 

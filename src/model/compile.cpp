@@ -67,6 +67,9 @@ void fill_kinematics(const Object& object, CompiledObject& out) {
     if (!attachment.motion.moves()) continue;
     out.kinematics.push_back({out.place[object.positions.size() + i], attachment.target, attachment.motion});
   }
+  // By storage, so that a tile finds its own; of two pins on one particle the later one holds.
+  std::stable_sort(out.kinematics.begin(), out.kinematics.end(),
+                   [](const Kinematic& a, const Kinematic& b) { return a.particle < b.particle; });
 }
 
 void number_particles(const std::vector<Vec3f>& positions, const std::vector<ConstraintList>& lists, int largest_tile,

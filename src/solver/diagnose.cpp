@@ -51,37 +51,52 @@ std::optional<std::string> replay(const StepContext& context, const CompiledObje
                                   SweepArguments arguments) {
   for (int s = first; s < last; ++s) {
     context.kernels.sweep(object.pools.data(), &object.segments[s], &object.segments[s] + 1, arguments);
-    if (auto culprit = find_culprit(object, object.segments[s], arguments.positions)) return culprit;
+    if (auto culprit = find_culprit(object, object.segments[s], arguments.displacements)) return culprit;
   }
   return std::nullopt;
 }
 
-std::string first_bad_particle(const CompiledObject& object, const Tile& tile, const Record* positions) {
+std::string first_bad_particle(const CompiledObject& object, const Tile& tile, const Record* displacements) {
   for (int i = tile.first_particle; i < tile.last_particle; ++i) {
-    if (!is_finite(positions[i])) return "particle " + std::to_string(object.order[i]);
+    if (!is_finite(displacements[i])) return "particle " + std::to_string(object.order[i]);
   }
   return "a particle";
 }
 
+/// The tasks of the first object that has tiles which are not finite.
+std::vector<int> bad_tasks(const StepContext& context) {
+  const Model& model = context.model;
+  std::vector<int> bad;
+  for (int task = 0; task < static_cast<int>(model.tiles.size()); ++task) {
+    if (context.workspace.tiles[task].finite) continue;
+    if (bad.empty() || model.tiles[task].object == model.tiles[bad.front()].object) bad.push_back(task);
+  }
+  return bad;
+}
+
 /// The name of what went wrong in the tiles of one object that are not finite. They are replayed together, since what
 /// straddles two of them needs both as they were: a constraint that spoils its particles spoils every tile they are in.
-std::string explain(const StepContext& context, const CompiledObject& object, const std::vector<const Tile*>& bad,
-                    SweepArguments arguments) {
-  const std::string particle = first_bad_particle(object, *bad.front(), arguments.positions);
-  std::vector<Record> positions(arguments.positions, arguments.positions + object.particles);
-  for (const Tile* tile : bad) {
-    for (int i = tile->first_particle; i < tile->last_particle; ++i) {
-      if (!is_finite(arguments.predicted[i])) {
-        return "particle " + std::to_string(object.order[i]) + " (its velocity or the force on it is too large)";
-      }
-      positions[i] = arguments.predicted[i];
+std::string explain(const StepContext& context, const CompiledObject& object, const std::vector<int>& bad,
+                    FunctionRef<AdvanceArguments(int)> particles, SweepArguments arguments) {
+  const auto tile_of = [&](int task) -> const Tile& { return object.tiles[context.model.tiles[task].tile]; };
+  const std::string particle = first_bad_particle(object, tile_of(bad.front()), arguments.displacements);
+  std::vector<Record> displacements(arguments.displacements, arguments.displacements + object.particles);
+  for (int task : bad) {
+    AdvanceArguments again = particles(task);
+    again.displacements = displacements.data();
+    again.gravity_begun = again.gravity_finished;  // the substep that failed, not the one after it
+    context.kernels.predict(again, nullptr);
+    for (int i = again.first; i < again.last; ++i) {
+      if (is_finite(displacements[i])) continue;
+      return "particle " + std::to_string(object.order[i]) + " (its velocity or the force on it is too large)";
     }
   }
-  arguments.positions = positions.data();
+  arguments.displacements = displacements.data();
   for (int iteration = 0; iteration < context.iterations; ++iteration) {
     arguments.first_pass = iteration == 0;
-    for (const Tile* tile : bad) {
-      if (auto culprit = replay(context, object, tile->first_segment, tile->last_segment, arguments)) return *culprit;
+    for (int task : bad) {
+      const Tile& tile = tile_of(task);
+      if (auto culprit = replay(context, object, tile.first_segment, tile.last_segment, arguments)) return *culprit;
     }
     for (const StraddlerColour& colour : object.straddlers) {
       if (auto culprit = replay(context, object, colour.first_segment, colour.last_segment, arguments)) return *culprit;
@@ -90,47 +105,25 @@ std::string explain(const StepContext& context, const CompiledObject& object, co
   return object.has_volume ? "volume constraint (seen at " + particle + ")" : particle;
 }
 
-/// The tiles of the first object that has some which are not finite.
-std::vector<const Tile*> bad_tiles(const StepContext& context, int& object) {
-  const Model& model = context.model;
-  std::vector<const Tile*> bad;
-  for (std::size_t task = 0; task < model.tiles.size(); ++task) {
-    if (context.workspace.tiles[task].finite) continue;
-    if (bad.empty()) object = model.tiles[task].object;
-    if (object == model.tiles[task].object) bad.push_back(&model.objects[object].tiles[model.tiles[task].tile]);
-  }
-  return bad;
-}
-
-void put_back(const CompiledObject& object, const Tile& tile, const SweepArguments& a) {
-  for (int i = tile.first_particle; i < tile.last_particle; ++i) {
-    const Record &q = a.predicted[i], &v = a.velocities[i];
-    const Record start{q.x - a.h * v.x, q.y - a.h * v.y, q.z - a.h * v.z, q.w};
-    a.positions[i] = is_finite(start) ? start : object.positions[i];
-  }
-}
-
-void stop_what_is_not_finite(State& state) {
-  for (Record& v : state.velocities) v = is_finite(v) ? v : Record{};
-  for (Record& r : state.remainders) r = is_finite(r) ? r : Record{};
+/// Finite again: no displacement, no velocity where there is no number.
+void make_finite(const StepContext& context) {
+  for (Record& d : context.workspace.displacements) d = is_finite(d) ? d : Record{};
+  for (Record& v : context.state.velocities) v = is_finite(v) ? v : Record{};
+  for (Record& r : context.state.remainders) r = is_finite(r) ? r : Record{};
 }
 
 }  // namespace
 
-NonFinite diagnose(const StepContext& context, FunctionRef<SweepArguments(int)> arguments) {
+NonFinite diagnose(const StepContext& context, FunctionRef<AdvanceArguments(int)> particles,
+                   FunctionRef<SweepArguments(int)> arguments) {
   NonFinite found;
-  const Model& model = context.model;
-  int number = 0;
-  const std::vector<const Tile*> bad = bad_tiles(context, number);
-  if (bad.empty()) return found;
-  found.object = model.objects[number].name;
-  found.element = explain(context, model.objects[number], bad, arguments(number));
-  for (std::size_t task = 0; task < model.tiles.size(); ++task) {
-    if (context.workspace.tiles[task].finite) continue;
-    const CompiledObject& object = model.objects[model.tiles[task].object];
-    put_back(object, object.tiles[model.tiles[task].tile], arguments(model.tiles[task].object));
+  const std::vector<int> bad = bad_tasks(context);
+  if (!bad.empty()) {
+    const int number = context.model.tiles[bad.front()].object;
+    found.object = context.model.objects[number].name;
+    found.element = explain(context, context.model.objects[number], bad, particles, arguments(number));
   }
-  stop_what_is_not_finite(context.state);
+  make_finite(context);
   return found;
 }
 

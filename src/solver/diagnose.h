@@ -7,10 +7,11 @@
 
 namespace pliant {
 
-/// After a tile was found with a position that is not finite: replays the substep's sweep over all such tiles of the object from
-/// their prediction, one segment at a time, and names the first constraint whose particles are not finite after it. Since a sweep
-/// gives the same bits each time, the replay meets what the run met. Then puts the tiles back to where the substep began, so that
-/// the state is finite again.
-NonFinite diagnose(const StepContext& context, FunctionRef<SweepArguments(int)> arguments);
+/// After a tile was found with a displacement that is not finite: predicts its object's substep again and replays the sweep, one
+/// segment at a time, and names the first constraint whose particles are not finite after it. Then takes the displacements of such
+/// tiles back: their positions are those of the substep's start, so that the state is finite. `particles(task)` and
+/// `arguments(object)` are as in the substep that failed.
+NonFinite diagnose(const StepContext& context, FunctionRef<AdvanceArguments(int)> particles,
+                   FunctionRef<SweepArguments(int)> arguments);
 
 }  // namespace pliant

@@ -16,13 +16,14 @@ void push(Record& velocity, const Vec3f& change) {
 }
 
 void forces_of_air(const CompiledObject& object, const Record* positions, const Record* velocities, const Wind& wind,
-                   const Vec3f& air, float h, int first, int last, std::vector<Vec3f>& forces) {
+                   const Vec3f& air, const Vec3f& gravity, float h, int first, int last, std::vector<Vec3f>& forces) {
   for (int t = first; t < last; ++t) {
     const auto& corner = object.surface.triangles[t];
     const Vec3f x[3] = {vector_of(positions[corner[0]]), vector_of(positions[corner[1]]), vector_of(positions[corner[2]])};
     const float third = 1.f / 3;
-    const Vec3f velocity =
-        (vector_of(velocities[corner[0]]) + vector_of(velocities[corner[1]]) + vector_of(velocities[corner[2]])) * third;
+    Vec3f velocity{};
+    for (int c : corner) velocity += vector_of(velocities[c]) + (positions[c].w > 0 ? gravity : Vec3f{});
+    velocity = velocity * third;
     const float inverse_mass = (positions[corner[0]].w + positions[corner[1]].w + positions[corner[2]].w) * third;
     forces[t] = air_force(x, air - velocity, wind.air_density, object.drag, object.lift, 2 * h * inverse_mass);
   }
@@ -40,18 +41,20 @@ void gather_air(const CompiledObject& object, const Record* positions, Record* v
   }
 }
 
-void apply_air(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h) {
+void apply_air(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h,
+               FunctionRef<Vec3f(int)> gravity) {
   const Vec3f air = wind_at(model.wind, time);
   for (std::size_t o = 0; o < model.objects.size(); ++o) {
     const CompiledObject& object = model.objects[o];
     const int triangles = static_cast<int>(object.surface.triangles.size());
     std::vector<Vec3f>& forces = workspace.triangle_forces[o];
     forces.resize(triangles);
+    const Vec3f gravity_so_far = gravity(static_cast<int>(o));
     const Record* positions = state.positions.data() + model.first[o];
     Record* velocities = state.velocities.data() + model.first[o];
     executor.parallel_for("forces: air", (triangles + triangles_per_task - 1) / triangles_per_task, [&](int task) {
       const int first = task * triangles_per_task;
-      forces_of_air(object, positions, velocities, model.wind, air, h, first, std::min(triangles, first + triangles_per_task),
+      forces_of_air(object, positions, velocities, model.wind, air, gravity_so_far, h, first, std::min(triangles, first + triangles_per_task),
                     forces);
     });
     executor.parallel_for("forces: air", static_cast<int>(object.tiles.size()), [&](int tile) {
@@ -62,15 +65,18 @@ void apply_air(const Model& model, State& state, Workspace& workspace, Executor&
 
 bool is_finite(const Vec3f& v) { return (v.x - v.x) + (v.y - v.y) + (v.z - v.z) == 0; }
 
-void apply_fields(const Model& model, State& state, double time, float h, std::vector<std::string>& warnings) {
+void apply_fields(const Model& model, State& state, double time, float h, FunctionRef<Vec3f(int)> gravity,
+                  std::vector<std::string>& warnings) {
   for (std::size_t o = 0; o < model.objects.size(); ++o) {
     const CompiledObject& object = model.objects[o];
+    const Vec3f gravity_so_far = gravity(static_cast<int>(o));
     for (int user = 0; user < object.user_particles; ++user) {
       const int i = model.first[o] + object.place[user];
       const Record& x = state.positions[i];
       if (x.w == 0) continue;
       for (std::size_t f = 0; f < model.forces.size(); ++f) {
-        const Vec3f force = model.forces[f](vector_of(x), vector_of(state.velocities[i]), 1 / x.w, static_cast<float>(time));
+        const Vec3f force = model.forces[f](vector_of(x), vector_of(state.velocities[i]) + gravity_so_far, 1 / x.w,
+                                            static_cast<float>(time));
         if (is_finite(force)) {
           push(state.velocities[i], force * (h * x.w));
         } else if (warnings.empty()) {
@@ -106,11 +112,11 @@ Vec3f air_force(const Vec3f (&x)[3], const Vec3f& u, float air_density, float dr
 }
 
 void apply_forces(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h,
-                  std::vector<std::string>& warnings) {
-  if (model.wind.air_density > 0) apply_air(model, state, workspace, executor, time, h);
+                  FunctionRef<Vec3f(int)> gravity, std::vector<std::string>& warnings) {
+  if (model.wind.air_density > 0) apply_air(model, state, workspace, executor, time, h, gravity);
   if (!model.forces.empty()) {
     Stopwatch watch(executor.timings(), "forces: fields");
-    apply_fields(model, state, time, h, warnings);
+    apply_fields(model, state, time, h, gravity, warnings);
   }
 }
 

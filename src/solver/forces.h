@@ -14,9 +14,9 @@ namespace pliant {
 /// Whether apply_forces has anything to do.
 bool has_forces(const Model& model);
 
-/// Adds h f / m to every free particle's velocity. A force that is not finite is left out and named in `warnings`.
+/// Adds h f / m to every free particle's velocity; `gravity(object)` is what the velocities do not hold yet. A force that is not finite is left out and named in `warnings`.
 void apply_forces(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h,
-                  std::vector<std::string>& warnings);
+                  FunctionRef<Vec3f(int)> gravity, std::vector<std::string>& warnings);
 
 /// The wind's velocity at a time [m/s].
 Vec3f wind_at(const Wind& wind, double time);

@@ -17,15 +17,14 @@ struct Kernels {
   /// Projects every constraint of the segments, one segment after the other.
   void (*sweep)(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& arguments);
 
-  /// Whether every position is finite.
-  bool (*all_finite)(const Record* positions, int first, int last);
+  /// Whether every record is finite.
+  bool (*all_finite)(const Record* records, int first, int last);
 
-  /// v += (x - predicted) / h, then damping. Equal to v = (x - x_start) / h, but what is divided is the solver's own correction,
-  /// which a float holds even where a substep's whole motion is below the last bit of the position.
+  /// Ends a substep: v = (v + (d - d predicted) / h) kept, x += d. Equal to v = (x - x_start) / h, but what is divided is the
+  /// solver's own correction. The part of d that x can't hold goes to the remainder.
   void (*update)(const AdvanceArguments& arguments);
 
-  /// v += h g and x += h v for particles with mass; the part of the motion that x can't hold is kept in `remainders` and added the
-  /// next time. Adds the places before and after to `bounds` where it is not null.
+  /// Begins a substep: d = remainder + h (v + gravity). Adds the places before and after to `bounds` where it is not null.
   void (*predict)(const AdvanceArguments& arguments, Bounds* bounds);
 
   /// update, then predict, in one pass over memory: for where nothing responds in between.

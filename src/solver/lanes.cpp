@@ -13,7 +13,7 @@ namespace {
 // ---------------------------------------------------------------- constraints
 
 template <bool runs>
-PLIANT_HD WideRecords load(const Record* base, const std::int32_t* index) {
+PLIANT_HD Registers load(const Record* base, const std::int32_t* index) {
   if constexpr (runs) {
     return load_runs(base, index);
   } else {
@@ -22,22 +22,34 @@ PLIANT_HD WideRecords load(const Record* base, const std::int32_t* index) {
 }
 
 template <bool runs>
-PLIANT_HD void store(Record* base, const std::int32_t* index, const WideRecords& records, bool whole, int count) {
+PLIANT_HD void store(Record* base, const std::int32_t* index, const Registers& records, bool whole, int count) {
   if constexpr (runs) {
-    if (whole) return store_all_runs(base, index, records);
-    store_runs(base, index, records, count);
+    store_runs(base, index, records, whole ? 4 : count);
   } else {
     if (whole) return store_indexed(base, index, records);
     store_indexed_some(base, index, records, count);
   }
 }
 
-/// x - x_start = h v + (x - predicted) for one slot.
+/// A stencil's particles as its first one sees them: x_i = (position_i - position_0) + displacement_i. Differences of neighbours'
+/// positions are small and nearly exact, and no constraint among particles knows where the origin is.
+template <int size, bool runs>
+PLIANT_HD void load_stencil(const SweepArguments& a, const std::int32_t* index, Vec3<Wide> (&x)[size], Wide (&w)[size]) {
+  constexpr int stride = runs ? 4 : batch_width;
+  const Registers first = load<runs>(a.positions, index);
+  const Registers origin = without_w(first);
+  for (int slot = 0; slot < size; ++slot) {
+    const Registers base = slot == 0 ? w_alone(first) : load<runs>(a.positions, index + slot * stride) - origin;
+    const WideRecords records = from_registers(base + load<runs>(a.displacements, index + slot * stride));
+    x[slot] = records.position;
+    w[slot] = records.w;
+  }
+}
+
+/// x - x_start for one slot.
 template <bool runs>
-PLIANT_HD Vec3<Wide> load_motion(const SweepArguments& a, const std::int32_t* index, const Vec3<Wide>& x) {
-  const Vec3<Wide> predicted = load<runs>(a.predicted, index).position;
-  const Vec3<Wide> velocity = load<runs>(a.velocities, index).position;
-  return velocity * Wide(a.h) + (x - predicted);
+PLIANT_HD Vec3<Wide> load_motion(const SweepArguments& a, const std::int32_t* index) {
+  return from_registers(load<runs>(a.displacements, index) - load<runs>(a.remainders, index)).position;
 }
 
 /// Where a pool's rows are for one batch: those that are the same for all constraints stay where they are.
@@ -65,11 +77,7 @@ PLIANT_HD void project_batch(const Rows<row_count>& rows, const std::int32_t* in
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
   Vec3<Wide> x[T::size];
   Wide w[T::size];
-  for (int slot = 0; slot < T::size; ++slot) {
-    const WideRecords records = load<runs>(a.positions, index + slot * stride);
-    x[slot] = records.position;
-    w[slot] = records.w;
-  }
+  load_stencil<T::size, runs>(a, index, x, w);
   Wide rest[fields];
   for (int field = 0; field < fields; ++field) rest[field] = load_wide(rows.at[field]);
   typename T::template Params<Wide> params;
@@ -81,12 +89,15 @@ PLIANT_HD void project_batch(const Rows<row_count>& rows, const std::int32_t* in
   Vec3<Wide> motion[T::size];
   if constexpr (law == Law::damped) {
     answer.damping = load_wide(rows.at[fields + 1]);
-    for (int slot = 0; slot < T::size; ++slot) motion[slot] = load_motion<runs>(a, index + slot * stride, x[slot]);
+    for (int slot = 0; slot < T::size; ++slot) motion[slot] = load_motion<runs>(a, index + slot * stride);
   }
-  project<T, law, keeps_multipliers>(x, w, params, motion, answer, a);
+  Vec3<Wide> correction[T::size];
+  project<T, law, keeps_multipliers>(x, w, params, motion, answer, a, correction);
   if constexpr (keeps_multipliers) store_wide(multiplier, answer.multiplier);
   for (int slot = 0; slot < T::size; ++slot) {
-    store<runs>(a.positions, index + slot * stride, {x[slot], w[slot]}, whole, count);
+    const std::int32_t* at = index + slot * stride;
+    const Registers moved = load<runs>(a.displacements, at) + to_registers({correction[slot], Wide(0.f)});
+    store<runs>(a.displacements, at, moved, whole, count);
   }
 }
 
@@ -167,30 +178,49 @@ PLIANT_HD Wide spread(const Vec3f& v) {
 }
 
 struct FourParticles {
-  Wide position, predicted, remainder, velocity;
+  Wide position, displacement, remainder, velocity;
 };
 
-PLIANT_HD void update_four(FourParticles& p, const AdvanceArguments& a) {
-  p.velocity = (p.velocity + (p.position - p.predicted) * Wide(a.inverse_h)) * Wide(a.velocity_kept);
+/// Gravity for those of the four that have mass.
+PLIANT_HD Wide gravity_on(const FourParticles& p, const Wide& gravity) {
+  return select(spread_w(p.position) > Wide(0.f), gravity, Wide(0.f));
 }
 
-PLIANT_HD void predict_four(FourParticles& p, const Wide& gravity_step, const AdvanceArguments& a) {
-  p.velocity = p.velocity + select(spread_w(p.position) > Wide(0.f), gravity_step, Wide(0.f));
-  const Wide step = p.remainder + p.velocity * Wide(a.h);
-  const Wide moved = p.position + step;
-  p.remainder = step - (moved - p.position);
+/// The gravities of AdvanceArguments, spread.
+struct WideGravity {
+  Wide finished, begun, settled;
+  PLIANT_HD explicit WideGravity(const AdvanceArguments& a)
+      : finished(spread(a.gravity_finished)), begun(spread(a.gravity_begun)), settled(spread(a.gravity_settled)) {}
+};
+
+PLIANT_HD void update_four(FourParticles& p, const WideGravity& gravity, const AdvanceArguments& a) {
+  const Wide predicted = p.remainder + (p.velocity + gravity_on(p, gravity.finished)) * Wide(a.h);
+  p.velocity = (p.velocity + (p.displacement - predicted) * Wide(a.inverse_h)) * Wide(a.velocity_kept) +
+               gravity_on(p, gravity.settled);
+  const Wide moved = p.position + p.displacement;
+  p.remainder = p.displacement - (moved - p.position);
   p.position = moved;
-  p.predicted = moved;
+}
+
+PLIANT_HD void predict_four(FourParticles& p, const WideGravity& gravity, const AdvanceArguments& a) {
+  p.displacement = p.remainder + (p.velocity + gravity_on(p, gravity.begun)) * Wide(a.h);
 }
 
 PLIANT_HD FourParticles load_four(const AdvanceArguments& a, int i) {
-  return {load_wide(floats(a.positions + i)), load_wide(floats(a.predicted + i)), load_wide(floats(a.remainders + i)),
+  return {load_wide(floats(a.positions + i)), load_wide(floats(a.displacements + i)), load_wide(floats(a.remainders + i)),
           load_wide(floats(a.velocities + i))};
+}
+
+PLIANT_HD void store_four(const AdvanceArguments& a, int i, const FourParticles& p) {
+  store_wide(floats(a.positions + i), p.position);
+  store_wide(floats(a.displacements + i), p.displacement);
+  store_wide(floats(a.remainders + i), p.remainder);
+  store_wide(floats(a.velocities + i), p.velocity);
 }
 
 /// Up to three particles at the end, in four-record buffers of their own.
 struct Tail {
-  Record positions[4], predicted[4], remainders[4], velocities[4];
+  Record positions[4], displacements[4], remainders[4], velocities[4];
   AdvanceArguments arguments;
   int first, count;
 
@@ -198,57 +228,28 @@ struct Tail {
     for (int i = 0; i < 4; ++i) {
       const int at = from + (i < count ? i : count - 1);
       positions[i] = a.positions[at];
-      predicted[i] = a.predicted[at];
+      displacements[i] = a.displacements[at];
       remainders[i] = a.remainders[at];
       velocities[i] = a.velocities[at];
     }
     arguments.positions = positions;
-    arguments.predicted = predicted;
+    arguments.displacements = displacements;
     arguments.remainders = remainders;
     arguments.velocities = velocities;
   }
   PLIANT_HD void write_back(const AdvanceArguments& a) const {
     for (int i = 0; i < count; ++i) {
       a.positions[first + i] = positions[i];
-      a.predicted[first + i] = predicted[i];
+      a.displacements[first + i] = displacements[i];
       a.remainders[first + i] = remainders[i];
       a.velocities[first + i] = velocities[i];
     }
   }
 };
 
-PLIANT_HD void update_at(const AdvanceArguments& a, int i) {
-  FourParticles p = load_four(a, i);
-  update_four(p, a);
-  store_wide(floats(a.velocities + i), p.velocity);
-}
-
-void update(const AdvanceArguments& a) {
-  int i = a.first;
-  for (; i + 4 <= a.last; i += 4) update_at(a, i);
-  if (i == a.last) return;
-  Tail tail(a, i);
-  update_at(tail.arguments, 0);
-  tail.write_back(a);
-}
-
 struct WideBounds {
   Wide low{3e38f}, high{-3e38f};
 };
-
-template <bool updates>
-PLIANT_HD void predict_at(const AdvanceArguments& a, int i, const Wide& gravity_step, WideBounds& bounds) {
-  FourParticles p = load_four(a, i);
-  if constexpr (updates) update_four(p, a);
-  const Wide before = p.position;
-  predict_four(p, gravity_step, a);
-  bounds.low = min(bounds.low, min(before, p.position));
-  bounds.high = max(bounds.high, max(before, p.position));
-  store_wide(floats(a.positions + i), p.position);
-  store_wide(floats(a.predicted + i), p.predicted);
-  store_wide(floats(a.remainders + i), p.remainder);
-  store_wide(floats(a.velocities + i), p.velocity);
-}
 
 PLIANT_HD void add_bounds(const WideBounds& wide, Bounds& bounds) {
   float low[wide_width], high[wide_width];
@@ -261,36 +262,50 @@ PLIANT_HD void add_bounds(const WideBounds& wide, Bounds& bounds) {
   }
 }
 
-template <bool updates>
-PLIANT_HD void predict_all(const AdvanceArguments& a, Bounds* bounds) {
-  const Wide gravity_step = spread(a.gravity_step);
+template <bool updates, bool predicts>
+PLIANT_HD void advance_at(const AdvanceArguments& a, int i, const WideGravity& gravity, WideBounds& bounds) {
+  FourParticles p = load_four(a, i);
+  if constexpr (updates) update_four(p, gravity, a);
+  if constexpr (predicts) {
+    predict_four(p, gravity, a);
+    const Wide end = p.position + p.displacement;
+    bounds.low = min(bounds.low, min(p.position, end));
+    bounds.high = max(bounds.high, max(p.position, end));
+  }
+  store_four(a, i, p);
+}
+
+template <bool updates, bool predicts>
+PLIANT_HD void advance_all(const AdvanceArguments& a, Bounds* bounds) {
+  const WideGravity gravity(a);
   WideBounds wide;
   int i = a.first;
-  for (; i + 4 <= a.last; i += 4) predict_at<updates>(a, i, gravity_step, wide);
+  for (; i + 4 <= a.last; i += 4) advance_at<updates, predicts>(a, i, gravity, wide);
   if (i < a.last) {
     Tail tail(a, i);
-    predict_at<updates>(tail.arguments, 0, gravity_step, wide);
+    advance_at<updates, predicts>(tail.arguments, 0, gravity, wide);
     tail.write_back(a);
   }
   if (bounds != nullptr) add_bounds(wide, *bounds);
 }
 
-void predict(const AdvanceArguments& a, Bounds* bounds) { predict_all<false>(a, bounds); }
-void advance(const AdvanceArguments& a, Bounds* bounds) { predict_all<true>(a, bounds); }
+void update(const AdvanceArguments& a) { advance_all<true, false>(a, nullptr); }
+void predict(const AdvanceArguments& a, Bounds* bounds) { advance_all<false, true>(a, bounds); }
+void advance(const AdvanceArguments& a, Bounds* bounds) { advance_all<true, true>(a, bounds); }
 
 /// x - x is zero for what is finite and not a number else, and a sum keeps what is not a number.
-bool all_finite(const Record* positions, int first, int last) {
+bool all_finite(const Record* records, int first, int last) {
   Wide sum(0.f);
   int i = first;
   for (; i + 4 <= last; i += 4) {
-    const Wide x = load_wide(floats(positions + i));
+    const Wide x = load_wide(floats(records + i));
     sum = sum + (x - x);  // NOLINT(misc-redundant-expression): see above
   }
   float lanes[wide_width], rest = 0;
   store_wide(lanes, sum);
   for (float lane : lanes) rest = rest + lane;
   for (; i < last; ++i) {
-    const Record& p = positions[i];
+    const Record& p = records[i];
     rest = rest + (p.x - p.x) + (p.y - p.y) + (p.z - p.z);
   }
   return rest == 0;
@@ -299,13 +314,12 @@ bool all_finite(const Record* positions, int first, int last) {
 // ---------------------------------------------------------------- particles near a solid
 
 /// How much nearer than it may be to count a particle is, lane by lane.
-PLIANT_HD Wide nearness(const NearQuery& q, const WideRecords& x, const WideRecords& v) {
-  const Vec3<Wide> away{x.position.x - Wide(q.pose.position.x), x.position.y - Wide(q.pose.position.y),
-                        x.position.z - Wide(q.pose.position.z)};
+PLIANT_HD Wide nearness(const NearQuery& q, const WideRecords& x, const WideRecords& d) {
+  const Vec3<Wide> place = x.position + d.position;
+  const Vec3<Wide> away{place.x - Wide(q.pose.position.x), place.y - Wide(q.pose.position.y), place.z - Wide(q.pose.position.z)};
   const Quat<Wide> back{Wide(-q.pose.rotation.x), Wide(-q.pose.rotation.y), Wide(-q.pose.rotation.z), Wide(q.pose.rotation.w)};
   const Wide distance = signed_distance(q.shape, rotate(back, away)).distance;
-  const Wide motion = sqrt(length_squared(v.position)) * Wide(q.h);
-  return Wide(q.margin) + motion - distance;
+  return Wide(q.margin) + sqrt(length_squared(d.position)) - distance;
 }
 
 int find_near(const NearQuery& q, std::int32_t* near) {
@@ -313,7 +327,7 @@ int find_near(const NearQuery& q, std::int32_t* near) {
   for (; i + batch_width <= q.last; i += batch_width) {
     const std::int32_t runs[4] = {i, i + 4, i + 8, i + 12};
     float lanes[batch_width];
-    store_wide(lanes, nearness(q, load_runs(q.positions, runs), load_runs(q.velocities, runs)));
+    store_wide(lanes, nearness(q, from_registers(load_runs(q.positions, runs)), from_registers(load_runs(q.displacements, runs))));
     for (int k = 0; k < batch_width; ++k) {
       near[count] = i + k;
       count += lanes[4 * (k % 4) + k / 4] >= 0 ? 1 : 0;

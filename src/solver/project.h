@@ -38,14 +38,15 @@ struct Answer {
   R multiplier;  ///< lambda so far in this substep; advanced by project
 };
 
-/// Moves the particles of one constraint (of each lane).
+/// The corrections of one constraint (of each lane).
 ///   PBD:   dlambda = -k' C / sum w |grad C|^2                                              (Mueller 2007, eq. 5 and 3.3)
 ///   XPBD:  dlambda = (-C - a lambda - g grad C . (x - x_start)) / ((1 + g) sum w |grad C|^2 + a)   (Macklin 2016, eq. 18, 26)
 ///          with a = alpha / h^2 and g = alpha beta / h
-///   x_i += w_i grad_i C dlambda
+///   correction_i = w_i grad_i C dlambda
 template <class T, Law law, bool keeps_multiplier, class R>
-PLIANT_HD void project(Vec3<R> (&x)[T::size], const R (&w)[T::size], const typename T::template Params<R>& params,
-                       const Vec3<R> (&motion)[T::size], Answer<R>& answer, const SweepArguments& a) {
+PLIANT_HD void project(const Vec3<R> (&x)[T::size], const R (&w)[T::size], const typename T::template Params<R>& params,
+                       const Vec3<R> (&motion)[T::size], Answer<R>& answer, const SweepArguments& a,
+                       Vec3<R> (&correction)[T::size]) {
   Vec3<R> gradient[T::size];
   const R c = T::evaluate(x, params, gradient);
   const R mass = generalised_inverse_mass<T>(gradient, w);
@@ -64,7 +65,7 @@ PLIANT_HD void project(Vec3<R> (&x)[T::size], const R (&w)[T::size], const typen
     change = numerator / max(denominator, R(smallest_denominator));
   }
   if constexpr (keeps_multiplier) answer.multiplier = answer.multiplier + change;
-  for (int slot = 0; slot < T::size; ++slot) x[slot] = x[slot] + gradient[slot] * (w[slot] * change);
+  for (int slot = 0; slot < T::size; ++slot) correction[slot] = gradient[slot] * (w[slot] * change);
 }
 
 }  // namespace pliant

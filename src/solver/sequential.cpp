@@ -19,21 +19,25 @@ void project_lane(const Pool& pool, std::int64_t batch, int lane, const std::int
   typename T::template Params<float> params;
   std::memcpy(&params, rest, sizeof params);
 
-  Vec3f x[T::size], motion[T::size];
+  Vec3f x[T::size], motion[T::size], correction[T::size];
   float w[T::size];
+  const Record& origin = a.positions[particle[0]];
   for (int slot = 0; slot < T::size; ++slot) {
     const Record& p = a.positions[particle[slot]];
-    const Record& q = a.predicted[particle[slot]];
-    const Record& v = a.velocities[particle[slot]];
-    x[slot] = {p.x, p.y, p.z};
+    const Record &d = a.displacements[particle[slot]], &r = a.remainders[particle[slot]];
+    x[slot] = slot == 0 ? Vec3f{0 + d.x, 0 + d.y, 0 + d.z}
+                        : Vec3f{(p.x - origin.x) + d.x, (p.y - origin.y) + d.y, (p.z - origin.z) + d.z};
     w[slot] = p.w;
-    motion[slot] = Vec3f{v.x, v.y, v.z} * a.h + (x[slot] - Vec3f{q.x, q.y, q.z});
+    motion[slot] = {d.x - r.x, d.y - r.y, d.z - r.z};
   }
   Answer<float> answer{pool.row(fields, batch)[lane], law == Law::damped ? pool.row(fields + 1, batch)[lane] : 0.f,
                        keeps_multipliers && !a.first_pass ? *multiplier : 0.f};
-  project<T, law, keeps_multipliers>(x, w, params, motion, answer, a);
+  project<T, law, keeps_multipliers>(x, w, params, motion, answer, a, correction);
   if (keeps_multipliers) *multiplier = answer.multiplier;
-  for (int slot = 0; slot < T::size; ++slot) a.positions[particle[slot]] = {x[slot].x, x[slot].y, x[slot].z, w[slot]};
+  for (int slot = 0; slot < T::size; ++slot) {
+    Record& d = a.displacements[particle[slot]];
+    d = {d.x + correction[slot].x, d.y + correction[slot].y, d.z + correction[slot].z, 0};
+  }
 }
 
 template <class T, Law law, bool keeps_multipliers>
@@ -75,21 +79,28 @@ void sweep(const Pool* pools, const Segment* first, const Segment* last, const S
   }
 }
 
-void update(const AdvanceArguments& a) {
-  for (int i = a.first; i < a.last; ++i) {
-    const Record &x = a.positions[i], &q = a.predicted[i];
-    Record& v = a.velocities[i];
-    v.x = (v.x + (x.x - q.x) * a.inverse_h) * a.velocity_kept;
-    v.y = (v.y + (x.y - q.y) * a.inverse_h) * a.velocity_kept;
-    v.z = (v.z + (x.z - q.z) * a.inverse_h) * a.velocity_kept;
-  }
+/// Gravity on a particle, none where it has no mass.
+Vec3f gravity_on(const Record& x, const Vec3f& gravity) {
+  const bool free = x.w > 0;
+  return {select(free, gravity.x, 0.f), select(free, gravity.y, 0.f), select(free, gravity.z, 0.f)};
 }
 
-void predict_component(float& x, float& remainder, float velocity, float h) {
-  const float step = remainder + velocity * h;
-  const float moved = x + step;
-  remainder = step - (moved - x);
+void update_component(float& x, float& d, float& r, float& v, float finished, float settled, const AdvanceArguments& a) {
+  const float predicted = r + (v + finished) * a.h;
+  v = (v + (d - predicted) * a.inverse_h) * a.velocity_kept + settled;
+  const float moved = x + d;
+  r = d - (moved - x);
   x = moved;
+}
+
+void update(const AdvanceArguments& a) {
+  for (int i = a.first; i < a.last; ++i) {
+    Record &x = a.positions[i], &d = a.displacements[i], &r = a.remainders[i], &v = a.velocities[i];
+    const Vec3f finished = gravity_on(x, a.gravity_finished), settled = gravity_on(x, a.gravity_settled);
+    update_component(x.x, d.x, r.x, v.x, finished.x, settled.x, a);
+    update_component(x.y, d.y, r.y, v.y, finished.y, settled.y, a);
+    update_component(x.z, d.z, r.z, v.z, finished.z, settled.z, a);
+  }
 }
 
 void add_point(const Record& p, Bounds& bounds) {
@@ -99,17 +110,13 @@ void add_point(const Record& p, Bounds& bounds) {
 
 void predict(const AdvanceArguments& a, Bounds* bounds) {
   for (int i = a.first; i < a.last; ++i) {
-    Record &x = a.positions[i], &r = a.remainders[i], &v = a.velocities[i];
-    if (bounds != nullptr) add_point(x, *bounds);
-    const bool free = x.w > 0;
-    v.x = v.x + select(free, a.gravity_step.x, 0.f);
-    v.y = v.y + select(free, a.gravity_step.y, 0.f);
-    v.z = v.z + select(free, a.gravity_step.z, 0.f);
-    predict_component(x.x, r.x, v.x, a.h);
-    predict_component(x.y, r.y, v.y, a.h);
-    predict_component(x.z, r.z, v.z, a.h);
-    a.predicted[i] = x;
-    if (bounds != nullptr) add_point(x, *bounds);
+    const Record &x = a.positions[i], &r = a.remainders[i], &v = a.velocities[i];
+    const Vec3f gravity = gravity_on(x, a.gravity_begun);
+    Record& d = a.displacements[i];
+    d = {r.x + (v.x + gravity.x) * a.h, r.y + (v.y + gravity.y) * a.h, r.z + (v.z + gravity.z) * a.h, 0};
+    if (bounds == nullptr) continue;
+    add_point(x, *bounds);
+    add_point({x.x + d.x, x.y + d.y, x.z + d.z, 0}, *bounds);
   }
 }
 
@@ -124,9 +131,9 @@ int find_near(const NearQuery& q, std::int32_t* near) {
   return q.last - q.first;
 }
 
-bool all_finite(const Record* positions, int first, int last) {
+bool all_finite(const Record* records, int first, int last) {
   for (int i = first; i < last; ++i) {
-    const Record& p = positions[i];
+    const Record& p = records[i];
     if (!((p.x - p.x) + (p.y - p.y) + (p.z - p.z) == 0)) return false;
   }
   return true;

@@ -3,7 +3,7 @@
 //   for each substep of h = dt / substeps
 //     kinematics    what is pinned or attached to keyframes gets the velocity that brings it to its next place
 //     forces        wind and force fields on the velocities (where there are any)
-//     predict       v += h g, x += h v                                      symplectic Euler
+//     predict       v += h g, displacement = h v                            symplectic Euler
 //     collide       contacts of the predicted path with the colliders
 //     solve         iterations x (constraints tile by tile, those that straddle tiles, volumes, contacts)
 //     update        v from the corrections
@@ -13,6 +13,7 @@
 // its own affair, so update, respond, predict, collide and the first sweep are one visit to each tile while it is in the cache.
 #include "solver/step.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "math/motion.h"
@@ -32,15 +33,18 @@ class Frame {
   Frame(const StepContext& context, double dt, Report& report)
       : model_(context.model), state_(context.state), work_(context.workspace), executor_(context.executor),
         kernels_(context.kernels), context_(context), report_(report), start_(context.state.time), dt_(dt),
-        h_(static_cast<float>(dt / context.substeps)), has_forces_(has_forces(context.model)) {}
+        h_(static_cast<float>(dt / context.substeps)), has_forces_(has_forces(context.model)), gravity_(context.model.objects.size()) {
+    for (std::size_t o = 0; o < gravity_.size(); ++o) gravity_[o].kept = 1 / (1 + h_ * model_.objects[o].damping);
+  }
 
   void run() {
     for (int substep = 0; substep < context_.substeps && !failed_; ++substep) {
       begin(substep);
       if (has_forces_) {
-        if (substep > 0) for_tiles("update", [&](int task) { finish(task); });
+        if (substep > 0) for_tiles("update", [&](int task) { finish(task, false); });
         if (give_up(substep - 1)) return;
-        apply_forces(model_, state_, work_, executor_, time_of(substep), h_, report_.warnings);
+        apply_forces(model_, state_, work_, executor_, time_of(substep), h_, [&](int o) { return gravity_for(gravity_[o].settled); },
+                     report_.warnings);
       }
       const bool finishes_first = substep > 0 && !has_forces_;
       for_tiles("solve: tiles", [&](int task) {
@@ -54,7 +58,8 @@ class Frame {
         sweep_contacts();
       }
     }
-    for_tiles("update", [&](int task) { finish(task); });
+    for (Gravity& gravity : gravity_) gravity.next(h_);
+    for_tiles("update", [&](int task) { finish(task, true); });
     if (give_up(context_.substeps - 1)) return;
     for (const TileScratch& tile : work_.tiles) {
       for (const Contact& contact : tile.contacts) report_.contacts += contact.push > 0 ? 1 : 0;
@@ -63,6 +68,19 @@ class Frame {
   }
 
  private:
+  /// For how long an object's particles have felt this frame's gravity, less what damping took of it [s].
+  struct Gravity {
+    double finished = 0, begun = 0, settled = 0;  // in the substep that ends, in the one that begins, and between the two
+    float kept = 1;
+    void next(float h) {
+      finished = begun;
+      settled = finished * kept;
+      begun = settled + h;
+    }
+  };
+
+  Vec3f gravity_for(double seconds) const { return model_.gravity * static_cast<float>(seconds); }
+
   double time_of(int substep) const { return start_ + dt_ * substep / context_.substeps; }
 
   void for_tiles(const char* name, FunctionRef<void(int)> body) {
@@ -73,8 +91,8 @@ class Frame {
     const int first = model_.first[object];
     SweepArguments a;
     a.positions = state_.positions.data() + first;
-    a.predicted = work_.predicted.data() + first;
-    a.velocities = state_.velocities.data() + first;
+    a.displacements = work_.displacements.data() + first;
+    a.remainders = state_.remainders.data() + first;
     a.multipliers = work_.multiplier_pointers[object].empty() ? nullptr : work_.multiplier_pointers[object].data();
     a.h = h_;
     a.inverse_h = 1 / h_;
@@ -88,32 +106,39 @@ class Frame {
     const CompiledObject& object = model_.objects[task.object];
     AdvanceArguments a;
     a.positions = state_.positions.data() + first;
-    a.predicted = work_.predicted.data() + first;
+    a.displacements = work_.displacements.data() + first;
     a.remainders = state_.remainders.data() + first;
     a.velocities = state_.velocities.data() + first;
     a.first = object.tiles[task.tile].first_particle;
     a.last = object.tiles[task.tile].last_particle;
     a.h = h_;
     a.inverse_h = 1 / h_;
+    const Gravity& gravity = gravity_[task.object];
+    a.velocity_kept = gravity.kept;
     a.gravity_step = model_.gravity * h_;
-    a.velocity_kept = 1 / (1 + h_ * object.damping);
+    a.gravity_finished = gravity_for(gravity.finished);
+    a.gravity_begun = gravity_for(gravity.begun);
     return a;
   }
 
-  /// Colliders and given particles on their way to where this substep ends.
+  /// Colliders on their way to where this substep ends.
   void begin(int substep) {
     const double before = time_of(substep), after = time_of(substep + 1);
     move_colliders(model_, before, after, work_.colliders);
-    for (std::size_t o = 0; o < model_.objects.size(); ++o) {
-      for (const Kinematic& kinematic : model_.objects[o].kinematics) {
-        const int i = model_.first[o] + kinematic.particle;
-        const Vec3<double> target = to_world(pose_at(kinematic.motion, after), convert<double>(kinematic.rest));
-        const Record &x = state_.positions[i], &r = state_.remainders[i];
-        const double per_second = 1 / double(h_);
-        state_.velocities[i] = {static_cast<float>((target.x - x.x - r.x) * per_second),
-                                static_cast<float>((target.y - x.y - r.y) * per_second),
-                                static_cast<float>((target.z - x.z - r.z) * per_second), 0};
-      }
+    for (Gravity& gravity : gravity_) gravity.next(h_);
+    time_after_ = after;
+  }
+
+  /// Particles on keyframes go where they are to be at the substep's end.
+  void move_kinematics(const CompiledObject& object, const AdvanceArguments& a) {
+    auto kinematic = std::lower_bound(object.kinematics.begin(), object.kinematics.end(), a.first,
+                                      [](const Kinematic& k, int first) { return k.particle < first; });
+    for (; kinematic != object.kinematics.end() && kinematic->particle < a.last; ++kinematic) {
+      const Vec3<double> target = to_world(pose_at(kinematic->motion, time_after_), convert<double>(kinematic->rest));
+      const Record &x = a.positions[kinematic->particle], &r = a.remainders[kinematic->particle];
+      Record &d = a.displacements[kinematic->particle], &v = a.velocities[kinematic->particle];
+      d = {static_cast<float>(target.x - x.x), static_cast<float>(target.y - x.y), static_cast<float>(target.z - x.z), 0};
+      v = {(d.x - r.x) * a.inverse_h, (d.y - r.y) * a.inverse_h, (d.z - r.z) * a.inverse_h, 0};
     }
   }
 
@@ -124,15 +149,16 @@ class Frame {
     TileScratch& scratch = work_.tiles[task];
     const bool in_one_pass = finishes_first && scratch.contacts.empty();
     if (in_one_pass) {
-      scratch.finite = kernels_.all_finite(a.positions, a.first, a.last);
+      scratch.finite = kernels_.all_finite(a.displacements, a.first, a.last);
       if (!scratch.finite) return false;
-    } else if (finishes_first && !finish(task)) {
+    } else if (finishes_first && !finish(task, false)) {
       return false;
     }
     scratch.contacts.clear();
     scratch.bounds = {};
     Bounds* bounds = work_.colliders.empty() ? nullptr : &scratch.bounds;
     (in_one_pass ? kernels_.advance : kernels_.predict)(a, bounds);
+    move_kinematics(model_.objects[tile.object], a);
     if (bounds != nullptr) {
       find_contacts({model_.objects[tile.object], a, *bounds, work_.colliders, kernels_.find_near}, scratch.near, scratch.contacts);
     }
@@ -170,14 +196,16 @@ class Frame {
     });
   }
 
-  /// The end of a tile's substep; false, and nothing changed, where a position is not finite.
-  bool finish(int task) {
-    const AdvanceArguments a = particles(model_.tiles[task]);
+  /// The end of a tile's substep; false, and nothing changed, where a displacement is not finite.
+  bool finish(int task, bool ends_frame) {
+    AdvanceArguments a = particles(model_.tiles[task]);
     TileScratch& scratch = work_.tiles[task];
-    scratch.finite = kernels_.all_finite(a.positions, a.first, a.last);
+    scratch.finite = kernels_.all_finite(a.displacements, a.first, a.last);
     if (!scratch.finite) return false;
+    const Vec3f settled = gravity_for(gravity_[model_.tiles[task].object].settled);
+    if (ends_frame) a.gravity_settled = settled;
     kernels_.update(a);
-    if (!scratch.contacts.empty()) respond(scratch.contacts, a.velocities, a);
+    if (!scratch.contacts.empty()) respond(scratch.contacts, ends_frame ? Vec3f{} : settled, a);
     return true;
   }
 
@@ -185,7 +213,7 @@ class Frame {
   bool give_up(int substep) {
     for (const TileScratch& tile : work_.tiles) failed_ = failed_ || !tile.finite;
     if (!failed_) return false;
-    report_.nonfinite = diagnose(context_, [&](int object) { return arguments(object, true); });
+    report_.nonfinite = diagnose(context_, [&](int task) { return particles(model_.tiles[task]); }, [&](int o) { return arguments(o, true); });
     report_.nonfinite->frame = state_.frame;
     report_.nonfinite->substep = substep;
     return true;
@@ -198,9 +226,10 @@ class Frame {
   const Kernels& kernels_;
   const StepContext& context_;
   Report& report_;
-  double start_, dt_;
+  double start_, dt_, time_after_ = 0;
   float h_;
   bool has_forces_, failed_ = false;
+  std::vector<Gravity> gravity_;  // one an object
 };
 
 }  // namespace

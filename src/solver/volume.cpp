@@ -6,15 +6,24 @@ namespace pliant {
 
 namespace {
 
-Vec3f position_of(const Record& r) { return {r.x, r.y, r.z}; }
+/// Where one particle is as another's position sees it, (x_i - x_o) + d_i; without displacements, x_i - x_o.
+struct Places {
+  const Record* positions;
+  const Record* displacements;
+  Vec3f seen_from(int origin, int i) const {
+    const Record &p = positions[i], &o = positions[origin];
+    const Vec3f difference{p.x - o.x, p.y - o.y, p.z - o.z};
+    return displacements == nullptr ? difference : difference + Vec3f{displacements[i].x, displacements[i].y, displacements[i].z};
+  }
+};
 
-Vec3f gradient_at(const Surface& surface, const Record* positions, int particle) {
-  const Vec3f x = position_of(positions[particle]);
+Vec3f gradient_at(const Surface& surface, const Places& places, int particle) {
+  const Vec3f x = places.seen_from(particle, particle);
   Vec3f sum{};
   for (int c = surface.corner_begin[particle]; c < surface.corner_begin[particle + 1]; ++c) {
     const auto& triangle = surface.triangles[surface.corners[c] / 3];
     const int corner = surface.corners[c] % 3;
-    const Vec3f j = position_of(positions[triangle[(corner + 1) % 3]]), k = position_of(positions[triangle[(corner + 2) % 3]]);
+    const Vec3f j = places.seen_from(particle, triangle[(corner + 1) % 3]), k = places.seen_from(particle, triangle[(corner + 2) % 3]);
     sum += cross(j - x, k - x);
   }
   return sum;
@@ -23,16 +32,15 @@ Vec3f gradient_at(const Surface& surface, const Record* positions, int particle)
 double dot_double(const Vec3f& a, const Vec3f& b) { return double(a.x) * b.x + double(a.y) * b.y + double(a.z) * b.z; }
 
 void gather_tile(const CompiledObject& object, const Tile& tile, const SweepArguments& a, Record* gradients, TileScratch& scratch) {
-  const Vec3f origin = position_of(a.positions[0]);
+  const Places places{a.positions, a.displacements};
   scratch.gradient_squared = scratch.position_along = scratch.motion_along = 0;
   for (int i = tile.first_particle; i < tile.last_particle; ++i) {
-    const Vec3f gradient = gradient_at(object.surface, a.positions, i);
-    const Record &p = a.positions[i], &q = a.predicted[i], &v = a.velocities[i];
-    const Vec3f motion = position_of(v) * a.h + (position_of(p) - position_of(q));
+    const Vec3f gradient = gradient_at(object.surface, places, i);
+    const Record &d = a.displacements[i], &r = a.remainders[i];
     gradients[i] = {gradient.x, gradient.y, gradient.z, 0};
-    scratch.gradient_squared += p.w * dot_double(gradient, gradient);
-    scratch.position_along += dot_double(position_of(p) - origin, gradient);
-    scratch.motion_along += dot_double(motion, gradient);
+    scratch.gradient_squared += a.positions[i].w * dot_double(gradient, gradient);
+    scratch.position_along += dot_double(places.seen_from(0, i), gradient);
+    scratch.motion_along += dot_double({d.x - r.x, d.y - r.y, d.z - r.z}, gradient);
   }
 }
 
@@ -48,9 +56,9 @@ double multiplier_change(const CompiledVolume& volume, double c, double mass, do
 
 void apply_tile(const Tile& tile, const SweepArguments& a, const Record* gradients, double change) {
   for (int i = tile.first_particle; i < tile.last_particle; ++i) {
-    Record& p = a.positions[i];
-    const float scale = static_cast<float>(p.w * change);
-    p = {p.x + gradients[i].x * scale, p.y + gradients[i].y * scale, p.z + gradients[i].z * scale, p.w};
+    Record& d = a.displacements[i];
+    const float scale = static_cast<float>(a.positions[i].w * change);
+    d = {d.x + gradients[i].x * scale, d.y + gradients[i].y * scale, d.z + gradients[i].z * scale, 0};
   }
 }
 
@@ -99,10 +107,8 @@ void project_volumes(const Model& model, Workspace& workspace, Executor& executo
 
 double volume_error(const CompiledObject& object, const Record* positions) {
   double along = 0;
-  const Vec3f origin = position_of(positions[0]);
-  for (int i = 0; i < object.particles; ++i) {
-    along += dot_double(position_of(positions[i]) - origin, gradient_at(object.surface, positions, i));
-  }
+  const Places places{positions, nullptr};
+  for (int i = 0; i < object.particles; ++i) along += dot_double(places.seen_from(0, i), gradient_at(object.surface, places, i));
   return along / 3 - object.volume.target;
 }
 

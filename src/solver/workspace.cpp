@@ -19,7 +19,7 @@ void prepare_multipliers(const Model& model, bool keeps_multipliers, Workspace& 
 }  // namespace
 
 void prepare(const Model& model, bool keeps_multipliers, Workspace& workspace) {
-  workspace.predicted.resize(model.particles());
+  workspace.displacements.resize(model.particles());
   prepare_multipliers(model, keeps_multipliers, workspace);
   workspace.volume_multipliers.assign(model.objects.size(), 0);
   bool some_volume = false;

@@ -19,7 +19,7 @@ struct alignas(64) TileScratch {
 };
 
 struct Workspace {
-  std::vector<Record> predicted;
+  std::vector<Record> displacements;                           ///< since the substep's start [m]
   std::vector<std::vector<AlignedVector<float>>> multipliers;  ///< [object][pool], a float a lane; empty where none are kept
   std::vector<std::vector<float*>> multiplier_pointers;
   std::vector<double> volume_multipliers;  ///< one an object

@@ -24,6 +24,9 @@ const Kernels& kernels_for(const Settings& settings) {
   return settings.sweep == Sweep::sequential ? kernels_sequential() : pick_kernels(settings.isa);
 }
 
+/// Below this the inverse square of a substep, which compliance is divided by, comes near the end of the floats [s].
+constexpr double shortest_substep = 1e-12;
+
 void add_records(Sha256& sha, const std::vector<Record>& records) { sha.add(records.data(), records.size() * sizeof(Record)); }
 
 }  // namespace
@@ -52,7 +55,10 @@ struct World::Implementation {
     return model.objects[index];
   }
 
-  const Record* positions_of(int index) const { return state.positions.data() + model.first[index]; }
+  const Record* positions_of(int index) const {
+    (void)object(index);  // throws where there is none
+    return state.positions.data() + model.first[index];
+  }
 
   std::vector<Vec3f> in_user_order(int index, const std::vector<Record>& records) const {
     const CompiledObject& from = object(index);
@@ -98,8 +104,8 @@ Report World::step(float dt) {
   Report report;
   report.frame = self_->state.frame;
   report.time = self_->state.time;
-  if (!(dt > 0) || !std::isfinite(dt)) {
-    report.warnings.push_back("a time step must be finite and above zero; nothing moved");
+  if (!(dt > 0) || !std::isfinite(dt) || double(dt) / self_->settings.substeps < shortest_substep) {
+    report.warnings.push_back("a time step must be finite and above zero, its substeps 1e-12 s or more; nothing moved");
     return report;
   }
   if (self_->stopped) {
@@ -130,6 +136,10 @@ void World::restore(const State& state) {
   for (std::size_t i = 0; i < particles; ++i) {
     if (state.positions[i].w != self_->state.positions[i].w) {
       throw Error({.element = "particle " + std::to_string(i)}, "its mass is not this world's", "restore a state of this world");
+    }
+    if (state.velocities[i].w != 0 || state.remainders[i].w != 0) {
+      throw Error({.element = "particle " + std::to_string(i)}, "the fourth number of its velocity or remainder is not 0",
+                  "restore a state of this world");
     }
     if (!is_finite(state.positions[i]) || !is_finite(state.velocities[i]) || !is_finite(state.remainders[i])) {
       throw Error({.element = "particle " + std::to_string(i)}, "its position or velocity is not finite", "restore an earlier state");
