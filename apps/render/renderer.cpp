@@ -125,6 +125,7 @@ struct Renderer::Implementation {
   void draw_occlusion(const Eye& eye, float reach) const;
   void draw_sky(const Eye& eye) const;
   void draw_surfaces(const Eye& eye, const Sun& sun, const Bounds& content) const;
+  void draw_both_sides(const Range& range) const;
   std::vector<std::uint8_t> read_back() const;
 
   int width, height, half_width, half_height;
@@ -293,8 +294,26 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   for (const Range& range : ranges) {
     program.set("albedo", range.colour);
     program.set("material", static_cast<int>(range.material));
-    glDrawElements(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(range.first));
+    draw_both_sides(range);
   }
+}
+
+/// Where two layers of cloth lie in one place, the one that faces the viewer is seen and not a chequer of both.
+void Renderer::Implementation::draw_both_sides(const Range& range) const {
+  const auto* const first = reinterpret_cast<const void*>(range.first);
+  if (range.material != Material::cloth) {
+    glDrawElements(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, first);
+    return;
+  }
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  glDrawElements(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, first);
+  glCullFace(GL_FRONT);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.f, 4.f);
+  glDrawElements(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, first);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glDisable(GL_CULL_FACE);
 }
 
 std::vector<std::uint8_t> Renderer::Implementation::read_back() const {
@@ -327,7 +346,8 @@ std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scen
     for (const RenderCollider& c : scene.colliders)
       if (is_level_plane(c) && std::abs(c.position.y - *scene.ground) < 1e-6f) colour = c.colour;
     const Vec3f centre = content.centre();
-    geometries.push_back(build_ground({centre.x, *scene.ground, centre.z}, 30 * content.radius(), colour));
+    const float sink = 0.002f * content.radius();  // so that what lies flat on it is seen
+    geometries.push_back(build_ground({centre.x, *scene.ground - sink, centre.z}, 30 * content.radius(), colour));
   }
   upload(geometries);
   glEnable(GL_DEPTH_TEST);

@@ -183,6 +183,28 @@ TEST_F(Picture, HidesWhatIsBehind) {
   for (const Pixel& pixel : {near_first, near_last}) EXPECT_GT(pixel.r, pixel.g + 60);
 }
 
+TEST_F(Picture, ShowsTheFrontWhereTwoLayersLieInOnePlace) {
+  RenderScene scene;
+  scene.ground.reset();
+  scene.camera = Camera{{1, 1, 4}, {}, 40};
+  scene.meshes.push_back(square(0.8f, {}, {0.8f, 0.1f, 0.1f}));
+  const auto single = renderer->draw(scene);
+  RenderMesh layer = square(0.8f, {}, {0.8f, 0.1f, 0.1f});
+  layer.triangles = {{0, 3, 1}, {1, 3, 2}};  // the other way round, cut along the other diagonal
+  scene.meshes.insert(scene.meshes.begin(), layer);
+  EXPECT_EQ(different(renderer->draw(scene), single), 0);
+}
+
+TEST_F(Picture, ShowsWhatLiesFlatOnTheGround) {
+  RenderScene scene;
+  scene.meshes.push_back({{{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}}, {{0, 1, 2}}, {0.9f, 0.1f, 0.1f}});
+  const auto picture = renderer->draw(scene);
+  int red = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) red += at(picture, x, y).r > at(picture, x, y).g + 60;
+  EXPECT_GT(red, width * height / 20);
+}
+
 TEST_F(Picture, OfAnEmptySceneIsSkyAndGround) {
   const auto picture = renderer->draw({});
   ASSERT_EQ(picture.size(), std::size_t{3} * width * height);
