@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,14 +18,28 @@ struct alignas(16) Record {
   float x = 0, y = 0, z = 0, w = 0;
 };
 
+/// Allocates at the start of a cache line, so that four records are one line.
+template <class T>
+struct CacheLineAllocator {
+  using value_type = T;
+  CacheLineAllocator() = default;
+  template <class U>
+  CacheLineAllocator(const CacheLineAllocator<U>&) {}  // NOLINT(google-explicit-constructor): as allocators must
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{64})); }
+  void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t{64}); }
+  friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
+};
+
+using Records = std::vector<Record, CacheLineAllocator<Record>>;
+
 /// All that changes as time passes, a plain value: copy it, hash it, put it back, and the next step gives the same bits.
 /// Particles stand in the order of the compiled model, not of the user; read places through World.
 struct State {
   double time = 0;          ///< [s]
   std::int64_t frame = 0;   ///< steps taken
-  std::vector<Record> positions;   ///< (x, y, z) [m], w the inverse mass [1/kg]
-  std::vector<Record> remainders;  ///< what a float position could not hold of the motion so far [m]
-  std::vector<Record> velocities;  ///< [m/s]
+  Records positions;        ///< (x, y, z) [m], w the inverse mass [1/kg]
+  Records remainders;       ///< what a float position could not hold of the motion so far [m]
+  Records velocities;       ///< [m/s]
 };
 
 /// SHA-256 over every member of a State, as 64 hexadecimal digits.

@@ -80,7 +80,7 @@ std::string explain(const StepContext& context, const CompiledObject& object, co
                     FunctionRef<AdvanceArguments(int)> particles, SweepArguments arguments) {
   const auto tile_of = [&](int task) -> const Tile& { return object.tiles[context.model.tiles[task].tile]; };
   const std::string particle = first_bad_particle(object, tile_of(bad.front()), arguments.displacements);
-  std::vector<Record> displacements(arguments.displacements, arguments.displacements + object.particles);
+  Records displacements(arguments.displacements, arguments.displacements + object.particles);
   for (int task : bad) {
     AdvanceArguments again = particles(task);
     again.displacements = displacements.data();

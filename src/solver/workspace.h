@@ -19,11 +19,11 @@ struct alignas(64) TileScratch {
 };
 
 struct Workspace {
-  std::vector<Record> displacements;                           ///< since the substep's start [m]
+  Records displacements;                                       ///< since the substep's start [m]
   std::vector<std::vector<AlignedVector<float>>> multipliers;  ///< [object][pool], a float a lane; empty where none are kept
   std::vector<std::vector<float*>> multiplier_pointers;
   std::vector<double> volume_multipliers;  ///< one an object
-  std::vector<Record> volume_gradients;    ///< one a particle where some object has a volume constraint
+  Records volume_gradients;    ///< one a particle where some object has a volume constraint
   std::vector<std::vector<Vec3f>> triangle_forces;  ///< [object], where there is air
   std::vector<TileScratch> tiles;          ///< one a tile task
   std::vector<MovingCollider> colliders;

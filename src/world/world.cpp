@@ -27,7 +27,7 @@ const Kernels& kernels_for(const Settings& settings) {
 /// Below this the inverse square of a substep, which compliance is divided by, comes near the end of the floats [s].
 constexpr double shortest_substep = 1e-12;
 
-void add_records(Sha256& sha, const std::vector<Record>& records) { sha.add(records.data(), records.size() * sizeof(Record)); }
+void add_records(Sha256& sha, const Records& records) { sha.add(records.data(), records.size() * sizeof(Record)); }
 
 }  // namespace
 
@@ -60,7 +60,7 @@ struct World::Implementation {
     return state.positions.data() + model.first[index];
   }
 
-  std::vector<Vec3f> in_user_order(int index, const std::vector<Record>& records) const {
+  std::vector<Vec3f> in_user_order(int index, const Records& records) const {
     const CompiledObject& from = object(index);
     std::vector<Vec3f> out(from.user_particles);
     for (int user = 0; user < from.user_particles; ++user) {
