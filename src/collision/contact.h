@@ -1,8 +1,8 @@
-// Contacts between particles and colliders: found anew each substep, projected with the constraints, and answered with friction and
-// restitution.
+// Contacts between particles and colliders: found anew each substep, projected with the constraints, and answered with
+// friction and restitution.
 //
-// A contact with something that nothing pushes touches one particle alone, so contacts are independent of one another and may be
-// found and solved tile by tile. Contacts among things that move get their own file and the same shape.
+// A contact with something that nothing pushes touches one particle alone, so contacts are independent of one another and
+// may be found and solved tile by tile. Contacts among things that move get their own file and the same shape.
 #pragma once
 
 #include <vector>
@@ -17,10 +17,10 @@ namespace pliant {
 /// A collider during one substep.
 struct MovingCollider {
   LocalShape shape;
-  Pose<float> before, after;        ///< at the substep's start and end
+  Pose<float> before, after;  ///< at the substep's start and end
   bool moves = false;
-  BoundingBox<float> swept{};       ///< holds the shape and its thickness at both
-  float thickness = 0;              ///< of the collider alone [m]
+  BoundingBox<float> swept{};  ///< holds the shape and its thickness at both
+  float thickness = 0;         ///< of the collider alone [m]
   float static_friction = 0, kinetic_friction = 0, restitution = 0;
 };
 
@@ -28,8 +28,8 @@ struct MovingCollider {
 struct Contact {
   int particle = 0;  ///< in the object's storage order
   int collider = 0;
-  Vec3f normal{};    ///< unit, away from the collider
-  float gap = 0;     ///< of the particle's position above the plane: it is free where gap + normal . displacement >= 0 [m]
+  Vec3f normal{};  ///< unit, away from the collider
+  float gap = 0;   ///< of the particle's position above the plane: it is free where gap + normal . displacement >= 0 [m]
   Vec3f surface_motion{};  ///< of the surface during the substep [m]
   float static_friction = 0, kinetic_friction = 0, restitution = 0;
   float approach = 0;  ///< normal velocity relative to the surface before the substep; negative where it comes closer [m/s]
@@ -55,8 +55,8 @@ void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near,
 /// Projects each contact once: the normal constraint, then friction within the cone of the pushes so far.
 void project_contacts(std::vector<Contact>& contacts, const SweepArguments& arguments);
 
-/// After the velocity update: the normal velocity of what touched becomes -e times that of the approach, or zero where the approach
-/// was no faster than gravity makes it in two substeps.
+/// After the velocity update: the normal velocity of what touched becomes -e times that of the approach, or zero where the
+/// approach was no faster than gravity makes it in two substeps.
 ///
 /// `gravity` is what the velocities do not hold yet of this frame's.
 void respond(const std::vector<Contact>& contacts, const Vec3f& gravity, const AdvanceArguments& particles);

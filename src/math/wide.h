@@ -1,12 +1,12 @@
 // Wide: sixteen floats that behave like one.
 //
 // One logical width on every machine, so that how constraints are grouped never depends on where they run; underneath, an
-// array of native vectors (four of SSE, two of AVX2, one of AVX-512). A raw 64-byte vector would compile too, but g++ spills it
-// on AVX2 and runs four times slower. Every operation is the IEEE operation of each lane, so a lane gives the bits that a plain
-// float would: that is what the tests of "wide equals scalar" hold.
+// array of native vectors (four of SSE, two of AVX2, one of AVX-512). A raw 64-byte vector would compile too, but g++
+// spills it on AVX2 and runs four times slower. Every operation is the IEEE operation of each lane, so a lane gives the
+// bits that a plain float would: that is what the tests of "wide equals scalar" hold.
 //
-// Everything lives in an inline namespace named after the instruction set that this unit is compiled for: the sweeps are built
-// three times into one program, and nothing of one build may be linked into another.
+// Everything lives in an inline namespace named after the instruction set that this unit is compiled for: the sweeps are
+// built three times into one program, and nothing of one build may be linked into another.
 #pragma once
 
 #include <cstdint>
@@ -61,49 +61,49 @@ struct Wide {
 // Loops over parts are written out, since not every compiler unrolls them early enough to keep the parts in registers.
 #if PLIANT_PART_WIDTH == 16
 #define PLIANT_EACH_PART(...) \
-  {                                 \
-    constexpr int i = 0;            \
-    __VA_ARGS__;                     \
+  {                           \
+    constexpr int i = 0;      \
+    __VA_ARGS__;              \
   }
 #elif PLIANT_PART_WIDTH == 8
 #define PLIANT_EACH_PART(...) \
-  {                                 \
-    {                               \
-      constexpr int i = 0;          \
-      __VA_ARGS__;                   \
-    }                               \
-    {                               \
-      constexpr int i = 1;          \
-      __VA_ARGS__;                   \
-    }                               \
+  {                           \
+    {                         \
+      constexpr int i = 0;    \
+      __VA_ARGS__;            \
+    }                         \
+    {                         \
+      constexpr int i = 1;    \
+      __VA_ARGS__;            \
+    }                         \
   }
 #else
 #define PLIANT_EACH_PART(...) \
-  {                                 \
-    {                               \
-      constexpr int i = 0;          \
-      __VA_ARGS__;                   \
-    }                               \
-    {                               \
-      constexpr int i = 1;          \
-      __VA_ARGS__;                   \
-    }                               \
-    {                               \
-      constexpr int i = 2;          \
-      __VA_ARGS__;                   \
-    }                               \
-    {                               \
-      constexpr int i = 3;          \
-      __VA_ARGS__;                   \
-    }                               \
+  {                           \
+    {                         \
+      constexpr int i = 0;    \
+      __VA_ARGS__;            \
+    }                         \
+    {                         \
+      constexpr int i = 1;    \
+      __VA_ARGS__;            \
+    }                         \
+    {                         \
+      constexpr int i = 2;    \
+      __VA_ARGS__;            \
+    }                         \
+    {                         \
+      constexpr int i = 3;    \
+      __VA_ARGS__;            \
+    }                         \
   }
 #endif
 
-#define PLIANT_WIDE_OPERATOR(op)                               \
-  PLIANT_HD Wide operator op(const Wide& a, const Wide& b) {   \
-    Wide r;                                                    \
-    PLIANT_EACH_PART(r.part[i] = a.part[i] op b.part[i])       \
-    return r;                                                  \
+#define PLIANT_WIDE_OPERATOR(op)                             \
+  PLIANT_HD Wide operator op(const Wide& a, const Wide& b) { \
+    Wide r;                                                  \
+    PLIANT_EACH_PART(r.part[i] = a.part[i] op b.part[i])     \
+    return r;                                                \
   }
 PLIANT_WIDE_OPERATOR(+)
 PLIANT_WIDE_OPERATOR(-)
@@ -111,11 +111,11 @@ PLIANT_WIDE_OPERATOR(*)
 PLIANT_WIDE_OPERATOR(/)
 #undef PLIANT_WIDE_OPERATOR
 
-#define PLIANT_WIDE_COMPARISON(op)                                 \
-  PLIANT_HD WideMask operator op(const Wide& a, const Wide& b) {   \
-    WideMask r;                                                    \
-    PLIANT_EACH_PART(r.part[i] = a.part[i] op b.part[i])           \
-    return r;                                                      \
+#define PLIANT_WIDE_COMPARISON(op)                               \
+  PLIANT_HD WideMask operator op(const Wide& a, const Wide& b) { \
+    WideMask r;                                                  \
+    PLIANT_EACH_PART(r.part[i] = a.part[i] op b.part[i])         \
+    return r;                                                    \
   }
 PLIANT_WIDE_COMPARISON(<)
 PLIANT_WIDE_COMPARISON(>)
@@ -183,13 +183,13 @@ PLIANT_HD void store_wide(float* to, const Wide& a) { std::memcpy(to, &a, sizeof
 // ---------------------------------------------------------------- records in and out
 //
 // Lane 4 L + j of a Wide holds the particle of constraint 4 L + j. Register j is filled with the records of lanes j, 4 + j,
-// 8 + j and 12 + j; the 4 x 4 transpose inside each 128-bit part then gives x, y, z and w. A run, four records that follow one
-// another, fills a register with one load: it is stored as one base for four constraints.
+// 8 + j and 12 + j; the 4 x 4 transpose inside each 128-bit part then gives x, y, z and w. A run, four records that follow
+// one another, fills a register with one load: it is stored as one base for four constraints.
 
 #if PLIANT_PART_WIDTH == 16
-#define PLIANT_SHUFFLE(a, b, p, q, r, s)                                                                                     \
-  __builtin_shufflevector(a, b, p, q, 12 + (r), 12 + (s), 4 + (p), 4 + (q), 16 + (r), 16 + (s), 8 + (p), 8 + (q), 20 + (r), \
-                          20 + (s), 12 + (p), 12 + (q), 24 + (r), 24 + (s))
+#define PLIANT_SHUFFLE(a, b, p, q, r, s)                                                                          \
+  __builtin_shufflevector(a, b, p, q, 12 + (r), 12 + (s), 4 + (p), 4 + (q), 16 + (r), 16 + (s), 8 + (p), 8 + (q), \
+                          20 + (r), 20 + (s), 12 + (p), 12 + (q), 24 + (r), 24 + (s))
 #elif PLIANT_PART_WIDTH == 8
 #define PLIANT_SHUFFLE(a, b, p, q, r, s) \
   __builtin_shufflevector(a, b, p, q, 4 + (r), 4 + (s), 4 + (p), 4 + (q), 8 + (r), 8 + (s))
@@ -263,23 +263,24 @@ PLIANT_HD Registers load_runs(const Record* base, const std::int32_t* run) {
   return r;
 }
 
-#define PLIANT_REGISTER_OPERATOR(op)                                          \
-  PLIANT_HD Registers operator op(const Registers& a, const Registers& b) {   \
-    Registers r;                                                              \
-    PLIANT_EACH_PART({                                                        \
-      r.at[0][i] = a.at[0][i] op b.at[0][i];                                  \
-      r.at[1][i] = a.at[1][i] op b.at[1][i];                                  \
-      r.at[2][i] = a.at[2][i] op b.at[2][i];                                  \
-      r.at[3][i] = a.at[3][i] op b.at[3][i];                                  \
-    })                                                                        \
-    return r;                                                                 \
+#define PLIANT_REGISTER_OPERATOR(op)                                        \
+  PLIANT_HD Registers operator op(const Registers& a, const Registers& b) { \
+    Registers r;                                                            \
+    PLIANT_EACH_PART({                                                      \
+      r.at[0][i] = a.at[0][i] op b.at[0][i];                                \
+      r.at[1][i] = a.at[1][i] op b.at[1][i];                                \
+      r.at[2][i] = a.at[2][i] op b.at[2][i];                                \
+      r.at[3][i] = a.at[3][i] op b.at[3][i];                                \
+    })                                                                      \
+    return r;                                                               \
   }
 PLIANT_REGISTER_OPERATOR(+)
 PLIANT_REGISTER_OPERATOR(-)
 #undef PLIANT_REGISTER_OPERATOR
 
 /// All bits set where a record has x, y and z.
-alignas(64) inline constexpr std::int32_t xyz_bits[wide_width] = {-1, -1, -1, 0, -1, -1, -1, 0, -1, -1, -1, 0, -1, -1, -1, 0};
+alignas(64) inline constexpr std::int32_t xyz_bits[wide_width] = {-1, -1, -1, 0, -1, -1, -1, 0,
+                                                                  -1, -1, -1, 0, -1, -1, -1, 0};
 
 PLIANT_HD PartMask xyz_mask() {
   PartMask mask;
@@ -369,10 +370,10 @@ PLIANT_HD void store_indexed(Record* base, const std::int32_t* index, const Regi
 #else
 #define PLIANT_QUAD(j, quad) quad_of<0>(r.at[j][quad])
 #endif
-#define PLIANT_STORE(j)                                     \
-  store_quad(base + index[0 + (j)], PLIANT_QUAD(j, 0));     \
-  store_quad(base + index[4 + (j)], PLIANT_QUAD(j, 1));     \
-  store_quad(base + index[8 + (j)], PLIANT_QUAD(j, 2));     \
+#define PLIANT_STORE(j)                                 \
+  store_quad(base + index[0 + (j)], PLIANT_QUAD(j, 0)); \
+  store_quad(base + index[4 + (j)], PLIANT_QUAD(j, 1)); \
+  store_quad(base + index[8 + (j)], PLIANT_QUAD(j, 2)); \
   store_quad(base + index[12 + (j)], PLIANT_QUAD(j, 3));
   PLIANT_STORE(0)
   PLIANT_STORE(1)

@@ -156,8 +156,8 @@ Pool make_pool(const ConstraintList& list) {
   return pool;
 }
 
-/// The constraint in a lane of a batch: runs interleave, lane 4 l + j being member l of run j (math/wide.h says why). Lanes past
-/// the end repeat the first, which is then read but never written.
+/// The constraint in a lane of a batch: runs interleave, lane 4 l + j being member l of run j (math/wide.h says why). Lanes
+/// past the end repeat the first, which is then read but never written.
 int member_in_lane(const Colour& colour, int batch, int lane, bool& valid) {
   const int position = colour.runs ? batch * batch_width + 4 * (lane % 4) + lane / 4 : batch * batch_width + lane;
   valid = position < static_cast<int>(colour.members.size());

@@ -66,8 +66,8 @@ struct CompiledObject {
 
 /// What the schedule depends on besides the object.
 struct CompileOptions {
-  int passes = 1;              ///< projections of a constraint in a frame: substeps x iterations, for k'
-  int largest_tile = 4096;     ///< particles
+  int passes = 1;           ///< projections of a constraint in a frame: substeps x iterations, for k'
+  int largest_tile = 4096;  ///< particles
 };
 
 /// Compiles an object that inspect() finds nothing grave in. Throws Error naming an unknown constraint type or a stencil or

@@ -46,7 +46,8 @@ class Gatherer {
       known = true;
       add_group<T>(group, type);
     });
-    if (!known) throw Error({.object = object_.name}, "unknown constraint type '" + group.type + "'", "use one of " + names());
+    if (!known)
+      throw Error({.object = object_.name}, "unknown constraint type '" + group.type + "'", "use one of " + names());
   }
 
   void add_attachments() {
@@ -62,14 +63,17 @@ class Gatherer {
 
   std::vector<ConstraintList> take() {
     std::vector<ConstraintList> lists;
-    for (auto& [key, list] : lists_) lists.push_back(std::move(list));
+    for (auto& [key, list] : lists_) {
+      if (list.count() > 0) lists.push_back(std::move(list));  // a group may be empty
+    }
     return lists;
   }
 
  private:
   static std::string names() {
     std::string text;
-    for_each_type(AllConstraints{}, [&](auto tag, int) { text += (text.empty() ? "" : ", ") + std::string(decltype(tag)::type::name); });
+    for_each_type(AllConstraints{},
+                  [&](auto tag, int) { text += (text.empty() ? "" : ", ") + std::string(decltype(tag)::type::name); });
     return text;
   }
 
@@ -100,7 +104,8 @@ class Gatherer {
       refuse(std::to_string(group.particles.size()) + " particles do not make stencils of " + std::to_string(T::size));
     }
     if (!group.rest.empty() && group.rest.size() != count * field_count<T>) {
-      refuse(std::to_string(group.rest.size()) + " rest values where " + std::to_string(count * field_count<T>) + " are needed");
+      refuse(std::to_string(group.rest.size()) + " rest values where " + std::to_string(count * field_count<T>) +
+             " are needed");
     }
     if (!group.compliances.empty() && group.compliances.size() != count) {
       refuse(std::to_string(group.compliances.size()) + " compliances for " + std::to_string(count) + " constraints");

@@ -22,8 +22,9 @@ struct ConstraintList {
   int count() const { return static_cast<int>(response.size()); }
 };
 
-/// All constraints of an object, its attachments last as distances of rest length zero to the particles after its own. Types in
-/// the order of AllConstraints, laws within them. Rest data that a group leaves out is measured from the positions in double.
+/// All constraints of an object, its attachments last as distances of rest length zero to the particles after its own.
+/// Types in the order of AllConstraints, laws within them. Rest data that a group leaves out is measured from the positions
+/// in double.
 std::vector<ConstraintList> gather_constraints(const Object& object, int passes);
 
 }  // namespace pliant

@@ -1,5 +1,5 @@
-// Everything of a World that does not change as time passes: objects compiled, colliders, the field they are in, and one list of
-// tasks over all objects. It changes only when objects come or go.
+// Everything of a World that does not change as time passes: objects compiled, colliders, the field they are in, and one
+// list of tasks over all objects. It changes only when objects come or go.
 #pragma once
 
 #include <string>

@@ -1,8 +1,8 @@
 // Constraints as the sweeps read them.
 //
-// A pool holds all constraints of one type and law of one object. Sixteen of them are a batch. Each batch's numbers lie together,
-// field after field, sixteen floats a field, in the order in which the sweep comes by: memory is read once, forwards. A segment is
-// a stretch of batches that share no particle.
+// A pool holds all constraints of one type and law of one object. Sixteen of them are a batch. Each batch's numbers lie
+// together, field after field, sixteen floats a field, in the order in which the sweep comes by: memory is read once,
+// forwards. A segment is a stretch of batches that share no particle.
 #pragma once
 
 #include <cstdint>
@@ -26,21 +26,21 @@ struct Segment {
   std::int32_t runs = 0;         ///< 1: a slot's indices are four bases of runs; 0: sixteen particles
   std::int32_t first_batch = 0;  ///< in the pool
   std::int32_t batches = 0;
-  std::int32_t last_count = 0;   ///< valid runs (1..4) or lanes (1..16) in the last batch; the rest is padding
+  std::int32_t last_count = 0;    ///< valid runs (1..4) or lanes (1..16) in the last batch; the rest is padding
   std::int64_t index_offset = 0;  ///< into Pool::indices
 };
 
 struct Pool {
   std::int32_t type = 0;  ///< number in AllConstraints
   Law law = Law::compliant;
-  std::int32_t stencil = 0;          ///< particles a constraint
-  std::int32_t block_floats = 0;     ///< floats a batch in `blocks`
+  std::int32_t stencil = 0;              ///< particles a constraint
+  std::int32_t block_floats = 0;         ///< floats a batch in `blocks`
   std::vector<std::int32_t> row_offset;  ///< of each row in a batch's block, or -1: the same for all, in `constants`
   std::int32_t batches = 0;
   std::int64_t constraints = 0;
   std::vector<std::int32_t> indices;
-  AlignedVector<float> blocks;     ///< a batch: rows of sixteen: the type's rest fields, alpha or k', beta where damped
-  AlignedVector<float> constants;  ///< one row for each field, response and damping
+  AlignedVector<float> blocks;       ///< a batch: rows of sixteen: the type's rest fields, alpha or k', beta where damped
+  AlignedVector<float> constants;    ///< one row for each field, response and damping
   std::vector<std::int32_t> origin;  ///< one a lane: number among the object's constraints of this type, -1 for padding
 
   /// The sixteen floats of a row for a batch, and how far on they are for the next batch. A row that is the same for every

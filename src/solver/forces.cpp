@@ -54,12 +54,11 @@ void apply_air(const Model& model, State& state, Workspace& workspace, Executor&
     Record* velocities = state.velocities.data() + model.first[o];
     executor.parallel_for("forces: air", (triangles + triangles_per_task - 1) / triangles_per_task, [&](int task) {
       const int first = task * triangles_per_task;
-      forces_of_air(object, positions, velocities, model.wind, air, gravity_so_far, h, first, std::min(triangles, first + triangles_per_task),
-                    forces);
+      forces_of_air(object, positions, velocities, model.wind, air, gravity_so_far, h, first,
+                    std::min(triangles, first + triangles_per_task), forces);
     });
-    executor.parallel_for("forces: air", static_cast<int>(object.tiles.size()), [&](int tile) {
-      gather_air(object, positions, velocities, h, forces, object.tiles[tile]);
-    });
+    executor.parallel_for("forces: air", static_cast<int>(object.tiles.size()),
+                          [&](int tile) { gather_air(object, positions, velocities, h, forces, object.tiles[tile]); });
   }
 }
 

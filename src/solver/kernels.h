@@ -1,7 +1,7 @@
 // The innermost loops of a step, behind one table of functions for each instruction set.
 //
-// Every table gives the same bits; they differ in speed alone. The sequential one is the readable reference: plain floats, one
-// constraint after the other, in the order of the same schedule.
+// Every table gives the same bits; they differ in speed alone. The sequential one is the readable reference: plain floats,
+// one constraint after the other, in the order of the same schedule.
 #pragma once
 
 #include <string>
@@ -20,8 +20,8 @@ struct Kernels {
   /// Whether every record is finite.
   bool (*all_finite)(const Record* records, int first, int last);
 
-  /// Ends a substep: v = (v + (d - d predicted) / h) kept, x += d. Equal to v = (x - x_start) / h, but what is divided is the
-  /// solver's own correction. The part of d that x can't hold goes to the remainder.
+  /// Ends a substep: v = (v + (d - d predicted) / h) kept, x += d. Equal to v = (x - x_start) / h, but what is divided is
+  /// the solver's own correction. The part of d that x can't hold goes to the remainder.
   void (*update)(const AdvanceArguments& arguments);
 
   /// Begins a substep: d = remainder + h (v + gravity). Adds the places before and after to `bounds` where it is not null.
@@ -39,8 +39,8 @@ const Kernels& kernels_v3();
 const Kernels& kernels_v4();
 const Kernels& kernels_sequential();
 
-/// The widest kernels that this machine runs, or those named ("x86-64-v2", "x86-64-v3", "x86-64-v4"). Throws Error where the name
-/// is unknown or the machine can't.
+/// The widest kernels that this machine runs, or those named ("x86-64-v2", "x86-64-v3", "x86-64-v4"). Throws Error where
+/// the name is unknown or the machine can't.
 const Kernels& pick_kernels(const std::string& isa);
 
 }  // namespace pliant

@@ -1,6 +1,6 @@
-// The sweeps in sixteen lanes. This unit is compiled once for each instruction set, with kernels_NAME() telling them apart; see
-// CMakeLists.txt beside it. It uses nothing but always-inlined functions and the inline namespace of its instruction set, so that
-// no code of one build is ever linked into another.
+// The sweeps in sixteen lanes. This unit is compiled once for each instruction set, with kernels_NAME() telling them apart;
+// see CMakeLists.txt beside it. It uses nothing but always-inlined functions and the inline namespace of its instruction
+// set, so that no code of one build is ever linked into another.
 #include "constraints/all.h"
 #include "math/wide.h"
 #include "solver/kernels.h"
@@ -31,8 +31,8 @@ PLIANT_HD void store(Record* base, const std::int32_t* index, const Registers& r
   }
 }
 
-/// A stencil's particles as its first one sees them: x_i = (position_i - position_0) + displacement_i. Differences of neighbours'
-/// positions are small and nearly exact, and no constraint among particles knows where the origin is.
+/// A stencil's particles as its first one sees them: x_i = (position_i - position_0) + displacement_i. Differences of
+/// neighbours' positions are small and nearly exact, and no constraint among particles knows where the origin is.
 template <int size, bool runs>
 PLIANT_HD void load_stencil(const SweepArguments& a, const std::int32_t* index, Vec3<Wide> (&x)[size], Wide (&w)[size]) {
   constexpr int stride = runs ? 4 : batch_width;
@@ -69,10 +69,11 @@ struct Rows {
   }
 };
 
-/// One batch of sixteen constraints: their numbers in `rows`, their particles at `index`. `count` lanes or runs are written.
+/// One batch of sixteen constraints: their numbers in `rows`, their particles at `index`. `count` lanes or runs are
+/// written.
 template <class T, Law law, bool keeps_multipliers, bool runs, int row_count>
-PLIANT_HD void project_batch(const Rows<row_count>& rows, const std::int32_t* index, float* multiplier, bool whole, int count,
-                             const SweepArguments& a) {
+PLIANT_HD void project_batch(const Rows<row_count>& rows, const std::int32_t* index, float* multiplier, bool whole,
+                             int count, const SweepArguments& a) {
   constexpr int stride = runs ? 4 : batch_width;
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
   Vec3<Wide> x[T::size];
@@ -107,7 +108,8 @@ void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers,
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
   Rows<fields + 1 + (law == Law::damped ? 1 : 0)> rows(pool, segment.first_batch);
   const std::int32_t* index = pool.indices.data() + segment.index_offset;
-  float* multiplier = keeps_multipliers ? multipliers + static_cast<std::int64_t>(segment.first_batch) * batch_width : nullptr;
+  float* multiplier =
+      keeps_multipliers ? multipliers + static_cast<std::int64_t>(segment.first_batch) * batch_width : nullptr;
   for (int batch = 0; batch + 1 < segment.batches; ++batch) {
     project_batch<T, law, keeps_multipliers, runs>(rows, index, multiplier, true, 0, a);
     index += indices;
@@ -316,8 +318,10 @@ bool all_finite(const Record* records, int first, int last) {
 /// How much nearer than it may be to count a particle is, lane by lane.
 PLIANT_HD Wide nearness(const NearQuery& q, const WideRecords& x, const WideRecords& d) {
   const Vec3<Wide> place = x.position + d.position;
-  const Vec3<Wide> away{place.x - Wide(q.pose.position.x), place.y - Wide(q.pose.position.y), place.z - Wide(q.pose.position.z)};
-  const Quat<Wide> back{Wide(-q.pose.rotation.x), Wide(-q.pose.rotation.y), Wide(-q.pose.rotation.z), Wide(q.pose.rotation.w)};
+  const Vec3<Wide> away{place.x - Wide(q.pose.position.x), place.y - Wide(q.pose.position.y),
+                        place.z - Wide(q.pose.position.z)};
+  const Quat<Wide> back{Wide(-q.pose.rotation.x), Wide(-q.pose.rotation.y), Wide(-q.pose.rotation.z),
+                        Wide(q.pose.rotation.w)};
   const Wide distance = signed_distance(q.shape, rotate(back, away)).distance;
   return Wide(q.margin) + sqrt(length_squared(d.position)) - distance;
 }
@@ -327,7 +331,8 @@ int find_near(const NearQuery& q, std::int32_t* near) {
   for (; i + batch_width <= q.last; i += batch_width) {
     const std::int32_t runs[4] = {i, i + 4, i + 8, i + 12};
     float lanes[batch_width];
-    store_wide(lanes, nearness(q, from_registers(load_runs(q.positions, runs)), from_registers(load_runs(q.displacements, runs))));
+    store_wide(lanes,
+               nearness(q, from_registers(load_runs(q.positions, runs)), from_registers(load_runs(q.displacements, runs))));
     for (int k = 0; k < batch_width; ++k) {
       near[count] = i + k;
       count += lanes[4 * (k % 4) + k / 4] >= 0 ? 1 : 0;

@@ -9,8 +9,8 @@
 
 namespace pliant {
 
-/// |C + alpha~ lambda| of every constraint, by type in the order of AllConstraints, volumes last. Multipliers count where they
-/// were kept; `h` is the substep they belong to [s].
+/// |C + alpha~ lambda| of every constraint, by type in the order of AllConstraints, volumes last. Multipliers count where
+/// they were kept; `h` is the substep they belong to [s].
 std::vector<Residual> measure_residuals(const Model& model, const State& state, const Workspace& workspace, float h);
 
 /// Length over rest length of all distance constraints with a rest length.

@@ -40,7 +40,8 @@ struct Answer {
 
 /// The corrections of one constraint (of each lane).
 ///   PBD:   dlambda = -k' C / sum w |grad C|^2                                              (Mueller 2007, eq. 5 and 3.3)
-///   XPBD:  dlambda = (-C - a lambda - g grad C . (x - x_start)) / ((1 + g) sum w |grad C|^2 + a)   (Macklin 2016, eq. 18, 26)
+///   XPBD:  dlambda = (-C - a lambda - g grad C . (x - x_start)) / ((1 + g) sum w |grad C|^2 + a)   (Macklin 2016, eq. 18,
+///   26)
 ///          with a = alpha / h^2 and g = alpha beta / h
 ///   correction_i = w_i grad_i C dlambda
 template <class T, Law law, bool keeps_multiplier, class R>

@@ -1,5 +1,5 @@
-// The readable reference: one constraint, one particle at a time, in plain floats, in the order of the schedule. It gives the bits
-// of the lanes, which is how they are tested.
+// The readable reference: one constraint, one particle at a time, in plain floats, in the order of the schedule. It gives
+// the bits of the lanes, which is how they are tested.
 #include <cstring>
 
 #include "constraints/all.h"
@@ -11,8 +11,8 @@ namespace pliant {
 namespace {
 
 template <class T, Law law, bool keeps_multipliers>
-void project_lane(const Pool& pool, std::int64_t batch, int lane, const std::int32_t (&particle)[T::size], float* multiplier,
-                  const SweepArguments& a) {
+void project_lane(const Pool& pool, std::int64_t batch, int lane, const std::int32_t (&particle)[T::size],
+                  float* multiplier, const SweepArguments& a) {
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
   float rest[fields];
   for (int field = 0; field < fields; ++field) rest[field] = pool.row(field, batch)[lane];

@@ -13,7 +13,8 @@ struct Places {
   Vec3f seen_from(int origin, int i) const {
     const Record &p = positions[i], &o = positions[origin];
     const Vec3f difference{p.x - o.x, p.y - o.y, p.z - o.z};
-    return displacements == nullptr ? difference : difference + Vec3f{displacements[i].x, displacements[i].y, displacements[i].z};
+    return displacements == nullptr ? difference
+                                    : difference + Vec3f{displacements[i].x, displacements[i].y, displacements[i].z};
   }
 };
 
@@ -23,7 +24,8 @@ Vec3f gradient_at(const Surface& surface, const Places& places, int particle) {
   for (int c = surface.corner_begin[particle]; c < surface.corner_begin[particle + 1]; ++c) {
     const auto& triangle = surface.triangles[surface.corners[c] / 3];
     const int corner = surface.corners[c] % 3;
-    const Vec3f j = places.seen_from(particle, triangle[(corner + 1) % 3]), k = places.seen_from(particle, triangle[(corner + 2) % 3]);
+    const Vec3f j = places.seen_from(particle, triangle[(corner + 1) % 3]),
+                k = places.seen_from(particle, triangle[(corner + 2) % 3]);
     sum += cross(j - x, k - x);
   }
   return sum;
@@ -31,7 +33,8 @@ Vec3f gradient_at(const Surface& surface, const Places& places, int particle) {
 
 double dot_double(const Vec3f& a, const Vec3f& b) { return double(a.x) * b.x + double(a.y) * b.y + double(a.z) * b.z; }
 
-void gather_tile(const CompiledObject& object, const Tile& tile, const SweepArguments& a, Record* gradients, TileScratch& scratch) {
+void gather_tile(const CompiledObject& object, const Tile& tile, const SweepArguments& a, Record* gradients,
+                 TileScratch& scratch) {
   const Places places{a.positions, a.displacements};
   scratch.gradient_squared = scratch.position_along = scratch.motion_along = 0;
   for (int i = tile.first_particle; i < tile.last_particle; ++i) {
@@ -99,8 +102,8 @@ void project_volumes(const Model& model, Workspace& workspace, Executor& executo
   const auto apply = [&](int task) {
     const int o = model.tiles[task].object;
     if (!model.objects[o].has_volume) return;
-    apply_tile(model.objects[o].tiles[model.tiles[task].tile], arguments(o), workspace.volume_gradients.data() + model.first[o],
-               sums[o].change);
+    apply_tile(model.objects[o].tiles[model.tiles[task].tile], arguments(o),
+               workspace.volume_gradients.data() + model.first[o], sums[o].change);
   };
   executor.parallel_for("solve: volume", static_cast<int>(model.tiles.size()), apply);
 }
@@ -108,7 +111,8 @@ void project_volumes(const Model& model, Workspace& workspace, Executor& executo
 double volume_error(const CompiledObject& object, const Record* positions) {
   double along = 0;
   const Places places{positions, nullptr};
-  for (int i = 0; i < object.particles; ++i) along += dot_double(places.seen_from(0, i), gradient_at(object.surface, places, i));
+  for (int i = 0; i < object.particles; ++i)
+    along += dot_double(places.seen_from(0, i), gradient_at(object.surface, places, i));
   return along / 3 - object.volume.target;
 }
 

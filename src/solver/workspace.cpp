@@ -27,6 +27,7 @@ void prepare(const Model& model, bool keeps_multipliers, Workspace& workspace) {
   if (some_volume) workspace.volume_gradients.resize(model.particles());
   workspace.triangle_forces.resize(model.objects.size());
   workspace.tiles.resize(model.tiles.size());
+  workspace.gravity.resize(model.objects.size());
 }
 
 }  // namespace pliant

@@ -18,15 +18,29 @@ struct alignas(64) TileScratch {
   double gradient_squared = 0, position_along = 0, motion_along = 0;  ///< sums of the volume constraint
 };
 
+/// For how long an object's particles have felt the gravity of the frame under way, less what damping took of it [s].
+struct FrameGravity {
+  double finished = 0, begun = 0, settled = 0;  ///< in the substep that ends, in the one that begins, and between the two
+  float kept = 1;                               ///< share of velocity that damping leaves after a substep
+
+  void next(float h) {
+    finished = begun;
+    settled = finished * kept;
+    begun = settled + h;
+  }
+};
+
 struct Workspace {
-  Records displacements;                                       ///< since the substep's start [m]
-  std::vector<std::vector<AlignedVector<float>>> multipliers;  ///< [object][pool], a float a lane; empty where none are kept
+  Records displacements;  ///< since the substep's start [m]
+  std::vector<std::vector<AlignedVector<float>>>
+      multipliers;  ///< [object][pool], a float a lane; empty where none are kept
   std::vector<std::vector<float*>> multiplier_pointers;
-  std::vector<double> volume_multipliers;  ///< one an object
-  Records volume_gradients;    ///< one a particle where some object has a volume constraint
+  std::vector<double> volume_multipliers;           ///< one an object
+  Records volume_gradients;                         ///< one a particle where some object has a volume constraint
   std::vector<std::vector<Vec3f>> triangle_forces;  ///< [object], where there is air
-  std::vector<TileScratch> tiles;          ///< one a tile task
+  std::vector<TileScratch> tiles;                   ///< one a tile task
   std::vector<MovingCollider> colliders;
+  std::vector<FrameGravity> gravity;  ///< one an object
 };
 
 /// Makes everything the right size for a model.

@@ -1,0 +1,215 @@
+#include "solver/frame.h"
+
+#include <algorithm>
+
+#include "math/motion.h"
+#include "solver/diagnose.h"
+#include "solver/forces.h"
+#include "solver/volume.h"
+
+namespace pliant {
+
+namespace {
+
+/// Below this many batches a colour of straddlers is done sooner than other threads can be told of it.
+constexpr int fewest_batches_to_share = 96;
+
+}  // namespace
+
+Frame::Frame(const StepContext& context, double dt, Report& report)
+    : context_(context),
+      model_(context.model),
+      state_(context.state),
+      work_(context.workspace),
+      executor_(context.executor),
+      kernels_(context.kernels),
+      report_(report),
+      start_(context.state.time),
+      dt_(dt),
+      h_(static_cast<float>(dt / context.substeps)) {
+  for (std::size_t o = 0; o < work_.gravity.size(); ++o)
+    work_.gravity[o] = {0, 0, 0, 1 / (1 + h_ * model_.objects[o].damping)};
+}
+
+// ---------------------------------------------------------------- views
+
+SweepArguments Frame::arguments(int object, bool first_pass) const {
+  const int first = model_.first[object];
+  SweepArguments a;
+  a.positions = state_.positions.data() + first;
+  a.displacements = work_.displacements.data() + first;
+  a.remainders = state_.remainders.data() + first;
+  a.multipliers = work_.multiplier_pointers[object].empty() ? nullptr : work_.multiplier_pointers[object].data();
+  a.h = h_;
+  a.inverse_h = 1 / h_;
+  a.inverse_h2 = (1 / h_) * (1 / h_);
+  a.first_pass = first_pass;
+  return a;
+}
+
+AdvanceArguments Frame::particles(int task) const {
+  const TileTask& of = model_.tiles[task];
+  const int first = model_.first[of.object];
+  const Tile& tile = model_.objects[of.object].tiles[of.tile];
+  const FrameGravity& gravity = work_.gravity[of.object];
+  AdvanceArguments a;
+  a.positions = state_.positions.data() + first;
+  a.displacements = work_.displacements.data() + first;
+  a.remainders = state_.remainders.data() + first;
+  a.velocities = state_.velocities.data() + first;
+  a.first = tile.first_particle;
+  a.last = tile.last_particle;
+  a.h = h_;
+  a.inverse_h = 1 / h_;
+  a.velocity_kept = gravity.kept;
+  a.gravity_step = model_.gravity * h_;
+  a.gravity_finished = gravity_for(gravity.finished);
+  a.gravity_begun = gravity_for(gravity.begun);
+  return a;
+}
+
+void Frame::for_tiles(const char* name, FunctionRef<void(int)> body) {
+  executor_.parallel_for(name, static_cast<int>(model_.tiles.size()), body);
+}
+
+// ---------------------------------------------------------------- particles
+
+void Frame::begin_substep(int substep) {
+  time_after_ = time_of(substep + 1);
+  move_colliders(model_, time_of(substep), time_after_, work_.colliders);
+  for (FrameGravity& gravity : work_.gravity) gravity.next(h_);
+}
+
+void Frame::apply_external_forces(int substep) {
+  apply_forces(
+      model_, state_, work_, executor_, time_of(substep), h_, [&](int o) { return gravity_for(work_.gravity[o].settled); },
+      report_.warnings);
+}
+
+void Frame::enter_and_sweep_tiles(bool finishes_first) {
+  for_tiles("solve: tiles", [&](int task) {
+    if (enter_tile(task, finishes_first)) sweep_tile(task, true);
+  });
+}
+
+/// A tile's end of one substep and start of the next, in one pass over memory where nothing touched it; false where it must
+/// stop.
+bool Frame::enter_tile(int task, bool finishes_first) {
+  const CompiledObject& object = model_.objects[model_.tiles[task].object];
+  const AdvanceArguments a = particles(task);
+  TileScratch& scratch = work_.tiles[task];
+  const bool in_one_pass = finishes_first && scratch.contacts.empty();
+  if (in_one_pass) {
+    scratch.finite = kernels_.all_finite(a.displacements, a.first, a.last);
+    if (!scratch.finite) return false;
+  } else if (finishes_first && !finish_tile(task, false)) {
+    return false;
+  }
+  scratch.contacts.clear();
+  scratch.bounds = {};
+  Bounds* bounds = work_.colliders.empty() ? nullptr : &scratch.bounds;
+  (in_one_pass ? kernels_.advance : kernels_.predict)(a, bounds);
+  move_kinematics(object, a);
+  if (bounds != nullptr) {
+    find_contacts({object, a, *bounds, work_.colliders, kernels_.find_near}, scratch.near, scratch.contacts);
+  }
+  return true;
+}
+
+/// Particles on keyframes go where they are to be at the substep's end.
+void Frame::move_kinematics(const CompiledObject& object, const AdvanceArguments& a) const {
+  auto kinematic = std::lower_bound(object.kinematics.begin(), object.kinematics.end(), a.first,
+                                    [](const Kinematic& k, int first) { return k.particle < first; });
+  for (; kinematic != object.kinematics.end() && kinematic->particle < a.last; ++kinematic) {
+    const Vec3<double> target = to_world(pose_at(kinematic->motion, time_after_), convert<double>(kinematic->rest));
+    const Record &x = a.positions[kinematic->particle], &r = a.remainders[kinematic->particle];
+    Record &d = a.displacements[kinematic->particle], &v = a.velocities[kinematic->particle];
+    d = {static_cast<float>(target.x - x.x), static_cast<float>(target.y - x.y), static_cast<float>(target.z - x.z), 0};
+    v = {(d.x - r.x) * a.inverse_h, (d.y - r.y) * a.inverse_h, (d.z - r.z) * a.inverse_h, 0};
+  }
+}
+
+void Frame::finish_tiles(bool ends_frame) {
+  if (ends_frame) {
+    for (FrameGravity& gravity : work_.gravity) gravity.next(h_);
+  }
+  for_tiles("update", [&](int task) { finish_tile(task, ends_frame); });
+}
+
+/// False, and nothing changed, where a displacement is not finite.
+bool Frame::finish_tile(int task, bool ends_frame) {
+  AdvanceArguments a = particles(task);
+  TileScratch& scratch = work_.tiles[task];
+  scratch.finite = kernels_.all_finite(a.displacements, a.first, a.last);
+  if (!scratch.finite) return false;
+  const Vec3f settled = gravity_for(work_.gravity[model_.tiles[task].object].settled);
+  if (ends_frame) a.gravity_settled = settled;
+  kernels_.update(a);
+  if (!scratch.contacts.empty()) respond(scratch.contacts, ends_frame ? Vec3f{} : settled, a);
+  return true;
+}
+
+// ---------------------------------------------------------------- constraints
+
+void Frame::sweep_tiles() {
+  for_tiles("solve: tiles", [&](int task) { sweep_tile(task, false); });
+}
+
+void Frame::sweep_tile(int task, bool first_pass) {
+  const CompiledObject& object = model_.objects[model_.tiles[task].object];
+  const Tile& tile = object.tiles[model_.tiles[task].tile];
+  kernels_.sweep(object.pools.data(), object.segments.data() + tile.first_segment,
+                 object.segments.data() + tile.last_segment, arguments(model_.tiles[task].object, first_pass));
+}
+
+void Frame::sweep_straddlers(bool first_pass) {
+  for (const StraddlerPhase& phase : model_.straddlers) {
+    const auto sweep_task = [&](int i) {
+      const CompiledObject& object = model_.objects[phase.tasks[i].object];
+      const Segment* segment = object.segments.data() + phase.tasks[i].segment;
+      kernels_.sweep(object.pools.data(), segment, segment + 1, arguments(phase.tasks[i].object, first_pass));
+    };
+    const int tasks = static_cast<int>(phase.tasks.size());
+    if (phase.batches >= fewest_batches_to_share) {
+      executor_.parallel_for("solve: straddlers", tasks, sweep_task);
+    } else {
+      Stopwatch watch(executor_.timings(), "solve: straddlers");
+      for (int i = 0; i < tasks; ++i) sweep_task(i);
+    }
+  }
+}
+
+void Frame::sweep_volumes(bool first_pass) {
+  project_volumes(model_, work_, executor_, [&](int object) { return arguments(object, first_pass); });
+}
+
+void Frame::sweep_contacts() {
+  if (work_.colliders.empty()) return;
+  for_tiles("solve: contacts", [&](int task) {
+    std::vector<Contact>& contacts = work_.tiles[task].contacts;
+    if (!contacts.empty()) project_contacts(contacts, arguments(model_.tiles[task].object, false));
+  });
+}
+
+// ---------------------------------------------------------------- the end
+
+bool Frame::give_up(int substep) {
+  const bool failed =
+      std::any_of(work_.tiles.begin(), work_.tiles.end(), [](const TileScratch& tile) { return !tile.finite; });
+  if (!failed) return false;
+  report_.nonfinite = diagnose(
+      context_, [&](int task) { return particles(task); }, [&](int o) { return arguments(o, true); });
+  report_.nonfinite->frame = state_.frame;
+  report_.nonfinite->substep = substep;
+  return true;
+}
+
+void Frame::end() {
+  for (const TileScratch& tile : work_.tiles) {
+    report_.contacts +=
+        std::count_if(tile.contacts.begin(), tile.contacts.end(), [](const Contact& c) { return c.push > 0; });
+  }
+  state_.time = start_ + dt_;
+}
+
+}  // namespace pliant
