@@ -122,7 +122,7 @@ double project_once(Stencil<T, double>& at, const std::array<double, size_of<T>>
   arguments.h = 0.0078125f;  // powers of two, so that float holds them
   arguments.inverse_h = 128;
   arguments.inverse_h2 = 16384;
-  Vec3<double> x[size_of<T>], motion[size_of<T>];
+  Vec3<double> x[size_of<T>], motion[size_of<T>], correction[size_of<T>];
   double w[size_of<T>];
   for (std::size_t i = 0; i < size_of<T>; ++i) {
     x[i] = at[i];
@@ -130,8 +130,8 @@ double project_once(Stencil<T, double>& at, const std::array<double, size_of<T>>
     motion[i] = moved[i];
   }
   const double c = evaluate<T, double>(at, params).c;
-  project<T, law, keeps, double>(x, w, params, motion, answer, arguments);
-  for (std::size_t i = 0; i < size_of<T>; ++i) at[i] = x[i];
+  project<T, law, keeps, double>(x, w, params, motion, answer, arguments, correction);
+  for (std::size_t i = 0; i < size_of<T>; ++i) at[i] = x[i] + correction[i];
   return c;
 }
 

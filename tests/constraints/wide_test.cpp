@@ -101,7 +101,7 @@ void compare_projection(Random& random) {
   arguments.h = 0.003f;
   arguments.inverse_h = 1 / 0.003f;
   arguments.inverse_h2 = arguments.inverse_h * arguments.inverse_h;
-  Vec3<Wide> x[size_of<T>], motion[size_of<T>];
+  Vec3<Wide> x[size_of<T>], motion[size_of<T>], correction[size_of<T>];
   Wide w[size_of<T>];
   for (std::size_t i = 0; i < size_of<T>; ++i) {
     x[i] = wide_vector(in.x[i]);
@@ -109,9 +109,9 @@ void compare_projection(Random& random) {
     w[i] = load_wide(in.w[i]);
   }
   Answer<Wide> answer{load_wide(in.response), load_wide(in.damping), load_wide(in.multiplier)};
-  project<T, law, keeps, Wide>(x, w, wide_params<T>(in), motion, answer, arguments);
+  project<T, law, keeps, Wide>(x, w, wide_params<T>(in), motion, answer, arguments, correction);
   for (int lane = 0; lane < wide_width; ++lane) {
-    Vec3f y[size_of<T>], moved[size_of<T>];
+    Vec3f y[size_of<T>], moved[size_of<T>], alone_correction[size_of<T>];
     float mass[size_of<T>];
     for (std::size_t i = 0; i < size_of<T>; ++i) {
       y[i] = lane_vector(in.x[i], lane);
@@ -119,8 +119,9 @@ void compare_projection(Random& random) {
       mass[i] = in.w[i][lane];
     }
     Answer<float> alone{in.response[lane], in.damping[lane], in.multiplier[lane]};
-    project<T, law, keeps, float>(y, mass, lane_params<T>(in, lane), moved, alone, arguments);
-    for (std::size_t i = 0; i < size_of<T>; ++i) ASSERT_NO_FATAL_FAILURE(expect_lane(x[i], y[i], lane, "position"));
+    project<T, law, keeps, float>(y, mass, lane_params<T>(in, lane), moved, alone, arguments, alone_correction);
+    for (std::size_t i = 0; i < size_of<T>; ++i)
+      ASSERT_NO_FATAL_FAILURE(expect_lane(correction[i], alone_correction[i], lane, "correction"));
     ASSERT_NO_FATAL_FAILURE(expect_lane(answer.multiplier, alone.multiplier, lane, "multiplier"));
   }
 }

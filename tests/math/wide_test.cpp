@@ -116,12 +116,12 @@ TEST(WideRecordsByIndex, GoInAndOutWholeOrInPart) {
   std::array<int, wide_width> index{17, 3, 9, 40, 0, 1, 2, 39, 20, 33, 21, 5, 30, 12, 8, 25};
   for (int lanes = 1; lanes <= wide_width + 1; ++lanes) {  // one more: the whole store
     std::vector<Record> records = numbered_records(41);
-    const WideRecords wide = load_indexed(records.data(), index.data());
+    const WideRecords wide = from_registers(load_indexed(records.data(), index.data()));
     expect_records(wide, index);
     if (lanes <= wide_width) {
-      store_indexed_some(records.data(), index.data(), raised(wide), lanes);
+      store_indexed_some(records.data(), index.data(), to_registers(raised(wide)), lanes);
     } else {
-      store_indexed(records.data(), index.data(), raised(wide));
+      store_indexed(records.data(), index.data(), to_registers(raised(wide)));
     }
     for (int i = 0; i < 41; ++i) {
       const auto found = std::find(index.begin(), index.end(), i);
@@ -135,23 +135,37 @@ TEST(WideRecordsByRun, GoInAndOutWholeOrInPart) {
   const std::array<int, 4> run{8, 0, 33, 20};
   std::array<int, wide_width> at;
   for (std::size_t lane = 0; lane < at.size(); ++lane) at[lane] = run[lane % 4] + static_cast<int>(lane / 4);
-  for (int runs = 1; runs <= 5; ++runs) {
+  for (int runs = 1; runs <= 4; ++runs) {
     std::vector<Record> records = numbered_records(40);
-    const WideRecords wide = load_runs(records.data(), run.data());
+    const WideRecords wide = from_registers(load_runs(records.data(), run.data()));
     expect_records(wide, at);
-    if (runs <= 4) {
-      store_runs(records.data(), run.data(), raised(wide), runs);
-    } else {
-      store_all_runs(records.data(), run.data(), raised(wide));
-    }
+    store_runs(records.data(), run.data(), to_registers(raised(wide)), runs);
     for (int i = 0; i < 40; ++i) {
       bool expected = false;
-      for (int j = 0; j < std::min(runs, 4); ++j) {
+      for (int j = 0; j < runs; ++j) {
         const int first = run[static_cast<std::size_t>(j)];
         expected = expected || (i >= first && i < first + 4);
       }
       EXPECT_EQ(is_raised(records, i), expected) << "record " << i << ", " << runs << " runs";
     }
+  }
+}
+
+TEST(WideRecordsInRegisters, AddAndPartLaneByLane) {
+  const std::vector<Record> records = numbered_records(40);
+  const std::array<int, 4> run{8, 0, 33, 20};
+  const Registers all = load_runs(records.data(), run.data());
+  const WideRecords there = from_registers(without_w(all)), mass = from_registers(w_alone(all)),
+                    twice = from_registers(all + all);
+  const WideRecords nothing = from_registers(all - all);
+  for (std::size_t lane = 0; lane < wide_width; ++lane) {
+    const float n = static_cast<float>(4 * (run[lane % 4] + static_cast<int>(lane / 4)));
+    EXPECT_EQ(lanes_of(there.position.z)[lane], n + 2);
+    EXPECT_EQ(lanes_of(there.w)[lane], 0);
+    EXPECT_EQ(lanes_of(mass.position.x)[lane], 0);
+    EXPECT_EQ(lanes_of(mass.w)[lane], n + 3);
+    EXPECT_EQ(lanes_of(twice.position.y)[lane], 2 * (n + 1));
+    EXPECT_EQ(lanes_of(nothing.w)[lane], 0);
   }
 }
 
