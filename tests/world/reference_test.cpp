@@ -1,0 +1,141 @@
+// A World against the tests' own solver: double precision, one constraint after another in the order in which they were
+// given. They visit constraints in different orders, so they are compared where the order does not matter: constraints that
+// share nothing, and systems projected until they are met.
+#include "support/reference_solver.h"
+
+#include <gtest/gtest.h>
+
+#include "pliant/world.h"
+#include "support/constraint_support.h"
+#include "support/scenes.h"
+
+namespace pliant {
+namespace {
+
+using namespace testing_support;
+
+constexpr float dt = 1.f / 60;
+
+reference::Hardness hardness_of(const Stiffness& stiffness) {
+  reference::Hardness hardness;
+  if (stiffness.kind == Stiffness::Kind::pbd) {
+    hardness.pbd = stiffness.value;
+  } else {
+    hardness.compliance = stiffness.value;
+    hardness.damping = stiffness.damping;
+  }
+  return hardness;
+}
+
+/// The same object for the reference solver; rest data as given or measured in double.
+void add_object(const Object& object, reference::Solver& solver) {
+  for (std::size_t i = 0; i < object.positions.size(); ++i) {
+    const Vec3d velocity = object.velocities.empty() ? Vec3d{} : convert<double>(object.velocities[i]);
+    solver.add(convert<double>(object.positions[i]), object.masses[i], velocity);
+  }
+  for (const ConstraintGroup& group : object.constraints) {
+    for_each_type(AllConstraints{}, [&](auto tag, int) {
+      using T = typename decltype(tag)::type;
+      if (group.type != T::name) return;
+      for (std::size_t c = 0; c < group.particles.size() / size_of<T>; ++c) {
+        std::array<int, size_of<T>> particles;
+        Stencil<T, double> x;
+        for (std::size_t slot = 0; slot < particles.size(); ++slot) {
+          particles[slot] = group.particles[c * size_of<T> + slot];
+          x[slot] = convert<double>(object.positions[static_cast<std::size_t>(particles[slot])]);
+        }
+        ParamsOf<T, double> rest = measure<T, double>(x);
+        if (!group.rest.empty()) {
+          ParamsOf<T, float> given;
+          std::memcpy(static_cast<void*>(&given), &group.rest[c * static_cast<std::size_t>(field_count<T>)], sizeof given);
+          rest = convert_params<T, double, float>(given);
+        }
+        solver.add<T>(particles, rest, hardness_of(group.stiffness));
+      }
+    });
+  }
+}
+
+/// The largest distance between the two after some frames.
+double difference(const Object& object, int substeps, int iterations, int frames) {
+  Scene scene;
+  scene.add(object);
+  World world(scene, settings_of(substeps, iterations));
+  reference::Solver solver;
+  solver.gravity = convert<double>(scene.gravity);
+  solver.substeps = substeps;
+  solver.iterations = iterations;
+  add_object(object, solver);
+  for (int frame = 0; frame < frames; ++frame) {
+    EXPECT_TRUE(world.step(dt).ok());
+    solver.step(static_cast<double>(dt));
+  }
+  const std::vector<Vec3f> positions = world.positions(0);
+  double most = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    most = std::max(most, length(convert<double>(positions[i]) - solver.particles[i].position));
+  }
+  return most;
+}
+
+template <class T>
+class AgainstReference : public testing::Test {};
+TYPED_TEST_SUITE(AgainstReference, ConstraintTypes, NameOfType);
+
+/// Many constraints that share no particle, each away from its rest.
+template <class T>
+Object separate(const Stiffness& stiffness) {
+  Random random(31);
+  Object object;
+  ConstraintGroup group{T::name, {}, {}, stiffness, {}};
+  for (int c = 0; c < 50; ++c) {
+    const auto x = random_stencil<T>(random);
+    for (const Vec3d& p : x) {
+      group.particles.push_back(static_cast<int>(object.positions.size()));
+      object.positions.push_back(convert<float>(p));
+      object.velocities.push_back(convert<float>(random_point(random, 0.5)));
+      object.masses.push_back(static_cast<float>(uniform(random, 0.5, 2)));
+    }
+    // A rest that is a little different.
+    auto y = x;
+    for (Vec3d& p : y) p += random_point(random, 0.03);
+    const auto rest = convert_params<T, float, double>(measure<T, double>(y));
+    float fields[field_count<T>];
+    std::memcpy(fields, &rest, sizeof fields);
+    group.rest.insert(group.rest.end(), fields, fields + field_count<T>);
+  }
+  object.constraints = {group};
+  return object;
+}
+
+TYPED_TEST(AgainstReference, SeparateConstraintsMoveAlikeByEveryLaw) {
+  for (const Stiffness& stiffness :
+       {Stiffness::rigid(), Stiffness::compliance(1e-3f), Stiffness::compliance(1e-3f, 5), Stiffness::pbd(0.6f)}) {
+    for (int iterations : {1, 3}) {
+      EXPECT_LT(difference(separate<TypeParam>(stiffness), 4, iterations, 3), 2e-5)
+          << static_cast<int>(stiffness.kind) << " " << stiffness.value << " " << stiffness.damping << ", " << iterations
+          << " iterations";
+    }
+  }
+}
+
+TEST(Reference, AgreesOnAChainProjectedUntilItIsMet) {
+  for (const Stiffness& stiffness : {Stiffness::rigid(), Stiffness::compliance(1e-4f), Stiffness::compliance(1e-3f, 2)}) {
+    Object object = chain(6, 0.2f, stiffness);
+    object.masses[0] = std::numeric_limits<float>::infinity();
+    // Gradients turn while projections go on, so even what is met keeps a trace of the order.
+    EXPECT_LT(difference(object, 2, 400, 20), 1.5e-3);
+  }
+}
+
+TEST(Reference, AgreesOnAClothProjectedUntilItIsMet) {
+  ClothOptions options;
+  options.stretch = Stiffness::compliance(1e-5f);
+  options.bending = Stiffness::compliance(0.1f);
+  Object object = make_cloth(grid_mesh(5, 5, 0.4f, 0.4f), options);
+  object.masses[0] = object.masses[4] = std::numeric_limits<float>::infinity();
+  EXPECT_LT(difference(object, 2, 300, 10), 1e-3);
+}
+
+}  // namespace
+}  // namespace pliant
