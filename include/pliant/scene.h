@@ -156,7 +156,7 @@ struct Settings {
   int threads = 0;       ///< 0: as many as the machine has
   Sweep sweep = Sweep::tiled;
   bool measure = false;  ///< fill Report::residuals and the stretch each frame (costs about one more iteration)
-  bool record_multipliers = false;  ///< keep multipliers readable even where they are not needed (one iteration)
+  bool record_multipliers = false;  ///< keep multipliers readable even where not needed (one iteration, or rigid)
   std::string isa;       ///< "", or "x86-64-v2", "-v3", "-v4" to force a code path (same bits, other speed)
 };
 

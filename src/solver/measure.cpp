@@ -14,7 +14,8 @@ namespace {
 
 /// Calls visit(x, params, response, number of the lane in the pool) for every constraint of a pool of type T.
 template <class T, class Visit>
-void for_constraints(const CompiledObject& object, const Pool& pool, int pool_number, const Record* positions, const Visit& visit) {
+void for_constraints(const CompiledObject& object, const Pool& pool, int pool_number, const Record* positions,
+                     const Visit& visit) {
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
   for (const Segment& segment : object.segments) {
     if (segment.pool != pool_number) continue;
@@ -52,17 +53,18 @@ struct Sum {
 };
 
 template <class T>
-void add_residuals(const CompiledObject& object, int pool_number, const Record* positions, const float* multipliers, float h,
-                   Sum& sum) {
+void add_residuals(const CompiledObject& object, int pool_number, const Record* positions, const float* multipliers,
+                   float h, Sum& sum) {
   const Pool& pool = object.pools[pool_number];
-  for_constraints<T>(object, pool, pool_number, positions, [&](const auto& x, const auto& params, float response, auto lane) {
-    Vec3f gradient[T::size];
-    double c = T::evaluate(x, params, gradient);
-    if (multipliers != nullptr && pool.law != Law::pbd) {
-      c += std::min(double(response) / (double(h) * h), double(largest_compliance)) * multipliers[lane];
-    }
-    sum.add(c);
-  });
+  for_constraints<T>(object, pool, pool_number, positions,
+                     [&](const auto& x, const auto& params, float response, auto lane) {
+                       Vec3f gradient[T::size];
+                       double c = T::evaluate(x, params, gradient);
+                       if (multipliers != nullptr && pool.law != Law::pbd) {
+                         c += std::min(double(response) / (double(h) * h), double(largest_compliance)) * multipliers[lane];
+                       }
+                       sum.add(c);
+                     });
 }
 
 }  // namespace
@@ -76,7 +78,8 @@ std::vector<Residual> measure_residuals(const Model& model, const State& state, 
       const CompiledObject& object = model.objects[o];
       for (std::size_t p = 0; p < object.pools.size(); ++p) {
         if (object.pools[p].type != type) continue;
-        const float* multipliers = workspace.multipliers[o].empty() ? nullptr : workspace.multipliers[o][p].data();
+        const bool kept = !workspace.multipliers[o].empty() && !workspace.multipliers[o][p].empty();
+        const float* multipliers = kept ? workspace.multipliers[o][p].data() : nullptr;
         add_residuals<T>(object, static_cast<int>(p), state.positions.data() + model.first[o], multipliers, h, sum);
       }
     }
@@ -87,7 +90,8 @@ std::vector<Residual> measure_residuals(const Model& model, const State& state, 
     const CompiledObject& object = model.objects[o];
     if (!object.has_volume) continue;
     const double compliance = object.volume.law == Law::pbd ? 0 : double(object.volume.response) / (double(h) * h);
-    volumes.add(volume_error(object, state.positions.data() + model.first[o]) + compliance * workspace.volume_multipliers[o]);
+    volumes.add(volume_error(object, state.positions.data() + model.first[o]) +
+                compliance * workspace.volume_multipliers[o]);
   }
   if (volumes.count > 0) residuals.push_back(volumes.residual("volume"));
   return residuals;
@@ -100,7 +104,8 @@ Stretch measure_stretch(const Model& model, const State& state) {
     const CompiledObject& object = model.objects[o];
     for (std::size_t p = 0; p < object.pools.size(); ++p) {
       bool is_distance = false;
-      with_type(AllConstraints{}, object.pools[p].type, [&](auto tag) { is_distance = std::is_same_v<typename decltype(tag)::type, Distance>; });
+      with_type(AllConstraints{}, object.pools[p].type,
+                [&](auto tag) { is_distance = std::is_same_v<typename decltype(tag)::type, Distance>; });
       if (!is_distance) continue;
       for_constraints<Distance>(object, object.pools[p], static_cast<int>(p), state.positions.data() + model.first[o],
                                 [&](const auto& x, const auto& params, float, auto) {

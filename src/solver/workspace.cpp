@@ -4,23 +4,33 @@ namespace pliant {
 
 namespace {
 
-void prepare_multipliers(const Model& model, bool keeps_multipliers, Workspace& workspace) {
+/// Rigid constraints move the same whatever their multipliers are, and PBD has none.
+bool needs_multipliers(const Pool& pool) {
+  const std::size_t response = pool.row_offset.size() - (pool.law == Law::damped ? 2 : 1);
+  const bool rigid = pool.row_offset[response] < 0 && *pool.row(static_cast<int>(response), 0) == 0;
+  return pool.law != Law::pbd && !rigid;
+}
+
+void prepare_multipliers(const Model& model, Multipliers kept, Workspace& workspace) {
   workspace.multipliers.assign(model.objects.size(), {});
   workspace.multiplier_pointers.assign(model.objects.size(), {});
-  if (!keeps_multipliers) return;
+  if (kept == Multipliers::none) return;
   for (std::size_t o = 0; o < model.objects.size(); ++o) {
     for (const Pool& pool : model.objects[o].pools) {
-      workspace.multipliers[o].emplace_back(static_cast<std::size_t>(pool.batches) * batch_width, 0.f);
-      workspace.multiplier_pointers[o].push_back(workspace.multipliers[o].back().data());
+      const bool keeps = pool.law != Law::pbd && (kept == Multipliers::all || needs_multipliers(pool));
+      workspace.multipliers[o].emplace_back(keeps ? static_cast<std::size_t>(pool.batches) * batch_width : 0, 0.f);
+    }
+    for (AlignedVector<float>& values : workspace.multipliers[o]) {
+      workspace.multiplier_pointers[o].push_back(values.empty() ? nullptr : values.data());
     }
   }
 }
 
 }  // namespace
 
-void prepare(const Model& model, bool keeps_multipliers, Workspace& workspace) {
+void prepare(const Model& model, Multipliers kept, Workspace& workspace) {
   workspace.displacements.resize(model.particles());
-  prepare_multipliers(model, keeps_multipliers, workspace);
+  prepare_multipliers(model, kept, workspace);
   workspace.volume_multipliers.assign(model.objects.size(), 0);
   bool some_volume = false;
   for (const CompiledObject& object : model.objects) some_volume = some_volume || object.has_volume;

@@ -31,9 +31,8 @@ struct FrameGravity {
 };
 
 struct Workspace {
-  Records displacements;  ///< since the substep's start [m]
-  std::vector<std::vector<AlignedVector<float>>>
-      multipliers;  ///< [object][pool], a float a lane; empty where none are kept
+  Records displacements;                                       ///< since the substep's start [m]
+  std::vector<std::vector<AlignedVector<float>>> multipliers;  ///< [object][pool], a float a lane; empty where not kept
   std::vector<std::vector<float*>> multiplier_pointers;
   std::vector<double> volume_multipliers;           ///< one an object
   Records volume_gradients;                         ///< one a particle where some object has a volume constraint
@@ -43,7 +42,10 @@ struct Workspace {
   std::vector<FrameGravity> gravity;  ///< one an object
 };
 
+/// Which multipliers are kept: those that a second iteration needs, or all.
+enum class Multipliers { none, needed, all };
+
 /// Makes everything the right size for a model.
-void prepare(const Model& model, bool keeps_multipliers, Workspace& workspace);
+void prepare(const Model& model, Multipliers kept, Workspace& workspace);
 
 }  // namespace pliant

@@ -45,7 +45,11 @@ struct World::Implementation {
     }
     if (model.first.empty()) model.first.push_back(0);
     state = initial_state(model);
-    prepare(model, settings.iterations > 1 || settings.record_multipliers, workspace);
+    prepare(model,
+            settings.record_multipliers ? Multipliers::all
+            : settings.iterations > 1   ? Multipliers::needed
+                                        : Multipliers::none,
+            workspace);
   }
 
   const CompiledObject& object(int index) const {
@@ -109,7 +113,8 @@ Report World::step(float dt) {
     return report;
   }
   if (self_->stopped) {
-    report.nonfinite = NonFinite{"", "nothing: the world stopped at an earlier step; restore a state to go on", report.frame, 0};
+    report.nonfinite =
+        NonFinite{"", "nothing: the world stopped at an earlier step; restore a state to go on", report.frame, 0};
     return report;
   }
   self_->last_h = static_cast<float>(double(dt) / self_->settings.substeps);
@@ -129,20 +134,24 @@ const State& World::state() const { return self_->state; }
 void World::restore(const State& state) {
   const std::size_t particles = self_->state.positions.size();
   if (state.positions.size() != particles || state.velocities.size() != particles || state.remainders.size() != particles) {
-    throw Error({}, "the state has " + std::to_string(state.positions.size()) + " particles, the world " + std::to_string(particles),
-                "restore a state of this world");
+    throw Error(
+        {},
+        "the state has " + std::to_string(state.positions.size()) + " particles, the world " + std::to_string(particles),
+        "restore a state of this world");
   }
   const auto is_finite = [](const Record& r) { return std::isfinite(r.x) && std::isfinite(r.y) && std::isfinite(r.z); };
   for (std::size_t i = 0; i < particles; ++i) {
     if (state.positions[i].w != self_->state.positions[i].w) {
-      throw Error({.element = "particle " + std::to_string(i)}, "its mass is not this world's", "restore a state of this world");
+      throw Error({.element = "particle " + std::to_string(i)}, "its mass is not this world's",
+                  "restore a state of this world");
     }
     if (state.velocities[i].w != 0 || state.remainders[i].w != 0) {
       throw Error({.element = "particle " + std::to_string(i)}, "the fourth number of its velocity or remainder is not 0",
                   "restore a state of this world");
     }
     if (!is_finite(state.positions[i]) || !is_finite(state.velocities[i]) || !is_finite(state.remainders[i])) {
-      throw Error({.element = "particle " + std::to_string(i)}, "its position or velocity is not finite", "restore an earlier state");
+      throw Error({.element = "particle " + std::to_string(i)}, "its position or velocity is not finite",
+                  "restore an earlier state");
     }
   }
   if (!std::isfinite(state.time)) throw Error({}, "the state's time is not finite", "restore an earlier state");
@@ -174,7 +183,8 @@ std::vector<Vec3f> World::velocities(int object) const { return self_->in_user_o
 TriangleMesh World::mesh(int object) const {
   TriangleMesh mesh{positions(object), {}};
   const CompiledObject& from = self_->object(object);
-  for (const auto& t : from.surface.triangles) mesh.triangles.push_back({from.order[t[0]], from.order[t[1]], from.order[t[2]]});
+  for (const auto& t : from.surface.triangles)
+    mesh.triangles.push_back({from.order[t[0]], from.order[t[1]], from.order[t[2]]});
   return mesh;
 }
 
@@ -188,7 +198,7 @@ std::vector<float> World::multipliers(int object, const std::string& type) const
   if (self_->workspace.multipliers[object].empty()) return out;
   for (std::size_t p = 0; p < from.pools.size(); ++p) {
     const Pool& pool = from.pools[p];
-    if (type != constraint_types()[pool.type].name || pool.law == Law::pbd) continue;
+    if (type != constraint_types()[pool.type].name || self_->workspace.multipliers[object][p].empty()) continue;
     for (std::size_t lane = 0; lane < pool.origin.size(); ++lane) {
       if (pool.origin[lane] < 0) continue;
       if (out.size() <= static_cast<std::size_t>(pool.origin[lane])) out.resize(pool.origin[lane] + 1, 0.f);

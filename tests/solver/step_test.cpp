@@ -99,7 +99,7 @@ State run(const Manner& how) {
   const Model model = make_model(how.largest_tile, how.substeps * how.iterations, how.forces);
   State state = initial_state(model);
   Workspace workspace;
-  prepare(model, how.keeps || how.iterations > 1, workspace);
+  prepare(model, how.keeps || how.iterations > 1 ? Multipliers::all : Multipliers::none, workspace);
   Executor executor(how.threads);
   for (int frame = 0; frame < 12; ++frame) {
     Report report;
@@ -161,7 +161,7 @@ TEST(Step, TheScheduleOfOneObjectKnowsNothingOfAnother) {
   const auto moved = [](const Model& model) {
     State state = initial_state(model);
     Workspace workspace;
-    prepare(model, false, workspace);
+    prepare(model, Multipliers::none, workspace);
     Executor executor(2);
     for (int frame = 0; frame < 10; ++frame) {
       Report report;
@@ -184,7 +184,7 @@ struct VolumeCase {
     object.constraints.clear();
     model.add(compile(object, {1, largest_tile}));
     state = initial_state(model);
-    prepare(model, false, workspace);
+    prepare(model, Multipliers::none, workspace);
     workspace.displacements.assign(state.positions.size(), Record{});
   }
   /// Of the places with their displacements.
@@ -270,7 +270,7 @@ TEST(Volume, MovesTheCentreNowhere) {
 
 NonFinite failure(const Model& model, State& state, int iterations) {
   Workspace workspace;
-  prepare(model, iterations > 1, workspace);
+  prepare(model, iterations > 1 ? Multipliers::needed : Multipliers::none, workspace);
   Executor executor(2);
   Report report;
   step({model, state, workspace, executor, pick_kernels(""), 4, iterations}, 1.f / 60, report);
@@ -340,7 +340,7 @@ TEST(Measure, CountsAndMeasuresByType) {
   const Model model = make_model(40, 6, false);
   const State state = initial_state(model);
   Workspace workspace;
-  prepare(model, false, workspace);
+  prepare(model, Multipliers::none, workspace);
   const std::vector<Residual> residuals = measure_residuals(model, state, workspace, 0.01f);
   ASSERT_EQ(residuals.size(), 4u);
   EXPECT_EQ(residuals[0].type, "distance");
