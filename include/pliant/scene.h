@@ -148,6 +148,14 @@ using ForceField = std::function<Vec3f(const Vec3f& position, const Vec3f& veloc
 enum class Sweep {
   tiled,       ///< coloured Gauss-Seidel in tiles, sixteen lanes, all threads: the default
   sequential,  ///< the same order, one constraint at a time in plain scalar code: the readable reference, bit-equal to `tiled`
+  chains,      ///< rigid and compliant distances laid out as paths, each path solved exactly; the rest as `tiled` has it
+};
+
+/// What the sweeps can be told besides.
+struct SweepOptions {
+  bool tethers = false;     ///< hold every particle within its distance along the mesh to the pins (long-range attachments)
+  float tether_slack = 0;   ///< share by which that distance may be exceeded, for cloth that is meant to stretch, 0..1000 [-]
+  float chain_softness = 1e-3f;  ///< of `chains`: added to the diagonal, as a share of it, 0..1 [-]
 };
 
 struct Settings {
@@ -155,6 +163,7 @@ struct Settings {
   int iterations = 1;    ///< 1..10000 a substep
   int threads = 0;       ///< 0: as many as the machine has
   Sweep sweep = Sweep::tiled;
+  SweepOptions sweep_options{};
   bool measure = false;  ///< fill Report::residuals and the stretch each frame (costs about one more iteration)
   bool record_multipliers = false;  ///< keep multipliers readable even where not needed (one iteration, or rigid)
   std::string isa;       ///< "", or "x86-64-v2", "-v3", "-v4" to force a code path (same bits, other speed)
