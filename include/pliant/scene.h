@@ -148,11 +148,25 @@ using ForceField = std::function<Vec3f(const Vec3f& position, const Vec3f& veloc
 enum class Sweep {
   tiled,       ///< coloured Gauss-Seidel in tiles, sixteen lanes, all threads: the default
   sequential,  ///< the same order, one constraint at a time in plain scalar code: the readable reference, bit-equal to `tiled`
+  symmetric,   ///< `tiled` there and back: one iteration visits every constraint twice, in one order and in the reverse
+  jacobi,      ///< all constraints at once from the same positions, each particle's corrections then shared out
+  natural,     ///< Gauss-Seidel in the order in which the constraints were given, one at a time: for comparison, slow
   chains,      ///< rigid and compliant distances laid out as paths, each path solved exactly; the rest as `tiled` has it
 };
 
 /// What the sweeps can be told besides.
 struct SweepOptions {
+  /// How `jacobi` shares a particle among its n constraints. `split`: each has an n-th of its mass (Tonge et al. 2012), which
+  /// keeps momentum. `average`: each sees all of it and the n corrections are averaged (Macklin et al. 2014), which does not.
+  enum class Sharing { split, average };
+  /// Chebyshev semi-iteration over any sweep but `natural` (Wang 2015), off while a particle touches something.
+  enum class Acceleration { none, chebyshev };
+
+  float relaxation = 1;  ///< omega: every change of a multiplier is multiplied by it, above 0, below 2 [-]
+  Sharing sharing = Sharing::split;
+  Acceleration acceleration = Acceleration::none;
+  int plain_iterations = 10;   ///< of each substep before Chebyshev begins, 1..10000; 2 or more where rho is estimated
+  float spectral_radius = 0;   ///< rho of the sweep in (0, 1), or 0: estimated in each substep from the plain iterations [-]
   bool tethers = false;     ///< hold every particle within its distance along the mesh to the pins (long-range attachments)
   float tether_slack = 0;   ///< share by which that distance may be exceeded, for cloth that is meant to stretch, 0..1000 [-]
   float chain_softness = 1e-3f;  ///< of `chains`: added to the diagonal, as a share of it, 0..1 [-]
@@ -165,8 +179,9 @@ struct Settings {
   Sweep sweep = Sweep::tiled;
   SweepOptions sweep_options{};
   bool measure = false;  ///< fill Report::residuals and the stretch each frame (costs about one more iteration)
+  bool record_residuals = false;  ///< fill Report::convergence (slow: every iteration of the last substep is measured)
   bool record_multipliers = false;  ///< keep multipliers readable even where not needed (one iteration, or rigid)
-  std::string isa;       ///< "", or "x86-64-v2", "-v3", "-v4" to force a code path (same bits, other speed)
+  std::string isa;       ///< "", or "x86-64-v2", "-v3", "-v4", "sequential" to force a code path (same bits, other speed)
 };
 
 /// Everything that a World is made from.

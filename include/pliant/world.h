@@ -58,6 +58,17 @@ struct Residual {
   double rms = 0, largest = 0;  ///< in the unit of C
 };
 
+/// Where the solve stood after an iteration of a step's last substep.
+///
+/// Primal: |C + alpha~ lambda| by type, as in Residual. Dual: how far a particle is from where the multipliers alone would
+/// have moved it, |x - x~ - w grad C^T lambda|, the other half of the equations that XPBD solves (Macklin et al. 2016, eq.
+/// 8), as a length. Particles that touch something or have a PBD constraint are left out of it: those have no multipliers.
+struct IterationResidual {
+  int iteration = 0;               ///< 0: as predicted, before the first
+  std::vector<Residual> primal;
+  double dual_rms = 0, dual_largest = 0;  ///< over particles with mass [m]
+};
+
 /// Length over rest length of every distance constraint with a rest length.
 struct Stretch {
   double mean = 1, p99 = 1, largest = 1;
@@ -79,6 +90,7 @@ struct Report {
   std::int64_t contacts = 0;        ///< active in the last substep
   std::vector<Residual> residuals;  ///< where Settings::measure
   std::optional<Stretch> stretch;   ///< where Settings::measure
+  std::vector<IterationResidual> convergence;  ///< of the last substep, where Settings::record_residuals
   std::optional<NonFinite> nonfinite;
   std::vector<std::string> warnings;
 

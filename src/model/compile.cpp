@@ -4,7 +4,9 @@
 #include <limits>
 
 #include "constraints/all.h"
+#include "model/chains.h"
 #include "model/compiled_object.h"
+#include "model/fill_pool.h"
 #include "model/gather_constraints.h"
 #include "model/stiffness.h"
 #include "topology/colouring.h"
@@ -118,44 +120,6 @@ std::vector<std::vector<int>> split_by_tile(const ConstraintList& list, const st
   return members;
 }
 
-/// A row of numbers, one a constraint: a rest field, the responses or the dampings.
-struct Row {
-  const float* first;
-  int stride;
-  float at(int constraint) const { return first[static_cast<std::size_t>(constraint) * stride]; }
-};
-
-std::vector<Row> rows_of(const ConstraintList& list) {
-  std::vector<Row> rows;
-  rows.reserve(static_cast<std::size_t>(list.fields) + 2);
-  for (int field = 0; field < list.fields; ++field) rows.push_back({list.rest.data() + field, list.fields});
-  rows.push_back({list.response.data(), 1});
-  if (list.law == Law::damped) rows.push_back({list.damping.data(), 1});
-  return rows;
-}
-
-bool is_constant(const Row& row, int count) {
-  for (int i = 1; i < count; ++i) {
-    if (std::memcmp(&row.first[static_cast<std::size_t>(i) * row.stride], row.first, sizeof(float)) != 0) return false;
-  }
-  return true;
-}
-
-Pool make_pool(const ConstraintList& list) {
-  Pool pool;
-  pool.type = list.type;
-  pool.law = list.law;
-  pool.stencil = list.size;
-  pool.constraints = list.count();
-  for (const Row& row : rows_of(list)) {
-    const bool constant = is_constant(row, list.count());
-    pool.constants.insert(pool.constants.end(), batch_width, row.at(0));
-    pool.row_offset.push_back(constant ? -1 : pool.block_floats);
-    pool.block_floats += constant ? 0 : batch_width;
-  }
-  return pool;
-}
-
 /// The constraint in a lane of a batch: runs interleave, lane 4 l + j being member l of run j (math/wide.h says why). Lanes
 /// past the end repeat the first, which is then read but never written.
 int member_in_lane(const Colour& colour, int batch, int lane, bool& valid) {
@@ -210,20 +174,30 @@ void append_colour(const ConstraintList& list, const Colour& colour, int largest
   }
 }
 
-void schedule(std::vector<ConstraintList>& lists, const std::vector<int>& tile, CompiledObject& out) {
+/// Each constraint its own colour: the order of the list.
+std::vector<Colour> one_by_one(const std::vector<int>& members) {
+  std::vector<Colour> colours;
+  for (int member : members) colours.push_back({false, {member}});
+  return colours;
+}
+
+void schedule(std::vector<ConstraintList>& lists, const std::vector<int>& tile, bool in_given_order, CompiledObject& out) {
   std::vector<int> tile_of(tile.size());  // by storage
   for (std::size_t storage = 0; storage < tile.size(); ++storage) tile_of[storage] = tile[out.order[storage]];
   const int tiles = static_cast<int>(out.tiles.size());
   std::vector<std::vector<std::vector<int>>> members;
   for (ConstraintList& list : lists) {
     renumber(list, out.place);
-    members.push_back(split_by_tile(list, tile_of, tiles));
+    members.push_back(list.chained ? std::vector<std::vector<int>>(static_cast<std::size_t>(tiles) + 1)
+                                   : split_by_tile(list, tile_of, tiles));
     out.pools.push_back(make_pool(list));
   }
   Colouring colouring(out.particles);
   const auto append = [&](std::size_t i, int t) {
     const bool straddles = t == tiles;
-    for (const Colour& colour : colouring.colour(lists[i].stencils, lists[i].size, members[i][t])) {
+    const std::vector<Colour> colours = in_given_order ? one_by_one(members[i][t])
+                                                       : colouring.colour(lists[i].stencils, lists[i].size, members[i][t]);
+    for (const Colour& colour : colours) {
       const int first = static_cast<int>(out.segments.size());
       append_colour(lists[i], colour, straddles ? batches_per_straddler_task : 1 << 30, static_cast<int>(i), out);
       if (straddles) out.straddlers.push_back({first, static_cast<int>(out.segments.size())});
@@ -284,12 +258,16 @@ CompiledObject compile(const Object& object, const CompileOptions& options) {
   out.user_particles = static_cast<int>(object.positions.size());
 
   std::vector<ConstraintList> lists = gather_constraints(object, options.passes);
+  if (options.chains) split_off_chains(lists);
   std::vector<int> tile;
-  number_particles(positions, lists, options.largest_tile, tile, out);
+  const int largest_tile = options.in_given_order ? std::numeric_limits<int>::max() : options.largest_tile;
+  number_particles(positions, lists, largest_tile, tile, out);
   fill_particles(object, positions, out);
   fill_kinematics(object, out);
-  schedule(lists, tile, out);
+  schedule(lists, tile, options.in_given_order, out);
+  append_chains(lists, options.chain_softness, out);
   fill_surface(object, out);
+  if (options.tethers) out.tethers = find_tethers(lists, options.tether_slack, out);
   fill_volume(object, options.passes, out);
 
   out.thickness = object.thickness;

@@ -24,6 +24,36 @@ struct StraddlerColour {
   int first_segment = 0, last_segment = 0;
 };
 
+/// Up to sixteen paths of distance constraints, one a lane, longest first, that share no particle. Link k of every path is
+/// a batch of the pool and a segment of its own: the paths walk in step, and memory is read forwards. Lanes whose path has
+/// ended stay at its last particle: a link of length zero from it to itself, which is read and never written.
+struct ChainBatch {
+  int pool = 0;
+  int first_segment = 0;
+  int steps = 0;  ///< links of the longest path
+};
+
+/// Batches of paths that share no particle.
+struct ChainColour {
+  int first_batch = 0, last_batch = 0;
+};
+
+/// Upper bounds of the distances to pins (long-range attachments: Kim, Chentanez, Mueller-Fischer 2012): sixteen particles
+/// that follow one another are a batch; lane 4 L + j is particle 4 j + L of it, as in find_near.
+struct Tethers {
+  /// One tether of each particle of a batch.
+  struct Row {
+    std::int32_t anchor = 0;  ///< number in `anchors` for all lanes, or -1 where they differ
+    std::int32_t lanes = 0;   ///< then: where its sixteen numbers stand in `lane_anchors`
+  };
+  int slots = 0;             ///< tethers a particle, at most
+  std::vector<int> anchors;  ///< particles of zero inverse mass
+  std::vector<Row> rows;     ///< slots x batches
+  std::vector<std::int32_t> lane_anchors;
+  AlignedVector<float> lengths;  ///< sixteen a row [m]; `no_tether` where a particle has none
+};
+inline constexpr float no_tether = 1e30f;
+
 /// A particle whose place is given.
 struct Kinematic {
   int particle = 0;  ///< in storage order
@@ -54,9 +84,13 @@ struct CompiledObject {
   std::vector<int> place;  ///< place[user's number] = storage
   std::vector<Record> positions, velocities;
   std::vector<Pool> pools;
-  std::vector<Segment> segments;  ///< tile after tile, then the straddlers
+  std::vector<Segment> segments;  ///< tile after tile, then the straddlers, then the links of chains
   std::vector<Tile> tiles;
   std::vector<StraddlerColour> straddlers;
+  std::vector<ChainBatch> chains;
+  std::vector<ChainColour> chain_colours;
+  AlignedVector<float> chain_softness;  ///< sixteen a chain batch: added to the diagonal, as a share of it
+  Tethers tethers;
   std::vector<Kinematic> kinematics;  ///< those that move
   Surface surface;
   bool has_volume = false;
@@ -68,6 +102,10 @@ struct CompiledObject {
 struct CompileOptions {
   int passes = 1;           ///< projections of a constraint in a frame: substeps x iterations, for k'
   int largest_tile = 4096;  ///< particles
+  bool in_given_order = false;  ///< one tile, one constraint after another: type by type, law by law, as they were given
+  bool chains = false, tethers = false;
+  float chain_softness = 1e-3f;  ///< as in SweepOptions
+  float tether_slack = 0;
 };
 
 /// Compiles an object that inspect() finds nothing grave in. Throws Error naming an unknown constraint type or a stencil or

@@ -20,6 +20,11 @@ struct SweepArguments {
   float* const* multipliers = nullptr;  ///< one array a pool, or null where none are kept
   float h = 0, inverse_h = 0, inverse_h2 = 0;
   bool first_pass = true;  ///< of the substep: multipliers start at zero
+
+  // For sweep_general alone:
+  float relaxation = 1;                   ///< omega, on every change of a multiplier
+  Record* const* corrections = nullptr;   ///< one array a pool, size x 16 records a batch: written instead of displacements
+  const float* const* shares = nullptr;   ///< one array a pool: what part of a change reaches the multiplier; null: all of it
 };
 
 /// What carrying particles from one substep to the next needs.

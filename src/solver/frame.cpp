@@ -5,6 +5,8 @@
 #include "math/motion.h"
 #include "solver/diagnose.h"
 #include "solver/forces.h"
+#include "solver/sweeps/chains.h"
+#include "solver/sweeps/sweep.h"
 #include "solver/volume.h"
 
 namespace pliant {
@@ -26,7 +28,9 @@ Frame::Frame(const StepContext& context, double dt, Report& report)
       report_(report),
       start_(context.state.time),
       dt_(dt),
-      h_(static_cast<float>(dt / context.substeps)) {
+      h_(static_cast<float>(dt / context.substeps)),
+      sweeps_on_entry_(sweep_method(context.sweep).begins_on_entry && !context.record_residuals &&
+                       context.options.acceleration == SweepOptions::Acceleration::none) {
   for (std::size_t o = 0; o < work_.gravity.size(); ++o)
     work_.gravity[o] = {0, 0, 0, 1 / (1 + h_ * model_.objects[o].damping)};
 }
@@ -44,6 +48,7 @@ SweepArguments Frame::arguments(int object, bool first_pass) const {
   a.inverse_h = 1 / h_;
   a.inverse_h2 = (1 / h_) * (1 / h_);
   a.first_pass = first_pass;
+  a.relaxation = context_.options.relaxation;
   return a;
 }
 
@@ -86,9 +91,9 @@ void Frame::apply_external_forces(int substep) {
       report_.warnings);
 }
 
-void Frame::enter_and_sweep_tiles(bool finishes_first) {
+void Frame::enter_tiles(bool finishes_first) {
   for_tiles("solve: tiles", [&](int task) {
-    if (enter_tile(task, finishes_first)) sweep_tile(task, true);
+    if (enter_tile(task, finishes_first) && sweeps_on_entry_) sweep_tile(task, true, Order::forward);
   });
 }
 
@@ -151,23 +156,39 @@ bool Frame::finish_tile(int task, bool ends_frame) {
 
 // ---------------------------------------------------------------- constraints
 
-void Frame::sweep_tiles() {
-  for_tiles("solve: tiles", [&](int task) { sweep_tile(task, false); });
+void Frame::sweep_tiles(bool first_pass, Order order) {
+  for_tiles("solve: tiles", [&](int task) { sweep_tile(task, first_pass, order); });
 }
 
-void Frame::sweep_tile(int task, bool first_pass) {
-  const CompiledObject& object = model_.objects[model_.tiles[task].object];
-  const Tile& tile = object.tiles[model_.tiles[task].tile];
-  kernels_.sweep(object.pools.data(), object.segments.data() + tile.first_segment,
-                 object.segments.data() + tile.last_segment, arguments(model_.tiles[task].object, first_pass));
+/// Segments are gone through from either end; the constraints inside one share no particle and have no order.
+void Frame::sweep_tile(int task, bool first_pass, Order order) {
+  const int object = model_.tiles[task].object;
+  const Tile& tile = model_.objects[object].tiles[model_.tiles[task].tile];
+  if (order == Order::forward) return sweep_segments(object, tile.first_segment, tile.last_segment, first_pass);
+  for (int s = tile.last_segment; s-- > tile.first_segment;) sweep_segments(object, s, s + 1, first_pass);
 }
 
-void Frame::sweep_straddlers(bool first_pass) {
-  for (const StraddlerPhase& phase : model_.straddlers) {
+void Frame::sweep_segments(int object, int first, int last, bool first_pass) {
+  const CompiledObject& from = model_.objects[object];
+  const auto sweep = context_.options.relaxation == 1 ? kernels_.sweep : kernels_.sweep_general;
+  sweep(from.pools.data(), from.segments.data() + first, from.segments.data() + last, arguments(object, first_pass));
+}
+
+void Frame::sweep_straddlers(bool first_pass, Order order) {
+  for_straddlers(order, [&](int object, const Segment* segment) {
+    const int number = static_cast<int>(segment - model_.objects[object].segments.data());
+    sweep_segments(object, number, number + 1, first_pass);
+  });
+}
+
+/// Phase after phase, the segments of each shared out among threads where they are many.
+void Frame::for_straddlers(Order order, FunctionRef<void(int, const Segment*)> body) {
+  const std::size_t phases = model_.straddlers.size();
+  for (std::size_t p = 0; p < phases; ++p) {
+    const StraddlerPhase& phase = model_.straddlers[order == Order::forward ? p : phases - 1 - p];
     const auto sweep_task = [&](int i) {
-      const CompiledObject& object = model_.objects[phase.tasks[i].object];
-      const Segment* segment = object.segments.data() + phase.tasks[i].segment;
-      kernels_.sweep(object.pools.data(), segment, segment + 1, arguments(phase.tasks[i].object, first_pass));
+      const StraddlerPhase::Task& task = phase.tasks[i];
+      body(task.object, model_.objects[task.object].segments.data() + task.segment);
     };
     const int tasks = static_cast<int>(phase.tasks.size());
     if (phase.batches >= fewest_batches_to_share) {
@@ -177,6 +198,17 @@ void Frame::sweep_straddlers(bool first_pass) {
       for (int i = 0; i < tasks; ++i) sweep_task(i);
     }
   }
+}
+
+void Frame::sweep_chains(bool first_pass) {
+  const ChainKernels& kernels = chain_kernels(kernels_.isa);
+  const auto of_object = [&](int object) { return arguments(object, first_pass); };
+  solve_chains(model_, kernels, work_, executor_, of_object);
+}
+
+void Frame::hold_tethers() {
+  const auto of_object = [&](int object) { return arguments(object, false); };
+  pliant::hold_tethers(model_, chain_kernels(kernels_.isa), work_, executor_, of_object);
 }
 
 void Frame::sweep_volumes(bool first_pass) {

@@ -5,6 +5,9 @@
 
 namespace pliant {
 
+/// Which way the schedule is gone through.
+enum class Order { forward, backward };
+
 class Frame {
  public:
   Frame(const StepContext& context, double dt, Report& report);
@@ -15,14 +18,20 @@ class Frame {
   /// Wind and force fields on velocities, which must be up to date.
   void apply_external_forces(int substep);
 
-  /// Prediction, contacts and the first sweep of every tile; before them, where `finishes_first`, the end of the substep
-  /// before.
-  void enter_and_sweep_tiles(bool finishes_first);
+  /// Prediction and contacts of every tile; before them, where `finishes_first`, the end of the substep before; after them,
+  /// where the sweep allows it, the first sweep over the tile, which swept_on_entry() tells.
+  void enter_tiles(bool finishes_first);
+  bool swept_on_entry() const { return sweeps_on_entry_; }
 
   /// One sweep over the constraints inside tiles; over those between tiles; over volumes; over contacts.
-  void sweep_tiles();
-  void sweep_straddlers(bool first_pass);
+  void sweep_tiles(bool first_pass, Order order);
+  void sweep_straddlers(bool first_pass, Order order);
   void sweep_volumes(bool first_pass);
+
+  /// Chains, and tethers, where there are any.
+  void sweep_chains(bool first_pass);
+  void hold_tethers();
+
   void sweep_contacts();
 
   /// Velocities and positions of every tile at the end of a substep, or of the frame.
@@ -35,15 +44,26 @@ class Frame {
   /// Counts contacts and moves the clock.
   void end();
 
+  // For the files of sweeps/: the parallel loops over tiles and over the segments between them (object, segment), and what
+  // they work on.
+  void for_tiles(const char* name, FunctionRef<void(int)> body);
+  void for_straddlers(Order order, FunctionRef<void(int, const Segment*)> body);
+  SweepArguments arguments(int object, bool first_pass) const;
+  const Model& model() const { return model_; }
+  Workspace& workspace() { return work_; }
+  SweepScratch& scratch() { return work_.sweep; }
+  const Kernels& kernels() const { return kernels_; }
+  const SweepOptions& options() const { return context_.options; }
+  Report& report() { return report_; }
+
  private:
   Vec3f gravity_for(double seconds) const { return model_.gravity * static_cast<float>(seconds); }
   double time_of(int substep) const { return start_ + dt_ * substep / context_.substeps; }
-  SweepArguments arguments(int object, bool first_pass) const;
   AdvanceArguments particles(int task) const;
-  void for_tiles(const char* name, FunctionRef<void(int)> body);
   bool enter_tile(int task, bool finishes_first);
   bool finish_tile(int task, bool ends_frame);
-  void sweep_tile(int task, bool first_pass);
+  void sweep_tile(int task, bool first_pass, Order order);
+  void sweep_segments(int object, int first, int last, bool first_pass);
   void move_kinematics(const CompiledObject& object, const AdvanceArguments& a) const;
 
   const StepContext& context_;
@@ -55,6 +75,7 @@ class Frame {
   Report& report_;
   double start_, dt_, time_after_ = 0;
   float h_;
+  bool sweeps_on_entry_;
 };
 
 }  // namespace pliant

@@ -11,11 +11,18 @@
 
 namespace pliant {
 
+/// Where a lane's correction lies among its batch's sixteen: as registers hold them (math/wide.h).
+inline constexpr int correction_place(int lane) { return 4 * (lane % 4) + lane / 4; }
+
 struct Kernels {
   const char* isa;
 
   /// Projects every constraint of the segments, one segment after the other.
   void (*sweep)(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& arguments);
+
+  /// The same with relaxation, and with corrections written aside where arguments.corrections says so. The correction of a
+  /// batch's `slot` and `lane` goes to record (16 (size batch + slot)) + correction_place(lane) of its pool's array.
+  void (*sweep_general)(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& arguments);
 
   /// Whether every record is finite.
   bool (*all_finite)(const Record* records, int first, int last);
@@ -39,7 +46,7 @@ const Kernels& kernels_v3();
 const Kernels& kernels_v4();
 const Kernels& kernels_sequential();
 
-/// The widest kernels that this machine runs, or those named ("x86-64-v2", "x86-64-v3", "x86-64-v4"). Throws Error where
+/// The widest kernels that this machine runs, or those named ("x86-64-v2", "x86-64-v3", "x86-64-v4", "sequential"). Throws Error where
 /// the name is unknown or the machine can't.
 const Kernels& pick_kernels(const std::string& isa);
 

@@ -69,11 +69,39 @@ struct Rows {
   }
 };
 
+/// What a general sweep has for one batch besides.
+struct Aside {
+  Record* corrections = nullptr;  ///< written instead of displacements, sixteen a slot
+  const float* share = nullptr;   ///< of a change that reaches the multiplier, one a lane
+
+  PLIANT_HD Aside(const SweepArguments& a, const Segment& segment, int size) {
+    const std::int64_t first = static_cast<std::int64_t>(segment.first_batch) * batch_width;
+    if (a.corrections != nullptr) corrections = a.corrections[segment.pool] + first * size;
+    if (a.shares != nullptr) share = a.shares[segment.pool] + first;
+  }
+  PLIANT_HD void next(int size) {
+    if (corrections != nullptr) corrections += static_cast<std::ptrdiff_t>(size) * batch_width;
+    if (share != nullptr) share += batch_width;
+  }
+};
+/// And what any other sweep has: nothing.
+struct NothingAside {
+  PLIANT_HD NothingAside(const SweepArguments&, const Segment&, int) {}
+  PLIANT_HD void next(int) {}
+};
+template <bool general>
+using AsideOf = std::conditional_t<general, Aside, NothingAside>;
+
+PLIANT_HD void store_aside(Record* to, const Vec3<Wide>& correction) {
+  constexpr std::int32_t places[4] = {0, 4, 8, 12};
+  store_runs(to, places, to_registers({correction, Wide(0.f)}), 4);
+}
+
 /// One batch of sixteen constraints: their numbers in `rows`, their particles at `index`. `count` lanes or runs are
 /// written.
-template <class T, Law law, bool keeps_multipliers, bool runs, int row_count>
+template <class T, Law law, bool keeps_multipliers, bool runs, bool general, int row_count>
 PLIANT_HD void project_batch(const Rows<row_count>& rows, const std::int32_t* index, float* multiplier, bool whole,
-                             int count, const SweepArguments& a) {
+                             int count, const AsideOf<general>& aside, const SweepArguments& a) {
   constexpr int stride = runs ? 4 : batch_width;
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
   Vec3<Wide> x[T::size];
@@ -93,8 +121,19 @@ PLIANT_HD void project_batch(const Rows<row_count>& rows, const std::int32_t* in
     for (int slot = 0; slot < T::size; ++slot) motion[slot] = load_motion<runs>(a, index + slot * stride);
   }
   Vec3<Wide> correction[T::size];
-  project<T, law, keeps_multipliers>(x, w, params, motion, answer, a, correction);
+  if constexpr (general) {
+    if (aside.share != nullptr) answer.share = load_wide(aside.share);
+  }
+  project<T, law, keeps_multipliers, general>(x, w, params, motion, answer, a, correction);
   if constexpr (keeps_multipliers) store_wide(multiplier, answer.multiplier);
+  if constexpr (general) {
+    if (aside.corrections != nullptr) {
+      for (int slot = 0; slot < T::size; ++slot) store_aside(aside.corrections + slot * batch_width, correction[slot]);
+      return;
+    }
+  } else {
+    (void)aside;
+  }
   for (int slot = 0; slot < T::size; ++slot) {
     const std::int32_t* at = index + slot * stride;
     const Registers moved = load<runs>(a.displacements, at) + to_registers({correction[slot], Wide(0.f)});
@@ -102,7 +141,7 @@ PLIANT_HD void project_batch(const Rows<row_count>& rows, const std::int32_t* in
   }
 }
 
-template <class T, Law law, bool keeps_multipliers, bool runs>
+template <class T, Law law, bool keeps_multipliers, bool runs, bool general>
 void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
   constexpr int indices = T::size * (runs ? 4 : batch_width);
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
@@ -110,48 +149,51 @@ void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers,
   const std::int32_t* index = pool.indices.data() + segment.index_offset;
   float* multiplier =
       keeps_multipliers ? multipliers + static_cast<std::int64_t>(segment.first_batch) * batch_width : nullptr;
+  AsideOf<general> aside(a, segment, T::size);
   for (int batch = 0; batch + 1 < segment.batches; ++batch) {
-    project_batch<T, law, keeps_multipliers, runs>(rows, index, multiplier, true, 0, a);
+    project_batch<T, law, keeps_multipliers, runs, general>(rows, index, multiplier, true, 0, aside, a);
     index += indices;
+    aside.next(T::size);
     rows.next();
     if constexpr (keeps_multipliers) multiplier += batch_width;
   }
   const bool whole = segment.last_count == (runs ? 4 : batch_width);
-  project_batch<T, law, keeps_multipliers, runs>(rows, index, multiplier, whole, segment.last_count, a);
+  project_batch<T, law, keeps_multipliers, runs, general>(rows, index, multiplier, whole, segment.last_count, aside, a);
 }
 
-template <class T, Law law, bool keeps_multipliers>
+template <class T, Law law, bool keeps_multipliers, bool general>
 void sweep_either(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
-  if (segment.runs != 0) return sweep_segment<T, law, keeps_multipliers, true>(pool, segment, multipliers, a);
-  sweep_segment<T, law, keeps_multipliers, false>(pool, segment, multipliers, a);
+  if (segment.runs != 0) return sweep_segment<T, law, keeps_multipliers, true, general>(pool, segment, multipliers, a);
+  sweep_segment<T, law, keeps_multipliers, false, general>(pool, segment, multipliers, a);
 }
 
-template <class T>
+template <class T, bool general>
 void sweep_type(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
   const bool keeps = multipliers != nullptr;
   switch (pool.law) {
     case Law::compliant:
-      return keeps ? sweep_either<T, Law::compliant, true>(pool, segment, multipliers, a)
-                   : sweep_either<T, Law::compliant, false>(pool, segment, multipliers, a);
+      return keeps ? sweep_either<T, Law::compliant, true, general>(pool, segment, multipliers, a)
+                   : sweep_either<T, Law::compliant, false, general>(pool, segment, multipliers, a);
     case Law::damped:
-      return keeps ? sweep_either<T, Law::damped, true>(pool, segment, multipliers, a)
-                   : sweep_either<T, Law::damped, false>(pool, segment, multipliers, a);
+      return keeps ? sweep_either<T, Law::damped, true, general>(pool, segment, multipliers, a)
+                   : sweep_either<T, Law::damped, false, general>(pool, segment, multipliers, a);
     case Law::pbd:
-      return sweep_either<T, Law::pbd, false>(pool, segment, multipliers, a);
+      return sweep_either<T, Law::pbd, false, general>(pool, segment, multipliers, a);
   }
 }
 
-template <class... Types>
+template <bool general, class... Types>
 void sweep_any(TypeList<Types...>, const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
   using Function = void (*)(const Pool&, const Segment&, float*, const SweepArguments&);
-  static constexpr Function table[] = {&sweep_type<Types>...};
+  static constexpr Function table[] = {&sweep_type<Types, general>...};
   table[pool.type](pool, segment, multipliers, a);
 }
 
+template <bool general>
 void sweep(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& a) {
   for (const Segment* segment = first; segment != last; ++segment) {
     float* multipliers = a.multipliers != nullptr ? a.multipliers[segment->pool] : nullptr;
-    sweep_any(AllConstraints{}, pools[segment->pool], *segment, multipliers, a);
+    sweep_any<general>(AllConstraints{}, pools[segment->pool], *segment, multipliers, a);
   }
 }
 
@@ -346,7 +388,7 @@ int find_near(const NearQuery& q, std::int32_t* near) {
 }  // namespace PLIANT_ISA
 
 const Kernels& PLIANT_KERNELS() {
-  static constexpr Kernels table{PLIANT_ISA_NAME, &sweep, &all_finite, &update, &predict, &advance, &find_near};
+  static constexpr Kernels table{PLIANT_ISA_NAME, &sweep<false>, &sweep<true>, &all_finite, &update, &predict, &advance, &find_near};
   return table;
 }
 

@@ -24,13 +24,15 @@ const Kernels& pick_kernels(const std::string& isa) {
     bool (*runs)();
   };
   static constexpr Choice choices[] = {{kernels_v4, runs_v4}, {kernels_v3, runs_v3}, {kernels_v2, runs_v2}};
+  if (isa == kernels_sequential().isa) return kernels_sequential();
   for (const Choice& choice : choices) {
     if (isa == choice.kernels().isa && !choice.runs()) {
       throw Error({}, "this machine can't run the code path '" + isa + "'", "leave settings.isa empty");
     }
     if ((isa.empty() || isa == choice.kernels().isa) && choice.runs()) return choice.kernels();
   }
-  if (!isa.empty()) throw Error({}, "unknown code path '" + isa + "'", "use x86-64-v2, x86-64-v3, x86-64-v4 or leave it empty");
+  if (!isa.empty())
+    throw Error({}, "unknown code path '" + isa + "'", "use x86-64-v2, x86-64-v3, x86-64-v4, sequential or leave it empty");
   return kernels_sequential();
 }
 

@@ -36,6 +36,7 @@ struct Answer {
   R response;    ///< alpha, or k'
   R damping;     ///< beta
   R multiplier;  ///< lambda so far in this substep; advanced by project
+  R share = R(1.f);  ///< of a change that reaches the multiplier, where sweeps are general
 };
 
 /// The corrections of one constraint (of each lane).
@@ -44,7 +45,8 @@ struct Answer {
 ///   26)
 ///          with a = alpha / h^2 and g = alpha beta / h
 ///   correction_i = w_i grad_i C dlambda
-template <class T, Law law, bool keeps_multiplier, class R>
+///   and in a general sweep, dlambda times the relaxation.
+template <class T, Law law, bool keeps_multiplier, bool general = false, class R>
 PLIANT_HD void project(const Vec3<R> (&x)[T::size], const R (&w)[T::size], const typename T::template Params<R>& params,
                        const Vec3<R> (&motion)[T::size], Answer<R>& answer, const SweepArguments& a,
                        Vec3<R> (&correction)[T::size]) {
@@ -65,7 +67,8 @@ PLIANT_HD void project(const Vec3<R> (&x)[T::size], const R (&w)[T::size], const
     }
     change = numerator / max(denominator, R(smallest_denominator));
   }
-  if constexpr (keeps_multiplier) answer.multiplier = answer.multiplier + change;
+  if constexpr (general) change = change * R(a.relaxation);
+  if constexpr (keeps_multiplier) answer.multiplier = answer.multiplier + (general ? change * answer.share : change);
   for (int slot = 0; slot < T::size; ++slot) correction[slot] = gradient[slot] * (w[slot] * change);
 }
 

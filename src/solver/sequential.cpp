@@ -10,9 +10,24 @@ namespace pliant {
 
 namespace {
 
-template <class T, Law law, bool keeps_multipliers>
-void project_lane(const Pool& pool, std::int64_t batch, int lane, const std::int32_t (&particle)[T::size],
-                  float* multiplier, const SweepArguments& a) {
+/// A constraint's place: its pool's number, its batch there, its lane.
+struct Place {
+  int pool;
+  std::int64_t batch;
+  int lane;
+};
+
+/// Where a general sweep puts one constraint's corrections aside, a batch's slots sixteen records apart; null: nowhere.
+Record* correction_of(const Pool& pool, const SweepArguments& a, int pool_number, std::int64_t batch, int lane) {
+  if (a.corrections == nullptr) return nullptr;
+  return a.corrections[pool_number] + batch * pool.stencil * batch_width + correction_place(lane);
+}
+
+template <class T, Law law, bool keeps_multipliers, bool general>
+void project_lane(const Pool& pool, const Place& at, const std::int32_t (&particle)[T::size], float* multiplier,
+                  const SweepArguments& a) {
+  const std::int64_t batch = at.batch;
+  const int lane = at.lane;
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
   float rest[fields];
   for (int field = 0; field < fields; ++field) rest[field] = pool.row(field, batch)[lane];
@@ -32,15 +47,21 @@ void project_lane(const Pool& pool, std::int64_t batch, int lane, const std::int
   }
   Answer<float> answer{pool.row(fields, batch)[lane], law == Law::damped ? pool.row(fields + 1, batch)[lane] : 0.f,
                        keeps_multipliers && !a.first_pass ? *multiplier : 0.f};
-  project<T, law, keeps_multipliers>(x, w, params, motion, answer, a, correction);
+  if (general && a.shares != nullptr) answer.share = a.shares[at.pool][batch * batch_width + lane];
+  project<T, law, keeps_multipliers, general>(x, w, params, motion, answer, a, correction);
   if (keeps_multipliers) *multiplier = answer.multiplier;
+  Record* aside = general ? correction_of(pool, a, at.pool, batch, lane) : nullptr;
   for (int slot = 0; slot < T::size; ++slot) {
+    if (aside != nullptr) {
+      aside[slot * batch_width] = {correction[slot].x, correction[slot].y, correction[slot].z, 0};
+      continue;
+    }
     Record& d = a.displacements[particle[slot]];
     d = {d.x + correction[slot].x, d.y + correction[slot].y, d.z + correction[slot].z, 0};
   }
 }
 
-template <class T, Law law, bool keeps_multipliers>
+template <class T, Law law, bool keeps_multipliers, bool general>
 void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
   const std::int32_t* index = pool.indices.data() + segment.index_offset;
   for (int batch = 0; batch < segment.batches; ++batch, index += indices_per_batch(pool, segment)) {
@@ -50,32 +71,33 @@ void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers,
       std::int32_t particle[T::size];
       for (int slot = 0; slot < T::size; ++slot) particle[slot] = particle_of(segment, index, slot, lane);
       float* multiplier = keeps_multipliers ? multipliers + number * batch_width + lane : nullptr;
-      project_lane<T, law, keeps_multipliers>(pool, number, lane, particle, multiplier, a);
+      project_lane<T, law, keeps_multipliers, general>(pool, {segment.pool, number, lane}, particle, multiplier, a);
     }
   }
 }
 
-template <class T>
+template <class T, bool general>
 void sweep_type(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
   const bool keeps = multipliers != nullptr;
   switch (pool.law) {
     case Law::compliant:
-      return keeps ? sweep_segment<T, Law::compliant, true>(pool, segment, multipliers, a)
-                   : sweep_segment<T, Law::compliant, false>(pool, segment, multipliers, a);
+      return keeps ? sweep_segment<T, Law::compliant, true, general>(pool, segment, multipliers, a)
+                   : sweep_segment<T, Law::compliant, false, general>(pool, segment, multipliers, a);
     case Law::damped:
-      return keeps ? sweep_segment<T, Law::damped, true>(pool, segment, multipliers, a)
-                   : sweep_segment<T, Law::damped, false>(pool, segment, multipliers, a);
+      return keeps ? sweep_segment<T, Law::damped, true, general>(pool, segment, multipliers, a)
+                   : sweep_segment<T, Law::damped, false, general>(pool, segment, multipliers, a);
     case Law::pbd:
-      return sweep_segment<T, Law::pbd, false>(pool, segment, multipliers, a);
+      return sweep_segment<T, Law::pbd, false, general>(pool, segment, multipliers, a);
   }
 }
 
+template <bool general>
 void sweep(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& a) {
   for (const Segment* segment = first; segment != last; ++segment) {
     const Pool& pool = pools[segment->pool];
     float* multipliers = a.multipliers != nullptr ? a.multipliers[segment->pool] : nullptr;
     with_type(AllConstraints{}, pool.type,
-              [&](auto tag) { sweep_type<typename decltype(tag)::type>(pool, *segment, multipliers, a); });
+              [&](auto tag) { sweep_type<typename decltype(tag)::type, general>(pool, *segment, multipliers, a); });
   }
 }
 
@@ -142,7 +164,8 @@ bool all_finite(const Record* records, int first, int last) {
 }  // namespace
 
 const Kernels& kernels_sequential() {
-  static constexpr Kernels table{"sequential", &sweep, &all_finite, &update, &predict, &advance, &find_near};
+  static constexpr Kernels table{"sequential", &sweep<false>, &sweep<true>, &all_finite,
+                                 &update,      &predict,      &advance,     &find_near};
   return table;
 }
 

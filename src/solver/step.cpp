@@ -4,7 +4,7 @@
 //     forces        wind and force fields on the velocities (where there are any)
 //     predict       v += h g, displacement = h v                            symplectic Euler
 //     collide       contacts of the predicted path with the colliders
-//     solve         iterations x (constraints tile by tile, those that straddle tiles, volumes, contacts)
+//     solve         iterations x (constraints as the chosen sweep has it, acceleration, tethers, contacts)
 //     update        v from the corrections, x += displacement
 //     respond       restitution where something touched (friction is part of a contact's projection)
 //
@@ -18,10 +18,27 @@
 
 #include "solver/forces.h"
 #include "solver/frame.h"
+#include "solver/sweeps/chebyshev.h"
+#include "solver/sweeps/record.h"
+#include "solver/sweeps/sweep.h"
 
 namespace pliant {
 
 namespace {
+
+/// The iterations of one substep. By default (sweeps/tiled.cpp): tiles, what straddles them, volumes.
+void solve(const StepContext& context, Frame& frame, bool records) {
+  const bool accelerates = context.options.acceleration == SweepOptions::Acceleration::chebyshev;
+  if (records) record_prediction(frame);
+  for (int iteration = 0; iteration < context.iterations; ++iteration) {
+    if (accelerates) keep_iterate(frame, iteration);
+    sweep_method(context.sweep).iterate(frame, iteration == 0);
+    if (accelerates) accelerate(frame, iteration);
+    frame.hold_tethers();
+    frame.sweep_contacts();  // last, so that what is drawn does not reach into what it lies on
+    if (records) record_iteration(frame, iteration + 1);
+  }
+}
 
 void run(const StepContext& context, Frame& frame) {
   const bool forces = has_forces(context.model);
@@ -34,16 +51,10 @@ void run(const StepContext& context, Frame& frame) {
       frame.apply_external_forces(substep);
     }
 
-    // The end of the last substep, prediction and contacts of this one, and its first sweep over each tile.
-    frame.enter_and_sweep_tiles(!first && !forces);
+    // The end of the last substep, prediction and contacts of this one, and mostly its first sweep over each tile.
+    frame.enter_tiles(!first && !forces);
     if (frame.give_up(substep - 1)) return;
-
-    for (int iteration = 0; iteration < context.iterations; ++iteration) {
-      if (iteration > 0) frame.sweep_tiles();
-      frame.sweep_straddlers(iteration == 0);
-      frame.sweep_volumes(iteration == 0);
-      frame.sweep_contacts();  // last, so that what is drawn does not reach into what it lies on
-    }
+    solve(context, frame, context.record_residuals && substep + 1 == context.substeps);
   }
   frame.finish_tiles(true);
   if (!frame.give_up(context.substeps - 1)) frame.end();

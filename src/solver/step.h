@@ -17,6 +17,9 @@ struct StepContext {
   Executor& executor;
   const Kernels& kernels;
   int substeps = 1, iterations = 1;
+  Sweep sweep = Sweep::tiled;  ///< with any of these, the workspace comes from prepare_sweep too
+  SweepOptions options{};
+  bool record_residuals = false;
 };
 
 /// Advances the state by dt. Never throws; what went wrong is in the report.

@@ -96,7 +96,8 @@ void project_volumes(const Model& model, Workspace& workspace, Executor& executo
     const SweepArguments a = arguments(o);
     if (a.first_pass) multipliers[o] = 0;
     const double c = sums[o].along / 3 - object.volume.target;
-    sums[o].change = multiplier_change(object.volume, c, sums[o].mass, sums[o].motion, multipliers[o], a);
+    sums[o].change = static_cast<double>(a.relaxation) *
+                     multiplier_change(object.volume, c, sums[o].mass, sums[o].motion, multipliers[o], a);
     multipliers[o] += sums[o].change;
   }
   const auto apply = [&](int task) {
@@ -106,6 +107,10 @@ void project_volumes(const Model& model, Workspace& workspace, Executor& executo
                workspace.volume_gradients.data() + model.first[o], sums[o].change);
   };
   executor.parallel_for("solve: volume", static_cast<int>(model.tiles.size()), apply);
+}
+
+Vec3f volume_gradient(const CompiledObject& object, const Record* positions, int particle) {
+  return gradient_at(object.surface, {positions, nullptr}, particle);
 }
 
 double volume_error(const CompiledObject& object, const Record* positions) {

@@ -20,6 +20,9 @@ namespace pliant {
 void project_volumes(const Model& model, Workspace& workspace, Executor& executor,
                      FunctionRef<SweepArguments(int)> arguments);
 
+/// The gradient of C at one particle [m^2].
+Vec3f volume_gradient(const CompiledObject& object, const Record* positions, int particle);
+
 /// C of one object now [m^3].
 double volume_error(const CompiledObject& object, const Record* positions);
 

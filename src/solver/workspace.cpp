@@ -1,5 +1,8 @@
 #include "solver/workspace.h"
 
+#include "solver/sweeps/chebyshev.h"
+#include "solver/sweeps/jacobi.h"
+
 namespace pliant {
 
 namespace {
@@ -38,6 +41,15 @@ void prepare(const Model& model, Multipliers kept, Workspace& workspace) {
   workspace.triangle_forces.resize(model.objects.size());
   workspace.tiles.resize(model.tiles.size());
   workspace.gravity.resize(model.objects.size());
+}
+
+void prepare_sweep(const Model& model, const Settings& settings, Workspace& workspace) {
+  const SweepOptions& options = settings.sweep_options;
+  if (settings.sweep == Sweep::jacobi) prepare_jacobi(model, options, workspace.sweep.jacobi);
+  if (options.acceleration == SweepOptions::Acceleration::chebyshev) {
+    prepare_chebyshev(model, workspace, workspace.sweep.chebyshev);
+  }
+  if (settings.record_residuals) workspace.sweep.predicted.resize(model.particles());
 }
 
 }  // namespace pliant

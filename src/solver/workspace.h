@@ -6,6 +6,7 @@
 #include "collision/contact.h"
 #include "model/model.h"
 #include "pliant/world.h"
+#include "solver/sweeps/scratch.h"
 
 namespace pliant {
 
@@ -13,6 +14,7 @@ namespace pliant {
 struct alignas(64) TileScratch {
   std::vector<Contact> contacts;
   std::vector<std::int32_t> near;  ///< particles that a collider could touch
+  std::vector<Record> touching;    ///< places of those in contact, while the others are extrapolated
   Bounds bounds;
   bool finite = true;
   double gradient_squared = 0, position_along = 0, motion_along = 0;  ///< sums of the volume constraint
@@ -40,6 +42,9 @@ struct Workspace {
   std::vector<TileScratch> tiles;                   ///< one a tile task
   std::vector<MovingCollider> colliders;
   std::vector<FrameGravity> gravity;  ///< one an object
+  std::vector<AlignedVector<float>> chain_scratch;  ///< one a thread
+  std::vector<Records> anchors;                     ///< [object], position and displacement of each anchor of tethers
+  SweepScratch sweep;
 };
 
 /// Which multipliers are kept: those that a second iteration needs, or all.
@@ -47,5 +52,8 @@ enum class Multipliers { none, needed, all };
 
 /// Makes everything the right size for a model.
 void prepare(const Model& model, Multipliers kept, Workspace& workspace);
+
+/// After prepare: what the sweep that the settings name needs besides.
+void prepare_sweep(const Model& model, const Settings& settings, Workspace& workspace);
 
 }  // namespace pliant

@@ -13,11 +13,36 @@ namespace pliant {
 
 namespace {
 
+void check_sweep(Problems& problems, const Settings& settings) {
+  const SweepOptions& options = settings.sweep_options;
+  if (!(options.relaxation > 0 && options.relaxation < 2))
+    problems.grave("settings, sweep_options, relaxation", "is " + words(options.relaxation),
+                   "give a number above 0 and below 2; 1 is plain");
+  require_range(problems, "settings, sweep_options, tether_slack", options.tether_slack, 0, 1000);
+  require_range(problems, "settings, sweep_options, chain_softness", options.chain_softness, 0, 1);
+  if (options.acceleration == SweepOptions::Acceleration::none) return;
+  require_range(problems, "settings, sweep_options, plain_iterations", options.plain_iterations, 1, 10000);
+  if (!(options.spectral_radius >= 0 && options.spectral_radius < 1))
+    problems.grave("settings, sweep_options, spectral_radius", "is " + words(options.spectral_radius),
+                   "give a number above 0 and below 1, or 0 to have it estimated");
+  if (options.spectral_radius == 0 && options.plain_iterations < 2)
+    problems.grave("settings, sweep_options, plain_iterations",
+                   "is 1, and the spectral radius is estimated from two or more",
+                   "give 2 or more, or the spectral_radius itself");
+  if (settings.sweep == Sweep::natural)
+    problems.grave(
+        "settings, sweep_options, acceleration",
+        "is Chebyshev over Gauss-Seidel in natural order: one sweep carries rounding along the whole order, its matrix "
+        "is far from symmetric, and the extrapolation grows without bound instead of converging",
+        "accelerate the tiled, the symmetric or the Jacobi sweep");
+}
+
 void check_settings(Problems& problems, const Scene& scene) {
   const Settings& settings = scene.settings;
   require_range(problems, "settings, substeps", settings.substeps, 1, 10000);
   require_range(problems, "settings, iterations", settings.iterations, 1, 10000);
   require_range(problems, "settings, threads", settings.threads, 0, 1024);
+  check_sweep(problems, settings);
   require_range(problems, "frames", scene.frames, 0, std::numeric_limits<int>::max());
   if (!(scene.frame_time > 0) || std::isinf(scene.frame_time))
     problems.grave("frame_time", "is " + words(scene.frame_time) + " s", "give a positive, finite time, such as 1/60 s");

@@ -13,6 +13,8 @@
 #include "solver/kernels.h"
 #include "solver/measure.h"
 #include "solver/step.h"
+#include "solver/sweeps/chains.h"
+#include "solver/sweeps/sweep.h"
 #include "world/inspect_scene.h"
 #include "world/sha256.h"
 
@@ -40,16 +42,23 @@ struct World::Implementation {
     model.colliders = scene.colliders;
     for (const Object& object : scene.objects) {
       CompileOptions options;
-      options.passes = settings.substeps * settings.iterations;
+      options.passes = settings.substeps * settings.iterations * sweep_method(settings.sweep).passes;
+      options.in_given_order = settings.sweep == Sweep::natural;
+      options.chains = settings.sweep == Sweep::chains;
+      options.chain_softness = settings.sweep_options.chain_softness;
+      options.tethers = settings.sweep_options.tethers;
+      options.tether_slack = settings.sweep_options.tether_slack;
       model.add(compile(object, options));
     }
     if (model.first.empty()) model.first.push_back(0);
     state = initial_state(model);
     prepare(model,
-            settings.record_multipliers ? Multipliers::all
-            : settings.iterations > 1   ? Multipliers::needed
-                                        : Multipliers::none,
+            settings.record_multipliers || settings.record_residuals        ? Multipliers::all
+            : settings.iterations * sweep_method(settings.sweep).passes > 1 ? Multipliers::needed
+                                                                            : Multipliers::none,
             workspace);
+    prepare_sweep(model, settings, workspace);
+    prepare_chains(model, executor.threads(), workspace);
   }
 
   const CompiledObject& object(int index) const {
@@ -118,9 +127,10 @@ Report World::step(float dt) {
     return report;
   }
   self_->last_h = static_cast<float>(double(dt) / self_->settings.substeps);
-  pliant::step({self_->model, self_->state, self_->workspace, self_->executor, self_->kernels, self_->settings.substeps,
-                self_->settings.iterations},
-               dt, report);
+  pliant::step(
+      {self_->model, self_->state, self_->workspace, self_->executor, self_->kernels, self_->settings.substeps,
+       self_->settings.iterations, self_->settings.sweep, self_->settings.sweep_options, self_->settings.record_residuals},
+      dt, report);
   self_->stopped = report.nonfinite.has_value();
   if (self_->settings.measure) {
     report.residuals = residuals();

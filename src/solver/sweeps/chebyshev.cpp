@@ -1,0 +1,227 @@
+#include "solver/sweeps/chebyshev.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "solver/frame.h"
+
+namespace pliant {
+
+namespace {
+
+/// The estimate from the plain iterations is lowered by this much.
+constexpr double caution = 0.999;
+/// No rho above this: with floats as iterates nothing nearer to one can be told from it.
+constexpr double largest_radius = 0.99999;
+/// Corrections that have grown by this since acceleration began say that it does not converge.
+constexpr double largest_growth = 4;
+/// Corrections that have come down to this share of the substep's first are mere rounding.
+constexpr double smallest_share = 1e-7;
+/// After so many steps and more, corrections that are not down to this share of where they began are mere rounding too.
+constexpr int patience = 32;
+constexpr double least_progress = 0.95;
+/// rho is judged when the number of steps is a power of two, from this on, and while the polynomial is below its bound.
+constexpr int first_judgement = 8;
+constexpr double largest_polynomial = 1e10;
+
+// ---------------------------------------------------------------- rho and the weight
+
+bool is_power_of_two(int n) { return (n & (n - 1)) == 0; }
+
+void start(double radius, double norm, ChebyshevScratch& c) {
+  c.spectral_radius = radius;
+  c.start_norm = norm;
+  c.steps = 0;
+  c.polynomial = 1;
+  c.polynomial_before = 1 / radius;  // T_(-1) = T_1
+}
+
+/// The lambda for which T_n(lambda / rho) = excess, n = steps a power of two: rho cosh(acosh(excess) / n).
+double judged_radius(const ChebyshevScratch& c, double excess) {
+  double root = excess + std::sqrt(excess * excess - 1);
+  for (int i = 1; i < c.steps; i *= 2) root = std::sqrt(root);
+  return min(c.spectral_radius * (root + 1 / root) / 2, largest_radius);
+}
+
+/// Whether a larger rho explains how slowly corrections came down, and is worth starting over for.
+bool raise_radius(double norm, ChebyshevScratch& c) {
+  if (c.steps < first_judgement || !is_power_of_two(c.steps) || c.polynomial > largest_polynomial) return false;
+  const double excess = norm / c.start_norm * c.polynomial;
+  if (!(excess * excess * excess * excess > c.polynomial)) return false;
+  const double judged = judged_radius(c, excess);
+  if (!(judged > c.spectral_radius)) return false;
+  start(judged, norm, c);
+  return true;
+}
+
+/// The weight of the iterate whose plain correction, that of the sweep just made, has this norm.
+double next_weight(const SweepOptions& options, int iteration, double norm, ChebyshevScratch& c) {
+  const bool estimates = options.spectral_radius == 0;
+  const double ratio = iteration > 0 && c.last_norm > 0 ? norm / c.last_norm : 1;
+  c.last_norm = norm;
+  if (iteration == 0) c.plain_norm = norm;
+  if (c.given_up || iteration + 1 < options.plain_iterations) return 1;
+  if (c.steps < 0) {  // the last plain iteration is the recurrence's first
+    if (!estimates) start(static_cast<double>(options.spectral_radius), norm, c);
+    if (estimates && ratio < 1 && norm > 0) start(min(caution * ratio, largest_radius), norm, c);
+    c.first_norm = norm;
+    return 1;
+  }
+  const double next = 2 / c.spectral_radius * c.polynomial - c.polynomial_before;
+  c.polynomial_before = std::exchange(c.polynomial, min(next, 1e100));
+  ++c.steps;
+  const bool idle = c.steps >= patience && is_power_of_two(c.steps) && !(norm < least_progress * c.start_norm);
+  c.given_up = !(norm <= largest_growth * c.first_norm) || norm <= smallest_share * c.plain_norm || idle;
+  if (c.given_up || (estimates && raise_radius(norm, c))) return 1;
+  const double squared = c.spectral_radius * c.spectral_radius;
+  return c.steps == 1 ? 2 / (2 - squared) : 4 / (4 - squared * c.weight);
+}
+
+// ---------------------------------------------------------------- particles
+
+double correction_norm_squared(const Record* positions, const Record* displacements, const Record* before, int first,
+                               int last) {
+  double sum = 0;
+  for (int i = first; i < last; ++i) {
+    const double w = static_cast<double>(positions[i].w);
+    if (!(w > 0)) continue;
+    const double x = static_cast<double>(displacements[i].x - before[i].x),
+                 y = static_cast<double>(displacements[i].y - before[i].y),
+                 z = static_cast<double>(displacements[i].z - before[i].z);
+    sum += (x * x + y * y + z * z) / w;
+  }
+  return sum;
+}
+
+void extrapolate(float weight, const Record* older, Record* displacements, int first, int last) {
+  for (int i = first; i < last; ++i) {
+    const Record& o = older[i];
+    Record& d = displacements[i];
+    d = {o.x + weight * (d.x - o.x), o.y + weight * (d.y - o.y), o.z + weight * (d.z - o.z), 0};
+  }
+}
+
+/// All particles of a tile but those that touch something.
+void extrapolate_tile(float weight, const Tile& tile, const Record* older, Record* displacements, TileScratch& scratch) {
+  std::vector<Record>& touching = scratch.touching;
+  touching.clear();
+  for (const Contact& contact : scratch.contacts) touching.push_back(displacements[contact.particle]);
+  extrapolate(weight, older, displacements, tile.first_particle, tile.last_particle);
+  for (std::size_t i = 0; i < touching.size(); ++i) {
+    if (scratch.contacts[i].push > 0) displacements[scratch.contacts[i].particle] = touching[i];
+  }
+}
+
+// ---------------------------------------------------------------- multipliers
+
+void extrapolate_multipliers(float weight, const Segment& segment, const LaneValues::value_type& older,
+                             LaneValues::value_type& multipliers) {
+  if (multipliers.empty() || multipliers[segment.pool].empty()) return;
+  const std::size_t first = static_cast<std::size_t>(segment.first_batch) * batch_width;
+  const float* from = older[segment.pool].data() + first;
+  float* to = multipliers[segment.pool].data() + first;
+  for (int i = 0; i < segment.batches * batch_width; ++i) to[i] = from[i] + weight * (to[i] - from[i]);
+}
+
+/// Of the constraints of every tile and of those between tiles.
+void extrapolate_all_multipliers(Frame& frame, float weight) {
+  const Model& model = frame.model();
+  LaneValues &multipliers = frame.workspace().multipliers, &older = frame.scratch().chebyshev.multipliers_older;
+  bool any = false;
+  for (const auto& object : multipliers) any = any || !object.empty();
+  if (!any) return;
+  frame.for_tiles("solve: chebyshev", [&](int task) {
+    const int o = model.tiles[task].object;
+    const Tile& tile = model.objects[o].tiles[model.tiles[task].tile];
+    for (int s = tile.first_segment; s < tile.last_segment; ++s)
+      extrapolate_multipliers(weight, model.objects[o].segments[s], older[o], multipliers[o]);
+  });
+  frame.for_straddlers(Order::forward, [&](int o, const Segment* segment) {
+    extrapolate_multipliers(weight, *segment, older[o], multipliers[o]);
+  });
+}
+
+void extrapolate_everything(Frame& frame, float weight) {
+  const Model& model = frame.model();
+  ChebyshevScratch& c = frame.scratch().chebyshev;
+  frame.for_tiles("solve: chebyshev", [&](int task) {
+    const int o = model.tiles[task].object;
+    extrapolate_tile(weight, model.objects[o].tiles[model.tiles[task].tile], c.older.data() + model.first[o],
+                     frame.arguments(o, false).displacements, frame.workspace().tiles[task]);
+  });
+  extrapolate_all_multipliers(frame, weight);
+  std::vector<double>& volumes = frame.workspace().volume_multipliers;
+  for (std::size_t o = 0; o < volumes.size(); ++o)
+    volumes[o] = c.volumes_older[o] + static_cast<double>(weight) * (volumes[o] - c.volumes_older[o]);
+}
+
+/// Multipliers are those of the last substep until the first sweep: an iterate of zeros.
+void keep_multipliers(const Workspace& work, bool first, ChebyshevScratch& c) {
+  for (std::size_t o = 0; o < work.multipliers.size(); ++o) {
+    for (std::size_t p = 0; p < work.multipliers[o].size(); ++p) {
+      AlignedVector<float>& kept = c.multipliers_before[o][p];
+      if (first) {
+        std::fill(kept.begin(), kept.end(), 0.f);
+      } else {
+        std::copy(work.multipliers[o][p].begin(), work.multipliers[o][p].end(), kept.begin());
+      }
+    }
+    c.volumes_before[o] = first ? 0 : work.volume_multipliers[o];
+  }
+}
+
+double correction_norm(Frame& frame) {
+  const Model& model = frame.model();
+  ChebyshevScratch& c = frame.scratch().chebyshev;
+  frame.for_tiles("solve: chebyshev", [&](int task) {
+    const int o = model.tiles[task].object;
+    const Tile& tile = model.objects[o].tiles[model.tiles[task].tile];
+    const SweepArguments a = frame.arguments(o, false);
+    c.tile_sums[task] = correction_norm_squared(a.positions, a.displacements, c.before.data() + model.first[o],
+                                                tile.first_particle, tile.last_particle);
+  });
+  double sum = 0;
+  for (double tile : c.tile_sums) sum += tile;  // in the tiles' order, whichever thread had them
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+void prepare_chebyshev(const Model& model, const Workspace& workspace, ChebyshevScratch& scratch) {
+  scratch.before.assign(model.particles(), {});
+  scratch.older.assign(model.particles(), {});
+  scratch.multipliers_before = scratch.multipliers_older = workspace.multipliers;
+  scratch.volumes_before = scratch.volumes_older = workspace.volume_multipliers;
+  scratch.tile_sums.assign(model.tiles.size(), 0);
+}
+
+void keep_iterate(Frame& frame, int iteration) {
+  ChebyshevScratch& c = frame.scratch().chebyshev;
+  const Model& model = frame.model();
+  if (iteration == 0) {
+    c.weight = 1;
+    c.last_norm = 0;
+    c.steps = -1;
+    c.given_up = false;
+  }
+  frame.for_tiles("solve: chebyshev", [&](int task) {
+    const int o = model.tiles[task].object;
+    const Tile& tile = model.objects[o].tiles[model.tiles[task].tile];
+    const Record* displacements = frame.arguments(o, false).displacements;
+    std::copy(displacements + tile.first_particle, displacements + tile.last_particle,
+              c.before.begin() + model.first[o] + tile.first_particle);
+  });
+  keep_multipliers(frame.workspace(), iteration == 0, c);
+}
+
+void accelerate(Frame& frame, int iteration) {
+  ChebyshevScratch& c = frame.scratch().chebyshev;
+  c.weight = next_weight(frame.options(), iteration, correction_norm(frame), c);
+  if (c.weight != 1) extrapolate_everything(frame, static_cast<float>(c.weight));
+  std::swap(c.before, c.older);
+  std::swap(c.multipliers_before, c.multipliers_older);
+  std::swap(c.volumes_before, c.volumes_older);
+}
+
+}  // namespace pliant

@@ -1,0 +1,90 @@
+#include "solver/sweeps/jacobi.h"
+
+#include "solver/frame.h"
+#include "solver/sweeps/sweep.h"
+
+namespace pliant {
+
+namespace {
+
+/// Positions whose w is that of one of n parts, for the substep under way.
+void split_masses(const Tile& tile, const Record* positions, JacobiObject& object) {
+  for (int i = tile.first_particle; i < tile.last_particle; ++i) {
+    object.positions[i] = positions[i];
+    object.positions[i].w = positions[i].w * static_cast<float>(object.incidence.count(i));
+  }
+}
+
+/// Each particle's displacement grows by the mean of its corrections, added up in ascending order.
+void gather(const Tile& tile, const JacobiObject& object, Record* displacements) {
+  for (int i = tile.first_particle; i < tile.last_particle; ++i) {
+    const int count = object.incidence.count(i);
+    if (count == 0) continue;
+    Vec3f sum{};
+    for (int k = object.incidence.begin[i]; k < object.incidence.begin[i + 1]; ++k) {
+      const Record& correction = object.corrections[object.incidence.records[k]];
+      sum += Vec3f{correction.x, correction.y, correction.z};
+    }
+    const float part = 1 / static_cast<float>(count);
+    Record& d = displacements[i];
+    d = {d.x + sum.x * part, d.y + sum.y * part, d.z + sum.z * part, 0};
+  }
+}
+
+}  // namespace
+
+void prepare_jacobi(const Model& model, const SweepOptions& options, std::vector<JacobiObject>& objects) {
+  objects.clear();
+  objects.resize(model.objects.size());
+  for (std::size_t o = 0; o < objects.size(); ++o) {
+    const CompiledObject& from = model.objects[o];
+    JacobiObject& to = objects[o];
+    to.incidence = make_incidence(from);
+    to.corrections.resize(to.incidence.pool_begin.back());
+    for (std::size_t p = 0; p < from.pools.size(); ++p)
+      to.correction_pointers.push_back(to.corrections.data() + to.incidence.pool_begin[p]);
+    if (options.sharing == SweepOptions::Sharing::split) {
+      to.positions.resize(from.particles);
+    } else {
+      to.shares = averaging_shares(from, to.incidence);
+      for (const AlignedVector<float>& values : to.shares) to.share_pointers.push_back(values.data());
+    }
+  }
+}
+
+void iterate_jacobi(Frame& frame, bool first) {
+  std::vector<JacobiObject>& objects = frame.scratch().jacobi;
+  const Model& model = frame.model();
+  const auto object_of = [&](int task) -> JacobiObject& { return objects[model.tiles[task].object]; };
+  const auto tile_of = [&](int task) -> const Tile& {
+    return model.objects[model.tiles[task].object].tiles[model.tiles[task].tile];
+  };
+  const auto arguments = [&](int number) {
+    SweepArguments a = frame.arguments(number, first);
+    const JacobiObject& object = objects[number];
+    if (!object.positions.empty()) a.positions = object.positions.data();
+    if (!object.share_pointers.empty()) a.shares = object.share_pointers.data();
+    a.corrections = object.correction_pointers.data();
+    return a;
+  };
+  const auto displacements = [&](int task) { return frame.arguments(model.tiles[task].object, first).displacements; };
+
+  if (first) {
+    frame.for_tiles("solve: split", [&](int task) {
+      if (object_of(task).positions.empty()) return;
+      split_masses(tile_of(task), frame.arguments(model.tiles[task].object, first).positions, object_of(task));
+    });
+  }
+  frame.for_tiles("solve: tiles", [&](int task) {
+    const CompiledObject& object = model.objects[model.tiles[task].object];
+    frame.kernels().sweep_general(object.pools.data(), object.segments.data() + tile_of(task).first_segment,
+                                  object.segments.data() + tile_of(task).last_segment, arguments(model.tiles[task].object));
+  });
+  frame.for_straddlers(Order::forward, [&](int number, const Segment* segment) {
+    frame.kernels().sweep_general(model.objects[number].pools.data(), segment, segment + 1, arguments(number));
+  });
+  frame.for_tiles("solve: gather", [&](int task) { gather(tile_of(task), object_of(task), displacements(task)); });
+  frame.sweep_volumes(first);
+}
+
+}  // namespace pliant

@@ -1,0 +1,156 @@
+// Scenes and runs that the tests of the sweeps share: compiled with small tiles, so that much straddles them.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "solver/step.h"
+#include "solver/sweeps/sweep.h"
+#include "support/kernels.h"
+
+namespace pliant::testing_support {
+
+using Sharing = SweepOptions::Sharing;
+using Acceleration = SweepOptions::Acceleration;
+
+/// A sheet of n x n particles with every type and law, pinned at one corner where `pinned`.
+inline Object mixed_sheet(int n, bool pinned) {
+  Object object;
+  object.name = "sheet";
+  ConstraintGroup edges{"distance", {}, {}, Stiffness::compliance(1e-6f), {}};
+  ConstraintGroup rigid{"distance", {}, {}, Stiffness::rigid(), {}};
+  ConstraintGroup damped{"distance", {}, {}, Stiffness::compliance(1e-4f, 0.5f), {}};
+  ConstraintGroup hinges{"dihedral_bending", {}, {}, Stiffness::compliance(1), {}};
+  ConstraintGroup flat{"isometric_bending", {}, {}, Stiffness::pbd(0.2f), {}};
+  const auto at = [&](int r, int c) { return r * n + c; };
+  for (int r = 0; r < n; ++r) {
+    for (int c = 0; c < n; ++c) {
+      object.positions.push_back(
+          {static_cast<float>(c) * 0.05f, static_cast<float>((r * c) % 3) * 0.004f, static_cast<float>(r) * 0.05f});
+      object.velocities.push_back(
+          {0.3f * static_cast<float>((7 * r + 3 * c) % 5), 0.2f * static_cast<float>((r + 2 * c) % 7) - 0.6f, 0});
+      object.masses.push_back(0.01f * static_cast<float>(1 + (r + c) % 3));
+      if (c + 1 < n) edges.particles.insert(edges.particles.end(), {at(r, c), at(r, c + 1)});
+      if (r + 1 < n) rigid.particles.insert(rigid.particles.end(), {at(r, c), at(r + 1, c)});
+      if (r + 1 == n || c + 1 == n) continue;
+      damped.particles.insert(damped.particles.end(), {at(r, c), at(r + 1, c + 1)});
+      hinges.particles.insert(hinges.particles.end(), {at(r, c), at(r + 1, c + 1), at(r + 1, c), at(r, c + 1)});
+      flat.particles.insert(flat.particles.end(), {at(r, c), at(r + 1, c + 1), at(r + 1, c), at(r, c + 1)});
+    }
+  }
+  object.constraints = {edges, rigid, damped, hinges, flat};
+  if (pinned) object.pins.push_back({0, {}});
+  return object;
+}
+
+/// A closed ball under pressure.
+inline Object ball(float pressure, const Vec3f& centre) {
+  const TriangleMesh mesh = sphere_mesh(2);
+  Object object;
+  object.name = "ball";
+  for (const Vec3f& p : mesh.positions) object.positions.push_back(p * 0.2f + centre);
+  object.masses.assign(object.positions.size(), 0.001f);
+  object.triangles = mesh.triangles;
+  ConstraintGroup edges{"distance", {}, {}, Stiffness::compliance(1e-4f), {}};
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (t[i] < t[(i + 1) % 3]) edges.particles.insert(edges.particles.end(), {t[i], t[(i + 1) % 3]});
+    }
+  }
+  object.constraints = {edges};
+  object.volume = Volume{pressure, Stiffness::compliance(1e-7f)};
+  return object;
+}
+
+/// A line of 1 kg particles along x, every link stretched by a share of its own.
+inline Object stretched_chain(int links, const std::vector<double>& stretch, const Stiffness& stiffness,
+                              bool even_masses = true) {
+  Object object;
+  object.name = "chain";
+  ConstraintGroup group{"distance", {}, {}, stiffness, {}};
+  double x = 0;
+  for (int i = 0; i <= links; ++i) {
+    if (i > 0) x += 0.1 * (1 + stretch[static_cast<std::size_t>(i) - 1]);
+    object.positions.push_back({static_cast<float>(x), 0, 0});
+    object.masses.push_back(even_masses ? 1.f : 1.f + static_cast<float>(i % 4));
+    if (i == 0) continue;
+    group.particles.insert(group.particles.end(), {i - 1, i});
+    group.rest.push_back(0.1f);
+  }
+  object.constraints = {group};
+  return object;
+}
+
+/// Everything that decides a run.
+struct SweepRun {
+  Settings settings;
+  int largest_tile = 40, frames = 1, threads = 1;
+  float dt = 1.f / 60;
+  std::string isa = "sequential";
+};
+
+inline SweepRun run_of(Sweep sweep, int substeps, int iterations, const SweepOptions& options = {}) {
+  SweepRun run;
+  run.settings.sweep = sweep;
+  run.settings.substeps = substeps;
+  run.settings.iterations = iterations;
+  run.settings.sweep_options = options;
+  return run;
+}
+
+struct Outcome {
+  Model model;
+  State state;
+  Workspace workspace;
+  std::vector<Report> reports;
+};
+
+/// Steps objects over a floor where `floor` says so.
+inline Outcome run_sweep(const std::vector<Object>& objects, const SweepRun& run, float gravity = 9.81f,
+                         bool floor = false) {
+  Outcome out;
+  const SweepMethod& method = sweep_method(run.settings.sweep);
+  out.model.gravity = {0, -gravity, 0};
+  if (floor) {
+    Collider ground;
+    ground.position = {0, -0.003f, 0};
+    out.model.colliders = {ground};
+  }
+  for (const Object& object : objects) {
+    CompileOptions options;
+    options.passes = run.settings.substeps * run.settings.iterations * method.passes;
+    options.largest_tile = run.largest_tile;
+    options.in_given_order = run.settings.sweep == Sweep::natural;
+    out.model.add(compile(object, options));
+  }
+  out.state = initial_state(out.model);
+  prepare(out.model, Multipliers::all, out.workspace);
+  prepare_sweep(out.model, run.settings, out.workspace);
+  Executor executor(run.threads);
+  for (int frame = 0; frame < run.frames; ++frame) {
+    out.reports.emplace_back();
+    step({out.model, out.state, out.workspace, executor, pick_kernels(run.isa), run.settings.substeps,
+          run.settings.iterations, run.settings.sweep, run.settings.sweep_options, run.settings.record_residuals},
+         static_cast<double>(run.dt), out.reports.back());
+  }
+  return out;
+}
+
+/// Root mean square of the first type's primal residual after each iteration, from the prediction on.
+inline std::vector<double> residual_curve(const Report& report) {
+  std::vector<double> curve;
+  for (const IterationResidual& at : report.convergence) curve.push_back(at.primal.at(0).rms);
+  return curve;
+}
+
+/// The first iteration whose residual is a thousandth of the prediction's; -1: none.
+inline int iterations_to_a_thousandth(const Report& report) {
+  const std::vector<double> curve = residual_curve(report);
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (curve[i] < 1e-3 * curve[0]) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+}  // namespace pliant::testing_support

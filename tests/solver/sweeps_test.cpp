@@ -1,0 +1,281 @@
+// Every sweep gives one hash whatever runs it, ends where every other sweep ends, and keeps the momentum that it says it
+// keeps.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "solver/sweeps_support.h"
+
+namespace pliant {
+namespace {
+
+using namespace testing_support;
+
+struct Way {
+  const char* name;
+  Sweep sweep;
+  SweepOptions options;
+};
+
+SweepOptions options_of(float relaxation, Sharing sharing = Sharing::split,
+                        Acceleration acceleration = Acceleration::none) {
+  SweepOptions options;
+  options.relaxation = relaxation;
+  options.sharing = sharing;
+  options.acceleration = acceleration;
+  options.plain_iterations = 3;
+  return options;
+}
+
+std::vector<Way> all_ways() {
+  const SweepOptions plain = options_of(1), chebyshev = options_of(1, Sharing::split, Acceleration::chebyshev);
+  return {{"tiled", Sweep::tiled, plain},
+          {"symmetric", Sweep::symmetric, plain},
+          {"natural", Sweep::natural, plain},
+          {"over_relaxed", Sweep::tiled, options_of(1.3f)},
+          {"under_relaxed_symmetric", Sweep::symmetric, options_of(0.7f)},
+          {"jacobi_split", Sweep::jacobi, plain},
+          {"jacobi_average", Sweep::jacobi, options_of(1.5f, Sharing::average)},
+          {"chebyshev_tiled", Sweep::tiled, chebyshev},
+          {"chebyshev_symmetric", Sweep::symmetric, chebyshev},
+          {"chebyshev_jacobi", Sweep::jacobi, chebyshev}};
+}
+
+class Sweeps : public testing::TestWithParam<Way> {};
+INSTANTIATE_TEST_SUITE_P(Ways, Sweeps, testing::ValuesIn(all_ways()),
+                         [](const auto& way) { return std::string(way.param.name); });
+
+bool equal_bits(const Records& a, const Records& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Record)) == 0;
+}
+
+void expect_equal(const State& a, const State& b, const std::string& what) {
+  EXPECT_TRUE(equal_bits(a.positions, b.positions)) << what << ": positions";
+  EXPECT_TRUE(equal_bits(a.velocities, b.velocities)) << what << ": velocities";
+  EXPECT_TRUE(equal_bits(a.remainders, b.remainders)) << what << ": remainders";
+}
+
+std::vector<Object> company() { return {mixed_sheet(13, true), ball(1.2f, {0.3f, 0.4f, 0.3f})}; }
+
+TEST_P(Sweeps, GivesTheSameBitsWhateverRunsIt) {
+  for (int iterations : {1, 8}) {
+    SweepRun run = run_of(GetParam().sweep, 2, iterations, GetParam().options);
+    run.frames = 6;
+    const Outcome expected = run_sweep(company(), run, 9.81f, true);
+    for (const Report& report : expected.reports) ASSERT_TRUE(report.ok());
+    std::int64_t contacts = 0;
+    for (const Report& report : expected.reports) contacts += report.contacts;
+    EXPECT_GT(contacts, 0) << "the scene must touch its floor";
+    for (int threads : {1, 2, 3, 8}) {
+      run.threads = threads;
+      expect_equal(run_sweep(company(), run, 9.81f, true).state, expected.state, std::to_string(threads) + " threads");
+    }
+    run.threads = 2;
+    for (const std::string& isa : available_isas()) {
+      run.isa = isa;
+      expect_equal(run_sweep(company(), run, 9.81f, true).state, expected.state, isa);
+    }
+    run.settings.record_residuals = true;
+    expect_equal(run_sweep(company(), run, 9.81f, true).state, expected.state, "looking");
+  }
+}
+
+/// Nothing but the State is carried from one step to the next.
+TEST_P(Sweeps, GoesOnFromAStateThatWasPutBack) {
+  SweepRun run = run_of(GetParam().sweep, 2, 6, GetParam().options);
+  run.frames = 3;
+  Outcome out = run_sweep(company(), run, 9.81f, true);
+  const State middle = out.state;
+  Executor executor(1);
+  const auto go_on = [&](int frames) {
+    for (int i = 0; i < frames; ++i) {
+      Report report;
+      step({out.model, out.state, out.workspace, executor, pick_kernels("sequential"), 2, 6, run.settings.sweep,
+            run.settings.sweep_options, false},
+           1.0 / 60, report);
+    }
+    return out.state;
+  };
+  const State first = go_on(2);
+  go_on(3);
+  out.state = middle;
+  expect_equal(go_on(2), first, "again");
+}
+
+double largest_difference(const State& a, const State& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.positions.size(); ++i) {
+    const Record &p = a.positions[i], &q = b.positions[i];
+    for (float difference : {p.x - q.x, p.y - q.y, p.z - q.z})
+      largest = std::max(largest, static_cast<double>(std::fabs(difference)));
+  }
+  return largest;
+}
+
+/// A hanging line with masses from 1 to 4 kg, compliant, so that where it ends depends on the multipliers too.
+Object compliant_line() {
+  std::vector<double> stretch;
+  for (int i = 0; i < 12; ++i) stretch.push_back(0.05 * std::sin(3.0 * i));
+  Object line = stretched_chain(12, stretch, Stiffness::compliance(1e-4f), false);
+  line.pins.push_back({0, {}});
+  return line;
+}
+
+/// Averaging gives neighbours of different counts different parts of one force: it ends elsewhere, and is tested below.
+TEST_P(Sweeps, EndsWhereAllSweepsEnd) {
+  if (GetParam().options.sharing == Sharing::average) GTEST_SKIP() << "has an end of its own";
+  const Outcome expected = run_sweep({compliant_line()}, run_of(Sweep::natural, 1, 4000));
+  const Outcome found = run_sweep({compliant_line()}, run_of(GetParam().sweep, 1, 4000, GetParam().options));
+  EXPECT_LT(largest_difference(found.state, expected.state), 2e-6);
+  EXPECT_GT(largest_difference(expected.state, initial_state(expected.model)), 1e-3) << "something must move";
+}
+
+TEST_P(Sweeps, MeetsItsConstraints) {
+  SweepRun run = run_of(GetParam().sweep, 1, 3000, GetParam().options);
+  run.settings.record_residuals = true;
+  std::vector<double> stretch;
+  for (int i = 0; i < 20; ++i) stretch.push_back(0.1 * std::sin(5.0 * i));
+  const Outcome out = run_sweep({stretched_chain(20, stretch, Stiffness::compliance(1e-5f))}, run, 0);
+  const IterationResidual &first = out.reports[0].convergence.front(), &last = out.reports[0].convergence.back();
+  ASSERT_EQ(out.reports[0].convergence.size(), 3001U);
+  EXPECT_GT(first.primal[0].rms, 1e-3);
+  EXPECT_EQ(first.dual_rms, 0);
+  EXPECT_LT(last.primal[0].rms, 1e-6);
+  if (GetParam().options.sharing == Sharing::average) return;
+  EXPECT_LT(last.dual_largest, 1e-6) << "multipliers explain the motion";
+}
+
+// ---------------------------------------------------------------- momentum
+
+struct Momentum {
+  Vec3d linear{}, angular{};
+  double scale = 0;
+};
+
+Momentum momentum_of(const State& state) {
+  Momentum sum;
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    const Record &p = state.positions[i], &v = state.velocities[i];
+    if (!(p.w > 0)) continue;
+    const double mass = 1 / static_cast<double>(p.w);
+    const Vec3d x{double(p.x), double(p.y), double(p.z)}, u{double(v.x), double(v.y), double(v.z)};
+    sum.linear += u * mass;
+    sum.angular += cross(x, u) * mass;
+    sum.scale += mass * std::sqrt(dot(u, u));
+  }
+  return sum;
+}
+
+double change_of_momentum(const Way& way) {
+  SweepRun run = run_of(way.sweep, 4, 5, way.options);
+  run.frames = 10;
+  const std::vector<Object> free = {mixed_sheet(9, false), ball(1.5f, {0.3f, 0.4f, 0.3f})};
+  const Momentum before = momentum_of(run_sweep(free, run_of(way.sweep, 1, 1, way.options), 0).state);
+  SweepRun none = run;
+  none.frames = 0;
+  const Momentum start = momentum_of(run_sweep(free, none, 0).state), end = momentum_of(run_sweep(free, run, 0).state);
+  (void)before;
+  const Vec3d change = end.linear - start.linear;
+  return std::sqrt(dot(change, change)) / start.scale;
+}
+
+TEST_P(Sweeps, KeepsMomentum) {
+  if (GetParam().options.sharing == Sharing::average) GTEST_SKIP() << "does not, and says so";
+  EXPECT_LT(change_of_momentum(GetParam()), 2e-6);
+}
+
+TEST(Sweeps, AveragingDoesNotKeepMomentum) {
+  EXPECT_GT(change_of_momentum({"", Sweep::jacobi, options_of(1, Sharing::average)}), 1e-3);
+}
+
+// ---------------------------------------------------------------- one iteration, by hand
+
+/// Two links of different masses: the middle particle has two constraints, the ends one.
+Object three_particles() {
+  Object object = stretched_chain(2, {0.5, 0.25}, Stiffness::rigid());
+  object.masses = {1, 2, 4};
+  return object;
+}
+
+std::vector<double> displacements_after_one(const SweepOptions& options, Sweep sweep = Sweep::jacobi) {
+  SweepRun run = run_of(sweep, 1, 1, options);
+  const Outcome out = run_sweep({three_particles()}, run, 0);
+  std::vector<double> moved;
+  for (int i = 0; i < 3; ++i) {
+    const int at = out.model.objects[0].place[i];
+    moved.push_back(static_cast<double>(out.state.positions[at].x) - static_cast<double>(three_particles().positions[i].x));
+  }
+  return moved;
+}
+
+TEST(Jacobi, SplitsMasses) {
+  // C = 0.05, 0.025. The middle counts as two of 1 kg: dlambda = -0.05 / (1 + 1), -0.025 / (1 + 0.25).
+  const std::vector<double> moved = displacements_after_one({});
+  EXPECT_NEAR(moved[0], 0.025, 1e-7);
+  EXPECT_NEAR(moved[1], (-0.025 + 0.02) / 2, 1e-7);
+  EXPECT_NEAR(moved[2], -0.02 / 4, 1e-7);
+}
+
+TEST(Jacobi, AveragesCorrections) {
+  // dlambda = -0.05 / (1 + 1/2), -0.025 / (1/2 + 1/4); the middle moves by the mean of its two corrections.
+  const std::vector<double> moved = displacements_after_one(options_of(1, Sharing::average));
+  EXPECT_NEAR(moved[0], 0.05 / 1.5, 1e-7);
+  EXPECT_NEAR(moved[1], (-0.05 / 1.5 + 0.025 / 0.75) / 2 / 2, 1e-7);
+  EXPECT_NEAR(moved[2], -0.025 / 0.75 / 4, 1e-7);
+}
+
+TEST(Relaxation, MultipliesEveryCorrection) {
+  const std::vector<double> plain = displacements_after_one({}), over = displacements_after_one(options_of(1.5f));
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(over[i], 1.5 * plain[i], 1e-7);
+}
+
+TEST(Relaxation, OfOneChangesNoBit) {
+  Object line = compliant_line();
+  CompileOptions options;
+  options.largest_tile = 5;
+  const CompiledObject object = compile(line, options);
+  for (const std::string& isa : available_isas()) {
+    Records one(object.positions.size()), two = one, remainders(one.size());
+    std::vector<float> lanes(static_cast<std::size_t>(object.pools[0].batches) * batch_width, 0.f), more = lanes;
+    const auto sweep = [&](Records& displacements, std::vector<float>& multipliers, auto kernel) {
+      float* pointer = multipliers.data();
+      SweepArguments a;
+      a.positions = object.positions.data();
+      a.displacements = displacements.data();
+      a.remainders = remainders.data();
+      a.multipliers = &pointer;
+      a.h = 0.01f;
+      a.inverse_h = 1 / a.h;
+      a.inverse_h2 = a.inverse_h * a.inverse_h;
+      kernel(object.pools.data(), object.segments.data(), object.segments.data() + object.segments.size(), a);
+    };
+    sweep(one, lanes, pick_kernels(isa).sweep);
+    sweep(two, more, pick_kernels(isa).sweep_general);
+    EXPECT_TRUE(equal_bits(one, two)) << isa;
+    EXPECT_EQ(lanes, more) << isa;
+  }
+}
+
+TEST(Symmetric, GoesThereAndBack) {
+  // On one chain the last colour is done twice in a row, the first at either end: the first links are met when it is over.
+  std::vector<double> stretch(9, 0.1);
+  SweepRun run = run_of(Sweep::symmetric, 1, 1);
+  run.largest_tile = 4096;
+  const Outcome out = run_sweep({stretched_chain(9, stretch, Stiffness::rigid())}, run, 0);
+  const CompiledObject& object = out.model.objects[0];
+  const Segment& first = object.segments.front();
+  const Pool& pool = object.pools[first.pool];
+  int met = 0;
+  for (int lane = 0; lane < batch_width; ++lane) {
+    if (!lane_is_valid(first, 0, lane)) continue;
+    const std::int32_t* index = pool.indices.data() + first.index_offset;
+    const Record &a = out.state.positions[particle_of(first, index, 0, lane)],
+                 &b = out.state.positions[particle_of(first, index, 1, lane)];
+    EXPECT_NEAR(std::fabs(a.x - b.x), 0.1f, 1e-6f);
+    ++met;
+  }
+  EXPECT_GT(met, 1);
+}
+
+}  // namespace
+}  // namespace pliant
