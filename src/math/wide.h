@@ -278,11 +278,9 @@ PLIANT_REGISTER_OPERATOR(+)
 PLIANT_REGISTER_OPERATOR(-)
 #undef PLIANT_REGISTER_OPERATOR
 
-/// All bits set where a record has x, y and z.
-alignas(64) inline constexpr std::int32_t xyz_bits[wide_width] = {-1, -1, -1, 0, -1, -1, -1, 0,
-                                                                  -1, -1, -1, 0, -1, -1, -1, 0};
-
+/// All bits set where a record has x, y and z. The table is a local: at namespace scope each unit would export it.
 PLIANT_HD PartMask xyz_mask() {
+  constexpr std::int32_t xyz_bits[wide_width] = {-1, -1, -1, 0, -1, -1, -1, 0, -1, -1, -1, 0, -1, -1, -1, 0};
   PartMask mask;
   std::memcpy(&mask, xyz_bits, sizeof mask);
   return mask;

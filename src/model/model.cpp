@@ -17,6 +17,13 @@ void Model::add(CompiledObject object) {
       phase.batches += object.segments[s].batches;
     }
   }
+  for (std::size_t colour = 0; colour < object.chain_colours.size(); ++colour) {
+    if (chains.size() <= colour) chains.emplace_back();
+    for (int b = object.chain_colours[colour].first_batch; b < object.chain_colours[colour].last_batch; ++b) {
+      chains[colour].tasks.push_back({number, b});
+      chains[colour].steps += object.chains[b].steps;
+    }
+  }
   objects.push_back(std::move(object));
 }
 

@@ -24,6 +24,15 @@ struct StraddlerPhase {
   int batches = 0;
 };
 
+/// Chain batches that share no particle, over all objects.
+struct ChainPhase {
+  struct Task {
+    int object = 0, batch = 0;
+  };
+  std::vector<Task> tasks;
+  int steps = 0;
+};
+
 struct Model {
   Vec3f gravity{};
   Wind wind;
@@ -33,6 +42,7 @@ struct Model {
   std::vector<int> first;  ///< first[o] is object o's first particle in a State; one more at the end
   std::vector<TileTask> tiles;
   std::vector<StraddlerPhase> straddlers;
+  std::vector<ChainPhase> chains;
 
   /// Appends an object and its tasks.
   void add(CompiledObject object);

@@ -1,0 +1,42 @@
+#include "model/fill_pool.h"
+
+#include <cstring>
+
+namespace pliant {
+
+std::vector<Row> rows_of(const ConstraintList& list) {
+  std::vector<Row> rows;
+  rows.reserve(static_cast<std::size_t>(list.fields) + 2);
+  for (int field = 0; field < list.fields; ++field) rows.push_back({list.rest.data() + field, list.fields});
+  rows.push_back({list.response.data(), 1});
+  if (list.law == Law::damped) rows.push_back({list.damping.data(), 1});
+  return rows;
+}
+
+namespace {
+
+bool is_constant(const Row& row, int count) {
+  for (int i = 1; i < count; ++i) {
+    if (std::memcmp(&row.first[static_cast<std::size_t>(i) * row.stride], row.first, sizeof(float)) != 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Pool make_pool(const ConstraintList& list) {
+  Pool pool;
+  pool.type = list.type;
+  pool.law = list.law;
+  pool.stencil = list.size;
+  pool.constraints = list.count();
+  for (const Row& row : rows_of(list)) {
+    const bool constant = is_constant(row, list.count());
+    pool.constants.insert(pool.constants.end(), batch_width, row.at(0));
+    pool.row_offset.push_back(constant ? -1 : pool.block_floats);
+    pool.block_floats += constant ? 0 : batch_width;
+  }
+  return pool;
+}
+
+}  // namespace pliant

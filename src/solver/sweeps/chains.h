@@ -1,0 +1,25 @@
+// The chain sweep: which paths are solved when, and the tethers after them.
+//
+// Plain sweeps carry a pull one edge a pass, so what hangs from two corners needs passes by the thousand when it is finely
+// meshed. Solving whole rows, columns and diagonals at once carries it from end to end in one.
+#pragma once
+
+#include "model/model.h"
+#include "parallel/executor.h"
+#include "solver/sweeps/chain_kernels.h"
+#include "solver/workspace.h"
+
+namespace pliant {
+
+/// Room for the scratch of every thread and for the anchors.
+void prepare_chains(const Model& model, int threads, Workspace& workspace);
+
+/// Solves all chains once, colour after colour. `arguments(object)` gives the particles of one.
+void solve_chains(const Model& model, const ChainKernels& kernels, Workspace& workspace, Executor& executor,
+                  FunctionRef<SweepArguments(int)> arguments);
+
+/// Puts every particle back to within its tethers.
+void hold_tethers(const Model& model, const ChainKernels& kernels, Workspace& workspace, Executor& executor,
+                  FunctionRef<SweepArguments(int)> arguments);
+
+}  // namespace pliant

@@ -1,0 +1,106 @@
+// Paths through meshes: rows, columns and diagonals of a grid, whole; on any mesh every edge once, no vertex twice, no two
+// paths of a colour touching.
+#include "topology/paths.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "pliant/mesh.h"
+#include "topology/edges.h"
+
+namespace pliant {
+namespace {
+
+using EdgeList = std::vector<std::array<int, 2>>;
+
+EdgeList edges_of(const TriangleMesh& mesh) {
+  EdgeList list;
+  for (const Edge& edge : find_edges(mesh.triangles, static_cast<int>(mesh.positions.size())))
+    list.push_back({edge.a, edge.b});
+  return list;
+}
+
+void expect_sound(const std::vector<Vec3f>& positions, const EdgeList& edges) {
+  std::vector<int> times(edges.size(), 0);
+  for (const PathColour& colour : lay_paths(positions, edges)) {
+    std::set<int> met;
+    std::size_t longest = edges.size();
+    for (const Path& path : colour.paths) {
+      ASSERT_GE(path.edges.size(), 1u);
+      ASSERT_EQ(path.vertices.size(), path.edges.size() + 1);
+      ASSERT_LE(path.edges.size(), longest) << "longest first";
+      longest = path.edges.size();
+      for (int v : path.vertices) ASSERT_TRUE(met.insert(v).second) << "vertex " << v << " twice in a colour";
+      for (std::size_t k = 0; k < path.edges.size(); ++k) {
+        const auto [a, b] = std::minmax(path.vertices[k], path.vertices[k + 1]);
+        const auto& edge = edges[path.edges[k]];
+        ASSERT_EQ(a, std::min(edge[0], edge[1]));
+        ASSERT_EQ(b, std::max(edge[0], edge[1]));
+        ++times[path.edges[k]];
+      }
+    }
+  }
+  EXPECT_EQ(std::count(times.begin(), times.end(), 1), static_cast<std::ptrdiff_t>(edges.size()));
+}
+
+TEST(Paths, of_a_grid_are_diagonals_then_rows_and_columns) {
+  constexpr int n = 9;
+  const TriangleMesh mesh = grid_mesh(n, n, 1, 1);
+  const std::vector<PathColour> colours = lay_paths(mesh.positions, edges_of(mesh));
+  ASSERT_EQ(colours.size(), 3u);
+  ASSERT_EQ(colours[0].paths.size(), 2u * n - 3);
+  EXPECT_EQ(colours[0].paths[0].vertices, (std::vector<int>{0, 10, 20, 30, 40, 50, 60, 70, 80}));
+  for (int c : {1, 2}) {
+    ASSERT_EQ(colours[c].paths.size(), static_cast<std::size_t>(n));
+    const int step = c == 1 ? 1 : n, first = c == 1 ? n : 1;
+    for (int p = 0; p < n; ++p) {
+      const std::vector<int>& vertices = colours[c].paths[p].vertices;
+      ASSERT_EQ(vertices.size(), static_cast<std::size_t>(n));
+      for (int k = 0; k < n; ++k) EXPECT_EQ(vertices[k], p * first + k * step);
+    }
+  }
+}
+
+TEST(Paths, of_any_mesh_hold_every_edge_once) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 20; ++round) {
+    TriangleMesh mesh = round % 2 == 0 ? grid_mesh(3 + round, 20 - round / 2, 1, 2) : sphere_mesh(round % 4);
+    for (Vec3f& p : mesh.positions) {
+      for (float* x : {&p.x, &p.y, &p.z}) *x += static_cast<float>(random() % 1000) * 4e-5f;
+    }
+    ASSERT_NO_FATAL_FAILURE(expect_sound(mesh.positions, edges_of(mesh)));
+  }
+}
+
+TEST(Paths, of_knots_end_where_they_would_meet_themselves) {
+  std::vector<Vec3f> ring;
+  EdgeList edges;
+  for (int i = 0; i < 24; ++i) {  // a circle: turns of 15 degrees, and no end
+    const float t = static_cast<float>(i) * 0.2617994f;
+    ring.push_back({std::cos(t), std::sin(t), 0});
+    edges.push_back({i, (i + 1) % 24});
+  }
+  ASSERT_NO_FATAL_FAILURE(expect_sound(ring, edges));
+  const std::vector<Vec3f> line(5, Vec3f{});  // all in one place
+  ASSERT_NO_FATAL_FAILURE(expect_sound(line, {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {1, 2}}));
+  EXPECT_TRUE(lay_paths(line, {}).empty());
+}
+
+TEST(Paths, of_a_spider_do_not_take_for_ever) {
+  std::vector<Vec3f> positions{{}};
+  EdgeList edges;
+  std::mt19937 random(3);
+  const auto number = [&] { return static_cast<float>(random() % 2001) * 1e-3f - 1; };
+  for (int i = 1; i <= 20000; ++i) {
+    positions.push_back({number(), number(), number()});
+    edges.push_back({0, i});
+  }
+  ASSERT_NO_FATAL_FAILURE(expect_sound(positions, edges));
+}
+
+}  // namespace
+}  // namespace pliant

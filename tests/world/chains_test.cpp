@@ -1,0 +1,144 @@
+// Whole runs with chains and tethers: one hash whatever runs them, ropes that hold, cloth that hardly stretches.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pliant/world.h"
+#include "support/kernels.h"
+
+namespace pliant {
+namespace {
+
+using testing_support::available_isas;
+
+Scene hanging(int n, int substeps, int iterations, Stiffness stretch) {
+  Scene scene;
+  ClothOptions options;
+  options.material = fabric("cotton");
+  options.stretch = stretch;
+  const int cloth = scene.add_cloth(grid_mesh(n, n, 1, 1), options);
+  scene.pin(cloth, {0}, {});
+  scene.pin(cloth, {n - 1}, Motion{{Keyframe{0, {}, {}}, Keyframe{1, {-0.2f, 0.1f, 0}, {}}}, {}, false});
+  scene.settings.substeps = substeps;
+  scene.settings.iterations = iterations;
+  scene.settings.sweep = Sweep::chains;
+  scene.settings.sweep_options.tethers = true;
+  Collider ball;
+  ball.shape = Sphere{0.2f};
+  ball.position = {0, -0.4f, 0};
+  scene.add(ball);
+  return scene;
+}
+
+std::string run(const Scene& scene, const Settings& settings, int frames) {
+  World world(scene, settings);
+  for (int frame = 0; frame < frames; ++frame) {
+    const Report report = world.step(1.f / 60);
+    EXPECT_TRUE(report.ok()) << report.explain();
+  }
+  return world.state_hash();
+}
+
+TEST(ChainSweep, gives_one_hash_whatever_runs_it) {
+  for (int iterations : {1, 2}) {
+    Scene scene = hanging(70, 4, iterations, Stiffness::compliance(iterations == 1 ? 0.f : 1e-6f));
+    std::vector<Vec3f> points;
+    for (int i = 0; i <= 33; ++i) points.push_back({2 + 0.05f * static_cast<float>(i), 0, 0});
+    const int rope = scene.add(make_rope(points));
+    scene.pin(rope, {0, 33});
+    Settings settings = scene.settings;
+    settings.isa = "sequential";
+    settings.threads = 1;
+    const std::string expected = run(scene, settings, 6);
+    settings.isa.clear();
+    for (int threads : {1, 2, 3, 8}) {
+      settings.threads = threads;
+      EXPECT_EQ(run(scene, settings, 6), expected) << threads << " threads";
+    }
+    for (const std::string& isa : available_isas()) {
+      settings.isa = isa;
+      EXPECT_EQ(run(scene, settings, 6), expected) << isa;
+    }
+    settings.isa.clear();
+    settings.record_multipliers = settings.measure = true;
+    EXPECT_EQ(run(scene, settings, 6), expected) << "looking changes nothing";
+  }
+}
+
+TEST(ChainSweep, holds_a_rope_in_one_iteration) {
+  std::vector<Vec3f> points;
+  for (int i = 0; i <= 100; ++i) points.push_back({0.01f * static_cast<float>(i), 0, 0});
+  Scene scene;
+  const int rope = scene.add(make_rope(points));
+  scene.pin(rope, {0});
+  scene.settings.substeps = 20;
+  scene.settings.sweep = Sweep::chains;
+  for (const float softness : {0.f, 1e-3f}) {
+    scene.settings.sweep_options.chain_softness = softness;
+    World world(scene);
+    for (int frame = 0; frame < 90; ++frame) ASSERT_TRUE(world.step(1.f / 60).ok());
+    EXPECT_LT(world.stretch().largest, softness == 0 ? 1.0005 : 1.002);
+    EXPECT_GT(world.stretch().mean, softness == 0 ? 0.9995 : 0.998);
+  }
+}
+
+TEST(ChainSweep, bears_a_straight_row_between_two_pins) {
+  std::vector<Vec3f> points;
+  for (int i = 0; i <= 64; ++i) points.push_back({static_cast<float>(i) / 64, 0, 0});
+  Scene scene;
+  const int rope = scene.add(make_rope(points));
+  scene.pin(rope, {0, 64});
+  scene.settings.substeps = 10;
+  scene.settings.sweep = Sweep::chains;
+  World world(scene);
+  for (int frame = 0; frame < 120; ++frame) ASSERT_TRUE(world.step(1.f / 60).ok());
+  EXPECT_LT(world.stretch().largest, 1.01);
+  for (const Vec3f& p : world.positions(rope)) EXPECT_LT(std::fabs(p.y), 0.1f);
+}
+
+TEST(ChainSweep, keeps_cloth_from_stretching_at_few_substeps) {
+  Scene scene = hanging(40, 5, 1, Stiffness::rigid());
+  scene.colliders.clear();
+  scene.objects[0].pins[1].motion = {};
+  World world(scene);
+  double largest = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    ASSERT_TRUE(world.step(1.f / 60).ok());
+    largest = std::max(largest, world.stretch().largest);
+  }
+  EXPECT_LT(largest, 1.1);
+  Settings plain = scene.settings;
+  plain.sweep = Sweep::tiled;
+  plain.sweep_options.tethers = false;
+  World other(scene, plain);
+  double others = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    other.step(1.f / 60);
+    others = std::max(others, other.stretch().largest);
+  }
+  EXPECT_GT(others, 1.5) << "or this test shows nothing";
+}
+
+TEST(ChainSweep, gives_multipliers_and_counts_as_any_other) {
+  Scene scene;
+  std::vector<Vec3f> points;
+  for (int i = 0; i <= 10; ++i) points.push_back({0, -0.1f * static_cast<float>(i), 0});
+  RopeOptions options;
+  options.linear_density = 10;
+  const int rope = scene.add(make_rope(points, options));
+  scene.pin(rope, {0});
+  scene.settings.sweep = Sweep::chains;
+  scene.settings.sweep_options.chain_softness = 0;
+  scene.settings.record_multipliers = true;
+  World world(scene);
+  for (int frame = 0; frame < 30; ++frame) world.step(1.f / 60);
+  const float h = 1.f / 60 / 20;
+  const std::vector<float> multipliers = world.multipliers(rope, "distance");
+  ASSERT_EQ(multipliers.size(), 10u);
+  for (int k = 0; k < 10; ++k)  // each link carries what hangs below it
+    EXPECT_NEAR(-multipliers[k] / (h * h), 9.81f * (9.5f - static_cast<float>(k)), 0.05f);
+  EXPECT_EQ(world.info(rope).constraints[0].second, 10);
+}
+
+}  // namespace
+}  // namespace pliant
