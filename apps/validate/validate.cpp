@@ -14,8 +14,8 @@ namespace {
 
 using AddRows = void (*)(Result&, bool);
 
-const AddRows adders[] = {spring_rows,  chain_rows,     momentum_rows, pendulum_rows,
-                          contact_rows, stiffness_rows, balloon_rows,  steadiness_rows};
+const AddRows adders[] = {spring_rows,    chain_rows,   momentum_rows,   pendulum_rows,   contact_rows,
+                          stiffness_rows, balloon_rows, steadiness_rows, convergence_rows};
 
 const char* word(Comparison comparison) {
   switch (comparison) {
@@ -55,6 +55,7 @@ const std::vector<Group>& groups() {
       {"stiffness", "one rest shape whatever the iterations, the time step and the mesh"},
       {"balloon", "volume against pressure"},
       {"steadiness", "the inextensible cloth hung by two corners stays bounded"},
+      {"convergence", "how many sweeps each method needs on a free chain"},
   };
   return all;
 }

@@ -18,7 +18,8 @@ constexpr double largest_radius = 0.99999;
 constexpr double largest_growth = 4;
 /// Corrections that have come down to this share of the substep's first are mere rounding.
 constexpr double smallest_share = 1e-7;
-/// After so many steps and more, corrections that are not down to this share of where they began are mere rounding too.
+/// After so many steps and more with a rho that was estimated, corrections that are not down to this share of where they
+/// began are mere rounding too.
 constexpr int patience = 32;
 constexpr double least_progress = 0.95;
 /// rho is judged when the number of steps is a power of two, from this on, and while the polynomial is below its bound.
@@ -71,7 +72,7 @@ double next_weight(const SweepOptions& options, int iteration, double norm, Cheb
   const double next = 2 / c.spectral_radius * c.polynomial - c.polynomial_before;
   c.polynomial_before = std::exchange(c.polynomial, min(next, 1e100));
   ++c.steps;
-  const bool idle = c.steps >= patience && is_power_of_two(c.steps) && !(norm < least_progress * c.start_norm);
+  const bool idle = estimates && c.steps >= patience && is_power_of_two(c.steps) && !(norm < least_progress * c.start_norm);
   c.given_up = !(norm <= largest_growth * c.first_norm) || norm <= smallest_share * c.plain_norm || idle;
   if (c.given_up || (estimates && raise_radius(norm, c))) return 1;
   const double squared = c.spectral_radius * c.spectral_radius;
