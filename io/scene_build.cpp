@@ -11,6 +11,30 @@ namespace pliant::scene_file {
 
 namespace {
 
+Sweep sweep_of(const std::string& name) {
+  if (name == "sequential") return Sweep::sequential;
+  if (name == "symmetric") return Sweep::symmetric;
+  if (name == "jacobi") return Sweep::jacobi;
+  if (name == "natural") return Sweep::natural;
+  return name == "chains" ? Sweep::chains : Sweep::tiled;
+}
+
+SweepOptions sweep_options_of(const JsonValue& at) {
+  SweepOptions options;
+  std::string sharing, acceleration;
+  set(at, "sharing", sharing);
+  set(at, "acceleration", acceleration);
+  if (sharing == "average") options.sharing = SweepOptions::Sharing::average;
+  if (acceleration == "chebyshev") options.acceleration = SweepOptions::Acceleration::chebyshev;
+  set(at, "relaxation", options.relaxation);
+  set(at, "plain_iterations", options.plain_iterations);
+  set(at, "spectral_radius", options.spectral_radius);
+  set(at, "tethers", options.tethers);
+  set(at, "tether_slack", options.tether_slack);
+  set(at, "chain_softness", options.chain_softness);
+  return options;
+}
+
 Settings settings_of(const JsonValue& at) {
   Settings settings;
   set(at, "substeps", settings.substeps);
@@ -19,9 +43,11 @@ Settings settings_of(const JsonValue& at) {
   set(at, "measure", settings.measure);
   set(at, "record_multipliers", settings.record_multipliers);
   set(at, "isa", settings.isa);
+  set(at, "record_residuals", settings.record_residuals);
   std::string sweep = "tiled";
   set(at, "sweep", sweep);
-  settings.sweep = sweep == "sequential" ? Sweep::sequential : Sweep::tiled;
+  settings.sweep = sweep_of(sweep);
+  if (const JsonValue* options = at.find("sweep_options")) settings.sweep_options = sweep_options_of(*options);
   return settings;
 }
 

@@ -377,20 +377,50 @@ const Record& wind_record() {
   return result;
 }
 
+const Record& sweep_options_record() {
+  static const Record result{
+      "sweep_options",
+      "What a sweep can be told besides; docs/convergence.md says what each is good for.",
+      {field("relaxation", positive("-", 2), SweepOptions{}.relaxation,
+             "Every correction is multiplied by it; below 2. Above 1 over-relaxes."),
+       field("sharing", choice({"split", "average"}), "split",
+             "Of `jacobi`: `split` gives each of a particle's constraints a part of its mass and keeps momentum, `average` "
+             "does not."),
+       field("acceleration", choice({"none", "chebyshev"}), "none",
+             "Chebyshev semi-iteration, of use from some 20 iterations a substep on; refused over `natural`."),
+       field("plain_iterations", integer(1, 10000), SweepOptions{}.plain_iterations,
+             "Iterations of a substep before acceleration begins; 2 or more where the spectral radius is estimated."),
+       field("spectral_radius", number("-", 0, 1), SweepOptions{}.spectral_radius,
+             "Of the sweep, below 1; 0: estimated in every substep."),
+       field("tethers", boolean(), SweepOptions{}.tethers,
+             "Hold every particle within its distance along the mesh to the pins (long-range attachments)."),
+       field("tether_slack", number("-", 0, 1000), SweepOptions{}.tether_slack,
+             "Share by which that distance may be exceeded, for cloth that is meant to stretch."),
+       field("chain_softness", number("-", 0, 1000), SweepOptions{}.chain_softness,
+             "Of `chains`: keeps a straight row between two pins solvable; a link stretches by about this times g h^2.")},
+      {}};
+  return result;
+}
+
 const Record& settings_record() {
-  static const Record result{"settings",
-                             "How the constraints are solved. Only `substeps` and `iterations` change the result.",
-                             {field("substeps", integer(1, 10000), Settings{}.substeps, "Substeps a frame."),
-                              field("iterations", integer(1, 10000), Settings{}.iterations, "Iterations a substep."),
-                              field("threads", integer(0, 1024), Settings{}.threads, "0: as many as the machine has."),
-                              field("sweep", choice({"tiled", "sequential"}), "tiled",
-                                    "`sequential` is the slow, readable reference with the same bits."),
-                              field("measure", boolean(), Settings{}.measure, "Measure residuals and stretch each frame."),
-                              field("record_multipliers", boolean(), Settings{}.record_multipliers,
-                                    "Keep multipliers readable with one iteration too."),
-                              field("isa", choice({"x86-64-v2", "x86-64-v3", "x86-64-v4"}), "the best that the machine has",
-                                    "Forces a code path: the same bits at another speed.")},
-                             {}};
+  static const Record result{
+      "settings",
+      "How the constraints are solved. `threads`, `isa` and what is measured do not change the result.",
+      {field("substeps", integer(1, 10000), Settings{}.substeps, "Substeps a frame."),
+       field("iterations", integer(1, 10000), Settings{}.iterations, "Iterations a substep."),
+       field("threads", integer(0, 1024), Settings{}.threads, "0: as many as the machine has."),
+       field("sweep", choice({"tiled", "sequential", "symmetric", "jacobi", "natural", "chains"}), "tiled",
+             "In what order constraints are visited (docs/convergence.md). `sequential` is the slow, "
+             "readable reference with the bits of `tiled`."),
+       field("sweep_options", record(sweep_options_record()), "the defaults", "What a sweep can be told besides."),
+       field("measure", boolean(), Settings{}.measure, "Measure residuals and stretch each frame."),
+       field("record_residuals", boolean(), Settings{}.record_residuals,
+             "Measure both residuals after every iteration of each frame's last substep; slow."),
+       field("record_multipliers", boolean(), Settings{}.record_multipliers,
+             "Keep multipliers readable with one iteration too."),
+       field("isa", choice({"x86-64-v2", "x86-64-v3", "x86-64-v4", "sequential"}), "the best that the machine has",
+             "Forces a code path: the same bits at another speed.")},
+      {}};
   return result;
 }
 

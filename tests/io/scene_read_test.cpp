@@ -38,10 +38,34 @@ TEST_F(FullScene, HasItsSurroundings) {
   EXPECT_EQ(scene.settings.substeps, 3);
   EXPECT_EQ(scene.settings.iterations, 5);
   EXPECT_EQ(scene.settings.threads, 2);
-  EXPECT_EQ(scene.settings.sweep, Sweep::sequential);
+  EXPECT_EQ(scene.settings.sweep, Sweep::symmetric);
+  const SweepOptions& options = scene.settings.sweep_options;
+  EXPECT_EQ(options.relaxation, 1.25f);
+  EXPECT_EQ(options.sharing, SweepOptions::Sharing::average);
+  EXPECT_EQ(options.acceleration, SweepOptions::Acceleration::chebyshev);
+  EXPECT_EQ(options.plain_iterations, 7);
+  EXPECT_EQ(options.spectral_radius, 0.5f);
+  EXPECT_TRUE(options.tethers);
+  EXPECT_EQ(options.tether_slack, 0.25f);
+  EXPECT_EQ(options.chain_softness, 0.125f);
+  EXPECT_TRUE(scene.settings.record_residuals);
   EXPECT_TRUE(scene.settings.measure);
   EXPECT_TRUE(scene.settings.record_multipliers);
   EXPECT_EQ(scene.settings.isa, "x86-64-v3");
+}
+
+TEST(SceneSettings, ReadEverySweepByItsName) {
+  const std::pair<const char*, Sweep> names[] = {{"tiled", Sweep::tiled},         {"sequential", Sweep::sequential},
+                                                 {"symmetric", Sweep::symmetric}, {"jacobi", Sweep::jacobi},
+                                                 {"natural", Sweep::natural},     {"chains", Sweep::chains}};
+  for (const auto& [name, sweep] : names) {
+    const std::string text = R"({"settings": {"sweep": ")" + std::string(name) + R"("}, "objects": []})";
+    EXPECT_EQ(parse_scene(text, "x.json", ".").settings.sweep, sweep) << name;
+  }
+  const SweepOptions plain =
+      parse_scene(R"({"settings": {"sweep_options": {}}, "objects": []})", "x.json", ".").settings.sweep_options;
+  EXPECT_EQ(plain.sharing, SweepOptions::Sharing::split);
+  EXPECT_EQ(plain.acceleration, SweepOptions::Acceleration::none);
 }
 
 TEST_F(FullScene, HasItsColliders) {
