@@ -116,31 +116,16 @@ void extrapolate_tile(float weight, const Tile& tile, const Record* older, Recor
 
 // ---------------------------------------------------------------- multipliers
 
-void extrapolate_multipliers(float weight, const Segment& segment, const LaneValues::value_type& older,
-                             LaneValues::value_type& multipliers) {
-  if (multipliers.empty() || multipliers[segment.pool].empty()) return;
-  const std::size_t first = static_cast<std::size_t>(segment.first_batch) * batch_width;
-  const float* from = older[segment.pool].data() + first;
-  float* to = multipliers[segment.pool].data() + first;
-  for (int i = 0; i < segment.batches * batch_width; ++i) to[i] = from[i] + weight * (to[i] - from[i]);
-}
-
-/// Of the constraints of every tile and of those between tiles.
-void extrapolate_all_multipliers(Frame& frame, float weight) {
-  const Model& model = frame.model();
-  LaneValues &multipliers = frame.workspace().multipliers, &older = frame.scratch().chebyshev.multipliers_older;
-  bool any = false;
-  for (const auto& object : multipliers) any = any || !object.empty();
-  if (!any) return;
-  frame.for_tiles("solve: chebyshev", [&](int task) {
-    const int o = model.tiles[task].object;
-    const Tile& tile = model.objects[o].tiles[model.tiles[task].tile];
-    for (int s = tile.first_segment; s < tile.last_segment; ++s)
-      extrapolate_multipliers(weight, model.objects[o].segments[s], older[o], multipliers[o]);
-  });
-  frame.for_straddlers(Order::forward, [&](int o, const Segment* segment) {
-    extrapolate_multipliers(weight, *segment, older[o], multipliers[o]);
-  });
+/// Of every pool whole, whichever way its constraints are scheduled. Like keep_multipliers on one thread: it moves a float
+/// where a sweep does a projection.
+void extrapolate_multipliers(float weight, const LaneValues& older, LaneValues& multipliers) {
+  for (std::size_t o = 0; o < multipliers.size(); ++o) {
+    for (std::size_t p = 0; p < multipliers[o].size(); ++p) {
+      const float* from = older[o][p].data();
+      float* to = multipliers[o][p].data();
+      for (std::size_t i = 0; i < multipliers[o][p].size(); ++i) to[i] = from[i] + weight * (to[i] - from[i]);
+    }
+  }
 }
 
 void extrapolate_everything(Frame& frame, float weight) {
@@ -151,7 +136,7 @@ void extrapolate_everything(Frame& frame, float weight) {
     extrapolate_tile(weight, model.objects[o].tiles[model.tiles[task].tile], c.older.data() + model.first[o],
                      frame.arguments(o, false).displacements, frame.workspace().tiles[task]);
   });
-  extrapolate_all_multipliers(frame, weight);
+  extrapolate_multipliers(weight, c.multipliers_older, frame.workspace().multipliers);
   std::vector<double>& volumes = frame.workspace().volume_multipliers;
   for (std::size_t o = 0; o < volumes.size(); ++o)
     volumes[o] = c.volumes_older[o] + static_cast<double>(weight) * (volumes[o] - c.volumes_older[o]);
