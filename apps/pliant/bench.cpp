@@ -22,6 +22,11 @@ void print_row(const pliant::bench::Row& row) {
                 row.workload.c_str(), row.size, row.engine.c_str(), row.threads, row.substeps, row.iterations,
                 row.ms_per_frame, row.ns_per_projection, row.stretch_mean, row.stretch_p99, row.stretch_max, row.ratio);
   print(text);
+  if (!row.met) print("  the bounds were not kept; more substeps than this were not tried\n");
+  if (row.energy_lost != 0) {
+    std::snprintf(text, sizeof text, "  energy lost by frame 40: %.3g J\n", row.energy_lost);
+    print(text);
+  }
 }
 
 }  // namespace

@@ -169,7 +169,9 @@ struct SweepOptions {
   float spectral_radius = 0;   ///< rho of the sweep in (0, 1), or 0: estimated in each substep from the plain iterations [-]
   bool tethers = false;     ///< hold every particle within its distance along the mesh to the pins (long-range attachments)
   float tether_slack = 0;   ///< share by which that distance may be exceeded, for cloth that is meant to stretch, 0..1000 [-]
-  float chain_softness = 1e-3f;  ///< of `chains`: added to the diagonal, as a share of it, 0..1 [-]
+  /// Of `chains`, 0..1000: times the inverse mass of a path, what keeps a straight row between two pins from being singular; a
+  /// link stretches by about this times g h^2 [-].
+  float chain_softness = 0.1f;
 };
 
 struct Settings {

@@ -83,7 +83,17 @@ void append_step(const ConstraintList& list, const std::vector<Row>& rows, const
   ++pool.batches;
 }
 
-void append_colour(const ConstraintList& list, const PathColour& colour, int pool_number, CompiledObject& out) {
+/// The inverse of all the mass that a path moves: how easily it gives way as a whole. Softness in proportion to it lets a
+/// link stretch by the same small part of g h^2 under the path's own weight, however many links there are and whatever
+/// hangs at its end.
+float mobility_of(const Path& path, const CompiledObject& object) {
+  double mass = 0;
+  for (int v : path.vertices) mass += object.positions[v].w > 0 ? 1 / double(object.positions[v].w) : 0.0;
+  return mass > 0 ? static_cast<float>(1 / mass) : 0.f;
+}
+
+void append_colour(const ConstraintList& list, const PathColour& colour, float softness, int pool_number,
+                   CompiledObject& out) {
   const std::vector<Row> rows = rows_of(list);
   const int paths = static_cast<int>(colour.paths.size());
   ChainColour batches{static_cast<int>(out.chains.size()), 0};
@@ -93,6 +103,8 @@ void append_colour(const ConstraintList& list, const PathColour& colour, int poo
     for (int step = 0; step < batch.steps; ++step)
       append_step(list, rows, &colour.paths[first], std::min(batch_width, paths - first), step, pool_number, out);
     out.chains.push_back(batch);
+    for (int lane = 0; lane < batch_width; ++lane)
+      out.chain_softness.push_back(first + lane < paths ? softness * mobility_of(colour.paths[first + lane], out) : 0.f);
   }
   batches.last_batch = static_cast<int>(out.chains.size());
   out.chain_colours.push_back(batches);
@@ -160,9 +172,8 @@ void append_chains(const std::vector<ConstraintList>& lists, float softness, Com
   for (std::size_t i = 0; i < lists.size(); ++i) {
     if (!lists[i].chained) continue;
     for (const PathColour& colour : lay_paths(places_of(out), edges_of(lists[i])))
-      append_colour(lists[i], colour, static_cast<int>(i), out);
+      append_colour(lists[i], colour, softness, static_cast<int>(i), out);
   }
-  out.chain_softness.assign(out.chains.size() * batch_width, softness);
 }
 
 Tethers find_tethers(const std::vector<ConstraintList>& lists, float slack, const CompiledObject& object) {

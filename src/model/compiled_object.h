@@ -89,7 +89,7 @@ struct CompiledObject {
   std::vector<StraddlerColour> straddlers;
   std::vector<ChainBatch> chains;
   std::vector<ChainColour> chain_colours;
-  AlignedVector<float> chain_softness;  ///< sixteen a chain batch: added to the diagonal, as a share of it
+  AlignedVector<float> chain_softness;  ///< sixteen a chain batch: added to the diagonal [1/kg]
   Tethers tethers;
   std::vector<Kinematic> kinematics;  ///< those that move
   Surface surface;
@@ -104,7 +104,7 @@ struct CompileOptions {
   int largest_tile = 4096;  ///< particles
   bool in_given_order = false;  ///< one tile, one constraint after another: type by type, law by law, as they were given
   bool chains = false, tethers = false;
-  float chain_softness = 1e-3f;  ///< as in SweepOptions
+  float chain_softness = 0.1f;  ///< as in SweepOptions
   float tether_slack = 0;
 };
 

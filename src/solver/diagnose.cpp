@@ -101,6 +101,10 @@ std::string explain(const StepContext& context, const CompiledObject& object, co
     for (const StraddlerColour& colour : object.straddlers) {
       if (auto culprit = replay(context, object, colour.first_segment, colour.last_segment, arguments)) return *culprit;
     }
+    for (const ChainBatch& chain : object.chains) {
+      const int last = chain.first_segment + chain.steps;
+      if (auto culprit = replay(context, object, chain.first_segment, last, arguments)) return *culprit;
+    }
   }
   return object.has_volume ? "volume constraint (seen at " + particle + ")" : particle;
 }

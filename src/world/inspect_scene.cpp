@@ -19,7 +19,7 @@ void check_sweep(Problems& problems, const Settings& settings) {
     problems.grave("settings, sweep_options, relaxation", "is " + words(options.relaxation),
                    "give a number above 0 and below 2; 1 is plain");
   require_range(problems, "settings, sweep_options, tether_slack", options.tether_slack, 0, 1000);
-  require_range(problems, "settings, sweep_options, chain_softness", options.chain_softness, 0, 1);
+  require_range(problems, "settings, sweep_options, chain_softness", options.chain_softness, 0, 1000);
   if (options.acceleration == SweepOptions::Acceleration::none) return;
   require_range(problems, "settings, sweep_options, plain_iterations", options.plain_iterations, 1, 10000);
   if (!(options.spectral_radius >= 0 && options.spectral_radius < 1))

@@ -61,7 +61,7 @@ PLIANT_HD ChainLink<R> eliminate(const Vec3<R>& across, const R& weight, const C
     coupling = coupled * end.inverse_pivot;
   }
   const R compliance = min(params.compliance * R(a.inverse_h2), R(largest_compliance));
-  const R added = (w + weight) * params.softness + compliance;
+  const R added = params.softness + compliance;
   const R inverse_pivot = R(1) / max(mobility + weight + added, tiny);
   R numerator = params.rest_length - length - compliance * params.multiplier;
   if constexpr (!first) numerator = numerator + coupled * end.change;

@@ -72,7 +72,7 @@ class Lane {
 
 void solve_chain(const Pool& pool, const Segment* links, int steps, const float* softness, float* multipliers,
                  const SweepArguments& a, float* scratch) {
-  for (int i = 0; i < batch_width; ++i) {
+  for (int i = 0; i < links->last_count; ++i) {
     const Lane lane(pool, links, i, a, multipliers);
     lane.eliminate_all(steps, softness[i], scratch);
     lane.substitute(steps, scratch);

@@ -19,9 +19,13 @@ void solve_one(const Model& model, const ChainKernels& kernels, const ChainPhase
   const CompiledObject& object = model.objects[task.object];
   const ChainBatch& batch = object.chains[task.batch];
   float* multipliers = a.multipliers != nullptr ? a.multipliers[batch.pool] : nullptr;
-  kernels.solve_chain(object.pools[batch.pool], object.segments.data() + batch.first_segment, batch.steps,
-                      object.chain_softness.data() + static_cast<std::ptrdiff_t>(task.batch) * batch_width, multipliers, a,
-                      scratch);
+  // One or two paths, such as a rope, are done sooner one by one than in lanes that are mostly empty. The bits are the
+  // same.
+  const bool few = object.segments[batch.first_segment].last_count <= 2;
+  const ChainKernels& by = few ? chain_kernels_sequential() : kernels;
+  by.solve_chain(object.pools[batch.pool], object.segments.data() + batch.first_segment, batch.steps,
+                 object.chain_softness.data() + static_cast<std::ptrdiff_t>(task.batch) * batch_width, multipliers, a,
+                 scratch);
 }
 
 }  // namespace

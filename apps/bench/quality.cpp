@@ -1,0 +1,87 @@
+// Substeps are tried in a geometric series from below, each in a run from the start: the first that keeps the bounds
+// counts. The stretch is taken after every frame, since it is the second swing that stretches most and not the end.
+#include "apps/bench/quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "apps/bench/cloth.h"
+#include "pliant/world.h"
+
+namespace pliant::bench {
+namespace {
+
+constexpr int frame_of_energy = 40;
+
+/// What is tried, and up to which number of substeps: a plain sweep needs some N^1.5, which is hours where N is large.
+struct Contender {
+  const char* engine;
+  Sweep sweep;
+  bool tethers;
+  int first, limit;
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Row run_once(const std::string& workload, int size, const Contender& contender, int substeps, int frames) {
+  Scene scene;
+  scene.settings.substeps = substeps;
+  scene.settings.threads = 1;
+  scene.settings.sweep = contender.sweep;
+  scene.settings.sweep_options.tethers = contender.tethers;
+  scene.add(make_w1_object(size, true));
+  World world(scene);
+  Row row{workload, size, contender.engine};
+  row.substeps = substeps;
+  row.iterations = 1;
+  std::vector<double> times;
+  const double energy = world.kinetic_energy() + world.potential_energy();
+  for (int frame = 1; frame <= frames; ++frame) {
+    times.push_back(world.step(1.f / 60).milliseconds);
+    const Stretch stretch = world.stretch();
+    row.stretch_mean = std::max(row.stretch_mean, stretch.mean);
+    row.stretch_p99 = std::max(row.stretch_p99, stretch.p99);
+    row.stretch_max = std::max(row.stretch_max, stretch.largest);
+    if (frame == std::min(frames, frame_of_energy))
+      row.energy_lost = energy - world.kinetic_energy() - world.potential_energy();
+  }
+  row.met = row.stretch_p99 <= quality_p99 && row.stretch_max <= quality_largest;
+  row.ms_per_frame = median(times);
+  const double cells = static_cast<double>(size - 1) * (size - 1), border = 4.0 * (size - 1);
+  const double edges = 3 * cells + border / 2;
+  row.ns_per_projection = row.ms_per_frame * 1e6 / ((2 * edges - border) * substeps);
+  return row;
+}
+
+Row search(const std::string& workload, int size, const Contender& contender, int frames) {
+  for (int substeps = contender.first;; substeps += std::max(1, substeps / 8)) {
+    substeps = std::min(substeps, contender.limit);
+    Row row = run_once(workload, size, contender, substeps, frames);
+    if (row.met || substeps == contender.limit) return row;
+  }
+}
+
+}  // namespace
+
+std::vector<Row> measure_quality(const std::string& workload, int size, int frames) {
+  const int from = std::max(1, size / 12), plain = static_cast<int>(std::pow(size, 1.5) / 4);
+  const Contender contenders[] = {
+      {"tiled", Sweep::tiled, false, std::max(4, plain), std::min(4 * plain + 8, 400)},
+      {"chains", Sweep::chains, true, from, std::max(8, size)},
+  };
+  std::vector<Row> rows;
+  for (const Contender& contender : contenders) {
+    Contender within = contender;
+    within.first = std::min(within.first, within.limit);
+    rows.push_back(search(workload, size, within, frames));
+    rows.back().ratio = rows.front().ms_per_frame / rows.back().ms_per_frame;
+  }
+  return rows;
+}
+
+}  // namespace pliant::bench

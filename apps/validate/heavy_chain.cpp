@@ -1,0 +1,55 @@
+// A load up to 100 000 times as heavy as a link of the chain that bears it: what no iteration carries and an exact solve
+// does.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "apps/validate/rows.h"
+
+namespace pliant::validate {
+namespace {
+
+constexpr int frames = 600, substeps = 10;
+constexpr float link = 0.01f;
+
+struct Case {
+  int links;
+  float load;   ///< [kg], where a link's particle has 1 kg
+  float slope;  ///< 0: it hangs still; 1: it is let go at 45 degrees and swings
+};
+
+Object chain_of(const Case& of) {
+  Object line = hanging_line(of.links + 1, link, 1, of.load, Stiffness::rigid());
+  const float across = of.slope == 0 ? 0.f : 0.70710678f, down = of.slope == 0 ? 1.f : 0.70710678f;
+  for (Vec3f& p : line.positions) p = {-p.y * across, p.y * down, 0};
+  return line;
+}
+
+/// The largest deviation of the load's distance from the nail from the chain's length, as a share of it.
+double error_of(const Case& of, Sweep sweep) {
+  Scene scene = scene_with(chain_of(of), 10, substeps, 1);
+  scene.settings.sweep = sweep;
+  World world(scene);
+  const double length = static_cast<double>(link) * of.links;
+  double worst = 0;
+  for (int frame = 0; frame < frames; ++frame) {
+    if (!world.step(1.f / 60).ok()) return std::numeric_limits<double>::infinity();
+    const Vec3f end = world.positions(0).back();
+    worst = std::max(worst, std::fabs(std::sqrt(static_cast<double>(length_squared(end))) - length) / length);
+  }
+  return worst;
+}
+
+}  // namespace
+
+void heavy_chain_rows(Result& result, bool) {
+  for (const Case& of : {Case{20, 1e5f, 0}, Case{20, 1e5f, 1}, Case{50, 5e4f, 0}, Case{50, 5e4f, 1}}) {
+    const std::string name = "heavy_chain: " + brief(of.links) + " links, load of " + brief(of.load) + " of them, " +
+                             (of.slope == 0 ? "hanging" : "swinging") + ", error of length";
+    const std::string plain = brief(100 * error_of(of, Sweep::tiled));
+    result.rows.push_back(at_most(name, 0.01, error_of(of, Sweep::chains), "",
+                                  "chains, 10 substeps of 1 iteration, 10 s, float; the tiled sweep: " + plain + " %"));
+  }
+}
+
+}  // namespace pliant::validate
