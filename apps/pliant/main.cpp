@@ -59,6 +59,9 @@ void add_render(CLI::App& app, RenderOptions& options, Chosen& chosen) {
   render_app->add_option("--elevation", options.elevation, "camera above the horizon [degrees]")
       ->check(CLI::Range(-89.f, 89.f))
       ->capture_default_str();
+  render_app->add_option("--strip", options.strip, "frames drawn side by side in one picture by one camera, as 0,30,60")
+      ->delimiter(',')
+      ->check(CLI::Range(0, most));
   render_app->add_option("--threads", options.overrides.threads, "threads; 0: as many as the machine has")
       ->check(CLI::Range(0, 4096));
   render_app->add_flag("--quiet", options.quiet, "print nothing unless something goes wrong");

@@ -106,10 +106,22 @@ TEST_F(Command, ErrorsGiveOneAndOneLine) {
   expect_refused("check missing.obj", 1, "missing.obj");
   expect_refused("render small.json --out picture.gif", 1, "picture.gif");
   expect_refused("render small.json --out picture.png --size big", 1, "big");
+  expect_refused("render small.json --out picture.mp4 --strip 0,2", 1, "--strip");
+  expect_refused("render small.json --out picture.png --strip 0,2 --frame 3", 1, "--strip");
   std::ofstream(folder_ / "bad.json") << "{\"frames\": 3,}";
   expect_refused("run bad.json", 1, "bad.json:1");
   expect_refused("run 'no\nsuch.json'", 1, "no\\nsuch.json");
   EXPECT_EQ(files(), 2) << "an error left a file behind";
+}
+
+TEST_F(Command, AStripIsOnePictureOfSeveralFrames) {
+  const Result result = pliant("render small.json --out strip.png --strip 2,0,4 --size 200x50 --quiet");
+  if (result.err.find("EGL") != std::string::npos) GTEST_SKIP() << result.err;
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::string bytes = slurp(folder_ / "strip.png");
+  ASSERT_GT(bytes.size(), 24u);
+  EXPECT_EQ(bytes.substr(16, 8), std::string("\0\0\0\xc8\0\0\0\x32", 8)) << "width and height in the header of the file";
+  expect_refused("render small.json --out strip.png --strip 0,1,2,3 --size 60x50", 1, "pixels");
 }
 
 TEST_F(Command, AFullDiskIsAnError) {
