@@ -25,8 +25,8 @@ struct CacheLineAllocator {
   CacheLineAllocator() = default;
   template <class U>
   CacheLineAllocator(const CacheLineAllocator<U>&) {}  // NOLINT(google-explicit-constructor): as allocators must
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{64})); }
-  void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t{64}); }
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{64})); }
+  void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{64}); }
   friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
 
@@ -35,11 +35,11 @@ using Records = std::vector<Record, CacheLineAllocator<Record>>;
 /// All that changes as time passes, a plain value: copy it, hash it, put it back, and the next step gives the same bits.
 /// Particles stand in the order of the compiled model, not of the user; read places through World.
 struct State {
-  double time = 0;          ///< [s]
-  std::int64_t frame = 0;   ///< steps taken
-  Records positions;        ///< (x, y, z) [m], w the inverse mass [1/kg]
-  Records remainders;       ///< what a float position could not hold of the motion so far [m]
-  Records velocities;       ///< [m/s]
+  double time = 0;         ///< [s]
+  std::int64_t frame = 0;  ///< steps taken
+  Records positions;       ///< (x, y, z) [m], w the inverse mass [1/kg]
+  Records remainders;      ///< what a float position could not hold of the motion so far [m]
+  Records velocities;      ///< [m/s]
 };
 
 /// SHA-256 over every member of a State, as 64 hexadecimal digits.

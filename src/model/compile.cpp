@@ -134,9 +134,10 @@ std::vector<Row> rows_of(const ConstraintList& list) {
   return rows;
 }
 
+/// Zeros of either sign count as the same: a flat hinge's rest angle changes sign with its canonical order.
 bool is_constant(const Row& row, int count) {
   for (int i = 1; i < count; ++i) {
-    if (std::memcmp(&row.first[static_cast<std::size_t>(i) * row.stride], row.first, sizeof(float)) != 0) return false;
+    if (row.at(i) != row.at(0)) return false;
   }
   return true;
 }

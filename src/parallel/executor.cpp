@@ -65,7 +65,8 @@ void Executor::parallel_for(const char* name, int n, FunctionRef<void(int)> body
   if (n <= 1 || threads_ == 1) {
     for (int i = 0; i < n; ++i) body(i);
   } else {
-    tbb::parallel_for(0, n, 1, [&](int i) { body(i); }, tbb::simple_partitioner{});
+    tbb::parallel_for(
+        0, n, 1, [&](int i) { body(i); }, tbb::simple_partitioner{});
   }
 }
 

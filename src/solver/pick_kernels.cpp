@@ -30,7 +30,8 @@ const Kernels& pick_kernels(const std::string& isa) {
     }
     if ((isa.empty() || isa == choice.kernels().isa) && choice.runs()) return choice.kernels();
   }
-  if (!isa.empty()) throw Error({}, "unknown code path '" + isa + "'", "use x86-64-v2, x86-64-v3, x86-64-v4 or leave it empty");
+  if (!isa.empty())
+    throw Error({}, "unknown code path '" + isa + "'", "use x86-64-v2, x86-64-v3, x86-64-v4 or leave it empty");
   return kernels_sequential();
 }
 
