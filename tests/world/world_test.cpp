@@ -446,7 +446,9 @@ TEST(Multipliers, StandInTheOrderOfTheGroups) {
   object.constraints.push_back({"distance", {5, 6, 2, 1, 4, 5}, {}, Stiffness::compliance(0, 1), {}});
   object.constraints.push_back({"distance", {2, 3}, {}, {}, {}});
   scene.add(object);
-  World world(scene, settings_of(10, 30));
+  Settings settings = settings_of(10, 30);
+  settings.record_multipliers = true;
+  World world(scene, settings);
   for (int frame = 0; frame < 10; ++frame) world.step(dt);
   const std::vector<float> multipliers = world.multipliers(0, "distance");
   const double h = dt / 10.0, below[] = {3, 6, 1, 5, 2, 4};
