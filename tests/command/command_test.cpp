@@ -90,6 +90,8 @@ TEST_F(Command, HelpAndVersion) {
 TEST_F(Command, UsageErrorsGiveTwo) {
   expect_refused("", 2, "pliant run");
   expect_refused("fly", 2, "fly");
+  expect_refused("rnu small.json", 2, "run, render, check, validate, bench, schema, version");
+  expect_refused("render small.json", 2, "see pliant render --help");
   expect_refused("run", 2, "SCENE");
   expect_refused("run small.json --frames -1", 2, "frames");
   expect_refused("run small.json --frames many", 2, "frames");
@@ -181,7 +183,18 @@ TEST_F(Command, WritesEveryFormatThatWasAskedFor) {
 TEST_F(Command, CheckFindsNothingWrongInASoundScene) {
   const Result result = pliant("check small.json");
   EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.out.find("1 object of 144 particles"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("1 object of 144 particles, 1 x 0 x 1 m"), std::string::npos) << result.out;
+}
+
+TEST_F(Command, CheckTellsAMeshItsSizeAndWhatWasMended) {
+  std::ofstream(folder_ / "patch.obj") << "v 0 0 0\nv 0 0 20\nv 30 0 0\nv 9 9 9\nf 1 2 3\n";
+  const Result result = pliant("check patch.obj");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out.rfind("patch.obj: 3 vertices, 1 triangle, 30 x 0 x 20 m", 0), 0u) << result.out;
+  EXPECT_NE(result.out.find("\nmended: dropped 1 vertex of no triangle, the first 3\nfrom here on"), std::string::npos)
+      << result.out;
+  EXPECT_NE(result.out.find("\nnote: open, with 1 border of 3 edges"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("doubtful"), std::string::npos) << "a border is right for a cloth:\n" << result.out;
 }
 
 TEST_F(Command, AnInterruptedRunLeavesNothingHalfWritten) {
