@@ -65,12 +65,12 @@ struct Stretch {
 
 /// Where the first non-finite value came from.
 struct NonFinite {
-  std::string object, element;  ///< "distance constraint 17 (particles 3, 4)", "particle 12"
-  std::int64_t frame = 0;
-  int substep = 0;
+  std::string object, element;  ///< "distance constraint 17 (particles 3, 4)", "particle 12"; no object: see World::step
+  std::int64_t frame = 0;       ///< how many frames were complete before it
+  int substep = 0;              ///< of the frame after those, from 0
 };
 
-/// What a step has to say. A step never throws.
+/// What a step has to say. A step never throws, but lets through what a force field of the user's throws.
 struct Report {
   std::int64_t frame = 0;
   double time = 0;
@@ -102,12 +102,13 @@ class World {
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  /// Advances by dt seconds (finite, > 0; else nothing moves and the Report says so). After a non-finite value the World
-  /// stays at its last finite state and refuses to step until it is restored.
+  /// Advances by dt seconds (finite, > 0, substeps of 1e-12 s or more; else nothing moves and the Report says so). After a
+  /// non-finite value the World stops in the midst of the frame, its state made finite, and refuses to step (a Report whose
+  /// `nonfinite` names no object) until it is restored; so it does where a force field throws.
   Report step(float dt);
 
   const State& state() const;
-  /// Puts a state of this World back. Throws Error where it does not fit.
+  /// Puts a state of this World back. Throws Error where it does not fit. Multipliers read as zero until the next step.
   void restore(const State& state);
   std::string state_hash() const { return hash(state()); }
 
