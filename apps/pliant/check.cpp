@@ -60,13 +60,15 @@ std::vector<Finding> check_mesh(const std::string& path) {
 }
 
 std::vector<Finding> check_scene(const std::string& path) {
-  const Scene scene = read_scene(path);
+  const SceneFile file = read_scene_file(path);
+  const Scene& scene = file.scene;
   std::vector<Vec3f> particles;
   for (const Object& object : scene.objects)
     particles.insert(particles.end(), object.positions.begin(), object.positions.end());
   print(one_line(path) + ": " + counted(scene.objects.size(), "object") + " of " + counted(particles.size(), "particle") +
         extent(particles) + ", " + counted(scene.colliders.size(), "collider") + ", " +
         counted(static_cast<std::size_t>(scene.frames), "frame") + "\n");
+  for (const std::string& repair : file.repairs) print("mended: " + one_line(repair) + "\n");
   return inspect(scene);
 }
 

@@ -195,6 +195,8 @@ TEST_F(Command, CheckTellsAMeshItsSizeAndWhatWasMended) {
       << result.out;
   EXPECT_NE(result.out.find("\nnote: open, with 1 border of 3 edges"), std::string::npos) << result.out;
   EXPECT_EQ(result.out.find("doubtful"), std::string::npos) << "a border is right for a cloth:\n" << result.out;
+  std::ofstream(folder_ / "patch.json") << R"({"objects": [{"cloth": {"mesh": {"file": "patch.obj"}}}]})";
+  EXPECT_NE(pliant("check patch.json").out.find("dropped 1 vertex of no triangle"), std::string::npos);
 }
 
 TEST_F(Command, AnInterruptedRunLeavesNothingHalfWritten) {
