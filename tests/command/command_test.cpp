@@ -105,6 +105,12 @@ TEST_F(Command, ErrorsGiveOneAndOneLine) {
   expect_refused("run small.json --out nowhere/cloth.glb", 1, "nowhere");
   expect_refused("run small.json --report nowhere/report.json", 1, "nowhere/report.json");
   expect_refused("run small.json --report small.json", 1, "twice");
+  expect_refused("run small.json --report ./small.json", 1, "twice");
+  fs::create_symlink("small.json", folder_ / "link.json");
+  expect_refused("run small.json --report link.json", 1, "twice");
+  expect_refused("run link.json --report small.json", 1, "twice");
+  fs::remove(folder_ / "link.json");
+  EXPECT_EQ(slurp(folder_ / "small.json"), small_scene(4)) << "what was read is written over";
   expect_refused("check missing.obj", 1, "missing.obj");
   expect_refused("render small.json --out picture.gif", 1, "picture.gif");
   expect_refused("render small.json --out picture.png --size big", 1, "big");
