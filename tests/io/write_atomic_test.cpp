@@ -170,6 +170,17 @@ TEST(Spool, GivesBackWhatWasWritten) {
   EXPECT_EQ(test::read(folder / "file"), all);
 }
 
+TEST(Spool, SaysWhatToDoWhereNoMoreFilesMayBeOpen) {
+  const Folder folder;
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+  const rlimit none{0, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+  const std::string text = problem([&] { output::Spool spool(folder / "file"); });
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_NE(text.find("ulimit -n"), std::string::npos) << text;
+}
+
 TEST(FormatWriters, LeaveTheOldFilesWhenTheDiskIsFull) {
   for (const std::string suffix : {"obj", "ply", "glb", "usda", "pc2", "pvd"}) {
     const Folder folder;
