@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <mutex>
 #include <thread>
 #include <utility>
 
@@ -55,12 +56,26 @@ void Timings::clear() {
 Stopwatch::Stopwatch(Timings& timings, const char* name) : timings_(timings), name_(name), start_(nanoseconds()) {}
 Stopwatch::~Stopwatch() { timings_.add(name_, static_cast<double>(nanoseconds() - start_) * 1e-6); }
 
-struct Executor::Arena {
-  explicit Arena(int threads)
-      : limit(tbb::global_control::max_allowed_parallelism, std::max<std::size_t>(threads, hardware())), arena(threads) {}
-  static std::size_t hardware() { return std::max(1U, std::thread::hardware_concurrency()); }
+namespace {
 
-  tbb::global_control limit;  // without it oneTBB caps the threads at the machine's
+/// Without it oneTBB caps the threads at the machine's. Of several limits the lowest holds, and oneTBB complains on standard
+/// error of who asks for more; so there is one for all, which only rises. It is never taken back: at a program's end there is
+/// no good moment to.
+void raise_limit(std::size_t threads) {
+  static std::mutex mutex;
+  static std::size_t limit = std::max(1U, std::thread::hardware_concurrency());
+  static tbb::global_control* control = nullptr;
+  const std::lock_guard lock(mutex);
+  if (threads <= limit) return;
+  limit = threads;
+  delete control;
+  control = new tbb::global_control(tbb::global_control::max_allowed_parallelism, limit);
+}
+
+}  // namespace
+
+struct Executor::Arena {
+  explicit Arena(int threads) : arena(threads) { raise_limit(static_cast<std::size_t>(threads)); }
   tbb::task_arena arena;
 };
 
