@@ -104,7 +104,8 @@ class World {
 
   /// Advances by dt seconds (finite, > 0, substeps of 1e-12 s or more; else nothing moves and the Report says so). After a
   /// non-finite value the World stops in the midst of the frame, its state made finite, and refuses to step (a Report whose
-  /// `nonfinite` names no object) until it is restored; so it does where a force field throws.
+  /// `nonfinite` names no object) until it is restored; so it does where a force field throws. Keep dt even: constraints
+  /// leave an error that belongs to their step, and a much shorter one after it turns what it mends into speed.
   Report step(float dt);
 
   const State& state() const;
