@@ -279,8 +279,7 @@ PLIANT_REGISTER_OPERATOR(-)
 #undef PLIANT_REGISTER_OPERATOR
 
 /// All bits set where a record has x, y and z.
-alignas(64) constexpr std::int32_t xyz_bits[wide_width] = {-1, -1, -1, 0, -1, -1, -1, 0,
-                                                                  -1, -1, -1, 0, -1, -1, -1, 0};
+alignas(64) constexpr std::int32_t xyz_bits[wide_width] = {-1, -1, -1, 0, -1, -1, -1, 0, -1, -1, -1, 0, -1, -1, -1, 0};
 
 PLIANT_HD PartMask xyz_mask() {
   PartMask mask;
