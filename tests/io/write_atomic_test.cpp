@@ -170,14 +170,26 @@ TEST(Spool, GivesBackWhatWasWritten) {
   EXPECT_EQ(test::read(folder / "file"), all);
 }
 
+/// While it lives no file can be opened; sanitizers open some of their own, so that it must not outlive the failure.
+class NoMoreFiles {
+ public:
+  NoMoreFiles() {
+    getrlimit(RLIMIT_NOFILE, &before_);
+    const rlimit none{0, before_.rlim_max};
+    setrlimit(RLIMIT_NOFILE, &none);
+  }
+  ~NoMoreFiles() { setrlimit(RLIMIT_NOFILE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
 TEST(Spool, SaysWhatToDoWhereNoMoreFilesMayBeOpen) {
   const Folder folder;
-  rlimit before{};
-  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
-  const rlimit none{0, before.rlim_max};
-  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
-  const std::string text = problem([&] { output::Spool spool(folder / "file"); });
-  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+  const std::string text = problem([&] {
+    const NoMoreFiles none;
+    output::Spool spool(folder / "file");
+  });
   EXPECT_NE(text.find("ulimit -n"), std::string::npos) << text;
 }
 
