@@ -7,6 +7,27 @@ namespace pliant {
 
 namespace {
 
+[[noreturn]] void refuse(const std::string& path, const std::string& object, const std::string& element,
+                         const std::string& problem) {
+  throw Error({.file = path, .line = 0, .object = object, .element = element}, problem,
+              "give the scene that the world was made from");
+}
+
+/// Writers index with the scene's numbers what the world says; so those must fit, whatever scene was handed in.
+void require_fitting(const std::string& path, const Object& object, int particles) {
+  if (object.positions.size() != static_cast<std::size_t>(particles))
+    refuse(path, object.name, "",
+           "the world has " + std::to_string(particles) + " particles for its " + std::to_string(object.positions.size()));
+  const auto exists = [&](int particle) { return particle >= 0 && particle < particles; };
+  for (std::size_t t = 0; t < object.triangles.size(); ++t)
+    for (const int corner : object.triangles[t])
+      if (!exists(corner))
+        refuse(path, object.name, "triangle " + std::to_string(t), "uses a particle that does not exist");
+  for (const ConstraintGroup& group : object.constraints)
+    for (const int particle : group.particles)
+      if (!exists(particle)) refuse(path, object.name, group.type + " constraints", "use a particle that does not exist");
+}
+
 class WorldWriter final : public FrameWriter {
  public:
   explicit WorldWriter(std::unique_ptr<output::FormatWriter> format) : format_(std::move(format)) {}
@@ -29,9 +50,11 @@ class WorldWriter final : public FrameWriter {
 }  // namespace
 
 std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Scene& scene, const World& world) {
-  output::Objects objects = output::describe(scene);
-  if (world.object_count() != static_cast<int>(objects.size()))
-    throw Error({.file = path, .line = 0, .object = {}, .element = {}}, "the world was made from another scene");
+  if (world.object_count() != static_cast<int>(scene.objects.size()))
+    refuse(path, "", "", "the world was made from another scene");
+  for (int o = 0; o < world.object_count(); ++o)
+    require_fitting(path, scene.objects[static_cast<std::size_t>(o)], world.info(o).particles);
+  const output::Objects objects = output::describe(scene);
   return std::make_unique<WorldWriter>(output::make_format_writer(path, objects, scene.frame_time));
 }
 

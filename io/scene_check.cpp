@@ -49,6 +49,23 @@ std::string range(const Type& type) {
          words(type.maximum);
 }
 
+/// The members that make a record what it is: those it can't be without, or all where it can be without any.
+std::string members(const Record& record) {
+  std::vector<std::string> names;
+  for (const Field& field : record.fields)
+    if (field.required) names.push_back(field.name);
+  if (!names.empty() || !record.exactly_one.empty())
+    return joined(names, " and ") + (names.empty() || record.exactly_one.empty() ? "" : " and ") +
+           joined(record.exactly_one, " or ");
+  for (const Field& field : record.fields) names.push_back(field.name);
+  return joined(names, ", ");
+}
+
+std::string expected_object(const Record& record) {
+  const std::string inside = members(record);
+  return "an object (" + record.name + (inside.empty() ? "" : ", with " + inside) + ")";
+}
+
 std::string expected(const Type& type) {
   const std::string unit = type.unit.empty() || type.unit == "-" ? "" : " [" + type.unit + "]";
   switch (type.kind) {
@@ -67,7 +84,7 @@ std::string expected(const Type& type) {
     case Kind::list:
       return "an array";
     case Kind::record:
-      return "an object (" + type.record->name + ")";
+      return expected_object(*type.record);
     case Kind::any_of:
       break;
   }
@@ -106,6 +123,9 @@ std::string nearest_name(const std::string& wanted, const std::vector<std::strin
     const std::size_t distance = edit_distance(wanted, name);
     if (distance < least) best = name, least = distance;
   }
+  if (!best.empty() || wanted.size() < 4) return best;
+  for (const std::string& name : names)  // 'friction' for 'static_friction'
+    if (name.find(wanted) != std::string::npos) return name;
   return best;
 }
 
@@ -139,7 +159,7 @@ class Checker {
   }
 
   void record(const JsonValue& at, const Record& record) const {
-    if (at.kind != Json::object) document_.fail(at, "expected an object (" + record.name + "), found " + found(at));
+    if (at.kind != Json::object) document_.fail(at, "expected " + expected_object(record) + ", found " + found(at));
     for (std::size_t i = 0; i < at.items.size(); ++i) {
       const JsonValue& member = at.items[i];
       const Field* field = record.find(member.key);

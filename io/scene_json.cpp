@@ -59,6 +59,50 @@ std::string without_preamble(const std::string& message) {
   return bracket == std::string::npos ? message : message.substr(bracket + 2);
 }
 
+bool is_word(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+}
+
+/// The word that byte `at` lies in, or nothing.
+std::string word_around(const std::string& text, std::size_t at) {
+  std::size_t begin = at, end = at;
+  while (begin > 0 && is_word(text[begin - 1])) --begin;
+  while (end < text.size() && is_word(text[end])) ++end;
+  return text.substr(begin, end - begin);
+}
+
+/// What to do about a word that JSON does not know.
+std::string word_advice(std::string word) {
+  for (char& c : word) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  for (const char* number : {"nan", "-nan", "inf", "-inf", "infinity", "-infinity"})
+    if (word == number) return "a scene has finite numbers only";
+  for (const char* literal : {"true", "false", "null"})
+    if (word == literal) return std::string("write ") + literal;
+  const bool is_name = !word.empty() && (word[0] == '_' || (word[0] >= 'a' && word[0] <= 'z'));
+  return is_name ? "write names and text in double quotes" : "";
+}
+
+/// What people write who know languages beside JSON, and what to write instead; `last` is the byte at which reading ended.
+std::string syntax_advice(const std::string& text, std::size_t last, const std::string& problem) {
+  const auto says = [&](const char* words) { return problem.find(words) != std::string::npos; };
+  if (says("unexpected end of input"))
+    return text.empty() ? "the file is empty" : "the file is cut off, or a bracket is not closed";
+  if (last >= text.size()) return {};
+  const char c = text[last];
+  const std::size_t before = last == 0 ? std::string::npos : text.find_last_not_of(" \t\r\n", last - 1);
+  const std::string word = word_around(text, last);
+  const bool literal = says("invalid literal");
+  if ((c == '}' || c == ']') && before != std::string::npos && text[before] == ',') return "remove the comma before it";
+  if (literal && (c == '/' || c == '#')) return "JSON has no comments: remove this one";
+  if (literal && c == '\'') return "write names and text in double quotes";
+  if (literal && (c == '.' || c == '+')) return "a number begins with a digit or a minus, as 0.5";
+  if (says("expected end of input")) return "nothing may follow the last bracket";
+  if (word.size() > 1 && word[0] == '0' && word[1] >= '0' && word[1] <= '9') return "a number has no zeros in front";
+  if (literal || says("after '-'")) return word_advice(word);
+  if (says("expected '}'") || says("expected ']'")) return "a comma is missing before it";
+  return {};
+}
+
 class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
  public:
   explicit TreeBuilder(JsonDocument& document) : document_(document), scanner_(document.text) {}
@@ -87,7 +131,8 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
       document_.fail(value, "this number is too large", "the largest that a 32-bit float holds is about 3.4e38");
     }
     const std::string problem = printable(without_preamble(exception.what()));
-    throw Error(document_.locate_byte(position > 0 ? position - 1 : 0), "not valid JSON: " + problem);
+    const std::size_t last = position > 0 ? position - 1 : 0;
+    throw Error(document_.locate_byte(last), "not valid JSON: " + problem, syntax_advice(document_.text, last, problem));
   }
 
  private:

@@ -28,7 +28,8 @@ SceneFile scene_from(std::string text, const std::string& name, const scene_file
 std::string text_of(const std::string& path) {
   std::error_code unknown;
   const fs::file_status status = fs::status(path, unknown);
-  if (!fs::exists(status)) throw Error({path, 0, {}, {}}, "there is no such file");
+  if (!fs::exists(status))
+    throw Error({path, 0, {}, {}}, "there is no such file", "check the path; a relative one starts at the current folder");
   if (!fs::is_regular_file(status)) throw Error({path, 0, {}, {}}, "not a regular file", "name a scene in JSON");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw Error({path, 0, {}, {}}, "can't be opened", "check its permissions");

@@ -21,6 +21,7 @@ class LineWalk {
     int particles = 0;
     for (const auto& edge : edges) particles = std::max({particles, edge[0] + 1, edge[1] + 1});
     at_.resize(static_cast<std::size_t>(particles));
+    next_.resize(at_.size(), 0);
     for (std::size_t e = 0; e < edges.size(); ++e) {
       at_[edges[e][0]].push_back(e);
       if (edges[e][1] != edges[e][0]) at_[edges[e][1]].push_back(e);
@@ -44,15 +45,15 @@ class LineWalk {
   std::vector<int> walk(int particle) {
     std::vector<int> line{particle};
     for (bool more = true; more;) {
-      more = false;
-      for (const std::size_t e : at_[particle]) {
-        if (used_[e]) continue;
-        used_[e] = true;
-        particle = edges_[e][0] == particle ? edges_[e][1] : edges_[e][0];
-        line.push_back(particle);
-        more = at_[particle].size() == 2;
-        break;
-      }
+      // Where to look on at this particle, for a hub of a hundred thousand spokes is come by as often.
+      std::size_t& next = next_[particle];
+      while (next < at_[particle].size() && used_[at_[particle][next]]) ++next;
+      if (next == at_[particle].size()) break;
+      const std::size_t e = at_[particle][next];
+      used_[e] = true;
+      particle = edges_[e][0] == particle ? edges_[e][1] : edges_[e][0];
+      line.push_back(particle);
+      more = at_[particle].size() == 2;
     }
     return line;
   }
@@ -60,6 +61,7 @@ class LineWalk {
   const std::vector<std::array<int, 2>>& edges_;
   std::vector<bool> used_;
   std::vector<std::vector<std::size_t>> at_;
+  std::vector<std::size_t> next_;  // before it, all of a particle's edges are used
 };
 
 bool finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }

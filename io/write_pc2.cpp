@@ -4,6 +4,8 @@
 // file into meshes at `o`, and a cut mesh would not fit the cache. Layout: "POINTCACHE2\0", int version 1, int points,
 // float start frame, float frames per sample, int samples, then the samples.
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <utility>
 
@@ -16,9 +18,27 @@ namespace pliant::output {
 
 namespace {
 
+constexpr const char* first_words = "# the mesh that ";
+
+/// A run must not replace the very mesh that its scene was made from: only what was written here before is written over.
+void refuse_foreign_mesh(const std::string& path, const std::string& mesh) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(mesh, unknown)) return;  // whether it can be made is AtomicFile's to say
+  std::ifstream in(mesh, std::ios::binary);
+  const std::string expected = first_words;
+  std::string found(expected.size(), '\0');
+  in.read(found.data(), static_cast<std::streamsize>(found.size()));
+  if (in.gcount() == 0 || found == expected) return;
+  throw Error({.file = path, .line = 0, .object = {}, .element = {}},
+              "its mesh would replace " + mesh + ", which is none that belongs to a point cache",
+              "give the cache another name");
+}
+
 class Pc2Writer final : public FormatWriter {
  public:
-  Pc2Writer(const std::string& path, Objects objects) : path_(path), objects_(std::move(objects)), file_(path) {
+  Pc2Writer(const std::string& path, Objects objects)
+      : path_(path), objects_(std::move(objects)), file_(path), mesh_path_(split_path(path).stem + ".obj") {
+    refuse_foreign_mesh(path_, mesh_path_);
     std::int32_t points = 0;
     for (const FrameObject& object : objects_) points += object.particles;
     file_.write("POINTCACHE2", 12);
@@ -45,7 +65,7 @@ class Pc2Writer final : public FormatWriter {
       throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "there is no frame to write",
                   "add one before finishing");
     file_.overwrite(samples_at_, &samples_, sizeof samples_);
-    AtomicFile mesh(split_path(path_).stem + ".obj");
+    AtomicFile mesh(mesh_path_);
     mesh.write(mesh_);
     file_.commit();
     mesh.commit();
@@ -53,7 +73,7 @@ class Pc2Writer final : public FormatWriter {
 
  private:
   std::string mesh(const Frame& frame) const {
-    std::string text = "# the mesh that " + file_name(path_) + " moves, at its first sample\n";
+    std::string text = first_words + file_name(path_) + " moves, at its first sample\n";
     for (const std::vector<Vec3f>& positions : frame.positions) text += obj_vertices(positions);
     const std::vector<std::string> names = identifiers(objects_);
     int first = 1;
@@ -67,6 +87,7 @@ class Pc2Writer final : public FormatWriter {
   std::string path_;
   Objects objects_;
   AtomicFile file_;
+  std::string mesh_path_;
   std::string mesh_;  // the .obj, kept so that neither file is replaced before both can be
   std::size_t samples_at_ = 0;
   std::int32_t samples_ = 0;

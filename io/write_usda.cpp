@@ -115,6 +115,16 @@ class Prim {
   Spool points_, extents_;
 };
 
+/// The shortest decimal rate whose frame lasts as long, as far as a float tells: 60, where 1 / 0.016666668 is 59.999997.
+double frames_per_second(double frame_time) {
+  const double rate = 1 / frame_time;
+  for (double digits = 1; digits < 1e6; digits *= 10) {
+    const double rounded = std::round(digits * rate) / digits;
+    if (rounded > 0 && static_cast<float>(1 / rounded) == static_cast<float>(frame_time)) return rounded;
+  }
+  return std::round(1e6 * rate) / 1e6;
+}
+
 class UsdaWriter final : public FormatWriter {
  public:
   UsdaWriter(const std::string& path, Objects objects, double frame_time)
@@ -138,7 +148,7 @@ class UsdaWriter final : public FormatWriter {
       throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "there is no frame to write",
                   "add one before finishing");
     std::string rate;
-    append(rate, std::round(1e6 / frame_time_) / 1e6);
+    append(rate, frames_per_second(frame_time_));
     file_.write("#usda 1.0\n(\n    defaultPrim = \"World\"\n    startTimeCode = " + first_code_ + "\n    endTimeCode = " +
                 last_code_ + "\n    timeCodesPerSecond = " + rate + "\n    framesPerSecond = " + rate +
                 "\n    metersPerUnit = 1\n    upAxis = \"Y\"\n)\n\ndef Xform \"World\"\n{");

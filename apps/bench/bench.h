@@ -17,8 +17,8 @@ struct Row {
   double ms_per_frame = 0;       ///< median over the frames; the time itself where a workload has no frames
   double ns_per_projection = 0;  ///< of the whole frame, prediction and velocity update included
   double stretch_mean = 0, stretch_p99 = 0, stretch_max = 0;  ///< length over rest length after the last frame
-  double energy_lost = 0;  ///< by frame 40 [J]; of W1-quality alone
-  bool met = true;         ///< of W1-quality: whether the bounds were kept
+  double energy_lost = 0;                                     ///< by frame 40 [J]; of W1-quality alone
+  bool met = true;                                            ///< of W1-quality: whether the bounds were kept
   double ratio = 0;  ///< how many times as fast as the first row of the same workload and size
 };
 

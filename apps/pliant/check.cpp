@@ -1,4 +1,7 @@
 // pliant check: reads a scene or a mesh and says, in words, what is wrong or doubtful and what to do about it.
+#include <algorithm>
+#include <cstdio>
+
 #include "command.h"
 #include "output.h"
 #include "pliant/error.h"
@@ -15,15 +18,30 @@ std::string counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-// One line a finding, the grave ones first; whether there was a grave one.
-bool print_findings(const std::vector<Finding>& findings) {
+// ", 1 x 0 x 0.8 m": what is drawn in centimetres is seen here.
+std::string extent(const std::vector<Vec3f>& positions) {
+  if (positions.empty()) return {};
+  Vec3f low = positions.front(), high = low;
+  for (const Vec3f& p : positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const Vec3f size = high - low;
+  char text[80];
+  std::snprintf(text, sizeof text, ", %.4g x %.4g x %.4g m", static_cast<double>(size.x), static_cast<double>(size.y),
+                static_cast<double>(size.z));
+  return text;
+}
+
+// One line a finding, the grave ones first, the others called `lesser`; whether there was a grave one.
+bool print_findings(const std::vector<Finding>& findings, const std::string& lesser) {
   std::string text;
   bool grave = false;
   for (const bool wanted : {true, false}) {
     for (const Finding& finding : findings) {
       if (finding.grave != wanted) continue;
       grave = grave || finding.grave;
-      text += (finding.grave ? "wrong: " : "doubtful: ") + one_line(finding.message);
+      text += (finding.grave ? "wrong: " : lesser + ": ") + one_line(finding.message);
       if (!finding.advice.empty()) text += "; " + one_line(finding.advice);
       text += "\n";
     }
@@ -34,27 +52,33 @@ bool print_findings(const std::vector<Finding>& findings) {
 
 std::vector<Finding> check_mesh(const std::string& path) {
   const MeshFile file = read_mesh_file(path);
-  print(one_line(path) + ": " + std::to_string(file.mesh.positions.size()) + " vertices" + ", " +
-        counted(file.mesh.triangles.size(), "triangle") + "\n");
+  print(one_line(path) + ": " + std::to_string(file.mesh.positions.size()) + " vertices, " +
+        counted(file.mesh.triangles.size(), "triangle") + extent(file.mesh.positions) + "; numbers count from 0\n");
   for (const std::string& repair : file.repairs) print("mended: " + one_line(repair) + "\n");
+  if (!file.repairs.empty()) print("from here on, numbers are those of the mesh as mended\n");
   return inspect(file.mesh);
 }
 
 std::vector<Finding> check_scene(const std::string& path) {
-  const Scene scene = read_scene(path);
-  std::size_t particles = 0;
-  for (const Object& object : scene.objects) particles += object.positions.size();
-  print(one_line(path) + ": " + counted(scene.objects.size(), "object") + " of " + counted(particles, "particle") + ", " +
-        counted(scene.colliders.size(), "collider") + ", " + counted(static_cast<std::size_t>(scene.frames), "frame") +
-        "\n");
+  const SceneFile file = read_scene_file(path);
+  const Scene& scene = file.scene;
+  std::vector<Vec3f> particles;
+  for (const Object& object : scene.objects)
+    particles.insert(particles.end(), object.positions.begin(), object.positions.end());
+  print(one_line(path) + ": " + counted(scene.objects.size(), "object") + " of " + counted(particles.size(), "particle") +
+        extent(particles) + ", " + counted(scene.colliders.size(), "collider") + ", " +
+        counted(static_cast<std::size_t>(scene.frames), "frame") + "\n");
+  for (const std::string& repair : file.repairs) print("mended: " + one_line(repair) + "\n");
   return inspect(scene);
 }
 
 }  // namespace
 
 int check(const CheckOptions& options) {
+  // Much that a mesh alone makes one ask is right for a cloth, so that it is told and not doubted.
+  const bool is_scene = has_suffix(options.path, ".json");
   const bool grave =
-      print_findings(has_suffix(options.path, ".json") ? check_scene(options.path) : check_mesh(options.path));
+      print_findings(is_scene ? check_scene(options.path) : check_mesh(options.path), is_scene ? "doubtful" : "note");
   if (!grave) return 0;
   Location where;
   where.file = options.path;

@@ -36,6 +36,7 @@ struct RenderOptions {
   std::string out;                     ///< .png or .mp4
   std::string size = "1280x720";       ///< WxH in pixels
   float azimuth = 28, elevation = 18;  ///< where the camera stands [degrees]
+  std::vector<int> strip;              ///< frames drawn side by side in one picture; empty: the last alone
   bool quiet = false;
 };
 

@@ -17,16 +17,27 @@ namespace {
 using namespace pliant::command;
 
 constexpr int most = std::numeric_limits<int>::max();
+constexpr int most_threads = 1024;  // as in a scene
 
 void complain(const std::string& message) { std::fprintf(stderr, "pliant: %s\n", one_line(message).c_str()); }
 
+/// A range that a wrong value is told of, and that does not fill the help.
+template <class Number>
+CLI::Validator range(Number least, Number largest) {
+  return CLI::Validator(CLI::Range(least, largest)).description("");
+}
+
 void add_overrides(CLI::App& app, Overrides& overrides) {
   app.add_option("--frames", overrides.frames, "frames to simulate, instead of the scene's number")
-      ->check(CLI::Range(0, most));
-  app.add_option("--threads", overrides.threads, "threads; 0: as many as the machine has")->check(CLI::Range(0, 4096));
-  app.add_option("--substeps", overrides.substeps, "substeps a frame")->check(CLI::Range(1, 10000));
-  app.add_option("--iterations", overrides.iterations, "iterations a substep")->check(CLI::Range(1, 10000));
+      ->type_name("N")
+      ->check(range(0, most));
+  app.add_option("--threads", overrides.threads, "threads; 0: as many as the machine has")
+      ->type_name("N")
+      ->check(range(0, most_threads));
+  app.add_option("--substeps", overrides.substeps, "substeps a frame")->type_name("N")->check(range(1, 10000));
+  app.add_option("--iterations", overrides.iterations, "iterations a substep")->type_name("N")->check(range(1, 10000));
   app.add_option("--isa", overrides.isa, "code path; the same bits at another speed")
+      ->type_name("NAME")
       ->check(CLI::IsMember({"x86-64-v2", "x86-64-v3", "x86-64-v4"}));
   app.add_flag("--sequential", overrides.sequential, "the plain reference sweep; the same bits, slowly");
 }
@@ -39,8 +50,9 @@ void add_run(CLI::App& app, RunOptions& options, Chosen& chosen) {
   run_app->add_option("SCENE", options.scene, "scene file, JSON")->required();
   add_overrides(*run_app, options.overrides);
   run_app->add_option("--out", options.out, "geometry: .obj, .ply, .glb, .usda, .pc2 or .pvd; may be given more than once")
+      ->type_name("FILE")
       ->allow_extra_args(false);
-  run_app->add_option("--report", options.report, "write hashes, times, residuals and stretch as JSON");
+  run_app->add_option("--report", options.report, "write hashes, times, residuals and stretch as JSON")->type_name("FILE");
   run_app->add_flag("--hash-frames", options.hash_frames, "the state's hash of every frame in the report");
   run_app->add_flag("--quiet", options.quiet, "print nothing unless something goes wrong");
   run_app->callback([&] { chosen = [&] { return run(options); }; });
@@ -49,18 +61,28 @@ void add_run(CLI::App& app, RunOptions& options, Chosen& chosen) {
 void add_render(CLI::App& app, RenderOptions& options, Chosen& chosen) {
   CLI::App* render_app = app.add_subcommand("render", "Draw a scene, without a screen");
   render_app->add_option("SCENE", options.scene, "scene file, JSON")->required();
-  render_app->add_option("--out", options.out, "picture (.png) or movie (.mp4)")->required();
+  render_app->add_option("--out", options.out, "picture (.png) or movie (.mp4)")->type_name("FILE")->required();
   render_app->add_option("--frame", options.overrides.frames, "the frame drawn, the last by default; a movie ends with it")
-      ->check(CLI::Range(0, most));
-  render_app->add_option("--size", options.size, "width and height in pixels, as 1280x720")->capture_default_str();
-  render_app->add_option("--azimuth", options.azimuth, "camera from the front to the right [degrees]")
-      ->check(CLI::Range(-360.f, 360.f))
+      ->type_name("N")
+      ->check(range(0, most));
+  render_app->add_option("--size", options.size, "width and height in pixels, as 1280x720")
+      ->type_name("WxH")
       ->capture_default_str();
-  render_app->add_option("--elevation", options.elevation, "camera above the horizon [degrees]")
-      ->check(CLI::Range(-89.f, 89.f))
+  render_app->add_option("--azimuth", options.azimuth, "camera from the front to the right, -360 to 360 [degrees]")
+      ->type_name("A")
+      ->check(range(-360.f, 360.f))
       ->capture_default_str();
+  render_app->add_option("--elevation", options.elevation, "camera above the horizon, -89 to 89 [degrees]")
+      ->type_name("A")
+      ->check(range(-89.f, 89.f))
+      ->capture_default_str();
+  render_app->add_option("--strip", options.strip, "frames drawn side by side in one picture by one camera, as 0,30,60")
+      ->type_name("FRAMES")
+      ->delimiter(',')
+      ->check(range(0, most));
   render_app->add_option("--threads", options.overrides.threads, "threads; 0: as many as the machine has")
-      ->check(CLI::Range(0, 4096));
+      ->type_name("N")
+      ->check(range(0, most_threads));
   render_app->add_flag("--quiet", options.quiet, "print nothing unless something goes wrong");
   render_app->callback([&] { chosen = [&] { return render(options); }; });
 }
@@ -76,26 +98,42 @@ void add_validate(CLI::App& app, ValidateOptions& options, Chosen& chosen) {
   validate_app->add_option("NAME", options.group, "the group of answers, all by default");
   validate_app->add_flag("--slow", options.slow, "also what takes minutes");
   validate_app->add_option("--json", options.json, "write the rows as JSON; without a file in place of the table")
+      ->type_name("FILE")
       ->expected(0, 1)
       ->default_str("-");
-  validate_app->add_option("--plot", options.plot, "draw the curves as a picture (.png)");
+  validate_app->add_option("--plot", options.plot, "draw the curves as a picture (.png)")->type_name("FILE");
   validate_app->callback([&] { chosen = [&] { return validate(options); }; });
 }
 
 void add_bench(CLI::App& app, BenchOptions& options, Chosen& chosen) {
   CLI::App* bench_app = app.add_subcommand("bench", "Measure whole frames, beside plain loops and another engine");
   bench_app->add_option("NAME", options.workload, "the workload, all by default");
-  bench_app->add_option("--against", options.against, "another engine in the same run")->check(CLI::IsMember({"bullet"}));
+  bench_app->add_option("--against", options.against, "another engine in the same run")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"bullet"}));
   bench_app->add_option("--sizes", options.sizes, "particles along a side, as 64,128")
+      ->type_name("SIZES")
       ->delimiter(',')
-      ->check(CLI::Range(2, 4096));
+      ->check(range(2, 4096));
   bench_app->add_option("--frames", options.frames, "frames measured, after 20 that are not")
-      ->check(CLI::Range(1, 1000000))
+      ->type_name("N")
+      ->check(range(1, 1000000))
       ->capture_default_str();
   bench_app->add_option("--threads", options.threads, "of the run beside that with one thread; 0: all")
-      ->check(CLI::Range(0, 4096));
-  bench_app->add_option("--json", options.json, "write the rows as JSON");
+      ->type_name("N")
+      ->check(range(0, most_threads));
+  bench_app->add_option("--json", options.json, "write the rows as JSON")->type_name("FILE");
   bench_app->callback([&] { chosen = [&] { return bench(options); }; });
+}
+
+/// What to do about a command line that is not understood: the subcommands for an unknown one, else where the help is.
+std::string usage_advice(const CLI::App& app) {
+  const std::vector<CLI::App*> given = app.get_subcommands();
+  if (!given.empty()) return "see pliant " + given.front()->get_name() + " --help";
+  std::string names;
+  for (const CLI::App* subcommand : app.get_subcommands(nullptr))
+    names += (names.empty() ? "" : ", ") + subcommand->get_name();
+  return "the subcommands are " + names + "; see pliant --help";
 }
 
 int run_guarded(const Chosen& chosen) {
@@ -138,11 +176,13 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    complain(std::string(error.what()) + "; see pliant --help");
+    const bool unknown = app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-';
+    const std::string problem = unknown ? "there is no subcommand '" + std::string(argv[1]) + "'" : error.what();
+    complain(problem + "; " + usage_advice(app));
     return 2;
   }
   if (!chosen) {
-    complain("name what to do, as pliant run; see pliant --help");
+    complain("name what to do, as pliant run; " + usage_advice(app));
     return 2;
   }
   return run_guarded(chosen);

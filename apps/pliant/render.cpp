@@ -1,7 +1,8 @@
 // pliant render: a scene as a picture or a movie, drawn without a screen.
 //
 // A movie keeps one camera, which must show the whole motion; so it is simulated twice, first to see how far things go.
-// That is cheap beside drawing, and the same bits come out both times.
+// That is cheap beside drawing, and the same bits come out both times. A strip keeps one camera too: what moves between its
+// frames is then the matter alone.
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
@@ -47,6 +48,42 @@ void draw_picture(const RenderOptions& options, const Scene& scene, Size size) {
   pliant::render::write_png(options.out, size.width, size.height, renderer.draw(picture));
 }
 
+// The scene after each of the frames asked for, in their order.
+std::vector<RenderScene> moments_of(const RenderOptions& options, Scene scene) {
+  scene.frames = *std::max_element(options.strip.begin(), options.strip.end());
+  std::vector<RenderScene> moments(options.strip.size());
+  World world(scene);
+  const auto keep = [&](int frame) {
+    for (std::size_t i = 0; i < moments.size(); ++i)
+      if (options.strip[i] == frame) moments[i] = make_render_scene(scene, world);
+  };
+  int frame = 0;
+  keep(frame);
+  simulate_finite(world, scene, options.scene, options.quiet, [&] { keep(++frame); });
+  return moments;
+}
+
+void draw_strip(const RenderOptions& options, const Scene& scene, Size size) {
+  constexpr int gap = 4;  // pixels of white between two panels
+  const int count = static_cast<int>(options.strip.size());
+  const int panel = (size.width - gap * (count - 1)) / count;
+  Renderer renderer(panel, size.height);
+  std::vector<RenderScene> moments = moments_of(options, scene);
+  const Camera camera = pliant::render::frame_camera(moments, panel, size.height, options.azimuth, options.elevation);
+  const std::size_t row = std::size_t{3} * static_cast<std::size_t>(size.width);
+  std::vector<std::uint8_t> strip(row * static_cast<std::size_t>(size.height), 255);
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    moments[i].camera = camera;
+    const std::vector<std::uint8_t> pixels = renderer.draw(moments[i]);
+    const std::size_t panel_row = std::size_t{3} * static_cast<std::size_t>(panel);
+    const std::size_t left = i * (panel_row + std::size_t{3} * gap);
+    for (std::size_t y = 0; y < static_cast<std::size_t>(size.height); ++y)
+      std::copy_n(pixels.begin() + static_cast<std::ptrdiff_t>(y * panel_row), panel_row,
+                  strip.begin() + static_cast<std::ptrdiff_t>(y * row + left));
+  }
+  pliant::render::write_png(options.out, size.width, size.height, strip);
+}
+
 // A camera that shows the scene at the start, at the end and at some moments between.
 Camera camera_for(const RenderOptions& options, const Scene& scene, World& world, Size size) {
   const int every = std::max(1, scene.frames / 24);
@@ -86,10 +123,16 @@ int render(const RenderOptions& options) {
     where.file = options.out;
     throw Error(where, "is neither .png nor .mp4", "give --out one of these suffixes; geometry is what pliant run writes");
   }
+  if (!options.strip.empty() && (is_movie || options.overrides.frames)) {
+    throw Error({}, std::string("--strip goes with ") + (is_movie ? "a picture, not with a movie" : "no --frame"),
+                "give --out a name that ends in .png, and the frames to --strip alone");
+  }
   const Size size = parse_size(options.size);
   const Scene scene = read_scene_with(options.scene, options.overrides);
   if (is_movie) {
     draw_movie(options, scene, size);
+  } else if (!options.strip.empty()) {
+    draw_strip(options, scene, size);
   } else {
     draw_picture(options, scene, size);
   }

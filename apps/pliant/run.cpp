@@ -3,6 +3,7 @@
 // Everything that can be refused is refused before the first frame: the formats and places of all files, and the report's
 // own.
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <set>
 
@@ -18,13 +19,21 @@ namespace pliant::command {
 
 namespace {
 
+/// One name for one file: "a", "./a" and a link to it are the same, and what is written must not replace what was read.
+std::string file_itself(const std::string& path) {
+  std::error_code unknown;
+  const std::filesystem::path place = std::filesystem::absolute(path, unknown);
+  const std::filesystem::path resolved = unknown ? place : std::filesystem::weakly_canonical(place, unknown);
+  return unknown ? path : resolved.string();
+}
+
 void refuse_same_file_twice(const RunOptions& options) {
-  std::set<std::string> seen{options.scene};
+  std::set<std::string> seen{file_itself(options.scene)};
   std::vector<std::string> files = options.out;
   if (!options.report.empty()) files.push_back(options.report);
   for (const std::string& file : files) {
     if (file == "/dev/null") continue;
-    if (!seen.insert(file).second) {
+    if (!seen.insert(file_itself(file)).second) {
       Location where;
       where.file = file;
       throw Error(where, "is named twice", "give every file a name of its own");

@@ -42,7 +42,7 @@ Eye make_eye(const Camera& camera, int width, int height, const Bounds& content)
   eye.half_width = eye.half_height * static_cast<float>(width) / static_cast<float>(height);
   const float size = std::max(content.radius(), 1e-4f);
   const float distance = dot(eye.frame.back, camera.eye - content.centre());
-  eye.near = std::max(distance - 2 * size, 0.05f * size);
+  eye.near = 0.05f * size;  // not where the content begins: the ground comes nearer
   eye.far = std::max(distance, 0.f) + 40 * size;
   eye.view_projection =
       perspective(eye.half_width, eye.half_height, eye.near, eye.far) * view_matrix(eye.frame, camera.eye);

@@ -1,6 +1,7 @@
 // From a Scene and the World made from it to what is drawn.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "geometry.h"
 #include "io/write_frames.h"
@@ -52,6 +53,25 @@ float ground_height(const Scene& scene, const std::vector<RenderCollider>& at_re
   return low < 0 ? low - 0.02f * all.radius() : 0;
 }
 
+/// A particle much heavier than its fellows is a weight: a ball around it, as large as twice the line's thickness where it
+/// weighs as much as the others, its volume growing with its mass.
+void add_weights(RenderScene& result, const Object& object, const std::vector<Vec3f>& positions) {
+  constexpr float much = 2.5f;  // more than the ends of a rope differ from its middle
+  std::vector<float> masses;
+  std::copy_if(object.masses.begin(), object.masses.end(), std::back_inserter(masses),
+               [](float mass) { return std::isfinite(mass); });
+  if (masses.empty()) return;
+  const auto middle = masses.begin() + static_cast<std::ptrdiff_t>(masses.size() / 2);
+  std::nth_element(masses.begin(), middle, masses.end());
+  const float usual = *middle;
+  for (std::size_t i = 0; i < object.masses.size(); ++i) {
+    const float mass = object.masses[i];
+    if (!std::isfinite(mass) || mass < much * usual) continue;
+    const float radius = 2 * object.thickness * std::min(std::cbrt(mass / usual), 10.f);
+    result.tubes.push_back({.points = {positions[i]}, .radius = radius, .colour = object.colour});
+  }
+}
+
 void add_object(RenderScene& result, const Object& object, std::vector<Vec3f> positions) {
   const output::FrameObject shape = output::describe(object);
   if (!shape.triangles.empty()) {
@@ -63,7 +83,7 @@ void add_object(RenderScene& result, const Object& object, std::vector<Vec3f> po
     for (const int i : line) tube.points.push_back(positions[i]);
     result.tubes.push_back(std::move(tube));
   }
-  if (!shape.lines.empty()) return;
+  if (!shape.lines.empty()) return add_weights(result, object, positions);
   for (const Vec3f& position : positions)
     result.tubes.push_back({.points = {position}, .radius = object.thickness, .colour = shape.colour});
 }

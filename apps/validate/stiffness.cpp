@@ -62,11 +62,11 @@ void iteration_rows(Result& result, double expected) {
         relative("stiffness: engine, sinking, " + brief(iterations) + (iterations > 1 ? " iterations" : " iteration"),
                  expected, measured, 0.01, "m", "20 substeps, dt 1/60 s, 9 x 9; expected: 50 substeps of 50"));
     curve.x.push_back(iterations);
-    curve.y.push_back(measured);
+    curve.y.push_back(1000 * measured);
   }
-  plot::Series line{"converged", {1, 200}, {expected, expected}, plot::Series::Style::dashed};
+  plot::Series line{"converged", {1, 200}, {1000 * expected, 1000 * expected}, plot::Series::Style::dashed};
   result.charts.push_back(
-      {"A hanging sheet sinks as far whatever the iterations", "iterations", "sinking [m]", true, false, {line, curve}});
+      {"A hanging sheet sinks as far whatever the iterations", "iterations", "sinking [mm]", true, false, {line, curve}});
 }
 
 void time_step_rows(Result& result, double expected) {

@@ -19,9 +19,9 @@ struct MeshFile {
 
 /// What read_mesh mends.
 struct MeshReadOptions {
-  bool merge_duplicates = true;   ///< vertices in exactly one place become one (STL needs it)
-  bool drop_degenerate = true;    ///< triangles that use a vertex twice or have no area
-  bool drop_isolated = true;      ///< vertices of no triangle
+  bool merge_duplicates = true;  ///< vertices in exactly one place become one (STL needs it)
+  bool drop_degenerate = true;   ///< triangles that use a vertex twice or have no area
+  bool drop_isolated = true;     ///< vertices of no triangle
 };
 
 /// Reads .obj, .ply (ASCII or binary, either byte order) or .stl (ASCII or binary), told apart by suffix and content;

@@ -16,8 +16,9 @@ namespace pliant {
 struct Stiffness {
   enum class Kind { compliance, pbd };
   Kind kind = Kind::compliance;
-  float value = 0;    ///< alpha >= 0, or k in [0, 1]
-  float damping = 0;  ///< with compliance: beta >= 0, a damping coefficient in N s/m (the type's own unit), eq. 26 of the paper
+  float value = 0;  ///< alpha >= 0, or k in [0, 1]
+  float damping =
+      0;  ///< with compliance: beta >= 0, a damping coefficient in N s/m (the type's own unit), eq. 26 of the paper
 
   static Stiffness rigid() { return {}; }
   static Stiffness compliance(float alpha, float beta = 0) { return {Kind::compliance, alpha, beta}; }
@@ -26,8 +27,9 @@ struct Stiffness {
 
 /// What a conversion between k and compliance must know.
 struct ConversionContext {
-  float inverse_mass;  ///< generalised: sum over the particles of w_i |grad_i C|^2; 2/m for a distance between equal masses [1/kg]
-  float dt;            ///< time step of a frame [s]
+  float
+      inverse_mass;  ///< generalised: sum over the particles of w_i |grad_i C|^2; 2/m for a distance between equal masses [1/kg]
+  float dt;          ///< time step of a frame [s]
   int substeps = 1;
   int iterations = 1;
 };
@@ -43,14 +45,14 @@ float stiffness_from_compliance(float alpha, const ConversionContext& context);
 /// A fabric as measured in the world, independent of any mesh.
 struct Fabric {
   std::string name;
-  float area_density = 0.15f;          ///< [kg/m^2]
-  float thickness = 0.0004f;           ///< [m]
-  float stretch_stiffness = 2000;      ///< membrane stiffness, force per width and strain [N/m]; infinity: inextensible
-  float bending_stiffness = 1e-5f;     ///< flexural rigidity per width [N m]
-  float bending_damping = 0;           ///< fraction of critical damping of bending, 0..1 [-]
-  float static_friction = 0.4f;        ///< [-]
-  float kinetic_friction = 0.3f;       ///< [-]
-  std::string source;                  ///< where the numbers come from
+  float area_density = 0.15f;       ///< [kg/m^2]
+  float thickness = 0.0004f;        ///< [m]
+  float stretch_stiffness = 2000;   ///< membrane stiffness, force per width and strain [N/m]; infinity: inextensible
+  float bending_stiffness = 1e-5f;  ///< flexural rigidity per width [N m]
+  float bending_damping = 0;        ///< fraction of critical damping of bending, 0..1 [-]
+  float static_friction = 0.4f;     ///< [-]
+  float kinetic_friction = 0.3f;    ///< [-]
+  std::string source;               ///< where the numbers come from
 };
 
 /// One of the built-in fabrics: "cotton", "silk", "denim", "wool", "leather", "rubber sheet". Throws Error for another name,

@@ -39,7 +39,7 @@ const std::vector<ConstraintType>& constraint_types();
 /// The volume of a closed mesh, held at `pressure` times its rest volume: C = sum (x1 x x2) . x3 - pressure * 6 V0.
 /// Mueller et al. 2007, section 4.4.2.
 struct Volume {
-  float pressure = 1;   ///< k_pressure >= 0 [-]
+  float pressure = 1;     ///< k_pressure >= 0 [-]
   Stiffness stiffness{};  ///< compliance in m^5/N for C as written, which is six volumes
 };
 
@@ -68,13 +68,13 @@ struct Object {
   std::optional<Volume> volume;               ///< needs a closed surface
   std::vector<Pin> pins;
   std::vector<Attachment> attachments;
-  float thickness = 0.001f;        ///< distance kept from colliders [m]
-  float static_friction = 0.4f;    ///< [-]
-  float kinetic_friction = 0.3f;   ///< [-], <= static_friction
-  float restitution = 0;           ///< 0..1 [-]
-  float drag = 1.2f;               ///< coefficient of a triangle square to the wind [-]
-  float lift = 0.8f;               ///< [-]
-  float damping = 0;               ///< of velocity: each substep divides it by 1 + h damping, about exp(-damping) a second [1/s]
+  float thickness = 0.001f;       ///< distance kept from colliders [m]
+  float static_friction = 0.4f;   ///< [-]
+  float kinetic_friction = 0.3f;  ///< [-], <= static_friction
+  float restitution = 0;          ///< 0..1 [-]
+  float drag = 1.2f;              ///< coefficient of a triangle square to the wind [-]
+  float lift = 0.8f;              ///< [-]
+  float damping = 0;  ///< of velocity: each substep divides it by 1 + h damping, about exp(-damping) a second [1/s]
   Vec3f colour{0.75f, 0.35f, 0.30f};  ///< linear RGB, 0..1
 };
 
@@ -85,8 +85,8 @@ struct ClothOptions {
   std::optional<Stiffness> stretch{};  ///< overrides the material's
   std::optional<Stiffness> bending{};  ///< overrides the material's
   enum class Bending { none, dihedral, isometric } bending_model = Bending::dihedral;
-  std::optional<Volume> volume{};    ///< makes it a balloon; needs a closed mesh
-  Vec3f velocity{};                  ///< initial [m/s]
+  std::optional<Volume> volume{};  ///< makes it a balloon; needs a closed mesh
+  Vec3f velocity{};                ///< initial [m/s]
 };
 
 /// Cloth from any triangle mesh; its rest shape is the mesh as given, flat or curved: a distance constraint an
@@ -102,7 +102,7 @@ struct RopeOptions {
   Stiffness stretch{};
   Stiffness bending = Stiffness::compliance(1);  ///< distance between second neighbours; used where `bends`
   bool bends = false;
-  float thickness = 0.005f;      ///< radius [m]
+  float thickness = 0.005f;  ///< radius [m]
 };
 
 /// A rope through `points` (two or more, no two neighbours in one place). Each link's mass goes half to either end.
@@ -110,32 +110,38 @@ Object make_rope(const std::vector<Vec3f>& points, const RopeOptions& options = 
 
 // ---------------------------------------------------------------- what it meets
 
-struct Plane {};                                             ///< the half-space y <= 0 of its frame is solid
-struct Sphere { float radius = 0.5f; };                      ///< [m]
-struct Capsule { float radius = 0.25f, half_length = 0.5f; };  ///< along the y-axis of its frame; half_length without caps [m]
-struct Box { Vec3f half_extents{0.5f, 0.5f, 0.5f}; };        ///< [m]
+struct Plane {};  ///< the half-space y <= 0 of its frame is solid
+struct Sphere {
+  float radius = 0.5f;
+};  ///< [m]
+struct Capsule {
+  float radius = 0.25f, half_length = 0.5f;
+};  ///< along the y-axis of its frame; half_length without caps [m]
+struct Box {
+  Vec3f half_extents{0.5f, 0.5f, 0.5f};
+};  ///< [m]
 using Shape = std::variant<Plane, Sphere, Capsule, Box>;
 
 /// A solid that nothing pushes: it stands still or follows keyframes.
 struct Collider {
   std::string name = "collider";
   Shape shape = Plane{};
-  Vec3f position{};   ///< [m]
+  Vec3f position{};  ///< [m]
   Quatf rotation{};
-  Motion motion{};    ///< applied after position and rotation
-  float thickness = 0;               ///< added to the particle's [m]
-  float static_friction = 0.4f;      ///< a pair has the geometric mean of both sides'
+  Motion motion{};               ///< applied after position and rotation
+  float thickness = 0;           ///< added to the particle's [m]
+  float static_friction = 0.4f;  ///< a pair has the geometric mean of both sides'
   float kinetic_friction = 0.3f;
-  float restitution = 0;             ///< a pair has the larger of both sides'
+  float restitution = 0;  ///< a pair has the larger of both sides'
   Vec3f colour{0.45f, 0.48f, 0.52f};
 };
 
 /// Moving air: a uniform wind with a gust of given period along it.
 struct Wind {
-  Vec3f velocity{};          ///< [m/s]
-  float gust = 0;            ///< 0..1: the wind's strength swings by this share [-]
-  float gust_period = 2;     ///< [s]
-  float air_density = 0;     ///< 0: no air at all; 1.2 at sea level [kg/m^3]
+  Vec3f velocity{};       ///< [m/s]
+  float gust = 0;         ///< 0..1: the wind's strength swings by this share [-]
+  float gust_period = 2;  ///< [s]
+  float air_density = 0;  ///< 0: no air at all; 1.2 at sea level [kg/m^3]
 };
 
 /// A force on a particle [N] from its position [m], velocity [m/s], mass [kg] and the time [s]. Called from one thread at a
@@ -148,10 +154,10 @@ using ForceField = std::function<Vec3f(const Vec3f& position, const Vec3f& veloc
 enum class Sweep {
   tiled,       ///< coloured Gauss-Seidel in tiles, sixteen lanes, all threads: the default
   sequential,  ///< the same order, one constraint at a time in plain scalar code: the readable reference, bit-equal to `tiled`
-  symmetric,   ///< `tiled` there and back: one iteration visits every constraint twice, in one order and in the reverse
-  jacobi,      ///< all constraints at once from the same positions, each particle's corrections then shared out
-  natural,     ///< Gauss-Seidel in the order in which the constraints were given, one at a time: for comparison, slow
-  chains,      ///< rigid and compliant distances laid out as paths, each path solved exactly; the rest as `tiled` has it
+  symmetric,  ///< `tiled` there and back: one iteration visits every constraint twice, in one order and in the reverse
+  jacobi,     ///< all constraints at once from the same positions, each particle's corrections then shared out
+  natural,    ///< Gauss-Seidel in the order in which the constraints were given, one at a time: for comparison, slow
+  chains,     ///< rigid and compliant distances laid out as paths, each path solved exactly; the rest as `tiled` has it
 };
 
 /// What the sweeps can be told besides.
@@ -165,25 +171,26 @@ struct SweepOptions {
   float relaxation = 1;  ///< omega: every change of a multiplier is multiplied by it, above 0, below 2 [-]
   Sharing sharing = Sharing::split;
   Acceleration acceleration = Acceleration::none;
-  int plain_iterations = 10;   ///< of each substep before Chebyshev begins, 1..10000; 2 or more where rho is estimated
-  float spectral_radius = 0;   ///< rho of the sweep in (0, 1), or 0: estimated in each substep from the plain iterations [-]
-  bool tethers = false;     ///< hold every particle within its distance along the mesh to the pins (long-range attachments)
-  float tether_slack = 0;   ///< share by which that distance may be exceeded, for cloth that is meant to stretch, 0..1000 [-]
+  int plain_iterations = 10;  ///< of each substep before Chebyshev begins, 1..10000; 2 or more where rho is estimated
+  float spectral_radius = 0;  ///< rho of the sweep in (0, 1), or 0: estimated in each substep from the plain iterations [-]
+  bool tethers = false;  ///< hold every particle within its distance along the mesh to the pins (long-range attachments)
+  float tether_slack =
+      0;  ///< share by which that distance may be exceeded, for cloth that is meant to stretch, 0..1000 [-]
   /// Of `chains`, 0..1000: times the inverse mass of a path, what keeps a straight row between two pins from being singular; a
   /// link stretches by about this times g h^2 [-].
   float chain_softness = 0.1f;
 };
 
 struct Settings {
-  int substeps = 20;     ///< 1..10000 a frame
-  int iterations = 1;    ///< 1..10000 a substep
-  int threads = 0;       ///< 0: as many as the machine has
+  int substeps = 20;   ///< 1..10000 a frame
+  int iterations = 1;  ///< 1..10000 a substep
+  int threads = 0;     ///< 0: as many as the machine has
   Sweep sweep = Sweep::tiled;
   SweepOptions sweep_options{};
-  bool measure = false;  ///< fill Report::residuals and the stretch each frame (costs about one more iteration)
-  bool record_residuals = false;  ///< fill Report::convergence (slow: every iteration of the last substep is measured)
+  bool measure = false;             ///< fill Report::residuals and the stretch each frame (costs about one more iteration)
+  bool record_residuals = false;    ///< fill Report::convergence (slow: every iteration of the last substep is measured)
   bool record_multipliers = false;  ///< keep multipliers readable even where not needed (one iteration, or rigid)
-  std::string isa;       ///< "", or "x86-64-v2", "-v3", "-v4", "sequential" to force a code path (same bits, other speed)
+  std::string isa;  ///< "", or "x86-64-v2", "-v3", "-v4", "sequential" to force a code path (same bits, other speed)
 };
 
 /// Everything that a World is made from.

@@ -25,8 +25,8 @@ struct CacheLineAllocator {
   CacheLineAllocator() = default;
   template <class U>
   CacheLineAllocator(const CacheLineAllocator<U>&) {}  // NOLINT(google-explicit-constructor): as allocators must
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{64})); }
-  void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t{64}); }
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{64})); }
+  void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{64}); }
   friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
 
@@ -35,11 +35,11 @@ using Records = std::vector<Record, CacheLineAllocator<Record>>;
 /// All that changes as time passes, a plain value: copy it, hash it, put it back, and the next step gives the same bits.
 /// Particles stand in the order of the compiled model, not of the user; read places through World.
 struct State {
-  double time = 0;          ///< [s]
-  std::int64_t frame = 0;   ///< steps taken
-  Records positions;        ///< (x, y, z) [m], w the inverse mass [1/kg]
-  Records remainders;       ///< what a float position could not hold of the motion so far [m]
-  Records velocities;       ///< [m/s]
+  double time = 0;         ///< [s]
+  std::int64_t frame = 0;  ///< steps taken
+  Records positions;       ///< (x, y, z) [m], w the inverse mass [1/kg]
+  Records remainders;      ///< what a float position could not hold of the motion so far [m]
+  Records velocities;      ///< [m/s]
 };
 
 /// SHA-256 over every member of a State, as 64 hexadecimal digits.
@@ -64,7 +64,7 @@ struct Residual {
 /// have moved it, |x - x~ - w grad C^T lambda|, the other half of the equations that XPBD solves (Macklin et al. 2016, eq.
 /// 8), as a length. Particles that touch something or have a PBD constraint are left out of it: those have no multipliers.
 struct IterationResidual {
-  int iteration = 0;               ///< 0: as predicted, before the first
+  int iteration = 0;  ///< 0: as predicted, before the first
   std::vector<Residual> primal;
   double dual_rms = 0, dual_largest = 0;  ///< over particles with mass [m]
 };
@@ -76,20 +76,20 @@ struct Stretch {
 
 /// Where the first non-finite value came from.
 struct NonFinite {
-  std::string object, element;  ///< "distance constraint 17 (particles 3, 4)", "particle 12"
-  std::int64_t frame = 0;
-  int substep = 0;
+  std::string object, element;  ///< "distance constraint 17 (particles 3, 4)", "particle 12"; no object: see World::step
+  std::int64_t frame = 0;       ///< how many frames were complete before it
+  int substep = 0;              ///< of the frame after those, from 0
 };
 
-/// What a step has to say. A step never throws.
+/// What a step has to say. A step never throws, but lets through what a force field of the user's throws.
 struct Report {
   std::int64_t frame = 0;
   double time = 0;
   double milliseconds = 0;
   std::vector<PhaseTime> phases;
-  std::int64_t contacts = 0;        ///< active in the last substep
-  std::vector<Residual> residuals;  ///< where Settings::measure
-  std::optional<Stretch> stretch;   ///< where Settings::measure
+  std::int64_t contacts = 0;                   ///< active in the last substep
+  std::vector<Residual> residuals;             ///< where Settings::measure
+  std::optional<Stretch> stretch;              ///< where Settings::measure
   std::vector<IterationResidual> convergence;  ///< of the last substep, where Settings::record_residuals
   std::optional<NonFinite> nonfinite;
   std::vector<std::string> warnings;
@@ -114,12 +114,14 @@ class World {
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  /// Advances by dt seconds (finite, > 0; else nothing moves and the Report says so). After a non-finite value the World
-  /// stays at its last finite state and refuses to step until it is restored.
+  /// Advances by dt seconds (finite, > 0, substeps of 1e-12 s or more; else nothing moves and the Report says so). After a
+  /// non-finite value the World stops in the midst of the frame, its state made finite, and refuses to step (a Report whose
+  /// `nonfinite` names no object) until it is restored; so it does where a force field throws. Keep dt even: constraints
+  /// leave an error that belongs to their step, and a much shorter one after it turns what it mends into speed.
   Report step(float dt);
 
   const State& state() const;
-  /// Puts a state of this World back. Throws Error where it does not fit.
+  /// Puts a state of this World back. Throws Error where it does not fit. Multipliers read as zero until the next step.
   void restore(const State& state);
   std::string state_hash() const { return hash(state()); }
 

@@ -195,8 +195,8 @@ void schedule(std::vector<ConstraintList>& lists, const std::vector<int>& tile, 
   Colouring colouring(out.particles);
   const auto append = [&](std::size_t i, int t) {
     const bool straddles = t == tiles;
-    const std::vector<Colour> colours = in_given_order ? one_by_one(members[i][t])
-                                                       : colouring.colour(lists[i].stencils, lists[i].size, members[i][t]);
+    const std::vector<Colour> colours =
+        in_given_order ? one_by_one(members[i][t]) : colouring.colour(lists[i].stencils, lists[i].size, members[i][t]);
     for (const Colour& colour : colours) {
       const int first = static_cast<int>(out.segments.size());
       append_colour(lists[i], colour, straddles ? batches_per_straddler_task : 1 << 30, static_cast<int>(i), out);
@@ -246,6 +246,10 @@ void fill_volume(const Object& object, int passes, CompiledObject& out) {
   out.volume.law = pbd ? Law::pbd : stiffness.damping > 0 ? Law::damped : Law::compliant;
   out.volume.response = pbd ? static_cast<float>(stiffness_per_projection(stiffness.value, passes)) : stiffness.value;
   out.volume.damping = stiffness.damping;
+  for (int p = 0; p < out.particles; ++p) {
+    const bool is_free = out.positions[p].w > 0 && out.surface.corner_begin[p] < out.surface.corner_begin[p + 1];
+    out.volume.mass += is_free ? 1.0 / out.positions[p].w : 0;
+  }
 }
 
 }  // namespace

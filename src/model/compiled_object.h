@@ -71,6 +71,7 @@ struct Surface {
 /// The global volume constraint of one object.
 struct CompiledVolume {
   double target = 0;  ///< pressure times six rest volumes [m^3]
+  double mass = 0;    ///< of the surface's free particles [kg]
   Law law = Law::compliant;
   float response = 0;  ///< alpha or k'
   float damping = 0;
@@ -100,8 +101,8 @@ struct CompiledObject {
 
 /// What the schedule depends on besides the object.
 struct CompileOptions {
-  int passes = 1;           ///< projections of a constraint in a frame: substeps x iterations, for k'
-  int largest_tile = 4096;  ///< particles
+  int passes = 1;               ///< projections of a constraint in a frame: substeps x iterations, for k'
+  int largest_tile = 4096;      ///< particles
   bool in_given_order = false;  ///< one tile, one constraint after another: type by type, law by law, as they were given
   bool chains = false, tethers = false;
   float chain_softness = 0.1f;  ///< as in SweepOptions

@@ -1,7 +1,5 @@
 #include "model/fill_pool.h"
 
-#include <cstring>
-
 namespace pliant {
 
 std::vector<Row> rows_of(const ConstraintList& list) {
@@ -15,9 +13,10 @@ std::vector<Row> rows_of(const ConstraintList& list) {
 
 namespace {
 
+/// Zeros of either sign count as the same: a flat hinge's rest angle changes sign with its canonical order.
 bool is_constant(const Row& row, int count) {
   for (int i = 1; i < count; ++i) {
-    if (std::memcmp(&row.first[static_cast<std::size_t>(i) * row.stride], row.first, sizeof(float)) != 0) return false;
+    if (row.at(i) != row.at(0)) return false;
   }
   return true;
 }

@@ -13,7 +13,7 @@ struct ConstraintList {
   int type = 0;
   Law law = Law::compliant;
   int size = 0, fields = 0;
-  bool chained = false;  ///< solved along paths, not one by one
+  bool chained = false;       ///< solved along paths, not one by one
   std::vector<int> stencils;  ///< size x constraints
   std::vector<float> rest;    ///< fields x constraints
   std::vector<float> response;

@@ -22,9 +22,10 @@ struct SweepArguments {
   bool first_pass = true;  ///< of the substep: multipliers start at zero
 
   // For sweep_general alone:
-  float relaxation = 1;                   ///< omega, on every change of a multiplier
-  Record* const* corrections = nullptr;   ///< one array a pool, size x 16 records a batch: written instead of displacements
-  const float* const* shares = nullptr;   ///< one array a pool: what part of a change reaches the multiplier; null: all of it
+  float relaxation = 1;                  ///< omega, on every change of a multiplier
+  Record* const* corrections = nullptr;  ///< one array a pool, size x 16 records a batch: written instead of displacements
+  const float* const* shares =
+      nullptr;  ///< one array a pool: what part of a change reaches the multiplier; null: all of it
 };
 
 /// What carrying particles from one substep to the next needs.

@@ -8,12 +8,32 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <mutex>
 #include <thread>
 #include <utility>
+
+#if defined(__SANITIZE_THREAD__)
+#include <sanitizer/tsan_interface.h>
+#endif
 
 namespace pliant {
 
 namespace {
+
+// Debian's oneTBB is not built for the thread sanitizer, which so takes every loop for a race. What a loop hands out and
+// takes back is told to it here; then it sees the races of loops' bodies, and those alone.
+#if defined(__SANITIZE_THREAD__)
+#define PLIANT_UNSEEN_BY_TSAN __attribute__((no_sanitize("thread")))
+char handed_out, handed_back;
+void hand_over_release(void* tag) { __tsan_release(tag); }
+void hand_over_acquire(void* tag) { __tsan_acquire(tag); }
+#else
+#define PLIANT_UNSEEN_BY_TSAN
+constexpr char handed_out = 0, handed_back = 0;
+void hand_over_release(const void*) {}
+void hand_over_acquire(const void*) {}
+#endif
+
 long long nanoseconds() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -36,12 +56,26 @@ void Timings::clear() {
 Stopwatch::Stopwatch(Timings& timings, const char* name) : timings_(timings), name_(name), start_(nanoseconds()) {}
 Stopwatch::~Stopwatch() { timings_.add(name_, static_cast<double>(nanoseconds() - start_) * 1e-6); }
 
-struct Executor::Arena {
-  explicit Arena(int threads)
-      : limit(tbb::global_control::max_allowed_parallelism, std::max<std::size_t>(threads, hardware())), arena(threads) {}
-  static std::size_t hardware() { return std::max(1U, std::thread::hardware_concurrency()); }
+namespace {
 
-  tbb::global_control limit;  // without it oneTBB caps the threads at the machine's
+/// Without it oneTBB caps the threads at the machine's. Of several limits the lowest holds, and oneTBB complains on standard
+/// error of who asks for more; so there is one for all, which only rises. It is never taken back: at a program's end there is
+/// no good moment to.
+void raise_limit(std::size_t threads) {
+  static std::mutex mutex;
+  static std::size_t limit = std::max(1U, std::thread::hardware_concurrency());
+  static tbb::global_control* control = nullptr;
+  const std::lock_guard lock(mutex);
+  if (threads <= limit) return;
+  limit = threads;
+  delete control;
+  control = new tbb::global_control(tbb::global_control::max_allowed_parallelism, limit);
+}
+
+}  // namespace
+
+struct Executor::Arena {
+  explicit Arena(int threads) : arena(threads) { raise_limit(static_cast<std::size_t>(threads)); }
   tbb::task_arena arena;
 };
 
@@ -65,7 +99,16 @@ void Executor::parallel_for(const char* name, int n, FunctionRef<void(int)> body
   if (n <= 1 || threads_ == 1) {
     for (int i = 0; i < n; ++i) body(i);
   } else {
-    tbb::parallel_for(0, n, 1, [&](int i) { body(i); }, tbb::simple_partitioner{});
+    hand_over_release(&handed_out);
+    tbb::parallel_for(
+        0, n, 1,
+        [&](int i) PLIANT_UNSEEN_BY_TSAN {
+          hand_over_acquire(&handed_out);
+          body(i);
+          hand_over_release(&handed_back);
+        },
+        tbb::simple_partitioner{});
+    hand_over_acquire(&handed_back);
   }
 }
 

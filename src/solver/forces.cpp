@@ -94,7 +94,7 @@ bool has_forces(const Model& model) { return model.wind.air_density > 0 || !mode
 Vec3f wind_at(const Wind& wind, double time) {
   if (wind.gust == 0) return wind.velocity;
   const double phase = time / wind.gust_period;
-  const double turn = phase - static_cast<double>(static_cast<long long>(phase));
+  const double turn = phase - __builtin_floor(phase);  // no integer holds every phase
   return wind.velocity * (1 + wind.gust * static_cast<float>(sin(turn * 6.283185307179586)));
 }
 

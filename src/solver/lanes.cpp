@@ -388,7 +388,8 @@ int find_near(const NearQuery& q, std::int32_t* near) {
 }  // namespace PLIANT_ISA
 
 const Kernels& PLIANT_KERNELS() {
-  static constexpr Kernels table{PLIANT_ISA_NAME, &sweep<false>, &sweep<true>, &all_finite, &update, &predict, &advance, &find_near};
+  static constexpr Kernels table{PLIANT_ISA_NAME, &sweep<false>, &sweep<true>, &all_finite,
+                                 &update,         &predict,      &advance,     &find_near};
   return table;
 }
 

@@ -89,7 +89,8 @@ std::vector<Residual> measure_residuals(const Model& model, const State& state, 
   for (std::size_t o = 0; o < model.objects.size(); ++o) {
     const CompiledObject& object = model.objects[o];
     if (!object.has_volume) continue;
-    const double compliance = object.volume.law == Law::pbd ? 0 : double(object.volume.response) / (double(h) * h);
+    const double softness = std::min(double(object.volume.response) / (double(h) * h), double(largest_compliance));
+    const double compliance = object.volume.law == Law::pbd ? 0 : softness;
     volumes.add(volume_error(object, state.positions.data() + model.first[o]) +
                 compliance * workspace.volume_multipliers[o]);
   }

@@ -30,12 +30,23 @@ PLIANT_HD R generalised_inverse_mass(const Vec3<R> (&gradient)[T::size], const R
   return sum;
 }
 
+/// The denominator, grown where a correction would change C by more than its linearisation is good for, which is what a type
+/// says by `largest_change`. Elsewhere the bits are as if nobody had asked.
+template <class T, class R>
+PLIANT_HD R within_trust(const R& denominator, const R& numerator, const R& mass) {
+  if constexpr (requires { T::largest_change; }) {
+    return max(denominator, max(numerator, -numerator) * mass * R(1 / T::largest_change));
+  } else {
+    return denominator;
+  }
+}
+
 /// What a law needs besides positions.
 template <class R>
 struct Answer {
-  R response;    ///< alpha, or k'
-  R damping;     ///< beta
-  R multiplier;  ///< lambda so far in this substep; advanced by project
+  R response;        ///< alpha, or k'
+  R damping;         ///< beta
+  R multiplier;      ///< lambda so far in this substep; advanced by project
   R share = R(1.f);  ///< of a change that reaches the multiplier, where sweeps are general
 };
 
@@ -55,7 +66,8 @@ PLIANT_HD void project(const Vec3<R> (&x)[T::size], const R (&w)[T::size], const
   const R mass = generalised_inverse_mass<T>(gradient, w);
   R change;
   if constexpr (law == Law::pbd) {
-    change = -(answer.response * c) / max(mass, R(smallest_denominator));
+    const R numerator = -(answer.response * c);
+    change = numerator / max(within_trust<T>(mass, numerator, mass), R(smallest_denominator));
   } else {
     const R compliance = min(answer.response * R(a.inverse_h2), R(largest_compliance));
     R numerator = -c, denominator = mass + compliance;
@@ -65,7 +77,7 @@ PLIANT_HD void project(const Vec3<R> (&x)[T::size], const R (&w)[T::size], const
       numerator = numerator - gamma * motion_along<T>(gradient, motion);
       denominator = denominator + gamma * mass;
     }
-    change = numerator / max(denominator, R(smallest_denominator));
+    change = numerator / max(within_trust<T>(denominator, numerator, mass), R(smallest_denominator));
   }
   if constexpr (general) change = change * R(a.relaxation);
   if constexpr (keeps_multiplier) answer.multiplier = answer.multiplier + (general ? change * answer.share : change);

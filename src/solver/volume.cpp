@@ -1,5 +1,6 @@
 #include "solver/volume.h"
 
+#include "math/functions.h"
 #include "math/scalar.h"
 
 namespace pliant {
@@ -57,6 +58,16 @@ double multiplier_change(const CompiledVolume& volume, double c, double mass, do
   return (-c - compliance * multiplier - gamma * motion) / max((1 + gamma) * mass + compliance, least);
 }
 
+/// The change held to where the linearisation is good: C grows with the cube of the size, so that a small balloon with a
+/// large target would be thrown far beyond it. The surface moves in the mean (by mass: m |w g change|^2 = w |g|^2 change^2) by
+/// at most about the radius of a ball that large.
+double within_trust(const CompiledVolume& volume, double six_volumes, double mass, double change) {
+  if (!(mass > 0)) return change;
+  const double size = pow(max(abs(volume.target), abs(six_volumes)), 1.0 / 3);
+  const double largest = 0.3 * size * sqrt(volume.mass / mass);
+  return clamp(change, -largest, largest);
+}
+
 void apply_tile(const Tile& tile, const SweepArguments& a, const Record* gradients, double change) {
   for (int i = tile.first_particle; i < tile.last_particle; ++i) {
     Record& d = a.displacements[i];
@@ -95,9 +106,9 @@ void project_volumes(const Model& model, Workspace& workspace, Executor& executo
     if (!object.has_volume) continue;
     const SweepArguments a = arguments(o);
     if (a.first_pass) multipliers[o] = 0;
-    const double c = sums[o].along / 3 - object.volume.target;
-    sums[o].change = static_cast<double>(a.relaxation) *
-                     multiplier_change(object.volume, c, sums[o].mass, sums[o].motion, multipliers[o], a);
+    const double six_volumes = sums[o].along / 3, c = six_volumes - object.volume.target;
+    const double change = multiplier_change(object.volume, c, sums[o].mass, sums[o].motion, multipliers[o], a);
+    sums[o].change = static_cast<double>(a.relaxation) * within_trust(object.volume, six_volumes, sums[o].mass, change);
     multipliers[o] += sums[o].change;
   }
   const auto apply = [&](int task) {

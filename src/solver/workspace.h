@@ -41,7 +41,7 @@ struct Workspace {
   std::vector<std::vector<Vec3f>> triangle_forces;  ///< [object], where there is air
   std::vector<TileScratch> tiles;                   ///< one a tile task
   std::vector<MovingCollider> colliders;
-  std::vector<FrameGravity> gravity;  ///< one an object
+  std::vector<FrameGravity> gravity;                ///< one an object
   std::vector<AlignedVector<float>> chain_scratch;  ///< one a thread
   std::vector<Records> anchors;                     ///< [object], position and displacement of each anchor of tethers
   SweepScratch sweep;

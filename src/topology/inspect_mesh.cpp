@@ -189,7 +189,8 @@ class Inspector {
     if (repeated.count > 0)
       tell(counted(repeated.count, "triangle has", "triangles have") + " the vertices of another, the first " +
                std::to_string(repeated.first),
-           "they count twice for mass and stiffness; drop one of each pair");
+           "they count twice for mass and stiffness, and no cloth is made of a pair that stands alone; drop one of each "
+           "pair");
   }
 
   void check_isolated() {

@@ -23,7 +23,8 @@ int longest_axis(const std::vector<Vec3f>& positions, const int* first, const in
   return size.y >= size.z ? 1 : 2;
 }
 
-void bisect(const std::vector<Vec3f>& positions, int* first, int* last, int levels, int& next_tile, std::vector<int>& tile) {
+void bisect(const std::vector<Vec3f>& positions, int* first, int* last, int levels, int& next_tile,
+            std::vector<int>& tile) {
   if (first == last) return;  // more halvings than particles: a tile that holds none gets no number
   if (levels == 0) {
     for (int* i = first; i != last; ++i) tile[*i] = next_tile;

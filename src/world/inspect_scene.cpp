@@ -7,6 +7,8 @@
 #include <string>
 #include <variant>
 
+#include "pliant/error.h"
+#include "solver/kernels.h"
 #include "world/problems.h"
 
 namespace pliant {
@@ -46,6 +48,14 @@ void check_settings(Problems& problems, const Scene& scene) {
   require_range(problems, "frames", scene.frames, 0, std::numeric_limits<int>::max());
   if (!(scene.frame_time > 0) || std::isinf(scene.frame_time))
     problems.grave("frame_time", "is " + words(scene.frame_time) + " s", "give a positive, finite time, such as 1/60 s");
+  else if (settings.substeps > 0 && scene.frame_time / static_cast<double>(settings.substeps) < shortest_substep)
+    problems.grave("frame_time", "is " + words(scene.frame_time) + " s, which makes substeps too short for floats",
+                   "give a longer time or fewer substeps, such as 1/60 s and 20");
+  try {
+    pick_kernels(settings.isa);
+  } catch (const Error& error) {
+    problems.grave("settings, isa", error.problem(), error.advice());
+  }
 }
 
 void check_forces(Problems& problems, const Scene& scene) {

@@ -5,6 +5,9 @@
 
 namespace pliant {
 
+/// Below this the inverse square of a substep, which compliance is divided by, comes near the end of the floats [s].
+constexpr double shortest_substep = 1e-12;
+
 /// Throws Error for the first grave finding of inspect(scene), naming object and element. Looks for nothing else, so it
 /// costs one pass over the scene's data. After it a scene may be compiled without further checks of indices, sizes and
 /// ranges.

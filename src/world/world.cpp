@@ -26,8 +26,15 @@ const Kernels& kernels_for(const Settings& settings) {
   return settings.sweep == Sweep::sequential ? kernels_sequential() : pick_kernels(settings.isa);
 }
 
-/// Below this the inverse square of a substep, which compliance is divided by, comes near the end of the floats [s].
-constexpr double shortest_substep = 1e-12;
+/// So many frames no run takes; counting on from there stays far from the end of the integers.
+constexpr std::int64_t largest_frame = std::int64_t{1} << 60;
+
+/// They belong to the last substep, and a restored state has none: what is read then is the same in any World.
+void forget_multipliers(Workspace& workspace) {
+  for (auto& object : workspace.multipliers)
+    for (auto& values : object) std::fill(values.begin(), values.end(), 0.f);
+  std::fill(workspace.volume_multipliers.begin(), workspace.volume_multipliers.end(), 0.);
+}
 
 void add_records(Sha256& sha, const Records& records) { sha.add(records.data(), records.size() * sizeof(Record)); }
 
@@ -122,11 +129,11 @@ Report World::step(float dt) {
     return report;
   }
   if (self_->stopped) {
-    report.nonfinite =
-        NonFinite{"", "nothing: the world stopped at an earlier step; restore a state to go on", report.frame, 0};
+    report.nonfinite = NonFinite{"", "the world stopped at an earlier step", report.frame, 0};
     return report;
   }
   self_->last_h = static_cast<float>(double(dt) / self_->settings.substeps);
+  self_->stopped = true;  // unless the step comes to its end: a force field of the user's own may throw
   pliant::step(
       {self_->model, self_->state, self_->workspace, self_->executor, self_->kernels, self_->settings.substeps,
        self_->settings.iterations, self_->settings.sweep, self_->settings.sweep_options, self_->settings.record_residuals},
@@ -165,7 +172,10 @@ void World::restore(const State& state) {
     }
   }
   if (!std::isfinite(state.time)) throw Error({}, "the state's time is not finite", "restore an earlier state");
+  if (state.frame < 0 || state.frame > largest_frame)
+    throw Error({}, "the state's frame is " + std::to_string(state.frame), "restore a state of this world");
   self_->state = state;
+  forget_multipliers(self_->workspace);
   self_->stopped = false;
 }
 
@@ -256,7 +266,9 @@ std::string hash(const State& state) {
 
 std::string Report::explain() const {
   std::string text;
-  if (nonfinite) {
+  if (nonfinite && nonfinite->object.empty()) {
+    text = "frame " + std::to_string(nonfinite->frame) + ": " + nonfinite->element + "; restore a state to go on";
+  } else if (nonfinite) {
     text = "frame " + std::to_string(nonfinite->frame) + ", substep " + std::to_string(nonfinite->substep) + ": object '" +
            nonfinite->object + "', " + nonfinite->element +
            " is the first with a value that is not finite; more substeps, less stiffness or a smaller velocity may help";

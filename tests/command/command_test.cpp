@@ -90,6 +90,8 @@ TEST_F(Command, HelpAndVersion) {
 TEST_F(Command, UsageErrorsGiveTwo) {
   expect_refused("", 2, "pliant run");
   expect_refused("fly", 2, "fly");
+  expect_refused("rnu small.json", 2, "run, render, check, validate, bench, schema, version");
+  expect_refused("render small.json", 2, "see pliant render --help");
   expect_refused("run", 2, "SCENE");
   expect_refused("run small.json --frames -1", 2, "frames");
   expect_refused("run small.json --frames many", 2, "frames");
@@ -103,13 +105,31 @@ TEST_F(Command, ErrorsGiveOneAndOneLine) {
   expect_refused("run small.json --out nowhere/cloth.glb", 1, "nowhere");
   expect_refused("run small.json --report nowhere/report.json", 1, "nowhere/report.json");
   expect_refused("run small.json --report small.json", 1, "twice");
+  expect_refused("run small.json --report ./small.json", 1, "twice");
+  fs::create_symlink("small.json", folder_ / "link.json");
+  expect_refused("run small.json --report link.json", 1, "twice");
+  expect_refused("run link.json --report small.json", 1, "twice");
+  fs::remove(folder_ / "link.json");
+  EXPECT_EQ(slurp(folder_ / "small.json"), small_scene(4)) << "what was read is written over";
   expect_refused("check missing.obj", 1, "missing.obj");
   expect_refused("render small.json --out picture.gif", 1, "picture.gif");
   expect_refused("render small.json --out picture.png --size big", 1, "big");
+  expect_refused("render small.json --out picture.mp4 --strip 0,2", 1, "--strip");
+  expect_refused("render small.json --out picture.png --strip 0,2 --frame 3", 1, "--strip");
   std::ofstream(folder_ / "bad.json") << "{\"frames\": 3,}";
   expect_refused("run bad.json", 1, "bad.json:1");
   expect_refused("run 'no\nsuch.json'", 1, "no\\nsuch.json");
   EXPECT_EQ(files(), 2) << "an error left a file behind";
+}
+
+TEST_F(Command, AStripIsOnePictureOfSeveralFrames) {
+  const Result result = pliant("render small.json --out strip.png --strip 2,0,4 --size 200x50 --quiet");
+  if (result.err.find("EGL") != std::string::npos) GTEST_SKIP() << result.err;
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::string bytes = slurp(folder_ / "strip.png");
+  ASSERT_GT(bytes.size(), 24u);
+  EXPECT_EQ(bytes.substr(16, 8), std::string("\0\0\0\xc8\0\0\0\x32", 8)) << "width and height in the header of the file";
+  expect_refused("render small.json --out strip.png --strip 0,1,2,3 --size 60x50", 1, "pixels");
 }
 
 TEST_F(Command, AFullDiskIsAnError) {
@@ -169,7 +189,20 @@ TEST_F(Command, WritesEveryFormatThatWasAskedFor) {
 TEST_F(Command, CheckFindsNothingWrongInASoundScene) {
   const Result result = pliant("check small.json");
   EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.out.find("1 object of 144 particles"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("1 object of 144 particles, 1 x 0 x 1 m"), std::string::npos) << result.out;
+}
+
+TEST_F(Command, CheckTellsAMeshItsSizeAndWhatWasMended) {
+  std::ofstream(folder_ / "patch.obj") << "v 0 0 0\nv 0 0 20\nv 30 0 0\nv 9 9 9\nf 1 2 3\n";
+  const Result result = pliant("check patch.obj");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out.rfind("patch.obj: 3 vertices, 1 triangle, 30 x 0 x 20 m", 0), 0u) << result.out;
+  EXPECT_NE(result.out.find("\nmended: dropped 1 vertex of no triangle, the first 3\nfrom here on"), std::string::npos)
+      << result.out;
+  EXPECT_NE(result.out.find("\nnote: open, with 1 border of 3 edges"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("doubtful"), std::string::npos) << "a border is right for a cloth:\n" << result.out;
+  std::ofstream(folder_ / "patch.json") << R"({"objects": [{"cloth": {"mesh": {"file": "patch.obj"}}}]})";
+  EXPECT_NE(pliant("check patch.json").out.find("dropped 1 vertex of no triangle"), std::string::npos);
 }
 
 TEST_F(Command, AnInterruptedRunLeavesNothingHalfWritten) {

@@ -70,6 +70,30 @@ TEST(SceneJson, NamesLineAndColumnOfAnError) {
   EXPECT_EQ(json_message("").compare(0, 13, "x.json:1:1: n"), 0);
 }
 
+TEST(SceneJson, SaysWhatToDoAboutTheUsualSlips) {
+  const auto advice = [](const std::string& text) {
+    const std::string message = json_message(text);
+    return message.substr(message.rfind("; ") + 2);
+  };
+  EXPECT_EQ(advice("{\"a\": 1,\n}"), "remove the comma before it");
+  EXPECT_EQ(advice("[1, ]"), "remove the comma before it");
+  EXPECT_EQ(advice("[1 2]"), "a comma is missing before it");
+  EXPECT_EQ(advice("{\"a\": 1 \"b\": 2}"), "a comma is missing before it");
+  EXPECT_EQ(advice("{} {}"), "nothing may follow the last bracket");
+  EXPECT_EQ(advice("[1] // one"), "JSON has no comments: remove this one");
+  EXPECT_EQ(advice("{# one\n}"), "JSON has no comments: remove this one");
+  EXPECT_EQ(advice("{'a': 1}"), "write names and text in double quotes");
+  EXPECT_EQ(advice("{a: 1}"), "write names and text in double quotes");
+  EXPECT_EQ(advice("[.5]"), "a number begins with a digit or a minus, as 0.5");
+  for (const char* number : {"NaN", "nan", "-Infinity", "inf"})
+    EXPECT_EQ(advice(std::string("[") + number + "]"), "a scene has finite numbers only") << number;
+  EXPECT_EQ(advice("[True]"), "write true");
+  EXPECT_EQ(advice("[007]"), "a number has no zeros in front");
+  EXPECT_EQ(advice("{\"a\": 1, # one\n \"b\": 2}"), "JSON has no comments: remove this one");
+  EXPECT_EQ(advice("[{\"a\": 1"), "the file is cut off, or a bracket is not closed");
+  EXPECT_EQ(advice(""), "the file is empty");
+}
+
 TEST(SceneJson, CapsTheDepth) {
   const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
   EXPECT_EQ(json_message(nested(64)), "");

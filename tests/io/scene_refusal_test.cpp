@@ -26,7 +26,14 @@ TEST(SceneRefusal, SaysWhatIsWrongAndWhatToDo) {
   EXPECT_EQ(scene_message(R"({"objects": [], "objects": []})"),
             "x.json:1:17: /objects: 'objects' is there twice; keep one of the two");
   EXPECT_EQ(scene_message("{}"), "x.json:1:1: /: 'objects' is missing; expected an array");
-  EXPECT_EQ(scene_message("[]"), "x.json:1:1: /: expected an object (scene), found an array");
+  EXPECT_EQ(scene_message("[]"), "x.json:1:1: /: expected an object (scene, with 'objects'), found an array");
+  EXPECT_EQ(scene_message(R"({"objects": [], "wind": [5, 0, 0]})"),
+            "x.json:1:25: /wind: expected an object (wind, with 'velocity' and 'air_density'), found an array");
+  EXPECT_EQ(scene_message(R"({"objects": [{"friction": 0.5}]})"),
+            "x.json:1:15: /objects/0/friction: 'friction' is unknown in object; did you mean 'static_friction'?");
+  EXPECT_EQ(scene_message(R"({"objects": [{"cloth": {"stretch": 1e-4}}]})"),
+            "x.json:1:36: /objects/0/cloth/stretch: expected 'rigid', or an object (stiffness, with 'compliance' or "
+            "'stiffness'), found a number");
   EXPECT_EQ(scene_message(R"({"objects": [{}]})"),
             "x.json:1:14: /objects/0: it isn't said what this object is; "
             "give exactly one of 'cloth', 'rope' and 'particles'");
@@ -300,7 +307,9 @@ TEST_F(SceneFiles, AreRefusedAsScenesUnlessRegular) {
   };
   ASSERT_EQ(mkfifo((folder / "pipe.json").c_str(), 0600), 0);
   EXPECT_EQ(message(folder / "pipe.json"), (folder / "pipe.json").string() + ": not a regular file; name a scene in JSON");
-  EXPECT_EQ(message(folder / "none.json"), (folder / "none.json").string() + ": there is no such file");
+  EXPECT_EQ(message(folder / "none.json"),
+            (folder / "none.json").string() +
+                ": there is no such file; check the path; a relative one starts at the current folder");
   EXPECT_NE(message("/dev/zero"), "");
   EXPECT_NE(message(folder), "");
 }

@@ -170,18 +170,42 @@ TEST(Spool, GivesBackWhatWasWritten) {
   EXPECT_EQ(test::read(folder / "file"), all);
 }
 
+/// While it lives no file can be opened; sanitizers open some of their own, so that it must not outlive the failure.
+class NoMoreFiles {
+ public:
+  NoMoreFiles() {
+    getrlimit(RLIMIT_NOFILE, &before_);
+    const rlimit none{0, before_.rlim_max};
+    setrlimit(RLIMIT_NOFILE, &none);
+  }
+  ~NoMoreFiles() { setrlimit(RLIMIT_NOFILE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST(Spool, SaysWhatToDoWhereNoMoreFilesMayBeOpen) {
+  const Folder folder;
+  const std::string text = problem([&] {
+    const NoMoreFiles none;
+    output::Spool spool(folder / "file");
+  });
+  EXPECT_NE(text.find("ulimit -n"), std::string::npos) << text;
+}
+
 TEST(FormatWriters, LeaveTheOldFilesWhenTheDiskIsFull) {
   for (const std::string suffix : {"obj", "ply", "glb", "usda", "pc2", "pvd"}) {
     const Folder folder;
-    test::put(folder / ("run." + suffix), "old");
-    test::put(folder / "run.obj", "old");
+    const std::string old = "# the mesh that was there before";  // which a point cache may replace
+    test::put(folder / ("run." + suffix), old);
+    test::put(folder / "run.obj", old);
     const int status = with_a_full_disk(64, [&] {
       const std::string text = problem([&] { test::write_sample(folder / ("run." + suffix), 9); });
       return text.find(folder / "run") != std::string::npos ? 42 : 1;
     });
     EXPECT_EQ(status, 42) << suffix;
-    EXPECT_EQ(test::read(folder / ("run." + suffix)), "old") << suffix;
-    EXPECT_EQ(test::read(folder / "run.obj"), "old") << suffix;
+    EXPECT_EQ(test::read(folder / ("run." + suffix)), old) << suffix;
+    EXPECT_EQ(test::read(folder / "run.obj"), old) << suffix;
     for (const std::string& name : folder.names()) EXPECT_EQ(name[0], 'r') << suffix << " left " << name;
   }
 }
@@ -231,6 +255,14 @@ TEST(JoinLines, WalksForksAndLoops) {
   EXPECT_EQ(output::join_lines({{5, 4}, {4, 3}}), (Lines{{3, 4, 5}}));
   EXPECT_EQ(output::join_lines({{0, 1}, {1, 2}, {1, 3}, {3, 4}}), (Lines{{0, 1}, {1, 2}, {1, 3, 4}}));
   EXPECT_TRUE(output::join_lines({}).empty());
+}
+
+TEST(JoinLines, TakesTimeInProportionAlsoAtAHub) {
+  std::vector<std::array<int, 2>> spokes;
+  for (int i = 1; i <= 1000000; ++i) spokes.push_back({0, i});
+  const auto lines = output::join_lines(spokes);  // half an hour, where each spoke looks through all before it
+  EXPECT_EQ(lines.size(), spokes.size());
+  EXPECT_EQ(lines.back(), (std::vector<int>{0, 1000000}));
 }
 
 }  // namespace

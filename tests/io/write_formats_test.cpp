@@ -221,6 +221,17 @@ int occurrences(const std::string& text, const std::string& part) {
   return count;
 }
 
+TEST(Usda, NamesTheRateThatWasMeantByAFloat) {
+  const Folder folder;
+  const std::string path = folder / "run.usda";
+  for (const auto& [seconds, rate] : {std::pair{1.f / 60, "60"}, {1.f / 24, "24"}, {1001.f / 30000, "29.97003"}}) {
+    const auto writer = output::make_format_writer(path, test::sample_objects(), static_cast<double>(seconds));
+    writer->add(test::sample_frame(0));
+    writer->finish();
+    EXPECT_NE(test::read(path).find("timeCodesPerSecond = " + std::string(rate)), std::string::npos) << rate;
+  }
+}
+
 TEST(Usda, IsBalancedAndHoldsEverySample) {
   const Folder folder;
   test::write_sample(folder / "run.usda", 3);

@@ -67,5 +67,39 @@ TEST(FrameWriter, RefusesAnotherScenesWorldAndUnknownSuffixes) {
   EXPECT_TRUE(folder.names().empty());
 }
 
+TEST(FrameWriter, RefusesASceneThatTheWorldWasNotMadeFrom) {
+  const test::Folder folder;
+  const Scene scene = falling();
+  const World world(scene);
+  const auto refused = [&](const auto& spoil) {
+    Scene other = scene;
+    spoil(other);
+    EXPECT_THROW(make_frame_writer(folder / "run.glb", other, world), Error);
+  };
+  refused([](Scene& s) { s.objects[0].triangles[2][1] = 1000000; });
+  refused([](Scene& s) { s.objects[0].triangles[2][1] = -1; });
+  refused([](Scene& s) { s.objects[0].positions.pop_back(); });
+  refused([](Scene& s) { s.objects[1].constraints[0].particles[1] = 3; });
+  refused([](Scene& s) { s.objects[1].constraints[0].particles[1] = -2000000000; });
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(FrameWriter, APointCacheReplacesNoMeshButItsOwn) {
+  const test::Folder folder;
+  const Scene scene = falling();
+  const World world(scene);
+  const auto write = [&] {
+    const auto writer = make_frame_writer(folder / "run.pc2", scene, world);
+    writer->add(world);
+    writer->finish();
+  };
+  write();
+  EXPECT_NO_THROW(write()) << "its own";
+  write_mesh(folder / "run.obj", grid_mesh(2, 2, 1, 1));
+  const std::string before = test::read(folder / "run.obj");
+  EXPECT_THROW(write(), Error);
+  EXPECT_EQ(test::read(folder / "run.obj"), before);
+}
+
 }  // namespace
 }  // namespace pliant

@@ -80,11 +80,9 @@ std::map<std::pair<int, int>, Found> all_lanes(const CompiledObject& object) {
         EXPECT_EQ(origin >= 0, lane_is_valid(segment, batch, lane));
         if (origin < 0) continue;
         Found here;
-        const float* block = pool.blocks.data() + static_cast<std::size_t>(segment.first_batch + batch) *
-                                                      static_cast<std::size_t>(pool.block_floats);
-        const int fields = pool.block_floats / batch_width - (pool.law == Law::damped ? 2 : 1);
-        here.first_field = block[lane];
-        here.response = block[fields * batch_width + lane];
+        const int fields = static_cast<int>(pool.row_offset.size()) - (pool.law == Law::damped ? 2 : 1);
+        here.first_field = pool.row(0, segment.first_batch + batch)[lane];
+        here.response = pool.row(fields, segment.first_batch + batch)[lane];
         here.law = pool.law;
         for (int slot = 0; slot < pool.stencil; ++slot) {
           const int storage = particle_of(segment, index, slot, lane);

@@ -67,6 +67,19 @@ TEST(Timings, AddUpUnderTheirNames) {
   EXPECT_EQ(timings.entries()[0].milliseconds, 0);
 }
 
+TEST(Executor, OfMoreThreadsBesideOthersComplainsNowhere) {
+  const int usual = Executor(0).threads();
+  testing::internal::CaptureStderr();
+  Executor few(2), many(64);
+  for (Executor* executor : {&few, &many, &few}) {
+    std::atomic<int> sum{0};
+    executor->enter([&] { executor->parallel_for("loop", 1000, [&](int i) { sum += i; }); });
+    EXPECT_EQ(sum, 499500);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(Executor(0).threads(), usual) << "what one asks for is nothing to those that ask for nothing";
+}
+
 TEST(Timings, EveryLoopTimesItself) {
   Executor executor(2);
   executor.parallel_for("first", 3, [](int) {});

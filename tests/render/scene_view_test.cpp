@@ -29,6 +29,17 @@ TEST(SceneView, TakesSurfacesRopesAndColliders) {
   EXPECT_EQ(picture.colliders[0].position, (Vec3f{2, 0.3f, 0}));
 }
 
+TEST(SceneView, ShowsWhatIsHeavyAsABall) {
+  Scene scene;
+  scene.add(make_rope({{0, 1, 0}, {0.1f, 1, 0}, {0.2f, 1, 0}, {0.3f, 1, 0}}));
+  ASSERT_EQ(make_render_scene(scene, World(scene)).tubes.size(), 1u) << "the halved ends of a rope are no weights";
+  scene.objects[0].masses[3] = 8 * scene.objects[0].masses[1];
+  const RenderScene picture = make_render_scene(scene, World(scene));
+  ASSERT_EQ(picture.tubes.size(), 2u);
+  EXPECT_EQ(picture.tubes[1].points, std::vector<Vec3f>{scene.objects[0].positions[3]});
+  EXPECT_FLOAT_EQ(picture.tubes[1].radius, 2 * 2 * scene.objects[0].thickness) << "cube root of 8";
+}
+
 TEST(SceneView, PutsTheGroundUnderEverything) {
   const auto ground = [](const Scene& scene) { return make_render_scene(scene, World(scene)).ground.value_or(1e9f); };
   Scene scene;

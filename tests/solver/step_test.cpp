@@ -11,6 +11,7 @@
 
 #include "math/quat.h"
 #include "pliant/error.h"
+#include "solver/forces.h"
 #include "solver/measure.h"
 #include "solver/volume.h"
 #include "support/kernels.h"
@@ -173,6 +174,16 @@ TEST(Step, TheScheduleOfOneObjectKnowsNothingOfAnother) {
   EXPECT_TRUE(equal_bits(a, {b.begin() + together.first[1], b.end()}));
 }
 
+// ------------------------------------------------------------------------------------------------ wind
+
+TEST(Wind, SwingsEvenlyAtAnyTime) {
+  const Wind wind{{2, 0, 0}, 0.5f, 1, 1.2f};
+  EXPECT_NEAR(wind_at(wind, 7.25).x, 3, 1e-6);
+  EXPECT_NEAR(wind_at(wind, 7.75).x, 1, 1e-6);
+  EXPECT_NEAR(wind_at(wind, -0.75).x, 3, 1e-6);
+  EXPECT_EQ(wind_at(wind, 1e19).x, 2) << "a whole number of turns, more than any integer holds";
+}
+
 // ------------------------------------------------------------------------------------------------ volume
 
 struct VolumeCase {
@@ -251,6 +262,48 @@ TEST(Volume, SumsAreTheSameOnAnyNumberOfThreads) {
     VolumeCase many(16, 1.3f, Stiffness::compliance(1e-4f, 0.1f));
     for (int i = 0; i < 5; ++i) many.project(threads, i == 0);
     EXPECT_TRUE(equal_bits(one.workspace.displacements, many.workspace.displacements)) << threads;
+  }
+}
+
+/// The largest distance of a place, displaced, from a point.
+double reach(const VolumeCase& sphere, const Vec3d& centre) {
+  double largest = 0;
+  for (std::size_t i = 0; i < sphere.state.positions.size(); ++i) {
+    const Record &p = sphere.state.positions[i], &d = sphere.workspace.displacements[i];
+    const Vec3d x{double(p.x) + d.x, double(p.y) + d.y, double(p.z) + d.z};
+    largest = std::fmax(largest, std::sqrt(length_squared(x - centre)));
+  }
+  return largest;
+}
+
+TEST(Volume, IsNeverThrownFarBeyondWhatIsWanted) {
+  const double radius = 0.2;
+  const Vec3d centre{0, 1.5, 0.4};
+  VolumeCase crushed(4096, 1, {});
+  for (Record& p : crushed.state.positions) p = {p.x * 1e-6f, p.y * 1e-6f, p.z * 1e-6f, p.w};
+  crushed.project(1, true);
+  EXPECT_GT(reach(crushed, {}), 0.5 * radius);
+  EXPECT_LT(reach(crushed, {}), 1.2 * radius);
+  for (float pressure : {10.f, 100.f, 1000.f}) {
+    const double wanted = radius * std::cbrt(pressure);
+    VolumeCase pumped(4096, pressure, {});
+    pumped.project(1, true);
+    EXPECT_LT(reach(pumped, centre), 1.5 * wanted) << pressure;
+    for (int i = 0; i < 15; ++i) pumped.project(1, false);
+    EXPECT_LT(std::fabs(pumped.error()), 1e-4 * pumped.model.objects[0].volume.target) << pressure;
+  }
+  VolumeCase emptied(4096, 0, {});
+  const double full = emptied.error();
+  for (int i = 0; i < 20; ++i) emptied.project(1, i == 0);
+  EXPECT_LT(std::fabs(emptied.error()), 0.01 * full) << "nothing holds it as it is";
+}
+
+TEST(Volume, OfACollapsedBalloonStaysFinite) {
+  for (float size : {0.f, 1e-12f, 1e-20f}) {
+    VolumeCase point(4096, 1, {});
+    for (Record& p : point.state.positions) p = {p.x * size, p.y * size, p.z * size, p.w};
+    for (int i = 0; i < 3; ++i) point.project(1, i == 0);
+    EXPECT_LT(reach(point, {}), 10) << size;
   }
 }
 

@@ -251,12 +251,9 @@ TEST(Cloth, BalloonFacesOutAndMustBeClosed) {
 
 TEST(Cloth, RefusalsNameThePlace) {
   TriangleMesh mesh = grid_mesh(3, 3, 1, 1);
-  mesh.triangles.push_back({0, 4, 2});
-  EXPECT_EQ(refusal(mesh).where().element, "edge 0-4");
-  EXPECT_EQ(refusal(mesh).where().object, "cloth");
-  mesh = grid_mesh(3, 3, 1, 1);
   mesh.triangles[3][2] = 99;
   EXPECT_EQ(refusal(mesh).where().element, "triangle 3");
+  EXPECT_EQ(refusal(mesh).where().object, "cloth");
   mesh = grid_mesh(3, 3, 1, 1);
   mesh.triangles[2] = {1, 1, 2};
   EXPECT_EQ(refusal(mesh).where().element, "triangle 2");
@@ -269,6 +266,15 @@ TEST(Cloth, RefusalsNameThePlace) {
   mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {1, 2, 0}}};
   EXPECT_EQ(refusal(mesh).where().element, "triangle 1");
   EXPECT_NE(refusal({}).problem().find("no triangle"), std::string::npos);
+}
+
+TEST(Cloth, AnEdgeOfThreeTrianglesStretchesAndIsNotBent) {
+  TriangleMesh mesh = grid_mesh(3, 3, 1, 1);  // 16 edges, 8 of them inner
+  mesh.triangles.push_back({0, 4, 2});        // a third one at 0-4; 4-2 and 2-0 are new
+  const Object cloth = make_cloth(mesh);
+  ASSERT_EQ(cloth.constraints.size(), 2u);
+  EXPECT_EQ(cloth.constraints[0].particles.size(), 2u * 18);
+  EXPECT_EQ(cloth.constraints[1].particles.size(), 4u * 7);
 }
 
 TEST(Cloth, RefusesMaterialsThatAreNone) {

@@ -128,7 +128,8 @@ TEST(InspectScene, GraveSettings) {
   }
   expect_grave("threads", [](Scene& s) { s.settings.threads = -1; });
   expect_grave("frames", [](Scene& s) { s.frames = -1; });
-  for (float bad : {0.f, -1.f, nan, infinity}) expect_grave("frame_time", [&](Scene& s) { s.frame_time = bad; });
+  for (float bad : {0.f, -1.f, nan, infinity, 1e-12f}) expect_grave("frame_time", [&](Scene& s) { s.frame_time = bad; });
+  expect_grave("isa", [](Scene& s) { s.settings.isa = "pentium"; });
   expect_grave("gravity", [](Scene& s) { s.gravity.y = nan; });
   expect_grave("wind, velocity", [](Scene& s) { s.wind.velocity.x = infinity; });
   expect_grave("gust", [](Scene& s) { s.wind.gust = 1.5f; });

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "pliant/error.h"
@@ -94,8 +95,27 @@ TEST(Snapshot, OfAnotherWorldOrSpoiltIsRefused) {
   EXPECT_TRUE(refused([](State& s) { s.velocities[3].w = 1; })) << "it would change the mass";
   EXPECT_TRUE(refused([](State& s) { s.remainders[3].w = 1; })) << "it would change the mass";
   EXPECT_TRUE(refused([](State& s) { s.time = std::numeric_limits<double>::infinity(); }));
+  EXPECT_TRUE(refused([](State& s) { s.frame = -1; }));
+  EXPECT_TRUE(refused([](State& s) { s.frame = std::numeric_limits<std::int64_t>::max(); })) << "it could not count on";
   EXPECT_EQ(world.state_hash(), before) << "and nothing has changed";
   EXPECT_FALSE(refused([](State&) {}));
+}
+
+TEST(Snapshot, ReadsTheSameInAnyWorld) {
+  Scene scene = hanging_cloth();
+  scene.settings.record_multipliers = true;
+  ClothOptions options;
+  options.volume = Volume{2, Stiffness::compliance(1e-3f)};
+  scene.add_cloth(sphere_mesh(1), options);
+  World world(scene), fresh(scene);
+  for (int frame = 0; frame < 10; ++frame) world.step(dt);
+  const State state = world.state();
+  for (World* each : {&world, &fresh}) each->restore(state);
+  const std::vector<Residual> expected = world.residuals(), found = fresh.residuals();
+  ASSERT_EQ(expected.size(), found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].rms, expected[i].rms) << found[i].type;
+  EXPECT_EQ(world.multipliers(0, "distance"), fresh.multipliers(0, "distance"));
+  EXPECT_EQ(world.multipliers(1, "volume"), fresh.multipliers(1, "volume"));
 }
 
 TEST(Hash, SeesEveryMemberAndEveryBit) {
@@ -272,6 +292,26 @@ TEST(BadForce, IsLeftOutAndNamed) {
   EXPECT_TRUE(is_finite(world.state()));
 }
 
+TEST(BadForce, ThatThrowsStopsTheWorldUntilARestore) {
+  bool throws = false;
+  Scene scene = hanging_cloth();
+  scene.forces.push_back([&](const Vec3f&, const Vec3f&, float, float) {
+    if (throws) throw std::runtime_error("no force today");
+    return Vec3f{};
+  });
+  World world(scene);
+  world.step(dt);
+  const State before = world.state();
+  throws = true;
+  EXPECT_THROW(world.step(dt), std::runtime_error);
+  throws = false;
+  const std::string stopped = world.state_hash();
+  EXPECT_FALSE(world.step(dt).ok()) << "half a frame is no state to go on from";
+  EXPECT_EQ(world.state_hash(), stopped);
+  world.restore(before);
+  EXPECT_TRUE(world.step(dt).ok());
+}
+
 /// A scene in which everything explodes once `armed` is set.
 Scene bomb(const bool& armed, Object object) {
   Scene scene;
@@ -304,7 +344,10 @@ TEST(NonFiniteValue, IsNamedAndTheWorldWaitsForARestore) {
     EXPECT_TRUE(is_finite(world.state()));
 
     const std::string stopped = world.state_hash();
-    EXPECT_FALSE(world.step(dt).ok()) << "it refuses to go on";
+    report = world.step(dt);
+    EXPECT_FALSE(report.ok()) << "it refuses to go on";
+    EXPECT_NE(report.explain().find("stopped at an earlier step; restore"), std::string::npos) << report.explain();
+    EXPECT_EQ(report.explain().find("object"), std::string::npos) << report.explain();
     EXPECT_EQ(world.state_hash(), stopped);
     armed = false;
     world.restore(before);
@@ -446,7 +489,9 @@ TEST(Multipliers, StandInTheOrderOfTheGroups) {
   object.constraints.push_back({"distance", {5, 6, 2, 1, 4, 5}, {}, Stiffness::compliance(0, 1), {}});
   object.constraints.push_back({"distance", {2, 3}, {}, {}, {}});
   scene.add(object);
-  World world(scene, settings_of(10, 30));
+  Settings settings = settings_of(10, 30);
+  settings.record_multipliers = true;
+  World world(scene, settings);
   for (int frame = 0; frame < 10; ++frame) world.step(dt);
   const std::vector<float> multipliers = world.multipliers(0, "distance");
   const double h = dt / 10.0, below[] = {3, 6, 1, 5, 2, 4};

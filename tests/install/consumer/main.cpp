@@ -6,7 +6,7 @@
 int main() {
   pliant::Scene scene;
   pliant::ClothOptions options;
-  options.material = pliant::fabric("cotton");  // measured, in SI units
+  options.material = pliant::fabric("cotton");  // typical figures, in SI units
   pliant::TriangleMesh square = pliant::grid_mesh(40, 40, 1.f, 1.f);
   int cloth = scene.add_cloth(square, options);
 
@@ -21,4 +21,5 @@ int main() {
     if (!report.ok()) return std::cerr << report.explain() << "\n", 1;
   }
   pliant::write_mesh("draped.ply", world.mesh(cloth));
+  std::cout << "wrote draped.ply\n";
 }

@@ -1,0 +1,64 @@
+# Run by ctest. Takes the header and the scene out of the page itself, so that the page can't go stale.
+function(must)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "failed (${result}): ${command}\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+# extract(LANGUAGE FILE): writes the first code block of that language in the section to FILE, without its indentation.
+function(extract language file)
+  string(FIND "${section}" "```${language}\n" begin)
+  if(begin EQUAL -1)
+    message(FATAL_ERROR "the page has no ${language} block")
+  endif()
+  string(SUBSTRING "${section}" ${begin} -1 rest)
+  string(REGEX REPLACE "^```${language}\n" "" rest "${rest}")
+  string(FIND "${rest}" "```" end)
+  string(SUBSTRING "${rest}" 0 ${end} text)
+  string(REGEX REPLACE "\n   " "\n" text "\n${text}")
+  file(WRITE ${file} "${text}")
+endfunction()
+
+file(READ ${SOURCE}/docs/architecture.md page)
+string(FIND "${page}" "### Adding a constraint" begin)
+string(SUBSTRING "${page}" ${begin} -1 section)
+
+set(tree ${WORK}/tree)
+file(REMOVE_RECURSE ${WORK})
+foreach(entry CMakeLists.txt cmake include src io apps scenes bench tests)
+  file(COPY ${SOURCE}/${entry} DESTINATION ${tree})
+endforeach()
+
+# One header, one line (and its include), one scene.
+extract(cpp ${tree}/src/constraints/triangle_area.h)
+extract(json ${tree}/scenes/triangle_area.json)
+file(READ ${tree}/src/constraints/all.h all)
+string(REPLACE "#include \"constraints/type_list.h\"" "#include \"constraints/triangle_area.h\"\n#include \"constraints/type_list.h\"" all "${all}")
+string(REGEX REPLACE "(using AllConstraints = TypeList<[^>]*)>" "\\1, TriangleArea>" all "${all}")
+if(NOT all MATCHES "TriangleArea>")
+  message(FATAL_ERROR "all.h no longer looks as the page says")
+endif()
+file(WRITE ${tree}/src/constraints/all.h "${all}")
+
+must(${CMAKE_COMMAND} -S ${tree} -B ${tree}/build/newcomer -G ${GENERATOR} -D CMAKE_BUILD_TYPE=${CONFIGURATION}
+  -D CMAKE_CXX_COMPILER=${COMPILER} -D PLIANT_CUDA=OFF)
+must(${CMAKE_COMMAND} --build ${tree}/build/newcomer --target pliant_command test_constraints)
+
+# The scene runs, and the area holds: the weight has not fallen.
+must(${tree}/build/newcomer/bin/pliant run ${tree}/scenes/triangle_area.json --quiet --report ${WORK}/report.json)
+file(READ ${WORK}/report.json report)
+string(JSON count GET "${report}" constraints triangle_area)
+string(JSON largest GET "${report}" residual triangle_area largest)
+if(NOT count EQUAL 1 OR largest GREATER 0.001)
+  message(FATAL_ERROR "the area does not hold: ${report}")
+endif()
+
+# The typed tests took the type up and it passes them.
+must(${tree}/build/newcomer/tests/test_constraints --gtest_list_tests)
+if(NOT output MATCHES "triangle_area")
+  message(FATAL_ERROR "no typed test runs over the new type:\n${output}")
+endif()
+must(${tree}/build/newcomer/tests/test_constraints)
