@@ -130,7 +130,7 @@ double project_once(Stencil<T, double>& at, const std::array<double, size_of<T>>
     motion[i] = moved[i];
   }
   const double c = evaluate<T, double>(at, params).c;
-  project<T, law, keeps, double>(x, w, params, motion, answer, arguments, correction);
+  project<T, law, keeps, false, double>(x, w, params, motion, answer, arguments, correction);
   for (std::size_t i = 0; i < size_of<T>; ++i) at[i] = x[i] + correction[i];
   return c;
 }

@@ -72,7 +72,7 @@ Stencil<T, float> projected(const Stencil<T, float>& at, const ParamsOf<T, float
     motion[i] = {};
   }
   for (int time = 0; time < times; ++time) {
-    project<T, law, true, float>(x, w, params, motion, answer, arguments, correction);
+    project<T, law, true, false, float>(x, w, params, motion, answer, arguments, correction);
     for (std::size_t i = 0; i < size_of<T>; ++i) x[i] += correction[i];
   }
   Stencil<T, float> out;
@@ -146,7 +146,7 @@ TYPED_TEST(Limits, NothingMovesWithoutFreeMass) {
   Answer<float> answer{0, 0, 0};
   const auto params = convert_params<TypeParam, float, double>(random_params<TypeParam>(random));
   for (int time = 0; time < 1000; ++time) {
-    project<TypeParam, Law::compliant, true, float>(x, w, params, motion, answer, arguments, correction);
+    project<TypeParam, Law::compliant, true, false, float>(x, w, params, motion, answer, arguments, correction);
     for (const Vec3f& moved : correction) EXPECT_EQ(moved, Vec3f{});
   }
   EXPECT_TRUE(std::isfinite(answer.multiplier));
