@@ -177,6 +177,7 @@ void append_colour(const ConstraintList& list, const Colour& colour, int largest
 /// Each constraint its own colour: the order of the list.
 std::vector<Colour> one_by_one(const std::vector<int>& members) {
   std::vector<Colour> colours;
+  colours.reserve(members.size());
   for (int member : members) colours.push_back({false, {member}});
   return colours;
 }
