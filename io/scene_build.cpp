@@ -12,11 +12,9 @@ namespace pliant::scene_file {
 namespace {
 
 Sweep sweep_of(const std::string& name) {
-  if (name == "sequential") return Sweep::sequential;
-  if (name == "symmetric") return Sweep::symmetric;
-  if (name == "jacobi") return Sweep::jacobi;
-  if (name == "natural") return Sweep::natural;
-  return name == "chains" ? Sweep::chains : Sweep::tiled;
+  for (const NamedSweep& one : sweeps())
+    if (one.name == name) return one.sweep;
+  return Settings{}.sweep;
 }
 
 SweepOptions sweep_options_of(const JsonValue& at) {
@@ -44,7 +42,8 @@ Settings settings_of(const JsonValue& at) {
   set(at, "record_multipliers", settings.record_multipliers);
   set(at, "isa", settings.isa);
   set(at, "record_residuals", settings.record_residuals);
-  std::string sweep = "tiled";
+  set(at, "tolerance", settings.tolerance);
+  std::string sweep;
   set(at, "sweep", sweep);
   settings.sweep = sweep_of(sweep);
   if (const JsonValue* options = at.find("sweep_options")) settings.sweep_options = sweep_options_of(*options);

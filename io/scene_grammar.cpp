@@ -377,6 +377,12 @@ const Record& wind_record() {
   return result;
 }
 
+std::vector<std::string> sweep_names() {
+  std::vector<std::string> names;
+  for (const NamedSweep& one : sweeps()) names.push_back(one.name);
+  return names;
+}
+
 const Record& sweep_options_record() {
   static const Record result{
       "sweep_options",
@@ -408,8 +414,12 @@ const Record& settings_record() {
       "How the constraints are solved. `threads`, `isa` and what is measured do not change the result.",
       {field("substeps", integer(1, 10000), Settings{}.substeps, "Substeps a frame."),
        field("iterations", integer(1, 10000), Settings{}.iterations, "Iterations a substep."),
+       field(
+           "tolerance", number("m", 0, largest_place), Settings{}.tolerance,
+           "A substep makes no more iterations once the root mean square error of its distance constraints is below this; "
+           "0: always all of them."),
        field("threads", integer(0, 1024), Settings{}.threads, "0: as many as the machine has."),
-       field("sweep", choice({"tiled", "sequential", "symmetric", "jacobi", "natural", "chains"}), "tiled",
+       field("sweep", choice(sweep_names()), "tiled",
              "In what order constraints are visited (docs/convergence.md). `sequential` is the slow, "
              "readable reference with the bits of `tiled`."),
        field("sweep_options", record(sweep_options_record()), "the defaults", "What a sweep can be told besides."),

@@ -55,6 +55,10 @@ double quantile(std::vector<double> values, double q) {
 
 void RunReport::add(const Report& report, const World& world) {
   last_ = report;
+  iterations_.smallest =
+      milliseconds_.empty() ? report.iterations.smallest : std::min(iterations_.smallest, report.iterations.smallest);
+  iterations_.largest = std::max(iterations_.largest, report.iterations.largest);
+  iterations_.mean += report.iterations.mean;
   milliseconds_.push_back(report.milliseconds);
   for (const PhaseTime& phase : report.phases) phase_sums_[phase.name] += phase.milliseconds;
   if (hash_frames_) hashes_.push_back(world.state_hash());
@@ -71,6 +75,8 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["frame_time"] = scene.frame_time;
   json["substeps"] = world.settings().substeps;
   json["iterations"] = world.settings().iterations;
+  json["iterations_used"] = {
+      {"smallest", iterations_.smallest}, {"largest", iterations_.largest}, {"mean", iterations_.mean / frames}};
   json["particles"] = particle_count(world);
   json["constraints"] = constraints_by_type(world);
   json["contacts"] = last_.contacts;

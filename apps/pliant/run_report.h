@@ -30,6 +30,7 @@ class RunReport {
  private:
   bool hash_frames_;
   Report last_;
+  IterationCount iterations_;  ///< its mean is the sum over frames until it is written
   std::vector<double> milliseconds_;
   std::map<std::string, double> phase_sums_;
   std::vector<std::string> hashes_;

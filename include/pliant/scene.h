@@ -160,6 +160,15 @@ enum class Sweep {
   chains,     ///< rigid and compliant distances laid out as paths, each path solved exactly; the rest as `tiled` has it
 };
 
+/// A sweep and what scenes call it.
+struct NamedSweep {
+  std::string name;
+  Sweep sweep;
+};
+
+/// Every sweep there is, the default first: the one list that scene files, `pliant compare` and tests go by.
+const std::vector<NamedSweep>& sweeps();
+
 /// What the sweeps can be told besides.
 struct SweepOptions {
   /// How `jacobi` shares a particle among its n constraints. `split`: each has an n-th of its mass (Tonge et al. 2012), which
@@ -184,7 +193,11 @@ struct SweepOptions {
 struct Settings {
   int substeps = 20;   ///< 1..10000 a frame
   int iterations = 1;  ///< 1..10000 a substep
-  int threads = 0;     ///< 0: as many as the machine has
+  /// Root mean square of |C + alpha~ lambda| over the distance constraints, the attachments among them, below which a substep
+  /// makes no more iterations, so that `iterations` is only the most that it may make; 0 or more, 0: always all of them [m].
+  /// Nothing else is judged, and a scene without distance constraints makes all. PBD stiffness is shared out as if all were made.
+  float tolerance = 0;
+  int threads = 0;  ///< 0: as many as the machine has
   Sweep sweep = Sweep::tiled;
   SweepOptions sweep_options{};
   bool measure = false;             ///< fill Report::residuals and the stretch each frame (costs about one more iteration)

@@ -81,6 +81,12 @@ struct NonFinite {
   int substep = 0;              ///< of the frame after those, from 0
 };
 
+/// How many iterations the substeps of a step made: all alike unless Settings::tolerance ends them early.
+struct IterationCount {
+  int smallest = 0, largest = 0;
+  double mean = 0;
+};
+
 /// What a step has to say. A step never throws, but lets through what a force field of the user's throws.
 struct Report {
   std::int64_t frame = 0;
@@ -90,6 +96,7 @@ struct Report {
   std::int64_t contacts = 0;                   ///< active in the last substep
   std::vector<Residual> residuals;             ///< where Settings::measure
   std::optional<Stretch> stretch;              ///< where Settings::measure
+  IterationCount iterations;                   ///< of each substep
   std::vector<IterationResidual> convergence;  ///< of the last substep, where Settings::record_residuals
   std::optional<NonFinite> nonfinite;
   std::vector<std::string> warnings;

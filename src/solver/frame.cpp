@@ -77,6 +77,10 @@ void Frame::for_tiles(const char* name, FunctionRef<void(int)> body) {
   executor_.parallel_for(name, static_cast<int>(model_.tiles.size()), body);
 }
 
+void Frame::for_each_task(const char* name, int tasks, FunctionRef<void(int)> body) {
+  executor_.parallel_for(name, tasks, body);
+}
+
 // ---------------------------------------------------------------- particles
 
 void Frame::begin_substep(int substep) {
@@ -234,6 +238,13 @@ bool Frame::give_up(int substep) {
   report_.nonfinite->frame = state_.frame;
   report_.nonfinite->substep = substep;
   return true;
+}
+
+void Frame::count_iterations(int iterations) {
+  IterationCount& count = report_.iterations;
+  count.smallest = count.smallest == 0 ? iterations : std::min(count.smallest, iterations);
+  count.largest = std::max(count.largest, iterations);
+  count.mean += static_cast<double>(iterations) / context_.substeps;
 }
 
 void Frame::end() {

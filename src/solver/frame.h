@@ -41,13 +41,17 @@ class Frame {
   /// again.
   bool give_up(int substep);
 
+  /// A substep made so many iterations.
+  void count_iterations(int iterations);
+
   /// Counts contacts and moves the clock.
   void end();
 
-  // For the files of sweeps/: the parallel loops over tiles and over the segments between them (object, segment), and what
-  // they work on.
+  // For the files of sweeps/ and residual.cpp: the parallel loops over tiles, over the segments between them (object,
+  // segment) and over tasks of their own, and what they work on.
   void for_tiles(const char* name, FunctionRef<void(int)> body);
   void for_straddlers(Order order, FunctionRef<void(int, const Segment*)> body);
+  void for_each_task(const char* name, int tasks, FunctionRef<void(int)> body);
   SweepArguments arguments(int object, bool first_pass) const;
   const Model& model() const { return model_; }
   Workspace& workspace() { return work_; }

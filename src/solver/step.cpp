@@ -18,6 +18,7 @@
 
 #include "solver/forces.h"
 #include "solver/frame.h"
+#include "solver/residual.h"
 #include "solver/sweeps/chebyshev.h"
 #include "solver/sweeps/record.h"
 #include "solver/sweeps/sweep.h"
@@ -26,8 +27,13 @@ namespace pliant {
 
 namespace {
 
-/// The iterations of one substep. By default (sweeps/tiled.cpp): tiles, what straddles them, volumes.
-void solve(const StepContext& context, Frame& frame, bool records) {
+/// Whether a tolerance is set and met, with iterations left that it saves.
+bool is_last(const StepContext& context, Frame& frame, int iteration) {
+  return context.tolerance > 0 && iteration + 1 < context.iterations && distance_residual(frame) < context.tolerance;
+}
+
+/// The iterations of one substep, and how many they were. By default (sweeps/tiled.cpp): tiles, what straddles them, volumes.
+int solve(const StepContext& context, Frame& frame, bool records) {
   const bool accelerates = context.options.acceleration == SweepOptions::Acceleration::chebyshev;
   if (records) record_prediction(frame);
   for (int iteration = 0; iteration < context.iterations; ++iteration) {
@@ -37,7 +43,9 @@ void solve(const StepContext& context, Frame& frame, bool records) {
     frame.hold_tethers();
     frame.sweep_contacts();  // last, so that what is drawn does not reach into what it lies on
     if (records) record_iteration(frame, iteration + 1);
+    if (is_last(context, frame, iteration)) return iteration + 1;
   }
+  return context.iterations;
 }
 
 void run(const StepContext& context, Frame& frame) {
@@ -54,7 +62,7 @@ void run(const StepContext& context, Frame& frame) {
     // The end of the last substep, prediction and contacts of this one, and mostly its first sweep over each tile.
     frame.enter_tiles(!first && !forces);
     if (frame.give_up(substep - 1)) return;
-    solve(context, frame, context.record_residuals && substep + 1 == context.substeps);
+    frame.count_iterations(solve(context, frame, context.record_residuals && substep + 1 == context.substeps));
   }
   frame.finish_tiles(true);
   if (!frame.give_up(context.substeps - 1)) frame.end();

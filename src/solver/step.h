@@ -20,6 +20,7 @@ struct StepContext {
   Sweep sweep = Sweep::tiled;  ///< with any of these, the workspace comes from prepare_sweep too
   SweepOptions options{};
   bool record_residuals = false;
+  double tolerance = 0;  ///< of Settings; above 0 the workspace comes from prepare_residual too
 };
 
 /// Advances the state by dt. Never throws; what went wrong is in the report.

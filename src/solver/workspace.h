@@ -6,6 +6,7 @@
 #include "collision/contact.h"
 #include "model/model.h"
 #include "pliant/world.h"
+#include "solver/residual.h"
 #include "solver/sweeps/scratch.h"
 
 namespace pliant {
@@ -45,6 +46,7 @@ struct Workspace {
   std::vector<AlignedVector<float>> chain_scratch;  ///< one a thread
   std::vector<Records> anchors;                     ///< [object], position and displacement of each anchor of tethers
   SweepScratch sweep;
+  ResidualScratch residual;  ///< where iterations stop at a tolerance
 };
 
 /// Which multipliers are kept: those that a second iteration needs, or all.

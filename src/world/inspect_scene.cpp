@@ -1,6 +1,7 @@
 // The whole of a scene looked through: settings, air, colliders, and each object in turn.
 #include "world/inspect_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -44,6 +45,7 @@ void check_settings(Problems& problems, const Scene& scene) {
   require_range(problems, "settings, substeps", settings.substeps, 1, 10000);
   require_range(problems, "settings, iterations", settings.iterations, 1, 10000);
   require_range(problems, "settings, threads", settings.threads, 0, 1024);
+  require_range(problems, "settings, tolerance", settings.tolerance, 0, largest_place);
   check_sweep(problems, settings);
   require_range(problems, "frames", scene.frames, 0, std::numeric_limits<int>::max());
   if (!(scene.frame_time > 0) || std::isinf(scene.frame_time))
@@ -127,6 +129,24 @@ void doubt_settings(Problems& problems, const Scene& scene) {
                       "the same work spent on substeps converges far better");
 }
 
+bool has_distances(const Scene& scene) {
+  return std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& object) {
+    return !object.attachments.empty() ||
+           std::any_of(object.constraints.begin(), object.constraints.end(),
+                       [](const ConstraintGroup& group) { return group.type == "distance" && !group.particles.empty(); });
+  });
+}
+
+void doubt_tolerance(Problems& problems, const Scene& scene) {
+  if (!(scene.settings.tolerance > 0)) return;
+  if (scene.settings.iterations == 1)
+    problems.doubtful("settings, tolerance", "ends no iterations where a substep has only one",
+                      "give the most that it may make as iterations");
+  if (!has_distances(scene))
+    problems.doubtful("settings, tolerance", "judges distance constraints, and the scene has none",
+                      "leave it out: every substep makes all its iterations");
+}
+
 void doubt_names(Problems& problems, const Scene& scene) {
   std::map<std::string, int> count;
   for (const Object& object : scene.objects) ++count[object.name];
@@ -157,6 +177,7 @@ void look_through(Problems& problems, const Scene& scene) {
   problems.at("");
   if (!problems.wants_doubts() || !surroundings_are_sound) return;
   doubt_settings(problems, scene);
+  doubt_tolerance(problems, scene);
   doubt_names(problems, scene);
 }
 

@@ -66,6 +66,7 @@ struct World::Implementation {
             workspace);
     prepare_sweep(model, settings, workspace);
     prepare_chains(model, executor.threads(), workspace);
+    if (settings.tolerance > 0) prepare_residual(model, workspace.residual);
   }
 
   const CompiledObject& object(int index) const {
@@ -134,10 +135,10 @@ Report World::step(float dt) {
   }
   self_->last_h = static_cast<float>(double(dt) / self_->settings.substeps);
   self_->stopped = true;  // unless the step comes to its end: a force field of the user's own may throw
-  pliant::step(
-      {self_->model, self_->state, self_->workspace, self_->executor, self_->kernels, self_->settings.substeps,
-       self_->settings.iterations, self_->settings.sweep, self_->settings.sweep_options, self_->settings.record_residuals},
-      dt, report);
+  pliant::step({self_->model, self_->state, self_->workspace, self_->executor, self_->kernels, self_->settings.substeps,
+                self_->settings.iterations, self_->settings.sweep, self_->settings.sweep_options,
+                self_->settings.record_residuals, static_cast<double>(self_->settings.tolerance)},
+               dt, report);
   self_->stopped = report.nonfinite.has_value();
   if (self_->settings.measure) {
     report.residuals = residuals();

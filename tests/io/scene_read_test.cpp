@@ -37,6 +37,7 @@ TEST_F(FullScene, HasItsSurroundings) {
   EXPECT_EQ(scene.wind.gust_period, 4.f);
   EXPECT_EQ(scene.settings.substeps, 3);
   EXPECT_EQ(scene.settings.iterations, 5);
+  EXPECT_EQ(scene.settings.tolerance, 0.03125f);
   EXPECT_EQ(scene.settings.threads, 2);
   EXPECT_EQ(scene.settings.sweep, Sweep::symmetric);
   const SweepOptions& options = scene.settings.sweep_options;
@@ -58,6 +59,8 @@ TEST(SceneSettings, ReadEverySweepByItsName) {
   const std::pair<const char*, Sweep> names[] = {{"tiled", Sweep::tiled},         {"sequential", Sweep::sequential},
                                                  {"symmetric", Sweep::symmetric}, {"jacobi", Sweep::jacobi},
                                                  {"natural", Sweep::natural},     {"chains", Sweep::chains}};
+  EXPECT_EQ(sweeps().size(), std::size(names)) << "a sweep that this test does not know";
+  EXPECT_EQ(sweeps().front().sweep, Settings{}.sweep) << "the default is named first";
   for (const auto& [name, sweep] : names) {
     const std::string text = R"({"settings": {"sweep": ")" + std::string(name) + R"("}, "objects": []})";
     EXPECT_EQ(parse_scene(text, "x.json", ".").settings.sweep, sweep) << name;

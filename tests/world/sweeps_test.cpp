@@ -111,6 +111,41 @@ TEST(WorldSweeps, TheReportFollowsTheLastSubstep) {
   EXPECT_LT(report.convergence.back().dual_largest, 1e-3);
 }
 
+TEST(WorldSweeps, AToleranceSavesIterationsAndIsKeptByEverySweep) {
+  for (const NamedSweep& one : sweeps()) {
+    Scene scene = hanging_chain(one.sweep);
+    scene.settings.iterations = 300;
+    scene.settings.tolerance = 1e-5f;
+    scene.settings.measure = true;
+    World world(scene);
+    for (int i = 0; i < 5; ++i) {
+      const Report report = world.step(1.f / 60);
+      EXPECT_GE(report.iterations.smallest, 1) << one.name;
+      EXPECT_LT(report.iterations.largest, 300) << one.name;
+      EXPECT_LT(report.residuals.at(0).rms, 1.01e-5) << one.name;
+    }
+  }
+}
+
+TEST(WorldSweeps, AToleranceThatCannotBeIsRefusedAndOneThatDoesNothingDoubted) {
+  Scene scene = hanging_chain(Sweep::tiled);
+  for (float tolerance : {-1e-6f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    scene.settings.tolerance = tolerance;
+    EXPECT_NE(std::string(refusal(scene).what()).find("tolerance"), std::string::npos) << tolerance;
+  }
+  const auto doubts = [&] {
+    int count = 0;
+    for (const Finding& finding : inspect(scene)) count += finding.message.find("tolerance") != std::string::npos ? 1 : 0;
+    return count;
+  };
+  scene.settings.tolerance = 1e-4f;
+  EXPECT_EQ(doubts(), 0);
+  scene.settings.iterations = 1;
+  EXPECT_EQ(doubts(), 1) << "one iteration has nothing to save";
+  scene.objects[0].constraints.clear();
+  EXPECT_EQ(doubts(), 2) << "and nothing is judged";
+}
+
 TEST(WorldSweeps, WhatIsNotFiniteIsReportedByAll) {
   for (Sweep sweep : {Sweep::tiled, Sweep::symmetric, Sweep::jacobi, Sweep::natural}) {
     for (const SweepOptions& options : {SweepOptions{}, chebyshev()}) {

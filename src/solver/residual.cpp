@@ -1,0 +1,119 @@
+#include "solver/residual.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "constraints/all.h"
+#include "solver/frame.h"
+#include "solver/project.h"
+
+namespace pliant {
+
+namespace {
+
+/// A task of fewer batches is done sooner than another thread can be told of it.
+constexpr int fewest_batches = 128;
+
+struct Lanes {
+  float at[batch_width];
+};
+
+bool is_distance(const Pool& pool) {
+  bool found = false;
+  with_type(AllConstraints{}, pool.type, [&](auto tag) { found = std::is_same_v<typename decltype(tag)::type, Distance>; });
+  return found;
+}
+
+int count_valid(const Segment& segment) {
+  int count = 0;
+  for (int batch = 0; batch < segment.batches; ++batch)
+    for (int lane = 0; lane < batch_width; ++lane) count += lane_is_valid(segment, batch, lane) ? 1 : 0;
+  return count;
+}
+
+/// From one end of each constraint of a batch to the other.
+void load_across(const SweepArguments& a, const Segment& segment, const std::int32_t* index, Lanes (&across)[3]) {
+  for (int lane = 0; lane < batch_width; ++lane) {
+    const int from = particle_of(segment, index, 0, lane), to = particle_of(segment, index, 1, lane);
+    const Record &p = a.positions[from], &q = a.positions[to], &d = a.displacements[from], &e = a.displacements[to];
+    across[0].at[lane] = (q.x - p.x) + (e.x - d.x);
+    across[1].at[lane] = (q.y - p.y) + (e.y - d.y);
+    across[2].at[lane] = (q.z - p.z) + (e.z - d.z);
+  }
+}
+
+/// Adds the squares of C + alpha~ lambda of one batch, whether or not a lane is padding, to sixteen sums.
+void add_batch(const SweepArguments& a, const Pool& pool, std::int64_t batch, const float* multipliers,
+               const Lanes (&across)[3], Lanes& squares) {
+  const float *rest = pool.row(0, batch), *response = pool.row(1, batch);
+  const float* multiplier = multipliers != nullptr ? multipliers + batch * batch_width : nullptr;
+  for (int lane = 0; lane < batch_width; ++lane) {
+    const float x = across[0].at[lane], y = across[1].at[lane], z = across[2].at[lane];
+    float error = pliant::sqrt(x * x + y * y + z * z) - rest[lane];
+    if (multiplier != nullptr) error += min(response[lane] * a.inverse_h2, largest_compliance) * multiplier[lane];
+    squares.at[lane] = error * error;
+  }
+}
+
+double sum_of(const SweepArguments& a, const Pool& pool, const Segment& segment) {
+  const bool has = a.multipliers != nullptr && pool.law != Law::pbd;
+  const float* multipliers = has ? a.multipliers[segment.pool] : nullptr;  // rigid ones may have none
+  const std::int32_t* index = pool.indices.data() + segment.index_offset;
+  double sums[batch_width] = {};
+  for (int batch = 0; batch < segment.batches; ++batch, index += indices_per_batch(pool, segment)) {
+    Lanes across[3], squares;
+    load_across(a, segment, index, across);
+    add_batch(a, pool, segment.first_batch + batch, multipliers, across, squares);
+    for (int lane = 0; lane < batch_width; ++lane)
+      sums[lane] += lane_is_valid(segment, batch, lane) ? static_cast<double>(squares.at[lane]) : 0;
+  }
+  double sum = 0;
+  for (double lane : sums) sum += lane;
+  return sum;
+}
+
+/// To the last task, or to a new one where that is large enough or another object's.
+void add_segment(std::int32_t object, std::int32_t segment, std::int32_t batches,
+                 std::vector<ResidualScratch::Task>& tasks) {
+  if (tasks.empty() || tasks.back().object != object || tasks.back().batches >= fewest_batches)
+    tasks.push_back({object, segment, segment, 0});
+  tasks.back().last = segment + 1;
+  tasks.back().batches += batches;
+}
+
+}  // namespace
+
+void prepare_residual(const Model& model, ResidualScratch& scratch) {
+  for (std::size_t o = 0; o < model.objects.size(); ++o) {
+    const CompiledObject& object = model.objects[o];
+    for (std::size_t s = 0; s < object.segments.size(); ++s) {
+      if (!is_distance(object.pools[object.segments[s].pool])) continue;
+      add_segment(static_cast<std::int32_t>(o), static_cast<std::int32_t>(s), object.segments[s].batches, scratch.tasks);
+      scratch.constraints += count_valid(object.segments[s]);
+    }
+  }
+  scratch.squares.assign(scratch.tasks.size(), 0);
+}
+
+double distance_residual(Frame& frame) {
+  ResidualScratch& scratch = frame.workspace().residual;
+  if (scratch.constraints == 0) return std::numeric_limits<double>::infinity();
+  frame.for_each_task("solve: residual", static_cast<int>(scratch.tasks.size()), [&](int task) {
+    const ResidualScratch::Task& of = scratch.tasks[task];
+    const CompiledObject& object = frame.model().objects[of.object];
+    double sum = 0;
+    for (int s = of.first; s < of.last; ++s) {
+      const Segment& segment = object.segments[s];
+      const Pool& pool = object.pools[segment.pool];
+      if (is_distance(pool)) sum += sum_of(frame.arguments(of.object, false), pool, segment);
+    }
+    scratch.squares[task] = sum;
+  });
+  double sum = 0;
+  for (double squares : scratch.squares) sum += squares;  // in the order of the tasks, whichever thread had them
+  return std::sqrt(sum / static_cast<double>(scratch.constraints));
+}
+
+}  // namespace pliant

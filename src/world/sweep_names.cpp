@@ -1,0 +1,14 @@
+// The list of sweeps, as the outside sees it.
+#include "pliant/scene.h"
+
+namespace pliant {
+
+const std::vector<NamedSweep>& sweeps() {
+  static const std::vector<NamedSweep> list = {
+      {"tiled", Sweep::tiled},   {"sequential", Sweep::sequential}, {"symmetric", Sweep::symmetric},
+      {"jacobi", Sweep::jacobi}, {"natural", Sweep::natural},       {"chains", Sweep::chains},
+  };
+  return list;
+}
+
+}  // namespace pliant
