@@ -61,11 +61,10 @@ class Golden : public testing::TestWithParam<std::string> {
     golden_ = updating() ? run(scene_, scene_.settings) : read_hashes()[GetParam()];
   }
   /// The golden hash, or why there is none.
-  std::string hash_with(int threads, const std::string& isa = {}, pliant::Sweep sweep = pliant::Sweep::tiled) const {
+  std::string hash_with(int threads, const std::string& isa = {}) const {
     pliant::Settings settings = scene_.settings;
     settings.threads = threads;
     settings.isa = isa;
-    settings.sweep = sweep;
     return run(scene_, settings);
   }
 
@@ -94,7 +93,17 @@ TEST_P(Golden, OnAnyInstructionSet) {
   EXPECT_GE(tried, 1);
 }
 
-TEST_P(Golden, InTheReferenceSweep) { EXPECT_EQ(hash_with(1, {}, pliant::Sweep::sequential), golden_); }
+/// `sequential` is the reference of `tiled` by a name of its own; any other sweep has one by its code path.
+TEST_P(Golden, InTheReferenceSweep) {
+  pliant::Settings settings = scene_.settings;
+  settings.threads = 1;
+  settings.isa = "sequential";
+  if (settings.sweep == pliant::Sweep::tiled) {
+    settings.sweep = pliant::Sweep::sequential;
+    settings.isa.clear();
+  }
+  EXPECT_EQ(run(scene_, settings), golden_);
+}
 
 TEST_P(Golden, AfterARestore) {
   pliant::World world(scene_);
