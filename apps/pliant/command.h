@@ -72,6 +72,20 @@ struct BenchOptions {
 /// Measures and prints a table.
 int bench(const BenchOptions& options);
 
+struct CompareOptions {
+  std::string scene;
+  Overrides overrides;              ///< `frames` and `threads` alone
+  std::vector<std::string> sweeps;  ///< as "chains" or "tiled+chebyshev"; empty: all that the scene allows
+  std::optional<int> frame;         ///< before the substep of the curves; half of the scene's unless told
+  int substeps = 0;                 ///< a frame, of the curves' substep; 0: the scene's own
+  int iterations = 100;             ///< the most of the curves
+  double budget = 0;                ///< milliseconds a frame; 0: curves alone
+  std::vector<std::string> out;     ///< a .png, a .json, or both
+};
+
+/// Shows how fast each sweep brings down the error of one substep of a scene, and what it reaches in a given time.
+int compare(const CompareOptions& options);
+
 /// Prints the JSON Schema of the scene format.
 int schema();
 

@@ -126,6 +126,41 @@ void add_bench(CLI::App& app, BenchOptions& options, Chosen& chosen) {
   bench_app->callback([&] { chosen = [&] { return bench(options); }; });
 }
 
+void add_compare(CLI::App& app, CompareOptions& options, Chosen& chosen) {
+  CLI::App* compare_app = app.add_subcommand("compare", "Show how fast each sweep solves a scene");
+  compare_app->add_option("SCENE", options.scene, "scene file, JSON")->required();
+  compare_app
+      ->add_option("--sweeps", options.sweeps,
+                   "sweeps compared, as tiled,chains,tiled+chebyshev,chains+tethers; all by default")
+      ->type_name("NAMES")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  compare_app
+      ->add_option("--frame", options.frame, "frames before the substep that is solved; by default half of the scene's")
+      ->type_name("N")
+      ->check(range(0, most));
+  compare_app->add_option("--iterations", options.iterations, "the most iterations of the curves")
+      ->type_name("N")
+      ->check(range(1, 10000))
+      ->capture_default_str();
+  compare_app->add_option("--budget-ms", options.budget, "also say what each sweep reaches in so many milliseconds a frame")
+      ->type_name("T")
+      ->check(range(1e-3, 1e6));
+  compare_app->add_option("--frames", options.overrides.frames, "the scene's frames, instead of its own number")
+      ->type_name("N")
+      ->check(range(0, most));
+  compare_app->add_option("--substeps", options.substeps, "substeps a frame in the curves, instead of the scene's")
+      ->type_name("N")
+      ->check(range(1, 10000));
+  compare_app->add_option("--threads", options.overrides.threads, "threads; 0: as many as the machine has")
+      ->type_name("N")
+      ->check(range(0, most_threads));
+  compare_app->add_option("--out", options.out, "picture (.png) or all numbers (.json); may be given twice")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  compare_app->callback([&] { chosen = [&] { return compare(options); }; });
+}
+
 /// What to do about a command line that is not understood: the subcommands for an unknown one, else where the help is.
 std::string usage_advice(const CLI::App& app) {
   const std::vector<CLI::App*> given = app.get_subcommands();
@@ -164,11 +199,13 @@ int main(int argc, char** argv) {
   CheckOptions check_options;
   ValidateOptions validate_options;
   BenchOptions bench_options;
+  CompareOptions compare_options;
   add_run(app, run_options, chosen);
   add_render(app, render_options, chosen);
   add_check(app, check_options, chosen);
   add_validate(app, validate_options, chosen);
   add_bench(app, bench_options, chosen);
+  add_compare(app, compare_options, chosen);
   app.add_subcommand("schema", "Print the JSON Schema of the scene format")->callback([&] { chosen = schema; });
   app.add_subcommand("version", "Print the version")->callback([&] { chosen = version; });
 

@@ -1,10 +1,35 @@
 #include "output.h"
 
 #include <cstdio>
+#include <filesystem>
+#include <set>
 
 #include "pliant/error.h"
 
 namespace pliant::command {
+
+namespace {
+
+/// One name for one file: "a", "./a" and a link to it are the same.
+std::string file_itself(const std::string& path) {
+  std::error_code unknown;
+  const std::filesystem::path place = std::filesystem::absolute(path, unknown);
+  const std::filesystem::path resolved = unknown ? place : std::filesystem::weakly_canonical(place, unknown);
+  return unknown ? path : resolved.string();
+}
+
+}  // namespace
+
+void refuse_same_file_twice(const std::string& read, const std::vector<std::string>& written) {
+  std::set<std::string> seen{file_itself(read)};
+  for (const std::string& file : written) {
+    if (file == "/dev/null") continue;
+    if (seen.insert(file_itself(file)).second) continue;
+    Location where;
+    where.file = file;
+    throw Error(where, "is named twice", "give every file a name of its own");
+  }
+}
 
 void print(const std::string& text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;

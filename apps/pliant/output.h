@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace pliant::command {
 
@@ -10,5 +11,8 @@ void print(const std::string& text);
 
 /// `text` on one line, so that an error is one line whatever a file's name holds: control characters as \n, \t or \xNN.
 std::string one_line(const std::string& text);
+
+/// Throws Error where one of `written` is `read`, a link to it, or there twice: what is written must not replace what was read.
+void refuse_same_file_twice(const std::string& read, const std::vector<std::string>& written);
 
 }  // namespace pliant::command

@@ -3,9 +3,7 @@
 // Everything that can be refused is refused before the first frame: the formats and places of all files, and the report's
 // own.
 #include <cstdio>
-#include <filesystem>
 #include <memory>
-#include <set>
 
 #include "atomic_file.h"
 #include "command.h"
@@ -19,28 +17,6 @@ namespace pliant::command {
 
 namespace {
 
-/// One name for one file: "a", "./a" and a link to it are the same, and what is written must not replace what was read.
-std::string file_itself(const std::string& path) {
-  std::error_code unknown;
-  const std::filesystem::path place = std::filesystem::absolute(path, unknown);
-  const std::filesystem::path resolved = unknown ? place : std::filesystem::weakly_canonical(place, unknown);
-  return unknown ? path : resolved.string();
-}
-
-void refuse_same_file_twice(const RunOptions& options) {
-  std::set<std::string> seen{file_itself(options.scene)};
-  std::vector<std::string> files = options.out;
-  if (!options.report.empty()) files.push_back(options.report);
-  for (const std::string& file : files) {
-    if (file == "/dev/null") continue;
-    if (!seen.insert(file_itself(file)).second) {
-      Location where;
-      where.file = file;
-      throw Error(where, "is named twice", "give every file a name of its own");
-    }
-  }
-}
-
 std::string summary(const RunOptions& options, const World& world, const RunReport& report) {
   char text[160];
   std::snprintf(text, sizeof text, "%lld frames, %.3g ms a frame (95%%: %.3g), %d threads, %s",
@@ -52,7 +28,9 @@ std::string summary(const RunOptions& options, const World& world, const RunRepo
 }  // namespace
 
 int run(const RunOptions& options) {
-  refuse_same_file_twice(options);
+  std::vector<std::string> files = options.out;
+  if (!options.report.empty()) files.push_back(options.report);
+  refuse_same_file_twice(options.scene, files);
   const Scene scene = read_scene_with(options.scene, options.overrides);
   World world(scene);
 

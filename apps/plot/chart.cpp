@@ -15,8 +15,13 @@ constexpr double title_size = 2, text_size = 2, font_height = 7;
 constexpr double left_margin = 104, right_margin = 26, title_height = 44, legend_line = 22, legend_stroke = 34;
 
 // Told apart by readers with any colour vision (Okabe and Ito 2008).
-constexpr Colour palette[] = {{0, 114, 178}, {213, 94, 0},   {0, 158, 115},  {204, 121, 167},
-                              {230, 159, 0}, {86, 180, 233}, {110, 110, 110}};
+constexpr Colour palette[] = {{0, 114, 178}, {213, 94, 0},   {0, 158, 115},   {204, 121, 167},
+                              {230, 159, 0}, {86, 180, 233}, {110, 110, 110}, {0, 0, 0}};
+
+Colour colour_of(const Chart& chart, std::size_t series) {
+  const int chosen = chart.series[series].colour;
+  return palette[(chosen < 0 ? series : static_cast<std::size_t>(chosen)) % std::size(palette)];
+}
 
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
@@ -36,6 +41,12 @@ std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);
   return text;
+}
+
+// On a logarithmic axis small and large numbers are written by their power, 2e-4: labels stay short beside the axis' own.
+std::string number_of_power(double place, double factor, int power) {
+  if (power >= -3 && power <= 4) return number(place);
+  return number(factor) + "e" + std::to_string(power);
 }
 
 Range padded(Range range, double share) {
@@ -177,7 +188,7 @@ void draw_legend(Canvas& canvas, const Chart& chart, Point corner, int width) {
     const Series& series = chart.series[i];
     if (series.name.empty()) continue;
     const Point at{corner.x + places[i].x, corner.y + places[i].y};
-    draw_sample(canvas, series.style, at, palette[i % std::size(palette)]);
+    draw_sample(canvas, series.style, at, colour_of(chart, i));
     canvas.text({at.x + legend_stroke + 8, at.y - font_height * text_size / 2 + 1}, series.name, text_size, ink);
   }
 }
@@ -187,8 +198,7 @@ void draw_chart(Canvas& canvas, const Chart& chart, Point corner, int width, int
   draw_grid(canvas, layout);
   draw_frame(canvas, layout, corner, height);
   canvas.clip(layout.upper_left, layout.lower_right);
-  for (std::size_t i = 0; i < chart.series.size(); ++i)
-    draw_series(canvas, layout, chart.series[i], palette[i % std::size(palette)]);
+  for (std::size_t i = 0; i < chart.series.size(); ++i) draw_series(canvas, layout, chart.series[i], colour_of(chart, i));
   canvas.unclip();
   draw_legend(canvas, chart, corner, width);
 }
@@ -222,7 +232,7 @@ Ticks logarithmic_ticks(double low, double high, int wanted) {
       if (factor > 1 && !fine) continue;
       if (factor == 1 && (k - first) % stride != 0) continue;
       ticks.places.push_back(place);
-      ticks.labels.push_back(number(place));
+      ticks.labels.push_back(number_of_power(place, factor, k));
     }
   }
   return ticks;

@@ -1,4 +1,4 @@
-// Line charts as data, and how to paint them: `pliant validate --plot` shows its curves with these.
+// Line charts as data, and how to paint them: `pliant validate --plot` and `pliant compare` show their curves with these.
 #pragma once
 
 #include <string>
@@ -14,6 +14,7 @@ struct Series {
   std::string name;  ///< for the legend
   std::vector<double> x, y;
   Style style = Style::line;
+  int colour = -1;  ///< of the palette, so that a curve looks alike in several charts; -1: as its place in the chart has it
 };
 
 /// Axes with curves.

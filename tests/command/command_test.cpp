@@ -90,7 +90,7 @@ TEST_F(Command, HelpAndVersion) {
 TEST_F(Command, UsageErrorsGiveTwo) {
   expect_refused("", 2, "pliant run");
   expect_refused("fly", 2, "fly");
-  expect_refused("rnu small.json", 2, "run, render, check, validate, bench, schema, version");
+  expect_refused("rnu small.json", 2, "run, render, check, validate, bench, compare, schema, version");
   expect_refused("render small.json", 2, "see pliant render --help");
   expect_refused("run", 2, "SCENE");
   expect_refused("run small.json --frames -1", 2, "frames");
@@ -203,6 +203,51 @@ TEST_F(Command, CheckTellsAMeshItsSizeAndWhatWasMended) {
   EXPECT_EQ(result.out.find("doubtful"), std::string::npos) << "a border is right for a cloth:\n" << result.out;
   std::ofstream(folder_ / "patch.json") << R"({"objects": [{"cloth": {"mesh": {"file": "patch.obj"}}}]})";
   EXPECT_NE(pliant("check patch.json").out.find("dropped 1 vertex of no triangle"), std::string::npos);
+}
+
+TEST_F(Command, CompareShowsEverySweepAndWritesPictureAndNumbers) {
+  const Result result = pliant("compare small.json --iterations 3 --out curves.png --out curves.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("small.json after 2 frames"), std::string::npos) << result.out;
+  for (const char* sweep : {"\ntiled ", "\nsymmetric ", "\njacobi ", "\nnatural ", "\nchains ", "\ntiled+chebyshev "})
+    EXPECT_NE(result.out.find(sweep), std::string::npos) << sweep << result.out;
+  EXPECT_EQ(slurp(folder_ / "curves.png").substr(1, 3), "PNG");
+  const Json json = Json::parse(slurp(folder_ / "curves.json"));
+  EXPECT_EQ(json.at("iterations"), 3);
+  EXPECT_GE(json.at("curves").size(), 6u);
+  const Result few =
+      pliant("compare small.json --iterations 2 --sweeps tiled,natural+chebyshev --frame 1 --frames 2 --budget-ms 100000");
+  EXPECT_EQ(few.status, 0) << few.err;
+  EXPECT_NE(few.out.find("left out: natural+chebyshev: "), std::string::npos) << few.out;
+  EXPECT_NE(few.out.find("within 1e+05 ms a frame, 2 frames"), std::string::npos) << few.out;
+}
+
+TEST_F(Command, CompareRefusesWhatItCannotDo) {
+  expect_refused("compare", 2, "SCENE");
+  expect_refused("compare small.json --iterations 0", 2, "iterations");
+  expect_refused("compare small.json --budget-ms -1", 2, "budget-ms");
+  expect_refused("compare small.json --sweeps tilde", 1, "tilde");
+  expect_refused("compare small.json --sweeps natural+chebyshev", 1, "natural order");
+  expect_refused("compare small.json --out curves.gif", 1, "curves.gif");
+  expect_refused("compare small.json --out small.json", 1, "twice");
+  expect_refused("compare small.json --out a.png --out b.png", 1, "b.png");
+  expect_refused("compare small.json --out nowhere/a.json", 1, "nowhere");
+  expect_refused("compare small.json --frames 0 --budget-ms 1", 1, "--frames");
+  EXPECT_EQ(slurp(folder_ / "small.json"), small_scene(4)) << "what was read is written over";
+  EXPECT_EQ(files(), 1) << "an error left a file behind";
+}
+
+TEST_F(Command, AReportSaysHowManyIterationsATolerancePermitted) {
+  const Json plain = report("--iterations 6").at("iterations_used");
+  EXPECT_EQ(plain.at("smallest"), 6);
+  EXPECT_EQ(plain.at("largest"), 6);
+  std::string scene = small_scene(4);
+  scene.replace(scene.find("\"substeps\""), 0, "\"iterations\": 50, \"tolerance\": 1000, ");
+  std::ofstream(folder_ / "small.json") << scene;
+  const Json json = report("");
+  EXPECT_EQ(json.at("iterations"), 50);
+  EXPECT_EQ(json.at("iterations_used").at("largest"), 1);
+  EXPECT_EQ(json.at("iterations_used").at("mean"), 1);
 }
 
 TEST_F(Command, AnInterruptedRunLeavesNothingHalfWritten) {

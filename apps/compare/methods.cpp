@@ -1,0 +1,73 @@
+// Names of methods: a sweep, and options after plus signs.
+#include <algorithm>
+#include <sstream>
+
+#include "apps/compare/compare.h"
+#include "pliant/error.h"
+
+namespace pliant::compare {
+
+namespace {
+
+struct NamedOption {
+  const char* name;
+  void (*apply)(SweepOptions&);
+};
+
+constexpr NamedOption named_options[] = {
+    {"tethers", [](SweepOptions& options) { options.tethers = true; }},
+    {"chebyshev", [](SweepOptions& options) { options.acceleration = SweepOptions::Acceleration::chebyshev; }},
+    {"average", [](SweepOptions& options) { options.sharing = SweepOptions::Sharing::average; }},
+};
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::vector<std::string> sweep_names() {
+  std::vector<std::string> names;
+  for (const NamedSweep& one : sweeps()) names.push_back(one.name);
+  return names;
+}
+
+Sweep sweep_of(const std::string& name) {
+  for (const NamedSweep& one : sweeps())
+    if (one.name == name) return one.sweep;
+  throw Error({}, "there is no sweep '" + name + "'", "the sweeps are " + joined(sweep_names()));
+}
+
+void apply_option(const std::string& name, SweepOptions& options) {
+  for (const NamedOption& one : named_options)
+    if (one.name == name) return one.apply(options);
+  throw Error({}, "there is no option '" + name + "' of a sweep",
+              "write a sweep and after it, with a plus sign each, any of " + joined(option_names()));
+}
+
+}  // namespace
+
+std::vector<std::string> option_names() {
+  std::vector<std::string> names;
+  for (const NamedOption& one : named_options) names.emplace_back(one.name);
+  return names;
+}
+
+Method method_of(const std::string& name, const SweepOptions& base) {
+  std::istringstream parts(name);
+  std::string part;
+  std::getline(parts, part, '+');
+  Method method{name, sweep_of(part), base};
+  while (std::getline(parts, part, '+')) apply_option(part, method.options);
+  return method;
+}
+
+std::vector<std::string> default_methods() {
+  std::vector<std::string> names;
+  for (const NamedSweep& one : sweeps())
+    if (one.sweep != Sweep::sequential) names.push_back(one.name);
+  names.insert(names.end(), {"tiled+chebyshev", "chains+tethers"});
+  return names;
+}
+
+}  // namespace pliant::compare

@@ -1,0 +1,68 @@
+// The order in which everything is measured.
+#include <algorithm>
+
+#include "apps/compare/compare.h"
+#include "pliant/error.h"
+
+namespace pliant::compare {
+
+namespace {
+
+/// The scene at the frame from which the curves start, by its own settings.
+World run_to(const Scene& scene, int frames, const Options& options) {
+  Settings settings = scene.settings;
+  settings.measure = settings.record_residuals = settings.record_multipliers = false;
+  World world(scene, settings);
+  for (int frame = 0; frame < frames; ++frame) {
+    if (options.pause) options.pause();
+    const Report report = world.step(scene.frame_time);
+    if (!report.ok()) throw Error({}, report.explain());
+  }
+  return world;
+}
+
+std::vector<Method> methods_of(const Scene& scene, const Options& options) {
+  std::vector<Method> methods;
+  for (const std::string& name : options.methods.empty() ? default_methods() : options.methods) {
+    const bool again = std::any_of(methods.begin(), methods.end(), [&](const Method& m) { return m.name == name; });
+    if (again) throw Error({}, "'" + name + "' is named twice", "name every sweep once");
+    methods.push_back(method_of(name, scene.settings.sweep_options));
+  }
+  return methods;
+}
+
+std::string type_of(const std::vector<Curve>& curves) {
+  const std::vector<Residual>& primal = curves.front().record.front().primal;
+  for (const Residual& residual : primal)
+    if (residual.type == "distance") return residual.type;
+  return primal.empty() ? "none" : primal.front().type;
+}
+
+}  // namespace
+
+Result run(const Scene& scene, const Options& options) {
+  const std::vector<Method> methods = methods_of(scene, options);
+  Result result;
+  result.frame = options.frame < 0 ? scene.frames / 2 : options.frame;
+  result.iterations = options.iterations;
+  result.frames = scene.frames;
+  result.budget = options.budget;
+  World start = run_to(scene, result.frame, options);
+  result.substep = substep_of(scene, options);
+  for (const Method& method : methods) {
+    if (options.pause) options.pause();
+    try {
+      result.curves.push_back(measure_curve(scene, start, method, options));
+      if (options.budget > 0 && scene.frames > 0) result.budgeted.push_back(fit_budget(scene, method, options));
+    } catch (const Error& error) {
+      result.refused.push_back({method.name, error.what()});
+    }
+  }
+  if (result.curves.empty())
+    throw Error(
+        {}, "every sweep was refused, the first, " + result.refused.front().name + ": " + result.refused.front().reason);
+  result.residual_type = type_of(result.curves);
+  return result;
+}
+
+}  // namespace pliant::compare

@@ -1,0 +1,226 @@
+// pliant compare: every sweep starts from one state, the curves are what single runs give, and what can't be is said by name.
+#include "apps/compare/compare.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "pliant/error.h"
+
+namespace pliant::compare {
+namespace {
+
+/// A sheet that swings from a corner, held by an attachment besides, and a rope.
+Scene swinging(int columns = 9) {
+  Scene scene;
+  scene.frames = 4;
+  scene.settings.substeps = 3;
+  scene.settings.iterations = 2;
+  scene.settings.threads = 1;
+  ClothOptions options;
+  options.stretch = Stiffness::compliance(1e-6f);
+  scene.add_cloth(grid_mesh(columns, columns - 1, 1.f, 0.8f), options);
+  scene.pin(0, {0});
+  scene.objects[0].attachments.push_back({5, {0.2f, 0.1f, -0.4f}, {}, Stiffness::compliance(1e-3f)});
+  std::vector<Vec3f> points;
+  for (int i = 0; i < 12; ++i) points.push_back({3 + 0.1f * static_cast<float>(i), 0, 0});
+  scene.add(make_rope(points));
+  scene.pin(1, {0});
+  return scene;
+}
+
+Settings with(Sweep sweep, const Scene& scene) {
+  Settings settings = scene.settings;
+  settings.sweep = sweep;
+  return settings;
+}
+
+bool equal_bits(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3f)) == 0;
+}
+
+TEST(TakeState, IsThatOfTheOtherWorldHoweverParticlesAreNumbered) {
+  const Scene scene = swinging(68);  // more particles than a tile has: in given order there are no tiles
+  World start(scene);
+  for (int frame = 0; frame < 5; ++frame) start.step(scene.frame_time);
+  const std::string before = start.state_hash();
+  int otherwise = 0;
+  for (const NamedSweep& one : sweeps()) {
+    World world(scene, with(one.sweep, scene));
+    take_state(world, start);
+    EXPECT_EQ(start.state_hash(), before) << one.name;
+    EXPECT_EQ(world.state().time, start.state().time);
+    EXPECT_EQ(world.state().frame, 5);
+    for (int object = 0; object < 2; ++object) {
+      EXPECT_TRUE(equal_bits(world.positions(object), start.positions(object))) << one.name;
+      EXPECT_TRUE(equal_bits(world.velocities(object), start.velocities(object))) << one.name;
+    }
+    if (world.state_hash() != before) ++otherwise;
+  }
+  EXPECT_GT(otherwise, 0) << "some sweep numbers particles otherwise, or this test says nothing";
+}
+
+TEST(TakeState, GoesOnWithTheSameBits) {
+  const Scene scene = swinging();
+  World start(scene), taken(scene, with(Sweep::sequential, scene));
+  for (int frame = 0; frame < 5; ++frame) start.step(scene.frame_time);
+  take_state(taken, start);
+  start.step(scene.frame_time);
+  taken.step(scene.frame_time);
+  EXPECT_TRUE(equal_bits(start.positions(0), taken.positions(0))) << "remainders and the attachment's target too";
+}
+
+Options quick(const std::vector<std::string>& methods = {}) {
+  Options options;
+  options.methods = methods;
+  options.iterations = 12;
+  return options;
+}
+
+TEST(Compare, EverySweepSolvesTheSameSubstep) {
+  const Result result = run(swinging(), quick());
+  EXPECT_EQ(result.curves.size() + result.refused.size(), default_methods().size());
+  EXPECT_EQ(result.frame, 2);
+  EXPECT_EQ(result.residual_type, "distance");
+  for (const Curve& curve : result.curves) {
+    ASSERT_EQ(curve.record.size(), 13U) << curve.name;
+    EXPECT_NEAR(curve.residuals.front(), result.curves.front().residuals.front(), 1e-12) << curve.name;
+    EXPECT_GT(curve.residuals.front(), 1e-7);
+    std::vector<int> sampled;
+    for (const Sample& sample : curve.samples) {
+      sampled.push_back(sample.iterations);
+      EXPECT_EQ(sample.residual, curve.residuals.at(static_cast<std::size_t>(sample.iterations)));
+    }
+    EXPECT_EQ(sampled, (std::vector<int>{1, 2, 3, 5, 7, 10, 12}));
+  }
+}
+
+/// The stretch of a sample, by stepping a World by hand.
+TEST(Compare, ASampleIsWhatARunGives) {
+  Scene scene = swinging();
+  Options options = quick({"tiled"});
+  options.substeps = 6;
+  options.frame = 0;
+  const Curve curve = run(scene, options).curves.at(0);
+  scene.settings.substeps = 1;
+  for (const Sample& sample : curve.samples) {
+    scene.settings.iterations = sample.iterations;
+    World world(scene);
+    world.step(scene.frame_time / 6);
+    EXPECT_EQ(world.stretch().largest, sample.stretch.largest) << sample.iterations;
+    EXPECT_EQ(world.stretch().p99, sample.stretch.p99) << sample.iterations;
+  }
+}
+
+TEST(Compare, ATightRopeIsSolvedByChainsAtOnce) {
+  Scene scene;
+  scene.settings.threads = 1;
+  scene.frames = 0;
+  std::vector<Vec3f> points;
+  for (int i = 0; i < 60; ++i) points.push_back({0, -0.1f * static_cast<float>(i), 0});
+  scene.add(make_rope(points));
+  scene.pin(0, {0});
+  scene.settings.substeps = 1;
+  scene.settings.sweep_options.chain_softness = 0;
+  const Result result = run(scene, quick({"tiled", "chains"}));
+  // Hanging straight down, nothing turns: one exact solve is all there is to do, and a sweep has hardly begun.
+  EXPECT_LT(result.curves[1].residuals[1], 0.01 * result.curves[1].residuals[0]);
+  EXPECT_GT(result.curves[0].residuals[1], 0.1 * result.curves[0].residuals[0]);
+}
+
+std::string refusal(const Scene& scene, const Options& options) {
+  try {
+    run(scene, options);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Compare, SaysWhichNamesThereAre) {
+  const std::string sweep = refusal(swinging(), quick({"tilde"})), option = refusal(swinging(), quick({"tiled+lasers"}));
+  EXPECT_NE(sweep.find("'tilde'"), std::string::npos) << sweep;
+  for (const NamedSweep& one : sweeps()) EXPECT_NE(sweep.find(one.name), std::string::npos) << sweep;
+  EXPECT_NE(option.find("'lasers'"), std::string::npos) << option;
+  EXPECT_NE(option.find("tethers, chebyshev, average"), std::string::npos) << option;
+  EXPECT_NE(refusal(swinging(), quick({"tiled", "tiled"})).find("twice"), std::string::npos);
+}
+
+TEST(Compare, OptionsFollowThePlusAndTheRestIsTheScenes) {
+  SweepOptions base;
+  base.relaxation = 1.25f;
+  const Method plain = method_of("jacobi", base), full = method_of("jacobi+average+chebyshev+tethers", base);
+  EXPECT_EQ(plain.options.relaxation, 1.25f);
+  EXPECT_EQ(plain.options.sharing, SweepOptions::Sharing::split);
+  EXPECT_EQ(full.sweep, Sweep::jacobi);
+  EXPECT_EQ(full.options.sharing, SweepOptions::Sharing::average);
+  EXPECT_EQ(full.options.acceleration, SweepOptions::Acceleration::chebyshev);
+  EXPECT_TRUE(full.options.tethers);
+  EXPECT_EQ(full.options.relaxation, 1.25f);
+}
+
+TEST(Compare, WhatIsRefusedIsLeftOutWithItsReason) {
+  const Result result = run(swinging(), quick({"natural+chebyshev", "tiled"}));
+  ASSERT_EQ(result.curves.size(), 1U);
+  EXPECT_EQ(result.curves[0].name, "tiled");
+  ASSERT_EQ(result.refused.size(), 1U);
+  EXPECT_EQ(result.refused[0].name, "natural+chebyshev");
+  EXPECT_NE(result.refused[0].reason.find("natural order"), std::string::npos) << result.refused[0].reason;
+  EXPECT_NE(refusal(swinging(), quick({"natural+chebyshev"})).find("every sweep was refused"), std::string::npos);
+}
+
+TEST(Budget, TakesWhatFitsAndRefusesWhatDoesNot) {
+  Scene scene = swinging();
+  scene.frames = 2;
+  Options options = quick({"tiled", "chains"});
+  options.budget = 1e6;  // nothing on any machine takes so long
+  const Result plenty = run(scene, options);
+  ASSERT_EQ(plenty.budgeted.size(), 2U);
+  for (const Budgeted& row : plenty.budgeted) {
+    EXPECT_EQ(row.substeps, 2000) << row.name;
+    EXPECT_GT(row.milliseconds, 0);
+    EXPECT_GE(row.worst.largest, row.last.largest);
+    EXPECT_LT(row.worst.p99, 1.05) << row.name;
+  }
+  options.budget = 1e-9;
+  const Result nothing = run(scene, options);
+  EXPECT_TRUE(nothing.budgeted.empty());
+  ASSERT_EQ(nothing.refused.size(), 2U);
+  EXPECT_NE(nothing.refused[0].reason.find("more milliseconds"), std::string::npos) << nothing.refused[0].reason;
+  EXPECT_EQ(nothing.curves.size(), 2U) << "the curves need no budget";
+}
+
+TEST(Compare, DrawsFourPanelsWithALineASweep) {
+  const Result result = run(swinging(), quick({"tiled", "jacobi", "chains"}));
+  const std::vector<plot::Chart> charts = to_charts(result);
+  ASSERT_EQ(charts.size(), 4U);
+  for (const plot::Chart& chart : charts) {
+    EXPECT_TRUE(chart.logarithmic_x && chart.logarithmic_y) << chart.title;
+    const auto named =
+        std::count_if(chart.series.begin(), chart.series.end(), [](const auto& s) { return !s.name.empty(); });
+    EXPECT_EQ(named, 3) << chart.title;
+  }
+  EXPECT_DOUBLE_EQ(charts[0].series[2].y[4], 1000 * result.curves[2].residuals[5]) << "millimetres, from iteration 1 on";
+  EXPECT_DOUBLE_EQ(charts[2].series[0].y[0], 100 * (result.curves[0].samples[0].stretch.largest - 1)) << "percent";
+  EXPECT_EQ(charts[0].series[1].colour, charts[3].series[3].colour) << "a sweep has one colour in all panels";
+}
+
+TEST(Compare, WritesAllNumbers) {
+  Options options = quick({"tiled", "natural+chebyshev"});
+  const Result result = run(swinging(), options);
+  const auto json = nlohmann::json::parse(to_json(result));
+  EXPECT_EQ(json.at("curves").size(), 1U);
+  EXPECT_EQ(json["curves"][0]["samples"].size(), 7U);
+  EXPECT_EQ(json["curves"][0]["residuals"].size(), 13U);
+  EXPECT_EQ(json["curves"][0]["samples"][6]["residual"], result.curves[0].residuals[12]);
+  EXPECT_EQ(json["refused"][0]["sweep"], "natural+chebyshev");
+  EXPECT_FALSE(json.contains("budget"));
+  const std::string table = to_table(result);
+  EXPECT_NE(table.find("after 2 frames"), std::string::npos) << table;
+  EXPECT_NE(table.find("\ntiled "), std::string::npos) << table;
+}
+
+}  // namespace
+}  // namespace pliant::compare
