@@ -61,7 +61,7 @@ std::optional<Budgeted> fit(const Scene& scene, const Method& method, int iterat
   if (!probe) return std::nullopt;
   int substeps = static_cast<int>(std::min(options.budget / probe->milliseconds * probe_substeps, 1. * most_substeps));
   for (int i = 0; i <= most_corrections && substeps >= 1; ++i) {
-    const auto found = simulate(scene, method, substeps, iterations, scene.frames, options);
+    auto found = simulate(scene, method, substeps, iterations, scene.frames, options);
     if (!found) return std::nullopt;
     if (found->milliseconds <= options.budget) return found;
     const double share = options.budget / found->milliseconds;

@@ -34,7 +34,7 @@ Settings settings_of(const Scene& scene, const Method& method, int iterations) {
 }
 
 Report step_once(World& world, const Scene& scene, const Options& options) {
-  const Report report = world.step(static_cast<float>(substep_of(scene, options)));
+  Report report = world.step(static_cast<float>(substep_of(scene, options)));
   if (!report.ok()) throw Error({}, report.explain());
   return report;
 }

@@ -17,8 +17,9 @@ std::vector<std::size_t> places_in(World& world) {
   const State kept = world.state();
   State numbered = kept;
   for (std::size_t i = 0; i < numbered.positions.size(); ++i) {
-    numbered.positions[i].x = static_cast<float>(i % digit);
-    numbered.positions[i].y = static_cast<float>(i / digit);
+    const std::size_t low = i % digit, high = i / digit;
+    numbered.positions[i].x = static_cast<float>(low);
+    numbered.positions[i].y = static_cast<float>(high);
   }
   world.restore(numbered);
   std::vector<std::size_t> places;
