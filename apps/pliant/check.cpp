@@ -1,9 +1,12 @@
-// pliant check: reads a scene or a mesh and says, in words, what is wrong or doubtful and what to do about it.
+// pliant check: reads a scene or a mesh and says, in words, what is wrong or doubtful and what to do about it. A scene in
+// which nothing is wrong is also run, to see whether its solve keeps up.
 #include <algorithm>
 #include <cstdio>
 
 #include "command.h"
+#include "interrupt.h"
 #include "output.h"
+#include "pliant/advise.h"
 #include "pliant/error.h"
 #include "pliant/io.h"
 #include "pliant/mesh.h"
@@ -59,7 +62,23 @@ std::vector<Finding> check_mesh(const std::string& path) {
   return inspect(file.mesh);
 }
 
-std::vector<Finding> check_scene(const std::string& path) {
+/// Runs the scene and others like it, unless it can't be, or no time is given for it.
+void try_out(const Scene& scene, double seconds, std::vector<Finding>& findings) {
+  const bool grave = std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.grave; });
+  if (grave || seconds <= 0 || scene.frames < 1) return;
+  const auto stops = [] {
+    throw_if_interrupted();
+    return false;
+  };
+  const Advice advice = advise(scene, {seconds, 120, stops});
+  if (!advice.words.empty()) findings.push_back({false, advice.words, advice.what_to_do});
+  const bool is_fine = advice.words.empty() && advice.cut_short;
+  if (is_fine)
+    print("tried " + counted(static_cast<std::size_t>(advice.own.frames), "frame") +
+          " in the time there was; --seconds gives more\n");
+}
+
+std::vector<Finding> check_scene(const std::string& path, double seconds) {
   const SceneFile file = read_scene_file(path);
   const Scene& scene = file.scene;
   std::vector<Vec3f> particles;
@@ -69,7 +88,9 @@ std::vector<Finding> check_scene(const std::string& path) {
         extent(particles) + ", " + counted(scene.colliders.size(), "collider") + ", " +
         counted(static_cast<std::size_t>(scene.frames), "frame") + "\n");
   for (const std::string& repair : file.repairs) print("mended: " + one_line(repair) + "\n");
-  return inspect(scene);
+  std::vector<Finding> findings = inspect(scene);
+  try_out(scene, seconds, findings);
+  return findings;
 }
 
 }  // namespace
@@ -77,8 +98,8 @@ std::vector<Finding> check_scene(const std::string& path) {
 int check(const CheckOptions& options) {
   // Much that a mesh alone makes one ask is right for a cloth, so that it is told and not doubted.
   const bool is_scene = has_suffix(options.path, ".json");
-  const bool grave =
-      print_findings(is_scene ? check_scene(options.path) : check_mesh(options.path), is_scene ? "doubtful" : "note");
+  const bool grave = print_findings(is_scene ? check_scene(options.path, options.seconds) : check_mesh(options.path),
+                                    is_scene ? "doubtful" : "note");
   if (!grave) return 0;
   Location where;
   where.file = options.path;

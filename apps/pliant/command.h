@@ -44,7 +44,8 @@ struct RenderOptions {
 int render(const RenderOptions& options);
 
 struct CheckOptions {
-  std::string path;  ///< a scene (.json) or a mesh
+  std::string path;    ///< a scene (.json) or a mesh
+  double seconds = 3;  ///< for trying a scene out, about; 0: it is not [s]
 };
 
 /// Says what is wrong or doubtful; 1 where something is wrong.

@@ -90,6 +90,11 @@ void add_render(CLI::App& app, RenderOptions& options, Chosen& chosen) {
 void add_check(CLI::App& app, CheckOptions& options, Chosen& chosen) {
   CLI::App* check_app = app.add_subcommand("check", "Say what is wrong or doubtful in a scene or a mesh");
   check_app->add_option("FILE", options.path, "scene (.json) or mesh (.obj, .ply, .stl)")->required();
+  check_app
+      ->add_option("--seconds", options.seconds, "for running a scene to see whether its solve keeps up; 0: not at all")
+      ->type_name("S")
+      ->check(range(0.0, 86400.0))
+      ->capture_default_str();
   check_app->callback([&] { chosen = [&] { return check(options); }; });
 }
 

@@ -89,6 +89,7 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["p99_stretch"] = stretch.p99;
   json["nonfinite"] = nonfinite_json(last_);
   json["warnings"] = last_.warnings;
+  json["advice"] = world.advice(last_);
   json["threads"] = world.threads();
   json["isa"] = world.isa();
   if (hash_frames_) json["frame_hashes"] = hashes_;

@@ -1,6 +1,7 @@
 // Everything: the core and the files.
 #pragma once
 
+#include "pliant/advise.h"
 #include "pliant/error.h"
 #include "pliant/io.h"
 #include "pliant/material.h"

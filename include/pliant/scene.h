@@ -200,7 +200,7 @@ struct Settings {
   int threads = 0;  ///< 0: as many as the machine has
   Sweep sweep = Sweep::tiled;
   SweepOptions sweep_options{};
-  bool measure = false;             ///< fill Report::residuals and the stretch each frame (costs about one more iteration)
+  bool measure = false;  ///< fill Report::residuals, stretch and overstretch each frame (costs about one more iteration)
   bool record_residuals = false;    ///< fill Report::convergence (slow: every iteration of the last substep is measured)
   bool record_multipliers = false;  ///< keep multipliers readable even where not needed (one iteration, or rigid)
   std::string isa;  ///< "", or "x86-64-v2", "-v3", "-v4", "sequential" to force a code path (same bits, other speed)

@@ -1,6 +1,7 @@
 // A World is a Scene compiled, with the State that moves. Data runs one way: step, then read.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <new>
@@ -74,6 +75,16 @@ struct Stretch {
   double mean = 1, p99 = 1, largest = 1;
 };
 
+/// By how much distance constraints are longer than the force in them makes them, (C + alpha~ lambda) / L: what a step left
+/// undone and more substeps, more iterations or another sweep would do. Of a rigid one that is its stretch; of a compliant one
+/// the stretch that its own tension does not explain, so that what is meant to stretch may. PBD stiffness, which has no
+/// multiplier, is left out.
+struct Overstretch {
+  double p99 = 0, largest = 0;             ///< shares of the rest length; below 0 where all are too short [-]
+  int object = -1;                         ///< with the largest; -1: there are no such constraints
+  std::array<int, 2> particles{{-1, -1}};  ///< between which it is, in the object's own numbering
+};
+
 /// Where the first non-finite value came from.
 struct NonFinite {
   std::string object, element;  ///< "distance constraint 17 (particles 3, 4)", "particle 12"; no object: see World::step
@@ -97,6 +108,7 @@ struct Report {
   std::vector<Residual> residuals;             ///< where Settings::measure
   std::optional<Stretch> stretch;              ///< where Settings::measure
   IterationCount iterations;                   ///< of each substep
+  std::optional<Overstretch> overstretch;      ///< where Settings::measure; World::advice says it in words
   std::vector<IterationResidual> convergence;  ///< of the last substep, where Settings::record_residuals
   std::optional<NonFinite> nonfinite;
   std::vector<std::string> warnings;
@@ -111,6 +123,9 @@ struct ObjectInfo {
   int particles = 0;
   std::vector<std::pair<std::string, std::int64_t>> constraints;  ///< by type, "volume" included
 };
+
+/// A solve is called good where no distance is longer than its force explains by more than this [-].
+inline constexpr double tolerated_overstretch = 0.01;
 
 class World {
  public:
@@ -155,6 +170,13 @@ class World {
   double potential_energy() const;
   std::vector<Residual> residuals() const;
   Stretch stretch() const;
+  /// Compliant constraints count in full where their multipliers are kept, as Settings::measure has it.
+  Overstretch overstretch() const;
+  /// "object 'sheet': stretched 14 % too far at its pins (edge 12-13), 1 edge in 100 by 3 % or more"; empty without object.
+  std::string describe(const Overstretch& found) const;
+  /// Where the solve fell short in the step of a Report with Settings::measure, by how much, and what to do; empty where
+  /// it did not, by no more than `tolerated_overstretch`. `advise` tries what helps.
+  std::string advice(const Report& report) const;
   double enclosed_volume(int object) const;  ///< of its triangles [m^3]
 
  private:

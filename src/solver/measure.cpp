@@ -2,90 +2,48 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "constraints/all.h"
-#include "solver/project.h"
+#include "solver/visit.h"
 #include "solver/volume.h"
 
 namespace pliant {
 
 namespace {
 
-/// Calls visit(x, params, response, number of the lane in the pool) for every constraint of a pool of type T.
-template <class T, class Visit>
-void for_constraints(const CompiledObject& object, const Pool& pool, int pool_number, const Record* positions,
-                     const Visit& visit) {
-  constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
-  for (const Segment& segment : object.segments) {
-    if (segment.pool != pool_number) continue;
-    const std::int32_t* index = pool.indices.data() + segment.index_offset;
-    for (int batch = 0; batch < segment.batches; ++batch, index += indices_per_batch(pool, segment)) {
-      const std::int64_t number = segment.first_batch + batch;
-      for (int lane = 0; lane < batch_width; ++lane) {
-        if (!lane_is_valid(segment, batch, lane)) continue;
-        float rest[fields];
-        for (int field = 0; field < fields; ++field) rest[field] = pool.row(field, number)[lane];
-        typename T::template Params<float> params;
-        std::memcpy(&params, rest, sizeof params);
-        Vec3f x[T::size];
-        for (int slot = 0; slot < T::size; ++slot) {
-          const Record& p = positions[particle_of(segment, index, slot, lane)];
-          x[slot] = {p.x, p.y, p.z};
-        }
-        visit(x, params, pool.row(fields, number)[lane], number * batch_width + lane);
-      }
-    }
-  }
-}
+/// An object's particles and what its constraints pulled with in the last substep.
+struct View {
+  const CompiledObject& object;
+  const Record *positions, *velocities;
+  const std::vector<AlignedVector<float>>& multipliers;  ///< by pool, empty where none is kept
+  double h;
 
-struct Sum {
-  double squares = 0, largest = 0;
-  std::int64_t count = 0;
-  void add(double c) {
-    squares += c * c;
-    largest = std::max(largest, std::fabs(c));
-    ++count;
-  }
-  Residual residual(const char* type) const {
-    return {type, count, count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0, largest};
+  double multiplier(const ConstraintPlace& at) const {
+    if (at.pool.law == Law::pbd || multipliers.empty() || multipliers[at.pool_number].empty()) return 0;
+    return static_cast<double>(multipliers[at.pool_number][at.lane_in_pool()]);
   }
 };
 
-template <class T>
-void add_residuals(const CompiledObject& object, int pool_number, const Record* positions, const float* multipliers,
-                   float h, Sum& sum) {
-  const Pool& pool = object.pools[pool_number];
-  for_constraints<T>(object, pool, pool_number, positions,
-                     [&](const auto& x, const auto& params, float response, auto lane) {
-                       Vec3f gradient[T::size];
-                       double c = T::evaluate(x, params, gradient);
-                       if (multipliers != nullptr && pool.law != Law::pbd) {
-                         c += std::min(double(response) / (double(h) * h), double(largest_compliance)) * multipliers[lane];
-                       }
-                       sum.add(c);
-                     });
+View view_of(const Model& model, const State& state, const Workspace& workspace, std::size_t o, float h) {
+  const int first = model.first[o];
+  return {model.objects[o], state.positions.data() + first, state.velocities.data() + first, workspace.multipliers[o],
+          double(h)};
 }
 
-}  // namespace
+Vec3f place_of(const Record& p) { return {p.x, p.y, p.z}; }
 
-std::vector<Residual> measure_residuals(const Model& model, const State& state, const Workspace& workspace, float h) {
-  std::vector<Residual> residuals;
-  for_each_type(AllConstraints{}, [&](auto tag, int type) {
-    using T = typename decltype(tag)::type;
-    Sum sum;
-    for (std::size_t o = 0; o < model.objects.size(); ++o) {
-      const CompiledObject& object = model.objects[o];
-      for (std::size_t p = 0; p < object.pools.size(); ++p) {
-        if (object.pools[p].type != type) continue;
-        const bool kept = !workspace.multipliers[o].empty() && !workspace.multipliers[o][p].empty();
-        const float* multipliers = kept ? workspace.multipliers[o][p].data() : nullptr;
-        add_residuals<T>(object, static_cast<int>(p), state.positions.data() + model.first[o], multipliers, h, sum);
-      }
-    }
-    if (sum.count > 0) residuals.push_back(sum.residual(T::name));
+template <class T>
+void add_residuals(const View& view, int type, ErrorSum& sum) {
+  for_constraints<T>(view.object, type, [&](const ConstraintPlace& at, const auto& particle) {
+    Vec3f x[T::size], gradient[T::size];
+    for (int slot = 0; slot < T::size; ++slot) x[slot] = place_of(view.positions[particle[slot]]);
+    const double c = T::evaluate(x, rest_data<T, float>(at), gradient), multiplier = view.multiplier(at);
+    sum.add(multiplier != 0 ? c + softness<T>(at, 1 / (view.h * view.h)) * multiplier : c);
   });
-  Sum volumes;
+}
+
+ErrorSum volume_errors(const Model& model, const State& state, const Workspace& workspace, float h) {
+  ErrorSum volumes;
   for (std::size_t o = 0; o < model.objects.size(); ++o) {
     const CompiledObject& object = model.objects[o];
     if (!object.has_volume) continue;
@@ -94,37 +52,81 @@ std::vector<Residual> measure_residuals(const Model& model, const State& state, 
     volumes.add(volume_error(object, state.positions.data() + model.first[o]) +
                 compliance * workspace.volume_multipliers[o]);
   }
+  return volumes;
+}
+
+/// One distance: by how much it is longer than its force makes it. Damping's part is alpha beta times the speed along it.
+double excess_of(const View& view, const ConstraintPlace& at, const std::int32_t (&particle)[2], double length,
+                 double rest) {
+  const double compliance = at.value(rest_fields<Distance>);
+  double explained = softness<Distance>(at, 1 / (view.h * view.h)) * view.multiplier(at);
+  if (at.pool.law == Law::damped && length > 0) {
+    const Vec3f way = place_of(view.positions[particle[1]]) - place_of(view.positions[particle[0]]);
+    const Vec3f speed = place_of(view.velocities[particle[1]]) - place_of(view.velocities[particle[0]]);
+    explained += compliance * double(at.value(rest_fields<Distance> + 1)) * double(dot(way, speed)) / length;
+  }
+  return (length - rest + explained) / rest;
+}
+
+void add_lengths(const View& view, int number, int type, Lengths& lengths, double& sum) {
+  for_constraints<Distance>(view.object, type, [&](const ConstraintPlace& at, const auto& particle) {
+    const float rest = at.value(0);
+    if (!(rest > 0)) return;
+    const Vec3f way = place_of(view.positions[particle[1]]) - place_of(view.positions[particle[0]]);
+    const float length = std::sqrt(dot(way, way));
+    lengths.ratios.push_back(length / rest);
+    sum += lengths.ratios.back();
+    if (at.pool.law == Law::pbd) return;
+    const double excess = excess_of(view, at, particle, length, rest);
+    lengths.excesses.push_back(static_cast<float>(excess));
+    Overstretch& worst = lengths.overstretch;
+    if (worst.object >= 0 && !(excess > worst.largest)) return;
+    worst.largest = excess;
+    worst.object = number;
+    worst.particles = {view.object.order[particle[0]], view.object.order[particle[1]]};
+  });
+}
+
+/// The value below which 99 in a hundred lie. Leaves those above it behind it.
+double take_p99(std::vector<float>& values) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+}  // namespace
+
+std::vector<Residual> measure_residuals(const Model& model, const State& state, const Workspace& workspace, float h) {
+  std::vector<Residual> residuals;
+  for_each_type(AllConstraints{}, [&](auto tag, int type) {
+    using T = typename decltype(tag)::type;
+    ErrorSum sum;
+    for (std::size_t o = 0; o < model.objects.size(); ++o)
+      add_residuals<T>(view_of(model, state, workspace, o, h), type, sum);
+    if (sum.count > 0) residuals.push_back(sum.residual(T::name));
+  });
+  const ErrorSum volumes = volume_errors(model, state, workspace, h);
   if (volumes.count > 0) residuals.push_back(volumes.residual("volume"));
   return residuals;
 }
 
-Stretch measure_stretch(const Model& model, const State& state) {
-  std::vector<float> ratios;
+void measure_lengths(const Model& model, const State& state, const Workspace& workspace, float h, Lengths& lengths) {
+  lengths.stretch = {};
+  lengths.overstretch = {};
+  lengths.ratios.clear();
+  lengths.excesses.clear();
   double sum = 0;
-  for (std::size_t o = 0; o < model.objects.size(); ++o) {
-    const CompiledObject& object = model.objects[o];
-    for (std::size_t p = 0; p < object.pools.size(); ++p) {
-      bool is_distance = false;
-      with_type(AllConstraints{}, object.pools[p].type,
-                [&](auto tag) { is_distance = std::is_same_v<typename decltype(tag)::type, Distance>; });
-      if (!is_distance) continue;
-      for_constraints<Distance>(object, object.pools[p], static_cast<int>(p), state.positions.data() + model.first[o],
-                                [&](const auto& x, const auto& params, float, auto) {
-                                  if (!(params.rest_length > 0)) return;
-                                  const Vec3f d = x[1] - x[0];
-                                  ratios.push_back(std::sqrt(dot(d, d)) / params.rest_length);
-                                  sum += ratios.back();
-                                });
+  for_each_type(AllConstraints{}, [&](auto tag, int type) {
+    if constexpr (std::is_same_v<typename decltype(tag)::type, Distance>) {
+      for (std::size_t o = 0; o < model.objects.size(); ++o)
+        add_lengths(view_of(model, state, workspace, o, h), static_cast<int>(o), type, lengths, sum);
     }
-  }
-  if (ratios.empty()) return {};
-  Stretch stretch;
-  stretch.mean = sum / static_cast<double>(ratios.size());
-  const auto at_p99 = ratios.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(ratios.size() - 1));
-  std::nth_element(ratios.begin(), at_p99, ratios.end());
-  stretch.p99 = *at_p99;
-  stretch.largest = *std::max_element(at_p99, ratios.end());
-  return stretch;
+  });
+  if (lengths.ratios.empty()) return;
+  lengths.stretch.mean = sum / static_cast<double>(lengths.ratios.size());
+  lengths.stretch.p99 = take_p99(lengths.ratios);
+  lengths.stretch.largest = *std::max_element(lengths.ratios.begin(), lengths.ratios.end());
+  if (!lengths.excesses.empty()) lengths.overstretch.p99 = take_p99(lengths.excesses);
 }
 
 double measure_volume(const CompiledObject& object, const Record* positions) {

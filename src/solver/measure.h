@@ -13,8 +13,15 @@ namespace pliant {
 /// they were kept; `h` is the substep they belong to [s].
 std::vector<Residual> measure_residuals(const Model& model, const State& state, const Workspace& workspace, float h);
 
-/// Length over rest length of all distance constraints with a rest length.
-Stretch measure_stretch(const Model& model, const State& state);
+/// What measure_lengths has found, and the room it needs: kept, so that measuring each frame allocates once.
+struct Lengths {
+  Stretch stretch;          ///< of all distance constraints with a rest length
+  Overstretch overstretch;  ///< of those but PBD; multipliers and h as in measure_residuals
+  std::vector<float> ratios, excesses;
+};
+
+/// Measures all distance constraints with a rest length.
+void measure_lengths(const Model& model, const State& state, const Workspace& workspace, float h, Lengths& lengths);
 
 /// Enclosed volume of an object's triangles [m^3].
 double measure_volume(const CompiledObject& object, const Record* positions);

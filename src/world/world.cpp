@@ -15,6 +15,7 @@
 #include "solver/step.h"
 #include "solver/sweeps/chains.h"
 #include "solver/sweeps/sweep.h"
+#include "world/advice.h"
 #include "world/inspect_scene.h"
 #include "world/sha256.h"
 
@@ -24,6 +25,13 @@ namespace {
 
 const Kernels& kernels_for(const Settings& settings) {
   return settings.sweep == Sweep::sequential ? kernels_sequential() : pick_kernels(settings.isa);
+}
+
+/// Those that are asked for; else those that a second pass needs or that say how much of a length is meant.
+Multipliers kept_multipliers(const Settings& settings) {
+  if (settings.record_multipliers || settings.record_residuals) return Multipliers::all;
+  const bool more_passes = settings.iterations * sweep_method(settings.sweep).passes > 1;
+  return more_passes || settings.measure ? Multipliers::needed : Multipliers::none;
 }
 
 /// So many frames no run takes; counting on from there stays far from the end of the integers.
@@ -59,11 +67,7 @@ struct World::Implementation {
     }
     if (model.first.empty()) model.first.push_back(0);
     state = initial_state(model);
-    prepare(model,
-            settings.record_multipliers || settings.record_residuals        ? Multipliers::all
-            : settings.iterations * sweep_method(settings.sweep).passes > 1 ? Multipliers::needed
-                                                                            : Multipliers::none,
-            workspace);
+    prepare(model, kept_multipliers(settings), workspace);
     prepare_sweep(model, settings, workspace);
     prepare_chains(model, executor.threads(), workspace);
     if (settings.tolerance > 0) prepare_residual(model, workspace.residual);
@@ -91,6 +95,12 @@ struct World::Implementation {
     return out;
   }
 
+  Lengths measured_lengths() const {
+    Lengths measured;
+    measure_lengths(model, state, workspace, last_h, measured);
+    return measured;
+  }
+
   Posef collider_pose_now(int index) const {
     if (index < 0 || index >= static_cast<int>(model.colliders.size())) {
       throw Error({}, "there is no collider " + std::to_string(index), "use an index that Scene::add returned");
@@ -104,6 +114,7 @@ struct World::Implementation {
   Model model;
   State state;
   Workspace workspace;
+  Lengths lengths;
   float last_h = 1;
   bool stopped = false;
 };
@@ -142,7 +153,10 @@ Report World::step(float dt) {
   self_->stopped = report.nonfinite.has_value();
   if (self_->settings.measure) {
     report.residuals = residuals();
-    report.stretch = stretch();
+    Lengths& lengths = self_->lengths;
+    measure_lengths(self_->model, self_->state, self_->workspace, self_->last_h, lengths);
+    report.stretch = lengths.stretch;
+    report.overstretch = lengths.overstretch;
   }
   return report;
 }
@@ -250,7 +264,20 @@ double World::potential_energy() const {
 std::vector<Residual> World::residuals() const {
   return measure_residuals(self_->model, self_->state, self_->workspace, self_->last_h);
 }
-Stretch World::stretch() const { return measure_stretch(self_->model, self_->state); }
+Stretch World::stretch() const { return self_->measured_lengths().stretch; }
+Overstretch World::overstretch() const { return self_->measured_lengths().overstretch; }
+
+std::string World::describe(const Overstretch& found) const {
+  return found.object < 0 ? std::string() : words_of(found, self_->object(found.object));
+}
+
+std::string World::advice(const Report& report) const {
+  if (!report.overstretch || !(report.overstretch->largest > tolerated_overstretch)) return {};
+  const std::string sweep = self_->settings.sweep == Sweep::chains ? "" : " or the sweep 'chains'";
+  return describe(*report.overstretch) + "; more than " + std::to_string(self_->settings.substeps) + " substeps" + sweep +
+         " may bring that down: 'pliant check', or advise(), tries how many it takes";
+}
+
 double World::enclosed_volume(int object) const {
   return measure_volume(self_->object(object), self_->positions_of(object));
 }

@@ -192,6 +192,19 @@ TEST_F(Command, CheckFindsNothingWrongInASoundScene) {
   EXPECT_NE(result.out.find("1 object of 144 particles, 1 x 0 x 1 m"), std::string::npos) << result.out;
 }
 
+TEST_F(Command, CheckRunsASceneAndNamesWhatWouldMendIt) {
+  std::ofstream(folder_ / "sagging.json") << R"({"frames": 20, "settings": {"substeps": 2}, "objects": [{"name": "sheet",
+      "cloth": {"mesh": {"grid": {"columns": 12, "rows": 12, "width": 1, "depth": 1}}, "stretch": {"compliance": 0}},
+      "pins": [{"particles": [0, 11]}]}]})";
+  const Result result = pliant("check sagging.json --seconds 600");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("doubtful: in frame "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("object 'sheet': stretched "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(" it under 1 %; as it is it takes "), std::string::npos) << result.out;
+  EXPECT_EQ(pliant("check sagging.json --seconds 0").out.find("stretched"), std::string::npos) << "not run at all";
+  expect_refused("check sagging.json --seconds -1", 2, "seconds");
+}
+
 TEST_F(Command, CheckTellsAMeshItsSizeAndWhatWasMended) {
   std::ofstream(folder_ / "patch.obj") << "v 0 0 0\nv 0 0 20\nv 30 0 0\nv 9 9 9\nf 1 2 3\n";
   const Result result = pliant("check patch.obj");

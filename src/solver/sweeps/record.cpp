@@ -2,27 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "constraints/all.h"
 #include "solver/frame.h"
-#include "solver/project.h"
+#include "solver/visit.h"
 #include "solver/volume.h"
 
 namespace pliant {
 
 namespace {
-
-struct Sum {
-  double squares = 0, largest = 0;
-  std::int64_t count = 0;
-  void add(double value) {
-    squares += value * value;
-    largest = std::max(largest, std::fabs(value));
-    ++count;
-  }
-  double rms() const { return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0; }
-};
 
 /// One object at one iteration.
 struct View {
@@ -35,14 +23,7 @@ struct View {
 
 /// One constraint, in double: its residual, and what its multiplier moves.
 template <class T>
-double visit(const View& view, const Pool& pool, std::int64_t batch, int lane, const std::int32_t (&particle)[T::size],
-             double multiplier) {
-  constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
-  double rest[fields];
-  for (int field = 0; field < fields; ++field) rest[field] = static_cast<double>(pool.row(field, batch)[lane]);
-  typename T::template Params<double> params;
-  static_assert(sizeof rest == sizeof params);
-  std::memcpy(&params, rest, sizeof params);
+double look_at(const View& view, const ConstraintPlace& at, const std::int32_t (&particle)[T::size], double multiplier) {
   Vec3d x[T::size], gradient[T::size];
   const Record& origin = view.arguments.positions[particle[0]];
   for (int slot = 0; slot < T::size; ++slot) {
@@ -50,36 +31,26 @@ double visit(const View& view, const Pool& pool, std::int64_t batch, int lane, c
     x[slot] = {double(p.x) - double(origin.x) + double(d.x), double(p.y) - double(origin.y) + double(d.y),
                double(p.z) - double(origin.z) + double(d.z)};
   }
-  const double c = T::template evaluate<double>(x, params, gradient);
+  const double c = T::template evaluate<double>(x, rest_data<T, double>(at), gradient);
   for (int slot = 0; slot < T::size; ++slot) {
     const double w = static_cast<double>(view.arguments.positions[particle[slot]].w);
     view.explained[particle[slot]] += gradient[slot] * (w * multiplier);
-    if (pool.law == Law::pbd) view.left_out[particle[slot]] = 1;
+    if (at.pool.law == Law::pbd) view.left_out[particle[slot]] = 1;
   }
-  if (pool.law == Law::pbd) return c;
-  const double compliance = double(pool.row(fields, batch)[lane]) * double(view.arguments.inverse_h2);
-  return c + std::min(compliance, double(largest_compliance)) * multiplier;
+  return at.pool.law == Law::pbd ? c : c + softness<T>(at, double(view.arguments.inverse_h2)) * multiplier;
 }
 
 template <class T>
-void add_segment(const View& view, const Segment& segment, Sum& sum) {
-  const Pool& pool = view.object.pools[segment.pool];
-  const bool has = view.multipliers != nullptr && !view.multipliers->empty() && !(*view.multipliers)[segment.pool].empty();
-  const std::int32_t* index = pool.indices.data() + segment.index_offset;
-  for (int b = 0; b < segment.batches; ++b, index += indices_per_batch(pool, segment)) {
-    const std::int64_t batch = std::int64_t{segment.first_batch} + b;
-    for (int lane = 0; lane < batch_width; ++lane) {
-      if (!lane_is_valid(segment, b, lane)) continue;
-      std::int32_t particle[T::size];
-      for (int slot = 0; slot < T::size; ++slot) particle[slot] = particle_of(segment, index, slot, lane);
-      const double multiplier =
-          has ? static_cast<double>((*view.multipliers)[segment.pool][batch * batch_width + lane]) : 0;
-      sum.add(visit<T>(view, pool, batch, lane, particle, multiplier));
-    }
-  }
+void add_constraints(const View& view, int type, ErrorSum& sum) {
+  for_constraints<T>(view.object, type, [&](const ConstraintPlace& at, const auto& particle) {
+    const bool has =
+        view.multipliers != nullptr && !view.multipliers->empty() && !(*view.multipliers)[at.pool_number].empty();
+    const double multiplier = has ? static_cast<double>((*view.multipliers)[at.pool_number][at.lane_in_pool()]) : 0;
+    sum.add(look_at<T>(view, at, particle, multiplier));
+  });
 }
 
-void add_volume(const View& view, double multiplier, Sum& sum) {
+void add_volume(const View& view, double multiplier, ErrorSum& sum) {
   if (!view.object.has_volume) return;
   Records places(view.arguments.positions, view.arguments.positions + view.object.particles);
   for (int i = 0; i < view.object.particles; ++i) {
@@ -97,7 +68,7 @@ void add_volume(const View& view, double multiplier, Sum& sum) {
 }
 
 /// Displacements since the prediction that no multiplier explains.
-void add_unexplained(const View& view, const Record* predicted, Sum& sum) {
+void add_unexplained(const View& view, const Record* predicted, ErrorSum& sum) {
   for (int i = 0; i < view.object.particles; ++i) {
     if (!(view.arguments.positions[i].w > 0) || view.left_out[i] != 0) continue;
     const Record &d = view.arguments.displacements[i], &p = predicted[i];
@@ -106,8 +77,6 @@ void add_unexplained(const View& view, const Record* predicted, Sum& sum) {
     sum.add(std::sqrt(dot(rest, rest)));
   }
 }
-
-Residual residual_of(const std::string& type, const Sum& sum) { return {type, sum.count, sum.rms(), sum.largest}; }
 
 void leave_out_contacts(Frame& frame, std::vector<std::vector<char>>& left_out) {
   for (std::size_t task = 0; task < frame.model().tiles.size(); ++task) {
@@ -139,20 +108,16 @@ void record_iteration(Frame& frame, int iteration) {
   found.iteration = iteration;
   for_each_type(AllConstraints{}, [&](auto tag, int type) {
     using T = typename decltype(tag)::type;
-    Sum sum;
-    for (const View& view : views) {
-      for (const Segment& segment : view.object.segments) {
-        if (view.object.pools[segment.pool].type == type) add_segment<T>(view, segment, sum);
-      }
-    }
-    if (sum.count > 0) found.primal.push_back(residual_of(T::name, sum));
+    ErrorSum sum;
+    for (const View& view : views) add_constraints<T>(view, type, sum);
+    if (sum.count > 0) found.primal.push_back(sum.residual(T::name));
   });
-  Sum volumes, dual;
+  ErrorSum volumes, dual;
   for (std::size_t o = 0; o < objects; ++o) {
     add_volume(views[o], iteration > 0 ? work.volume_multipliers[o] : 0, volumes);
     add_unexplained(views[o], work.sweep.predicted.data() + model.first[o], dual);
   }
-  if (volumes.count > 0) found.primal.push_back(residual_of("volume", volumes));
+  if (volumes.count > 0) found.primal.push_back(volumes.residual("volume"));
   found.dual_rms = dual.rms();
   found.dual_largest = dual.largest;
   frame.report().convergence.push_back(std::move(found));

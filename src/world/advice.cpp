@@ -1,0 +1,72 @@
+#include "world/advice.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "constraints/all.h"
+#include "solver/visit.h"
+
+namespace pliant {
+
+namespace {
+
+/// Up to so many edges from a pin counts as near it.
+constexpr int near_edges = 3;
+
+std::vector<std::array<int, 2>> edges_of(const CompiledObject& object) {
+  std::vector<std::array<int, 2>> edges;
+  for_each_type(AllConstraints{}, [&](auto tag, int type) {
+    if constexpr (std::is_same_v<typename decltype(tag)::type, Distance>) {
+      for_constraints<Distance>(object, type, [&](const ConstraintPlace&, const auto& particle) {
+        edges.push_back({particle[0], particle[1]});
+      });
+    }
+  });
+  return edges;
+}
+
+/// Of the user's own: the targets of attachments are fixed too, and are no pins.
+std::vector<char> pinned(const CompiledObject& object) {
+  std::vector<char> is_pinned(object.positions.size(), 0);
+  for (std::size_t i = 0; i < is_pinned.size(); ++i)
+    is_pinned[i] = object.positions[i].w == 0 && object.order[i] < object.user_particles ? 1 : 0;
+  return is_pinned;
+}
+
+/// How many edges the nearest pin is away from either particle, by rounds over all edges; -1: more than near_edges.
+int edges_to_pins(const CompiledObject& object, int a, int b) {
+  const std::vector<std::array<int, 2>> edges = edges_of(object);
+  std::vector<char> reached = pinned(object);
+  for (int away = 0; away <= near_edges; ++away) {
+    if (reached[a] != 0 || reached[b] != 0) return away;
+    std::vector<char> next = reached;
+    for (const auto& [from, to] : edges) {
+      if (reached[from] != 0 || reached[to] != 0) next[from] = next[to] = 1;
+    }
+    reached = std::move(next);
+  }
+  return -1;
+}
+
+}  // namespace
+
+std::string percent(double share) {
+  char text[32];
+  const double value = 100 * share;
+  std::snprintf(text, sizeof text, std::fabs(value) < 99.5 ? "%.2g %%" : "%.0f %%", value);
+  return text;
+}
+
+std::string words_of(const Overstretch& found, const CompiledObject& object) {
+  const auto [a, b] = found.particles;
+  const int away = edges_to_pins(object, object.place[a], object.place[b]);
+  std::string text = "object '" + object.name + "': stretched " + percent(found.largest) + " too far ";
+  if (away >= 0) text += away == 0 ? "at its pins " : "near its pins ";
+  text += "(edge " + std::to_string(a) + "-" + std::to_string(b) + ")";
+  if (found.p99 >= tolerated_overstretch / 10) text += ", 1 edge in 100 by " + percent(found.p99) + " or more";
+  return text;
+}
+
+}  // namespace pliant

@@ -1,0 +1,311 @@
+// Trials: a scene run again and again, each time with more of something, until its distances are as long as they should be.
+//
+// Three families: the scene's own sweep, the same with tethers, and chains (with tethers), each with its substeps doubled
+// until it is good or can't be the cheapest any more; what is good is then tried with less. Most trials are short: one is
+// given up as soon as it is worse than the best before it.
+#include "pliant/advise.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "world/advice.h"
+
+namespace pliant {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int most_doublings = 6;
+constexpr int most_substeps = 10000;
+/// Of the scene's own overstretch, what another setting may leave and be called better.
+constexpr double clearly_better = 0.8;
+/// Of the time, for the scene as it is: what is left must do for the rest.
+constexpr double own_share = 0.3;
+
+Clock::time_point after(double seconds) {
+  const std::chrono::duration<double> limited(std::min(std::max(seconds, 0.0), 1e6));  // a clock has an end
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(limited);
+}
+
+void keep_worse(const Report& report, Trial& trial) {
+  Overstretch now = report.overstretch.value_or(Overstretch{});
+  if (!report.ok()) now.largest = now.p99 = std::numeric_limits<double>::infinity();
+  const double p99 = trial.frames == 1 ? now.p99 : std::max(now.p99, trial.worst.p99);
+  if (trial.frames == 1 || now.largest > trial.worst.largest) {
+    trial.worst = now;
+    trial.frame = report.frame;
+  }
+  trial.worst.p99 = p99;
+}
+
+/// What all trials of a scene share.
+class Trials {
+ public:
+  Trials(const Scene& scene, const AdviseOptions& options)
+      : scene_(scene),
+        frames_(std::max(1, std::min(options.frames, scene.frames))),
+        end_(after(options.seconds)),
+        own_end_(after(own_share * options.seconds)),
+        stops_(options.stops) {}
+
+  /// The scene as it is; from then on trials are as long as it got.
+  Trial run_own(std::string& words) {
+    Trial trial = run(scene_.settings, std::numeric_limits<double>::infinity(), own_end_, &words);
+    frames_ = trial.frames;
+    return trial;
+  }
+
+  /// Given up where it is worse than `bound` and than what is tolerated.
+  Trial run_other(const Settings& settings, double bound) const { return run(settings, bound, end_, nullptr); }
+
+  bool out_of_time() const { return is_over(end_); }
+
+ private:
+  static std::string in_words(const World& world, const Trial& trial, const Report& last) {
+    return last.ok() ? "in frame " + std::to_string(trial.frame) + ", " + world.describe(trial.worst) : last.explain();
+  }
+
+  Trial run(Settings settings, double bound, Clock::time_point end, std::string* words) const {
+    Trial trial;
+    trial.settings = settings;
+    settings.measure = true;
+    World world(scene_, settings);
+    Report last;
+    bool goes_on = true;
+    while (goes_on && trial.frames < frames_) {
+      last = world.step(scene_.frame_time);
+      ++trial.frames;
+      trial.milliseconds += (last.milliseconds - trial.milliseconds) / trial.frames;
+      keep_worse(last, trial);
+      const bool measurable = trial.worst.object >= 0;
+      goes_on = measurable && last.ok() && !(trial.worst.largest > std::max(bound, tolerated_overstretch)) && !is_over(end);
+      trial.complete = last.ok() && (trial.frames == frames_ || !measurable);
+    }
+    if (words != nullptr && trial.worst.largest > tolerated_overstretch) *words = in_words(world, trial, last);
+    return trial;
+  }
+
+  bool is_over(Clock::time_point end) const { return Clock::now() >= end || (stops_ && stops_()); }
+
+  const Scene& scene_;
+  int frames_;
+  Clock::time_point end_, own_end_;
+  std::function<bool()> stops_;
+};
+
+bool is_rigid(const Object& object) {
+  return std::all_of(object.constraints.begin(), object.constraints.end(), [](const ConstraintGroup& group) {
+    const auto is_zero = [](float alpha) { return alpha == 0; };
+    return group.type != "distance" || (group.stiffness.kind == Stiffness::Kind::compliance && group.stiffness.value == 0 &&
+                                        std::all_of(group.compliances.begin(), group.compliances.end(), is_zero));
+  });
+}
+
+/// Tethers bound what is inextensible; what is meant to stretch they would hold back.
+bool may_tether(const Scene& scene) {
+  bool pinned = false;
+  for (const Object& object : scene.objects) {
+    if (object.pins.empty()) continue;
+    pinned = true;
+    if (!is_rigid(object)) return false;
+  }
+  return pinned;
+}
+
+/// Sweeps that may do better than the scene's own.
+constexpr Sweep alternatives[] = {Sweep::chains};
+
+std::string name_of(Sweep sweep) {
+  const auto is_it = [&](const NamedSweep& named) { return named.sweep == sweep; };
+  return std::find_if(sweeps().begin(), sweeps().end(), is_it)->name;
+}
+
+/// A setting of which there may be more.
+struct Family {
+  Settings settings;  ///< of the next trial
+  bool open = true;   ///< not good so far, and perhaps with more
+  int good = -1;      ///< number of its last good trial
+};
+
+std::vector<Family> families_of(const Scene& scene) {
+  const Settings& own = scene.settings;
+  const bool may = may_tether(scene);
+  std::vector<Family> families;
+  for (Sweep alternative : alternatives) {
+    if (alternative == own.sweep) continue;
+    families.push_back({own});
+    families.back().settings.sweep = alternative;
+    families.back().settings.sweep_options.tethers = own.sweep_options.tethers || may;
+  }
+  if (may && !own.sweep_options.tethers) {
+    families.push_back({own});
+    families.back().settings.sweep_options.tethers = true;
+  }
+  if (2 * own.substeps <= most_substeps) {
+    families.push_back({own});
+    families.back().settings.substeps = 2 * own.substeps;
+  }
+  return families;
+}
+
+/// Tries what there is time for, and keeps what came of it.
+class Search {
+ public:
+  Search(const Scene& scene, const Trials& trials, Advice& advice)
+      : trials_(trials), advice_(advice), families_(families_of(scene)) {}
+
+  void run() {
+    for (int round = 0; round <= most_doublings; ++round)
+      for (Family& family : families_) try_next(family);
+    for (Family& family : families_) try_less(family);
+    advice_.best = best();
+  }
+
+ private:
+  double bound() const {
+    double bound = advice_.own.worst.largest;
+    for (const Trial& trial : advice_.others)
+      if (trial.complete) bound = std::min(bound, trial.worst.largest);
+    return bound;
+  }
+
+  /// The cheapest good trial; without one the one nearest to it that is clearly better than the scene's own; or -1.
+  int best() const {
+    int best = -1;
+    double least = clearly_better * advice_.own.worst.largest;
+    for (int i = 0; i < static_cast<int>(advice_.others.size()); ++i) {
+      const Trial &trial = advice_.others[i], *before = best < 0 ? nullptr : &advice_.others[best];
+      if (!trial.complete) continue;
+      const bool good = is_good(trial), was_good = before != nullptr && is_good(*before);
+      const bool better =
+          good && was_good ? trial.milliseconds < before->milliseconds : good || (!was_good && trial.worst.largest < least);
+      if (!better) continue;
+      best = i;
+      least = trial.worst.largest;
+    }
+    return best;
+  }
+
+  /// False, and time noted as out, where it is.
+  bool has_time() {
+    if (!trials_.out_of_time()) return true;
+    advice_.cut_short = true;
+    return false;
+  }
+
+  bool try_out(Family& family) {
+    advice_.others.push_back(trials_.run_other(family.settings, bound()));
+    const Trial& trial = advice_.others.back();
+    if (!trial.complete && trials_.out_of_time()) advice_.cut_short = true;
+    if (!is_good(trial)) return false;
+    family.good = static_cast<int>(advice_.others.size()) - 1;
+    return true;
+  }
+
+  /// Twice the substeps cost about twice as much: a family that would be dearer than what is good already is closed.
+  void try_next(Family& family) {
+    if (!family.open || !has_time()) return;
+    const bool good = try_out(family);
+    const int found = best();
+    const bool dearer = found >= 0 && is_good(advice_.others[found]) &&
+                        2 * advice_.others.back().milliseconds > advice_.others[found].milliseconds;
+    family.open = !good && !dearer && 2 * family.settings.substeps <= most_substeps;
+    if (family.open) family.settings.substeps *= 2;
+  }
+
+  /// Half of what was good, as long as that is; then three quarters of the least that was.
+  void try_less(Family& family) {
+    if (family.good < 0) return;
+    const bool was_doubled = family.settings.substeps > advice_.own.settings.substeps;
+    while (!was_doubled && has_time() && halve(family)) {
+    }
+    Settings least = advice_.others[family.good].settings;
+    least.substeps = 3 * least.substeps / 4;
+    family.settings = least;
+    if (least.substeps > 0 && has_time()) try_out(family);
+  }
+
+  bool halve(Family& family) {
+    family.settings.substeps = advice_.others[family.good].settings.substeps / 2;
+    return family.settings.substeps > 0 && try_out(family);
+  }
+
+  const Trials& trials_;
+  Advice& advice_;
+  std::vector<Family> families_;
+};
+
+// ---------------------------------------------------------------- words
+
+/// "40 substeps", "20 substeps of the sweep 'chains' with tethers".
+std::string setting_in_words(const Trial& trial, const Settings& own) {
+  std::string text = std::to_string(trial.settings.substeps) + (trial.settings.substeps == 1 ? " substep" : " substeps");
+  if (trial.settings.sweep != own.sweep) text += " of the sweep '" + name_of(trial.settings.sweep) + "'";
+  if (trial.settings.sweep_options.tethers && !own.sweep_options.tethers) text += " with tethers";
+  return text;
+}
+
+std::string cost_in_words(const Trial& trial) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g ms a frame", trial.milliseconds);
+  return text;
+}
+
+/// The cheapest good trial of another kind than the best, or -1.
+int runner_up(const Advice& advice) {
+  const auto kind = [](const Trial& t) { return std::make_pair(t.settings.sweep, t.settings.sweep_options.tethers); };
+  int found = -1;
+  for (int i = 0; i < static_cast<int>(advice.others.size()); ++i) {
+    const Trial& trial = advice.others[i];
+    if (!is_good(trial) || kind(trial) == kind(advice.others[advice.best])) continue;
+    if (found < 0 || trial.milliseconds < advice.others[found].milliseconds) found = i;
+  }
+  return found;
+}
+
+std::string setting_and_cost(const Advice& advice, int trial) {
+  const Trial& of = advice.others[trial];
+  return setting_in_words(of, advice.own.settings) + " (" + cost_in_words(of) + ")";
+}
+
+std::string remedy(const Advice& advice) {
+  const std::string tried = advice.cut_short ? " in the time there was" : "";
+  if (advice.best < 0) {
+    if (advice.others.empty()) return "no other setting could be tried" + tried;
+    return "none of " + std::to_string(advice.others.size()) + " other settings tried" + tried +
+           " brings it down: what holds it or pushes it may leave it no other way, or it needs more substeps still";
+  }
+  const Trial& best = advice.others[advice.best];
+  const std::string setting = setting_and_cost(advice, advice.best), before = cost_in_words(advice.own);
+  if (!is_good(best)) {
+    return "the best found" + tried + ", " + setting + ", brings it to " + percent(best.worst.largest) +
+           ", 1 edge in 100 to " + percent(best.worst.p99) + "; as it is it takes " + before;
+  }
+  const int other = runner_up(advice);
+  const std::string alternative = other < 0 ? "" : " or " + setting_and_cost(advice, other);
+  return setting + alternative + (other < 0 && best.settings.substeps == 1 ? " brings" : " bring") + " it under " +
+         percent(tolerated_overstretch) + "; as it is it takes " + before +
+         (advice.cut_short ? "; there was no time to look for cheaper ones" : "");
+}
+
+}  // namespace
+
+bool is_good(const Trial& trial) { return trial.complete && trial.worst.largest <= tolerated_overstretch; }
+
+Advice advise(const Scene& scene, const AdviseOptions& options) {
+  Advice advice;
+  Trials trials(scene, options);
+  advice.own = trials.run_own(advice.words);
+  advice.cut_short = !advice.own.complete && std::isfinite(advice.own.worst.largest);
+  if (advice.words.empty()) return advice;
+  Search(scene, trials, advice).run();
+  advice.what_to_do = remedy(advice);
+  return advice;
+}
+
+}  // namespace pliant

@@ -1,0 +1,281 @@
+// What a solve left undone: measured against known answers, said in words, and mended by settings that were really tried.
+#include "pliant/advise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/scenes.h"
+
+namespace pliant {
+namespace {
+
+using namespace testing_support;
+
+constexpr float dt = 1.f / 60;
+const AdviseOptions unhurried{1e6, 120, {}};
+
+Settings measuring(int substeps, int iterations = 1) {
+  Settings settings = settings_of(substeps, iterations);
+  settings.measure = true;
+  return settings;
+}
+
+/// A weight of 1 kg that hangs from a pin by one link of 1 m.
+Scene weight_on(const Stiffness& stiffness) {
+  Scene scene;
+  Object object = chain(2, 1, stiffness);
+  object.positions[1] = {0, -1, 0};
+  object.pins = {{0, {}}};
+  scene.add(object);
+  return scene;
+}
+
+// ---------------------------------------------------------------- the measure
+
+TEST(Overstretch, OfRigidLinksIsTheirStretch) {
+  Scene scene;
+  Object object = chain(5, 0.1f);
+  object.constraints[0].rest = {0.1f, 0.1f, 0.08f, 0.1f};
+  scene.add(object);
+  const Overstretch found = World(scene).overstretch();
+  EXPECT_NEAR(found.largest, 0.25, 1e-6);
+  EXPECT_EQ(found.object, 0);
+  EXPECT_EQ(found.particles[0] + found.particles[1], 5);
+  EXPECT_EQ(std::abs(found.particles[0] - found.particles[1]), 1) << "particles 2 and 3, in either order";
+}
+
+TEST(Overstretch, OfWhatIsMeantToStretchIsNothing) {
+  for (float damping : {0.f, 0.2f}) {
+    Scene scene = weight_on(Stiffness::compliance(0.05f, damping));  // 0.49 m longer at rest, and it swings up and down
+    World world(scene, measuring(10));
+    double longest = 1;
+    for (int frame = 0; frame < 120; ++frame) {
+      const Report report = world.step(dt);
+      longest = std::max(longest, report.stretch->largest);
+      EXPECT_NEAR(report.overstretch->largest, 0, 2e-4) << "frame " << frame << ", damping " << damping;
+      EXPECT_EQ(world.advice(report), "");
+    }
+    EXPECT_GT(longest, 1.4) << "or this shows nothing";
+  }
+}
+
+TEST(Overstretch, SeesAForceThatWasNotReached) {
+  Scene scene;
+  Object object = chain(30, 0.1f, Stiffness::compliance(1e-7f));
+  object.pins = {{0, {}}};
+  scene.add(object);
+  World few(scene, measuring(2)), many(scene, measuring(200, 4));
+  double left_by_few = 0, left_by_many = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    left_by_few = std::max(left_by_few, few.step(dt).overstretch->largest);
+    left_by_many = std::max(left_by_many, many.step(dt).overstretch->largest);
+  }
+  EXPECT_GT(left_by_few, 0.05);
+  EXPECT_LT(left_by_many, 0.005);
+}
+
+TEST(Overstretch, LeavesOutPbdAndWhatHasNoLength) {
+  Scene scene = weight_on(Stiffness::pbd(0.01f));
+  scene.objects[0].attachments.push_back({1, {0, -3, 0}, {}, Stiffness::rigid()});
+  World world(scene, measuring(2));
+  const Report report = world.step(dt);
+  EXPECT_GT(report.stretch->largest, 1.5);
+  EXPECT_EQ(report.overstretch->object, -1);
+  EXPECT_EQ(world.advice(report), "");
+  EXPECT_EQ(world.describe(*report.overstretch), "");
+}
+
+TEST(Overstretch, LeavesOneInAHundredAbove) {
+  Scene scene;
+  Object object = chain(301, 0.1f);
+  object.constraints[0].rest.assign(300, 0.1f);
+  for (int i : {7, 100, 222}) object.constraints[0].rest[i] = 0.05f;
+  for (int i : {20, 21}) object.constraints[0].rest[i] = 0.099f;
+  scene.add(object);
+  const Overstretch found = World(scene).overstretch();
+  EXPECT_NEAR(found.largest, 1, 1e-3);
+  EXPECT_NEAR(found.p99, 0.0101, 1e-3);
+}
+
+// ---------------------------------------------------------------- words
+
+TEST(Words, SayWhereAndHowMuch) {
+  Scene scene;
+  Object object = chain(20, 0.1f);
+  object.name = "leash";
+  object.pins = {{0, {}}};
+  object.attachments.push_back({19, {3, 0, 0}, {}, Stiffness::rigid()});
+  scene.add(object);
+  const World world(scene);
+  EXPECT_EQ(world.describe({0.031, 0.144, 0, {0, 1}}),
+            "object 'leash': stretched 14 % too far at its pins (edge 0-1), 1 edge in 100 by 3.1 % or more");
+  EXPECT_EQ(world.describe({0, 0.144, 0, {2, 1}}), "object 'leash': stretched 14 % too far near its pins (edge 2-1)");
+  EXPECT_EQ(world.describe({0, 2, 0, {3, 4}}), "object 'leash': stretched 200 % too far near its pins (edge 3-4)");
+  EXPECT_EQ(world.describe({0, 0.02, 0, {4, 5}}), "object 'leash': stretched 2 % too far (edge 4-5)");
+  EXPECT_EQ(world.describe({0, 0.02, 0, {18, 19}}), "object 'leash': stretched 2 % too far (edge 18-19)")
+      << "a target is no pin";
+}
+
+TEST(Words, OfAReportComeFromItsFigures) {
+  Scene scene = weight_on(Stiffness::rigid());
+  scene.settings = measuring(7);
+  World world(scene);
+  Report report = world.step(dt);
+  EXPECT_EQ(world.advice(report), "");
+  report.overstretch = Overstretch{0, 0.02, 0, {{0, 1}}};
+  const std::string words = world.advice(report);
+  EXPECT_EQ(words.rfind("object 'chain': stretched 2 % too far at its pins (edge 0-1); more than 7 substeps", 0), 0U)
+      << words;
+  EXPECT_NE(words.find("chains"), std::string::npos);
+  report.overstretch->largest = tolerated_overstretch;
+  EXPECT_EQ(world.advice(report), "");
+  report.overstretch.reset();
+  EXPECT_EQ(world.advice(report), "") << "nothing measured";
+  scene.settings.measure = false;
+  EXPECT_FALSE(World(scene).step(dt).overstretch.has_value());
+}
+
+// ---------------------------------------------------------------- trials
+
+Scene hanging_sheet(int n, const Stiffness& stretch, int substeps) {
+  Scene scene;
+  ClothOptions options;
+  options.name = "sheet";
+  options.stretch = stretch;
+  scene.add_cloth(grid_mesh(n, n, 1, 1), options);
+  scene.pin(0, {0, n - 1});
+  scene.settings = settings_of(substeps);
+  scene.frames = 30;
+  return scene;
+}
+
+/// The largest stretch of any frame, by another way than that of a trial.
+double largest_stretch(const Scene& scene, const Settings& settings) {
+  World world(scene, settings);
+  double largest = 1;
+  for (int frame = 0; frame < scene.frames; ++frame) {
+    world.step(scene.frame_time);
+    largest = std::max(largest, world.stretch().largest);
+  }
+  return largest;
+}
+
+TEST(Advise, NamesASettingThatReallyHelps) {
+  const Scene scene = hanging_sheet(12, Stiffness::rigid(), 2);
+  const Advice advice = advise(scene, unhurried);
+  EXPECT_FALSE(advice.cut_short);
+  EXPECT_FALSE(is_good(advice.own));
+  EXPECT_NEAR(1 + advice.own.worst.largest, largest_stretch(scene, scene.settings), 1e-6);
+  ASSERT_GE(advice.best, 0);
+  const Trial& best = advice.others[advice.best];
+  ASSERT_TRUE(is_good(best));
+  EXPECT_LE(largest_stretch(scene, best.settings), 1 + tolerated_overstretch);
+  EXPECT_EQ(best.frames, scene.frames);
+  for (const Trial& trial : advice.others) {
+    EXPECT_TRUE(!is_good(trial) || trial.milliseconds >= best.milliseconds);
+  }
+  EXPECT_EQ(advice.words.rfind("in frame ", 0), 0U) << advice.words;
+  EXPECT_NE(advice.words.find("object 'sheet': stretched "), std::string::npos) << advice.words;
+  EXPECT_NE(advice.words.find("its pins"), std::string::npos) << advice.words;
+  EXPECT_NE(advice.what_to_do.find(std::to_string(best.settings.substeps) + " substep"), std::string::npos);
+  EXPECT_NE(advice.what_to_do.find("under 1 %"), std::string::npos) << advice.what_to_do;
+}
+
+TEST(Advise, FindsTheLeastOfWhatHelps) {
+  // Chains hold a rope at 20 substeps and with far fewer: less is tried too, and more than is needed is not.
+  Scene scene;
+  scene.add(chain(40, 0.02f));
+  scene.pin(0, {0});
+  scene.settings = settings_of(24);
+  scene.frames = 20;
+  const Advice advice = advise(scene, unhurried);
+  ASSERT_GE(advice.best, 0);
+  int least = 24;
+  for (const Trial& trial : advice.others)
+    if (trial.settings.sweep == Sweep::chains && is_good(trial)) least = std::min(least, trial.settings.substeps);
+  EXPECT_LT(least, 24);
+  Settings fewer = scene.settings;
+  fewer.sweep = Sweep::chains;
+  fewer.sweep_options.tethers = true;
+  fewer.substeps = std::max(1, least / 2);
+  EXPECT_GT(largest_stretch(scene, fewer), 1 + tolerated_overstretch) << least << " substeps were good";
+}
+
+TEST(Advise, SaysNothingWhereNothingIsTheMatter) {
+  const Advice fine = advise(hanging_sheet(8, Stiffness::rigid(), 150), unhurried);
+  EXPECT_TRUE(is_good(fine.own));
+  EXPECT_EQ(fine.words + fine.what_to_do, "");
+  EXPECT_TRUE(fine.others.empty());
+  Scene nothing;
+  nothing.frames = 100;
+  EXPECT_EQ(advise(nothing, unhurried).words, "");
+  EXPECT_EQ(advise(nothing, unhurried).own.frames, 1) << "no length to look at";
+}
+
+TEST(Advise, LetsRubberStretch) {
+  const Scene scene = hanging_sheet(8, Stiffness::compliance(0.05f), 40);
+  EXPECT_GT(largest_stretch(scene, scene.settings), 1.1) << "or this shows nothing";
+  EXPECT_EQ(advise(scene, unhurried).words, "");
+  for (const Trial& trial : advise(hanging_sheet(8, Stiffness::compliance(1e-4f), 1), unhurried).others)
+    EXPECT_FALSE(trial.settings.sweep_options.tethers) << "they would hold back what is meant to stretch";
+}
+
+TEST(Advise, KnowsWhenNothingHelps) {
+  Scene scene;
+  scene.add(chain(6, 0.2f));
+  scene.pin(0, {0});
+  scene.pin(0, {5}, straight({0.5f, 0, 0}, 0.2f));
+  scene.settings = settings_of(4);
+  scene.frames = 20;
+  const Advice advice = advise(scene, unhurried);
+  EXPECT_EQ(advice.best, -1);
+  EXPECT_GT(advice.others.size(), 3U);
+  EXPECT_NE(advice.what_to_do.find("none of " + std::to_string(advice.others.size())), std::string::npos)
+      << advice.what_to_do;
+}
+
+TEST(Advise, SaysWhatIsNotFinite) {
+  Scene scene = hanging_sheet(6, Stiffness::rigid(), 2);
+  scene.forces.push_back([](const Vec3f&, const Vec3f&, float, float time) {
+    return Vec3f{time > 0.1f ? 3e38f : 0, 0, 0};
+  });
+  const Advice advice = advise(scene, unhurried);
+  EXPECT_FALSE(is_good(advice.own));
+  EXPECT_FALSE(advice.own.complete);
+  EXPECT_NE(advice.words.find("not finite"), std::string::npos) << advice.words;
+  EXPECT_EQ(advice.best, -1);
+}
+
+TEST(Advise, StopsWhenItsTimeIsOutAndSaysSo) {
+  const Advice none = advise(hanging_sheet(12, Stiffness::rigid(), 1), {0, 120, {}});
+  EXPECT_TRUE(none.cut_short);
+  EXPECT_EQ(none.own.frames, 1);
+  EXPECT_TRUE(none.others.empty());
+  Scene scene = hanging_sheet(40, Stiffness::rigid(), 1);
+  scene.gravity = {0, -1000, 0};  // bad in its first frame
+  const Advice cut = advise(scene, {0, 120, {}});
+  EXPECT_TRUE(cut.cut_short);
+  EXPECT_NE(cut.words, "");
+  EXPECT_NE(cut.what_to_do.find("in the time there was"), std::string::npos) << cut.what_to_do;
+}
+
+TEST(Advise, StopsWhenItIsTold) {
+  int frames = 0;
+  const Advice told = advise(hanging_sheet(12, Stiffness::rigid(), 2), {1e6, 120, [&] { return ++frames >= 5; }});
+  EXPECT_TRUE(told.cut_short);
+  EXPECT_EQ(told.own.frames, 5);
+  EXPECT_TRUE(told.others.empty());
+}
+
+TEST(Advise, GivesTheSameFiguresAgain) {
+  const Scene scene = hanging_sheet(10, Stiffness::rigid(), 3);
+  const Advice first = advise(scene, unhurried), second = advise(scene, {1e6, 30, {}});
+  EXPECT_EQ(first.words, second.words);
+  EXPECT_EQ(first.own.worst.largest, second.own.worst.largest);
+  ASSERT_FALSE(first.others.empty());
+  EXPECT_EQ(first.others[0].worst.largest, second.others[0].worst.largest);
+}
+
+}  // namespace
+}  // namespace pliant
