@@ -191,7 +191,16 @@ void engine_rows(Result& result) {
   };
   add("Gauss-Seidel, natural order", 1741, engine_sweeps(Sweep::natural, {}, 2500));
   add("Gauss-Seidel, red-black", 2094, engine_sweeps(Sweep::tiled, {}, 2500));
+  // Two constraints share each inner particle, which halves every step: 1 - rho is halved, and Chebyshev goes with its root.
+  add("Jacobi, half steps", 2 * 3495, engine_sweeps(Sweep::jacobi, {}, 9000));
+  // There and back over two colours is one way: the second colour twice in a row, then the first twice.
+  add("Gauss-Seidel, symmetric over red-black", 2094, engine_sweeps(Sweep::symmetric, {}, 2500));
   add("over-relaxed Gauss-Seidel", 125, engine_sweeps(Sweep::natural, over, 200));
+  add("Chebyshev over Jacobi, half steps", std::sqrt(2.0) * 232,
+      engine_sweeps(Sweep::jacobi, chebyshev((1 + jacobi_radius) / 2, 1), 500));
+  SweepOptions whole = chebyshev(jacobi_radius, 1);
+  whole.relaxation = 1.999f;
+  add("Chebyshev over Jacobi, relaxation 1.999", 232, engine_sweeps(Sweep::jacobi, whole, 400));
   add("Chebyshev over red-black", 199, engine_sweeps(Sweep::tiled, chebyshev(gauss_seidel_radius, 1), 300));
   add("Chebyshev over red-black after 10", 116, engine_sweeps(Sweep::tiled, chebyshev(gauss_seidel_radius, 10), 300));
   const std::string note = "rho estimated from the run; no more than what Chebyshev over Jacobi needs when told";

@@ -20,6 +20,7 @@ void balloon_rows(Result& result, bool slow);
 void steadiness_rows(Result& result, bool slow);
 void heavy_chain_rows(Result& result, bool slow);
 void convergence_rows(Result& result, bool slow);
+void sweep_rows(Result& result, bool slow);
 
 /// Rows with their verdict; what is not finite fails.
 Row relative(std::string name, double expected, double measured, double tolerance, std::string unit, std::string note = {});

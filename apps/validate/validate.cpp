@@ -14,8 +14,8 @@ namespace {
 
 using AddRows = void (*)(Result&, bool);
 
-const AddRows adders[] = {spring_rows,    chain_rows,   momentum_rows,   pendulum_rows,    contact_rows,
-                          stiffness_rows, balloon_rows, steadiness_rows, convergence_rows, heavy_chain_rows};
+const AddRows adders[] = {spring_rows,  chain_rows,      momentum_rows,    pendulum_rows,    contact_rows, stiffness_rows,
+                          balloon_rows, steadiness_rows, convergence_rows, heavy_chain_rows, sweep_rows};
 
 const char* word(Comparison comparison) {
   switch (comparison) {
@@ -57,6 +57,7 @@ const std::vector<Group>& groups() {
       {"steadiness", "the inextensible cloth hung by two corners stays bounded"},
       {"convergence", "how many sweeps each method needs on a free chain"},
       {"heavy_chain", "a load 100 000 times as heavy as a link, by exact chains"},
+      {"sweeps", "the same known answers by every sweep, and which of them it can't give"},
   };
   return all;
 }

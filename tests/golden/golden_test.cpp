@@ -1,32 +1,25 @@
 // One hash a scene, whatever runs it: threads, lanes, sweep, compiler, build type. The hashes are kept in hashes.txt; every
 // build of every compiler compares itself with them, so that they compare the builds with one another.
 //
-// A change of a hash is a decision: PLIANT_UPDATE_GOLDEN=1 writes hashes.txt anew, and the commit says why.
+// A change of a hash is a decision: PLIANT_UPDATE_GOLDEN=1 writes hashes.txt anew, and the commit says why. The hashes of the
+// sweeps (sweeps_golden_test.cpp) stand in the same file.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <string>
 #include <vector>
 
-#include "pliant/pliant.h"
+#include "golden/golden.h"
 
 namespace {
 
 namespace fs = std::filesystem;
-
-const char* const hash_file = PLIANT_SOURCE_DIR "/tests/golden/hashes.txt";
-
-bool updating() { return std::getenv("PLIANT_UPDATE_GOLDEN") != nullptr; }
+using namespace pliant::golden;
 
 /// Long enough for what falls to land: the bits of a frame depend on all before it.
 constexpr int golden_frames = 40;
-
-/// PLIANT_THOROUGH=1 runs everything three times, in case threads give the same bits only mostly.
-int repetitions() { return std::getenv("PLIANT_THOROUGH") != nullptr ? 3 : 1; }
 
 std::vector<std::string> scene_names() {
   std::vector<std::string> names;
@@ -37,21 +30,8 @@ std::vector<std::string> scene_names() {
   return names;
 }
 
-std::map<std::string, std::string> read_hashes() {
-  std::map<std::string, std::string> hashes;
-  std::ifstream file(hash_file);
-  std::string name, hash;
-  while (file >> name >> hash) hashes[name] = hash;
-  return hashes;
-}
-
 std::string run(const pliant::Scene& scene, const pliant::Settings& settings) {
-  pliant::World world(scene, settings);
-  for (int frame = 0; frame < golden_frames; ++frame) {
-    const pliant::Report report = world.step(scene.frame_time);
-    if (!report.ok()) return report.explain();
-  }
-  return world.state_hash();
+  return pliant::golden::run(scene, settings, golden_frames);
 }
 
 class Golden : public testing::TestWithParam<std::string> {
@@ -123,20 +103,23 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Golden, testing::ValuesIn(scene_names()), [](co
 });
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Golden);
 
-TEST(GoldenFile, HoldsEverySceneAndNoOther) {
-  const std::vector<std::string> names = scene_names();
+TEST(GoldenFile, HoldsEverySceneAndSweepAndNoOther) {
+  std::vector<std::string> names = scene_names();
   if (updating()) {
     std::ofstream file(hash_file);
     for (const std::string& name : names) {
       const pliant::Scene scene = pliant::read_scene(PLIANT_SOURCE_DIR "/scenes/" + name + ".json");
       file << name << " " << run(scene, scene.settings) << "\n";
     }
+    for (const auto& [name, hash] : sweep_hashes()) file << name << " " << hash << "\n";
   }
   std::vector<std::string> listed;
   for (const auto& [name, hash] : read_hashes()) {
     listed.push_back(name);
     EXPECT_EQ(hash.size(), 64u) << name;
   }
+  for (const std::string& name : sweep_names()) names.push_back(name);
+  std::sort(names.begin(), names.end());
   EXPECT_EQ(listed, names);
 }
 

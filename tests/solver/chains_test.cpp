@@ -1,109 +1,18 @@
-// Chains and tethers: the exact solution against elimination in double, every build against the sequential reference, and
-// what a schedule of chains must be.
+// Chains and tethers: the exact solution against elimination in double, every build against the sequential reference.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
 #include <random>
 
-#include "model/compiled_object.h"
-#include "model/model.h"
-#include "pliant/mesh.h"
-#include "solver/sweeps/chains.h"
+#include "solver/chains_support.h"
 #include "support/bits.h"
 #include "support/kernels.h"
-#include "topology/edges.h"
 
 namespace pliant {
 namespace {
 
-using testing_support::available_isas;
-using testing_support::nasty_float;
-using testing_support::same_bits;
-
-double uniform(std::mt19937& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random()) / 4294967295.0;
-}
-
-Object line(int links, float compliance, std::mt19937& random) {
-  Object object;
-  ConstraintGroup group{"distance", {}, {}, Stiffness::compliance(compliance), {}};
-  Vec3f at{};
-  for (int i = 0; i <= links; ++i) {
-    object.positions.push_back(at);
-    object.masses.push_back(static_cast<float>(uniform(random, 0.1, 2)));
-    at += Vec3f{0.1f, static_cast<float>(uniform(random, -0.02, 0.02)), static_cast<float>(uniform(random, -0.02, 0.02))};
-    if (i > 0) group.particles.insert(group.particles.end(), {i - 1, i});
-  }
-  object.constraints.push_back(group);
-  return object;
-}
-
-Object grid(int columns, int rows, float compliance) {
-  const TriangleMesh mesh = grid_mesh(columns, rows, 1, 1);
-  Object object;
-  object.positions = mesh.positions;
-  object.masses.assign(mesh.positions.size(), 0.01f);
-  object.triangles = mesh.triangles;
-  ConstraintGroup group{"distance", {}, {}, Stiffness::compliance(compliance), {}};
-  for (const Edge& edge : find_edges(mesh.triangles, columns * rows))
-    group.particles.insert(group.particles.end(), {edge.a, edge.b});
-  object.constraints.push_back(group);
-  return object;
-}
-
-CompileOptions chained(float softness, bool tethers = false) {
-  CompileOptions options;
-  options.chains = true;
-  options.chain_softness = softness;
-  options.tethers = tethers;
-  return options;
-}
-
-/// One object in the middle of a substep.
-struct Substep {
-  CompiledObject object;
-  Records positions, displacements;
-  AlignedVector<float> multipliers, scratch;
-  float h = 1.f / 600;
-
-  Substep(const Object& from, const CompileOptions& options) : object(compile(from, options)) {
-    positions.assign(object.positions.begin(), object.positions.end());
-    displacements.resize(positions.size());
-    multipliers.assign(object.pools[0].origin.size(), 0.f);
-    int longest = 0;
-    for (const ChainBatch& chain : object.chains) longest = std::max(longest, chain.steps);
-    scratch.resize(static_cast<std::size_t>(longest) * chain_scratch_floats);
-  }
-  SweepArguments arguments(bool first) {
-    SweepArguments a;
-    a.positions = positions.data();
-    a.displacements = displacements.data();
-    a.h = h;
-    a.inverse_h = 1 / h;
-    a.inverse_h2 = a.inverse_h * a.inverse_h;
-    a.first_pass = first;
-    return a;
-  }
-  void solve(const ChainKernels& kernels, bool first, bool keeps) {
-    for (std::size_t c = 0; c < object.chains.size(); ++c) {
-      const ChainBatch& chain = object.chains[c];
-      kernels.solve_chain(object.pools[chain.pool], &object.segments[chain.first_segment], chain.steps,
-                          &object.chain_softness[c * batch_width], keeps ? multipliers.data() : nullptr, arguments(first),
-                          scratch.data());
-    }
-  }
-  void hold(const ChainKernels& kernels) {
-    Records anchors;
-    for (int anchor : object.tethers.anchors) {
-      anchors.push_back(positions[anchor]);
-      anchors.push_back(displacements[anchor]);
-    }
-    kernels.hold_tethers(object.tethers, anchors.data(), 0, object.particles, arguments(true));
-  }
-};
+using namespace testing_support;
 
 // ---------------------------------------------------------------- the exact solution
 
@@ -242,87 +151,6 @@ TEST(Chains, and_tethers_give_the_bits_of_the_reference_in_lanes) {
             << isa;
     }
   }
-}
-
-// ---------------------------------------------------------------- the schedule
-
-TEST(Chains, hold_every_distance_once_and_batches_of_a_colour_share_nothing) {
-  Object from = grid(40, 23, 0);
-  from.attachments.push_back({5, {0, 1, 0}, {}, Stiffness::rigid()});  // has no direction: stays with the tiles
-  const CompiledObject object = compile(from, chained(0.1f));
-  std::vector<int> times(from.constraints[0].particles.size() / 2 + 1, 0);
-  for (const Pool& pool : object.pools)
-    for (int origin : pool.origin)
-      if (origin >= 0) ++times[origin];
-  EXPECT_EQ(std::count(times.begin(), times.end(), 1), static_cast<std::ptrdiff_t>(times.size()));
-  for (const ChainColour& colour : object.chain_colours) {
-    std::map<int, int> batch_of;
-    for (int b = colour.first_batch; b < colour.last_batch; ++b) {
-      const ChainBatch& chain = object.chains[b];
-      for (int k = 0; k < chain.steps; ++k) {
-        const Segment& segment = object.segments[chain.first_segment + k];
-        EXPECT_EQ(segment.first_batch, object.segments[chain.first_segment].first_batch + k);
-        for (int lane = 0; lane < segment.last_count; ++lane)
-          for (int slot = 0; slot < 2; ++slot) {
-            const int particle = object.pools[chain.pool].indices[segment.index_offset + slot * batch_width + lane];
-            EXPECT_EQ(batch_of.emplace(particle, b * batch_width + lane).first->second, b * batch_width + lane);
-          }
-      }
-    }
-  }
-}
-
-TEST(Tethers, are_as_long_as_the_straight_way_on_a_flat_sheet) {
-  Object from = grid(13, 9, 0);
-  from.pins = {{0, {}}, {12, {}}};
-  const CompiledObject object = compile(from, chained(0.1f, true));
-  ASSERT_EQ(object.tethers.slots, 2);
-  for (int particle = 0; particle < object.particles; ++particle) {
-    for (int slot = 0; slot < 2; ++slot) {
-      const int place = particle % batch_width, lane = 4 * (place % 4) + place / 4;
-      const std::size_t row = static_cast<std::size_t>(particle / batch_width) * 2 + slot;
-      const float length = object.tethers.lengths[row * batch_width + lane];
-      if (object.positions[particle].w == 0) {
-        EXPECT_EQ(length, no_tether);
-        continue;
-      }
-      const Record &x = object.positions[particle], &anchor = object.positions[object.tethers.anchors[slot]];
-      EXPECT_NEAR(length, std::hypot(x.x - anchor.x, x.z - anchor.z), 1e-5);
-    }
-  }
-}
-
-TEST(Tethers, bring_back_what_is_beyond_them_and_nothing_else) {
-  std::mt19937 random(8);
-  Object from = grid(21, 17, 0);
-  from.pins = {{3, {}}};
-  Substep substep(from, chained(0.1f, true));
-  for (std::size_t i = 0; i < substep.positions.size(); ++i)
-    if (substep.positions[i].w > 0)
-      substep.displacements[i] = {static_cast<float>(uniform(random, -0.3, 0.3)),
-                                  static_cast<float>(uniform(random, -0.3, 0.3)), 0, 0};
-  const int anchor = substep.object.tethers.anchors[0];
-  substep.displacements[anchor] = {0.1f, 0, 0, 0};  // pins may move
-  const Records before = substep.displacements;
-  substep.hold(chain_kernels_sequential());
-  int moved = 0;
-  for (int i = 0; i < substep.object.particles; ++i) {
-    if (i == anchor) continue;
-    const Record &p = substep.positions[i], &d = substep.displacements[i], &a = substep.positions[anchor];
-    const auto away = [&](const Record& by) {
-      return std::hypot(double(p.x) + by.x - a.x - 0.1f, double(p.y) + by.y - a.y, double(p.z) + by.z - a.z);
-    };
-    const double longest = std::hypot(double(p.x) - a.x, double(p.z) - a.z);
-    EXPECT_LE(away(d), longest + 1e-5);
-    if (away(before[i]) < longest - 1e-5) {
-      EXPECT_EQ(d.x, before[i].x);
-    }
-    if (d.x != before[i].x) {
-      ++moved;
-      EXPECT_NEAR(away(d), longest, 1e-5);
-    }
-  }
-  EXPECT_GT(moved, 50);
 }
 
 }  // namespace

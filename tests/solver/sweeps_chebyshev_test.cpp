@@ -1,6 +1,9 @@
 // Chebyshev acceleration: it is fast, it finds its rho, it leaves alone what touches, and it gives up rather than diverge.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "solver/sweeps_support.h"
 
 namespace pliant {
@@ -89,6 +92,30 @@ TEST(Chebyshev, LeavesAloneWhatTouches) {
   const Outcome out = run_sweep({sheet}, run, 9.81f, true);
   EXPECT_GT(out.reports.back().contacts, 20);
   for (const Record& p : out.state.positions) EXPECT_GT(p.y, -0.003f + 0.0009f);
+}
+
+/// Where everything touches, nothing is extrapolated: the bits are those of the plain sweep.
+TEST(Chebyshev, OfWhatAllTouchesIsThePlainSweep) {
+  std::vector<double> stretch;
+  for (int i = 0; i < 20; ++i) stretch.push_back(0.02 + 0.02 * std::sin(12.9898 * i));
+  Object line = stretched_chain(20, stretch, Stiffness::rigid());
+  for (Vec3f& p : line.positions) p.y = -0.003f + line.thickness;
+  line.static_friction = line.kinetic_friction = 0;
+  const auto end_of = [&](const SweepOptions& options) {
+    const Outcome out = run_sweep({line}, run_of(Sweep::tiled, 1, 20, options), 9.81f, true);
+    EXPECT_EQ(out.reports[0].contacts, 21);
+    return out.state;
+  };
+  expect_equal(end_of(chebyshev(0.9f, 3)), end_of({}), "touching");
+}
+
+/// Over natural order it grows without bound, which is why a World refuses it; here nobody does.
+TEST(Chebyshev, IsGivenUpWhereCorrectionsGrow) {
+  const double rho = std::cos(pi / (links + 1)) * std::cos(pi / (links + 1));
+  const Report report = solve(Sweep::natural, chebyshev(static_cast<float>(rho), 1), 2000);
+  const std::vector<double> curve = residual_curve(report);
+  EXPECT_LT(*std::max_element(curve.begin(), curve.end()), 30 * curve[0]);
+  EXPECT_LT(curve.back(), curve[0]);
 }
 
 TEST(Chebyshev, RhoIsThatOfTheChain) {

@@ -6,24 +6,21 @@
 #include <vector>
 
 #include "solver/step.h"
+#include "solver/step_support.h"
+#include "solver/sweeps/chains.h"
 #include "solver/sweeps/sweep.h"
 #include "support/kernels.h"
+#include "support/sweep_table.h"
 
 namespace pliant::testing_support {
 
 using Sharing = SweepOptions::Sharing;
 using Acceleration = SweepOptions::Acceleration;
 
-/// A sheet of n x n particles with every type and law, pinned at one corner where `pinned`.
+/// A sheet of n x n particles with every type and law, uneven and in motion, pinned at one corner where `pinned`.
 inline Object mixed_sheet(int n, bool pinned) {
   Object object;
   object.name = "sheet";
-  ConstraintGroup edges{"distance", {}, {}, Stiffness::compliance(1e-6f), {}};
-  ConstraintGroup rigid{"distance", {}, {}, Stiffness::rigid(), {}};
-  ConstraintGroup damped{"distance", {}, {}, Stiffness::compliance(1e-4f, 0.5f), {}};
-  ConstraintGroup hinges{"dihedral_bending", {}, {}, Stiffness::compliance(1), {}};
-  ConstraintGroup flat{"isometric_bending", {}, {}, Stiffness::pbd(0.2f), {}};
-  const auto at = [&](int r, int c) { return r * n + c; };
   for (int r = 0; r < n; ++r) {
     for (int c = 0; c < n; ++c) {
       object.positions.push_back(
@@ -31,36 +28,21 @@ inline Object mixed_sheet(int n, bool pinned) {
       object.velocities.push_back(
           {0.3f * static_cast<float>((7 * r + 3 * c) % 5), 0.2f * static_cast<float>((r + 2 * c) % 7) - 0.6f, 0});
       object.masses.push_back(0.01f * static_cast<float>(1 + (r + c) % 3));
-      if (c + 1 < n) edges.particles.insert(edges.particles.end(), {at(r, c), at(r, c + 1)});
-      if (r + 1 < n) rigid.particles.insert(rigid.particles.end(), {at(r, c), at(r + 1, c)});
-      if (r + 1 == n || c + 1 == n) continue;
-      damped.particles.insert(damped.particles.end(), {at(r, c), at(r + 1, c + 1)});
-      hinges.particles.insert(hinges.particles.end(), {at(r, c), at(r + 1, c + 1), at(r + 1, c), at(r, c + 1)});
-      flat.particles.insert(flat.particles.end(), {at(r, c), at(r + 1, c + 1), at(r + 1, c), at(r, c + 1)});
     }
   }
-  object.constraints = {edges, rigid, damped, hinges, flat};
+  const GridStencils grid = grid_stencils(n);
+  object.constraints = {{"distance", grid.across, {}, Stiffness::compliance(1e-6f), {}},
+                        {"distance", grid.along, {}, Stiffness::rigid(), {}},
+                        {"distance", grid.diagonals, {}, Stiffness::compliance(1e-4f, 0.5f), {}},
+                        {"dihedral_bending", grid.hinges, {}, Stiffness::compliance(1), {}},
+                        {"isometric_bending", grid.hinges, {}, Stiffness::pbd(0.2f), {}}};
   if (pinned) object.pins.push_back({0, {}});
   return object;
 }
 
 /// A closed ball under pressure.
 inline Object ball(float pressure, const Vec3f& centre) {
-  const TriangleMesh mesh = sphere_mesh(2);
-  Object object;
-  object.name = "ball";
-  for (const Vec3f& p : mesh.positions) object.positions.push_back(p * 0.2f + centre);
-  object.masses.assign(object.positions.size(), 0.001f);
-  object.triangles = mesh.triangles;
-  ConstraintGroup edges{"distance", {}, {}, Stiffness::compliance(1e-4f), {}};
-  for (const auto& t : mesh.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (t[i] < t[(i + 1) % 3]) edges.particles.insert(edges.particles.end(), {t[i], t[(i + 1) % 3]});
-    }
-  }
-  object.constraints = {edges};
-  object.volume = Volume{pressure, Stiffness::compliance(1e-7f)};
-  return object;
+  return balloon(2, pressure, Stiffness::compliance(1e-7f), centre);
 }
 
 /// A line of 1 kg particles along x, every link stretched by a share of its own.
@@ -122,12 +104,17 @@ inline Outcome run_sweep(const std::vector<Object>& objects, const SweepRun& run
     options.passes = run.settings.substeps * run.settings.iterations * method.passes;
     options.largest_tile = run.largest_tile;
     options.in_given_order = run.settings.sweep == Sweep::natural;
+    options.chains = run.settings.sweep == Sweep::chains;
+    options.chain_softness = run.settings.sweep_options.chain_softness;
+    options.tethers = run.settings.sweep_options.tethers;
+    options.tether_slack = run.settings.sweep_options.tether_slack;
     out.model.add(compile(object, options));
   }
   out.state = initial_state(out.model);
   prepare(out.model, Multipliers::all, out.workspace);
   prepare_sweep(out.model, run.settings, out.workspace);
   Executor executor(run.threads);
+  prepare_chains(out.model, run.threads, out.workspace);
   for (int frame = 0; frame < run.frames; ++frame) {
     out.reports.emplace_back();
     step({out.model, out.state, out.workspace, executor, pick_kernels(run.isa), run.settings.substeps,

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "pliant/mesh.h"
 #include "topology/edges.h"
@@ -48,6 +51,23 @@ TEST(Geodesics, on_a_flat_sheet_are_straight) {
     }
     // A shaken border is not convex, and the line may have to go round a dent.
     EXPECT_LT(worst, shaken == 0 ? 1e-5 : 0.01);
+  }
+}
+
+TEST(Geodesics, go_round_a_corner_that_is_cut_out) {
+  TriangleMesh mesh = grid_mesh(9, 9, 8, 8);  // vertex (row r, column c) is 9 r + c; what is beyond row 4 and column 4 goes
+  const auto is_cut = [](const std::array<int, 3>& t) {
+    return std::all_of(t.begin(), t.end(), [](int v) { return v / 9 >= 4 && v % 9 >= 4; });
+  };
+  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), is_cut), mesh.triangles.end());
+  const int corner = 9 * 4 + 4;
+  for (const auto& [from, to] : {std::pair{9 * 4 + 8, 9 * 8 + 4}, {9 * 2 + 8, 9 * 8 + 2}, {9 * 3 + 8, 9 * 8 + 0}}) {
+    const auto found = nearest_sources(distances_of(mesh), {from}, 4);
+    const double way =
+        distance(mesh.positions[from], mesh.positions[corner]) + distance(mesh.positions[corner], mesh.positions[to]);
+    ASSERT_EQ(found[to].size(), 1U);
+    EXPECT_GT(found[to][0].distance, way - 1e-4) << "through the air";
+    EXPECT_LT(found[to][0].distance, 1.05 * way);
   }
 }
 

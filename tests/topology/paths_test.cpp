@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "pliant/mesh.h"
 #include "topology/edges.h"
@@ -74,6 +75,42 @@ TEST(Paths, of_any_mesh_hold_every_edge_once) {
     }
     ASSERT_NO_FATAL_FAILURE(expect_sound(mesh.positions, edges_of(mesh)));
   }
+}
+
+TEST(Paths, go_on_round_a_bend_and_not_round_a_corner) {
+  for (const auto& [degrees, paths] : {std::pair{30.0, 1U}, {44.0, 1U}, {46.0, 2U}, {60.0, 2U}, {120.0, 2U}}) {
+    const double turn = degrees * 3.14159265358979 / 180;
+    const std::vector<Vec3f> bent{
+        {0, 0, 0}, {1, 0, 0}, {1 + static_cast<float>(std::cos(turn)), static_cast<float>(std::sin(turn)), 0}};
+    std::size_t found = 0;
+    for (const PathColour& colour : lay_paths(bent, {{0, 1}, {1, 2}})) found += colour.paths.size();
+    EXPECT_EQ(found, paths) << degrees << " degrees";
+  }
+}
+
+TEST(Paths, of_a_hub_go_straight_through_it) {
+  constexpr int spokes = 12;
+  std::vector<Vec3f> hub{{}};
+  EdgeList edges;
+  for (int i = 0; i < spokes; ++i) {
+    const float t = 6.2831853f * static_cast<float>(i) / spokes;
+    hub.push_back({std::cos(t), std::sin(t), 0});
+    edges.push_back({0, i + 1});
+  }
+  for (const PathColour& colour : lay_paths(hub, edges)) {
+    ASSERT_EQ(colour.paths.size(), 1U) << "all meet in the middle";
+    EXPECT_EQ(colour.paths[0].edges.size(), 2U);
+    EXPECT_EQ(std::abs(colour.paths[0].vertices[0] - colour.paths[0].vertices[2]), spokes / 2);
+  }
+}
+
+TEST(Paths, of_a_colour_run_the_same_way) {
+  const std::vector<Vec3f> there_and_back{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {0, 1, 0}};
+  const std::vector<PathColour> colours = lay_paths(there_and_back, {{0, 1}, {1, 2}, {3, 4}, {4, 5}});
+  ASSERT_EQ(colours.size(), 1U);
+  ASSERT_EQ(colours[0].paths.size(), 2U);
+  EXPECT_EQ(colours[0].paths[0].vertices, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(colours[0].paths[1].vertices, (std::vector<int>{5, 4, 3}));
 }
 
 TEST(Paths, of_knots_end_where_they_would_meet_themselves) {

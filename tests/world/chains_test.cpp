@@ -119,6 +119,23 @@ TEST(ChainSweep, keeps_cloth_from_stretching_at_few_substeps) {
   EXPECT_GT(others, 1.5) << "or this test shows nothing";
 }
 
+TEST(Tethers, reach_from_where_their_pins_are_now) {
+  std::vector<Vec3f> points;
+  for (int i = 0; i <= 30; ++i) points.push_back({0, -0.05f * static_cast<float>(i), 0});
+  Scene scene;
+  const int rope = scene.add(make_rope(points));
+  scene.pin(rope, {0}, Motion{{Keyframe{0, {}, {}}, Keyframe{1, {0, 6, 0}, {}}}, {}, false});
+  scene.settings.substeps = 1;
+  scene.settings.sweep_options.tethers = true;
+  World world(scene);
+  for (int frame = 0; frame < 20; ++frame) {
+    world.step(1.f / 60);
+    const std::vector<Vec3f> x = world.positions(rope);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      EXPECT_LT(std::sqrt(length_squared(x[i] - x[0])), 0.05 * static_cast<double>(i) + 1e-5) << "frame " << frame;
+  }
+}
+
 TEST(ChainSweep, gives_multipliers_and_counts_as_any_other) {
   Scene scene;
   std::vector<Vec3f> points;

@@ -1,0 +1,75 @@
+// Every way to solve, one a line: tests/solver, the golden hashes and the rows of `pliant validate sweeps` all go through this
+// table, so that a new sweep is held to the same promises by a line here.
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "pliant/scene.h"
+
+namespace pliant::testing_support {
+
+/// What a way does not promise, and everybody else does.
+enum class Lacks {
+  nothing,
+  pairs,  ///< forces are no pairs: momentum is not kept, and compliance ends elsewhere
+  give,   ///< what is meant to stretch is held back
+};
+
+struct SweepWay {
+  std::string name;
+  Sweep sweep;
+  SweepOptions options;
+  Lacks lacks = Lacks::nothing;
+};
+
+/// How tests name it.
+inline void PrintTo(const SweepWay& way, std::ostream* out) { *out << way.name; }
+
+/// Options as changes of the default.
+template <class Change>
+SweepOptions options_with(const Change& change) {
+  SweepOptions options;
+  options.plain_iterations = 3;  // so that Chebyshev has something to do in few iterations
+  change(options);
+  return options;
+}
+
+inline const std::vector<SweepWay>& sweep_ways() {
+  const auto plain = options_with([](SweepOptions&) {});
+  const auto chebyshev = options_with([](SweepOptions& o) { o.acceleration = SweepOptions::Acceleration::chebyshev; });
+  const auto at_once = options_with([](SweepOptions& o) {
+    o.acceleration = SweepOptions::Acceleration::chebyshev;
+    o.plain_iterations = 1;
+    o.spectral_radius = 0.5f;
+  });
+  const auto tethers = options_with([](SweepOptions& o) { o.tethers = true; });
+  const auto over = options_with([](SweepOptions& o) { o.relaxation = 1.3f; });
+  const auto under = options_with([](SweepOptions& o) { o.relaxation = 0.7f; });
+  const auto average = options_with([](SweepOptions& o) {
+    o.relaxation = 1.5f;
+    o.sharing = SweepOptions::Sharing::average;
+  });
+  static const std::vector<SweepWay> ways{
+      {"tiled", Sweep::tiled, plain},
+      {"sequential", Sweep::sequential, plain},
+      {"symmetric", Sweep::symmetric, plain},
+      {"natural", Sweep::natural, plain},
+      {"jacobi_split", Sweep::jacobi, plain},
+      {"jacobi_average", Sweep::jacobi, average, Lacks::pairs},
+      {"over_relaxed", Sweep::tiled, over},
+      {"under_relaxed_symmetric", Sweep::symmetric, under},
+      {"chebyshev_tiled", Sweep::tiled, chebyshev},
+      {"chebyshev_symmetric", Sweep::symmetric, chebyshev},
+      {"chebyshev_jacobi", Sweep::jacobi, chebyshev},
+      {"chebyshev_at_once", Sweep::tiled, at_once},
+      {"chains", Sweep::chains, plain},
+      {"chebyshev_chains", Sweep::chains, chebyshev},
+      {"tiled_tethers", Sweep::tiled, tethers, Lacks::give},
+      {"chains_tethers", Sweep::chains, tethers, Lacks::give},
+  };
+  return ways;
+}
+
+}  // namespace pliant::testing_support
