@@ -195,6 +195,9 @@ TEST(Advise, FindsTheLeastOfWhatHelps) {
   for (const Trial& trial : advice.others)
     if (trial.settings.sweep == Sweep::chains && is_good(trial)) least = std::min(least, trial.settings.substeps);
   EXPECT_LT(least, 24);
+  for (const Trial& trial : advice.others)
+    EXPECT_TRUE(!is_good(trial) || trial.milliseconds >= advice.others[advice.best].milliseconds)
+        << "the cheapest is named";
   Settings fewer = scene.settings;
   fewer.sweep = Sweep::chains;
   fewer.sweep_options.tethers = true;
