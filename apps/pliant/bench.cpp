@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "apps/bench/bench.h"
+#include "apps/bench/broadphase.h"
 #include "atomic_file.h"
 #include "command.h"
 #include "interrupt.h"
@@ -29,11 +30,47 @@ void print_row(const pliant::bench::Row& row) {
   }
 }
 
+std::string bench_broad_phases(const BenchOptions& options) {
+  pliant::bench::BroadPhaseOptions wanted;
+  if (!options.sizes.empty()) wanted.sizes = options.sizes;
+  wanted.frames = options.frames;
+  wanted.threads = options.threads;
+  print("input         triangles  method                    build, ms  refit, ms  query, ms       pairs\n");
+  wanted.on_row = [](const pliant::bench::BroadPhaseRow& row) {
+    throw_if_interrupted();
+    char text[256];
+    std::snprintf(text, sizeof text, "%-13s %9d  %-24s %10.3f %10.3f %10.3f %11.0f\n", row.input.c_str(), row.triangles,
+                  row.method.c_str(), row.build_ms, row.refit_ms, row.query_ms, row.pairs);
+    print(text);
+  };
+  return to_json(pliant::bench::measure_broad_phases(wanted));
+}
+
+std::string bench_impacts() {
+  const auto rows = pliant::bench::measure_impacts();
+  print("test             queries      precision  million/s   hits\n");
+  for (const pliant::bench::ImpactRow& row : rows) {
+    char text[256];
+    std::snprintf(text, sizeof text, "%-16s %-12s %-9s %10.3f %6.3f\n", row.test.c_str(), row.queries.c_str(),
+                  row.precision.c_str(), row.million_per_second, row.hits);
+    print(text);
+  }
+  return to_json(rows);
+}
+
 }  // namespace
 
 int bench(const BenchOptions& options) {
   std::unique_ptr<AtomicFile> file;
   if (!options.json.empty()) file = std::make_unique<AtomicFile>(options.json);
+  if (options.workload == "broadphase" || options.workload == "ccd") {
+    const std::string json = options.workload == "ccd" ? bench_impacts() : bench_broad_phases(options);
+    throw_if_interrupted();
+    if (!file) return 0;
+    file->write(json);
+    file->commit();
+    return 0;
+  }
   pliant::bench::Options wanted;
   wanted.workload = options.workload;
   if (!options.sizes.empty()) wanted.sizes = options.sizes;
