@@ -10,7 +10,7 @@ namespace pliant {
 
 namespace {
 
-constexpr int packets_in_a_part = 16, boxes_in_a_task = 2048;
+constexpr int packets_in_a_part = 32, boxes_in_a_task = 2048;
 
 using Element = ContactElements::Element;
 
@@ -147,12 +147,13 @@ void CandidateFinder::add_vertex_triangles(int vertex, Part& part) {
   const BoxBounds& box = vertex_boxes_[static_cast<std::size_t>(vertex)];
   const std::size_t before = part.triangles.size();
   for (const int other : part.others) {
-    if (static_cast<std::size_t>(other) >= elements_.triangles.size()) break;  // ascending, triangles first
+    if (static_cast<std::size_t>(other) >= elements_.triangles.size()) continue;  // a loose edge or vertex
     if (!overlap(box, boxes_[static_cast<std::size_t>(other)])) continue;
     if (!has_corner(elements_.triangles[static_cast<std::size_t>(other)], vertex)) part.triangles.push_back(other);
   }
   const int count = static_cast<int>(part.triangles.size() - before);
   if (count == 0) return;
+  std::sort(part.triangles.begin() + static_cast<std::ptrdiff_t>(before), part.triangles.end());
   part.vertex_runs.push_back({vertex, count});
   vertex_triangles_.start[static_cast<std::size_t>(vertex) + 1] = count;
 }

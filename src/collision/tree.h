@@ -2,8 +2,9 @@
 //
 // Built by order instead of by cost: leaves are sorted along a Morton curve, and node i of a level holds the nodes 8 i to 8 i + 7
 // of the level below. So there are no pointers, building is a sort, refitting is a flat loop a level, children lie side by
-// side, and the same leaves give the same tree on any machine. Eight children a node make few levels and short stacks. Leaves
-// that moved are refitted in the old order: correct whatever they did, slower the more they mix; then build again.
+// side, and the same leaves give the same tree on any machine. Eight children a node make few levels, short stacks and, for
+// axis-aligned boxes, one comparison of eight (collision/pack.h). Leaves that moved are refitted in the old order: correct
+// whatever they did, slower the more they mix; then build again.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "collision/bounds.h"
 #include "collision/morton.h"
+#include "collision/pack.h"
 
 namespace pliant {
 
@@ -32,12 +33,9 @@ class Tree {
 
   /// Fits all nodes to leaves that have moved, as many as there were. Allocates nothing.
   void refit(const std::vector<B>& leaves) {
-    for (std::size_t i = 0; i < order_.size(); ++i) nodes_[i] = leaves[static_cast<std::size_t>(order_[i])];
+    for (int i = 0; i < leaf_count(); ++i) set_node(0, i, leaves[static_cast<std::size_t>(leaf_at(i))]);
     for (int level = 1; level < level_count_; ++level)
-      for (int i = 0; i < size_of(level); ++i) {
-        const Range children = children_of(level, i);
-        nodes_[at(level, i)] = B::merged(&nodes_[at(level - 1, children.first)], children.last - children.first);
-      }
+      for (int i = 0; i < sizes_[level]; ++i) set_node(level, i, pack_of_children(level, i).merged(child_count(level, i)));
   }
 
   int leaf_count() const { return static_cast<int>(order_.size()); }
@@ -45,26 +43,23 @@ class Tree {
   /// visit(leaf) for every leaf that overlaps `bounds`; in an order that depends on the tree alone.
   template <class Visit>
   void query(const B& bounds, const Visit& visit) const {
-    descend(
-        0, [&](const B& node) { return overlap(node, bounds); }, [&](int slot) { visit(leaf_at(slot)); });
+    descend(0, bounds, [&](int slot) { visit(leaf_at(slot)); });
   }
 
   /// The tree in packets of leaves that lie together: units of work for threads.
-  int packet_count() const { return level_count_ == 0 ? 0 : size_of(std::min(1, level_count_ - 1)); }
+  int packet_count() const { return level_count_ == 0 ? 0 : sizes_[packet_level()]; }
 
-  /// For each leaf a of a packet: visit(a, others), which are all leaves b != a that overlap a, ascending.
+  /// For each leaf a of a packet: visit(a, others), which are all leaves b != a that overlap a, in the tree's order. The two
+  /// vectors are the caller's memory to work in.
   template <class Visit>
-  void packet_neighbours(int packet, std::vector<int>& slots, std::vector<int>& others, const Visit& visit) const {
-    slots.clear();
-    const int level = std::min(1, level_count_ - 1);
-    const B& bounds = nodes_[at(level, packet)];
-    descend(
-        level, [&](const B& node) { return overlap(node, bounds); }, [&](int node) { slots.push_back(node); });
-    const Range own = level == 0 ? Range{packet, packet + 1} : children_of(1, packet);
-    for (int a = own.first; a < own.last; ++a) {
+  void packet_neighbours(int packet, std::vector<int>& nodes, std::vector<int>& others, const Visit& visit) const {
+    nodes.clear();
+    const int level = packet_level();
+    descend(level, node_at(level, packet), [&](int node) { nodes.push_back(node); });
+    const int first = level == 0 ? packet : packet * fanout, count = level == 0 ? 1 : child_count(1, packet);
+    for (int a = first; a < first + count; ++a) {
       others.clear();
-      for (const int node : slots) collect_overlapping(level, node, a, others);
-      std::sort(others.begin(), others.end());
+      for (const int node : nodes) collect_overlapping(level == 0 ? node / fanout : node, a, others);
       visit(leaf_at(a), others);
     }
   }
@@ -72,10 +67,11 @@ class Tree {
   /// visit(a, b), a < b, once for each pair of leaves that overlap.
   template <class Visit>
   void self_pairs(const Visit& visit) const {
-    std::vector<int> slots, others;
+    std::vector<int> nodes, others;
     for (int packet = 0; packet < packet_count(); ++packet)
-      packet_neighbours(packet, slots, others, [&](int a, const std::vector<int>& list) {
-        for (auto b = std::upper_bound(list.begin(), list.end(), a); b != list.end(); ++b) visit(a, *b);
+      packet_neighbours(packet, nodes, others, [&](int a, const std::vector<int>& list) {
+        for (const int b : list)
+          if (a < b) visit(a, b);
       });
   }
 
@@ -84,7 +80,7 @@ class Tree {
   void pairs(const Tree& other, const Visit& visit) const {
     if (level_count_ == 0 || other.level_count_ == 0) return;
     const Node top{level_count_ - 1, 0}, others_top{other.level_count_ - 1, 0};
-    descend_both(other, top, others_top, visit);
+    if (overlap(node_at(top.level, 0), other.node_at(others_top.level, 0))) descend_both(other, top, others_top, visit);
   }
 
   /// The leaf for which distance(leaf) is least, the first of equal ones, among those nearer than `limit`; -1 where there is
@@ -97,9 +93,6 @@ class Tree {
   }
 
  private:
-  struct Range {
-    int first, last;
-  };
   struct Node {
     int level, index;
   };
@@ -107,26 +100,31 @@ class Tree {
   void lay_out() {
     level_count_ = 0;
     std::size_t total = 0;
-    for (int size = leaf_count(); size > 0; size = (size + fanout - 1) / fanout) {
-      first_[level_count_++] = total;
-      total += static_cast<std::size_t>(size);
-      first_[level_count_] = total;
-      if (size == 1) break;
+    for (int size = leaf_count(); size > 0; size = size == 1 ? 0 : (size + fanout - 1) / fanout) {
+      sizes_[level_count_] = size;
+      first_pack_[level_count_++] = total;
+      total += static_cast<std::size_t>((size + fanout - 1) / fanout);
     }
-    nodes_.resize(total);
+    packs_.assign(total, Pack<B, fanout>{});
   }
 
-  int size_of(int level) const { return static_cast<int>(first_[level + 1] - first_[level]); }
-  std::size_t at(int level, int index) const { return first_[level] + static_cast<std::size_t>(index); }
-  Range children_of(int level, int index) const {
-    return {index * fanout, std::min((index + 1) * fanout, size_of(level - 1))};
+  int packet_level() const { return std::min(1, level_count_ - 1); }
+  int child_count(int level, int index) const { return std::min(fanout, sizes_[level - 1] - index * fanout); }
+  const Pack<B, fanout>& pack_of_children(int level, int index) const {
+    return packs_[first_pack_[level - 1] + static_cast<std::size_t>(index)];
+  }
+  B node_at(int level, int index) const {
+    return packs_[first_pack_[level] + static_cast<std::size_t>(index / fanout)].get(index % fanout);
+  }
+  void set_node(int level, int index, const B& bounds) {
+    packs_[first_pack_[level] + static_cast<std::size_t>(index / fanout)].set(index % fanout, bounds);
   }
   int leaf_at(int slot) const { return order_[static_cast<std::size_t>(slot)]; }
 
-  /// visit(index) for each node of the level `bottom` that, with all above it, is wanted.
-  template <class Wanted, class Visit>
-  void descend(int bottom, const Wanted& wanted, const Visit& visit) const {
-    if (level_count_ == 0 || !wanted(nodes_[at(level_count_ - 1, 0)])) return;
+  /// visit(index) for each node of the level `bottom` that, with all above it, overlaps.
+  template <class Visit>
+  void descend(int bottom, const B& bounds, const Visit& visit) const {
+    if (level_count_ == 0 || !overlap(node_at(level_count_ - 1, 0), bounds)) return;
     Node stack[most_levels * fanout];
     int depth = 0;
     stack[depth++] = {level_count_ - 1, 0};
@@ -136,34 +134,38 @@ class Tree {
         visit(node.index);
         continue;
       }
-      const Range children = children_of(node.level, node.index);
-      const B* bounds = &nodes_[at(node.level - 1, 0)];
-      for (int i = children.last - 1; i >= children.first; --i) {
-        stack[depth] = {node.level - 1, i};
-        depth += wanted(bounds[i]);
-      }
+      const unsigned wanted =
+          pack_of_children(node.level, node.index).overlaps(bounds, child_count(node.level, node.index));
+      each_bit(wanted, [&](int child) { stack[depth++] = {node.level - 1, node.index * fanout + child}; });
     }
   }
 
-  void collect_overlapping(int level, int node, int slot, std::vector<int>& leaves) const {
-    const Range range = level == 0 ? Range{node, node + 1} : children_of(1, node);
-    const B& own = nodes_[static_cast<std::size_t>(slot)];
-    if (level == 1 && !overlap(own, nodes_[at(1, node)])) return;
-    for (int b = range.first; b < range.last; ++b)
-      if (overlap(own, nodes_[static_cast<std::size_t>(b)]) && b != slot) leaves.push_back(leaf_at(b));
+  template <class Visit>
+  static void each_bit(unsigned bits, const Visit& visit) {
+    for (; bits != 0; bits &= bits - 1) visit(__builtin_ctz(bits));
+  }
+
+  /// The leaves of a pack that overlap the leaf at `slot`, without itself.
+  void collect_overlapping(int pack, int slot, std::vector<int>& leaves) const {
+    const int count = std::min(fanout, leaf_count() - pack * fanout);
+    const unsigned wanted = packs_[static_cast<std::size_t>(pack)].overlaps(node_at(0, slot), count);
+    each_bit(wanted, [&](int lane) {
+      if (pack * fanout + lane != slot) leaves.push_back(leaf_at(pack * fanout + lane));
+    });
   }
 
   template <class Visit>
   void descend_both(const Tree& other, Node a, Node b, const Visit& visit) const {
-    if (!overlap(nodes_[at(a.level, a.index)], other.nodes_[other.at(b.level, b.index)])) return;
     if (a.level == 0 && b.level == 0) {
       visit(leaf_at(a.index), other.leaf_at(b.index));
     } else if (a.level >= b.level) {
-      const Range children = children_of(a.level, a.index);
-      for (int i = children.first; i < children.last; ++i) descend_both(other, {a.level - 1, i}, b, visit);
+      const unsigned wanted =
+          pack_of_children(a.level, a.index).overlaps(other.node_at(b.level, b.index), child_count(a.level, a.index));
+      each_bit(wanted, [&](int i) { descend_both(other, {a.level - 1, a.index * fanout + i}, b, visit); });
     } else {
-      const Range children = other.children_of(b.level, b.index);
-      for (int i = children.first; i < children.last; ++i) descend_both(other, a, {b.level - 1, i}, visit);
+      const unsigned wanted =
+          other.pack_of_children(b.level, b.index).overlaps(node_at(a.level, a.index), other.child_count(b.level, b.index));
+      each_bit(wanted, [&](int i) { descend_both(other, a, {b.level - 1, b.index * fanout + i}, visit); });
     }
   }
 
@@ -175,12 +177,11 @@ class Tree {
       if (d < best.second || (d == best.second && best.first >= 0 && leaf < best.first)) best = {leaf, d};
       return;
     }
-    const Range children = children_of(node.level, node.index);
     std::pair<float, int> near_first[fanout];
-    const int count = children.last - children.first;
+    const int count = child_count(node.level, node.index);
     for (int i = 0; i < count; ++i) {
-      const std::pair<float, int> child{nodes_[at(node.level - 1, children.first + i)].distance_bound(p),
-                                        children.first + i};
+      const int index = node.index * fanout + i;
+      const std::pair<float, int> child{node_at(node.level - 1, index).distance_bound(p), index};
       int place = i;
       for (; place > 0 && child < near_first[place - 1]; --place) near_first[place] = near_first[place - 1];
       near_first[place] = child;
@@ -191,9 +192,10 @@ class Tree {
     }
   }
 
-  std::vector<B> nodes_;  ///< all levels, leaves first
+  std::vector<Pack<B, fanout>> packs_;  ///< all levels, leaves first; the children of one node are one pack
   std::vector<int> order_;
-  std::size_t first_[most_levels + 1] = {};  ///< of each level in nodes_
+  std::size_t first_pack_[most_levels] = {};
+  int sizes_[most_levels] = {};  ///< nodes of each level
   int level_count_ = 0;
   std::vector<Vec3f> centres_;
   MortonSorter sorter_;
