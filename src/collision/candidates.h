@@ -1,10 +1,10 @@
 // Which vertices may meet which triangles, and which edges which edges, while everything moves from one place to another.
 //
-// Both come from one question: which elements (triangles, loose edges, loose vertices) overlap as boxes that hold their whole
-// motion, grown by half the radius each. Every vertex and every edge has one owner, an element that it is part of; what an
-// overlapping pair of elements owns is then tested box against box. An owner's box holds what it owns, so nothing is missed;
-// an owner is one, so nothing comes twice. Elements are handled in packets of the tree's order, each by one thread that alone
-// writes what its elements own: counts, then places, then the lists. Sorted, and the same on any number of threads.
+// Boxes hold each vertex's whole motion, grown by half the radius, and so do those of edges and triangles, which are the boxes of
+// their vertices together. Vertices are looked for in a hierarchy over the triangles, edges in one over the edges, in packets of
+// eight that lie together: one way down a tree for eight, then eight boxes at once. (Going by pairs of triangles and what each
+// of them owns is a third of the code more and was measured three times as slow: docs/broadphase.md.) Each packet's lists are
+// written by one thread: counts, then places, then the lists. Sorted, and the same on any number of threads.
 //
 // Memory grows with what is found and is kept: a frame that finds no more than an earlier one allocates nothing.
 #pragma once
@@ -28,21 +28,14 @@ struct IntLists {
 
 /// Surfaces and lines, as candidates are looked for among them.
 struct ContactElements {
-  /// Edges of the triangles and loose ones, ascending, each once.
-  std::vector<std::array<int, 2>> edges;
   std::vector<Triangle> triangles;
-  int vertex_count = 0;
-
-  struct Element {
-    std::array<int, 3> corners;         ///< the last repeated where there are fewer
-    std::array<int, 3> owned_vertices;  ///< -1 where there are fewer
-    std::array<int, 3> owned_edges;     ///< -1 where there are fewer
-  };
-  std::vector<Element> elements;  ///< triangles first, then loose edges, then loose vertices
+  std::vector<std::array<int, 2>> edges;  ///< of the triangles and loose ones: a < b, ascending, each once
+  std::vector<int> vertices;              ///< of all these and loose ones, ascending, each once
+  int vertex_count = 0;                   ///< of all there are
 };
 
-/// Every vertex not in a triangle or loose edge is a loose vertex where `loose_vertices` lists it, else it meets nothing. Throws Error
-/// where an index is outside 0..vertex_count - 1.
+/// What may touch: triangles, edges of no triangle (ropes), and vertices of neither (grains). Throws Error where an index is outside
+/// 0..vertex_count - 1.
 ContactElements make_contact_elements(const std::vector<Triangle>& triangles,
                                       const std::vector<std::array<int, 2>>& loose_edges,
                                       const std::vector<int>& loose_vertices, int vertex_count);
@@ -52,7 +45,7 @@ class CandidateFinder {
   explicit CandidateFinder(ContactElements elements);
 
   /// Finds all pairs that may come within `radius` [m] while vertices move straight from `from` to `to`. All finite and below
-  /// 1e15 m. `anew` builds the tree from scratch, as the first call does in any case: due when things have moved far.
+  /// 1e15 m. `anew` builds the trees from scratch, as the first call does in any case: due when things have moved far.
   void find(Executor& executor, const std::vector<Vec3f>& from, const std::vector<Vec3f>& to, float radius,
             bool anew = false);
 
@@ -63,25 +56,24 @@ class CandidateFinder {
   const ContactElements& elements() const { return elements_; }
 
  private:
-  /// What one thread found for the elements of some packets.
+  /// What one thread found for some packets: runs of items, each with its owner.
   struct Part {
     struct Run {
       int owner, count;
     };
-    std::vector<Run> vertex_runs, edge_runs;
-    std::vector<int> triangles, edges, slots, others;
+    std::vector<Run> runs;
+    std::vector<int> items, packs, hits;
   };
 
   void fit_boxes(Executor& executor, const std::vector<Vec3f>& from, const std::vector<Vec3f>& to, float radius);
-  void find_part(int part);
-  void add_vertex_triangles(int vertex, Part& part);
-  void add_edge_edges(int edge, Part& part);
-  BoxBounds edge_box(int edge) const;
-  void gather(Executor& executor);
+  void fit_trees(Executor& executor, bool anew);
+  template <class Wanted>
+  void find_lists(Executor& executor, const Tree<BoxBounds>& owners, const Tree<BoxBounds>& others,
+                  const int* owner_of_leaf, IntLists& lists, const Wanted& wanted);
 
   ContactElements elements_;
-  std::vector<BoxBounds> vertex_boxes_, boxes_;
-  Tree<BoxBounds> tree_;
+  std::vector<BoxBounds> all_vertex_boxes_, vertex_boxes_, edge_boxes_, triangle_boxes_;
+  Tree<BoxBounds> vertex_tree_, edge_tree_, triangle_tree_;
   bool built_ = false;
   std::vector<Part> parts_;
   IntLists vertex_triangles_, edge_edges_;

@@ -49,27 +49,30 @@ class Tree {
   /// The tree in packets of leaves that lie together: units of work for threads.
   int packet_count() const { return level_count_ == 0 ? 0 : sizes_[packet_level()]; }
 
-  /// For each leaf a of a packet: visit(a, others), which are all leaves b != a that overlap a, in the tree's order. The two
-  /// vectors are the caller's memory to work in.
+  /// For each leaf a of a packet: visit(a, hits), which are all leaves of `other` that overlap a, in that tree's order; with
+  /// this tree as the other, a itself among them. The two vectors are the caller's memory to work in.
   template <class Visit>
-  void packet_neighbours(int packet, std::vector<int>& nodes, std::vector<int>& others, const Visit& visit) const {
-    nodes.clear();
+  void packet_overlaps(int packet, const Tree& other, std::vector<int>& packs, std::vector<int>& hits,
+                       const Visit& visit) const {
+    packs.clear();
     const int level = packet_level();
-    descend(level, node_at(level, packet), [&](int node) { nodes.push_back(node); });
+    // Once down the other tree for all leaves of the packet, then leaf against packs of leaves.
+    other.descend_to_packs(node_at(level, packet), [&](int pack) { packs.push_back(pack); });
     const int first = level == 0 ? packet : packet * fanout, count = level == 0 ? 1 : child_count(1, packet);
     for (int a = first; a < first + count; ++a) {
-      others.clear();
-      for (const int node : nodes) collect_overlapping(level == 0 ? node / fanout : node, a, others);
-      visit(leaf_at(a), others);
+      hits.clear();
+      const B bounds = node_at(0, a);
+      for (const int pack : packs) other.collect_overlapping(pack, bounds, hits);
+      visit(leaf_at(a), hits);
     }
   }
 
   /// visit(a, b), a < b, once for each pair of leaves that overlap.
   template <class Visit>
   void self_pairs(const Visit& visit) const {
-    std::vector<int> nodes, others;
+    std::vector<int> packs, hits;
     for (int packet = 0; packet < packet_count(); ++packet)
-      packet_neighbours(packet, nodes, others, [&](int a, const std::vector<int>& list) {
+      packet_overlaps(packet, *this, packs, hits, [&](int a, const std::vector<int>& list) {
         for (const int b : list)
           if (a < b) visit(a, b);
       });
@@ -145,13 +148,17 @@ class Tree {
     for (; bits != 0; bits &= bits - 1) visit(__builtin_ctz(bits));
   }
 
-  /// The leaves of a pack that overlap the leaf at `slot`, without itself.
-  void collect_overlapping(int pack, int slot, std::vector<int>& leaves) const {
-    const int count = std::min(fanout, leaf_count() - pack * fanout);
-    const unsigned wanted = packs_[static_cast<std::size_t>(pack)].overlaps(node_at(0, slot), count);
-    each_bit(wanted, [&](int lane) {
-      if (pack * fanout + lane != slot) leaves.push_back(leaf_at(pack * fanout + lane));
-    });
+  /// visit(pack) for each pack of leaves whose node overlaps.
+  template <class Visit>
+  void descend_to_packs(const B& bounds, const Visit& visit) const {
+    if (level_count_ == 1) visit(0);
+    if (level_count_ > 1) descend(1, bounds, visit);
+  }
+
+  void collect_overlapping(int pack, const B& bounds, std::vector<int>& leaves) const {
+    const unsigned wanted =
+        packs_[static_cast<std::size_t>(pack)].overlaps(bounds, std::min(fanout, leaf_count() - pack * fanout));
+    each_bit(wanted, [&](int lane) { leaves.push_back(leaf_at(pack * fanout + lane)); });
   }
 
   template <class Visit>
