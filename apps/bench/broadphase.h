@@ -8,7 +8,7 @@
 
 namespace pliant::bench {
 
-/// One broad phase on one input, one thread unless it says otherwise; medians over frames.
+/// One broad phase on one input; medians over frames. Processor time of one thread; where there are more, elapsed time.
 struct BroadPhaseRow {
   std::string input;  ///< "cloth", "rolled cloth", "sphere"
   int triangles = 0;
@@ -37,7 +37,7 @@ struct ImpactRow {
   double hits = 0;  ///< share of the queries
 };
 
-/// Random queries, one thread.
+/// Random queries, one thread; by processor time.
 std::vector<ImpactRow> measure_impacts();
 
 std::string to_json(const std::vector<BroadPhaseRow>& rows);

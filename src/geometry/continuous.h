@@ -121,16 +121,16 @@ PLIANT_HD R first_root(const R& a, const R& b, const R& c) {
 
 /// The share of the whole motion for which all pairs of corners stay further apart than `least` along a normal that begins as a
 /// unit vector and turns by `turn` a unit of time, so that each pair's distance is a quadratic; 2 where it is longer than all.
+/// Holds for as long as the turning normal is no longer than 1.
 template <int A, class R>
 PLIANT_HD R free_share(const Corners<R>& x, const Corners<R>& motion, const Vec3<R>& normal, const Vec3<R>& turn,
                        const R& least) {
-  const R lengthening = length(turn);  // |normal + t turn| <= 1 + t |turn|
   R share = R(2);
   for (int i = 0; i < A; ++i)
     for (int j = A; j < 4; ++j) {
       const Vec3<R> apart = x.at[i] - x.at[j], opening = motion.at[i] - motion.at[j];
-      share = min(share, first_root(dot(normal, apart) - least,
-                                    dot(turn, apart) + dot(normal, opening) - least * lengthening, dot(turn, opening)));
+      share =
+          min(share, first_root(dot(normal, apart) - least, dot(turn, apart) + dot(normal, opening), dot(turn, opening)));
     }
   return share;
 }
@@ -152,7 +152,8 @@ constexpr int plain_advances = 4;     // before the plane is let turn
 constexpr float longest_attempt = 4;  // times as far as the last advance
 
 /// Where edges lie close along one another and turn, a fixed plane serves for moments only: the far ends run into it. One that
-/// turns towards where it will be needed serves for longer, by a root of the gap instead of the gap itself.
+/// turns towards where it will be needed serves for longer, by a root of the gap instead of the gap itself. On its way from one unit
+/// vector to another it is never longer than 1.
 template <int A, class R>
 PLIANT_HD R turning_share(const Corners<R>& start, const Corners<R>& motion, const Corners<R>& x, const Vec3<R>& normal,
                           const R& t, const R& attempt, const R& least) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "geometry/exact.h"
 #include "nasty.h"
 #include "pliant/mesh.h"
 
@@ -73,6 +74,20 @@ TEST(MeshQuery, CountsShellsAndTheirSense) {
   EXPECT_EQ(MeshQuery(turned.positions, turned.triangles).winding_number({0.1f, 0, 0}), -1);
   EXPECT_EQ(MeshQuery({}, {}).winding_number({0, 0, 0}), 0);
   EXPECT_EQ(MeshQuery({}, {}).closest({0, 0, 0}).triangle, -1);
+}
+
+TEST(MeshQuery, GivesUpRaysThatTouch) {
+  // A cube, and in it a tetrahedron with a corner exactly in the way of the first ray from the origin, which ends at 16 v.
+  TriangleMesh mesh = cube();
+  const float step = 13;
+  const Vec3f v{step / 16, step * 0.0137f / 16, step * 0.0291f / 16};
+  for (const Vec3f& corner : {v, v + Vec3f{0.1f, 0, 0}, v + Vec3f{0.1f, 0.1f, 0}, v + Vec3f{0.1f, 0, 0.1f}})
+    mesh.positions.push_back(corner);
+  for (const Triangle& t : {Triangle{8, 9, 10}, Triangle{8, 11, 9}, Triangle{8, 10, 11}, Triangle{9, 11, 10}})
+    mesh.triangles.push_back(t);
+  EXPECT_EQ(how_edge_meets_triangle({{0, 0, 0}, 16.f * v}, {v, v + Vec3f{0.1f, 0, 0}, v + Vec3f{0.1f, 0.1f, 0}}),
+            EdgeTriangle::touching);
+  EXPECT_EQ(MeshQuery(mesh.positions, mesh.triangles).winding_number({0, 0, 0}), 1);
 }
 
 TEST(MeshQuery, FollowsItsMesh) {
