@@ -2,6 +2,8 @@
 //
 // For the rare decision that double precision leaves open, as a scalar type of the same formulas. Dekker 1971, "A
 // floating-point technique for extending the available precision"; no fused multiply-add, so the bits are the same everywhere.
+// For hosts, and not inlined by force: every operation is twenty, and formulas of hundreds of them took minutes to compile
+// under the sanitizers.
 #pragma once
 
 #include "math/scalar.h"
@@ -12,26 +14,26 @@ struct DoubleDouble {
   double high = 0, low = 0;  ///< |low| at most half a unit in the last place of `high`
 
   DoubleDouble() = default;
-  PLIANT_HD DoubleDouble(double value) : high(value) {}  // NOLINT(google-explicit-constructor): as float to double
-  PLIANT_HD DoubleDouble(double h, double l) : high(h), low(l) {}
-  PLIANT_HD explicit operator double() const { return high; }
+  DoubleDouble(double value) : high(value) {}  // NOLINT(google-explicit-constructor): as float to double
+  DoubleDouble(double h, double l) : high(h), low(l) {}
+  explicit operator double() const { return high; }
 };
 
 namespace detail {
 
 /// a + b where |a| >= |b| or a = 0, exactly.
-PLIANT_HD DoubleDouble fast_two_sum(double a, double b) {
+inline DoubleDouble fast_two_sum(double a, double b) {
   const double sum = a + b;
   return {sum, b - (sum - a)};
 }
 
-PLIANT_HD DoubleDouble two_sum(double a, double b) {
+inline DoubleDouble two_sum(double a, double b) {
   const double sum = a + b, part = sum - a;
   return {sum, (a - (sum - part)) + (b - part)};
 }
 
 /// a b exactly, where nothing over- or underflows.
-PLIANT_HD DoubleDouble two_product(double a, double b) {
+inline DoubleDouble two_product(double a, double b) {
   constexpr double splitter = 134217729;  // 2^27 + 1
   const double product = a * b, a_scaled = splitter * a, b_scaled = splitter * b;
   const double a_high = a_scaled - (a_scaled - a), a_low = a - a_high;
@@ -41,18 +43,18 @@ PLIANT_HD DoubleDouble two_product(double a, double b) {
 
 }  // namespace detail
 
-PLIANT_HD DoubleDouble operator-(const DoubleDouble& a) { return {-a.high, -a.low}; }
-PLIANT_HD DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
+inline DoubleDouble operator-(const DoubleDouble& a) { return {-a.high, -a.low}; }
+inline DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
   const DoubleDouble high = detail::two_sum(a.high, b.high), low = detail::two_sum(a.low, b.low);
   const DoubleDouble sum = detail::fast_two_sum(high.high, high.low + low.high);
   return detail::fast_two_sum(sum.high, sum.low + low.low);
 }
-PLIANT_HD DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }
-PLIANT_HD DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
+inline DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }
+inline DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
   const DoubleDouble product = detail::two_product(a.high, b.high);
   return detail::fast_two_sum(product.high, product.low + (a.high * b.low + a.low * b.high));
 }
-PLIANT_HD DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
+inline DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
   const double first = a.high / b.high;
   const DoubleDouble rest = a - b * DoubleDouble(first);
   const double second = rest.high / b.high;
@@ -60,22 +62,22 @@ PLIANT_HD DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
   return detail::fast_two_sum(first, second) + DoubleDouble(left.high / b.high);
 }
 
-PLIANT_HD bool operator<(const DoubleDouble& a, const DoubleDouble& b) {
+inline bool operator<(const DoubleDouble& a, const DoubleDouble& b) {
   return a.high < b.high || (a.high == b.high && a.low < b.low);
 }
-PLIANT_HD bool operator>(const DoubleDouble& a, const DoubleDouble& b) { return b < a; }
-PLIANT_HD bool operator<=(const DoubleDouble& a, const DoubleDouble& b) {
+inline bool operator>(const DoubleDouble& a, const DoubleDouble& b) { return b < a; }
+inline bool operator<=(const DoubleDouble& a, const DoubleDouble& b) {
   return a.high < b.high || (a.high == b.high && a.low <= b.low);
 }
-PLIANT_HD bool operator>=(const DoubleDouble& a, const DoubleDouble& b) { return b <= a; }
+inline bool operator>=(const DoubleDouble& a, const DoubleDouble& b) { return b <= a; }
 
-PLIANT_HD DoubleDouble select(bool mask, const DoubleDouble& a, const DoubleDouble& b) { return mask ? a : b; }
-PLIANT_HD DoubleDouble min(const DoubleDouble& a, const DoubleDouble& b) { return a < b ? a : b; }
-PLIANT_HD DoubleDouble max(const DoubleDouble& a, const DoubleDouble& b) { return a > b ? a : b; }
-PLIANT_HD DoubleDouble abs(const DoubleDouble& a) { return a.high < 0 ? -a : a; }
+inline DoubleDouble select(bool mask, const DoubleDouble& a, const DoubleDouble& b) { return mask ? a : b; }
+inline DoubleDouble min(const DoubleDouble& a, const DoubleDouble& b) { return a < b ? a : b; }
+inline DoubleDouble max(const DoubleDouble& a, const DoubleDouble& b) { return a > b ? a : b; }
+inline DoubleDouble abs(const DoubleDouble& a) { return a.high < 0 ? -a : a; }
 
 /// One step of Newton's method from the root in double; NaN below zero.
-PLIANT_HD DoubleDouble sqrt(const DoubleDouble& a) {
+inline DoubleDouble sqrt(const DoubleDouble& a) {
   if (a.high == 0) return {};
   const double root = sqrt(a.high);
   const DoubleDouble rest = a - detail::two_product(root, root);
@@ -83,6 +85,6 @@ PLIANT_HD DoubleDouble sqrt(const DoubleDouble& a) {
 }
 
 /// Of a few operations together: 2^-102.
-PLIANT_HD DoubleDouble unit_roundoff(const DoubleDouble&) { return {2e-31}; }
+inline DoubleDouble unit_roundoff(const DoubleDouble&) { return {2e-31}; }
 
 }  // namespace pliant
