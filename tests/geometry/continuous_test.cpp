@@ -194,8 +194,8 @@ Counts run_queries(const std::filesystem::path& file) {
   for (int row = 0;; ++row) {
     for (int i = 0; i < 7; ++i)
       if (!std::getline(in, field[i], i < 6 ? ',' : '\n')) return counts;
-    (row % 8 < 4 ? m.from : m.to)[row % 4] =
-        Vec3d{quotient(field[0], field[1]), quotient(field[2], field[3]), quotient(field[4], field[5])};
+    Vec3d* const corners = row % 8 < 4 ? m.from : m.to;  // g++ 12's sanitizer writes to a copy of (a ? b : c)[i]
+    corners[row % 4] = Vec3d{quotient(field[0], field[1]), quotient(field[2], field[3]), quotient(field[4], field[5])};
     if (row % 8 != 7) continue;
     const bool truth = field[6][0] == '1', found = sharp_impact_of<edges>(m, 0).hit;
     const bool found_in_double = impact_of<edges>(m, 0.0).hit;
