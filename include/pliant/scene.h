@@ -1,6 +1,7 @@
 // A Scene is a description: plain data that a World compiles. Nothing here moves.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -68,7 +69,11 @@ struct Object {
   std::optional<Volume> volume;               ///< needs a closed surface
   std::vector<Pin> pins;
   std::vector<Attachment> attachments;
-  float thickness = 0.001f;       ///< distance kept from colliders [m]
+  float thickness = 0.001f;       ///< distance kept from colliders; two surfaces keep the sum of theirs [m]
+  bool self_collision = false;    ///< its surface, or its links where it has none, does not pass through itself
+  bool collides = false;          ///< nor through other objects of which this holds
+  std::uint32_t groups = 1;       ///< bits: what it belongs to. Two things meet where each one's groups
+  std::uint32_t mask = ~0u;       ///< have a bit in the other's mask
   float static_friction = 0.4f;   ///< [-]
   float kinetic_friction = 0.3f;  ///< [-], <= static_friction
   float restitution = 0;          ///< 0..1 [-]
@@ -136,6 +141,19 @@ struct Collider {
   Vec3f colour{0.45f, 0.48f, 0.52f};
 };
 
+/// A triangle mesh that nothing pushes, closed or open, met from both sides by every object whose groups and mask allow: its
+/// vertices, edges and triangles all take part.
+struct MeshCollider {
+  std::string name = "mesh";
+  TriangleMesh mesh;             ///< [m]
+  Motion motion{};               ///< of the whole mesh
+  float thickness = 0;           ///< added to the object's [m]
+  float static_friction = 0.4f;  ///< a pair has the geometric mean of both sides'
+  float kinetic_friction = 0.3f;
+  std::uint32_t groups = 1, mask = ~0u;  ///< as of Object
+  Vec3f colour{0.45f, 0.48f, 0.52f};
+};
+
 /// Moving air: a uniform wind with a gust of given period along it.
 struct Wind {
   Vec3f velocity{};       ///< [m/s]
@@ -200,6 +218,7 @@ struct Settings {
   int threads = 0;  ///< 0: as many as the machine has
   Sweep sweep = Sweep::tiled;
   SweepOptions sweep_options{};
+  bool contact_filter = true;  ///< shorten moves so that nothing that collides passes through anything else
   bool measure = false;  ///< fill Report::residuals, stretch and overstretch each frame (costs about one more iteration)
   bool record_residuals = false;    ///< fill Report::convergence (slow: every iteration of the last substep is measured)
   bool record_multipliers = false;  ///< keep multipliers readable even where not needed (one iteration, or rigid)
@@ -216,10 +235,12 @@ struct Scene {
   int frames = 120;             ///< how many a run lasts unless told otherwise
   std::vector<Object> objects;
   std::vector<Collider> colliders;
+  std::vector<MeshCollider> mesh_colliders;
 
   /// Adds an object and returns its index. Its contents are checked when a World is made.
   int add(Object object);
   int add(Collider collider);
+  int add(MeshCollider collider);
   int add_cloth(const TriangleMesh& mesh, const ClothOptions& options = {});
 
   /// Fixes particles where they are, or moves them. Throws Error where the object or a particle does not exist.

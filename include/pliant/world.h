@@ -98,6 +98,16 @@ struct IterationCount {
   double mean = 0;
 };
 
+/// What surfaces did among one another and with mesh colliders.
+struct PairReport {
+  std::int64_t candidates = 0;  ///< vertex-triangle and edge-edge pairs looked at when lists were last made
+  std::int64_t contacts = 0;    ///< that pushed in the last substep
+  std::int64_t shortened = 0;   ///< moves that the filter shortened so that nothing crossed, over all substeps
+  std::int64_t hopeless = 0;    ///< pairs that no shortening keeps apart: two things that nothing pushes pinch what is between
+  std::int64_t tangled = 0;     ///< edges that cross a triangle since the beginning: exempt until they are apart
+  std::int64_t lists = 0;       ///< times that candidates were looked for
+};
+
 /// What a step has to say. A step never throws, but lets through what a force field of the user's throws.
 struct Report {
   std::int64_t frame = 0;
@@ -105,6 +115,7 @@ struct Report {
   double milliseconds = 0;
   std::vector<PhaseTime> phases;
   std::int64_t contacts = 0;                   ///< active in the last substep
+  PairReport pairs;
   std::vector<Residual> residuals;             ///< where Settings::measure
   std::optional<Stretch> stretch;              ///< where Settings::measure
   IterationCount iterations;                   ///< of each substep

@@ -253,6 +253,16 @@ void fill_volume(const Object& object, int passes, CompiledObject& out) {
   }
 }
 
+/// What an object without a surface is made of, as contacts see it.
+std::vector<std::array<int, 2>> lines_of(const std::vector<ConstraintList>& lists) {
+  std::vector<std::array<int, 2>> lines;
+  for (const ConstraintList& list : lists)
+    for (int i = 0; list.size == 2 && i < list.count(); ++i)
+      if (list.rest[static_cast<std::size_t>(i) * list.fields] > 0)
+        lines.push_back({list.stencils[2 * static_cast<std::size_t>(i)], list.stencils[2 * static_cast<std::size_t>(i) + 1]});
+  return lines;
+}
+
 }  // namespace
 
 CompiledObject compile(const Object& object, const CompileOptions& options) {
@@ -275,6 +285,11 @@ CompiledObject compile(const Object& object, const CompileOptions& options) {
   if (options.tethers) out.tethers = find_tethers(lists, options.tether_slack, out);
   fill_volume(object, options.passes, out);
 
+  if (object.triangles.empty()) out.lines = lines_of(lists);
+  out.self_collision = object.self_collision;
+  out.collides = object.collides;
+  out.groups = object.groups;
+  out.mask = object.mask;
   out.thickness = object.thickness;
   out.static_friction = object.static_friction;
   out.kinetic_friction = object.kinetic_friction;
@@ -282,6 +297,26 @@ CompiledObject compile(const Object& object, const CompileOptions& options) {
   out.drag = object.drag;
   out.lift = object.lift;
   out.damping = object.damping;
+  return out;
+}
+
+CompiledObject compile(const MeshCollider& collider) {
+  Object object;
+  object.name = collider.name;
+  object.positions = collider.mesh.positions;
+  object.masses.assign(object.positions.size(), std::numeric_limits<float>::infinity());
+  object.triangles = collider.mesh.triangles;
+  object.thickness = collider.thickness;
+  object.static_friction = collider.static_friction;
+  object.kinetic_friction = collider.kinetic_friction;
+  object.collides = true;
+  object.groups = collider.groups;
+  object.mask = collider.mask;
+  object.drag = object.lift = 0;
+  if (collider.motion.moves())
+    for (int i = 0; i < static_cast<int>(object.positions.size()); ++i) object.pins.push_back({i, collider.motion});
+  CompiledObject out = compile(object, CompileOptions{});
+  out.is_collider = true;
   return out;
 }
 

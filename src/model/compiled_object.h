@@ -94,8 +94,11 @@ struct CompiledObject {
   Tethers tethers;
   std::vector<Kinematic> kinematics;  ///< those that move
   Surface surface;
+  std::vector<std::array<int, 2>> lines;  ///< distance constraints of an object without triangles, for contacts
   bool has_volume = false;
   CompiledVolume volume;
+  bool self_collision = false, collides = false, is_collider = false;
+  std::uint32_t groups = 1, mask = 0xffffffffu;
   float thickness = 0, static_friction = 0, kinetic_friction = 0, restitution = 0, drag = 0, lift = 0, damping = 0;
 };
 
@@ -108,6 +111,9 @@ struct CompileOptions {
   float chain_softness = 0.1f;  ///< as in SweepOptions
   float tether_slack = 0;
 };
+
+/// A mesh collider as an object of particles without mass that follow its motion: to contacts it is one like any other.
+CompiledObject compile(const MeshCollider& collider);
 
 /// Compiles an object that inspect() finds nothing grave in. Throws Error naming an unknown constraint type or a stencil or
 /// rest data of the wrong size.

@@ -38,7 +38,8 @@ struct Model {
   Wind wind;
   std::vector<ForceField> forces;
   std::vector<Collider> colliders;
-  std::vector<CompiledObject> objects;
+  std::vector<CompiledObject> objects;  ///< the user's, then one for each mesh collider
+  int user_objects = 0;
   std::vector<int> first;  ///< first[o] is object o's first particle in a State; one more at the end
   std::vector<TileTask> tiles;
   std::vector<StraddlerPhase> straddlers;

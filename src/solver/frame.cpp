@@ -33,6 +33,9 @@ Frame::Frame(const StepContext& context, double dt, Report& report)
                        context.options.acceleration == SweepOptions::Acceleration::none) {
   for (std::size_t o = 0; o < work_.gravity.size(); ++o)
     work_.gravity[o] = {0, 0, 0, 1 / (1 + h_ * model_.objects[o].damping)};
+  if (!has_pairs()) return;
+  work_.pairs->begin_frame(state_.positions.data(), work_.look_for_tangles);
+  work_.look_for_tangles = false;
 }
 
 // ---------------------------------------------------------------- views
@@ -158,6 +161,18 @@ bool Frame::finish_tile(int task, bool ends_frame) {
   return true;
 }
 
+// ---------------------------------------------------------------- pairs
+
+PairParticles Frame::all_particles() const {
+  return {state_.positions.data(), state_.remainders.data(), work_.displacements.data(),
+          static_cast<int>(state_.positions.size()), h_};
+}
+
+void Frame::find_pairs() { work_.pairs->detect(executor_, all_particles()); }
+void Frame::sweep_pairs() { work_.pairs->project(all_particles()); }
+void Frame::filter_pairs() { work_.pairs->filter(executor_, all_particles()); }
+void Frame::respond_to_pairs() { work_.pairs->respond(state_.positions.data(), state_.velocities.data()); }
+
 // ---------------------------------------------------------------- constraints
 
 void Frame::sweep_tiles(bool first_pass, Order order) {
@@ -251,6 +266,10 @@ void Frame::end() {
   for (const TileScratch& tile : work_.tiles) {
     report_.contacts +=
         std::count_if(tile.contacts.begin(), tile.contacts.end(), [](const Contact& c) { return c.push > 0; });
+  }
+  if (has_pairs()) {
+    const PairCounts& c = work_.pairs->counts();
+    report_.pairs = {c.candidates, c.contacts, c.shortened, c.hopeless, c.tangled, c.rebuilds};
   }
   state_.time = start_ + dt_;
 }

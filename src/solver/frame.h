@@ -34,6 +34,14 @@ class Frame {
 
   void sweep_contacts();
 
+  /// Contacts among what moves, and with meshes (collision/pairs.h): whether there can be any; those of the substep; one
+  /// projection of each; and moves shortened so that nothing crosses.
+  bool has_pairs() const { return work_.pairs != nullptr; }
+  void find_pairs();
+  void sweep_pairs();
+  void filter_pairs();
+  void respond_to_pairs();
+
   /// Velocities and positions of every tile at the end of a substep, or of the frame.
   void finish_tiles(bool ends_frame);
 
@@ -64,6 +72,7 @@ class Frame {
   Vec3f gravity_for(double seconds) const { return model_.gravity * static_cast<float>(seconds); }
   double time_of(int substep) const { return start_ + dt_ * substep / context_.substeps; }
   AdvanceArguments particles(int task) const;
+  PairParticles all_particles() const;
   bool enter_tile(int task, bool finishes_first);
   bool finish_tile(int task, bool ends_frame);
   void sweep_tile(int task, bool first_pass, Order order);

@@ -41,6 +41,7 @@ int solve(const StepContext& context, Frame& frame, bool records) {
     sweep_method(context.sweep).iterate(frame, iteration == 0);
     if (accelerates) accelerate(frame, iteration);
     frame.hold_tethers();
+    if (frame.has_pairs()) frame.sweep_pairs();
     frame.sweep_contacts();  // last, so that what is drawn does not reach into what it lies on
     if (records) record_iteration(frame, iteration + 1);
     if (is_last(context, frame, iteration)) return iteration + 1;
@@ -49,23 +50,28 @@ int solve(const StepContext& context, Frame& frame, bool records) {
 }
 
 void run(const StepContext& context, Frame& frame) {
-  const bool forces = has_forces(context.model);
+  const bool forces = has_forces(context.model), parted = forces || frame.has_pairs();
   for (int substep = 0; substep < context.substeps; ++substep) {
     const bool first = substep == 0;
     frame.begin_substep(substep);
-    if (forces) {
+    if (parted) {
       if (!first) frame.finish_tiles(false);
       if (frame.give_up(substep - 1)) return;
-      frame.apply_external_forces(substep);
+      if (!first && frame.has_pairs()) frame.respond_to_pairs();
+      if (forces) frame.apply_external_forces(substep);
     }
 
     // The end of the last substep, prediction and contacts of this one, and mostly its first sweep over each tile.
-    frame.enter_tiles(!first && !forces);
+    frame.enter_tiles(!first && !parted);
     if (frame.give_up(substep - 1)) return;
+    if (frame.has_pairs()) frame.find_pairs();
     frame.count_iterations(solve(context, frame, context.record_residuals && substep + 1 == context.substeps));
+    if (frame.has_pairs()) frame.filter_pairs();
   }
   frame.finish_tiles(true);
-  if (!frame.give_up(context.substeps - 1)) frame.end();
+  if (frame.give_up(context.substeps - 1)) return;
+  if (frame.has_pairs()) frame.respond_to_pairs();
+  frame.end();
 }
 
 }  // namespace

@@ -3,7 +3,10 @@
 
 #include <vector>
 
+#include <memory>
+
 #include "collision/contact.h"
+#include "collision/pairs.h"
 #include "model/model.h"
 #include "pliant/world.h"
 #include "solver/residual.h"
@@ -46,6 +49,8 @@ struct Workspace {
   std::vector<AlignedVector<float>> chain_scratch;  ///< one a thread
   std::vector<Records> anchors;                     ///< [object], position and displacement of each anchor of tethers
   SweepScratch sweep;
+  std::unique_ptr<PairSystem> pairs;  ///< null where nothing that moves can touch anything else that is made of triangles
+  bool look_for_tangles = true;       ///< at the next frame: the first, or after a State was put back
   ResidualScratch residual;  ///< where iterations stop at a tolerance
 };
 

@@ -19,6 +19,11 @@ int Scene::add(Collider collider) {
   return static_cast<int>(colliders.size()) - 1;
 }
 
+int Scene::add(MeshCollider collider) {
+  mesh_colliders.push_back(std::move(collider));
+  return static_cast<int>(mesh_colliders.size()) - 1;
+}
+
 int Scene::add_cloth(const TriangleMesh& mesh, const ClothOptions& options) { return add(make_cloth(mesh, options)); }
 
 void Scene::pin(int object, const std::vector<int>& particles, const Motion& motion) {

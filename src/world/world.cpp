@@ -65,8 +65,15 @@ struct World::Implementation {
       options.tether_slack = settings.sweep_options.tether_slack;
       model.add(compile(object, options));
     }
+    model.user_objects = static_cast<int>(model.objects.size());
+    for (const MeshCollider& collider : scene.mesh_colliders) model.add(compile(collider));
     if (model.first.empty()) model.first.push_back(0);
     state = initial_state(model);
+    pair_model = make_pair_model(model, state.positions);
+    if (pair_model != nullptr) {
+      pair_model->filter = settings.contact_filter;
+      workspace.pairs = std::make_unique<PairSystem>(*pair_model);
+    }
     prepare(model, kept_multipliers(settings), workspace);
     prepare_sweep(model, settings, workspace);
     prepare_chains(model, executor.threads(), workspace);
@@ -74,7 +81,7 @@ struct World::Implementation {
   }
 
   const CompiledObject& object(int index) const {
-    if (index < 0 || index >= static_cast<int>(model.objects.size())) {
+    if (index < 0 || index >= model.user_objects) {
       throw Error({}, "there is no object " + std::to_string(index), "object_count() says how many there are");
     }
     return model.objects[index];
@@ -112,6 +119,7 @@ struct World::Implementation {
   Executor executor;
   const Kernels& kernels;
   Model model;
+  std::unique_ptr<PairModel> pair_model;
   State state;
   Workspace workspace;
   Lengths lengths;
@@ -191,10 +199,11 @@ void World::restore(const State& state) {
     throw Error({}, "the state's frame is " + std::to_string(state.frame), "restore a state of this world");
   self_->state = state;
   forget_multipliers(self_->workspace);
+  self_->workspace.look_for_tangles = true;
   self_->stopped = false;
 }
 
-int World::object_count() const { return static_cast<int>(self_->model.objects.size()); }
+int World::object_count() const { return self_->model.user_objects; }
 
 ObjectInfo World::info(int object) const {
   const CompiledObject& from = self_->object(object);

@@ -1,0 +1,100 @@
+#include "collision/pair_contact.h"
+
+#include "geometry/triangle.h"
+
+namespace pliant {
+
+namespace {
+
+Vec3d place(const Record& r, const Record& origin) {
+  return {double(r.x) - double(origin.x), double(r.y) - double(origin.y), double(r.z) - double(origin.z)};
+}
+
+/// Inverse mass of the relative place: sum w weight^2.
+float mobility(const PairContact& c, const Record* positions) {
+  float sum = 0;
+  for (int i = 0; i < 4; ++i) sum += positions[c.vertex[i]].w * c.weight[i] * c.weight[i];
+  return sum;
+}
+
+Vec3f relative(const PairContact& c, const Record* of) {
+  Vec3f sum{};
+  for (int i = 0; i < 4; ++i) {
+    const Record& r = of[c.vertex[i]];
+    sum += Vec3f{r.x, r.y, r.z} * c.weight[i];
+  }
+  return sum;
+}
+
+/// Moves the four so that their relative place changes by `change`.
+void move(const PairContact& c, const Vec3f& change, const Record* positions, Record* of) {
+  const float sum = mobility(c, positions);
+  if (!(sum > 0)) return;
+  for (int i = 0; i < 4; ++i) {
+    const float share = positions[c.vertex[i]].w * c.weight[i] / sum;
+    Record& r = of[c.vertex[i]];
+    r = {r.x + change.x * share, r.y + change.y * share, r.z + change.z * share, r.w};
+  }
+}
+
+}  // namespace
+
+PairDistance pair_distance(const PairStencil& pair, const Record* positions) {
+  const Record& origin = positions[pair.vertex[0]];
+  Vec3d x[4];
+  for (int i = 0; i < 4; ++i) x[i] = place(positions[pair.vertex[i]], origin);
+  PairDistance out;
+  Vec3d apart;
+  if (pair.first_side == 1) {
+    const auto near = closest_on_triangle(x[0], x[1], x[2], x[3]);
+    out.weight = {1, -near.weights.x, -near.weights.y, -near.weights.z};
+    apart = x[0] - near.point;
+  } else {
+    const auto near = closest_on_segments({x[0], x[1]}, {x[2], x[3]});
+    out.weight = {1 - near.s, near.s, near.t - 1, -near.t};
+    apart = near.first - near.second;
+  }
+  out.distance = length(apart);
+  out.normal = out.distance > 1e-30 ? apart * (1 / out.distance) : Vec3d{};
+  return out;
+}
+
+PairContact make_contact(const PairStencil& pair, const PairDistance& at, const PairMaterial& material, float h) {
+  PairContact c;
+  c.vertex = pair.vertex;
+  for (int i = 0; i < 4; ++i) c.weight[i] = static_cast<float>(at.weight[i]);
+  c.normal = convert<float>(at.normal);
+  c.gap = static_cast<float>(at.distance);
+  c.thickness = min(material.thickness, c.gap + largest_pair_separation_speed * h);
+  c.static_friction = material.static_friction;
+  c.kinetic_friction = material.kinetic_friction;
+  return c;
+}
+
+void project_contact(PairContact& c, const Record* positions, const Record* remainders, Record* displacements) {
+  const Vec3f moved = relative(c, displacements);
+  const float depth = c.thickness - (c.gap + dot(c.normal, moved));
+  Vec3f change{};
+  if (depth > 0) {
+    change = c.normal * depth;
+    c.push += depth;
+  }
+  if (c.push > 0) {
+    const Vec3f motion = moved + change - relative(c, remainders);
+    const Vec3f slip = motion - c.normal * dot(c.normal, motion);
+    Vec3f friction = c.friction - slip;
+    const float wanted = length(friction);
+    if (wanted > c.static_friction * c.push) friction = friction * (c.kinetic_friction * c.push / max(wanted, 1e-30f));
+    change += friction - c.friction;
+    c.friction = friction;
+  }
+  move(c, change, positions, displacements);
+}
+
+void respond_to_contact(const PairContact& c, const Record* positions, Record* velocities) {
+  if (!(c.push > 0)) return;
+  const float separating = dot(c.normal, relative(c, velocities));
+  if (separating > 0) move(c, c.normal * -separating, positions, velocities);
+}
+
+}  // namespace pliant

@@ -1,0 +1,61 @@
+// Contacts among things that move: a vertex and a triangle, or two edges.
+//
+// Both kinds are four particles with weights that add up to nothing: the relative place of the closest points is sum weight x.
+// Point and normal are those of the substep's start, where every clean pair is apart, and stay for the substep: an iterate
+// may have crossed already and would name the wrong side.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "model/substep.h"
+#include "pliant/vec3.h"
+
+namespace pliant {
+
+/// Four particles, the first `first_side` of them one primitive, the others the other.
+struct PairStencil {
+  std::array<std::int32_t, 4> vertex{};
+  int first_side = 1;  ///< 1: a vertex and a triangle; 2: two edges
+};
+
+/// Where two primitives are closest.
+struct PairDistance {
+  std::array<double, 4> weight{};  ///< of each particle: adding up to 1 on the first side, to -1 on the other
+  Vec3d normal{};                  ///< unit, from the second to the first; zero where they touch
+  double distance = 0;             ///< [m]
+};
+
+/// In double, from float positions; each primitive may be degenerate.
+PairDistance pair_distance(const PairStencil& pair, const Record* positions);
+
+/// What two surfaces are to one another.
+struct PairMaterial {
+  float thickness = 0;  ///< distance kept [m]
+  float static_friction = 0, kinetic_friction = 0;
+};
+
+struct PairContact {
+  std::array<std::int32_t, 4> vertex{};
+  std::array<float, 4> weight{};
+  Vec3f normal{};
+  float gap = 0;        ///< distance at the substep's start [m]
+  float thickness = 0;  ///< distance to be kept [m]
+  float static_friction = 0, kinetic_friction = 0;
+  float push = 0;    ///< sum of normal corrections of the relative place [m]
+  Vec3f friction{};  ///< sum of tangential ones [m]
+};
+
+/// What overlaps separates at this speed at most [m/s].
+inline constexpr float largest_pair_separation_speed = 1;
+
+PairContact make_contact(const PairStencil& pair, const PairDistance& at, const PairMaterial& material, float h);
+
+/// Projects one contact: n . (relative place) >= thickness, then friction within the cone of the pushes so far (contact.h has
+/// the same for one particle). Arrays are of all particles of the model; w of `positions` the inverse mass.
+void project_contact(PairContact& contact, const Record* positions, const Record* remainders, Record* displacements);
+
+/// Takes away the speed at which a contact that pushed now separates: a push is no throw.
+void respond_to_contact(const PairContact& contact, const Record* positions, Record* velocities);
+
+}  // namespace pliant

@@ -1,0 +1,90 @@
+// Which surfaces meet, and how.
+#include <algorithm>
+#include <cmath>
+
+#include "collision/pairs.h"
+#include "math/vector.h"
+
+namespace pliant {
+
+namespace {
+
+/// Beyond the largest thickness, pairs are listed within this share of the median edge, so that lists last for a while.
+constexpr float skin_over_edge = 0.5f;
+
+bool is_immovable(const CompiledObject& object) {
+  for (const Record& p : object.positions)
+    if (p.w > 0) return false;
+  return true;
+}
+
+bool meet(const CompiledObject& a, const CompiledObject& b) {
+  const bool masks = (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
+  // A mesh collider meets whatever its mask allows, other objects only those that collide too.
+  const bool meant = (a.collides && b.collides) || a.is_collider || b.is_collider;
+  return masks && meant && !(is_immovable(a) && is_immovable(b));
+}
+
+/// Distance constraints that are no side of a triangle: ropes.
+std::vector<std::array<int, 2>> lines_of(const CompiledObject& object, int first) {
+  std::vector<std::array<int, 2>> lines;
+  if (!object.surface.triangles.empty()) return lines;
+  for (const auto& [a, b] : object.lines) lines.push_back({first + a, first + b});
+  return lines;
+}
+
+float median_edge(const PairModel& model) {
+  std::vector<float> lengths;
+  for (const auto& [a, b] : model.elements.edges) {
+    const Record &p = model.rest[a], &q = model.rest[b];
+    lengths.push_back(length(Vec3f{p.x - q.x, p.y - q.y, p.z - q.z}));
+  }
+  if (lengths.empty()) return 0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& positions) {
+  auto out = std::make_unique<PairModel>();
+  const int bodies = out->bodies = static_cast<int>(model.objects.size());
+  out->meets.assign(static_cast<std::size_t>(bodies) * bodies, 0);
+  out->materials.resize(out->meets.size());
+  std::vector<char> meets_some(bodies, 0);
+  for (int a = 0; a < bodies; ++a) {
+    for (int b = 0; b < bodies; ++b) {
+      const CompiledObject &p = model.objects[a], &q = model.objects[b];
+      if (!(a == b ? p.self_collision : meet(p, q))) continue;
+      const std::size_t at = static_cast<std::size_t>(a) * bodies + b;
+      out->meets[at] = meets_some[a] = 1;
+      out->materials[at] = {p.thickness + q.thickness, std::sqrt(p.static_friction * q.static_friction),
+                            std::sqrt(p.kinetic_friction * q.kinetic_friction)};
+      out->largest_thickness = std::max(out->largest_thickness, out->materials[at].thickness);
+    }
+  }
+  out->rest.assign(positions.begin(), positions.end());
+  out->vertex_body.assign(positions.size(), 0);
+  std::vector<Triangle> triangles;
+  std::vector<std::array<int, 2>> lines;
+  for (int o = 0; o < bodies; ++o) {
+    const int first = model.first[o];
+    std::fill(out->vertex_body.begin() + first, out->vertex_body.begin() + model.first[o + 1], o);
+    if (meets_some[o] == 0) continue;
+    for (const auto& t : model.objects[o].surface.triangles) triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    const auto more = lines_of(model.objects[o], first);
+    lines.insert(lines.end(), more.begin(), more.end());
+  }
+  if (triangles.empty() && lines.empty()) return nullptr;
+  out->elements = make_contact_elements(triangles, lines, {}, static_cast<int>(positions.size()));
+  for (const Triangle& t : out->elements.triangles) out->triangle_body.push_back(out->vertex_body[t[0]]);
+  for (const auto& edge : out->elements.edges) out->edge_body.push_back(out->vertex_body[edge[0]]);
+  out->elements.body = out->vertex_body;
+  out->elements.bodies = bodies;
+  out->elements.meets = out->meets;
+  out->radius = out->largest_thickness + skin_over_edge * median_edge(*out);
+  return out;
+}
+
+}  // namespace pliant

@@ -1,0 +1,124 @@
+// Everything that moves against everything else that moves, and against meshes: from candidates to contacts to the filter.
+//
+//   lists       candidates whose boxes, around the motion ahead, come within a radius: kept while all stay within their boxes
+//   detect      of those, pairs that may come within their thickness in this substep become contacts
+//   project     the contacts' constraints, after each sweep
+//   filter      no clean pair crosses: moves are shortened (plane_filter.h)
+//
+// What a substep does depends on positions and displacements alone: lists and bounds of distances only save work, so a
+// State put back gives the same bits. A pair's distance falls by no more than both its primitives move, measured against the
+// mean motion of their bodies: as long as that leaves it out of reach it is not looked at.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "collision/candidates.h"
+#include "collision/intersections.h"
+#include "collision/pair_contact.h"
+#include "collision/plane_filter.h"
+#include "model/model.h"
+#include "parallel/executor.h"
+
+namespace pliant {
+
+/// What of a model can touch, in numbers of its State.
+struct PairModel {
+  ContactElements elements;
+  std::vector<Record> rest;                ///< positions at the beginning
+  std::vector<int> vertex_body;            ///< object of each particle
+  std::vector<int> triangle_body, edge_body;
+  int bodies = 0;
+  std::vector<char> meets;                 ///< bodies x bodies
+  std::vector<PairMaterial> materials;     ///< bodies x bodies
+  float radius = 0;                        ///< within which candidates are looked for [m]
+  float largest_thickness = 0;             ///< [m]
+  bool filter = true;
+};
+
+/// Nothing where no two things meet.
+std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& positions);
+
+/// Particles of a model in a substep.
+struct PairParticles {
+  const Record* positions = nullptr;
+  const Record* remainders = nullptr;
+  Record* displacements = nullptr;
+  int count = 0;
+  float h = 0;
+};
+
+/// What was done, for the Report.
+struct PairCounts {
+  std::int64_t candidates = 0, contacts = 0, shortened = 0, hopeless = 0, tangled = 0, rebuilds = 0;
+};
+
+class PairSystem {
+ public:
+  explicit PairSystem(const PairModel& model);
+
+  /// At a frame's start: forgets counts, and finds out which tangled pairs are apart by now. `anew` looks at all pairs: due at
+  /// the first frame and after a State was put back.
+  void begin_frame(const Record* positions, bool anew);
+
+  /// Contacts of the substep from predicted displacements.
+  void detect(Executor& executor, const PairParticles& particles);
+  void project(const PairParticles& particles);
+  /// Shortens displacements so that nothing crosses.
+  void filter(Executor& executor, const PairParticles& particles);
+  void respond(const Record* positions, Record* velocities) const;
+
+  const PairCounts& counts() const { return counts_; }
+  const std::vector<PairContact>& contacts() const { return contacts_; }
+
+ private:
+  struct Pair {
+    std::int32_t a, b;  ///< vertex and triangle, or two edges
+    float reach;        ///< distance when it was last measured, plus what both sides had moved until then [m]
+    char tangled;
+  };
+  struct Task {
+    std::vector<PairContact> contacts;
+    std::vector<SeparatingSlab> slabs;
+    std::vector<std::pair<std::int32_t, float>> shares;
+    int hopeless = 0;
+  };
+
+  PairStencil stencil(std::size_t pair) const;
+  const PairMaterial& material(int a, int b) const { return model_.materials[static_cast<std::size_t>(a) * model_.bodies + b]; }
+  bool is_finite(const PairParticles& particles) const;
+  bool all_within(const PairParticles& particles, float margin) const;
+  void rebuild(Executor& executor, const PairParticles& particles);
+  void measure_moves(Executor& executor, const PairParticles& particles);
+  void settle_moves(Executor& executor, const PairParticles& particles);
+  float approach(std::size_t pair) const;
+  template <class Body>
+  void for_pairs(Executor& executor, const char* name, Body body);
+  void detect_pair(std::size_t pair, const PairParticles& particles, Task& task);
+  void filter_pair(std::size_t pair, const PairParticles& particles, Task& task);
+  void shorten(const PairParticles& particles);
+  void find_tangles(const Record* positions);
+
+  const PairModel& model_;
+  CandidateFinder finder_;
+  IntersectionFinder intersections_;
+  std::vector<Vec3f> from_, to_;
+  std::vector<Pair> pairs_;
+  std::size_t vertex_pairs_ = 0;  ///< of pairs_; the rest are of edges
+  bool listed_ = false;
+
+  // By particle, triangle, edge: the move of this substep, relative to its body's mean, and the sum of those made.
+  std::vector<float> vertex_move_, triangle_move_, edge_move_, vertex_sum_, triangle_sum_, edge_sum_;
+  std::vector<Vec3d> body_move_;
+  std::vector<int> body_size_;
+  std::vector<float> between_move_, between_sum_;  ///< bodies x bodies: of their means
+
+  std::vector<Task> tasks_;
+  std::vector<PairContact> contacts_;
+  std::vector<float> share_;
+  std::vector<Intersection> tangles_;
+  std::vector<std::uint64_t> tangled_pairs_, tangled_edges_;  ///< a << 32 | b, ascending
+  PairCounts counts_;
+};
+
+}  // namespace pliant
