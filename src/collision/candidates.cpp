@@ -35,7 +35,10 @@ ContactElements make_contact_elements(const std::vector<Triangle>& triangles,
   for (std::size_t i = 0; i < loose_edges.size(); ++i)
     for (const int vertex : loose_edges[i]) require(vertex, vertex_count, "edge", i);
   for (std::size_t i = 0; i < loose_vertices.size(); ++i) require(loose_vertices[i], vertex_count, "loose vertex", i);
-  ContactElements all{triangles, {}, loose_vertices, vertex_count};
+  ContactElements all;
+  all.triangles = triangles;
+  all.vertices = loose_vertices;
+  all.vertex_count = vertex_count;
   for (const Edge& edge : find_edges(triangles, vertex_count)) all.edges.push_back({edge.a, edge.b});
   for (const auto& [a, b] : loose_edges)
     if (a != b) all.edges.push_back({std::min(a, b), std::max(a, b)});

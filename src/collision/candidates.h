@@ -34,7 +34,7 @@ struct ContactElements {
   int vertex_count = 0;                   ///< of all there are
   std::vector<int> body;     ///< of each vertex; empty: all are of one and meet
   int bodies = 0;
-  std::vector<char> meets;  ///< bodies x bodies: whether pairs between them are wanted
+  std::vector<char> meets;   ///< bodies x bodies: whether pairs between them are wanted
 
   bool may_meet(int vertex, int other) const {
     return body.empty() || meets[static_cast<std::size_t>(body[vertex]) * bodies + body[other]] != 0;

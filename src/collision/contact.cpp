@@ -14,7 +14,7 @@ BoundingBox<float> merge(const BoundingBox<float>& a, const BoundingBox<float>& 
   return {min(a.low, b.low), max(a.high, b.high)};
 }
 
-bool overlap(const Bounds& a, const BoundingBox<float>& b, float margin) {
+bool overlap(const PointBounds& a, const BoundingBox<float>& b, float margin) {
   return a.low.x - margin <= b.high.x && a.low.y - margin <= b.high.y && a.low.z - margin <= b.high.z &&
          b.low.x <= a.high.x + margin && b.low.y <= a.high.y + margin && b.low.z <= a.high.z + margin;
 }
@@ -107,7 +107,7 @@ int find_near(const ContactSearch& search, const MovingCollider& collider, float
     return a.last - a.first;
   }
   // More than the rounding by which the two ways to a distance differ.
-  const Bounds& b = search.bounds;
+  const PointBounds& b = search.bounds;
   const float reach = max(largest(Vec3f{b.low.x, b.low.y, b.low.z}), largest(Vec3f{b.high.x, b.high.y, b.high.z}));
   const float slack = 1e-6f + 1e-5f * (reach + largest(collider.after.position) + thickness);
   return search.find_near(

@@ -1,6 +1,7 @@
 #include "collision/pair_contact.h"
 
 #include "geometry/triangle.h"
+#include "math/wide.h"
 
 namespace pliant {
 
@@ -59,12 +60,55 @@ PairDistance pair_distance(const PairStencil& pair, const Record* positions) {
   return out;
 }
 
-PairContact make_contact(const PairStencil& pair, const PairDistance& at, const PairMaterial& material, float h) {
+namespace {
+
+Vec3<Wide> load_place(const PairStencil* pairs, int count, int slot, const Record* positions) {
+  alignas(64) float at[3][16];
+  for (int lane = 0; lane < 16; ++lane) {
+    const PairStencil& pair = pairs[lane < count ? lane : 0];
+    const Record &x = positions[pair.vertex[slot]], &o = positions[pair.vertex[0]];
+    at[0][lane] = x.x - o.x;
+    at[1][lane] = x.y - o.y;
+    at[2][lane] = x.z - o.z;
+  }
+  return {load_wide(at[0]), load_wide(at[1]), load_wide(at[2])};
+}
+
+}  // namespace
+
+void pair_distances(const PairStencil* pairs, int count, const Record* positions, PairBatch& out) {
+  Vec3<Wide> x[4], apart;
+  for (int slot = 0; slot < 4; ++slot) x[slot] = load_place(pairs, count, slot, positions);
+  Wide weight[4];
+  if (pairs[0].first_side == 1) {
+    const auto near = closest_on_triangle(x[0], x[1], x[2], x[3]);
+    weight[0] = Wide(1.f);
+    weight[1] = -near.weights.x;
+    weight[2] = -near.weights.y;
+    weight[3] = -near.weights.z;
+    apart = x[0] - near.point;
+  } else {
+    const auto near = closest_on_segments({x[0], x[1]}, {x[2], x[3]});
+    weight[0] = Wide(1.f) - near.s;
+    weight[1] = near.s;
+    weight[2] = near.t - Wide(1.f);
+    weight[3] = -near.t;
+    apart = near.first - near.second;
+  }
+  const Wide distance = sqrt(dot(apart, apart)), scale = Wide(1.f) / max(distance, Wide(1e-30f));
+  store_wide(out.distance, distance);
+  for (int slot = 0; slot < 4; ++slot) store_wide(out.weight[slot], weight[slot]);
+  store_wide(out.normal[0], apart.x * scale);
+  store_wide(out.normal[1], apart.y * scale);
+  store_wide(out.normal[2], apart.z * scale);
+}
+
+PairContact make_contact(const PairStencil& pair, const PairBatch& at, int lane, const PairMaterial& material, float h) {
   PairContact c;
   c.vertex = pair.vertex;
-  for (int i = 0; i < 4; ++i) c.weight[i] = static_cast<float>(at.weight[i]);
-  c.normal = convert<float>(at.normal);
-  c.gap = static_cast<float>(at.distance);
+  for (int i = 0; i < 4; ++i) c.weight[i] = at.weight[i][lane];
+  c.normal = {at.normal[0][lane], at.normal[1][lane], at.normal[2][lane]};
+  c.gap = at.distance[lane];
   c.thickness = min(material.thickness, c.gap + largest_pair_separation_speed * h);
   c.static_friction = material.static_friction;
   c.kinetic_friction = material.kinetic_friction;

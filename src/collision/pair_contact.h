@@ -29,6 +29,15 @@ struct PairDistance {
 /// In double, from float positions; each primitive may be degenerate.
 PairDistance pair_distance(const PairStencil& pair, const Record* positions);
 
+/// Sixteen pairs of one kind at once, in float. Places are relative to each pair's first particle, so that rounding is that of the
+/// pair's own size.
+struct PairBatch {
+  alignas(64) float distance[16];
+  alignas(64) float weight[4][16];
+  alignas(64) float normal[3][16];
+};
+void pair_distances(const PairStencil* pairs, int count, const Record* positions, PairBatch& out);
+
 /// What two surfaces are to one another.
 struct PairMaterial {
   float thickness = 0;  ///< distance kept [m]
@@ -49,7 +58,7 @@ struct PairContact {
 /// What overlaps separates at this speed at most [m/s].
 inline constexpr float largest_pair_separation_speed = 1;
 
-PairContact make_contact(const PairStencil& pair, const PairDistance& at, const PairMaterial& material, float h);
+PairContact make_contact(const PairStencil& pair, const PairBatch& at, int lane, const PairMaterial& material, float h);
 
 /// Projects one contact: n . (relative place) >= thickness, then friction within the cone of the pushes so far (contact.h has
 /// the same for one particle). Arrays are of all particles of the model; w of `positions` the inverse mass.

@@ -72,7 +72,8 @@ std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& po
     const int first = model.first[o];
     std::fill(out->vertex_body.begin() + first, out->vertex_body.begin() + model.first[o + 1], o);
     if (meets_some[o] == 0) continue;
-    for (const auto& t : model.objects[o].surface.triangles) triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    for (const auto& t : model.objects[o].surface.triangles)
+      triangles.push_back({first + t[0], first + t[1], first + t[2]});
     const auto more = lines_of(model.objects[o], first);
     lines.insert(lines.end(), more.begin(), more.end());
   }

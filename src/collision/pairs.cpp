@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "math/vector.h"
 
@@ -9,11 +10,13 @@ namespace pliant {
 
 namespace {
 
-constexpr std::size_t pairs_in_a_task = 4096;
+constexpr int pairs_in_a_task = 4096;
+/// Nearer than any distance: to be measured before anything else.
+constexpr float not_measured = -1e30f;
 /// A contact keeps no more than this share of the distance that its primitives have at rest.
 constexpr double share_of_rest = 0.9;
 /// What the filter keeps, as a share of the thickness; and at least so many roundings of the positions.
-constexpr double least_share = 0.05, least_roundings = 32, rounding = 6e-8;
+constexpr float least_share = 0.05f, least_roundings = 32, rounding = 6e-8f;
 /// Bounds of distances are floats: this much is allowed for their rounding.
 constexpr float bound_slack = 1.0001f;
 
@@ -64,12 +67,12 @@ PairSystem::PairSystem(const PairModel& model)
 bool PairSystem::is_finite(const PairParticles& particles) const {
   for (const int v : model_.elements.vertices) {
     const Vec3f p = end_of(particles, static_cast<std::size_t>(v));
-    if (!(largest(p) < 1e14f)) return false;
+    if (!(abs(p.x) < 1e14f && abs(p.y) < 1e14f && abs(p.z) < 1e14f)) return false;
   }
   return true;
 }
 
-PairStencil PairSystem::stencil(std::size_t pair) const {
+PairStencil PairSystem::stencil(std::int32_t pair) const {
   const Pair& p = pairs_[pair];
   if (pair < vertex_pairs_) {
     const Triangle& t = model_.elements.triangles[p.b];
@@ -92,44 +95,56 @@ bool PairSystem::all_within(const PairParticles& particles, float margin) const 
   return true;
 }
 
+void PairSystem::append(const IntLists& lists, const std::vector<std::uint64_t>& tangled) {
+  for (int element = 0; element + 1 < static_cast<int>(lists.start.size()); ++element) {
+    const auto first = static_cast<std::int32_t>(pairs_.size());
+    for (const int* other = lists.begin(element); other != lists.end(element); ++other)
+      if (!std::binary_search(tangled.begin(), tangled.end(), key_of(element, *other)))
+        pairs_.push_back({element, *other, not_measured, -1});
+    const auto last = static_cast<std::int32_t>(pairs_.size());
+    if (first < last) owners_.push_back({element, first, last, not_measured});
+  }
+}
+
+void PairSystem::cut_into_tasks() {
+  std::size_t tasks = 0;
+  for (int owner = 0; owner < static_cast<int>(owners_.size()); ++tasks) {
+    if (tasks_.size() <= tasks) tasks_.emplace_back();
+    tasks_[tasks].first = owner;
+    // Vertices and edges are not mixed: sixteen of one kind are measured at once.
+    const bool vertices = owners_[owner].first < vertex_pairs_;
+    const std::int32_t first = owners_[owner].first;
+    while (owner < static_cast<int>(owners_.size()) && owners_[owner].last - first <= pairs_in_a_task &&
+           (owners_[owner].first < vertex_pairs_) == vertices)
+      ++owner;
+    if (owner == tasks_[tasks].first) ++owner;
+    tasks_[tasks].last = owner;
+  }
+  tasks_.resize(tasks);
+}
+
 void PairSystem::rebuild(Executor& executor, const PairParticles& particles) {
   from_.resize(model_.rest.size());
   to_.resize(model_.rest.size());
   for (std::size_t i = 0; i < from_.size(); ++i) {
     from_[i] = end_of(particles, i, 0);
-    to_[i] = end_of(particles, i);
+    to_[i] = end_of(particles, i, particles.ahead);
   }
   finder_.find(executor, from_, to_, model_.radius, true);
   pairs_.clear();
-  const auto append = [&](const IntLists& lists, const std::vector<std::uint64_t>& tangled) {
-    for (int owner = 0; owner + 1 < static_cast<int>(lists.start.size()); ++owner)
-      for (const int* other = lists.begin(owner); other != lists.end(owner); ++other) {
-        const bool is = std::binary_search(tangled.begin(), tangled.end(), key_of(owner, *other));
-        pairs_.push_back({owner, *other, 0, static_cast<char>(is ? 1 : 0)});
-      }
-  };
+  owners_.clear();
+  vertex_pairs_ = std::numeric_limits<std::int32_t>::max();
   append(finder_.vertex_triangles(), tangled_pairs_);
-  vertex_pairs_ = pairs_.size();
+  vertex_pairs_ = static_cast<std::int32_t>(pairs_.size());
   append(finder_.edge_edges(), tangled_edges_);
+  cut_into_tasks();
   vertex_sum_.assign(vertex_move_.size(), 0.f);
   triangle_sum_.assign(triangle_move_.size(), 0.f);
   edge_sum_.assign(edge_move_.size(), 0.f);
   between_sum_.assign(between_move_.size(), 0.f);
-  for (Pair& pair : pairs_) pair.reach = -1e30f;  // not measured yet
-  tasks_.resize(std::max(tasks_.size(), (pairs_.size() + pairs_in_a_task - 1) / pairs_in_a_task));
   listed_ = true;
   ++counts_.rebuilds;
   counts_.candidates = static_cast<std::int64_t>(pairs_.size());
-}
-
-template <class Body>
-void PairSystem::for_pairs(Executor& executor, const char* name, Body body) {
-  const int tasks = static_cast<int>((pairs_.size() + pairs_in_a_task - 1) / pairs_in_a_task);
-  executor.parallel_for(name, tasks, [&](int number) {
-    Task& task = tasks_[number];
-    const std::size_t first = static_cast<std::size_t>(number) * pairs_in_a_task;
-    for (std::size_t p = first; p < std::min(pairs_.size(), first + pairs_in_a_task); ++p) body(p, task);
-  });
 }
 
 // ---------------------------------------------------------------- bounds of distances
@@ -163,9 +178,8 @@ void PairSystem::measure_moves(Executor& executor, const PairParticles& particle
     const Triangle& t = elements.triangles[i];
     triangle_move_[i] = max(max(vertex_move_[t[0]], vertex_move_[t[1]]), vertex_move_[t[2]]);
   });
-  each(edge_move_.size(), [&](std::size_t i) {
-    edge_move_[i] = max(vertex_move_[elements.edges[i][0]], vertex_move_[elements.edges[i][1]]);
-  });
+  each(edge_move_.size(),
+       [&](std::size_t i) { edge_move_[i] = max(vertex_move_[elements.edges[i][0]], vertex_move_[elements.edges[i][1]]); });
 }
 
 /// The substep's moves have been made.
@@ -180,43 +194,99 @@ void PairSystem::settle_moves(Executor& executor, const PairParticles& particles
   add(between_sum_, between_move_);
 }
 
-/// By how much a pair can have come closer since the lists were made, this substep's moves included [m].
-float PairSystem::approach(std::size_t pair) const {
-  const Pair& p = pairs_[pair];
-  const bool is_vertex = pair < vertex_pairs_;
-  const int a = is_vertex ? model_.vertex_body[p.a] : model_.edge_body[p.a];
-  const int b = is_vertex ? model_.triangle_body[p.b] : model_.edge_body[p.b];
-  float sum = is_vertex ? (vertex_sum_[p.a] + vertex_move_[p.a]) + (triangle_sum_[p.b] + triangle_move_[p.b])
-                        : (edge_sum_[p.a] + edge_move_[p.a]) + (edge_sum_[p.b] + edge_move_[p.b]);
-  if (a != b) {
-    const std::size_t at = static_cast<std::size_t>(a) * model_.bodies + b;
-    sum += between_sum_[at] + between_move_[at];
+float PairSystem::between(int a, int b) const {
+  const std::size_t at = static_cast<std::size_t>(a) * model_.bodies + b;
+  return a == b ? 0 : between_sum_[at] + between_move_[at];
+}
+
+/// Measures every pair of the task that can be within `within(a, b)` of bodies a and b at the substep's end, and lists those in
+/// `near`, ascending.
+template <class Within>
+void PairSystem::collect_near(Task& task, Within within) {
+  task.near.clear();
+  for (int number = task.first; number < task.last; ++number) {
+    Owner& owner = owners_[number];
+    const bool is_vertex = owner.first < vertex_pairs_;
+    const int a = is_vertex ? model_.vertex_body[owner.element] : model_.edge_body[owner.element];
+    const float own = is_vertex ? vertex_sum_[owner.element] + vertex_move_[owner.element]
+                                : edge_sum_[owner.element] + edge_move_[owner.element];
+    if (owner.reach - own > owner_other_[2 * a + (is_vertex ? 0 : 1)]) continue;
+    float least = 1e30f;
+    for (std::int32_t p = owner.first; p < owner.last; ++p) {
+      const Pair& pair = pairs_[p];
+      const int b = is_vertex ? model_.triangle_body[pair.b] : model_.edge_body[pair.b];
+      const float other =
+          is_vertex ? triangle_sum_[pair.b] + triangle_move_[pair.b] : edge_sum_[pair.b] + edge_move_[pair.b];
+      least = min(least, pair.reach);
+      if (pair.reach - (own + other + between(a, b)) <= within(a, b)) task.near.push_back(p);
+    }
+    owner.reach = least;
   }
-  return sum;
+}
+
+/// What the other side of a body's pairs can have moved at most, and how near it may be, for collect_near to look at owners
+/// alone.
+template <class Within>
+void PairSystem::bound_owners(Within within) {
+  const auto bodies = static_cast<std::size_t>(model_.bodies);
+  body_triangle_.assign(bodies, 0.f);
+  body_edge_.assign(bodies, 0.f);
+  for (std::size_t i = 0; i < triangle_move_.size(); ++i) {
+    float& most = body_triangle_[model_.triangle_body[i]];
+    most = max(most, triangle_sum_[i] + triangle_move_[i]);
+  }
+  for (std::size_t i = 0; i < edge_move_.size(); ++i) {
+    float& most = body_edge_[model_.edge_body[i]];
+    most = max(most, edge_sum_[i] + edge_move_[i]);
+  }
+  owner_other_.assign(2 * bodies, -1e30f);
+  for (int a = 0; a < model_.bodies; ++a)
+    for (int b = 0; b < model_.bodies; ++b) {
+      if (model_.meets[static_cast<std::size_t>(a) * bodies + b] == 0) continue;
+      const float more = within(a, b) + between(a, b);
+      owner_other_[2 * a] = max(owner_other_[2 * a], body_triangle_[b] + more);
+      owner_other_[2 * a + 1] = max(owner_other_[2 * a + 1], body_edge_[b] + more);
+    }
+}
+
+float PairSystem::least_distance(int a, int b) const {
+  return max(least_share * material(a, b).thickness, least_roundings * rounding * extent_);
 }
 
 // ---------------------------------------------------------------- contacts
 
-void PairSystem::detect_pair(std::size_t pair, const PairParticles& particles, Task& task) {
+void PairSystem::detect_task(Task& task, const PairParticles& particles) {
+  task.contacts.clear();
+  collect_near(task, [&](int a, int b) { return material(a, b).thickness; });
+  task.stencils.clear();
+  for (const std::int32_t p : task.near) task.stencils.push_back(stencil(p));
+  PairBatch batch;
+  for (std::size_t i = 0; i < task.near.size(); i += 16) {
+    const int count = static_cast<int>(std::min<std::size_t>(16, task.near.size() - i));
+    pair_distances(&task.stencils[i], count, particles.positions, batch);
+    for (int lane = 0; lane < count; ++lane)
+      detect_pair(task.near[i + lane], task.stencils[i + lane], batch, lane, particles, task);
+  }
+}
+
+void PairSystem::detect_pair(std::int32_t pair, const PairStencil& four, const PairBatch& at, int lane,
+                             const PairParticles& particles, Task& task) {
   Pair& p = pairs_[pair];
-  if (p.tangled != 0) return;
   const bool is_vertex = pair < vertex_pairs_;
-  const PairMaterial& of = is_vertex ? material(model_.vertex_body[p.a], model_.triangle_body[p.b])
-                                     : material(model_.edge_body[p.a], model_.edge_body[p.b]);
-  const float closer = approach(pair);
-  if (p.reach - closer > of.thickness) return;
-  const PairStencil four = stencil(pair);
-  const PairDistance at = pair_distance(four, particles.positions);
-  // What was moved before counts into both sides of the comparison.
-  float moves = is_vertex ? vertex_move_[p.a] + triangle_move_[p.b] : edge_move_[p.a] + edge_move_[p.b];
   const int a = model_.vertex_body[four.vertex[0]], b = model_.vertex_body[four.vertex[3]];
-  if (a != b) moves += between_move_[static_cast<std::size_t>(a) * model_.bodies + b];
-  p.reach = static_cast<float>(at.distance) * (1 - 1e-6f) + (closer - moves);
-  if (!(at.distance > 0) || static_cast<float>(at.distance) - moves > of.thickness) return;
+  const PairMaterial& of = material(a, b);
+  const float distance = at.distance[lane] * (1 - 1e-5f);
+  const float sums = (is_vertex ? vertex_sum_[p.a] + triangle_sum_[p.b] : edge_sum_[p.a] + edge_sum_[p.b]) +
+                     (a == b ? 0 : between_sum_[static_cast<std::size_t>(a) * model_.bodies + b]);
+  const float moves = (is_vertex ? vertex_move_[p.a] + triangle_move_[p.b] : edge_move_[p.a] + edge_move_[p.b]) +
+                      (a == b ? 0 : between_move_[static_cast<std::size_t>(a) * model_.bodies + b]);
+  p.reach = distance + sums;
+  if (!(distance > 0) || distance - moves > of.thickness) return;
+  if (p.rest < 0) p.rest = static_cast<float>(share_of_rest * pair_distance(four, model_.rest.data()).distance);
   PairMaterial kept = of;
-  const double rest = share_of_rest * pair_distance(four, model_.rest.data()).distance;
-  kept.thickness = min(kept.thickness, static_cast<float>(rest));
-  task.contacts.push_back(make_contact(four, at, kept, particles.h));
+  kept.thickness = min(kept.thickness, p.rest);
+  if (distance - moves > kept.thickness) return;
+  task.contacts.push_back(make_contact(four, at, lane, kept, particles.h));
 }
 
 void PairSystem::detect(Executor& executor, const PairParticles& particles) {
@@ -225,9 +295,9 @@ void PairSystem::detect(Executor& executor, const PairParticles& particles) {
   const float margin = 0.5f * (model_.radius - model_.largest_thickness);
   if (!listed_ || !all_within(particles, margin)) rebuild(executor, particles);
   measure_moves(executor, particles);
-  for (Task& task : tasks_) task.contacts.clear();
-  for_pairs(executor, "detect contacts", [&](std::size_t p, Task& task) { detect_pair(p, particles, task); });
-  contacts_.clear();
+  bound_owners([&](int a, int b) { return material(a, b).thickness; });
+  executor.parallel_for("detect contacts", static_cast<int>(tasks_.size()),
+                        [&](int task) { detect_task(tasks_[task], particles); });
   for (const Task& task : tasks_) contacts_.insert(contacts_.end(), task.contacts.begin(), task.contacts.end());
 }
 
@@ -242,15 +312,17 @@ void PairSystem::respond(const Record* positions, Record* velocities) const {
 
 // ---------------------------------------------------------------- the filter
 
-void PairSystem::filter_pair(std::size_t pair, const PairParticles& particles, Task& task) {
-  Pair& p = pairs_[pair];
-  if (p.tangled != 0) return;
+void PairSystem::filter_task(Task& task, const PairParticles& particles) {
+  task.slabs.clear();
+  task.shares.clear();
+  task.hopeless = 0;
+  collect_near(task, [&](int a, int b) { return least_distance(a, b); });
+  for (const std::int32_t p : task.near) filter_pair(p, particles, task);
+}
+
+void PairSystem::filter_pair(std::int32_t pair, const PairParticles& particles, Task& task) {
   const PairStencil four = stencil(pair);
-  const int a = model_.vertex_body[four.vertex[0]], b = model_.vertex_body[four.vertex[3]];
-  const Record& x = particles.positions[four.vertex[0]];
-  const double extent = std::max({std::fabs(double(x.x)), std::fabs(double(x.y)), std::fabs(double(x.z))});
-  const double least = std::max(least_share * double(material(a, b).thickness), least_roundings * rounding * extent);
-  if (double(p.reach) - double(approach(pair)) > least) return;
+  const double least = double(least_distance(model_.vertex_body[four.vertex[0]], model_.vertex_body[four.vertex[3]]));
   const PairDistance at = pair_distance(four, particles.positions);
   SeparatingSlab slab;
   std::array<float, 4> shares{1, 1, 1, 1};
@@ -296,17 +368,19 @@ void PairSystem::filter(Executor& executor, const PairParticles& particles) {
   counts_.contacts = 0;
   for (const PairContact& contact : contacts_) counts_.contacts += contact.push > 0 ? 1 : 0;
   if (!is_finite(particles)) return;
-  const float least = static_cast<float>(least_share) * model_.largest_thickness;
+  const float least = least_share * model_.largest_thickness;
   if (model_.filter) {
     // What moved farther than was foreseen is looked for around the moves as they are now.
     if (!all_within(particles, 0.5f * (model_.radius - least))) rebuild(executor, particles);
     measure_moves(executor, particles);
-    for (Task& task : tasks_) {
-      task.slabs.clear();
-      task.shares.clear();
-      task.hopeless = 0;
+    extent_ = 0;
+    for (const int v : model_.elements.vertices) {
+      const Record& x = particles.positions[v];
+      extent_ = max(extent_, largest(Vec3f{x.x, x.y, x.z}));
     }
-    for_pairs(executor, "filter moves", [&](std::size_t p, Task& task) { filter_pair(p, particles, task); });
+    bound_owners([&](int a, int b) { return least_distance(a, b); });
+    executor.parallel_for("filter moves", static_cast<int>(tasks_.size()),
+                          [&](int task) { filter_task(tasks_[task], particles); });
     shorten(particles);
   }
   settle_moves(executor, particles);

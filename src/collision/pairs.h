@@ -25,14 +25,14 @@ namespace pliant {
 /// What of a model can touch, in numbers of its State.
 struct PairModel {
   ContactElements elements;
-  std::vector<Record> rest;                ///< positions at the beginning
-  std::vector<int> vertex_body;            ///< object of each particle
+  std::vector<Record> rest;      ///< positions at the beginning
+  std::vector<int> vertex_body;  ///< object of each particle
   std::vector<int> triangle_body, edge_body;
   int bodies = 0;
-  std::vector<char> meets;                 ///< bodies x bodies
-  std::vector<PairMaterial> materials;     ///< bodies x bodies
-  float radius = 0;                        ///< within which candidates are looked for [m]
-  float largest_thickness = 0;             ///< [m]
+  std::vector<char> meets;              ///< bodies x bodies
+  std::vector<PairMaterial> materials;  ///< bodies x bodies
+  float radius = 0;                     ///< within which candidates are looked for [m]
+  float largest_thickness = 0;          ///< [m]
   bool filter = true;
 };
 
@@ -44,8 +44,8 @@ struct PairParticles {
   const Record* positions = nullptr;
   const Record* remainders = nullptr;
   Record* displacements = nullptr;
-  int count = 0;
   float h = 0;
+  float ahead = 1;  ///< substeps until lists had better be made anew: the frame's end
 };
 
 /// What was done, for the Report.
@@ -75,27 +75,46 @@ class PairSystem {
   struct Pair {
     std::int32_t a, b;  ///< vertex and triangle, or two edges
     float reach;        ///< distance when it was last measured, plus what both sides had moved until then [m]
-    char tangled;
+    float rest;  ///< what its distance at rest allows it to keep [m]; below 0: not measured; tangled pairs are left out
+  };
+  /// A vertex or an edge with its pairs: as long as none can be near none is looked at.
+  struct Owner {
+    std::int32_t element;
+    std::int32_t first, last;  ///< of pairs_
+    float reach;               ///< the least of its pairs'
   };
   struct Task {
+    int first = 0, last = 0;  ///< of owners_
+    std::vector<std::int32_t> near;
+    std::vector<PairStencil> stencils;
     std::vector<PairContact> contacts;
     std::vector<SeparatingSlab> slabs;
     std::vector<std::pair<std::int32_t, float>> shares;
     int hopeless = 0;
   };
 
-  PairStencil stencil(std::size_t pair) const;
-  const PairMaterial& material(int a, int b) const { return model_.materials[static_cast<std::size_t>(a) * model_.bodies + b]; }
+  PairStencil stencil(std::int32_t pair) const;
+  const PairMaterial& material(int a, int b) const {
+    return model_.materials[static_cast<std::size_t>(a) * model_.bodies + b];
+  }
   bool is_finite(const PairParticles& particles) const;
   bool all_within(const PairParticles& particles, float margin) const;
   void rebuild(Executor& executor, const PairParticles& particles);
   void measure_moves(Executor& executor, const PairParticles& particles);
   void settle_moves(Executor& executor, const PairParticles& particles);
-  float approach(std::size_t pair) const;
-  template <class Body>
-  void for_pairs(Executor& executor, const char* name, Body body);
-  void detect_pair(std::size_t pair, const PairParticles& particles, Task& task);
-  void filter_pair(std::size_t pair, const PairParticles& particles, Task& task);
+  void append(const IntLists& lists, const std::vector<std::uint64_t>& tangled);
+  void cut_into_tasks();
+  float between(int a, int b) const;
+  template <class Within>
+  void collect_near(Task& task, Within within);
+  template <class Within>
+  void bound_owners(Within within);
+  float least_distance(int a, int b) const;
+  void detect_pair(std::int32_t pair, const PairStencil& four, const PairBatch& at, int lane,
+                   const PairParticles& particles, Task& task);
+  void detect_task(Task& task, const PairParticles& particles);
+  void filter_task(Task& task, const PairParticles& particles);
+  void filter_pair(std::int32_t pair, const PairParticles& particles, Task& task);
   void shorten(const PairParticles& particles);
   void find_tangles(const Record* positions);
 
@@ -104,7 +123,8 @@ class PairSystem {
   IntersectionFinder intersections_;
   std::vector<Vec3f> from_, to_;
   std::vector<Pair> pairs_;
-  std::size_t vertex_pairs_ = 0;  ///< of pairs_; the rest are of edges
+  std::int32_t vertex_pairs_ = 0;  ///< of pairs_; the rest are of edges
+  std::vector<Owner> owners_;
   bool listed_ = false;
 
   // By particle, triangle, edge: the move of this substep, relative to its body's mean, and the sum of those made.
@@ -112,12 +132,15 @@ class PairSystem {
   std::vector<Vec3d> body_move_;
   std::vector<int> body_size_;
   std::vector<float> between_move_, between_sum_;  ///< bodies x bodies: of their means
+  std::vector<float> body_triangle_, body_edge_;   ///< the largest of sum and move of a body's triangles and edges
+  std::vector<float> owner_other_;  ///< by body: what the other side of its pairs can have moved at most, twice
 
   std::vector<Task> tasks_;
   std::vector<PairContact> contacts_;
   std::vector<float> share_;
   std::vector<Intersection> tangles_;
   std::vector<std::uint64_t> tangled_pairs_, tangled_edges_;  ///< a << 32 | b, ascending
+  float extent_ = 0;                                          ///< the largest coordinate [m]
   PairCounts counts_;
 };
 

@@ -23,10 +23,10 @@ Vec3d start_of(const Record& x, const Record& origin) {
 /// Heights of the four along the normal at both ends of their moves.
 struct Heights {
   double start[4], end[4];
-  double lowest_first = 1e300, highest_second = -1e300;           // at the start
-  double first_sinks = 0, second_rises = 0;                       // by how much, at most
-  bool first_moves = false, second_moves = false;                 // can be shortened
-  double first_fixed_low = 1e300, second_fixed_high = -1e300;     // ends of what can't
+  double lowest_first = 1e300, highest_second = -1e300;        // at the start
+  double first_sinks = 0, second_rises = 0;                    // by how much, at most
+  bool first_moves = false, second_moves = false;              // can be shortened
+  double first_fixed_low = 1e300, second_fixed_high = -1e300;  // ends of what can't
 };
 
 Heights heights_of(const PairStencil& pair, const Vec3d& normal, const Record* positions, const Record* displacements) {
@@ -52,8 +52,7 @@ Heights heights_of(const PairStencil& pair, const Vec3d& normal, const Record* p
 }  // namespace
 
 Separation plan_separation(const PairStencil& pair, const PairDistance& at, const Record* positions,
-                           const Record* displacements, double least, SeparatingSlab& slab,
-                           std::array<float, 4>& shares) {
+                           const Record* displacements, double least, SeparatingSlab& slab, std::array<float, 4>& shares) {
   const Heights h = heights_of(pair, at.normal, positions, displacements);
   const double gap = h.lowest_first - h.highest_second;
   if (!(gap > 0)) return Separation::hopeless;

@@ -27,8 +27,7 @@ enum class Separation {
 /// The slab for a pair at distance `at`, thick min(least, 0.98 gap), and the share of each particle's move that keeps it on its
 /// side. Moves are those of the rounded positions; particles of zero inverse mass keep theirs.
 Separation plan_separation(const PairStencil& pair, const PairDistance& at, const Record* positions,
-                           const Record* displacements, double least, SeparatingSlab& slab,
-                           std::array<float, 4>& shares);
+                           const Record* displacements, double least, SeparatingSlab& slab, std::array<float, 4>& shares);
 
 /// Whether particle number `which` of the slab's pair ends on the wrong side once its displacement is scaled by `share`, as
 /// rounded.

@@ -57,7 +57,7 @@ struct NearQuery {
 };
 
 /// A box around points, empty until something is added.
-struct Bounds {
+struct PointBounds {
   Record low{3e38f, 3e38f, 3e38f, 0}, high{-3e38f, -3e38f, -3e38f, 0};
 };
 

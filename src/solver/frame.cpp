@@ -88,6 +88,7 @@ void Frame::for_each_task(const char* name, int tasks, FunctionRef<void(int)> bo
 
 void Frame::begin_substep(int substep) {
   time_after_ = time_of(substep + 1);
+  substeps_ahead_ = static_cast<float>(context_.substeps - substep);
   move_colliders(model_, time_of(substep), time_after_, work_.colliders);
   for (FrameGravity& gravity : work_.gravity) gravity.next(h_);
 }
@@ -119,7 +120,7 @@ bool Frame::enter_tile(int task, bool finishes_first) {
   }
   scratch.contacts.clear();
   scratch.bounds = {};
-  Bounds* bounds = work_.colliders.empty() ? nullptr : &scratch.bounds;
+  PointBounds* bounds = work_.colliders.empty() ? nullptr : &scratch.bounds;
   (in_one_pass ? kernels_.advance : kernels_.predict)(a, bounds);
   move_kinematics(object, a);
   if (bounds != nullptr) {
@@ -164,8 +165,7 @@ bool Frame::finish_tile(int task, bool ends_frame) {
 // ---------------------------------------------------------------- pairs
 
 PairParticles Frame::all_particles() const {
-  return {state_.positions.data(), state_.remainders.data(), work_.displacements.data(),
-          static_cast<int>(state_.positions.size()), h_};
+  return {state_.positions.data(), state_.remainders.data(), work_.displacements.data(), h_, substeps_ahead_};
 }
 
 void Frame::find_pairs() { work_.pairs->detect(executor_, all_particles()); }

@@ -88,6 +88,7 @@ class Frame {
   Report& report_;
   double start_, dt_, time_after_ = 0;
   float h_;
+  float substeps_ahead_ = 1;  ///< of the frame, this one included
   bool sweeps_on_entry_;
 };
 

@@ -32,10 +32,10 @@ struct Kernels {
   void (*update)(const AdvanceArguments& arguments);
 
   /// Begins a substep: d = remainder + h (v + gravity). Adds the places before and after to `bounds` where it is not null.
-  void (*predict)(const AdvanceArguments& arguments, Bounds* bounds);
+  void (*predict)(const AdvanceArguments& arguments, PointBounds* bounds);
 
   /// update, then predict, in one pass over memory: for where nothing responds in between.
-  void (*advance)(const AdvanceArguments& arguments, Bounds* bounds);
+  void (*advance)(const AdvanceArguments& arguments, PointBounds* bounds);
 
   /// Writes the particles near a solid to `near`, ascending, and returns how many; room for all is needed.
   int (*find_near)(const NearQuery& query, std::int32_t* near);

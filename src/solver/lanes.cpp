@@ -295,7 +295,7 @@ struct WideBounds {
   Wide low{3e38f}, high{-3e38f};
 };
 
-PLIANT_HD void add_bounds(const WideBounds& wide, Bounds& bounds) {
+PLIANT_HD void add_bounds(const WideBounds& wide, PointBounds& bounds) {
   float low[wide_width], high[wide_width];
   store_wide(low, wide.low);
   store_wide(high, wide.high);
@@ -320,7 +320,7 @@ PLIANT_HD void advance_at(const AdvanceArguments& a, int i, const WideGravity& g
 }
 
 template <bool updates, bool predicts>
-PLIANT_HD void advance_all(const AdvanceArguments& a, Bounds* bounds) {
+PLIANT_HD void advance_all(const AdvanceArguments& a, PointBounds* bounds) {
   const WideGravity gravity(a);
   WideBounds wide;
   int i = a.first;
@@ -334,8 +334,8 @@ PLIANT_HD void advance_all(const AdvanceArguments& a, Bounds* bounds) {
 }
 
 void update(const AdvanceArguments& a) { advance_all<true, false>(a, nullptr); }
-void predict(const AdvanceArguments& a, Bounds* bounds) { advance_all<false, true>(a, bounds); }
-void advance(const AdvanceArguments& a, Bounds* bounds) { advance_all<true, true>(a, bounds); }
+void predict(const AdvanceArguments& a, PointBounds* bounds) { advance_all<false, true>(a, bounds); }
+void advance(const AdvanceArguments& a, PointBounds* bounds) { advance_all<true, true>(a, bounds); }
 
 /// x - x is zero for what is finite and not a number else, and a sum keeps what is not a number.
 bool all_finite(const Record* records, int first, int last) {

@@ -125,12 +125,12 @@ void update(const AdvanceArguments& a) {
   }
 }
 
-void add_point(const Record& p, Bounds& bounds) {
+void add_point(const Record& p, PointBounds& bounds) {
   bounds.low = {min(bounds.low.x, p.x), min(bounds.low.y, p.y), min(bounds.low.z, p.z), 0};
   bounds.high = {max(bounds.high.x, p.x), max(bounds.high.y, p.y), max(bounds.high.z, p.z), 0};
 }
 
-void predict(const AdvanceArguments& a, Bounds* bounds) {
+void predict(const AdvanceArguments& a, PointBounds* bounds) {
   for (int i = a.first; i < a.last; ++i) {
     const Record &x = a.positions[i], &r = a.remainders[i], &v = a.velocities[i];
     const Vec3f gravity = gravity_on(x, a.gravity_begun);
@@ -142,7 +142,7 @@ void predict(const AdvanceArguments& a, Bounds* bounds) {
   }
 }
 
-void advance(const AdvanceArguments& a, Bounds* bounds) {
+void advance(const AdvanceArguments& a, PointBounds* bounds) {
   update(a);
   predict(a, bounds);
 }

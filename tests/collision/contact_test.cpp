@@ -19,7 +19,7 @@ int all_of_them(const NearQuery& q, std::int32_t* near) {
 struct Tiny {
   CompiledObject object;
   Records positions, displacements, remainders, velocities;
-  Bounds bounds;
+  PointBounds bounds;
   Tiny() {
     object.thickness = 0.01f;
     object.static_friction = 0.9f;
@@ -41,7 +41,7 @@ struct Tiny {
     const Record& d = displacements[static_cast<std::size_t>(contact.particle)];
     return contact.gap + dot(contact.normal, Vec3f{d.x, d.y, d.z});
   }
-  std::vector<Contact> contacts(const std::vector<Collider>& colliders, float h, const Bounds& within) {
+  std::vector<Contact> contacts(const std::vector<Collider>& colliders, float h, const PointBounds& within) {
     Model model;
     model.colliders = colliders;
     std::vector<MovingCollider> moving;
@@ -94,7 +94,7 @@ TEST(Contacts, BoundsSpareWorkAndNoContact) {
   const auto uniform = [&](double low, double high) {
     return static_cast<float>(low + (high - low) * static_cast<double>(random()) / 4294967295.0);
   };
-  Bounds everywhere{{-1e9f, -1e9f, -1e9f, 0}, {1e9f, 1e9f, 1e9f, 0}};
+  PointBounds everywhere{{-1e9f, -1e9f, -1e9f, 0}, {1e9f, 1e9f, 1e9f, 0}};
   std::size_t met = 0;
   for (int round = 0; round < 2000; ++round) {
     Tiny tiny;

@@ -293,7 +293,7 @@ TEST(Kernels, BoundThePathsAsTheReference) {
   for (int count = 0; count <= 21; ++count) {
     const Particles start(std::max(count, 1), random, false);
     Particles particles = start;
-    Bounds expected;
+    PointBounds expected;
     kernels_sequential().predict(particles.arguments(0, count), &expected);
     for (int i = 0; i < count; ++i) {
       for (const Record& p :
@@ -304,7 +304,7 @@ TEST(Kernels, BoundThePathsAsTheReference) {
     }
     for (const Kernels* kernels : kernels_in_lanes()) {
       Particles again = start;
-      Bounds found;
+      PointBounds found;
       kernels->predict(again.arguments(0, count), &found);
       EXPECT_TRUE(found.low.x == expected.low.x && found.low.y == expected.low.y && found.low.z == expected.low.z) << count;
       EXPECT_TRUE(found.high.x == expected.high.x && found.high.y == expected.high.y && found.high.z == expected.high.z)
