@@ -11,6 +11,8 @@ namespace pliant {
 namespace {
 
 constexpr int pairs_in_a_task = 4096;
+/// Pairs stay active while all moves add up to less than this share of the skin.
+constexpr float share_of_skin = 0.25f;
 /// Nearer than any distance: to be measured before anything else.
 constexpr float not_measured = -1e30f;
 /// A contact keeps no more than this share of the distance that its primitives have at rest.
@@ -58,6 +60,9 @@ PairSystem::PairSystem(const PairModel& model)
   body_size_.assign(bodies, 0);
   for (const int v : model.elements.vertices) ++body_size_[model.vertex_body[v]];
   between_move_.resize(bodies * bodies);
+  between_growth_.resize(bodies * bodies);
+  growth_.resize(bodies);
+  body_largest_.resize(bodies);
   share_.assign(model.rest.size(), 1.f);
 }
 
@@ -143,6 +148,7 @@ void PairSystem::rebuild(Executor& executor, const PairParticles& particles) {
   edge_sum_.assign(edge_move_.size(), 0.f);
   between_sum_.assign(between_move_.size(), 0.f);
   listed_ = true;
+  active_ = false;
   ++counts_.rebuilds;
   counts_.candidates = static_cast<std::int64_t>(pairs_.size());
 }
@@ -158,6 +164,7 @@ void PairSystem::measure_moves(Executor& executor, const PairParticles& particle
   }
   for (std::size_t b = 0; b < body_move_.size(); ++b)
     body_move_[b] = body_size_[b] > 0 ? body_move_[b] * (1. / body_size_[b]) : Vec3d{};
+  std::fill(body_largest_.begin(), body_largest_.end(), 0.f);
   for (std::size_t a = 0; a < body_move_.size(); ++a)
     for (std::size_t b = 0; b < body_move_.size(); ++b)
       between_move_[a * body_move_.size() + b] = static_cast<float>(length(body_move_[a] - body_move_[b])) * bound_slack;
@@ -174,6 +181,10 @@ void PairSystem::measure_moves(Executor& executor, const PairParticles& particle
     const Vec3f mean = convert<float>(body_move_[model_.vertex_body[v]]);
     vertex_move_[v] = length(Vec3f{d.x, d.y, d.z} - mean) * bound_slack + 1e-12f;
   });
+  for (const int v : elements.vertices) {
+    float& most = body_largest_[model_.vertex_body[v]];
+    most = max(most, vertex_move_[v]);
+  }
   each(triangle_move_.size(), [&](std::size_t i) {
     const Triangle& t = elements.triangles[i];
     triangle_move_[i] = max(max(vertex_move_[t[0]], vertex_move_[t[1]]), vertex_move_[t[2]]);
@@ -192,58 +203,126 @@ void PairSystem::settle_moves(Executor& executor, const PairParticles& particles
   add(triangle_sum_, triangle_move_);
   add(edge_sum_, edge_move_);
   add(between_sum_, between_move_);
+  add(growth_, body_largest_);
+  add(between_growth_, between_move_);
 }
 
-float PairSystem::between(int a, int b) const {
-  const std::size_t at = static_cast<std::size_t>(a) * model_.bodies + b;
-  return a == b ? 0 : between_sum_[at] + between_move_[at];
-}
-
-/// Measures every pair of the task that can be within `within(a, b)` of bodies a and b at the substep's end, and lists those in
-/// `near`, ascending.
-template <class Within>
-void PairSystem::collect_near(Task& task, Within within) {
+/// Pairs of the task that may come within their thickness, or the filter's least distance, while all moves add up to less than
+/// `margin`: what is looked at until then.
+void PairSystem::activate_task(Task& task, const PairParticles& particles, float margin) {
   task.near.clear();
   for (int number = task.first; number < task.last; ++number) {
-    Owner& owner = owners_[number];
+    const Owner& owner = owners_[number];
     const bool is_vertex = owner.first < vertex_pairs_;
     const int a = is_vertex ? model_.vertex_body[owner.element] : model_.edge_body[owner.element];
-    const float own = is_vertex ? vertex_sum_[owner.element] + vertex_move_[owner.element]
-                                : edge_sum_[owner.element] + edge_move_[owner.element];
-    if (owner.reach - own > owner_other_[2 * a + (is_vertex ? 0 : 1)]) continue;
-    float least = 1e30f;
+    const float own = is_vertex ? vertex_sum_[owner.element] : edge_sum_[owner.element];
+    if (owner.reach - own - margin > owner_other_[2 * a + (is_vertex ? 0 : 1)]) continue;
     for (std::int32_t p = owner.first; p < owner.last; ++p) {
       const Pair& pair = pairs_[p];
       const int b = is_vertex ? model_.triangle_body[pair.b] : model_.edge_body[pair.b];
-      const float other =
-          is_vertex ? triangle_sum_[pair.b] + triangle_move_[pair.b] : edge_sum_[pair.b] + edge_move_[pair.b];
-      least = min(least, pair.reach);
-      if (pair.reach - (own + other + between(a, b)) <= within(a, b)) task.near.push_back(p);
+      const float other = is_vertex ? triangle_sum_[pair.b] : edge_sum_[pair.b];
+      const float since = own + other + (a == b ? 0 : between_sum_[static_cast<std::size_t>(a) * model_.bodies + b]);
+      if (pair.reach - since - margin <= material(a, b).thickness) task.near.push_back(p);
     }
-    owner.reach = least;
+  }
+  measure(task, particles, [&](std::int32_t, const PairStencil&, const PairBatch&, int) {});
+  task.active.clear();
+  for (const std::int32_t p : task.near) {
+    const PairMaterial& of = material(body_of_first(p), body_of_second(p));
+    if (pairs_[p].reach - sums(p) - margin <= of.thickness) task.active.push_back(p);
+  }
+  for (int number = task.first; number < task.last; ++number) {
+    Owner& owner = owners_[number];
+    owner.reach = 1e30f;
+    for (std::int32_t p = owner.first; p < owner.last; ++p) owner.reach = min(owner.reach, pairs_[p].reach);
   }
 }
 
-/// What the other side of a body's pairs can have moved at most, and how near it may be, for collect_near to look at owners
-/// alone.
+/// Distances of the task's `near`, sixteen at a time; visit(pair, stencil, batch, lane) each.
+template <class Visit>
+void PairSystem::measure(Task& task, const PairParticles& particles, Visit visit) {
+  task.stencils.clear();
+  for (const std::int32_t p : task.near) task.stencils.push_back(stencil(p));
+  PairBatch batch;
+  for (std::size_t i = 0; i < task.near.size(); i += 16) {
+    const int count = static_cast<int>(std::min<std::size_t>(16, task.near.size() - i));
+    pair_distances(&task.stencils[i], count, particles.positions, batch);
+    for (int lane = 0; lane < count; ++lane) {
+      const std::int32_t p = task.near[i + lane];
+      pairs_[p].reach = batch.distance[lane] * (1 - 1e-5f) + sums(p);
+      visit(p, task.stencils[i + lane], batch, lane);
+    }
+  }
+}
+
+/// What both sides of a pair have moved since lists were made, this substep left out.
+float PairSystem::sums(std::int32_t pair) const {
+  const Pair& p = pairs_[pair];
+  const float own = pair < vertex_pairs_ ? vertex_sum_[p.a] + triangle_sum_[p.b] : edge_sum_[p.a] + edge_sum_[p.b];
+  const int a = body_of_first(pair), b = body_of_second(pair);
+  return a == b ? own : own + between_sum_[static_cast<std::size_t>(a) * model_.bodies + b];
+}
+
+/// What they move in this substep.
+float PairSystem::moves(std::int32_t pair) const {
+  const Pair& p = pairs_[pair];
+  const float own = pair < vertex_pairs_ ? vertex_move_[p.a] + triangle_move_[p.b] : edge_move_[p.a] + edge_move_[p.b];
+  const int a = body_of_first(pair), b = body_of_second(pair);
+  return a == b ? own : own + between_move_[static_cast<std::size_t>(a) * model_.bodies + b];
+}
+
+/// Active pairs that can be nearer than `within(a, b)` of their bodies at the substep's end.
 template <class Within>
-void PairSystem::bound_owners(Within within) {
+void PairSystem::collect_near(Task& task, Within within) {
+  task.near.clear();
+  for (const std::int32_t p : task.active)
+    if (pairs_[p].reach - sums(p) - moves(p) <= within(body_of_first(p), body_of_second(p))) task.near.push_back(p);
+}
+
+/// The most that any two things that meet can have come closer since pairs were made active, this substep included.
+float PairSystem::largest_growth() const {
+  float most = 0;
+  for (int a = 0; a < model_.bodies; ++a)
+    for (int b = 0; b < model_.bodies; ++b) {
+      const std::size_t at = static_cast<std::size_t>(a) * model_.bodies + b;
+      if (model_.meets[at] == 0) continue;
+      const float own = (growth_[a] + body_largest_[a]) + (growth_[b] + body_largest_[b]);
+      most = max(most, a == b ? own : own + (between_growth_[at] + between_move_[at]));
+    }
+  return most;
+}
+
+/// Sees to it that all pairs that can matter in this substep are active.
+void PairSystem::activate(Executor& executor, const PairParticles& particles) {
+  if (active_ && largest_growth() <= margin_) return;
+  std::fill(growth_.begin(), growth_.end(), 0.f);
+  std::fill(between_growth_.begin(), between_growth_.end(), 0.f);
+  margin_ = max(share_of_skin * (model_.radius - model_.largest_thickness), 1.1f * largest_growth());
+  bound_owners();
+  executor.parallel_for("activate pairs", static_cast<int>(tasks_.size()),
+                        [&](int task) { activate_task(tasks_[task], particles, margin_); });
+  active_ = true;
+}
+
+/// What the other side of a body's pairs has moved at most, and how near it may be, for activate_task to look at owners alone.
+void PairSystem::bound_owners() {
   const auto bodies = static_cast<std::size_t>(model_.bodies);
   body_triangle_.assign(bodies, 0.f);
   body_edge_.assign(bodies, 0.f);
-  for (std::size_t i = 0; i < triangle_move_.size(); ++i) {
+  for (std::size_t i = 0; i < triangle_sum_.size(); ++i) {
     float& most = body_triangle_[model_.triangle_body[i]];
-    most = max(most, triangle_sum_[i] + triangle_move_[i]);
+    most = max(most, triangle_sum_[i]);
   }
-  for (std::size_t i = 0; i < edge_move_.size(); ++i) {
+  for (std::size_t i = 0; i < edge_sum_.size(); ++i) {
     float& most = body_edge_[model_.edge_body[i]];
-    most = max(most, edge_sum_[i] + edge_move_[i]);
+    most = max(most, edge_sum_[i]);
   }
   owner_other_.assign(2 * bodies, -1e30f);
   for (int a = 0; a < model_.bodies; ++a)
     for (int b = 0; b < model_.bodies; ++b) {
-      if (model_.meets[static_cast<std::size_t>(a) * bodies + b] == 0) continue;
-      const float more = within(a, b) + between(a, b);
+      const std::size_t at = static_cast<std::size_t>(a) * bodies + b;
+      if (model_.meets[at] == 0) continue;
+      const float more = material(a, b).thickness + (a == b ? 0 : between_sum_[at]);
       owner_other_[2 * a] = max(owner_other_[2 * a], body_triangle_[b] + more);
       owner_other_[2 * a + 1] = max(owner_other_[2 * a + 1], body_edge_[b] + more);
     }
@@ -258,35 +337,15 @@ float PairSystem::least_distance(int a, int b) const {
 void PairSystem::detect_task(Task& task, const PairParticles& particles) {
   task.contacts.clear();
   collect_near(task, [&](int a, int b) { return material(a, b).thickness; });
-  task.stencils.clear();
-  for (const std::int32_t p : task.near) task.stencils.push_back(stencil(p));
-  PairBatch batch;
-  for (std::size_t i = 0; i < task.near.size(); i += 16) {
-    const int count = static_cast<int>(std::min<std::size_t>(16, task.near.size() - i));
-    pair_distances(&task.stencils[i], count, particles.positions, batch);
-    for (int lane = 0; lane < count; ++lane)
-      detect_pair(task.near[i + lane], task.stencils[i + lane], batch, lane, particles, task);
-  }
-}
-
-void PairSystem::detect_pair(std::int32_t pair, const PairStencil& four, const PairBatch& at, int lane,
-                             const PairParticles& particles, Task& task) {
-  Pair& p = pairs_[pair];
-  const bool is_vertex = pair < vertex_pairs_;
-  const int a = model_.vertex_body[four.vertex[0]], b = model_.vertex_body[four.vertex[3]];
-  const PairMaterial& of = material(a, b);
-  const float distance = at.distance[lane] * (1 - 1e-5f);
-  const float sums = (is_vertex ? vertex_sum_[p.a] + triangle_sum_[p.b] : edge_sum_[p.a] + edge_sum_[p.b]) +
-                     (a == b ? 0 : between_sum_[static_cast<std::size_t>(a) * model_.bodies + b]);
-  const float moves = (is_vertex ? vertex_move_[p.a] + triangle_move_[p.b] : edge_move_[p.a] + edge_move_[p.b]) +
-                      (a == b ? 0 : between_move_[static_cast<std::size_t>(a) * model_.bodies + b]);
-  p.reach = distance + sums;
-  if (!(distance > 0) || distance - moves > of.thickness) return;
-  if (p.rest < 0) p.rest = static_cast<float>(share_of_rest * pair_distance(four, model_.rest.data()).distance);
-  PairMaterial kept = of;
-  kept.thickness = min(kept.thickness, p.rest);
-  if (distance - moves > kept.thickness) return;
-  task.contacts.push_back(make_contact(four, at, lane, kept, particles.h));
+  measure(task, particles, [&](std::int32_t pair, const PairStencil& four, const PairBatch& at, int lane) {
+    Pair& p = pairs_[pair];
+    PairMaterial kept = material(body_of_first(pair), body_of_second(pair));
+    const float nearest = at.distance[lane] * (1 - 1e-5f) - moves(pair);
+    if (!(at.distance[lane] > 0) || nearest > kept.thickness) return;
+    if (p.rest < 0) p.rest = static_cast<float>(share_of_rest * pair_distance(four, model_.rest.data()).distance);
+    kept.thickness = min(kept.thickness, p.rest);
+    if (nearest <= kept.thickness) task.contacts.push_back(make_contact(four, at, lane, kept, particles.h));
+  });
 }
 
 void PairSystem::detect(Executor& executor, const PairParticles& particles) {
@@ -295,7 +354,7 @@ void PairSystem::detect(Executor& executor, const PairParticles& particles) {
   const float margin = 0.5f * (model_.radius - model_.largest_thickness);
   if (!listed_ || !all_within(particles, margin)) rebuild(executor, particles);
   measure_moves(executor, particles);
-  bound_owners([&](int a, int b) { return material(a, b).thickness; });
+  activate(executor, particles);
   executor.parallel_for("detect contacts", static_cast<int>(tasks_.size()),
                         [&](int task) { detect_task(tasks_[task], particles); });
   for (const Task& task : tasks_) contacts_.insert(contacts_.end(), task.contacts.begin(), task.contacts.end());
@@ -378,7 +437,7 @@ void PairSystem::filter(Executor& executor, const PairParticles& particles) {
       const Record& x = particles.positions[v];
       extent_ = max(extent_, largest(Vec3f{x.x, x.y, x.z}));
     }
-    bound_owners([&](int a, int b) { return least_distance(a, b); });
+    activate(executor, particles);
     executor.parallel_for("filter moves", static_cast<int>(tasks_.size()),
                           [&](int task) { filter_task(tasks_[task], particles); });
     shorten(particles);

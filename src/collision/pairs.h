@@ -84,8 +84,9 @@ class PairSystem {
     float reach;               ///< the least of its pairs'
   };
   struct Task {
-    int first = 0, last = 0;  ///< of owners_
-    std::vector<std::int32_t> near;
+    int first = 0, last = 0;           ///< of owners_
+    std::vector<std::int32_t> active;  ///< of pairs_, ascending: what to look at for now
+    std::vector<std::int32_t> near;    ///< of these, what to measure
     std::vector<PairStencil> stencils;
     std::vector<PairContact> contacts;
     std::vector<SeparatingSlab> slabs;
@@ -94,6 +95,12 @@ class PairSystem {
   };
 
   PairStencil stencil(std::int32_t pair) const;
+  int body_of_first(std::int32_t pair) const {
+    return pair < vertex_pairs_ ? model_.vertex_body[pairs_[pair].a] : model_.edge_body[pairs_[pair].a];
+  }
+  int body_of_second(std::int32_t pair) const {
+    return pair < vertex_pairs_ ? model_.triangle_body[pairs_[pair].b] : model_.edge_body[pairs_[pair].b];
+  }
   const PairMaterial& material(int a, int b) const {
     return model_.materials[static_cast<std::size_t>(a) * model_.bodies + b];
   }
@@ -104,14 +111,17 @@ class PairSystem {
   void settle_moves(Executor& executor, const PairParticles& particles);
   void append(const IntLists& lists, const std::vector<std::uint64_t>& tangled);
   void cut_into_tasks();
-  float between(int a, int b) const;
+  float sums(std::int32_t pair) const;
+  float moves(std::int32_t pair) const;
+  float largest_growth() const;
   template <class Within>
   void collect_near(Task& task, Within within);
-  template <class Within>
-  void bound_owners(Within within);
+  void bound_owners();
+  void activate(Executor& executor, const PairParticles& particles);
+  void activate_task(Task& task, const PairParticles& particles, float margin);
+  template <class Visit>
+  void measure(Task& task, const PairParticles& particles, Visit visit);
   float least_distance(int a, int b) const;
-  void detect_pair(std::int32_t pair, const PairStencil& four, const PairBatch& at, int lane,
-                   const PairParticles& particles, Task& task);
   void detect_task(Task& task, const PairParticles& particles);
   void filter_task(Task& task, const PairParticles& particles);
   void filter_pair(std::int32_t pair, const PairParticles& particles, Task& task);
@@ -125,7 +135,8 @@ class PairSystem {
   std::vector<Pair> pairs_;
   std::int32_t vertex_pairs_ = 0;  ///< of pairs_; the rest are of edges
   std::vector<Owner> owners_;
-  bool listed_ = false;
+  bool listed_ = false, active_ = false;
+  float margin_ = 0;  ///< how far things may move before pairs are made active anew [m]
 
   // By particle, triangle, edge: the move of this substep, relative to its body's mean, and the sum of those made.
   std::vector<float> vertex_move_, triangle_move_, edge_move_, vertex_sum_, triangle_sum_, edge_sum_;
@@ -133,6 +144,8 @@ class PairSystem {
   std::vector<int> body_size_;
   std::vector<float> between_move_, between_sum_;  ///< bodies x bodies: of their means
   std::vector<float> body_triangle_, body_edge_;   ///< the largest of sum and move of a body's triangles and edges
+  std::vector<float> body_largest_, growth_,
+      between_growth_;              ///< largest move of a body; its sum since pairs were made active
   std::vector<float> owner_other_;  ///< by body: what the other side of its pairs can have moved at most, twice
 
   std::vector<Task> tasks_;
