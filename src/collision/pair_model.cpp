@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/morton.h"
 #include "collision/pairs.h"
 #include "math/vector.h"
 
@@ -11,6 +12,8 @@ namespace {
 
 /// Beyond the largest thickness, pairs are listed within this share of the median edge, so that lists last for a while.
 constexpr float skin_over_edge = 0.5f;
+
+constexpr std::size_t vertices_in_a_cluster = 64;
 
 bool is_immovable(const CompiledObject& object) {
   for (const Record& p : object.positions)
@@ -31,6 +34,27 @@ std::vector<std::array<int, 2>> lines_of(const CompiledObject& object, int first
   if (!object.surface.triangles.empty()) return lines;
   for (const auto& [a, b] : object.lines) lines.push_back({first + a, first + b});
   return lines;
+}
+
+/// Vertices of each body along a Morton curve, cut into stretches.
+void make_clusters(PairModel& model) {
+  std::vector<std::vector<int>> of_body(model.bodies);
+  for (const int v : model.elements.vertices) of_body[model.vertex_body[v]].push_back(v);
+  model.vertex_cluster.assign(model.rest.size(), -1);
+  MortonSorter sorter;
+  for (int body = 0; body < model.bodies; ++body) {
+    std::vector<Vec3f> places;
+    for (const int v : of_body[body]) places.push_back({model.rest[v].x, model.rest[v].y, model.rest[v].z});
+    std::vector<int> order;
+    sorter.sort(places, order);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      if (i % vertices_in_a_cluster == 0) model.cluster_body.push_back(body);
+      model.vertex_cluster[of_body[body][order[i]]] = static_cast<int>(model.cluster_body.size()) - 1;
+    }
+  }
+  model.clusters = static_cast<int>(model.cluster_body.size());
+  for (const Triangle& t : model.elements.triangles) model.triangle_cluster.push_back(model.vertex_cluster[t[0]]);
+  for (const auto& edge : model.elements.edges) model.edge_cluster.push_back(model.vertex_cluster[edge[0]]);
 }
 
 float median_edge(const PairModel& model) {
@@ -79,8 +103,7 @@ std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& po
   }
   if (triangles.empty() && lines.empty()) return nullptr;
   out->elements = make_contact_elements(triangles, lines, {}, static_cast<int>(positions.size()));
-  for (const Triangle& t : out->elements.triangles) out->triangle_body.push_back(out->vertex_body[t[0]]);
-  for (const auto& edge : out->elements.edges) out->edge_body.push_back(out->vertex_body[edge[0]]);
+  make_clusters(*out);
   out->elements.body = out->vertex_body;
   out->elements.bodies = bodies;
   out->elements.meets = out->meets;

@@ -11,6 +11,8 @@ namespace pliant {
 namespace {
 
 constexpr int pairs_in_a_task = 4096;
+/// Bounds are sums of floats: pairs are dismissed only when they are out of reach by more than this.
+constexpr float cull_slack = 1.0001f;
 /// Pairs stay active while all moves add up to less than this share of the skin.
 constexpr float share_of_skin = 0.25f;
 /// Nearer than any distance: to be measured before anything else.
@@ -52,17 +54,19 @@ Vec3f end_of(const PairParticles& particles, std::size_t i, float times = 1) {
 
 PairSystem::PairSystem(const PairModel& model)
     : model_(model), finder_(model.elements), intersections_(model.elements.triangles, model.elements.vertex_count) {
-  const auto bodies = static_cast<std::size_t>(model.bodies);
+  const auto clusters = static_cast<std::size_t>(model.clusters);
   vertex_move_.resize(model.rest.size());
   triangle_move_.resize(model.elements.triangles.size());
   edge_move_.resize(model.elements.edges.size());
-  body_move_.resize(bodies);
-  body_size_.assign(bodies, 0);
-  for (const int v : model.elements.vertices) ++body_size_[model.vertex_body[v]];
-  between_move_.resize(bodies * bodies);
-  between_growth_.resize(bodies * bodies);
-  growth_.resize(bodies);
-  body_largest_.resize(bodies);
+  cluster_move_.resize(clusters);
+  cluster_largest_.resize(clusters);
+  cluster_vertices_.resize(clusters);
+  cluster_triangles_.resize(clusters);
+  cluster_edges_.resize(clusters);
+  for (const int v : model.elements.vertices) cluster_vertices_[model.vertex_cluster[v]].push_back(v);
+  for (std::size_t i = 0; i < triangle_move_.size(); ++i)
+    cluster_triangles_[model.triangle_cluster[i]].push_back(static_cast<int>(i));
+  for (std::size_t i = 0; i < edge_move_.size(); ++i) cluster_edges_[model.edge_cluster[i]].push_back(static_cast<int>(i));
   share_.assign(model.rest.size(), 1.f);
 }
 
@@ -77,14 +81,23 @@ bool PairSystem::is_finite(const PairParticles& particles) const {
   return true;
 }
 
-PairStencil PairSystem::stencil(std::int32_t pair) const {
+PairStencil PairSystem::stencil(const Bucket& bucket, std::int32_t pair) const {
   const Pair& p = pairs_[pair];
-  if (pair < vertex_pairs_) {
+  if (bucket.vertices) {
     const Triangle& t = model_.elements.triangles[p.b];
     return {{p.a, t[0], t[1], t[2]}, 1};
   }
   const auto &e = model_.elements.edges[p.a], &f = model_.elements.edges[p.b];
   return {{e[0], e[1], f[0], f[1]}, 2};
+}
+
+const PairMaterial& PairSystem::material(const Bucket& bucket) const {
+  const int a = model_.cluster_body[bucket.first_cluster], b = model_.cluster_body[bucket.second_cluster];
+  return model_.materials[static_cast<std::size_t>(a) * model_.bodies + b];
+}
+
+float PairSystem::least_distance(const Bucket& bucket) const {
+  return max(least_share * material(bucket).thickness, least_roundings * rounding * extent_);
 }
 
 /// Whether every vertex ends its move within its box, grown by `margin` around the motion for which lists were made.
@@ -100,30 +113,72 @@ bool PairSystem::all_within(const PairParticles& particles, float margin) const 
   return true;
 }
 
-void PairSystem::append(const IntLists& lists, const std::vector<std::uint64_t>& tangled) {
-  for (int element = 0; element + 1 < static_cast<int>(lists.start.size()); ++element) {
-    const auto first = static_cast<std::int32_t>(pairs_.size());
-    for (const int* other = lists.begin(element); other != lists.end(element); ++other)
-      if (!std::binary_search(tangled.begin(), tangled.end(), key_of(element, *other)))
-        pairs_.push_back({element, *other, not_measured, -1});
-    const auto last = static_cast<std::int32_t>(pairs_.size());
-    if (first < last) owners_.push_back({element, first, last, not_measured});
+/// Sorts candidates by kind and clusters. The order of buckets, and of pairs within one, is that of numbers alone: a pair more
+/// or less that is out of reach does not change the order of those that touch.
+void PairSystem::fill_buckets() {
+  const IntLists* lists[2] = {&finder_.vertex_triangles(), &finder_.edge_edges()};
+  const auto each = [&](auto visit) {
+    for (int kind = 0; kind < 2; ++kind) {
+      const std::vector<int>&first = kind == 0 ? model_.vertex_cluster : model_.edge_cluster,
+            &second = kind == 0 ? model_.triangle_cluster : model_.edge_cluster;
+      const std::vector<std::uint64_t>& tangled = kind == 0 ? tangled_pairs_ : tangled_edges_;
+      for (int a = 0; a + 1 < static_cast<int>(lists[kind]->start.size()); ++a)
+        for (const int* b = lists[kind]->begin(a); b != lists[kind]->end(a); ++b)
+          if (tangled.empty() || !std::binary_search(tangled.begin(), tangled.end(), key_of(a, *b)))
+            visit(a, *b,
+                  (static_cast<std::uint64_t>(kind) << 62) | (static_cast<std::uint64_t>(first[a]) << 31) |
+                      static_cast<std::uint64_t>(second[*b]));
+    }
+  };
+  // Neighbours in the lists mostly share a bucket: the last one found is tried first, then a search among those known.
+  keys_.clear();
+  std::size_t count = 0;
+  each([&](int, int, std::uint64_t key) {
+    ++count;
+    if (keys_.empty() || keys_.back().first != key) keys_.emplace_back(key, 0);
+  });
+  std::sort(keys_.begin(), keys_.end());
+  keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
+  bucket_of_.clear();
+  bucket_of_.reserve(count);
+  std::size_t last = 0;
+  each([&](int, int, std::uint64_t key) {
+    if (keys_[last].first != key)
+      last = static_cast<std::size_t>(std::lower_bound(keys_.begin(), keys_.end(), std::make_pair(key, 0)) - keys_.begin());
+    // The count of each, moved on by unique() and sort() from zero.
+    bucket_of_.push_back(static_cast<std::int32_t>(last));
+  });
+  for (const std::int32_t bucket : bucket_of_) ++keys_[bucket].second;
+  buckets_.clear();
+  std::int32_t first = 0;
+  for (const auto& [key, size] : keys_) {
+    Bucket bucket{};
+    bucket.vertices = key >> 62 == 0;
+    bucket.first_cluster = static_cast<int>((key >> 31) & 0x7fffffff);
+    bucket.second_cluster = static_cast<int>(key & 0x7fffffff);
+    bucket.first = bucket.last = first;
+    bucket.margin = not_measured;
+    buckets_.push_back(bucket);
+    first += size;
   }
+  pairs_.resize(count);
+  active_.resize(count);
+  std::size_t number = 0;
+  each([&](int a, int b, std::uint64_t) {
+    pairs_[buckets_[bucket_of_[number]].last++] = {a, b, not_measured, -1};
+    ++number;
+  });
 }
 
 void PairSystem::cut_into_tasks() {
   std::size_t tasks = 0;
-  for (int owner = 0; owner < static_cast<int>(owners_.size()); ++tasks) {
+  for (int bucket = 0; bucket < static_cast<int>(buckets_.size()); ++tasks) {
     if (tasks_.size() <= tasks) tasks_.emplace_back();
-    tasks_[tasks].first = owner;
-    // Vertices and edges are not mixed: sixteen of one kind are measured at once.
-    const bool vertices = owners_[owner].first < vertex_pairs_;
-    const std::int32_t first = owners_[owner].first;
-    while (owner < static_cast<int>(owners_.size()) && owners_[owner].last - first <= pairs_in_a_task &&
-           (owners_[owner].first < vertex_pairs_) == vertices)
-      ++owner;
-    if (owner == tasks_[tasks].first) ++owner;
-    tasks_[tasks].last = owner;
+    tasks_[tasks].first = bucket;
+    const std::int32_t first = buckets_[bucket].first;
+    do ++bucket;
+    while (bucket < static_cast<int>(buckets_.size()) && buckets_[bucket].last - first <= pairs_in_a_task);
+    tasks_[tasks].last = bucket;
   }
   tasks_.resize(tasks);
 }
@@ -136,19 +191,12 @@ void PairSystem::rebuild(Executor& executor, const PairParticles& particles) {
     to_[i] = end_of(particles, i, particles.ahead);
   }
   finder_.find(executor, from_, to_, model_.radius, true);
-  pairs_.clear();
-  owners_.clear();
-  vertex_pairs_ = std::numeric_limits<std::int32_t>::max();
-  append(finder_.vertex_triangles(), tangled_pairs_);
-  vertex_pairs_ = static_cast<std::int32_t>(pairs_.size());
-  append(finder_.edge_edges(), tangled_edges_);
+  fill_buckets();
   cut_into_tasks();
   vertex_sum_.assign(vertex_move_.size(), 0.f);
   triangle_sum_.assign(triangle_move_.size(), 0.f);
   edge_sum_.assign(edge_move_.size(), 0.f);
-  between_sum_.assign(between_move_.size(), 0.f);
   listed_ = true;
-  active_ = false;
   ++counts_.rebuilds;
   counts_.candidates = static_cast<std::int64_t>(pairs_.size());
 }
@@ -156,191 +204,125 @@ void PairSystem::rebuild(Executor& executor, const PairParticles& particles) {
 // ---------------------------------------------------------------- bounds of distances
 
 void PairSystem::measure_moves(Executor& executor, const PairParticles& particles) {
+  constexpr int clusters_in_a_task = 16;
   const ContactElements& elements = model_.elements;
-  std::fill(body_move_.begin(), body_move_.end(), Vec3d{});
-  for (const int v : elements.vertices) {
-    const Record& d = particles.displacements[v];
-    body_move_[model_.vertex_body[v]] += Vec3d{double(d.x), double(d.y), double(d.z)};
-  }
-  for (std::size_t b = 0; b < body_move_.size(); ++b)
-    body_move_[b] = body_size_[b] > 0 ? body_move_[b] * (1. / body_size_[b]) : Vec3d{};
-  std::fill(body_largest_.begin(), body_largest_.end(), 0.f);
-  for (std::size_t a = 0; a < body_move_.size(); ++a)
-    for (std::size_t b = 0; b < body_move_.size(); ++b)
-      between_move_[a * body_move_.size() + b] = static_cast<float>(length(body_move_[a] - body_move_[b])) * bound_slack;
-  constexpr int block = 4096;
-  const auto each = [&](std::size_t n, const auto& body) {
-    executor.parallel_for("contact bounds", static_cast<int>((n + block - 1) / block), [&](int task) {
-      const std::size_t first = static_cast<std::size_t>(task) * block;
-      for (std::size_t i = first; i < std::min(n, first + block); ++i) body(i);
-    });
-  };
-  each(elements.vertices.size(), [&](std::size_t i) {
-    const int v = elements.vertices[i];
-    const Record& d = particles.displacements[v];
-    const Vec3f mean = convert<float>(body_move_[model_.vertex_body[v]]);
-    vertex_move_[v] = length(Vec3f{d.x, d.y, d.z} - mean) * bound_slack + 1e-12f;
+  const int tasks = (model_.clusters + clusters_in_a_task - 1) / clusters_in_a_task;
+  executor.parallel_for("contact bounds", tasks, [&](int task) {
+    for (int c = task * clusters_in_a_task; c < std::min(model_.clusters, (task + 1) * clusters_in_a_task); ++c) {
+      Vec3f sum{};
+      for (const int v : cluster_vertices_[c]) {
+        const Record& d = particles.displacements[v];
+        sum += Vec3f{d.x, d.y, d.z};
+      }
+      const Vec3f mean = cluster_move_[c] = sum * (1.f / static_cast<float>(cluster_vertices_[c].size()));
+      const auto move_of = [&](int v) {
+        const Record& d = particles.displacements[v];
+        return length(Vec3f{d.x, d.y, d.z} - mean) * bound_slack + 1e-12f;
+      };
+      float most = 0;
+      for (const int v : cluster_vertices_[c]) most = max(most, vertex_move_[v] = move_of(v));
+      for (const int t : cluster_triangles_[c]) {
+        const Triangle& corners = elements.triangles[t];
+        triangle_move_[t] = max(max(move_of(corners[0]), move_of(corners[1])), move_of(corners[2]));
+        most = max(most, triangle_move_[t]);
+      }
+      for (const int e : cluster_edges_[c]) {
+        edge_move_[e] = max(move_of(elements.edges[e][0]), move_of(elements.edges[e][1]));
+        most = max(most, edge_move_[e]);
+      }
+      cluster_largest_[c] = most;
+    }
   });
-  for (const int v : elements.vertices) {
-    float& most = body_largest_[model_.vertex_body[v]];
-    most = max(most, vertex_move_[v]);
-  }
-  each(triangle_move_.size(), [&](std::size_t i) {
-    const Triangle& t = elements.triangles[i];
-    triangle_move_[i] = max(max(vertex_move_[t[0]], vertex_move_[t[1]]), vertex_move_[t[2]]);
-  });
-  each(edge_move_.size(),
-       [&](std::size_t i) { edge_move_[i] = max(vertex_move_[elements.edges[i][0]], vertex_move_[elements.edges[i][1]]); });
 }
 
 /// The substep's moves have been made.
-void PairSystem::settle_moves(Executor& executor, const PairParticles& particles) {
-  measure_moves(executor, particles);
+void PairSystem::settle_moves() {
   const auto add = [](std::vector<float>& to, const std::vector<float>& from) {
     for (std::size_t i = 0; i < to.size(); ++i) to[i] = (to[i] + from[i]) * (1 + 1e-7f);
   };
   add(vertex_sum_, vertex_move_);
   add(triangle_sum_, triangle_move_);
   add(edge_sum_, edge_move_);
-  add(between_sum_, between_move_);
-  add(growth_, body_largest_);
-  add(between_growth_, between_move_);
+  for (Bucket& bucket : buckets_) {
+    const float means = between(bucket);
+    bucket.between_sum = (bucket.between_sum + means) * (1 + 1e-7f);
+    bucket.growth =
+        (bucket.growth + (cluster_largest_[bucket.first_cluster] + cluster_largest_[bucket.second_cluster] + means)) *
+        (1 + 1e-7f);
+  }
 }
 
-/// Pairs of the task that may come within their thickness, or the filter's least distance, while all moves add up to less than
-/// `margin`: what is looked at until then.
-void PairSystem::activate_task(Task& task, const PairParticles& particles, float margin) {
-  task.near.clear();
-  for (int number = task.first; number < task.last; ++number) {
-    const Owner& owner = owners_[number];
-    const bool is_vertex = owner.first < vertex_pairs_;
-    const int a = is_vertex ? model_.vertex_body[owner.element] : model_.edge_body[owner.element];
-    const float own = is_vertex ? vertex_sum_[owner.element] : edge_sum_[owner.element];
-    if (owner.reach - own - margin > owner_other_[2 * a + (is_vertex ? 0 : 1)]) continue;
-    for (std::int32_t p = owner.first; p < owner.last; ++p) {
-      const Pair& pair = pairs_[p];
-      const int b = is_vertex ? model_.triangle_body[pair.b] : model_.edge_body[pair.b];
-      const float other = is_vertex ? triangle_sum_[pair.b] : edge_sum_[pair.b];
-      const float since = own + other + (a == b ? 0 : between_sum_[static_cast<std::size_t>(a) * model_.bodies + b]);
-      if (pair.reach - since - margin <= material(a, b).thickness) task.near.push_back(p);
-    }
-  }
-  measure(task, particles, [&](std::int32_t, const PairStencil&, const PairBatch&, int) {});
-  task.active.clear();
-  for (const std::int32_t p : task.near) {
-    const PairMaterial& of = material(body_of_first(p), body_of_second(p));
-    if (pairs_[p].reach - sums(p) - margin <= of.thickness) task.active.push_back(p);
-  }
-  for (int number = task.first; number < task.last; ++number) {
-    Owner& owner = owners_[number];
-    owner.reach = 1e30f;
-    for (std::int32_t p = owner.first; p < owner.last; ++p) owner.reach = min(owner.reach, pairs_[p].reach);
-  }
+/// How far the means of two clusters move against each other in this substep.
+float PairSystem::between(const Bucket& bucket) const {
+  if (bucket.first_cluster == bucket.second_cluster) return 0;
+  return length(cluster_move_[bucket.first_cluster] - cluster_move_[bucket.second_cluster]) * bound_slack;
+}
+
+/// What both sides of a pair have moved since lists were made, this substep left out.
+float PairSystem::sums(const Bucket& bucket, std::int32_t pair) const {
+  const Pair& p = pairs_[pair];
+  return (bucket.vertices ? vertex_sum_[p.a] + triangle_sum_[p.b] : edge_sum_[p.a] + edge_sum_[p.b]) + bucket.between_sum;
+}
+
+/// What they move in this substep.
+float PairSystem::moves(const Bucket& bucket, std::int32_t pair) const {
+  const Pair& p = pairs_[pair];
+  return (bucket.vertices ? vertex_move_[p.a] + triangle_move_[p.b] : edge_move_[p.a] + edge_move_[p.b]) + between(bucket);
 }
 
 /// Distances of the task's `near`, sixteen at a time; visit(pair, stencil, batch, lane) each.
 template <class Visit>
-void PairSystem::measure(Task& task, const PairParticles& particles, Visit visit) {
+void PairSystem::measure(const Bucket& bucket, Task& task, const PairParticles& particles, Visit visit) {
   task.stencils.clear();
-  for (const std::int32_t p : task.near) task.stencils.push_back(stencil(p));
+  for (const std::int32_t p : task.near) task.stencils.push_back(stencil(bucket, p));
   PairBatch batch;
   for (std::size_t i = 0; i < task.near.size(); i += 16) {
     const int count = static_cast<int>(std::min<std::size_t>(16, task.near.size() - i));
     pair_distances(&task.stencils[i], count, particles.positions, batch);
     for (int lane = 0; lane < count; ++lane) {
       const std::int32_t p = task.near[i + lane];
-      pairs_[p].reach = batch.distance[lane] * (1 - 1e-5f) + sums(p);
+      pairs_[p].reach = batch.distance[lane] * (1 - 1e-5f) + sums(bucket, p);
       visit(p, task.stencils[i + lane], batch, lane);
     }
   }
 }
 
-/// What both sides of a pair have moved since lists were made, this substep left out.
-float PairSystem::sums(std::int32_t pair) const {
-  const Pair& p = pairs_[pair];
-  const float own = pair < vertex_pairs_ ? vertex_sum_[p.a] + triangle_sum_[p.b] : edge_sum_[p.a] + edge_sum_[p.b];
-  const int a = body_of_first(pair), b = body_of_second(pair);
-  return a == b ? own : own + between_sum_[static_cast<std::size_t>(a) * model_.bodies + b];
-}
-
-/// What they move in this substep.
-float PairSystem::moves(std::int32_t pair) const {
-  const Pair& p = pairs_[pair];
-  const float own = pair < vertex_pairs_ ? vertex_move_[p.a] + triangle_move_[p.b] : edge_move_[p.a] + edge_move_[p.b];
-  const int a = body_of_first(pair), b = body_of_second(pair);
-  return a == b ? own : own + between_move_[static_cast<std::size_t>(a) * model_.bodies + b];
-}
-
-/// Active pairs that can be nearer than `within(a, b)` of their bodies at the substep's end.
-template <class Within>
-void PairSystem::collect_near(Task& task, Within within) {
+/// Sees to it that all pairs of the bucket that can matter in this substep are active: those that can come within their
+/// thickness before the moves add up to the margin.
+void PairSystem::activate(Bucket& bucket, Task& task, const PairParticles& particles) {
+  const float now = cluster_largest_[bucket.first_cluster] + cluster_largest_[bucket.second_cluster] + between(bucket);
+  if (bucket.growth + now <= bucket.margin) return;
+  bucket.growth = 0;
+  bucket.margin = max(share_of_skin * (model_.radius - model_.largest_thickness), 1.1f * now);
+  const float near = cull_slack * material(bucket).thickness + bucket.margin;
   task.near.clear();
-  for (const std::int32_t p : task.active)
-    if (pairs_[p].reach - sums(p) - moves(p) <= within(body_of_first(p), body_of_second(p))) task.near.push_back(p);
+  for (std::int32_t p = bucket.first; p < bucket.last; ++p)
+    if (pairs_[p].reach - sums(bucket, p) <= near) task.near.push_back(p);
+  bucket.active_last = bucket.first;
+  measure(bucket, task, particles, [&](std::int32_t p, const PairStencil&, const PairBatch& at, int lane) {
+    if (at.distance[lane] * (1 - 1e-5f) <= near) active_[bucket.active_last++] = p;
+  });
 }
 
-/// The most that any two things that meet can have come closer since pairs were made active, this substep included.
-float PairSystem::largest_growth() const {
-  float most = 0;
-  for (int a = 0; a < model_.bodies; ++a)
-    for (int b = 0; b < model_.bodies; ++b) {
-      const std::size_t at = static_cast<std::size_t>(a) * model_.bodies + b;
-      if (model_.meets[at] == 0) continue;
-      const float own = (growth_[a] + body_largest_[a]) + (growth_[b] + body_largest_[b]);
-      most = max(most, a == b ? own : own + (between_growth_[at] + between_move_[at]));
-    }
-  return most;
-}
-
-/// Sees to it that all pairs that can matter in this substep are active.
-void PairSystem::activate(Executor& executor, const PairParticles& particles) {
-  if (active_ && largest_growth() <= margin_) return;
-  std::fill(growth_.begin(), growth_.end(), 0.f);
-  std::fill(between_growth_.begin(), between_growth_.end(), 0.f);
-  margin_ = max(share_of_skin * (model_.radius - model_.largest_thickness), 1.1f * largest_growth());
-  bound_owners();
-  executor.parallel_for("activate pairs", static_cast<int>(tasks_.size()),
-                        [&](int task) { activate_task(tasks_[task], particles, margin_); });
-  active_ = true;
-}
-
-/// What the other side of a body's pairs has moved at most, and how near it may be, for activate_task to look at owners alone.
-void PairSystem::bound_owners() {
-  const auto bodies = static_cast<std::size_t>(model_.bodies);
-  body_triangle_.assign(bodies, 0.f);
-  body_edge_.assign(bodies, 0.f);
-  for (std::size_t i = 0; i < triangle_sum_.size(); ++i) {
-    float& most = body_triangle_[model_.triangle_body[i]];
-    most = max(most, triangle_sum_[i]);
-  }
-  for (std::size_t i = 0; i < edge_sum_.size(); ++i) {
-    float& most = body_edge_[model_.edge_body[i]];
-    most = max(most, edge_sum_[i]);
-  }
-  owner_other_.assign(2 * bodies, -1e30f);
-  for (int a = 0; a < model_.bodies; ++a)
-    for (int b = 0; b < model_.bodies; ++b) {
-      const std::size_t at = static_cast<std::size_t>(a) * bodies + b;
-      if (model_.meets[at] == 0) continue;
-      const float more = material(a, b).thickness + (a == b ? 0 : between_sum_[at]);
-      owner_other_[2 * a] = max(owner_other_[2 * a], body_triangle_[b] + more);
-      owner_other_[2 * a + 1] = max(owner_other_[2 * a + 1], body_edge_[b] + more);
-    }
-}
-
-float PairSystem::least_distance(int a, int b) const {
-  return max(least_share * material(a, b).thickness, least_roundings * rounding * extent_);
+/// Active pairs that can be nearer than `within` at the substep's end.
+void PairSystem::collect_near(Bucket& bucket, Task& task, float within) {
+  task.near.clear();
+  for (std::int32_t i = bucket.first; i < bucket.active_last; ++i)
+    if (pairs_[active_[i]].reach - sums(bucket, active_[i]) - moves(bucket, active_[i]) <= within)
+      task.near.push_back(active_[i]);
 }
 
 // ---------------------------------------------------------------- contacts
 
-void PairSystem::detect_task(Task& task, const PairParticles& particles) {
-  task.contacts.clear();
-  collect_near(task, [&](int a, int b) { return material(a, b).thickness; });
-  measure(task, particles, [&](std::int32_t pair, const PairStencil& four, const PairBatch& at, int lane) {
+void PairSystem::detect_bucket(Bucket& bucket, Task& task, const PairParticles& particles) {
+  activate(bucket, task, particles);
+  if (bucket.active_last == bucket.first) return;
+  const PairMaterial& of = material(bucket);
+  collect_near(bucket, task, cull_slack * of.thickness);
+  measure(bucket, task, particles, [&](std::int32_t pair, const PairStencil& four, const PairBatch& at, int lane) {
     Pair& p = pairs_[pair];
-    PairMaterial kept = material(body_of_first(pair), body_of_second(pair));
-    const float nearest = at.distance[lane] * (1 - 1e-5f) - moves(pair);
+    PairMaterial kept = of;
+    const float nearest = at.distance[lane] * (1 - 1e-5f) - moves(bucket, pair);
     if (!(at.distance[lane] > 0) || nearest > kept.thickness) return;
     if (p.rest < 0) p.rest = static_cast<float>(share_of_rest * pair_distance(four, model_.rest.data()).distance);
     kept.thickness = min(kept.thickness, p.rest);
@@ -354,9 +336,11 @@ void PairSystem::detect(Executor& executor, const PairParticles& particles) {
   const float margin = 0.5f * (model_.radius - model_.largest_thickness);
   if (!listed_ || !all_within(particles, margin)) rebuild(executor, particles);
   measure_moves(executor, particles);
-  activate(executor, particles);
-  executor.parallel_for("detect contacts", static_cast<int>(tasks_.size()),
-                        [&](int task) { detect_task(tasks_[task], particles); });
+  executor.parallel_for("detect contacts", static_cast<int>(tasks_.size()), [&](int number) {
+    Task& task = tasks_[number];
+    task.contacts.clear();
+    for (int b = task.first; b < task.last; ++b) detect_bucket(buckets_[b], task, particles);
+  });
   for (const Task& task : tasks_) contacts_.insert(contacts_.end(), task.contacts.begin(), task.contacts.end());
 }
 
@@ -371,17 +355,16 @@ void PairSystem::respond(const Record* positions, Record* velocities) const {
 
 // ---------------------------------------------------------------- the filter
 
-void PairSystem::filter_task(Task& task, const PairParticles& particles) {
-  task.slabs.clear();
-  task.shares.clear();
-  task.hopeless = 0;
-  collect_near(task, [&](int a, int b) { return least_distance(a, b); });
-  for (const std::int32_t p : task.near) filter_pair(p, particles, task);
+void PairSystem::filter_bucket(Bucket& bucket, Task& task, const PairParticles& particles) {
+  activate(bucket, task, particles);
+  if (bucket.active_last == bucket.first) return;
+  collect_near(bucket, task, least_distance(bucket));
+  for (const std::int32_t p : task.near) filter_pair(bucket, p, particles, task);
 }
 
-void PairSystem::filter_pair(std::int32_t pair, const PairParticles& particles, Task& task) {
-  const PairStencil four = stencil(pair);
-  const double least = double(least_distance(model_.vertex_body[four.vertex[0]], model_.vertex_body[four.vertex[3]]));
+void PairSystem::filter_pair(const Bucket& bucket, std::int32_t pair, const PairParticles& particles, Task& task) {
+  const PairStencil four = stencil(bucket, pair);
+  const double least = double(least_distance(bucket));
   const PairDistance at = pair_distance(four, particles.positions);
   SeparatingSlab slab;
   std::array<float, 4> shares{1, 1, 1, 1};
@@ -394,7 +377,7 @@ void PairSystem::filter_pair(std::int32_t pair, const PairParticles& particles, 
 }
 
 /// The least of what the pairs allow; then what rounding let through stays where it was, until nothing more does.
-void PairSystem::shorten(const PairParticles& particles) {
+bool PairSystem::shorten(const PairParticles& particles) {
   std::vector<std::int32_t> touched;
   for (const Task& task : tasks_) {
     counts_.hopeless += task.hopeless;
@@ -421,6 +404,7 @@ void PairSystem::shorten(const PairParticles& particles) {
     share_[v] = 1;
     ++counts_.shortened;
   }
+  return !touched.empty();
 }
 
 void PairSystem::filter(Executor& executor, const PairParticles& particles) {
@@ -428,6 +412,7 @@ void PairSystem::filter(Executor& executor, const PairParticles& particles) {
   for (const PairContact& contact : contacts_) counts_.contacts += contact.push > 0 ? 1 : 0;
   if (!is_finite(particles)) return;
   const float least = least_share * model_.largest_thickness;
+  bool shortened = false;
   if (model_.filter) {
     // What moved farther than was foreseen is looked for around the moves as they are now.
     if (!all_within(particles, 0.5f * (model_.radius - least))) rebuild(executor, particles);
@@ -437,12 +422,17 @@ void PairSystem::filter(Executor& executor, const PairParticles& particles) {
       const Record& x = particles.positions[v];
       extent_ = max(extent_, largest(Vec3f{x.x, x.y, x.z}));
     }
-    activate(executor, particles);
-    executor.parallel_for("filter moves", static_cast<int>(tasks_.size()),
-                          [&](int task) { filter_task(tasks_[task], particles); });
-    shorten(particles);
+    executor.parallel_for("filter moves", static_cast<int>(tasks_.size()), [&](int number) {
+      Task& task = tasks_[number];
+      task.slabs.clear();
+      task.shares.clear();
+      task.hopeless = 0;
+      for (int b = task.first; b < task.last; ++b) filter_bucket(buckets_[b], task, particles);
+    });
+    shortened = shorten(particles);
   }
-  settle_moves(executor, particles);
+  if (!model_.filter || shortened) measure_moves(executor, particles);
+  settle_moves();
 }
 
 // ---------------------------------------------------------------- tangles

@@ -7,7 +7,7 @@
 //
 // What a substep does depends on positions and displacements alone: lists and bounds of distances only save work, so a
 // State put back gives the same bits. A pair's distance falls by no more than both its primitives move, measured against the
-// mean motion of their bodies: as long as that leaves it out of reach it is not looked at.
+// mean motion of their clusters: as long as that leaves it out of reach it is not looked at.
 #pragma once
 
 #include <memory>
@@ -25,14 +25,17 @@ namespace pliant {
 /// What of a model can touch, in numbers of its State.
 struct PairModel {
   ContactElements elements;
-  std::vector<Record> rest;      ///< positions at the beginning
-  std::vector<int> vertex_body;  ///< object of each particle
-  std::vector<int> triangle_body, edge_body;
+  std::vector<Record> rest;  ///< positions at the beginning
   int bodies = 0;
+  std::vector<int> vertex_body;         ///< object of each particle
   std::vector<char> meets;              ///< bodies x bodies
   std::vector<PairMaterial> materials;  ///< bodies x bodies
-  float radius = 0;                     ///< within which candidates are looked for [m]
-  float largest_thickness = 0;          ///< [m]
+  /// Vertices of one body that lie together, some sixty-four, and the edges and triangles that begin at them. Moves are
+  /// measured against the mean of a cluster's: what falls, swings or turns as a whole hardly changes its own distances.
+  int clusters = 0;
+  std::vector<int> vertex_cluster, edge_cluster, triangle_cluster, cluster_body;
+  float radius = 0;             ///< within which candidates are looked for [m]
+  float largest_thickness = 0;  ///< [m]
   bool filter = true;
 };
 
@@ -75,18 +78,21 @@ class PairSystem {
   struct Pair {
     std::int32_t a, b;  ///< vertex and triangle, or two edges
     float reach;        ///< distance when it was last measured, plus what both sides had moved until then [m]
-    float rest;  ///< what its distance at rest allows it to keep [m]; below 0: not measured; tangled pairs are left out
+    float rest;         ///< what its distance at rest allows it to keep [m]; below 0: not measured
   };
-  /// A vertex or an edge with its pairs: as long as none can be near none is looked at.
-  struct Owner {
-    std::int32_t element;
-    std::int32_t first, last;  ///< of pairs_
-    float reach;               ///< the least of its pairs'
+  /// Pairs of one kind between two clusters. Those that can matter soon are active; the others wait until the clusters' moves
+  /// add up to the margin.
+  struct Bucket {
+    int first_cluster, second_cluster;
+    bool vertices;                  ///< a vertex and a triangle, or two edges
+    std::int32_t first, last;       ///< of pairs_
+    std::int32_t active_last = 0;   ///< its active pairs are active_[first] to active_[active_last - 1]
+    float between_sum = 0;          ///< moves of the two means against each other since lists were made [m]
+    float growth = 0, margin = -1;  ///< moves since pairs were made active, and how far they may go [m]
   };
   struct Task {
-    int first = 0, last = 0;           ///< of owners_
-    std::vector<std::int32_t> active;  ///< of pairs_, ascending: what to look at for now
-    std::vector<std::int32_t> near;    ///< of these, what to measure
+    int first = 0, last = 0;  ///< of buckets_
+    std::vector<std::int32_t> near;
     std::vector<PairStencil> stencils;
     std::vector<PairContact> contacts;
     std::vector<SeparatingSlab> slabs;
@@ -94,38 +100,27 @@ class PairSystem {
     int hopeless = 0;
   };
 
-  PairStencil stencil(std::int32_t pair) const;
-  int body_of_first(std::int32_t pair) const {
-    return pair < vertex_pairs_ ? model_.vertex_body[pairs_[pair].a] : model_.edge_body[pairs_[pair].a];
-  }
-  int body_of_second(std::int32_t pair) const {
-    return pair < vertex_pairs_ ? model_.triangle_body[pairs_[pair].b] : model_.edge_body[pairs_[pair].b];
-  }
-  const PairMaterial& material(int a, int b) const {
-    return model_.materials[static_cast<std::size_t>(a) * model_.bodies + b];
-  }
+  PairStencil stencil(const Bucket& bucket, std::int32_t pair) const;
+  const PairMaterial& material(const Bucket& bucket) const;
+  float least_distance(const Bucket& bucket) const;
   bool is_finite(const PairParticles& particles) const;
   bool all_within(const PairParticles& particles, float margin) const;
   void rebuild(Executor& executor, const PairParticles& particles);
-  void measure_moves(Executor& executor, const PairParticles& particles);
-  void settle_moves(Executor& executor, const PairParticles& particles);
-  void append(const IntLists& lists, const std::vector<std::uint64_t>& tangled);
+  void fill_buckets();
   void cut_into_tasks();
-  float sums(std::int32_t pair) const;
-  float moves(std::int32_t pair) const;
-  float largest_growth() const;
-  template <class Within>
-  void collect_near(Task& task, Within within);
-  void bound_owners();
-  void activate(Executor& executor, const PairParticles& particles);
-  void activate_task(Task& task, const PairParticles& particles, float margin);
+  void measure_moves(Executor& executor, const PairParticles& particles);
+  void settle_moves();
+  float between(const Bucket& bucket) const;
+  float sums(const Bucket& bucket, std::int32_t pair) const;
+  float moves(const Bucket& bucket, std::int32_t pair) const;
+  void activate(Bucket& bucket, Task& task, const PairParticles& particles);
+  void collect_near(Bucket& bucket, Task& task, float within);
   template <class Visit>
-  void measure(Task& task, const PairParticles& particles, Visit visit);
-  float least_distance(int a, int b) const;
-  void detect_task(Task& task, const PairParticles& particles);
-  void filter_task(Task& task, const PairParticles& particles);
-  void filter_pair(std::int32_t pair, const PairParticles& particles, Task& task);
-  void shorten(const PairParticles& particles);
+  void measure(const Bucket& bucket, Task& task, const PairParticles& particles, Visit visit);
+  void detect_bucket(Bucket& bucket, Task& task, const PairParticles& particles);
+  void filter_bucket(Bucket& bucket, Task& task, const PairParticles& particles);
+  void filter_pair(const Bucket& bucket, std::int32_t pair, const PairParticles& particles, Task& task);
+  bool shorten(const PairParticles& particles);
   void find_tangles(const Record* positions);
 
   const PairModel& model_;
@@ -133,20 +128,17 @@ class PairSystem {
   IntersectionFinder intersections_;
   std::vector<Vec3f> from_, to_;
   std::vector<Pair> pairs_;
-  std::int32_t vertex_pairs_ = 0;  ///< of pairs_; the rest are of edges
-  std::vector<Owner> owners_;
-  bool listed_ = false, active_ = false;
-  float margin_ = 0;  ///< how far things may move before pairs are made active anew [m]
+  std::vector<std::int32_t> active_;  ///< room for all of pairs_
+  std::vector<Bucket> buckets_;
+  std::vector<std::pair<std::uint64_t, std::int32_t>> keys_;  ///< of buckets while they are made
+  std::vector<std::int32_t> bucket_of_;                       ///< of each candidate while they are made
+  bool listed_ = false;
 
-  // By particle, triangle, edge: the move of this substep, relative to its body's mean, and the sum of those made.
+  // By particle, triangle, edge: the move of this substep, relative to its cluster's mean, and the sum of those made.
   std::vector<float> vertex_move_, triangle_move_, edge_move_, vertex_sum_, triangle_sum_, edge_sum_;
-  std::vector<Vec3d> body_move_;
-  std::vector<int> body_size_;
-  std::vector<float> between_move_, between_sum_;  ///< bodies x bodies: of their means
-  std::vector<float> body_triangle_, body_edge_;   ///< the largest of sum and move of a body's triangles and edges
-  std::vector<float> body_largest_, growth_,
-      between_growth_;              ///< largest move of a body; its sum since pairs were made active
-  std::vector<float> owner_other_;  ///< by body: what the other side of its pairs can have moved at most, twice
+  std::vector<Vec3f> cluster_move_;     ///< mean
+  std::vector<float> cluster_largest_;  ///< of what begins at it, relative to the mean
+  std::vector<std::vector<int>> cluster_vertices_, cluster_triangles_, cluster_edges_;
 
   std::vector<Task> tasks_;
   std::vector<PairContact> contacts_;
