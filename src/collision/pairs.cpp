@@ -100,15 +100,29 @@ float PairSystem::least_distance(const Bucket& bucket) const {
   return max(least_share * material(bucket).thickness, least_roundings * rounding * extent_);
 }
 
-/// Whether every vertex ends its move within its box, grown by `margin` around the motion for which lists were made.
+/// The mean displacement of all that can be pushed.
+Vec3f PairSystem::mean_move(const PairParticles& particles) const {
+  Vec3d sum{};
+  int count = 0;
+  for (const int v : model_.elements.vertices) {
+    if (!(particles.positions[v].w > 0)) continue;
+    const Record& d = particles.displacements[v];
+    sum += Vec3d{double(d.x), double(d.y), double(d.z)};
+    ++count;
+  }
+  return count > 0 ? convert<float>(sum * (1. / count)) : Vec3f{};
+}
+
+/// Whether every vertex ends its move within its box, grown by `margin` around the motion for which lists were made, as seen
+/// by one who drifts along with the mean of all: what is apart for him at any time is apart.
 bool PairSystem::all_within(const PairParticles& particles, float margin) const {
+  const Vec3f mean = mean_move(particles);
   for (const int v : model_.elements.vertices) {
     const auto i = static_cast<std::size_t>(v);
-    const Vec3f low = min(from_[i], to_[i]), high = max(from_[i], to_[i]);
-    for (const Vec3f& p : {end_of(particles, i, 0), end_of(particles, i)}) {
-      const float out = max(largest(max(low - p, Vec3f{})), largest(max(p - high, Vec3f{})));
-      if (!(out <= margin)) return false;
-    }
+    const Vec3f low = min(from_[i], to_[i]), high = max(from_[i], to_[i]), start = end_of(particles, i, 0) - drift_,
+                end = end_of(particles, i) - drift_ - mean;
+    const Vec3f out = max(max(low - min(start, end), max(start, end) - high), Vec3f{});
+    if (!(largest(out) <= margin)) return false;
   }
   return true;
 }
@@ -186,9 +200,11 @@ void PairSystem::cut_into_tasks() {
 void PairSystem::rebuild(Executor& executor, const PairParticles& particles) {
   from_.resize(model_.rest.size());
   to_.resize(model_.rest.size());
+  const Vec3f mean = mean_move(particles);
+  drift_ = {};
   for (std::size_t i = 0; i < from_.size(); ++i) {
     from_[i] = end_of(particles, i, 0);
-    to_[i] = end_of(particles, i, particles.ahead);
+    to_[i] = from_[i] + (end_of(particles, i) - from_[i] - mean) * particles.ahead;
   }
   finder_.find(executor, from_, to_, model_.radius, true);
   fill_buckets();
@@ -433,6 +449,7 @@ void PairSystem::filter(Executor& executor, const PairParticles& particles) {
   }
   if (!model_.filter || shortened) measure_moves(executor, particles);
   settle_moves();
+  drift_ += mean_move(particles);
 }
 
 // ---------------------------------------------------------------- tangles

@@ -104,6 +104,7 @@ class PairSystem {
   const PairMaterial& material(const Bucket& bucket) const;
   float least_distance(const Bucket& bucket) const;
   bool is_finite(const PairParticles& particles) const;
+  Vec3f mean_move(const PairParticles& particles) const;
   bool all_within(const PairParticles& particles, float margin) const;
   void rebuild(Executor& executor, const PairParticles& particles);
   void fill_buckets();
@@ -132,6 +133,7 @@ class PairSystem {
   std::vector<Bucket> buckets_;
   std::vector<std::pair<std::uint64_t, std::int32_t>> keys_;  ///< of buckets while they are made
   std::vector<std::int32_t> bucket_of_;                       ///< of each candidate while they are made
+  Vec3f drift_{};                                             ///< of the mean since lists were made [m]
   bool listed_ = false;
 
   // By particle, triangle, edge: the move of this substep, relative to its cluster's mean, and the sum of those made.
