@@ -30,6 +30,7 @@ SweepOptions sweep_options_of(const JsonValue& at) {
   set(at, "tethers", options.tethers);
   set(at, "tether_slack", options.tether_slack);
   set(at, "chain_softness", options.chain_softness);
+  set(at, "multigrid_cycles", options.multigrid_cycles);
   return options;
 }
 

@@ -403,7 +403,9 @@ const Record& sweep_options_record() {
        field("tether_slack", number("-", 0, 1000), SweepOptions{}.tether_slack,
              "Share by which that distance may be exceeded, for cloth that is meant to stretch."),
        field("chain_softness", number("-", 0, 1000), SweepOptions{}.chain_softness,
-             "Of `chains`: keeps a straight row between two pins solvable; a link stretches by about this times g h^2.")},
+             "Of `chains`: keeps a straight row between two pins solvable; a link stretches by about this times g h^2."),
+       field("multigrid_cycles", integer(1, 100), SweepOptions{}.multigrid_cycles,
+             "Of `multigrid`: W-cycles a substep, each a step of conjugate gradients.")},
       {}};
   return result;
 }

@@ -176,6 +176,7 @@ enum class Sweep {
   jacobi,     ///< all constraints at once from the same positions, each particle's corrections then shared out
   natural,    ///< Gauss-Seidel in the order in which the constraints were given, one at a time: for comparison, slow
   chains,     ///< rigid and compliant distances laid out as paths, each path solved exactly; the rest as `tiled` has it
+  multigrid,  ///< one correction of all distances at once on a hierarchy of levels, then `tiled` twice: for fine meshes
 };
 
 /// A sweep and what scenes call it.
@@ -206,6 +207,7 @@ struct SweepOptions {
   /// Of `chains`, 0..1000: times the inverse mass of a path, what keeps a straight row between two pins from being singular; a
   /// link stretches by about this times g h^2 [-].
   float chain_softness = 0.1f;
+  int multigrid_cycles = 2;  ///< of `multigrid`: W-cycles a substep, each a step of conjugate gradients, 1..100
 };
 
 struct Settings {

@@ -1,6 +1,7 @@
 // A list of types, and a loop over it.
 #pragma once
 
+#include <type_traits>
 #include <utility>
 
 namespace pliant {
@@ -20,6 +21,14 @@ template <class... Types, class Visit>
 constexpr void for_each_type(TypeList<Types...>, Visit&& visit) {
   int index = 0;
   (visit(TypeTag<Types>{}, index++), ...);
+}
+
+/// The number of T in the list.
+template <class T, class... Types>
+constexpr int index_of(TypeList<Types...> list) {
+  int found = -1;
+  for_each_type(list, [&](auto tag, int i) { found = std::is_same_v<typename decltype(tag)::type, T> ? i : found; });
+  return found;
 }
 
 /// Calls visit(TypeTag<T>{}) for the T at `index` alone.

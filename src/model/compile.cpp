@@ -283,6 +283,7 @@ CompiledObject compile(const Object& object, const CompileOptions& options) {
   append_chains(lists, options.chain_softness, out);
   fill_surface(object, out);
   if (options.tethers) out.tethers = find_tethers(lists, options.tether_slack, out);
+  if (options.multigrid) out.multigrid = build_multigrid(lists, out.positions, options.gravity);
   fill_volume(object, options.passes, out);
 
   if (object.triangles.empty()) out.lines = lines_of(lists);

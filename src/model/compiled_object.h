@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "model/multigrid.h"
 #include "model/pool.h"
 #include "pliant/scene.h"
 #include "pliant/world.h"
@@ -92,6 +93,7 @@ struct CompiledObject {
   std::vector<ChainColour> chain_colours;
   AlignedVector<float> chain_softness;  ///< sixteen a chain batch: added to the diagonal [1/kg]
   Tethers tethers;
+  Multigrid multigrid;
   std::vector<Kinematic> kinematics;  ///< those that move
   Surface surface;
   std::vector<std::array<int, 2>> lines;  ///< distance constraints of an object without triangles, for contacts
@@ -110,6 +112,8 @@ struct CompileOptions {
   bool chains = false, tethers = false;
   float chain_softness = 0.1f;  ///< as in SweepOptions
   float tether_slack = 0;
+  bool multigrid = false;
+  float gravity = 0;  ///< its magnitude, from which multigrid tells what an object carries [m/s^2]
 };
 
 /// A mesh collider as an object of particles without mass that follow its motion: to contacts it is one like any other.

@@ -1,6 +1,9 @@
 // Which instruction set this machine has.
+#include <string_view>
+
 #include "pliant/error.h"
 #include "solver/kernels.h"
+#include "solver/sweeps/multigrid_kernels.h"
 
 namespace pliant {
 
@@ -34,6 +37,12 @@ const Kernels& pick_kernels(const std::string& isa) {
   if (!isa.empty())
     throw Error({}, "unknown code path '" + isa + "'", "use x86-64-v2, x86-64-v3, x86-64-v4, sequential or leave it empty");
   return kernels_sequential();
+}
+
+const MultigridKernels& multigrid_kernels(const char* isa) {
+  if (isa == std::string_view(kernels_v4().isa)) return multigrid_kernels_v4();
+  if (isa == std::string_view(kernels_v3().isa)) return multigrid_kernels_v3();
+  return multigrid_kernels_v2();
 }
 
 }  // namespace pliant

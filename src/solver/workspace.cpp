@@ -2,6 +2,7 @@
 
 #include "solver/sweeps/chebyshev.h"
 #include "solver/sweeps/jacobi.h"
+#include "solver/sweeps/multigrid.h"
 
 namespace pliant {
 
@@ -45,6 +46,7 @@ void prepare(const Model& model, Multipliers kept, Workspace& workspace) {
 
 void prepare_sweep(const Model& model, const Settings& settings, Workspace& workspace) {
   const SweepOptions& options = settings.sweep_options;
+  if (settings.sweep == Sweep::multigrid) prepare_multigrid(model, workspace.sweep.multigrid);
   if (settings.sweep == Sweep::jacobi) prepare_jacobi(model, options, workspace.sweep.jacobi);
   if (options.acceleration == SweepOptions::Acceleration::chebyshev) {
     prepare_chebyshev(model, workspace, workspace.sweep.chebyshev);

@@ -24,6 +24,7 @@ void check_sweep(Problems& problems, const Settings& settings) {
   require_range(problems, "settings, sweep_options, tether_slack", options.tether_slack, 0, 1000);
   require_range(problems, "settings, sweep_options, chain_softness", options.chain_softness, 0, 1000);
   if (options.acceleration == SweepOptions::Acceleration::none) return;
+  require_range(problems, "settings, sweep_options, multigrid_cycles", options.multigrid_cycles, 1, 100);
   require_range(problems, "settings, sweep_options, plain_iterations", options.plain_iterations, 1, 10000);
   if (!(options.spectral_radius >= 0 && options.spectral_radius < 1))
     problems.grave("settings, sweep_options, spectral_radius", "is " + words(options.spectral_radius),

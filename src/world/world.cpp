@@ -63,6 +63,8 @@ struct World::Implementation {
       options.chain_softness = settings.sweep_options.chain_softness;
       options.tethers = settings.sweep_options.tethers;
       options.tether_slack = settings.sweep_options.tether_slack;
+      options.multigrid = settings.sweep == Sweep::multigrid;
+      options.gravity = length(model.gravity);
       model.add(compile(object, options));
     }
     model.user_objects = static_cast<int>(model.objects.size());

@@ -6,6 +6,7 @@
 
 #include "model/model.h"
 #include "solver/sweeps/incidence.h"
+#include "solver/sweeps/multigrid.h"
 
 namespace pliant {
 
@@ -41,7 +42,8 @@ struct ChebyshevScratch {
 struct SweepScratch {
   std::vector<JacobiObject> jacobi;  ///< one an object
   ChebyshevScratch chebyshev;
-  Records predicted;  ///< displacements as predicted, where residuals are recorded
+  std::vector<MultigridObject> multigrid;  ///< one an object
+  Records predicted;                       ///< displacements as predicted, where residuals are recorded
 };
 
 }  // namespace pliant

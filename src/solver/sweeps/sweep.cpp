@@ -4,7 +4,7 @@ namespace pliant {
 
 const SweepMethod& sweep_method(Sweep sweep) {
   static constexpr SweepMethod tiled{true, 1, &iterate_tiled}, symmetric{true, 2, &iterate_symmetric},
-      jacobi{false, 1, &iterate_jacobi}, chains{true, 1, &iterate_chains};
+      jacobi{false, 1, &iterate_jacobi}, chains{true, 1, &iterate_chains}, multigrid{false, 2, &iterate_multigrid};
   switch (sweep) {
     case Sweep::symmetric:
       return symmetric;
@@ -12,6 +12,8 @@ const SweepMethod& sweep_method(Sweep sweep) {
       return jacobi;
     case Sweep::chains:
       return chains;
+    case Sweep::multigrid:
+      return multigrid;
     default:
       return tiled;  // `sequential` and `natural` too: they differ in kernels and in schedule
   }

@@ -28,5 +28,6 @@ void iterate_tiled(Frame& frame, bool first);      // tiled.cpp
 void iterate_symmetric(Frame& frame, bool first);  // symmetric.cpp
 void iterate_jacobi(Frame& frame, bool first);     // jacobi.cpp
 void iterate_chains(Frame& frame, bool first);     // chains.cpp
+void iterate_multigrid(Frame& frame, bool first);  // multigrid.cpp
 
 }  // namespace pliant

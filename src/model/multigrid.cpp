@@ -1,0 +1,299 @@
+#include "model/multigrid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "constraints/all.h"
+
+namespace pliant {
+
+namespace {
+
+// A spring as stiff as this many times what holds the object's weight across its own width stretches by a thousandth or so.
+constexpr double stiffness_over_weight = 1700;
+constexpr double least_acceleration = 9.81;  // what moves without gravity is stopped by something, too [m/s^2]
+// Edges across a load's path, by which a single pin's edges carry more than those of the middle.
+constexpr double crowding_at_pins = 0.125;
+
+struct Spring {
+  int a = 0, b = 0;
+  float rest = 0, compliance = 0;
+};
+
+std::vector<Spring> springs_of(const std::vector<ConstraintList>& lists) {
+  std::vector<Spring> springs;
+  for (const ConstraintList& list : lists) {
+    bool is_distance = false;
+    for_each_type(AllConstraints{}, [&](auto tag, int type) {
+      is_distance = is_distance || (type == list.type && std::is_same_v<typename decltype(tag)::type, Distance>);
+    });
+    if (!is_distance) continue;
+    for (std::size_t i = 0; i < list.response.size(); ++i) {
+      const int a = list.stencils[2 * i], b = list.stencils[2 * i + 1];
+      if (a != b) springs.push_back({a, b, list.rest[i], list.law == Law::pbd ? 0 : list.response[i]});
+    }
+  }
+  return springs;
+}
+
+// ---------------------------------------------------------------- graphs
+
+/// Who is next to whom, and by how many springs: sorted pairs, both ways.
+struct Graph {
+  std::vector<int> begin, to, weight;
+  int size() const { return static_cast<int>(begin.size()) - 1; }
+};
+
+struct Link {
+  int from, to, weight;
+  friend bool operator<(const Link& a, const Link& b) { return a.from != b.from ? a.from < b.from : a.to < b.to; }
+};
+
+Graph graph_of(int nodes, std::vector<Link>& links) {
+  std::sort(links.begin(), links.end());
+  Graph graph;
+  graph.begin.assign(static_cast<std::size_t>(nodes) + 1, 0);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (i > 0 && links[i].from == links[i - 1].from && links[i].to == links[i - 1].to) {
+      graph.weight.back() += links[i].weight;
+      continue;
+    }
+    graph.to.push_back(links[i].to);
+    graph.weight.push_back(links[i].weight);
+    ++graph.begin[links[i].from + 1];
+  }
+  std::partial_sum(graph.begin.begin(), graph.begin.end(), graph.begin.begin());
+  return graph;
+}
+
+/// Pairs each node with the free neighbour that it has most springs with; of those, with the one that has fewest free
+/// neighbours left. `fixed` ones stay out: -1.
+std::vector<int> match(const Graph& graph, const std::vector<char>& fixed, int& groups) {
+  const int nodes = graph.size();
+  std::vector<int> group(nodes, -1), left(nodes, 0);
+  groups = 0;
+  for (int i = 0; i < nodes; ++i) left[i] = graph.begin[i + 1] - graph.begin[i];
+  const auto take = [&](int i) {
+    group[i] = groups;
+    for (int k = graph.begin[i]; k < graph.begin[i + 1]; ++k) --left[graph.to[k]];
+  };
+  for (int i = 0; i < nodes; ++i) {
+    if (group[i] >= 0 || (!fixed.empty() && fixed[i] != 0)) continue;
+    int best = -1, weight = 0;
+    for (int k = graph.begin[i]; k < graph.begin[i + 1]; ++k) {
+      const int j = graph.to[k];
+      if (j == i || group[j] >= 0 || (!fixed.empty() && fixed[j] != 0)) continue;
+      if (graph.weight[k] > weight || (graph.weight[k] == weight && left[j] < left[best])) {
+        best = j;
+        weight = graph.weight[k];
+      }
+    }
+    take(i);
+    if (best >= 0) take(best);
+    ++groups;
+  }
+  return group;
+}
+
+Graph merge(const Graph& graph, const std::vector<int>& group, int groups) {
+  std::vector<Link> links;
+  for (int i = 0; i < graph.size(); ++i)
+    for (int k = graph.begin[i]; k < graph.begin[i + 1]; ++k) {
+      const int a = group[i], b = group[graph.to[k]];
+      if (a >= 0 && b >= 0 && a != b) links.push_back({a, b, graph.weight[k]});
+    }
+  return graph_of(groups, links);
+}
+
+// ---------------------------------------------------------------- levels
+
+/// Rows with their neighbours, as a level of slots. Returns where each link of the graph went: 16 x slot + lane.
+std::vector<std::int32_t> lay_out(const Graph& graph, MultigridLevel& level) {
+  level.rows = graph.size();
+  level.first_slot.assign(1, 0);
+  std::vector<std::int32_t> place(graph.to.size());
+  for (int batch = 0; batch < level.batches(); ++batch) {
+    int most = 0;
+    for (int lane = 0; lane < batch_width; ++lane) {
+      const int row = row_of(batch, lane);
+      if (row < level.rows) most = std::max(most, graph.begin[row + 1] - graph.begin[row]);
+    }
+    const int first = level.first_slot.back();
+    level.first_slot.push_back(first + most);
+    level.column.resize(static_cast<std::size_t>(first + most) * batch_width);
+    for (int lane = 0; lane < batch_width; ++lane) {
+      const int row = row_of(batch, lane), links = row < level.rows ? graph.begin[row + 1] - graph.begin[row] : 0;
+      for (int slot = 0; slot < most; ++slot) {
+        const std::size_t at = static_cast<std::size_t>(first + slot) * batch_width + lane;
+        level.column[at] = slot < links ? graph.to[graph.begin[row] + slot] : std::min(row, level.rows - 1);
+        if (slot < links) place[graph.begin[row] + slot] = static_cast<std::int32_t>(at);
+      }
+    }
+  }
+  return place;
+}
+
+/// Lists by key, as one array with its beginnings.
+void bucket(int keys, const std::vector<std::array<std::int32_t, 2>>& items, std::vector<std::int32_t>& begin,
+            std::vector<std::int32_t>& out) {
+  begin.assign(static_cast<std::size_t>(keys) + 1, 0);
+  for (const auto& item : items) ++begin[item[0] + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  out.resize(items.size());
+  std::vector<std::int32_t> next(begin.begin(), begin.end() - 1);
+  for (const auto& item : items) out[next[item[0]]++] = item[1];
+}
+
+void fill_families(const std::vector<int>& group, MultigridLevel& fine, MultigridLevel& coarse) {
+  coarse.children.assign(static_cast<std::size_t>(coarse.batches()) * largest_group * batch_width, fine.nothing());
+  fine.parent.assign(static_cast<std::size_t>(fine.batches()) * batch_width, coarse.nothing());
+  std::vector<int> members(coarse.rows, 0);
+  for (int row = 0; row < fine.rows; ++row) {
+    const int parent = group[row];
+    if (parent < 0) continue;
+    fine.parent[lane_place(row)] = parent;
+    const int at = lane_place(parent), batch = at / batch_width, lane = at % batch_width;
+    coarse.children[(static_cast<std::size_t>(batch) * largest_group + members[parent]++) * batch_width + lane] = row;
+  }
+}
+
+/// Which blocks of the finer level make up the coarser one's.
+void fill_sources(const Graph& fine_graph, const std::vector<std::int32_t>& fine_place, const std::vector<int>& group,
+                  const Graph& graph, const std::vector<std::int32_t>& place, MultigridLevel& coarse) {
+  std::vector<std::array<std::int32_t, 2>> sources, anchors;
+  for (int i = 0; i < fine_graph.size(); ++i) {
+    const int from = group[i];
+    if (from < 0) continue;
+    for (int k = fine_graph.begin[i]; k < fine_graph.begin[i + 1]; ++k) {
+      const int to = group[fine_graph.to[k]];
+      if (to < 0) anchors.push_back({lane_place(from), fine_place[k]});
+      if (to < 0 || to == from) continue;
+      const auto first = graph.to.begin() + graph.begin[from], last = graph.to.begin() + graph.begin[from + 1];
+      sources.push_back({place[std::lower_bound(first, last, to) - graph.to.begin()], fine_place[k]});
+    }
+  }
+  bucket(coarse.slots() * batch_width, sources, coarse.source_begin, coarse.sources);
+  bucket(coarse.batches() * batch_width, anchors, coarse.anchor_begin, coarse.anchors);
+}
+
+void add_coarser(const Graph& finest, const std::vector<std::int32_t>& finest_place, std::vector<char> fixed,
+                 std::vector<MultigridLevel>& levels) {
+  Graph graph = finest;
+  std::vector<std::int32_t> place = finest_place;
+  while (levels.back().rows > coarsest_rows) {
+    int pairs = 0, groups = 0;
+    const std::vector<int> paired = match(graph, fixed, pairs);
+    const std::vector<int> grouped = match(merge(graph, paired, pairs), {}, groups);
+    std::vector<int> group(paired.size(), -1);
+    for (std::size_t i = 0; i < paired.size(); ++i) group[i] = paired[i] < 0 ? -1 : grouped[paired[i]];
+    if (groups == 0 || groups == graph.size()) return;
+    const Graph coarse_graph = merge(graph, group, groups);
+    MultigridLevel coarse;
+    const std::vector<std::int32_t> coarse_place = lay_out(coarse_graph, coarse);
+    fill_families(group, levels.back(), coarse);
+    fill_sources(graph, place, group, coarse_graph, coarse_place, coarse);
+    levels.push_back(std::move(coarse));
+    graph = coarse_graph;
+    place = coarse_place;
+    fixed.clear();
+  }
+}
+
+// ---------------------------------------------------------------- stiffness
+
+/// Springs from the nearest particle that can't move; many where there is none.
+std::vector<int> rings_from_pins(const Graph& graph, const std::vector<char>& fixed) {
+  std::vector<int> ring(fixed.size(), 1 << 20), queue;
+  for (int i = 0; i < graph.size(); ++i) {
+    if (fixed[i] == 0) continue;
+    ring[i] = 0;
+    queue.push_back(i);
+  }
+  for (std::size_t k = 0; k < queue.size(); ++k) {
+    const int i = queue[k];
+    for (int link = graph.begin[i]; link < graph.begin[i + 1]; ++link) {
+      if (ring[graph.to[link]] <= ring[i] + 1) continue;
+      ring[graph.to[link]] = ring[i] + 1;
+      queue.push_back(graph.to[link]);
+    }
+  }
+  return ring;
+}
+
+struct Measures {
+  double mass = 0, extent = 0, spacing = 0;
+};
+
+Measures measure(const std::vector<Spring>& springs, const std::vector<Record>& positions) {
+  Measures m;
+  Record low{3e38f, 3e38f, 3e38f, 0}, high{-3e38f, -3e38f, -3e38f, 0};
+  for (const Record& p : positions) {
+    if (p.w > 0) m.mass += 1 / double(p.w);
+    low = {min(low.x, p.x), min(low.y, p.y), min(low.z, p.z), 0};
+    high = {max(high.x, p.x), max(high.y, p.y), max(high.z, p.z), 0};
+  }
+  m.extent = double(max(max(high.x - low.x, high.y - low.y), high.z - low.z));
+  for (const Spring& s : springs) m.spacing += double(s.rest) / double(springs.size());
+  return m;
+}
+
+/// Every edge of a cross-section carries its share of the object's weight; near few pins, a larger one.
+std::vector<float> stiffness_limits(const std::vector<Spring>& springs, const Graph& graph,
+                                    const std::vector<Record>& positions, const std::vector<char>& fixed, float gravity) {
+  const Measures m = measure(springs, positions);
+  const double across = std::max(1., static_cast<double>(positions.size()) * m.spacing / std::max(m.extent, 1e-30));
+  const double load = m.mass * std::max(double(gravity), least_acceleration);
+  const double stiffness = stiffness_over_weight * load / std::max(across * m.spacing, 1e-30);
+  const auto pins = static_cast<double>(std::count(fixed.begin(), fixed.end(), 1));
+  const std::vector<int> ring = rings_from_pins(graph, fixed);
+  std::vector<float> limits(positions.size());
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    const double share = pins > 0 ? crowding_at_pins * across / (pins * (1 + ring[i])) : 0;
+    limits[i] = static_cast<float>(std::min(stiffness * std::max(1., share), 1e20));
+  }
+  return limits;
+}
+
+}  // namespace
+
+Multigrid build_multigrid(const std::vector<ConstraintList>& lists, const std::vector<Record>& positions, float gravity) {
+  Multigrid out;
+  const std::vector<Spring> springs = springs_of(lists);
+  const int particles = static_cast<int>(positions.size());
+  std::vector<char> fixed(positions.size());
+  for (int i = 0; i < particles; ++i) fixed[i] = positions[i].w > 0 ? 0 : 1;
+  if (springs.empty() || std::count(fixed.begin(), fixed.end(), 0) == 0) return out;
+  std::vector<Link> links;
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    const int number = static_cast<int>(i);  // two springs between the same particles stay two links
+    links.push_back({springs[i].a, springs[i].b, number});
+    links.push_back({springs[i].b, springs[i].a, number});
+  }
+  std::stable_sort(links.begin(), links.end());
+  Graph graph;
+  graph.begin.assign(static_cast<std::size_t>(particles) + 1, 0);
+  for (const Link& link : links) {
+    ++graph.begin[link.from + 1];
+    graph.to.push_back(link.to);
+  }
+  std::partial_sum(graph.begin.begin(), graph.begin.end(), graph.begin.begin());
+  graph.weight.assign(links.size(), 1);
+  out.levels.emplace_back();
+  MultigridLevel& level = out.levels.back();
+  const std::vector<std::int32_t> place = lay_out(graph, level);
+  out.stiffness_limit = stiffness_limits(springs, graph, positions, fixed, gravity);
+  level.stiffness.assign(level.column.size(), 0.f);
+  level.rest_length.assign(level.column.size(), 1.f);
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    const Spring& spring = springs[links[k].weight];
+    level.stiffness[place[k]] =
+        spring_stiffness(spring.compliance, std::max(out.stiffness_limit[spring.a], out.stiffness_limit[spring.b]));
+    level.rest_length[place[k]] = spring.rest;
+  }
+  add_coarser(graph, place, fixed, out.levels);
+  return out;
+}
+
+}  // namespace pliant
