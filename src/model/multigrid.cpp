@@ -17,6 +17,9 @@ constexpr double least_acceleration = 9.81;  // what moves without gravity is st
 // Edges across a load's path, by which a single pin's edges carry more than those of the middle.
 constexpr double crowding_at_pins = 0.125;
 
+// A level with more of its finer one's rows than this, as around a hub that all are joined to, is not worth its visit.
+constexpr double largest_share = 0.75;
+
 struct Spring {
   int a = 0, b = 0;
   float rest = 0, compliance = 0;
@@ -25,11 +28,7 @@ struct Spring {
 std::vector<Spring> springs_of(const std::vector<ConstraintList>& lists) {
   std::vector<Spring> springs;
   for (const ConstraintList& list : lists) {
-    bool is_distance = false;
-    for_each_type(AllConstraints{}, [&](auto tag, int type) {
-      is_distance = is_distance || (type == list.type && std::is_same_v<typename decltype(tag)::type, Distance>);
-    });
-    if (!is_distance) continue;
+    if (list.type != index_of<Distance>(AllConstraints{})) continue;
     for (std::size_t i = 0; i < list.response.size(); ++i) {
       const int a = list.stencils[2 * i], b = list.stencils[2 * i + 1];
       if (a != b) springs.push_back({a, b, list.rest[i], list.law == Law::pbd ? 0 : list.response[i]});
@@ -188,7 +187,7 @@ void add_coarser(const Graph& finest, const std::vector<std::int32_t>& finest_pl
     const std::vector<int> grouped = match(merge(graph, paired, pairs), {}, groups);
     std::vector<int> group(paired.size(), -1);
     for (std::size_t i = 0; i < paired.size(); ++i) group[i] = paired[i] < 0 ? -1 : grouped[paired[i]];
-    if (groups == 0 || groups == graph.size()) return;
+    if (groups == 0 || groups > largest_share * graph.size()) return;
     const Graph coarse_graph = merge(graph, group, groups);
     MultigridLevel coarse;
     const std::vector<std::int32_t> coarse_place = lay_out(coarse_graph, coarse);
@@ -198,6 +197,37 @@ void add_coarser(const Graph& finest, const std::vector<std::int32_t>& finest_pl
     graph = coarse_graph;
     place = coarse_place;
     fixed.clear();
+  }
+}
+
+// ---------------------------------------------------------------- pieces
+
+/// What hangs together without what is fixed, and which piece each row of the last level is of.
+void find_pieces(const Graph& graph, const std::vector<char>& fixed, Multigrid& out) {
+  out.piece.assign(fixed.size(), -1);
+  std::vector<int> stack;
+  for (int seed = 0; seed < graph.size(); ++seed) {
+    if (fixed[seed] != 0 || out.piece[seed] >= 0) continue;
+    out.piece[seed] = out.pieces;
+    stack.assign(1, seed);
+    while (!stack.empty()) {
+      const int i = stack.back();
+      stack.pop_back();
+      for (int k = graph.begin[i]; k < graph.begin[i + 1]; ++k) {
+        const int j = graph.to[k];
+        if (fixed[j] != 0 || out.piece[j] >= 0) continue;
+        out.piece[j] = out.pieces;
+        stack.push_back(j);
+      }
+    }
+    ++out.pieces;
+  }
+  out.coarsest_piece = out.piece;
+  for (std::size_t l = 0; l + 1 < out.levels.size(); ++l) {
+    std::vector<std::int32_t> coarser(out.levels[l + 1].rows, -1);
+    for (int row = 0; row < out.levels[l].rows; ++row)
+      if (out.coarsest_piece[row] >= 0) coarser[out.levels[l].parent[lane_place(row)]] = out.coarsest_piece[row];
+    out.coarsest_piece = std::move(coarser);
   }
 }
 
@@ -293,6 +323,7 @@ Multigrid build_multigrid(const std::vector<ConstraintList>& lists, const std::v
     level.rest_length[place[k]] = spring.rest;
   }
   add_coarser(graph, place, fixed, out.levels);
+  find_pieces(graph, fixed, out);
   return out;
 }
 

@@ -45,6 +45,9 @@ struct MultigridLevel {
 /// Empty where an object has no distance constraint with a rest length.
 struct Multigrid {
   std::vector<MultigridLevel> levels;
+  std::vector<std::int32_t> piece;  ///< of each particle: number of what springs join it to, or -1 where it can't move
+  std::vector<std::int32_t> coarsest_piece;  ///< of each row of the last level, likewise
+  int pieces = 0;
   std::vector<float> stiffness_limit;  ///< of the springs at each particle: an edge has the larger of its ends' [N/m]
 };
 
@@ -58,7 +61,7 @@ PLIANT_HD int lane_place(int row) {
 /// The stiffest spring that a distance constraint counts as near particle ends with these limits, K = 1 / alpha below it.
 PLIANT_HD float spring_stiffness(float compliance, float limit) { return compliance * limit > 1 ? 1 / compliance : limit; }
 
-/// `inverse_mass` and `positions` of the particles in storage order; `gravity` is the magnitude [m/s^2].
+/// `positions` of the particles in storage order, w their inverse mass; `gravity` is the magnitude [m/s^2].
 Multigrid build_multigrid(const std::vector<ConstraintList>& lists, const std::vector<Record>& positions, float gravity);
 
 }  // namespace pliant

@@ -58,7 +58,6 @@ class Frame {
   // For the files of sweeps/ and residual.cpp: the parallel loops over tiles, over the segments between them (object,
   // segment) and over tasks of their own, and what they work on.
   void for_tiles(const char* name, FunctionRef<void(int)> body);
-  void for_tasks(const char* name, int tasks, FunctionRef<void(int)> body) { executor_.parallel_for(name, tasks, body); }
   void for_straddlers(Order order, FunctionRef<void(int, const Segment*)> body);
   void for_each_task(const char* name, int tasks, FunctionRef<void(int)> body);
   SweepArguments arguments(int object, bool first_pass) const;

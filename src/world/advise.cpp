@@ -118,7 +118,7 @@ bool may_tether(const Scene& scene) {
 }
 
 /// Sweeps that may do better than the scene's own.
-constexpr Sweep alternatives[] = {Sweep::chains};
+constexpr Sweep alternatives[] = {Sweep::chains, Sweep::multigrid};
 
 std::string name_of(Sweep sweep) {
   const auto is_it = [&](const NamedSweep& named) { return named.sweep == sweep; };

@@ -23,8 +23,8 @@ void check_sweep(Problems& problems, const Settings& settings) {
                    "give a number above 0 and below 2; 1 is plain");
   require_range(problems, "settings, sweep_options, tether_slack", options.tether_slack, 0, 1000);
   require_range(problems, "settings, sweep_options, chain_softness", options.chain_softness, 0, 1000);
-  if (options.acceleration == SweepOptions::Acceleration::none) return;
   require_range(problems, "settings, sweep_options, multigrid_cycles", options.multigrid_cycles, 1, 100);
+  if (options.acceleration == SweepOptions::Acceleration::none) return;
   require_range(problems, "settings, sweep_options, plain_iterations", options.plain_iterations, 1, 10000);
   if (!(options.spectral_radius >= 0 && options.spectral_radius < 1))
     problems.grave("settings, sweep_options, spectral_radius", "is " + words(options.spectral_radius),

@@ -5,8 +5,8 @@ namespace pliant {
 
 const std::vector<NamedSweep>& sweeps() {
   static const std::vector<NamedSweep> list = {
-      {"tiled", Sweep::tiled},   {"sequential", Sweep::sequential}, {"symmetric", Sweep::symmetric},
-      {"jacobi", Sweep::jacobi}, {"natural", Sweep::natural},       {"chains", Sweep::chains},
+      {"tiled", Sweep::tiled},         {"sequential", Sweep::sequential}, {"symmetric", Sweep::symmetric},
+      {"jacobi", Sweep::jacobi},       {"natural", Sweep::natural},       {"chains", Sweep::chains},
       {"multigrid", Sweep::multigrid},
   };
   return list;

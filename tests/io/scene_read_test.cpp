@@ -49,6 +49,7 @@ TEST_F(FullScene, HasItsSurroundings) {
   EXPECT_TRUE(options.tethers);
   EXPECT_EQ(options.tether_slack, 0.25f);
   EXPECT_EQ(options.chain_softness, 0.125f);
+  EXPECT_EQ(options.multigrid_cycles, 3);
   EXPECT_TRUE(scene.settings.record_residuals);
   EXPECT_TRUE(scene.settings.measure);
   EXPECT_TRUE(scene.settings.record_multipliers);
@@ -58,7 +59,8 @@ TEST_F(FullScene, HasItsSurroundings) {
 TEST(SceneSettings, ReadEverySweepByItsName) {
   const std::pair<const char*, Sweep> names[] = {{"tiled", Sweep::tiled},         {"sequential", Sweep::sequential},
                                                  {"symmetric", Sweep::symmetric}, {"jacobi", Sweep::jacobi},
-                                                 {"natural", Sweep::natural},     {"chains", Sweep::chains}};
+                                                 {"natural", Sweep::natural},     {"chains", Sweep::chains},
+                                                 {"multigrid", Sweep::multigrid}};
   EXPECT_EQ(sweeps().size(), std::size(names)) << "a sweep that this test does not know";
   EXPECT_EQ(sweeps().front().sweep, Settings{}.sweep) << "the default is named first";
   for (const auto& [name, sweep] : names) {

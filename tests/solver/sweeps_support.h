@@ -106,6 +106,8 @@ inline Outcome run_sweep(const std::vector<Object>& objects, const SweepRun& run
     options.in_given_order = run.settings.sweep == Sweep::natural;
     options.chains = run.settings.sweep == Sweep::chains;
     options.chain_softness = run.settings.sweep_options.chain_softness;
+    options.multigrid = run.settings.sweep == Sweep::multigrid;
+    options.gravity = gravity;
     options.tethers = run.settings.sweep_options.tethers;
     options.tether_slack = run.settings.sweep_options.tether_slack;
     out.model.add(compile(object, options));

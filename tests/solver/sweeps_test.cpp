@@ -87,7 +87,7 @@ Object compliant_line() {
 
 /// Averaging gives neighbours of different counts different parts of one force: it ends elsewhere, and is tested below.
 TEST_P(Sweeps, EndsWhereAllSweepsEnd) {
-  if (GetParam().lacks != Lacks::nothing) GTEST_SKIP() << "has an end of its own";
+  if (GetParam().lacks == Lacks::pairs || GetParam().lacks == Lacks::give) GTEST_SKIP() << "has an end of its own";
   const Outcome expected = run_sweep({compliant_line()}, run_of(Sweep::natural, 1, 4000));
   const Outcome found = run_sweep({compliant_line()}, run_of(GetParam().sweep, 1, 4000, GetParam().options));
   EXPECT_LT(largest_difference(found.state, expected.state), 2e-6);
@@ -134,8 +134,9 @@ TEST_P(Sweeps, MeetsEveryTypeInAndBetweenTiles) {
   EXPECT_TRUE(GetParam().sweep == Sweep::natural || !out.model.straddlers.empty());
   const IterationResidual &first = out.reports[0].convergence.front(), &last = out.reports[0].convergence.back();
   ASSERT_EQ(first.primal.size(), 2U);
+  const double left = GetParam().lacks == Lacks::turns ? 0.05 : 0.02;
   for (std::size_t type = 0; type < 2; ++type)
-    EXPECT_LT(last.primal[type].largest, 0.02 * first.primal[type].largest) << first.primal[type].type;
+    EXPECT_LT(last.primal[type].largest, left * first.primal[type].largest) << first.primal[type].type;
 }
 
 // ---------------------------------------------------------------- momentum

@@ -15,6 +15,7 @@ enum class Lacks {
   nothing,
   pairs,  ///< forces are no pairs: momentum is not kept, and compliance ends elsewhere
   give,   ///< what is meant to stretch is held back
+  turns,  ///< where one step turns edges far, the linear correction leaves much to the sweeps after it
 };
 
 struct SweepWay {
@@ -65,6 +66,7 @@ inline const std::vector<SweepWay>& sweep_ways() {
       {"chebyshev_jacobi", Sweep::jacobi, chebyshev},
       {"chebyshev_at_once", Sweep::tiled, at_once},
       {"chains", Sweep::chains, plain},
+      {"multigrid", Sweep::multigrid, plain, Lacks::turns},
       {"chebyshev_chains", Sweep::chains, chebyshev},
       {"tiled_tethers", Sweep::tiled, tethers, Lacks::give},
       {"chains_tethers", Sweep::chains, tethers, Lacks::give},

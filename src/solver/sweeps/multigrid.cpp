@@ -14,9 +14,8 @@ namespace {
 constexpr int batches_per_task = 128;
 /// Jacobi passes on the coarsest level.
 constexpr int coarsest_passes = 8;
-/// A contact is this many times as stiff as a spring beside it.
-constexpr float contact_stiffness = 10;
-/// Times a coarser level is visited on each visit of the one above it, from the second on: a W-cycle.
+/// Times a coarser level is visited on each visit of the one above it, from the second on: a W-cycle. Once where it has more
+/// than half of that one's rows: there a W-cycle's work would grow from level to level.
 constexpr int visits = 2;
 
 /// One object's solve in one substep.
@@ -26,8 +25,7 @@ class Solve {
       : frame_(frame),
         model_(frame.model().objects[object].multigrid),
         work_(frame.scratch().multigrid[object]),
-        kernels_(multigrid_kernels(frame.kernels().isa)),
-        object_(object) {}
+        kernels_(multigrid_kernels(frame.kernels().isa)) {}
 
   void linearise(const SweepArguments& a) {
     const LinearisedAt at{a.positions, a.displacements, a.inverse_h2, work_.extra.data(), work_.has_extra.data()};
@@ -38,7 +36,25 @@ class Solve {
       });
   }
 
-  /// Conjugate gradients on the finest level from zero.
+  /// Moves every piece as a whole so that no force on the whole of it is left over: what nothing holds then keeps its momentum,
+  /// however few the cycles.
+  void shift_pieces() {
+    // The only level has no anchors in its diagonal.
+    if (levels() == 1 && std::count(model_.piece.begin(), model_.piece.end(), -1) > 0) return;
+    const int last = levels() - 1;
+    for (int l = 1; l <= last; ++l)
+      for_batches(l, [&](int f, int t) { kernels_.restrict_to(level(l), values(l), values(l - 1).right.data(), f, t); });
+    sum_pieces(values(last));
+    std::fill(work_.direction.begin(), work_.direction.end(), Record{});
+    for (std::size_t i = 0; i < model_.piece.size(); ++i)
+      if (model_.piece[i] >= 0) work_.direction[i] = shift_of(work_.pieces[model_.piece[i]]);
+    for_batches(0, [&](int f, int t) {
+      kernels_.apply(level(0), values(0), true, work_.direction.data(), work_.image.data(), f, t);
+    });
+    advance(1);
+  }
+
+  /// Conjugate gradients on the finest level from zero; the right-hand side becomes what is left of it.
   void solve(int cycles) {
     std::fill(work_.change.begin(), work_.change.end(), Record{});
     MultigridValues& top = values(0);
@@ -55,10 +71,7 @@ class Solve {
         return kernels_.apply(level(0), top, true, work_.direction.data(), work_.image.data(), f, t);
       });
       if (!(curvature > 0) || !(now > 0)) return;
-      const auto alpha = static_cast<float>(now / curvature);
-      for_batches(0, [&](int f, int t) {
-        kernels_.advance(alpha, work_.direction.data(), work_.image.data(), work_.change.data(), top.right.data(), f, t);
-      });
+      advance(static_cast<float>(now / curvature));
     }
   }
 
@@ -70,8 +83,9 @@ class Solve {
   template <class Body>
   void for_batches(int l, Body body) {
     const int batches = level(l).batches(), tasks = (batches + batches_per_task - 1) / batches_per_task;
-    frame_.for_tasks("solve: multigrid", tasks,
-                     [&](int task) { body(task * batches_per_task, std::min((task + 1) * batches_per_task, batches)); });
+    frame_.for_each_task("solve: multigrid", tasks, [&](int task) {
+      body(task * batches_per_task, std::min((task + 1) * batches_per_task, batches));
+    });
   }
 
   /// In the tasks' order, whichever thread had them.
@@ -82,6 +96,38 @@ class Solve {
     double total = 0;
     for (int task = 0; task < tasks; ++task) total += static_cast<double>(work_.sums[task]);
     return total;
+  }
+
+  void advance(float alpha) {
+    for_batches(0, [&](int f, int t) {
+      kernels_.advance(alpha, work_.direction.data(), work_.image.data(), work_.change.data(), values(0).right.data(), f,
+                       t);
+    });
+  }
+
+  void sum_pieces(const MultigridValues& coarsest) {
+    std::fill(work_.pieces.begin(), work_.pieces.end(), MultigridObject::Piece{});
+    for (std::size_t row = 0; row < model_.coarsest_piece.size(); ++row) {
+      if (model_.coarsest_piece[row] < 0) continue;
+      MultigridObject::Piece& piece = work_.pieces[model_.coarsest_piece[row]];
+      const int at = lane_place(static_cast<int>(row)), batch = at / batch_width;
+      const float* block = coarsest.diagonal.data() + static_cast<std::ptrdiff_t>(batch) * block_floats + at % batch_width;
+      for (int c = 0; c < 6; ++c) piece.held[c] += static_cast<double>(block[c * batch_width]);
+      const Record& force = coarsest.right[row];
+      piece.force[0] += static_cast<double>(force.x);
+      piece.force[1] += static_cast<double>(force.y);
+      piece.force[2] += static_cast<double>(force.z);
+    }
+  }
+
+  /// Cholesky; what is not held (a piece of no mass) stays.
+  static Record shift_of(const MultigridObject::Piece& piece) {
+    const double *a = piece.held, *b = piece.force;
+    const double d0 = a[0], l1 = d0 > 0 ? a[3] / d0 : 0, l2 = d0 > 0 ? a[4] / d0 : 0;
+    const double d1 = a[1] - l1 * a[3], l12 = d1 > 0 ? (a[5] - l2 * a[3]) / d1 : 0, d2 = a[2] - l2 * a[4] - l12 * l12 * d1;
+    if (!(d0 > 0 && d1 > 0 && d2 > 0)) return {};
+    const double y1 = b[1] - l1 * b[0], z = (b[2] - l2 * b[0] - l12 * y1) / d2, y = y1 / d1 - l12 * z;
+    return {static_cast<float>(b[0] / d0 - l1 * y - l2 * z), static_cast<float>(y), static_cast<float>(z), 0};
   }
 
   void precondition(int l) {
@@ -107,7 +153,8 @@ class Solve {
         l, [&](int f, int t) { kernels_.residual(level(l), v, l == 0, v.right.data(), v.x.data(), v.y.data(), f, t); });
     for_batches(l + 1, [&](int f, int t) { kernels_.restrict_to(level(l + 1), values(l + 1), v.y.data(), f, t); });
     cycle(l + 1);
-    for (int visit = 1; visit < visits && l + 2 < levels(); ++visit) {
+    const bool again = l + 2 < levels() && visits * level(l + 1).rows <= level(l).rows;
+    for (int visit = 1; again && visit < visits; ++visit) {
       smooth(l + 1);
       cycle(l + 1);
     }
@@ -119,58 +166,17 @@ class Solve {
   const Multigrid& model_;
   MultigridObject& work_;
   const MultigridKernels& kernels_;
-  int object_;
 };
-
-// ---------------------------------------------------------------- contacts
-
-/// Adds a contact that is not free to its particle's row: K (1 - mu) n n^T + mu K I, against depth and slip.
-void add_contact(const Contact& contact, const SweepArguments& a, float stiffness, MultigridObject& work) {
-  const Record &d = a.displacements[contact.particle], &r = a.remainders[contact.particle];
-  const Vec3f moved{d.x, d.y, d.z}, n = contact.normal;
-  const float depth = contact.gap + dot(n, moved);
-  if (!(depth < 0)) return;
-  const float mu = min(contact.kinetic_friction, 1.f), across = mu * stiffness, along = stiffness - across;
-  const Vec3f motion = moved - Vec3f{r.x, r.y, r.z} - contact.surface_motion;
-  const Vec3f slip = motion - n * dot(n, motion);
-  const Vec3f force = n * (-stiffness * depth) - slip * across;
-  const int place = lane_place(contact.particle), batch = place / batch_width;
-  float* extra = work.extra.data() + static_cast<std::ptrdiff_t>(batch) * 9 * batch_width;
-  if (work.has_extra[batch] == 0) std::fill(extra, extra + 9 * batch_width, 0.f);
-  work.has_extra[batch] = 1;
-  const float add[9] = {along * n.x * n.x + across,
-                        along * n.y * n.y + across,
-                        along * n.z * n.z + across,
-                        along * n.x * n.y,
-                        along * n.x * n.z,
-                        along * n.y * n.z,
-                        force.x,
-                        force.y,
-                        force.z};
-  for (int c = 0; c < 9; ++c) extra[c * batch_width + place % batch_width] += add[c];
-}
-
-void add_contacts(Frame& frame) {
-  const Model& model = frame.model();
-  for (MultigridObject& object : frame.scratch().multigrid) std::fill(object.has_extra.begin(), object.has_extra.end(), 0);
-  for (std::size_t task = 0; task < model.tiles.size(); ++task) {
-    const int o = model.tiles[task].object;
-    if (model.objects[o].multigrid.levels.empty()) continue;
-    const std::vector<float>& limits = model.objects[o].multigrid.stiffness_limit;
-    const SweepArguments a = frame.arguments(o, false);
-    for (const Contact& contact : frame.workspace().tiles[task].contacts)
-      add_contact(contact, a, contact_stiffness * limits[contact.particle], frame.scratch().multigrid[o]);
-  }
-}
 
 // ---------------------------------------------------------------- multipliers
 
-/// What the step has already made each distance constraint do: lambda = -K C h^2, so that the sweeps go on from there. Rigid
-/// ones need none.
-void set_multipliers(const CompiledObject& object, const Segment& segment, const SweepArguments& a) {
+/// What the correction has made each distance constraint do, so that the sweeps go on from there: lambda = -K C h^2 after the
+/// first of a substep, -K h^2 times what C has changed by after others. C as linearised: what turning lengthens a spring by is
+/// no force, and the sweeps' to mend. Rigid ones need none.
+void add_multipliers(const CompiledObject& object, const Segment& segment, const SweepArguments& a, const Record* change) {
   const Pool& pool = object.pools[segment.pool];
   float* multipliers = a.multipliers != nullptr ? a.multipliers[segment.pool] : nullptr;
-  if (multipliers == nullptr || pool.type != index_of<Distance>(AllConstraints{})) return;
+  if (multipliers == nullptr || pool.law == Law::pbd || pool.type != index_of<Distance>(AllConstraints{})) return;
   const std::int32_t* index = pool.indices.data() + segment.index_offset;
   for (int b = 0; b < segment.batches; ++b, index += indices_per_batch(pool, segment)) {
     const std::int64_t batch = segment.first_batch + b;
@@ -179,36 +185,52 @@ void set_multipliers(const CompiledObject& object, const Segment& segment, const
       const int i = particle_of(segment, index, 0, lane), j = particle_of(segment, index, 1, lane);
       const Record &p = a.positions[i], &q = a.positions[j], &d = a.displacements[i], &e = a.displacements[j];
       const Vec3f u{(q.x - p.x) + (e.x - d.x), (q.y - p.y) + (e.y - d.y), (q.z - p.z) + (e.z - d.z)};
+      const Record &from = change[i], &to = change[j];
+      const Vec3f moved{to.x - from.x, to.y - from.y, to.z - from.z}, before = u - moved;
       const std::vector<float>& limits = object.multigrid.stiffness_limit;
       const float stiffness = spring_stiffness(pool.row(1, batch)[lane], max(limits[i], limits[j]));
-      multipliers[batch * batch_width + lane] = -(stiffness * (length(u) - pool.row(0, batch)[lane])) / a.inverse_h2;
+      const float was = length(before), error = a.first_pass ? was - pool.row(0, batch)[lane] : 0;
+      const float linearised = error + dot(before, moved) / max(was, 1e-30f);
+      multipliers[batch * batch_width + lane] -= stiffness * linearised / a.inverse_h2;
     }
   }
 }
 
-void begin_multipliers(Frame& frame) {
-  const Model& model = frame.model();
-  for (std::size_t o = 0; o < model.objects.size(); ++o) {
-    for (auto& values : frame.workspace().multipliers[o]) std::fill(values.begin(), values.end(), 0.f);
-    frame.workspace().volume_multipliers[o] = 0;
-    if (model.objects[o].multigrid.levels.empty()) continue;
-    const SweepArguments a = frame.arguments(static_cast<int>(o), false);
-    for (const Segment& segment : model.objects[o].segments) set_multipliers(model.objects[o], segment, a);
-  }
+bool keeps_distance_multipliers(const CompiledObject& object, const SweepArguments& a) {
+  if (a.multipliers == nullptr) return false;
+  for (std::size_t p = 0; p < object.pools.size(); ++p)
+    if (a.multipliers[p] != nullptr && object.pools[p].type == index_of<Distance>(AllConstraints{})) return true;
+  return false;
 }
 
-void correct(Frame& frame, int o) {
-  const SweepArguments a = frame.arguments(o, false);
-  MultigridObject& work = frame.scratch().multigrid[o];
-  const int particles = frame.model().objects[o].particles;
+void add_multipliers(Frame& frame, int o, bool first) {
+  const CompiledObject& object = frame.model().objects[o];
+  const SweepArguments a = frame.arguments(o, first);
+  if (!keeps_distance_multipliers(object, a)) return;
+  const Record* change = frame.scratch().multigrid[o].change.data();
+  frame.for_each_task("solve: multigrid", static_cast<int>(object.segments.size()),
+                      [&](int s) { add_multipliers(object, object.segments[s], a, change); });
+}
+
+void clear_multipliers(Frame& frame) {
+  for (auto& object : frame.workspace().multipliers)
+    for (auto& values : object) std::fill(values.begin(), values.end(), 0.f);
+  std::fill(frame.workspace().volume_multipliers.begin(), frame.workspace().volume_multipliers.end(), 0);
+}
+
+void correct(Frame& frame, int o, bool first) {
+  const SweepArguments a = frame.arguments(o, first);
+  const Records& change = frame.scratch().multigrid[o].change;
   Solve solve(frame, o);
-  solve.linearise(a);
+  if (first) solve.linearise(a);
   solve.solve(frame.options().multigrid_cycles);
-  for (int i = 0; i < particles; ++i) {
+  solve.shift_pieces();
+  for (int i = 0; i < frame.model().objects[o].particles; ++i) {
     Record& d = a.displacements[i];
-    const Record& c = work.change[i];
+    const Record& c = change[i];
     d = {d.x + c.x, d.y + c.y, d.z + c.z, 0};
   }
+  add_multipliers(frame, o, first);
 }
 
 }  // namespace
@@ -232,16 +254,22 @@ void prepare_multigrid(const Model& model, std::vector<MultigridObject>& objects
     to.extra.resize(blocks * 9 * batch_width);
     to.has_extra.resize(blocks);
     to.sums.resize(blocks / batches_per_task + 1);
+    to.pieces.resize(static_cast<std::size_t>(model.objects[o].multigrid.pieces));
   }
 }
 
-void iterate_multigrid(Frame& frame, bool first) {
+void correct_multigrid(Frame& frame, bool first) {
   if (first) {
-    add_contacts(frame);
-    for (std::size_t o = 0; o < frame.model().objects.size(); ++o)
-      if (!frame.model().objects[o].multigrid.levels.empty()) correct(frame, static_cast<int>(o));
-    begin_multipliers(frame);
+    clear_multipliers(frame);
+    add_multigrid_contacts(frame);
   }
+  for (std::size_t o = 0; o < frame.model().objects.size(); ++o)
+    if (!frame.model().objects[o].multigrid.levels.empty()) correct(frame, static_cast<int>(o), first);
+  if (first) keep_multigrid_pushes(frame);
+}
+
+void iterate_multigrid(Frame& frame, bool first) {
+  correct_multigrid(frame, first);
   // There and back: distances, first of all types, have the last word, and what bending pulls apart is put right again.
   iterate_tiled(frame, false);
   frame.sweep_contacts();

@@ -21,9 +21,26 @@ struct MultigridObject {
   AlignedVector<float> extra;        ///< of contacts: nine rows of sixteen a batch
   std::vector<char> has_extra;       ///< by batch
   std::vector<float> sums;           ///< by task
+  /// Of a piece: what holds it to the world (xx yy zz xy xz yz), and what force it is still owed.
+  struct Piece {
+    double held[6], force[3];
+  };
+  std::vector<Piece> pieces;
 };
+
+class Frame;
+
+/// The correction alone, of every object that has levels. The first of a substep is made from the prediction, before any sweep;
+/// after it the multipliers of compliant distances are those of where it leaves them, all others zero. Later ones go on from
+/// what the equations of the first still lacked: sweeps meet constraints and leave that as it is.
+void correct_multigrid(Frame& frame, bool first);
 
 /// Makes room for every object that has levels.
 void prepare_multigrid(const Model& model, std::vector<MultigridObject>& objects);
+
+// Of correct_multigrid, in multigrid_contacts.cpp: contacts as springs on their particles' rows, and afterwards the pushes and
+// the friction that these have exerted, for the contacts' own projection to go on from.
+void add_multigrid_contacts(Frame& frame);
+void keep_multigrid_pushes(Frame& frame);
 
 }  // namespace pliant

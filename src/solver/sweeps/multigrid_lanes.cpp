@@ -14,6 +14,8 @@ constexpr float damping = 0.65f;
 constexpr float coarse_stiffness = 0.5f;
 /// What keeps the inverse of a diagonal block from being mere rounding, as a share of its trace.
 constexpr float least_share = 1e-6f;
+/// Of a block over its trace: below this it is rounding.
+constexpr float least_determinant = 1e-20f;
 
 /// A symmetric 3 x 3 block.
 struct Block {
@@ -46,15 +48,21 @@ PLIANT_HD Block block_of(const Vec3<Wide>& g, const Wide& k) {
   return {g.x * g.x + k, g.y * g.y + k, g.z * g.z + k, g.x * g.y, g.x * g.z, g.y * g.z};
 }
 
-/// Its inverse by cofactors, damped, zero in lanes that can't move.
-PLIANT_HD Block damped_inverse(const Block& b, const WideMask& moves) {
-  const Wide some = (b.xx + b.yy + b.zz) * Wide(least_share);
-  const Wide xx = b.xx + some, yy = b.yy + some, zz = b.zz + some;
+PLIANT_HD Block operator*(const Block& b, const Wide& s) {
+  return {b.xx * s, b.yy * s, b.zz * s, b.xy * s, b.xz * s, b.yz * s};
+}
+
+/// Its inverse by cofactors, damped, zero in lanes that can't move. Of the block over its trace, so that no product leaves
+/// the range of floats whatever the units of a scene.
+PLIANT_HD Block damped_inverse(const Block& block, const WideMask& moves) {
+  const Wide scale = Wide(1.f) / max(block.xx + block.yy + block.zz, Wide(1e-30f));
+  const Block b = block * scale;
+  const Wide xx = b.xx + Wide(least_share), yy = b.yy + Wide(least_share), zz = b.zz + Wide(least_share);
   const Wide c0 = yy * zz - b.yz * b.yz, c1 = b.xz * b.yz - b.xy * zz, c2 = b.xy * b.yz - b.xz * yy;
   const Wide determinant = xx * c0 + b.xy * c1 + b.xz * c2;
-  const WideMask regular = determinant > Wide(1e-37f);
-  const Wide zero(0.f);
-  const Wide s = select(moves, select(regular, Wide(damping) / max(determinant, Wide(1e-37f)), zero), zero);
+  const WideMask regular = determinant > Wide(least_determinant);
+  const Wide zero(0.f), inverse = Wide(damping) / max(determinant, Wide(least_determinant)) * scale;
+  const Wide s = select(moves, select(regular, inverse, zero), zero);
   return {c0 * s, (xx * zz - b.xz * b.xz) * s, (xx * yy - b.xy * b.xy) * s, c1 * s, c2 * s, (b.xy * b.xz - xx * b.yz) * s};
 }
 
