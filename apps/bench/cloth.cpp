@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 
 #include "pliant/mesh.h"
 
@@ -50,6 +51,29 @@ Object make_w1_object(int size, bool with_bending) {
   Object object = make_cloth(grid_mesh(size, size, 1, 1), options);
   for (int corner : {0, size - 1}) object.pins.push_back({corner, {}});
   return object;
+}
+
+TriangleMesh make_irregular_mesh(int size) {
+  std::mt19937 random(7);
+  const auto uniform = [&] { return static_cast<float>(random() % 65536) / 32768 - 1; };
+  TriangleMesh mesh = grid_mesh(size, size, 1, 1);
+  const float most = 0.3f / static_cast<float>(size - 1);
+  for (int row = 1; row + 1 < size; ++row) {
+    for (int column = 1; column + 1 < size; ++column) {
+      const float x = most * uniform(), z = most * uniform();
+      mesh.positions[row * size + column] += Vec3f{x, 0, z};
+    }
+  }
+  mesh.triangles.clear();
+  for (int row = 0; row + 1 < size; ++row) {
+    for (int column = 0; column + 1 < size; ++column) {
+      const int a = row * size + column, b = a + 1, c = a + size, d = c + 1;
+      const bool falls = uniform() > 0;
+      mesh.triangles.push_back({a, c, falls ? b : d});
+      mesh.triangles.push_back({falls ? b : a, falls ? c : d, falls ? d : b});
+    }
+  }
+  return mesh;
 }
 
 Cloth make_w1(int size, bool with_bending) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "pliant/mesh.h"
 #include "pliant/scene.h"
 
 namespace pliant::bench {
@@ -33,6 +34,10 @@ struct Cloth {
 /// The object alone, without the lists that other engines need.
 Object make_w1_object(int size, bool with_bending);
 Cloth make_w1(int size, bool with_bending);
+
+/// A grid of size x size over 1 m whose inner particles are moved by up to 0.3 of a cell, each cell's diagonal either way:
+/// nothing in it lines up.
+TriangleMesh make_irregular_mesh(int size);
 
 /// An engine at work on a Cloth.
 class Engine {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "apps/bench/cloth.h"
@@ -28,15 +29,41 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-Row run_once(const std::string& workload, int size, const Contender& contender, int substeps, int frames) {
+Object cloth_of(const QualityWorkload& workload, int size) {
+  if (workload.kind == QualityWorkload::Kind::hung) return make_w1_object(size, true);
+  ClothOptions options;
+  options.material = fabric("cotton");
+  options.stretch = Stiffness::rigid();
+  Object object = make_cloth(make_irregular_mesh(size), options);
+  if (workload.kind == QualityWorkload::Kind::irregular) {
+    for (int corner : {0, size - 1}) object.pins.push_back({corner, {}});
+  } else {
+    object.thickness = 0.005f;
+    object.static_friction = object.kinetic_friction = 0.3f;
+  }
+  return object;
+}
+
+Scene scene_of(const QualityWorkload& workload, int size) {
   Scene scene;
-  scene.settings.substeps = substeps;
   scene.settings.threads = 1;
+  scene.add(cloth_of(workload, size));
+  if (workload.kind != QualityWorkload::Kind::draped) return scene;
+  Collider ball;
+  ball.shape = Sphere{0.3f};
+  ball.position = {0, -0.31f, 0};
+  ball.static_friction = ball.kinetic_friction = 0.3f;
+  scene.add(ball);
+  return scene;
+}
+
+Row run_once(const QualityWorkload& workload, int size, const Contender& contender, int substeps, int frames) {
+  Scene scene = scene_of(workload, size);
+  scene.settings.substeps = substeps;
   scene.settings.sweep = contender.sweep;
   scene.settings.sweep_options.tethers = contender.tethers;
-  scene.add(make_w1_object(size, true));
   World world(scene);
-  Row row{workload, size, contender.engine};
+  Row row{workload.as.name, size, contender.engine};
   row.substeps = substeps;
   row.iterations = 1;
   std::vector<double> times;
@@ -50,7 +77,7 @@ Row run_once(const std::string& workload, int size, const Contender& contender, 
     if (frame == std::min(frames, frame_of_energy))
       row.energy_lost = energy - world.kinetic_energy() - world.potential_energy();
   }
-  row.met = row.stretch_p99 <= quality_p99 && row.stretch_max <= quality_largest;
+  row.met = row.stretch_p99 <= workload.p99 && row.stretch_max <= workload.largest;
   row.ms_per_frame = median(times);
   const double cells = static_cast<double>(size - 1) * (size - 1), border = 4.0 * (size - 1);
   const double edges = 3 * cells + border / 2;
@@ -58,7 +85,7 @@ Row run_once(const std::string& workload, int size, const Contender& contender, 
   return row;
 }
 
-Row search(const std::string& workload, int size, const Contender& contender, int frames) {
+Row search(const QualityWorkload& workload, int size, const Contender& contender, int frames) {
   for (int substeps = contender.first;; substeps += std::max(1, substeps / 8)) {
     substeps = std::min(substeps, contender.limit);
     Row row = run_once(workload, size, contender, substeps, frames);
@@ -68,11 +95,34 @@ Row search(const std::string& workload, int size, const Contender& contender, in
 
 }  // namespace
 
-std::vector<Row> measure_quality(const std::string& workload, int size, int frames) {
+const std::vector<QualityWorkload>& quality_workloads() {
+  using Kind = QualityWorkload::Kind;
+  constexpr double any = std::numeric_limits<double>::infinity();
+  static const std::vector<QualityWorkload> all{
+      {Kind::hung,
+       {"W1-quality",
+        "with bending: the substeps that keep p99 of stretch <= 1.02 and the largest <= 1.10 in every frame; minutes, so "
+        "by "
+        "name alone"},
+       1.02,
+       1.10},
+      {Kind::irregular, {"W1-quality-irregular", "the same on an irregular mesh: p99 <= 1.03; by name alone"}, 1.03, any},
+      {Kind::draped,
+       {"W1-quality-draped", "the irregular mesh draped over a ball, pinned nowhere: p99 <= 1.03; by name alone"},
+       1.03,
+       any},
+  };
+  return all;
+}
+
+std::vector<Row> measure_quality(const QualityWorkload& workload, int size, int frames) {
+  const bool hung = workload.kind == QualityWorkload::Kind::hung, pinned = workload.kind != QualityWorkload::Kind::draped;
   const int from = std::max(1, size / 12), plain = static_cast<int>(std::pow(size, 1.5) / 4);
   const Contender contenders[] = {
-      {"tiled", Sweep::tiled, false, std::max(4, plain), std::min(4 * plain + 8, 400)},
-      {"chains", Sweep::chains, true, from, std::max(8, size)},
+      {"tiled", Sweep::tiled, false, hung ? std::max(4, plain) : size,
+       hung ? std::min(4 * plain + 8, 400) : (size < 200 ? 4 * size : size)},
+      {"chains", Sweep::chains, pinned, from, std::max(8, size)},
+      {"multigrid", Sweep::multigrid, false, 4, 32},
   };
   std::vector<Row> rows;
   for (const Contender& contender : contenders) {

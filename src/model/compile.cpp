@@ -259,7 +259,8 @@ std::vector<std::array<int, 2>> lines_of(const std::vector<ConstraintList>& list
   for (const ConstraintList& list : lists)
     for (int i = 0; list.size == 2 && i < list.count(); ++i)
       if (list.rest[static_cast<std::size_t>(i) * list.fields] > 0)
-        lines.push_back({list.stencils[2 * static_cast<std::size_t>(i)], list.stencils[2 * static_cast<std::size_t>(i) + 1]});
+        lines.push_back(
+            {list.stencils[2 * static_cast<std::size_t>(i)], list.stencils[2 * static_cast<std::size_t>(i) + 1]});
   return lines;
 }
 

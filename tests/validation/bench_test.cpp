@@ -8,6 +8,7 @@
 
 #include "apps/bench/broadphase.h"
 #include "apps/bench/cloth.h"
+#include "apps/bench/quality.h"
 #include "pliant/error.h"
 
 namespace pliant::bench {
@@ -56,6 +57,37 @@ TEST(Bench, BulletSwingsAsTheEngineDoes) {
     const auto bullet = make_bullet(cloth, steps, order), pliant = make_pliant(cloth, steps, 1);
     expect_near(centre_after(*bullet, 15), centre_after(*pliant, 15), 0.02);
   }
+}
+
+// Small ones, on which even plain sweeps reach what is asked for.
+TEST(BenchQuality, FindsTheSubstepsThatKeepTheBounds) {
+  for (const QualityWorkload& workload : quality_workloads()) {
+    const std::vector<Row> rows = measure_quality(workload, 16, 60);
+    ASSERT_EQ(rows.size(), 3U);
+    for (const Row& row : rows) {
+      EXPECT_EQ(row.workload, workload.as.name);
+      EXPECT_EQ(row.met, row.stretch_p99 <= workload.p99 && row.stretch_max <= workload.largest) << row.engine;
+      EXPECT_TRUE(row.met) << workload.as.name << ", " << row.engine << ": " << row.stretch_p99 << ", " << row.stretch_max;
+      EXPECT_GT(row.stretch_p99, 1);
+    }
+    EXPECT_EQ(rows[2].engine, "multigrid");
+    EXPECT_LE(rows[2].substeps, 8) << workload.as.name;
+  }
+}
+
+TEST(BenchQuality, AnIrregularMeshHasNoNegativeCellsAndBothDiagonals) {
+  const TriangleMesh mesh = make_irregular_mesh(10), regular = grid_mesh(10, 10, 1, 1);
+  ASSERT_EQ(mesh.triangles.size(), regular.triangles.size());
+  const auto up = [&](const std::array<int, 3>& t) {
+    return cross(mesh.positions[t[1]] - mesh.positions[t[0]], mesh.positions[t[2]] - mesh.positions[t[0]]).y;
+  };
+  int rising = 0;
+  for (const auto& t : mesh.triangles) {
+    EXPECT_GT(up(t) * up(mesh.triangles[0]), 0);
+    rising += t[2] - t[0] == 11 ? 1 : 0;
+  }
+  EXPECT_GT(rising, 9);
+  EXPECT_LT(rising, 72);
 }
 
 TEST(Bench, ARunYieldsARowForEachEngineAndTheJsonHoldsThem) {
