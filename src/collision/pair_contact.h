@@ -30,9 +30,11 @@ struct PairDistance {
 PairDistance pair_distance(const PairStencil& pair, const Record* positions);
 
 /// Sixteen pairs of one kind at once, in float. Places are relative to each pair's first particle, so that rounding is that of the
-/// pair's own size.
+/// pair's own size. Where edges are nearly parallel or a triangle is a sliver, the closest points of a float are others:
+/// `distance` may be longer than the true one, `at_least` is not.
 struct PairBatch {
   alignas(64) float distance[16];
+  alignas(64) float at_least[16];  ///< a lower bound of the true distance, 0 or more [m]
   alignas(64) float weight[4][16];
   alignas(64) float normal[3][16];
 };

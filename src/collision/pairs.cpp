@@ -23,6 +23,12 @@ constexpr double share_of_rest = 0.9;
 constexpr float least_share = 0.05f, least_roundings = 32, rounding = 6e-8f;
 /// Bounds of distances are floats: this much is allowed for their rounding.
 constexpr float bound_slack = 1.0001f;
+/// Sums of moves that are taken off again later are rounded some ten times.
+constexpr float sum_slack = 1 - 1e-6f;
+/// Places as seen by one who drifts along are rounded this often, at most.
+constexpr float place_roundings = 16;
+/// Rounds in which moves are shortened by as much as they must; after them offenders stay where they are.
+constexpr int rounds_of_shares = 3;
 
 std::uint64_t key_of(int a, int b) { return (static_cast<std::uint64_t>(a) << 32) | static_cast<std::uint32_t>(b); }
 
@@ -50,6 +56,11 @@ Vec3f end_of(const PairParticles& particles, std::size_t i, float times = 1) {
   return {x.x + d.x * times, x.y + d.y * times, x.z + d.z * times};
 }
 
+/// By how much a position changes: not quite by the displacement, which it can't hold.
+Vec3f move_of(const PairParticles& particles, std::size_t i) { return end_of(particles, i) - end_of(particles, i, 0); }
+
+bool moves_at_all(const Record& d) { return d.x != 0 || d.y != 0 || d.z != 0; }
+
 }  // namespace
 
 PairSystem::PairSystem(const PairModel& model)
@@ -72,11 +83,13 @@ PairSystem::PairSystem(const PairModel& model)
 
 // ---------------------------------------------------------------- lists
 
-/// Where a value is not finite, the end of the substep says so; until then nothing is looked for.
-bool PairSystem::is_finite(const PairParticles& particles) const {
+/// Measures the extent. Where a value is not finite, the end of the substep says so; until then nothing is looked for.
+bool PairSystem::is_finite(const PairParticles& particles) {
+  extent_ = 0;
   for (const int v : model_.elements.vertices) {
     const Vec3f p = end_of(particles, static_cast<std::size_t>(v));
     if (!(abs(p.x) < 1e14f && abs(p.y) < 1e14f && abs(p.z) < 1e14f)) return false;
+    extent_ = max(extent_, largest(end_of(particles, static_cast<std::size_t>(v), 0)));
   }
   return true;
 }
@@ -96,8 +109,29 @@ const PairMaterial& PairSystem::material(const Bucket& bucket) const {
   return model_.materials[static_cast<std::size_t>(a) * model_.bodies + b];
 }
 
-float PairSystem::least_distance(const Bucket& bucket) const {
-  return max(least_share * material(bucket).thickness, least_roundings * rounding * extent_);
+float PairSystem::least_of(float thickness) const {
+  return max(least_share * thickness, least_roundings * rounding * extent_);
+}
+
+/// How far vertices may leave their boxes while lists hold all pairs whose paths come within `distance`.
+float PairSystem::margin_beyond(float distance) const {
+  return 0.5f * (model_.radius - distance) - place_roundings * rounding * extent_;
+}
+
+/// Whether the boxes of both sides' paths come within `distance`, as seen by one who drifts along. Lists hold all pairs of which
+/// this is true, whenever they were made, so that with it what is done about a pair does not depend on them.
+bool PairSystem::paths_within(const PairStencil& pair, const PairParticles& particles, float distance) const {
+  Vec3f low[2], high[2];
+  for (int i = 0; i < 4; ++i) {
+    const auto v = static_cast<std::size_t>(pair.vertex[i]);
+    const Vec3f from = end_of(particles, v, 0), to = end_of(particles, v) - mean_;
+    const int side = i < pair.first_side ? 0 : 1;
+    const bool begins = i == 0 || i == pair.first_side;
+    low[side] = begins ? min(from, to) : min(low[side], min(from, to));
+    high[side] = begins ? max(from, to) : max(high[side], max(from, to));
+  }
+  const Vec3f apart = max(low[0] - high[1], low[1] - high[0]);
+  return max(max(apart.x, apart.y), apart.z) <= distance;
 }
 
 /// The mean displacement of all that can be pushed.
@@ -106,8 +140,7 @@ Vec3f PairSystem::mean_move(const PairParticles& particles) const {
   int count = 0;
   for (const int v : model_.elements.vertices) {
     if (!(particles.positions[v].w > 0)) continue;
-    const Record& d = particles.displacements[v];
-    sum += Vec3d{double(d.x), double(d.y), double(d.z)};
+    sum += convert<double>(move_of(particles, static_cast<std::size_t>(v)));
     ++count;
   }
   return count > 0 ? convert<float>(sum * (1. / count)) : Vec3f{};
@@ -115,12 +148,12 @@ Vec3f PairSystem::mean_move(const PairParticles& particles) const {
 
 /// Whether every vertex ends its move within its box, grown by `margin` around the motion for which lists were made, as seen
 /// by one who drifts along with the mean of all: what is apart for him at any time is apart.
-bool PairSystem::all_within(const PairParticles& particles, float margin) const {
-  const Vec3f mean = mean_move(particles);
+bool PairSystem::all_within(const PairParticles& particles, float margin) {
+  mean_ = mean_move(particles);
   for (const int v : model_.elements.vertices) {
     const auto i = static_cast<std::size_t>(v);
     const Vec3f low = min(from_[i], to_[i]), high = max(from_[i], to_[i]), start = end_of(particles, i, 0) - drift_,
-                end = end_of(particles, i) - drift_ - mean;
+                end = end_of(particles, i) - drift_ - mean_;
     const Vec3f out = max(max(low - min(start, end), max(start, end) - high), Vec3f{});
     if (!(largest(out) <= margin)) return false;
   }
@@ -200,11 +233,11 @@ void PairSystem::cut_into_tasks() {
 void PairSystem::rebuild(Executor& executor, const PairParticles& particles) {
   from_.resize(model_.rest.size());
   to_.resize(model_.rest.size());
-  const Vec3f mean = mean_move(particles);
+  mean_ = mean_move(particles);
   drift_ = {};
   for (std::size_t i = 0; i < from_.size(); ++i) {
     from_[i] = end_of(particles, i, 0);
-    to_[i] = from_[i] + (end_of(particles, i) - from_[i] - mean) * particles.ahead;
+    to_[i] = from_[i] + (end_of(particles, i) - from_[i] - mean_) * particles.ahead;
   }
   finder_.find(executor, from_, to_, model_.radius, true);
   fill_buckets();
@@ -226,24 +259,20 @@ void PairSystem::measure_moves(Executor& executor, const PairParticles& particle
   executor.parallel_for("contact bounds", tasks, [&](int task) {
     for (int c = task * clusters_in_a_task; c < std::min(model_.clusters, (task + 1) * clusters_in_a_task); ++c) {
       Vec3f sum{};
-      for (const int v : cluster_vertices_[c]) {
-        const Record& d = particles.displacements[v];
-        sum += Vec3f{d.x, d.y, d.z};
-      }
+      for (const int v : cluster_vertices_[c]) sum += move_of(particles, static_cast<std::size_t>(v));
       const Vec3f mean = cluster_move_[c] = sum * (1.f / static_cast<float>(cluster_vertices_[c].size()));
-      const auto move_of = [&](int v) {
-        const Record& d = particles.displacements[v];
-        return length(Vec3f{d.x, d.y, d.z} - mean) * bound_slack + 1e-12f;
+      const auto relative = [&](int v) {
+        return length(move_of(particles, static_cast<std::size_t>(v)) - mean) * bound_slack + 1e-12f;
       };
       float most = 0;
-      for (const int v : cluster_vertices_[c]) most = max(most, vertex_move_[v] = move_of(v));
+      for (const int v : cluster_vertices_[c]) most = max(most, vertex_move_[v] = relative(v));
       for (const int t : cluster_triangles_[c]) {
         const Triangle& corners = elements.triangles[t];
-        triangle_move_[t] = max(max(move_of(corners[0]), move_of(corners[1])), move_of(corners[2]));
+        triangle_move_[t] = max(max(relative(corners[0]), relative(corners[1])), relative(corners[2]));
         most = max(most, triangle_move_[t]);
       }
       for (const int e : cluster_edges_[c]) {
-        edge_move_[e] = max(move_of(elements.edges[e][0]), move_of(elements.edges[e][1]));
+        edge_move_[e] = max(relative(elements.edges[e][0]), relative(elements.edges[e][1]));
         most = max(most, edge_move_[e]);
       }
       cluster_largest_[c] = most;
@@ -297,7 +326,7 @@ void PairSystem::measure(const Bucket& bucket, Task& task, const PairParticles& 
     pair_distances(&task.stencils[i], count, particles.positions, batch);
     for (int lane = 0; lane < count; ++lane) {
       const std::int32_t p = task.near[i + lane];
-      pairs_[p].reach = batch.distance[lane] * (1 - 1e-5f) + sums(bucket, p);
+      pairs_[p].reach = (batch.at_least[lane] + sums(bucket, p)) * sum_slack;
       visit(p, task.stencils[i + lane], batch, lane);
     }
   }
@@ -310,13 +339,14 @@ void PairSystem::activate(Bucket& bucket, Task& task, const PairParticles& parti
   if (bucket.growth + now <= bucket.margin) return;
   bucket.growth = 0;
   bucket.margin = max(share_of_skin * (model_.radius - model_.largest_thickness), 1.1f * now);
-  const float near = cull_slack * material(bucket).thickness + bucket.margin;
+  const float thickness = material(bucket).thickness;
+  const float near = max(cull_slack * thickness, 2 * least_of(thickness)) + bucket.margin;
   task.near.clear();
   for (std::int32_t p = bucket.first; p < bucket.last; ++p)
     if (pairs_[p].reach - sums(bucket, p) <= near) task.near.push_back(p);
   bucket.active_last = bucket.first;
   measure(bucket, task, particles, [&](std::int32_t p, const PairStencil&, const PairBatch& at, int lane) {
-    if (at.distance[lane] * (1 - 1e-5f) <= near) active_[bucket.active_last++] = p;
+    if (at.at_least[lane] <= near) active_[bucket.active_last++] = p;
   });
 }
 
@@ -342,15 +372,15 @@ void PairSystem::detect_bucket(Bucket& bucket, Task& task, const PairParticles& 
     if (!(at.distance[lane] > 0) || nearest > kept.thickness) return;
     if (p.rest < 0) p.rest = static_cast<float>(share_of_rest * pair_distance(four, model_.rest.data()).distance);
     kept.thickness = min(kept.thickness, p.rest);
-    if (nearest <= kept.thickness) task.contacts.push_back(make_contact(four, at, lane, kept, particles.h));
+    if (nearest <= kept.thickness && paths_within(four, particles, kept.thickness))
+      task.contacts.push_back(make_contact(four, at, lane, kept, particles.h));
   });
 }
 
 void PairSystem::detect(Executor& executor, const PairParticles& particles) {
   contacts_.clear();
   if (!is_finite(particles)) return;
-  const float margin = 0.5f * (model_.radius - model_.largest_thickness);
-  if (!listed_ || !all_within(particles, margin)) rebuild(executor, particles);
+  if (!listed_ || !all_within(particles, margin_beyond(model_.largest_thickness))) rebuild(executor, particles);
   measure_moves(executor, particles);
   executor.parallel_for("detect contacts", static_cast<int>(tasks_.size()), [&](int number) {
     Task& task = tasks_[number];
@@ -374,17 +404,21 @@ void PairSystem::respond(const Record* positions, Record* velocities) const {
 void PairSystem::filter_bucket(Bucket& bucket, Task& task, const PairParticles& particles) {
   activate(bucket, task, particles);
   if (bucket.active_last == bucket.first) return;
-  collect_near(bucket, task, least_distance(bucket));
+  collect_near(bucket, task, least_of(material(bucket).thickness));
   for (const std::int32_t p : task.near) filter_pair(bucket, p, particles, task);
 }
 
 void PairSystem::filter_pair(const Bucket& bucket, std::int32_t pair, const PairParticles& particles, Task& task) {
   const PairStencil four = stencil(bucket, pair);
-  const double least = double(least_distance(bucket));
+  const float least = least_of(material(bucket).thickness);
+  if (!paths_within(four, particles, least)) return;
   const PairDistance at = pair_distance(four, particles.positions);
+  // What an old bound could not dismiss and a new one does is left alone: bounds only save work.
+  if (static_cast<float>(at.distance) * sum_slack - moves(bucket, pair) > least) return;
   SeparatingSlab slab;
   std::array<float, 4> shares{1, 1, 1, 1};
-  const Separation found = plan_separation(four, at, particles.positions, particles.displacements, least, slab, shares);
+  const Separation found =
+      plan_separation(four, at, particles.positions, particles.displacements, double(least), slab, shares);
   if (found == Separation::free) return;
   if (found == Separation::hopeless) ++task.hopeless;
   if (found == Separation::planned) task.slabs.push_back(slab);
@@ -392,16 +426,29 @@ void PairSystem::filter_pair(const Bucket& bucket, std::int32_t pair, const Pair
     if (shares[i] < 1) task.shares.emplace_back(four.vertex[i], shares[i]);
 }
 
-/// The least of what the pairs allow; then what rounding let through stays where it was, until nothing more does.
-bool PairSystem::shorten(const PairParticles& particles) {
-  std::vector<std::int32_t> touched;
-  for (const Task& task : tasks_) {
-    counts_.hopeless += task.hopeless;
-    for (const auto& [vertex, share] : task.shares) {
-      if (share_[vertex] == 1) touched.push_back(vertex);
-      share_[vertex] = min(share_[vertex], share);
-    }
+/// The least of what the pairs allow, or nothing of it; then what rounding let through stays where it was, until nothing more
+/// does. Whether any move was shortened.
+bool PairSystem::shorten(const PairParticles& particles, bool stops) {
+  touched_.clear();
+  const auto allow = [&](std::int32_t v, float share) {
+    if (!moves_at_all(particles.displacements[v])) return;
+    if (share_[v] == 1) touched_.push_back(v);
+    share_[v] = min(share_[v], stops ? 0 : share);
+  };
+  for (const Task& task : tasks_)
+    for (const auto& [vertex, share] : task.shares) allow(vertex, share);
+  hold_rounded(particles, allow);
+  for (const std::int32_t v : touched_) {
+    Record& d = particles.displacements[v];
+    d = {d.x * share_[v], d.y * share_[v], d.z * share_[v], 0};
+    share_[v] = 1;
   }
+  shortened_.insert(shortened_.end(), touched_.begin(), touched_.end());
+  return !touched_.empty();
+}
+
+template <class Allow>
+void PairSystem::hold_rounded(const PairParticles& particles, Allow allow) {
   for (bool again = true; again;) {
     again = false;
     for (const Task& task : tasks_)
@@ -409,35 +456,20 @@ bool PairSystem::shorten(const PairParticles& particles) {
         for (int i = 0; i < 4; ++i) {
           const std::int32_t v = slab.pair.vertex[i];
           if (share_[v] == 0 || !ends_beyond(slab, i, particles.positions, particles.displacements, share_[v])) continue;
-          if (share_[v] == 1) touched.push_back(v);
-          share_[v] = 0;
-          again = true;
+          allow(v, 0);
+          again = share_[v] == 0 || again;
         }
   }
-  for (const std::int32_t v : touched) {
-    Record& d = particles.displacements[v];
-    d = {d.x * share_[v], d.y * share_[v], d.z * share_[v], 0};
-    share_[v] = 1;
-    ++counts_.shortened;
-  }
-  return !touched.empty();
 }
 
-void PairSystem::filter(Executor& executor, const PairParticles& particles) {
-  counts_.contacts = 0;
-  for (const PairContact& contact : contacts_) counts_.contacts += contact.push > 0 ? 1 : 0;
-  if (!is_finite(particles)) return;
-  const float least = least_share * model_.largest_thickness;
-  bool shortened = false;
-  if (model_.filter) {
+/// Pairs are dismissed by how much they move against each other, which grows where one of them alone is shortened: what was
+/// shortened is looked at again as it is then, until no more is.
+void PairSystem::keep_apart(Executor& executor, const PairParticles& particles) {
+  shortened_.clear();
+  for (int round = 0;; ++round) {
     // What moved farther than was foreseen is looked for around the moves as they are now.
-    if (!all_within(particles, 0.5f * (model_.radius - least))) rebuild(executor, particles);
+    if (!listed_ || !all_within(particles, margin_beyond(least_of(model_.largest_thickness)))) rebuild(executor, particles);
     measure_moves(executor, particles);
-    extent_ = 0;
-    for (const int v : model_.elements.vertices) {
-      const Record& x = particles.positions[v];
-      extent_ = max(extent_, largest(Vec3f{x.x, x.y, x.z}));
-    }
     executor.parallel_for("filter moves", static_cast<int>(tasks_.size()), [&](int number) {
       Task& task = tasks_[number];
       task.slabs.clear();
@@ -445,9 +477,22 @@ void PairSystem::filter(Executor& executor, const PairParticles& particles) {
       task.hopeless = 0;
       for (int b = task.first; b < task.last; ++b) filter_bucket(buckets_[b], task, particles);
     });
-    shortened = shorten(particles);
+    if (!shorten(particles, round >= rounds_of_shares)) break;
   }
-  if (!model_.filter || shortened) measure_moves(executor, particles);
+  for (const Task& task : tasks_) counts_.hopeless += task.hopeless;
+  std::sort(shortened_.begin(), shortened_.end());
+  counts_.shortened += std::unique(shortened_.begin(), shortened_.end()) - shortened_.begin();
+}
+
+void PairSystem::filter(Executor& executor, const PairParticles& particles) {
+  counts_.contacts = 0;
+  for (const PairContact& contact : contacts_) counts_.contacts += contact.push > 0 ? 1 : 0;
+  if (!is_finite(particles)) return;
+  if (model_.filter) {
+    keep_apart(executor, particles);
+  } else {
+    measure_moves(executor, particles);
+  }
   settle_moves();
   drift_ += mean_move(particles);
 }

@@ -6,7 +6,8 @@
 //   filter      no clean pair crosses: moves are shortened (plane_filter.h)
 //
 // What a substep does depends on positions and displacements alone: lists and bounds of distances only save work, so a
-// State put back gives the same bits. A pair's distance falls by no more than both its primitives move, measured against the
+// State put back gives the same bits. To that end whatever is done about a pair is decided by its own distance, moves and
+// paths as they are now, never by an old bound alone. A pair's distance falls by no more than both its primitives move, measured against the
 // mean motion of their clusters: as long as that leaves it out of reach it is not looked at.
 #pragma once
 
@@ -102,10 +103,12 @@ class PairSystem {
 
   PairStencil stencil(const Bucket& bucket, std::int32_t pair) const;
   const PairMaterial& material(const Bucket& bucket) const;
-  float least_distance(const Bucket& bucket) const;
-  bool is_finite(const PairParticles& particles) const;
+  float least_of(float thickness) const;
+  float margin_beyond(float distance) const;
+  bool paths_within(const PairStencil& pair, const PairParticles& particles, float distance) const;
+  bool is_finite(const PairParticles& particles);
   Vec3f mean_move(const PairParticles& particles) const;
-  bool all_within(const PairParticles& particles, float margin) const;
+  bool all_within(const PairParticles& particles, float margin);
   void rebuild(Executor& executor, const PairParticles& particles);
   void fill_buckets();
   void cut_into_tasks();
@@ -121,7 +124,10 @@ class PairSystem {
   void detect_bucket(Bucket& bucket, Task& task, const PairParticles& particles);
   void filter_bucket(Bucket& bucket, Task& task, const PairParticles& particles);
   void filter_pair(const Bucket& bucket, std::int32_t pair, const PairParticles& particles, Task& task);
-  bool shorten(const PairParticles& particles);
+  bool shorten(const PairParticles& particles, bool stops);
+  template <class Allow>
+  void hold_rounded(const PairParticles& particles, Allow allow);
+  void keep_apart(Executor& executor, const PairParticles& particles);
   void find_tangles(const Record* positions);
 
   const PairModel& model_;
@@ -133,7 +139,8 @@ class PairSystem {
   std::vector<Bucket> buckets_;
   std::vector<std::pair<std::uint64_t, std::int32_t>> keys_;  ///< of buckets while they are made
   std::vector<std::int32_t> bucket_of_;                       ///< of each candidate while they are made
-  Vec3f drift_{};                                             ///< of the mean since lists were made [m]
+  Vec3f drift_{};  ///< of the mean since lists were made, this substep left out [m]
+  Vec3f mean_{};   ///< displacement in this substep [m]
   bool listed_ = false;
 
   // By particle, triangle, edge: the move of this substep, relative to its cluster's mean, and the sum of those made.
@@ -145,6 +152,7 @@ class PairSystem {
   std::vector<Task> tasks_;
   std::vector<PairContact> contacts_;
   std::vector<float> share_;
+  std::vector<std::int32_t> touched_, shortened_;  ///< vertices, in a round of the filter and in all of a substep
   std::vector<Intersection> tangles_;
   std::vector<std::uint64_t> tangled_pairs_, tangled_edges_;  ///< a << 32 | b, ascending
   float extent_ = 0;                                          ///< the largest coordinate [m]

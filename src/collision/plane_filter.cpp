@@ -1,6 +1,7 @@
 #include "collision/plane_filter.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "math/vector.h"
 
@@ -23,7 +24,8 @@ Vec3d start_of(const Record& x, const Record& origin) {
 /// Heights of the four along the normal at both ends of their moves.
 struct Heights {
   double start[4], end[4];
-  double lowest_first = 1e300, highest_second = -1e300;        // at the start
+  double lowest_first = 1e300, highest_second = -1e300;  // at the start
+  double lowest_first_ever = 1e300, highest_second_ever = -1e300;
   double first_sinks = 0, second_rises = 0;                    // by how much, at most
   bool first_moves = false, second_moves = false;              // can be shortened
   double first_fixed_low = 1e300, second_fixed_high = -1e300;  // ends of what can't
@@ -38,10 +40,12 @@ Heights heights_of(const PairStencil& pair, const Vec3d& normal, const Record* p
     h.end[i] = dot(normal, end_of(x, d, 1, origin));
     if (i < pair.first_side) {
       h.lowest_first = std::min(h.lowest_first, h.start[i]);
+      h.lowest_first_ever = std::min(h.lowest_first_ever, std::min(h.start[i], h.end[i]));
       h.first_sinks = std::max(h.first_sinks, h.start[i] - h.end[i]);
       if (!(x.w > 0)) h.first_fixed_low = std::min(h.first_fixed_low, std::min(h.start[i], h.end[i]));
     } else {
       h.highest_second = std::max(h.highest_second, h.start[i]);
+      h.highest_second_ever = std::max(h.highest_second_ever, std::max(h.start[i], h.end[i]));
       h.second_rises = std::max(h.second_rises, h.end[i] - h.start[i]);
       if (!(x.w > 0)) h.second_fixed_high = std::max(h.second_fixed_high, std::max(h.start[i], h.end[i]));
     }
@@ -57,7 +61,8 @@ Separation plan_separation(const PairStencil& pair, const PairDistance& at, cons
   const double gap = h.lowest_first - h.highest_second;
   if (!(gap > 0)) return Separation::hopeless;
   const double thickness = std::min(least, largest_slab * gap), half = 0.5 * thickness;
-  if (h.lowest_first - h.first_sinks - (h.highest_second + h.second_rises) >= thickness) return Separation::free;
+  // Up to rounding, so that moves shortened to a slab are free of another.
+  if (h.lowest_first_ever - h.highest_second_ever >= thickness * (1 - 1e-9)) return Separation::free;
   // The plane lies where both sides' moves meet, but leaves half a slab to either.
   const double moves = h.first_sinks + h.second_rises;
   double share = std::clamp(moves > 0 ? h.second_rises / moves : 0.5, nearest_to_a_side, 1 - nearest_to_a_side);
@@ -67,15 +72,18 @@ Separation plan_separation(const PairStencil& pair, const PairDistance& at, cons
   middle = std::min(middle, h.first_fixed_low - half);
   middle = std::max(middle, h.second_fixed_high + half);
   slab = {pair, at.normal, middle + half, middle - half};
+  // What lies on its limit but for the rounding of sums lies within it.
+  const double slop = 1e-14 * (std::abs(middle) + std::abs(h.lowest_first) + std::abs(h.highest_second) + half);
   bool hopeless = false;
   for (int i = 0; i < 4; ++i) {
     const bool first = i < pair.first_side;
     const double limit = first ? slab.above : slab.below, start = h.start[i], end = h.end[i];
     shares[i] = 1;
     if (first ? end >= limit : end <= limit) continue;
-    const bool inside = first ? start >= limit : start <= limit;
     const bool fixed = !(positions[pair.vertex[i]].w > 0);
-    hopeless = hopeless || !inside || fixed;
+    const double beyond = first ? limit - (fixed ? end : start) : (fixed ? end : start) - limit;
+    const bool inside = beyond <= slop;
+    hopeless = hopeless || !inside;
     if (fixed) continue;
     // Rounded down, and a little more: the product is rounded again when it is made.
     shares[i] = inside ? std::max(0.f, static_cast<float>((start - limit) / (start - end) * (1 - 1e-6)) - 1e-7f) : 0.f;

@@ -1,0 +1,356 @@
+// The pair system against brute force: in every substep of random moving soups its contacts are those of all pairs, a system
+// that has just been made does the same to the bit, and after the filter nothing crosses.
+#include "collision/pairs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <random>
+
+#include "math/vector.h"
+#include "pliant/mesh.h"
+
+namespace pliant {
+namespace {
+
+using Random = std::mt19937_64;
+
+double uniform(Random& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+Vec3d random_vector(Random& random, double range) {
+  const double x = uniform(random, -range, range), y = uniform(random, -range, range), z = uniform(random, -range, range);
+  return {x, y, z};
+}
+
+struct Body {
+  TriangleMesh mesh;
+  bool movable = true, meets_itself = true;
+  float thickness = 0.02f;  ///< of either side of a pair with it
+  Vec3d velocity{};         ///< of all of it [m/s]
+};
+
+TriangleMesh sheet(int n, double size, const Vec3d& at) {
+  TriangleMesh mesh = grid_mesh(n, n, static_cast<float>(size), static_cast<float>(size));
+  for (Vec3f& p : mesh.positions) p = p + convert<float>(at);
+  return mesh;
+}
+
+/// Nine vertices of one body each, and what begins at them.
+void cluster(PairModel& model) {
+  int size = 0;
+  for (std::size_t v = 0; v < model.rest.size(); ++v) {
+    if (v == 0 || size == 9 || model.vertex_body[v] != model.vertex_body[v - 1]) {
+      model.cluster_body.push_back(model.vertex_body[v]);
+      ++model.clusters;
+      size = 0;
+    }
+    model.vertex_cluster.push_back(model.clusters - 1);
+    ++size;
+  }
+  for (const Triangle& t : model.elements.triangles) model.triangle_cluster.push_back(model.vertex_cluster[t[0]]);
+  for (const auto& edge : model.elements.edges) model.edge_cluster.push_back(model.vertex_cluster[edge[0]]);
+}
+
+PairModel model_of(const std::vector<Body>& bodies, bool filter) {
+  PairModel model;
+  model.bodies = static_cast<int>(bodies.size());
+  model.filter = filter;
+  std::vector<Triangle> triangles;
+  double edges = 0;
+  for (const Body& body : bodies) {
+    const int first = static_cast<int>(model.rest.size()), number = static_cast<int>(&body - bodies.data());
+    for (const Vec3f& p : body.mesh.positions) {
+      model.rest.push_back({p.x, p.y, p.z, body.movable ? 1.f : 0.f});
+      model.vertex_body.push_back(number);
+    }
+    for (const auto& t : body.mesh.triangles) triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  for (const Body& a : bodies)
+    for (const Body& b : bodies) {
+      model.meets.push_back(&a == &b ? a.meets_itself : a.movable || b.movable);
+      model.materials.push_back({a.thickness + b.thickness, 0.4f, 0.3f});
+      if (model.meets.back() != 0) model.largest_thickness = std::max(model.largest_thickness, a.thickness + b.thickness);
+    }
+  model.elements = make_contact_elements(triangles, {}, {}, static_cast<int>(model.rest.size()));
+  cluster(model);
+  for (const auto& [a, b] : model.elements.edges) {
+    const Record &p = model.rest[a], &q = model.rest[b];
+    edges += double(length(Vec3f{p.x - q.x, p.y - q.y, p.z - q.z})) / static_cast<double>(model.elements.edges.size());
+  }
+  model.elements.body = model.vertex_body;
+  model.elements.bodies = model.bodies;
+  model.elements.meets = model.meets;
+  model.radius = model.largest_thickness + 0.5f * static_cast<float>(edges);
+  return model;
+}
+
+std::vector<PairStencil> all_pairs(const PairModel& model) {
+  std::vector<PairStencil> pairs;
+  const auto meet = [&](int a, int b) {
+    return model.meets[static_cast<std::size_t>(model.vertex_body[a]) * model.bodies + model.vertex_body[b]] != 0;
+  };
+  for (const int v : model.elements.vertices)
+    for (const Triangle& t : model.elements.triangles)
+      if (v != t[0] && v != t[1] && v != t[2] && meet(v, t[0])) pairs.push_back({{v, t[0], t[1], t[2]}, 1});
+  const auto& edges = model.elements.edges;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    for (std::size_t k = i + 1; k < edges.size(); ++k) {
+      const auto [a, b] = edges[i];
+      const auto [c, d] = edges[k];
+      if (a != c && a != d && b != c && b != d && meet(a, c)) pairs.push_back({{a, b, c, d}, 2});
+    }
+  return pairs;
+}
+
+/// Bodies that move as told: what World does with particles, without constraints.
+class Soup {
+ public:
+  Soup(const std::vector<Body>& bodies, bool filter = true)
+      : bodies_(bodies),
+        model_(model_of(bodies, filter)),
+        pairs_(all_pairs(model_)),
+        system_(model_),
+        positions_(model_.rest),
+        remainders_(positions_.size()),
+        displacements_(positions_.size()),
+        velocities_(positions_.size()),
+        intersections_(model_.elements.triangles, model_.elements.vertex_count) {
+    for (std::size_t i = 0; i < velocities_.size(); ++i) velocities_[i] = bodies_[model_.vertex_body[i]].velocity;
+  }
+
+  /// A substep: predict, find, project, filter, update; all is checked on the way.
+  void step(Random& random, double jitter, float ahead) {
+    for (std::size_t i = 0; i < positions_.size(); ++i) {
+      if (positions_[i].w > 0) velocities_[i] += random_vector(random, jitter);
+      const Vec3d d =
+          velocities_[i] * h + Vec3d{double(remainders_[i].x), double(remainders_[i].y), double(remainders_[i].z)};
+      displacements_[i] = {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z), 0};
+    }
+    if (first_) system_.begin_frame(positions_.data(), true);
+    first_ = false;
+    const std::vector<Record> predicted = displacements_;
+    const PairParticles particles{positions_.data(), remainders_.data(), displacements_.data(), static_cast<float>(h),
+                                  ahead};
+    system_.detect(executor_, particles);
+    check_contacts();
+    most_contacts = std::max(most_contacts, system_.contacts().size());
+    system_.project(particles);
+    // As constraints would: something else moves them, too.
+    for (std::size_t i = 0; i < positions_.size(); ++i)
+      if (positions_[i].w > 0 && random() % 4 == 0) disturb(displacements_[i], random_vector(random, 4 * jitter * h));
+    const std::vector<Record> solved = displacements_;
+    system_.filter(executor_, particles);
+    check_against_a_new_system(predicted, solved);
+    check_distances();
+    update();
+  }
+
+  std::size_t crossings() {
+    std::vector<Vec3f> places;
+    for (const Record& r : positions_) places.push_back({r.x, r.y, r.z});
+    std::size_t count = 0;
+    for (const Intersection& found : intersections_.find(places)) {
+      const int a = model_.vertex_body[found.a], b = model_.vertex_body[model_.elements.triangles[found.triangle][0]];
+      count += model_.meets[static_cast<std::size_t>(a) * model_.bodies + b] != 0 ? 1 : 0;
+    }
+    return count;
+  }
+
+  const PairCounts& counts() const { return system_.counts(); }
+  void push(int vertex, const Vec3d& velocity) { velocities_[vertex] = velocity; }
+  Vec3d place(int vertex) const {
+    return {double(positions_[vertex].x), double(positions_[vertex].y), double(positions_[vertex].z)};
+  }
+
+  static constexpr double h = 1. / 1200;
+  std::size_t most_contacts = 0;
+
+ private:
+  static void disturb(Record& d, const Vec3d& by) {
+    d = {d.x + static_cast<float>(by.x), d.y + static_cast<float>(by.y), d.z + static_cast<float>(by.z), 0};
+  }
+
+  const PairMaterial& material(const PairStencil& pair) const {
+    const int a = model_.vertex_body[pair.vertex[0]], b = model_.vertex_body[pair.vertex[3]];
+    return model_.materials[static_cast<std::size_t>(a) * model_.bodies + b];
+  }
+
+  float thickness(const PairStencil& pair) const {
+    const double rest = 0.9 * pair_distance(pair, model_.rest.data()).distance;
+    return std::min(material(pair).thickness, static_cast<float>(rest));
+  }
+
+  /// Every pair that is nearer than its thickness, or will be if all moves as predicted, is a contact; each once, in order.
+  void check_contacts() {
+    using Key = std::array<std::int32_t, 4>;
+    // A vertex and a triangle may have the same four as two edges.
+    std::map<Key, int> found, wanted;
+    for (const PairContact& contact : system_.contacts()) ASSERT_LE(++found[contact.vertex], 2) << "twice";
+    for (const PairStencil& pair : pairs_) {
+      Record ends[4], starts[4];
+      for (int i = 0; i < 4; ++i) {
+        const Record &x = starts[i] = positions_[pair.vertex[i]], &d = displacements_[pair.vertex[i]];
+        ends[i] = {x.x + d.x, x.y + d.y, x.z + d.z, x.w};
+      }
+      const PairStencil own{{0, 1, 2, 3}, pair.first_side};
+      const double kept = double(thickness(pair)) * (1 - 1e-4);
+      const double now = pair_distance(own, starts).distance, then = pair_distance(own, ends).distance;
+      const bool near = now > 1e-6 && std::min(now, then) < kept;
+      wanted[pair.vertex] += near ? 1 : 0;
+      ASSERT_TRUE(!near || found[pair.vertex] >= wanted[pair.vertex])
+          << "a pair at " << now << ", then " << then << ", is no contact";
+    }
+  }
+
+  void check_against_a_new_system(const std::vector<Record>& predicted, const std::vector<Record>& solved) {
+    PairSystem fresh(model_);
+    fresh.begin_frame(positions_.data(), true);
+    std::vector<Record> moved = predicted;
+    const PairParticles particles{positions_.data(), remainders_.data(), moved.data(), static_cast<float>(h), 1};
+    fresh.detect(executor_, particles);
+    ASSERT_EQ(fresh.contacts().size(), system_.contacts().size());
+    for (std::size_t i = 0; i < fresh.contacts().size(); ++i)
+      ASSERT_EQ(fresh.contacts()[i].vertex, system_.contacts()[i].vertex) << "in the same order";
+    moved = solved;
+    fresh.filter(executor_, particles);
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      ASSERT_TRUE(moved[i].x == displacements_[i].x && moved[i].y == displacements_[i].y &&
+                  moved[i].z == displacements_[i].z)
+          << "particle " << i;
+  }
+
+  /// What no pair comes nearer than: min(least, 0.98 of the last distance).
+  void check_distances() {
+    if (!model_.filter || system_.counts().hopeless > 0) return;
+    for (const PairStencil& pair : pairs_) {
+      Record starts[4], ends[4];
+      for (int i = 0; i < 4; ++i) {
+        const Record &x = starts[i] = positions_[pair.vertex[i]], &d = displacements_[pair.vertex[i]];
+        ends[i] = {x.x + d.x, x.y + d.y, x.z + d.z, x.w};
+      }
+      const PairStencil own{{0, 1, 2, 3}, pair.first_side};
+      const double now = pair_distance(own, starts).distance, least = 0.05 * double(material(pair).thickness);
+      if (now > 1e-4) {
+        ASSERT_GE(pair_distance(own, ends).distance, std::min(least, 0.98 * now) * (1 - 1e-4)) << "from " << now;
+      }
+    }
+  }
+
+  void update() {
+    for (std::size_t i = 0; i < positions_.size(); ++i) {
+      Record &x = positions_[i], &d = displacements_[i], &r = remainders_[i];
+      velocities_[i] = Vec3d{double(d.x) - double(r.x), double(d.y) - double(r.y), double(d.z) - double(r.z)} * (1 / h);
+      const Record end{x.x + d.x, x.y + d.y, x.z + d.z, x.w};
+      r = {d.x - (end.x - x.x), d.y - (end.y - x.y), d.z - (end.z - x.z), 0};
+      x = end;
+    }
+  }
+
+  std::vector<Body> bodies_;
+  PairModel model_;
+  std::vector<PairStencil> pairs_;
+  PairSystem system_;
+  Executor executor_{1};
+  bool first_ = true;
+  std::vector<Record> positions_, remainders_, displacements_;
+  std::vector<Vec3d> velocities_;
+  IntersectionFinder intersections_;
+};
+
+struct Way {
+  const char* name;
+  double jitter;  ///< change of each velocity in a substep, at most [m/s]
+  Vec3d carried;  ///< velocity of all [m/s]
+  Vec3d at;
+  int bodies;
+  double approach;  ///< of the bodies [m/s]
+  bool immovable;   ///< the lowest, which moves all the same
+};
+void PrintTo(const Way& motion, std::ostream* out) { *out << motion.name; }
+
+std::vector<Body> bodies_of(const Way& motion) {
+  std::vector<Body> bodies;
+  for (int b = 0; b < motion.bodies; ++b) {
+    Body body;
+    body.mesh = sheet(6, 0.5, motion.at + Vec3d{0.013 * b, 0.12 * b, 0.017 * b});
+    body.velocity = motion.carried + Vec3d{0, -motion.approach * b, 0};
+    body.movable = !(motion.immovable && b == 0);
+    body.meets_itself = body.movable;
+    if (!body.movable) body.velocity = motion.carried + Vec3d{0, motion.approach, 0};
+    bodies.push_back(body);
+  }
+  return bodies;
+}
+
+class PairsOf : public testing::TestWithParam<Way> {};
+INSTANTIATE_TEST_SUITE_P(
+    Motions, PairsOf,
+    testing::Values(
+        Way{"slow", 0.3, {}, {}, 1, 0, false}, Way{"fast", 20, {}, {}, 1, 0, false},
+        Way{"many_edge_lengths", 1000, {}, {}, 1, 0, false}, Way{"free_flight", 0.5, {80, -60, 30}, {}, 1, 0, false},
+        Way{"two", 0.1, {}, {}, 2, 2, false}, Way{"two_fast", 3, {}, {-7, -3, -5}, 2, 100, false},
+        Way{"three_in_flight", 0.3, {-40, 50, 10}, {}, 3, 3, false}, Way{"immovable", 0.2, {}, {}, 2, 3, true},
+        Way{"immovable_fast", 1, {0, 20, 0}, {}, 3, 20, true}, Way{"into_one_another", 20, {}, {}, 3, 200, false},
+        Way{"in_flight_into_one_another", 100, {0, 300, 0}, {}, 3, 100, false},
+        Way{"far", 0.5, {}, {1e4, -1e4, 1e4}, 2, 3, false}, Way{"far_head_on", 0, {}, {0, 1e4, 0}, 2, 0.6, false},
+        Way{"negative", 2, {}, {-30, -20, -40}, 2, 3, false}, Way{"head_on", 0, {}, {50, 50, 50}, 2, 4.0113, false}),
+    [](const auto& named) { return named.param.name; });
+
+TEST_P(PairsOf, AreThoseOfBruteForceAndNothingCrosses) {
+  for (std::uint64_t seed = 1; seed <= (GetParam().bodies < 3 && GetParam().jitter > 0 ? 2u : 1u); ++seed) {
+    Random random(seed);
+    Soup soup(bodies_of(GetParam()));
+    ASSERT_EQ(soup.crossings(), 0u);
+    const int substeps = GetParam().at.y == 1e4 ? 200 : 40;  // half a rounding of the positions in each
+    for (int substep = 0; substep < substeps && soup.counts().hopeless == 0 && !HasFatalFailure(); ++substep) {
+      soup.step(random, GetParam().jitter, static_cast<float>(1 + substep % 20));
+      // What nothing pushes may overrun what lies between it and another; nobody else may.
+      ASSERT_TRUE(GetParam().immovable || soup.counts().hopeless == 0);
+      const bool flat = GetParam().jitter == 0;  // so that exact signs are those of zeros, and slow
+      if (soup.counts().hopeless == 0 && (!flat || substep == substeps - 1)) {
+        ASSERT_EQ(soup.crossings(), 0u) << "seed " << seed << ", substep " << substep;
+      }
+    }
+    EXPECT_TRUE(GetParam().jitter == 0 || soup.most_contacts > 0);
+  }
+}
+
+TEST(Pairs, CrossWithoutTheFilter) {
+  Random random(1);
+  Soup soup(bodies_of({"", 300, {}, {}, 2, 0, false}), false);
+  std::size_t most = 0;
+  for (int substep = 0; substep < 10 && most == 0 && !testing::Test::HasFatalFailure(); ++substep) {
+    soup.step(random, 300, 1);
+    most = std::max(most, soup.crossings());
+  }
+  EXPECT_GT(most, 0u);
+}
+
+TEST(Pairs, OutliveWhatIsNotFinite) {
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 3e38f}) {
+    const PairModel model = model_of(bodies_of({"", 0, {}, {}, 2, 0, false}), true);
+    PairSystem system(model);
+    Executor executor(1);
+    std::vector<Record> positions = model.rest, remainders(positions.size()), displacements(positions.size());
+    const PairParticles particles{positions.data(), remainders.data(), displacements.data(), 1e-3f, 1};
+    system.begin_frame(positions.data(), true);
+    for (const bool spoilt : {true, false, true, false}) {
+      displacements.assign(positions.size(), Record{0, -0.01f, 0, 0});
+      if (spoilt) displacements[7] = {0, bad, 0, 0};
+      system.detect(executor, particles);
+      system.project(particles);
+      system.filter(executor, particles);
+      if (!spoilt) {
+        for (const Record& d : displacements) ASSERT_TRUE(std::isfinite(d.y));
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pliant
