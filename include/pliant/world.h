@@ -103,9 +103,10 @@ struct PairReport {
   std::int64_t candidates = 0;  ///< vertex-triangle and edge-edge pairs looked at when lists were last made
   std::int64_t contacts = 0;    ///< that pushed in the last substep
   std::int64_t shortened = 0;   ///< moves that the filter shortened so that nothing crossed, over all substeps
-  std::int64_t hopeless = 0;    ///< pairs that no shortening keeps apart: two things that nothing pushes pinch what is between
-  std::int64_t tangled = 0;     ///< edges that cross a triangle since the beginning: exempt until they are apart
-  std::int64_t lists = 0;       ///< times that candidates were looked for
+  std::int64_t hopeless =
+      0;                     ///< pairs that no shortening keeps apart: two things that nothing pushes pinch what is between
+  std::int64_t tangled = 0;  ///< edges that cross a triangle since the beginning: exempt until they are apart
+  std::int64_t lists = 0;    ///< times that candidates were looked for
 };
 
 /// What a step has to say. A step never throws, but lets through what a force field of the user's throws.
@@ -114,7 +115,7 @@ struct Report {
   double time = 0;
   double milliseconds = 0;
   std::vector<PhaseTime> phases;
-  std::int64_t contacts = 0;                   ///< active in the last substep
+  std::int64_t contacts = 0;  ///< active in the last substep
   PairReport pairs;
   std::vector<Residual> residuals;             ///< where Settings::measure
   std::optional<Stretch> stretch;              ///< where Settings::measure
@@ -171,6 +172,8 @@ class World {
   /// Where a collider is now.
   Vec3f collider_position(int collider) const;
   Quatf collider_rotation(int collider) const;
+  /// Where the vertices of a mesh collider are now, in its own numbering [m]. Throws Error where there is no such collider.
+  std::vector<Vec3f> mesh_collider_positions(int collider) const;
 
   /// Multipliers of the last substep in the order of the object's constraint groups of that type; empty where they were not
   /// kept. The force is lambda / h^2 along the gradient (XPBD, eq. 17).

@@ -502,7 +502,11 @@ void PairSystem::filter(Executor& executor, const PairParticles& particles) {
 void PairSystem::find_tangles(const Record* positions) {
   std::vector<Vec3f> places(model_.rest.size());
   for (std::size_t i = 0; i < places.size(); ++i) places[i] = {positions[i].x, positions[i].y, positions[i].z};
-  tangles_ = intersections_.find(places);
+  tangles_.clear();
+  for (const Intersection& found : intersections_.find(places)) {
+    const int a = model_.vertex_body[found.a], b = model_.vertex_body[model_.elements.triangles[found.triangle][0]];
+    if (model_.meets[static_cast<std::size_t>(a) * model_.bodies + b] != 0) tangles_.push_back(found);
+  }
   tangled_pairs_.clear();
   tangled_edges_.clear();
   const auto edge_number = [&](int a, int b) {
@@ -511,13 +515,10 @@ void PairSystem::find_tangles(const Record* positions) {
     const auto at = std::lower_bound(edges.begin(), edges.end(), edge);
     return at != edges.end() && *at == edge ? static_cast<int>(at - edges.begin()) : -1;
   };
-  counts_.tangled = 0;
+  counts_.tangled = static_cast<std::int64_t>(tangles_.size());
   const IntLists around = tangles_.empty() ? IntLists{} : triangles_around(model_.elements);
   for (const Intersection& tangle : tangles_) {
     const Triangle& t = model_.elements.triangles[tangle.triangle];
-    const int a = model_.vertex_body[tangle.a], b = model_.vertex_body[t[0]];
-    if (model_.meets[static_cast<std::size_t>(a) * model_.bodies + b] == 0) continue;
-    ++counts_.tangled;
     tangled_pairs_.push_back(key_of(tangle.a, tangle.triangle));
     tangled_pairs_.push_back(key_of(tangle.b, tangle.triangle));
     const int crossing = edge_number(tangle.a, tangle.b);

@@ -74,6 +74,9 @@ class PairSystem {
 
   const PairCounts& counts() const { return counts_; }
   const std::vector<PairContact>& contacts() const { return contacts_; }
+  /// Edges and triangles that pass through one another though they are not meant to: left out until they are apart.
+  const std::vector<Intersection>& tangles() const { return tangles_; }
+  const Triangle& triangle(int number) const { return model_.elements.triangles[number]; }
 
  private:
   struct Pair {

@@ -253,14 +253,17 @@ void fill_volume(const Object& object, int passes, CompiledObject& out) {
   }
 }
 
-/// What an object without a surface is made of, as contacts see it.
-std::vector<std::array<int, 2>> lines_of(const std::vector<ConstraintList>& lists) {
+/// What an object without a surface is made of, as contacts see it: its first group of distances. In a rope those are its links;
+/// a later group is bending, whose lines lie on the links themselves and would never be apart from them.
+std::vector<std::array<int, 2>> lines_of(const Object& object, const std::vector<int>& place) {
   std::vector<std::array<int, 2>> lines;
-  for (const ConstraintList& list : lists)
-    for (int i = 0; list.size == 2 && i < list.count(); ++i)
-      if (list.rest[static_cast<std::size_t>(i) * list.fields] > 0)
-        lines.push_back(
-            {list.stencils[2 * static_cast<std::size_t>(i)], list.stencils[2 * static_cast<std::size_t>(i) + 1]});
+  const auto group = std::find_if(object.constraints.begin(), object.constraints.end(),
+                                  [](const ConstraintGroup& one) { return one.type == "distance"; });
+  if (group == object.constraints.end()) return lines;
+  for (std::size_t i = 0; i + 1 < group->particles.size(); i += 2) {
+    const int a = group->particles[i], b = group->particles[i + 1];
+    if (length_squared(object.positions[a] - object.positions[b]) > 0) lines.push_back({place[a], place[b]});
+  }
   return lines;
 }
 
@@ -287,7 +290,7 @@ CompiledObject compile(const Object& object, const CompileOptions& options) {
   if (options.multigrid) out.multigrid = build_multigrid(lists, out.positions, options.gravity);
   fill_volume(object, options.passes, out);
 
-  if (object.triangles.empty()) out.lines = lines_of(lists);
+  if (object.triangles.empty()) out.lines = lines_of(object, out.place);
   out.self_collision = object.self_collision;
   out.collides = object.collides;
   out.groups = object.groups;

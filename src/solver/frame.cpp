@@ -5,6 +5,7 @@
 #include "math/motion.h"
 #include "solver/diagnose.h"
 #include "solver/forces.h"
+#include "solver/pair_words.h"
 #include "solver/sweeps/chains.h"
 #include "solver/sweeps/sweep.h"
 #include "solver/volume.h"
@@ -271,6 +272,7 @@ void Frame::end() {
   if (has_pairs()) {
     const PairCounts& c = work_.pairs->counts();
     report_.pairs = {c.candidates, c.contacts, c.shortened, c.hopeless, c.tangled, c.rebuilds};
+    warn_of_pairs(model_, *work_.pairs, report_.warnings);
   }
   state_.time = start_ + dt_;
 }

@@ -106,6 +106,7 @@ void check_collider(Problems& problems, const Collider& collider) {
 void check_count(Problems& problems, const Scene& scene) {
   std::size_t particles = 0;
   for (const Object& object : scene.objects) particles += object.positions.size() + object.attachments.size();
+  for (const MeshCollider& collider : scene.mesh_colliders) particles += collider.mesh.positions.size();
   if (particles > std::numeric_limits<int>::max() / 4)
     problems.grave("", std::to_string(particles) + " particles are more than can be numbered", "make the scene smaller");
 }
@@ -166,6 +167,10 @@ void look_through(Problems& problems, const Scene& scene) {
     problems.at(collider.name);
     check_collider(problems, collider);
   }
+  for (const MeshCollider& collider : scene.mesh_colliders) {
+    problems.at(collider.name);
+    check_mesh_collider(problems, collider);
+  }
   const bool surroundings_are_sound = problems.grave_count() == 0;
   for (const Object& object : scene.objects) {
     problems.at(object.name);
@@ -180,6 +185,7 @@ void look_through(Problems& problems, const Scene& scene) {
   doubt_settings(problems, scene);
   doubt_tolerance(problems, scene);
   doubt_names(problems, scene);
+  if (problems.grave_count() == 0) doubt_contact(problems, scene);
 }
 
 }  // namespace

@@ -75,4 +75,9 @@ void check_object(Problems& problems, const Object& object);
 /// What else is worth knowing about an object that nothing is grave in.
 void doubt_object(Problems& problems, const Object& object, const Scene& scene);
 
+/// Everything about a mesh collider that a World would refuse.
+void check_mesh_collider(Problems& problems, const MeshCollider& collider);
+/// What else is worth knowing about contact among what moves, in a scene that nothing is grave in.
+void doubt_contact(Problems& problems, const Scene& scene);
+
 }  // namespace pliant

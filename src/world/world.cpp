@@ -95,7 +95,13 @@ struct World::Implementation {
   }
 
   std::vector<Vec3f> in_user_order(int index, const Records& records) const {
-    const CompiledObject& from = object(index);
+    (void)object(index);  // throws where there is none
+    return in_given_order(index, records);
+  }
+
+  /// Of objects and mesh colliders alike, which follow them.
+  std::vector<Vec3f> in_given_order(int index, const Records& records) const {
+    const CompiledObject& from = model.objects[index];
     std::vector<Vec3f> out(from.user_particles);
     for (int user = 0; user < from.user_particles; ++user) {
       const Record& r = records[static_cast<std::size_t>(model.first[index]) + from.place[user]];
@@ -236,6 +242,14 @@ TriangleMesh World::mesh(int object) const {
 
 Vec3f World::collider_position(int collider) const { return self_->collider_pose_now(collider).position; }
 Quatf World::collider_rotation(int collider) const { return self_->collider_pose_now(collider).rotation; }
+
+std::vector<Vec3f> World::mesh_collider_positions(int collider) const {
+  const int first = self_->model.user_objects, last = static_cast<int>(self_->model.objects.size());
+  if (collider < 0 || collider >= last - first) {
+    throw Error({}, "there is no mesh collider " + std::to_string(collider), "use an index that Scene::add returned");
+  }
+  return self_->in_given_order(first + collider, self_->state.positions);
+}
 
 std::vector<float> World::multipliers(int object, const std::string& type) const {
   const CompiledObject& from = self_->object(object);

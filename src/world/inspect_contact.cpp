@@ -1,0 +1,185 @@
+// What there is to say about contact among what moves and with meshes: mesh colliders that can't be, thickness that is too
+// much for a mesh, and what passes through what before anything has moved.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "collision/intersections.h"
+#include "world/problems.h"
+
+namespace pliant {
+
+namespace {
+
+std::string counted(std::size_t count, const char* noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+// ------------------------------------------------------------------------------------------------ mesh colliders
+
+void check_mesh(Problems& problems, const TriangleMesh& mesh) {
+  if (mesh.triangles.empty()) problems.grave("mesh", "has no triangles", "give a mesh with faces, or leave it out");
+  if (mesh.positions.size() > std::numeric_limits<int>::max() / 4)
+    problems.grave("mesh", "has " + std::to_string(mesh.positions.size()) + " vertices",
+                   "make it coarser: so many can't be numbered");
+  Tally not_places, outside, repeated;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    if (!is_place(mesh.positions[i])) not_places.add(static_cast<std::int64_t>(i));
+  const auto exists = [&](int corner) { return corner >= 0 && corner < static_cast<int>(mesh.positions.size()); };
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& [a, b, c] = mesh.triangles[i];
+    if (!exists(a) || !exists(b) || !exists(c))
+      outside.add(static_cast<std::int64_t>(i));
+    else if (a == b || b == c || c == a)
+      repeated.add(static_cast<std::int64_t>(i));
+  }
+  problems.grave(not_places, "vertex", "has a position that is not finite or more than 1e9 m away",
+                 "give finite coordinates in metres, near the origin");
+  problems.grave(outside, "triangle",
+                 "uses a vertex that does not exist; there are " + std::to_string(mesh.positions.size()),
+                 "indices count from 0");
+  problems.grave(repeated, "triangle", "uses a vertex twice", "drop it, as read_mesh does");
+}
+
+// ------------------------------------------------------------------------------------------------ thickness
+
+double distance_of(const std::vector<Vec3f>& positions, int a, int b) {
+  const Vec3f &p = positions[static_cast<std::size_t>(a)], &q = positions[static_cast<std::size_t>(b)];
+  return std::sqrt(static_cast<double>(length_squared(q - p)));
+}
+
+/// Of the surface, or of the links where there is none; 0 where there are neither.
+double median_edge(const Object& object) {
+  std::vector<double> lengths;
+  for (const auto& t : object.triangles)
+    for (std::size_t k = 0; k < 3; ++k) lengths.push_back(distance_of(object.positions, t[k], t[(k + 1) % 3]));
+  const auto links = std::find_if(object.constraints.begin(), object.constraints.end(),
+                                  [](const ConstraintGroup& group) { return group.type == "distance"; });
+  if (object.triangles.empty() && links != object.constraints.end())
+    for (std::size_t i = 0; i + 1 < links->particles.size(); i += 2)
+      lengths.push_back(distance_of(object.positions, links->particles[i], links->particles[i + 1]));
+  if (lengths.empty()) return 0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+void doubt_thickness(Problems& problems, const Object& object) {
+  if (!object.self_collision && !object.collides) return;
+  const double edge = median_edge(object), kept = 2 * static_cast<double>(object.thickness);
+  if (edge == 0)
+    return problems.doubtful("", "has neither triangles nor links, so it can't touch what moves",
+                             "leave out self_collision and collides: particles alone meet primitive colliders only");
+  if (kept > edge)
+    problems.doubtful("thickness",
+                      "is " + words(object.thickness) +
+                          " m: two layers keep twice that apart, more than the median edge, " + words(edge) + " m",
+                      "folds will be pushed open: give less, or a coarser mesh");
+  if (object.thickness == 0)
+    problems.doubtful("thickness", "is 0: layers would rest on the last distance that the filter keeps",
+                      "give about a tenth of an edge");
+}
+
+// ------------------------------------------------------------------------------------------------ tangles
+
+/// What takes part in contact, in one numbering: all objects, then all mesh colliders.
+struct Surfaces {
+  struct Part {
+    std::string name;
+    bool self, collides, is_collider;
+    std::uint32_t groups, mask;
+    int first;
+  };
+  std::vector<Part> parts;
+  std::vector<Vec3f> positions;
+  std::vector<Triangle> triangles;
+
+  void add(const Part& part, const std::vector<Vec3f>& places, const std::vector<std::array<int, 3>>& faces) {
+    parts.push_back(part);
+    const int first = parts.back().first = static_cast<int>(positions.size());
+    positions.insert(positions.end(), places.begin(), places.end());
+    for (const auto& [a, b, c] : faces) triangles.push_back({first + a, first + b, first + c});
+  }
+  int part_of(int vertex) const {
+    const auto after =
+        std::upper_bound(parts.begin(), parts.end(), vertex, [](int v, const Part& part) { return v < part.first; });
+    return static_cast<int>(after - parts.begin()) - 1;
+  }
+  /// As collision/pair_model.cpp decides.
+  bool meet(int a, int b) const {
+    const Part &p = parts[a], &q = parts[b];
+    if (a == b) return p.self;
+    const bool masks = (p.groups & q.mask) != 0 && (q.groups & p.mask) != 0;
+    return masks && !(p.is_collider && q.is_collider) && ((p.collides && q.collides) || p.is_collider || q.is_collider);
+  }
+  std::string name(int part) const {
+    return (parts[part].is_collider ? "collider '" : "object '") + parts[part].name + "'";
+  }
+  std::string local(int vertex) const { return std::to_string(vertex - parts[part_of(vertex)].first); }
+};
+
+Surfaces surfaces_of(const Scene& scene) {
+  Surfaces all;
+  for (const Object& o : scene.objects)
+    all.add({o.name, o.self_collision, o.collides, false, o.groups, o.mask, 0}, o.positions, o.triangles);
+  for (const MeshCollider& c : scene.mesh_colliders)
+    all.add({c.name, false, true, true, c.groups, c.mask, 0}, c.mesh.positions, c.mesh.triangles);
+  return all;
+}
+
+bool any_meet(const Surfaces& all) {
+  const int count = static_cast<int>(all.parts.size());
+  for (int a = 0; a < count; ++a)
+    for (int b = a; b < count; ++b)
+      if (all.meet(a, b)) return true;
+  return false;
+}
+
+void doubt_tangles(Problems& problems, const Scene& scene) {
+  const Surfaces all = surfaces_of(scene);
+  if (all.triangles.empty() || !any_meet(all)) return;
+  IntersectionFinder finder(all.triangles, static_cast<int>(all.positions.size()));
+  std::map<std::pair<int, int>, std::pair<Intersection, std::size_t>> between;
+  for (const Intersection& found : finder.find(all.positions)) {
+    const int a = all.part_of(found.a), b = all.part_of(all.triangles[static_cast<std::size_t>(found.triangle)][0]);
+    if (!all.meet(a, b)) continue;
+    auto& [first, count] = between[{std::min(a, b), std::max(a, b)}];
+    if (count++ == 0) first = found;
+  }
+  for (const auto& [parts, found] : between) {
+    const Intersection& first = found.first;
+    const Triangle& t = all.triangles[static_cast<std::size_t>(first.triangle)];
+    const int a = all.part_of(first.a), b = all.part_of(t[0]);
+    problems.at(all.parts[a].name);
+    problems.doubtful("edge " + all.local(first.a) + "-" + all.local(first.b),
+                      "passes through triangle (" + all.local(t[0]) + ", " + all.local(t[1]) + ", " + all.local(t[2]) +
+                          ") of " + (a == b ? "the same object" : all.name(b)) + " at the start, one of " +
+                          counted(found.second, "crossing"),
+                      "contact leaves them out until they are apart: move one of them, or mend the mesh");
+  }
+}
+
+}  // namespace
+
+void check_mesh_collider(Problems& problems, const MeshCollider& collider) {
+  check_mesh(problems, collider.mesh);
+  check_motion(problems, "motion", collider.motion);
+  require_range(problems, "thickness", collider.thickness, 0, largest_place);
+  check_friction(problems, collider.static_friction, collider.kinetic_friction, 0);
+  if (!is_finite(collider.colour)) problems.grave("colour", "is not finite", "give red, green and blue from 0 to 1");
+}
+
+void doubt_contact(Problems& problems, const Scene& scene) {
+  for (const Object& object : scene.objects) {
+    problems.at(object.name);
+    doubt_thickness(problems, object);
+  }
+  doubt_tangles(problems, scene);
+  problems.at("");
+}
+
+}  // namespace pliant

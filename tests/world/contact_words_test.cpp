@@ -1,0 +1,240 @@
+// What inspect(), a World and its Reports say of contact: mesh colliders that can't be, thickness, tangles.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "pliant/pliant.h"
+
+namespace pliant {
+namespace {
+
+std::string words_of(const Scene& scene) {
+  std::string text;
+  for (const Finding& finding : inspect(scene))
+    text += (finding.grave ? "wrong: " : "doubtful: ") + finding.message + "; " + finding.advice + "\n";
+  return text;
+}
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+Object sheet(const std::string& name, float height, bool upright = false) {
+  TriangleMesh mesh = grid_mesh(5, 5, 1, 1);
+  for (Vec3f& p : mesh.positions) p = upright ? Vec3f{p.x + 0.04f, p.z + height + 0.03f, 0.01f} : Vec3f{p.x, height, p.z};
+  Object object = make_cloth(mesh);
+  object.name = name;
+  object.thickness = 0.01f;
+  object.collides = true;
+  return object;
+}
+
+Scene with_mesh(TriangleMesh mesh) {
+  Scene scene;
+  scene.add(sheet("sheet", 2));
+  MeshCollider collider;
+  collider.name = "rock";
+  collider.mesh = std::move(mesh);
+  scene.add(collider);
+  return scene;
+}
+
+void expect_refused(const Scene& scene, const std::string& part) {
+  const std::string words = words_of(scene);
+  EXPECT_TRUE(says(words, "wrong: object 'rock'")) << words;
+  EXPECT_TRUE(says(words, part)) << words;
+  try {
+    const World world(scene);
+    ADD_FAILURE() << "not refused: " << part;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.where().object, "rock");
+    EXPECT_TRUE(says(error.what(), part)) << error.what();
+  }
+}
+
+TEST(MeshColliders, ThatAreSoundAreTaken) { EXPECT_EQ(words_of(with_mesh(sphere_mesh(1))), ""); }
+
+TEST(MeshColliders, ThatCannotBeAreRefusedByName) {
+  expect_refused(with_mesh({}), "mesh: has no triangles");
+  TriangleMesh mesh = sphere_mesh(0);
+  mesh.positions[5].y = std::numeric_limits<float>::quiet_NaN();
+  expect_refused(with_mesh(mesh), "vertex 5: has a position that is not finite");
+  mesh = sphere_mesh(0);
+  mesh.triangles[7][1] = 12;
+  expect_refused(with_mesh(mesh), "triangle 7: uses a vertex that does not exist; there are 12");
+  mesh.triangles[7][1] = -1;
+  expect_refused(with_mesh(mesh), "triangle 7: uses a vertex that does not exist");
+  mesh.triangles[7][1] = mesh.triangles[7][0];
+  expect_refused(with_mesh(mesh), "triangle 7: uses a vertex twice");
+  Scene scene = with_mesh(sphere_mesh(0));
+  scene.mesh_colliders[0].thickness = -1;
+  expect_refused(scene, "thickness: is -1");
+  scene.mesh_colliders[0].thickness = 0;
+  scene.mesh_colliders[0].static_friction = -1;
+  expect_refused(scene, "static_friction");
+}
+
+TEST(Thickness, BeyondTheMedianEdgeIsDoubted) {
+  Scene scene;
+  scene.add(sheet("sheet", 0));
+  EXPECT_EQ(words_of(scene), "");
+  scene.objects[0].thickness = 0.15f;  // edges of 0.25 and 0.354
+  EXPECT_TRUE(says(words_of(scene),
+                   "object 'sheet', thickness: is 0.15 m: two layers keep twice that apart, more than the "
+                   "median edge, 0.25 m"))
+      << words_of(scene);
+  scene.objects[0].collides = false;
+  EXPECT_FALSE(says(words_of(scene), "two layers")) << "nothing that moves is met";
+  scene.objects[0].collides = true;
+  scene.objects[0].thickness = 0;
+  EXPECT_TRUE(says(words_of(scene), "thickness: is 0:"));
+}
+
+TEST(Thickness, OfRopesIsComparedWithTheirLinks) {
+  Scene scene;
+  RopeOptions options;
+  options.thickness = 0.06f;
+  Object rope = make_rope({{0, 0, 0}, {0.1f, 0, 0}, {0.2f, 0, 0}}, options);
+  rope.self_collision = true;
+  scene.add(rope);
+  EXPECT_TRUE(says(words_of(scene), "more than the median edge, 0.1 m")) << words_of(scene);
+}
+
+TEST(Thickness, WhatHasNeitherTrianglesNorLinksCannotTouch) {
+  Scene scene;
+  Object dust;
+  dust.name = "dust";
+  dust.positions = {{0, 0, 0}, {1, 0, 0}};
+  dust.masses = {1, 1};
+  dust.collides = true;
+  scene.add(dust);
+  EXPECT_TRUE(says(words_of(scene), "object 'dust': has neither triangles nor links")) << words_of(scene);
+}
+
+TEST(Tangles, AreNamedBeforeAnythingMoves) {
+  Scene scene;
+  scene.add(sheet("table", 0));
+  scene.add(sheet("wall", 0, true));
+  const std::string words = words_of(scene);
+  EXPECT_TRUE(says(words, "object 'table', edge ")) << words;
+  EXPECT_TRUE(says(words, ") of object 'wall' at the start, one of ")) << words;
+  EXPECT_EQ(std::count(words.begin(), words.end(), '\n'), 1) << "one finding a pair of objects: " << words;
+  scene.objects[1].collides = false;
+  EXPECT_EQ(words_of(scene), "") << "they do not meet";
+  scene.objects[1].collides = true;
+  scene.objects[1].mask = 2;
+  EXPECT_EQ(words_of(scene), "") << "their masks keep them apart";
+}
+
+/// The names must be right: the edge that is named does pass through the triangle that is named.
+TEST(Tangles, AreNamedInTheReport) {
+  Scene scene;
+  scene.add(sheet("table", 0));
+  scene.add(sheet("wall", 0, true));
+  scene.settings.threads = 1;
+  World world(scene);
+  const Report report = world.step(1.f / 600);
+  EXPECT_GT(report.pairs.tangled, 0);
+  ASSERT_EQ(report.warnings.size(), 1U);
+  const std::string& text = report.warnings[0];
+  EXPECT_TRUE(says(text, "object 'table': edge ") || says(text, "object 'wall': edge ")) << text;
+  EXPECT_TRUE(says(text, "tangled, and left out of contact until they are apart")) << text;
+  int a = 0, b = 0, c = 0, d = 0, e = 0;
+  const std::size_t at = text.find("edge ");
+  ASSERT_EQ(std::sscanf(text.c_str() + at, "edge %d-%d passes through triangle (%d, %d, %d)", &a, &b, &c, &d, &e), 5)
+      << text;
+  const bool first_is_table = text.find("object 'table'") < text.find("object 'wall'");
+  const std::vector<Vec3f>&edges = scene.objects[first_is_table ? 0 : 1].positions,
+        &faces = scene.objects[first_is_table ? 1 : 0].positions;
+  const auto side = [&](int v) {
+    const Vec3f p = faces[c], n = cross(faces[d] - p, faces[e] - p);
+    return dot(n, edges[v] - p);
+  };
+  EXPECT_LT(side(a) * side(b), 0) << text;
+}
+
+TEST(Tangles, WithColliderNameThem) {
+  Scene scene = with_mesh(sphere_mesh(1));
+  for (Vec3f& p : scene.mesh_colliders[0].mesh.positions) p.y += 2;  // radius 1 about the sheet of width 1
+  for (Vec3f& p : scene.objects[0].positions) p = p + Vec3f{0.9f, 0.013f, 0.017f};
+  EXPECT_TRUE(says(words_of(scene), "collider 'rock'") || says(words_of(scene), "object 'rock', edge")) << words_of(scene);
+  World world(scene);
+  const Report report = world.step(1.f / 600);
+  ASSERT_FALSE(report.warnings.empty());
+  EXPECT_TRUE(says(report.warnings[0], "collider 'rock'")) << report.warnings[0];
+}
+
+TEST(Tangles, OfWhatDoesNotMeetAreNone) {
+  Scene scene;
+  scene.add(sheet("table", 0));
+  scene.add(sheet("wall", 0, true));
+  scene.objects[1].collides = false;
+  scene.objects[0].self_collision = true;
+  World world(scene);
+  const Report report = world.step(1.f / 600);
+  EXPECT_EQ(report.pairs.tangled, 0);
+  EXPECT_TRUE(report.warnings.empty());
+}
+
+/// Two walls close on a sheet until there is no room for it.
+TEST(Hopeless, PinchesAreSaid) {
+  Scene scene;
+  scene.gravity = {};
+  scene.add(sheet("sheet", 0));
+  for (const float sign : {-1.f, 1.f}) {
+    MeshCollider wall;
+    wall.name = sign < 0 ? "floor" : "ceiling";
+    wall.mesh = grid_mesh(3, 3, 2, 2);
+    for (Vec3f& p : wall.mesh.positions) p.y = sign * 0.1f;
+    wall.motion.keyframes = {{0, {}, {}}, {0.2f, {0, -sign * 0.12f, 0}, {}}};
+    scene.add(wall);
+  }
+  World world(scene);
+  std::string words;
+  for (int frame = 0; frame < 15; ++frame) {
+    const Report report = world.step(1.f / 60);
+    ASSERT_TRUE(report.ok()) << report.explain();
+    EXPECT_EQ(report.pairs.hopeless > 0, says(report.explain(), "hopeless"));
+    words += report.explain();
+  }
+  EXPECT_TRUE(says(words, "hopeless: they touched")) << words;
+}
+
+/// Bending of a rope is a distance too, but no line that anything could touch.
+TEST(Ropes, DoNotTouchTheirOwnBending) {
+  Scene scene;
+  scene.gravity = {};
+  RopeOptions options;
+  options.bends = true;
+  options.thickness = 0.003f;
+  std::vector<Vec3f> points;
+  for (int i = 0; i < 12; ++i) points.push_back({0.01f * static_cast<float>(i), 0, 0});
+  Object rope = make_rope(points, options);
+  rope.self_collision = true;
+  rope.velocities.assign(points.size(), {0, 1, 0});
+  scene.add(rope);
+  World world(scene);
+  for (int frame = 0; frame < 10; ++frame) {
+    const Report report = world.step(1.f / 60);
+    EXPECT_EQ(report.pairs.contacts, 0);
+    EXPECT_EQ(report.pairs.shortened, 0);
+    EXPECT_EQ(report.pairs.hopeless, 0);
+  }
+}
+
+TEST(MeshColliders, SayWhereTheyAre) {
+  Scene scene = with_mesh(sphere_mesh(1));
+  scene.mesh_colliders[0].motion.keyframes = {{0, {}, {}}, {1, {0, 0, -1}, {}}};
+  World world(scene);
+  EXPECT_EQ(world.mesh_collider_positions(0), scene.mesh_colliders[0].mesh.positions);
+  for (int frame = 0; frame < 30; ++frame) (void)world.step(1.f / 60);
+  const std::vector<Vec3f> moved = world.mesh_collider_positions(0);
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    EXPECT_LE(length_squared(moved[i] - scene.mesh_colliders[0].mesh.positions[i] - Vec3f{0, 0, -0.5f}), 1e-10f) << i;
+  EXPECT_THROW((void)world.mesh_collider_positions(1), Error);
+  EXPECT_THROW((void)world.mesh_collider_positions(-1), Error);
+  EXPECT_EQ(world.object_count(), 1);
+}
+
+}  // namespace
+}  // namespace pliant
