@@ -39,6 +39,7 @@ Settings settings_of(const JsonValue& at) {
   set(at, "substeps", settings.substeps);
   set(at, "iterations", settings.iterations);
   set(at, "threads", settings.threads);
+  set(at, "contact_filter", settings.contact_filter);
   set(at, "measure", settings.measure);
   set(at, "record_multipliers", settings.record_multipliers);
   set(at, "isa", settings.isa);
@@ -111,6 +112,10 @@ void set_attachments(const JsonDocument& document, const JsonValue& at, BuiltObj
 
 void set_properties(const JsonDocument& document, const JsonValue& at, Object& object) {
   set(at, "thickness", object.thickness);
+  set(at, "self_collision", object.self_collision);
+  set(at, "collides", object.collides);
+  set(at, "groups", object.groups);
+  set(at, "mask", object.mask);
   set_friction(document, at, object.static_friction, object.kinetic_friction);
   set(at, "restitution", object.restitution);
   set(at, "drag", object.drag);
@@ -173,6 +178,32 @@ Collider collider_of(const JsonDocument& document, const JsonValue& at, Names& n
   return collider;
 }
 
+[[noreturn]] void fail_too_large(const JsonDocument& document, const JsonValue& at) {
+  document.fail(at, "more than " + std::to_string(largest_scene) + " particles so far", "make it smaller");
+}
+
+/// The mesh is put where `position` and `rotation` say, which a primitive keeps apart.
+MeshCollider mesh_collider_of(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, Names& names,
+                              std::vector<std::string>& repairs) {
+  MeshCollider collider;
+  collider.name = names.of(document, at, "mesh");
+  SceneMesh surface = make_mesh(document, *at.find("mesh"), folder);
+  for (const std::string& repair : surface.repairs) repairs.push_back("collider '" + collider.name + "', " + repair);
+  collider.mesh = std::move(surface.mesh);
+  Vec3f position;
+  Quatf turn;
+  const bool turns = set(document, at, "rotation", turn);
+  set(at, "position", position);
+  for (Vec3f& p : collider.mesh.positions) p = (turns ? rotated(turn, p) : p) + position;
+  set(document, at, "motion", collider.motion);
+  set(at, "thickness", collider.thickness);
+  set_friction(document, at, collider.static_friction, collider.kinetic_friction);
+  set(at, "groups", collider.groups);
+  set(at, "mask", collider.mask);
+  set(at, "colour", collider.colour);
+  return collider;
+}
+
 }  // namespace
 
 SceneFile build(const JsonDocument& document, const MeshFolder& folder) {
@@ -191,11 +222,17 @@ SceneFile build(const JsonDocument& document, const MeshFolder& folder) {
   for (const JsonValue& item : elements(root, "objects")) {
     scene.objects.push_back(object_of(document, item, folder, objects, file.repairs));
     particles += scene.objects.back().positions.size();
-    if (particles > largest_scene)
-      document.fail(item, "more than " + std::to_string(largest_scene) + " particles so far", "make it smaller");
+    if (particles > largest_scene) fail_too_large(document, item);
   }
-  for (const JsonValue& item : elements(root, "colliders"))
-    scene.colliders.push_back(collider_of(document, item, colliders));
+  for (const JsonValue& item : elements(root, "colliders")) {
+    if (item.find("mesh") == nullptr) {
+      scene.colliders.push_back(collider_of(document, item, colliders));
+      continue;
+    }
+    scene.mesh_colliders.push_back(mesh_collider_of(document, item, folder, colliders, file.repairs));
+    particles += scene.mesh_colliders.back().mesh.positions.size();
+    if (particles > largest_scene) fail_too_large(document, item);
+  }
   return file;
 }
 

@@ -4,160 +4,12 @@
 #include <algorithm>
 
 #include "pliant/scene.h"
+#include "scene_grammar_parts.h"
 #include "scene_grammar_words.h"
 
 namespace pliant::scene_file {
 
 namespace {
-
-// ------------------------------------------------------------------------------------------------ what many share
-
-const Record& stiffness_record() {
-  static const Record result{
-      "stiffness",
-      "How strongly constraints are enforced. Prefer `compliance`: it means the same whatever the time step, the substeps "
-      "and "
-      "the iterations.",
-      {either("compliance", number("inverse of stiffness; m/N for a distance", 0),
-              "XPBD: the inverse stiffness alpha in the unit of the constraint's type; 0 is rigid."),
-       either(
-           "stiffness", share(),
-           "PBD: the share k of the error that is removed in a step. The result depends on the time step and the masses."),
-       field("damping", number("N s/m for a distance", 0), Stiffness{}.damping,
-             "XPBD damping beta; only together with `compliance`.")},
-      {"compliance", "stiffness"}};
-  return result;
-}
-
-Type stiffness() { return any_of({choice({"rigid"}), record(stiffness_record())}); }
-
-const Record& rotation_record() {
-  static const Record result{
-      "rotation",
-      "A rotation about an axis.",
-      {needed("axis", vector("-", largest_place), "Direction of the axis; any length but zero."),
-       needed("degrees", number("degree", -1e6, 1e6), "Angle, counter-clockwise seen against the axis.")},
-      {}};
-  return result;
-}
-
-const Record& keyframe_record() {
-  static const Record result{"keyframe",
-                             "A rigid pose at a moment.",
-                             {needed("time", number("s", 0, 1e9), "When; increasing along the motion."),
-                              field("position", place(), Keyframe{}.position, "Translation away from where it is at rest."),
-                              field("rotation", record(rotation_record()), "none", "Rotation about the motion's `pivot`.")},
-                             {}};
-  return result;
-}
-
-const Record& motion_record() {
-  static const Record result{"motion",
-                             "A rigid motion by keyframes, linear between them, held before the first and after the last.",
-                             {needed("keyframes", list(record(keyframe_record()), 1), "The poses."),
-                              field("pivot", place(), Motion{}.pivot, "The point that rotations leave in place."),
-                              field("repeat", boolean(), Motion{}.repeat, "Start again after the last keyframe.")},
-                             {}};
-  return result;
-}
-
-const Record& volume_record() {
-  static const Record result{
-      "volume",
-      "The volume inside a closed surface, held at a pressure: what makes a balloon.",
-      {field("pressure", number("-", 0, 1000), Volume{}.pressure,
-             "Rest volume over the volume of the mesh as given: above 1 inflates, below 1 deflates."),
-       field("stiffness", stiffness(), "\"rigid\"", "Compliance in m^5/N, of six times the volume.")},
-      {}};
-  return result;
-}
-
-// ------------------------------------------------------------------------------------------------ meshes and fabrics
-
-const Record& grid_record() {
-  static const Record result{"grid",
-                             "A flat rectangle in the xz-plane about the origin, facing +y. Vertex (row r, column c) has "
-                             "index r * columns + c; columns "
-                             "run along x, rows along z.",
-                             {needed("columns", integer(2, largest_grid), "Vertices along x."),
-                              needed("rows", integer(2, largest_grid), "Vertices along z."),
-                              needed("width", positive("m", largest_place), "Size along x."),
-                              needed("depth", positive("m", largest_place), "Size along z.")},
-                             {}};
-  return result;
-}
-
-const Record& sphere_mesh_record() {
-  static const Record result{"sphere mesh",
-                             "A closed sphere about the origin: an icosahedron split again and again.",
-                             {needed("subdivisions", integer(0, 7), "How often each triangle is split in four."),
-                              field("radius", positive("m", largest_place), 1.f, "Radius.")},
-                             {}};
-  return result;
-}
-
-const Record& tube_record() {
-  static const Record result{"tube",
-                             "An open tube around the y-axis, its upper rim at y = 0 and its lower one at y = -length: a "
-                             "sleeve, a skirt. Vertex (row r, "
-                             "column c) has index r * columns + c, row 0 being the upper rim.",
-                             {needed("columns", integer(3, largest_grid), "Vertices around."),
-                              needed("rows", integer(2, largest_grid), "Vertices along the length, both rims included."),
-                              needed("length", positive("m", largest_place), "Height."),
-                              needed("top_radius", positive("m", largest_place), "Radius of the upper rim."),
-                              needed("bottom_radius", positive("m", largest_place), "Radius of the lower rim."),
-                              field("folds", integer(0, 256), 0, "Waves around the tube; 0 for none."),
-                              field("fold_depth", number("-", 0, 0.9), 0.f,
-                                    "Height of the waves as a share of the radius at the lower rim; it grows evenly from "
-                                    "nothing at the upper one.")},
-                             {}};
-  return result;
-}
-
-const Record& mesh_record() {
-  static const Record result{
-      "mesh",
-      "Where a surface comes from, and where it is put: scaled, then rotated, then moved. This is also its rest shape.",
-      {either(
-           "file", string(),
-           "Path of an .obj, .ply or .stl file, relative to the folder of the scene. URLs, devices and pipes are refused."),
-       either("grid", record(grid_record()), "A rectangle."),
-       either("sphere", record(sphere_mesh_record()), "A closed sphere."),
-       either("tube", record(tube_record()), "An open tube."),
-       field("scale", any_of({positive("-", 1e6), positive_vector("-", 1e6)}), 1,
-             "Factor, the same along all axes or one each."),
-       field("rotate", record(rotation_record()), "none", "Rotation about the origin."),
-       field("translate", place(), Vec3f{}, "Translation.")},
-      {"file", "grid", "sphere", "tube"}};
-  return result;
-}
-
-std::vector<std::string> fabric_names() {
-  std::vector<std::string> names;
-  for (const Fabric& one : fabrics()) names.push_back(one.name);
-  return names;
-}
-
-const Record& fabric_record() {
-  static const Record result{
-      "fabric",
-      "A fabric in SI units, independent of the mesh. What is left out comes from `base`, and without a base from the "
-      "defaults.",
-      {field("base", choice(fabric_names()), "none", "A built-in fabric to start from."),
-       field("name", string(), "none", "Its name."), field("source", text(), "none", "Where the numbers come from."),
-       field("area_density", positive("kg/m^2"), Fabric{}.area_density, "Mass per area."),
-       field("thickness", positive("m", largest_place), Fabric{}.thickness,
-             "Thickness; also the distance kept from colliders."),
-       field("stretch_stiffness", any_of({choice({"inextensible"}), positive("N/m")}), Fabric{}.stretch_stiffness,
-             "Membrane stiffness: force per width and strain."),
-       field("bending_stiffness", number("N m", 0), Fabric{}.bending_stiffness, "Flexural rigidity per width."),
-       field("bending_damping", share(), Fabric{}.bending_damping, "Fraction of critical damping of bending."),
-       field("static_friction", number("-", 0, 1000), Fabric{}.static_friction, "Coefficient of friction at rest."),
-       field("kinetic_friction", number("-", 0, 1000), "0.3, or the static one where that is less",
-             "Coefficient of friction in motion; at most the static one.")},
-      {}};
-  return result;
-}
 
 // ------------------------------------------------------------------------------------------------ objects
 
@@ -259,6 +111,10 @@ Type selection() {
   return any_of({choice({"all", "corners", "ends"}), list(particle_index(), 1), record(select_record())});
 }
 
+constexpr const char* groups_meaning =
+    "What it belongs to, numbers from 0 to 31. Two things meet where each one's `mask` has a group of the other's.";
+constexpr const char* mask_meaning = "The groups that it meets; [] for none.";
+
 constexpr const char* selection_meaning =
     "Which: indices, a selection, or \"all\", \"corners\" (the four of a grid) or \"ends\" (the first and the last).";
 
@@ -296,7 +152,12 @@ const Record& object_record() {
        field("pins", list(record(pin_record())), "none", "Particles whose place is given."),
        field("attachments", list(record(attachment_record())), "none", "Particles drawn to targets."),
        field("thickness", number("m", 0, largest_place), "the material's; 0.005 for a rope, else 0.001",
-             "Distance kept from colliders."),
+             "Distance kept from colliders; two surfaces keep the sum of theirs."),
+       field("self_collision", boolean(), Object{}.self_collision,
+             "Its surface, or its links where it has none, does not pass through itself (docs/contact.md)."),
+       field("collides", boolean(), Object{}.collides,
+             "Nor through other objects of which this holds. Mesh colliders are met in any case."),
+       field("groups", bits(), "[0]", groups_meaning), field("mask", bits(), "all", mask_meaning),
        field("static_friction", number("-", 0, 1000), "the material's, else 0.4", "Coefficient of friction at rest."),
        field("kinetic_friction", number("-", 0, 1000), "the material's, else 0.3, or the static one where that is less",
              "Coefficient of friction in motion; at most the static one."),
@@ -342,6 +203,10 @@ const Record& box_record() {
   return result;
 }
 
+constexpr const char* mesh_meaning =
+    "A surface that nothing pushes, closed or open, met from both sides. `position` and `rotation` apply to the mesh as "
+    "placed.";
+
 const Record& collider_record() {
   static const Record result{
       "collider",
@@ -349,6 +214,7 @@ const Record& collider_record() {
       {field("name", string(), "the shape, and a number where that is taken", "A name of its own."),
        either("plane", record(plane_record()), "A half-space."), either("sphere", record(sphere_record()), "A ball."),
        either("capsule", record(capsule_record()), "A capsule."), either("box", record(box_record()), "A box."),
+       either("mesh", record(mesh_record()), mesh_meaning),
        field("position", place(), Collider{}.position, "Where its frame is."),
        field("rotation", record(rotation_record()), "none", "How its frame is turned."),
        field("motion", record(motion_record()), "none", "How it moves from there."),
@@ -359,9 +225,11 @@ const Record& collider_record() {
        field("kinetic_friction", number("-", 0, 1000), "0.3, or the static one where that is less",
              "Coefficient of friction in motion; at most the static one."),
        field("restitution", share(), Collider{}.restitution,
-             "Share of the speed kept in a bounce; a pair has the larger one."),
+             "Share of the speed kept in a bounce; a pair has the larger one. Not of a mesh."),
+       field("groups", bits(), "[0]", "Of a mesh alone: what it belongs to, numbers from 0 to 31."),
+       field("mask", bits(), "all", "Of a mesh alone: the groups that it meets."),
        field("colour", colour(), Collider{}.colour, "Linear red, green and blue.")},
-      {"plane", "sphere", "capsule", "box"}};
+      {"plane", "sphere", "capsule", "box", "mesh"}};
   return result;
 }
 
@@ -425,6 +293,10 @@ const Record& settings_record() {
              "In what order constraints are visited (docs/convergence.md). `sequential` is the slow, "
              "readable reference with the bits of `tiled`."),
        field("sweep_options", record(sweep_options_record()), "the defaults", "What a sweep can be told besides."),
+       field("contact_filter", boolean(), Settings{}.contact_filter,
+             "Shorten moves so that nothing that collides passes through anything else (docs/contact.md); without it "
+             "contacts "
+             "alone must do."),
        field("measure", boolean(), Settings{}.measure, "Measure residuals and stretch each frame."),
        field("record_residuals", boolean(), Settings{}.record_residuals,
              "Measure both residuals after every iteration of each frame's last substep; slow."),

@@ -100,6 +100,9 @@ inline Type any_of(std::vector<Type> alternatives) {
   return type;
 }
 
+/// Groups and masks: the numbers of the bits that are set.
+inline Type bits() { return list(integer(0, 31), 0, 32); }
+
 inline Type particle_index() { return integer(0, 2147483647); }
 
 // ------------------------------------------------------------------------------------------------ defaults, in words

@@ -86,6 +86,46 @@ TriangleMesh tube_of(const JsonValue& at) {
   return tube_mesh(columns, rows, length, top_radius, bottom_radius, folds, fold_depth);
 }
 
+TriangleMesh box_of(const JsonValue& at) {
+  Vec3f size;
+  int segments = 1;
+  set(at, "size", size);
+  set(at, "segments", segments);
+  return box_mesh(size, segments);
+}
+
+float wave(float turns) { return rotated(rotation({0, 0, 1}, 360 * turns), {1, 0, 0}).y; }
+
+/// Heights by formula: where a vertex is in its wave is worked out from its number, so that both borders are alike.
+void raise(const JsonValue& at, int columns, int rows, TriangleMesh& mesh) {
+  float height = 0, along_x = 1, along_z = 1;
+  set(at, "height", height);
+  set(at, "along_x", along_x);
+  set(at, "along_z", along_z);
+  const auto turns = [](int i, int count, float waves) {
+    return waves * (static_cast<float>(2 * i - (count - 1)) / static_cast<float>(2 * (count - 1)));
+  };
+  for (int r = 0; r < rows; ++r)
+    for (int c = 0; c < columns; ++c)
+      mesh.positions[static_cast<std::size_t>(r) * columns + c].y =
+          height * wave(turns(c, columns, along_x)) * wave(turns(r, rows, along_z));
+}
+
+TriangleMesh heightfield_of(const JsonDocument& document, const JsonValue& at, SceneMesh& result) {
+  TriangleMesh mesh = grid_of(at, result);
+  if (const JsonValue* waves = at.find("waves")) raise(*waves, result.columns, result.rows, mesh);
+  const JsonValue* heights = at.find("heights");
+  if (heights == nullptr) return mesh;
+  if (heights->items.size() != mesh.positions.size())
+    document.fail(
+        *heights,
+        std::to_string(heights->items.size()) + " heights for " + std::to_string(mesh.positions.size()) + " vertices",
+        "give columns times rows of them");
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    mesh.positions[i].y = static_cast<float>(heights->items[i].number);
+  return mesh;
+}
+
 void transform(const JsonDocument& document, const JsonValue& at, TriangleMesh& mesh) {
   Vec3f scale{1, 1, 1}, translation;
   if (const JsonValue* value = at.find("scale")) {
@@ -124,42 +164,11 @@ SceneMesh make_mesh(const JsonDocument& document, const JsonValue& at, const Mes
   if (const JsonValue* grid = at.find("grid")) result.mesh = grid_of(*grid, result);
   if (const JsonValue* sphere = at.find("sphere")) result.mesh = sphere_of(*sphere);
   if (const JsonValue* tube = at.find("tube")) result.mesh = tube_of(*tube);
+  if (const JsonValue* box = at.find("box")) result.mesh = box_of(*box);
+  if (const JsonValue* heightfield = at.find("heightfield")) result.mesh = heightfield_of(document, *heightfield, result);
   transform(document, at, result.mesh);
   check_places(document, at, result.mesh);
   return result;
-}
-
-TriangleMesh tube_mesh(int columns, int rows, float length, float top_radius, float bottom_radius, int folds,
-                       float fold_depth) {
-  TriangleMesh mesh;
-  mesh.positions.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-  for (int r = 0; r < rows; ++r) {
-    const float down = static_cast<float>(r) / static_cast<float>(rows - 1);
-    for (int c = 0; c < columns; ++c) {
-      const float turn = 360.f * static_cast<float>(c) / static_cast<float>(columns);
-      // The phase of the waves within one turn, so that large angles lose no digits.
-      const float phase = 360.f * static_cast<float>(c * folds % columns) / static_cast<float>(columns);
-      const float wave = 1 + fold_depth * down * rotated(rotation({0, 1, 0}, phase), {1, 0, 0}).x;
-      const float radius = (top_radius + (bottom_radius - top_radius) * down) * wave;
-      const Vec3f around = rotated(rotation({0, 1, 0}, turn), {radius, 0, 0});
-      mesh.positions.push_back({around.x, -length * down, around.z});
-    }
-  }
-  for (int r = 0; r + 1 < rows; ++r) {
-    for (int c = 0; c < columns; ++c) {
-      const int a = r * columns + c, b = r * columns + (c + 1) % columns;
-      const int below_a = a + columns, below_b = b + columns;
-      // Alternating diagonals, for one direction alone would make the tube twist as it stretches.
-      if ((r + c) % 2 == 0) {
-        mesh.triangles.push_back({a, below_a, below_b});
-        mesh.triangles.push_back({a, below_b, b});
-      } else {
-        mesh.triangles.push_back({a, below_a, b});
-        mesh.triangles.push_back({b, below_a, below_b});
-      }
-    }
-  }
-  return mesh;
 }
 
 }  // namespace pliant::scene_file

@@ -32,4 +32,7 @@ SceneMesh make_mesh(const JsonDocument& document, const JsonValue& at, const Mes
 TriangleMesh tube_mesh(int columns, int rows, float length, float top_radius, float bottom_radius, int folds,
                        float fold_depth);
 
+/// A closed box about the origin; each edge is cut in `segments` >= 1. Triangles face outwards.
+TriangleMesh box_mesh(const Vec3f& size, int segments);
+
 }  // namespace pliant::scene_file

@@ -41,6 +41,14 @@ bool set(const JsonValue& at, const char* name, Vec3f& target) {
   return value != nullptr;
 }
 
+bool set(const JsonValue& at, const char* name, std::uint32_t& target) {
+  const JsonValue* value = at.find(name);
+  if (value == nullptr) return false;
+  target = 0;
+  for (const JsonValue& bit : value->items) target |= std::uint32_t{1} << static_cast<unsigned>(bit.number);
+  return true;
+}
+
 const std::vector<JsonValue>& elements(const JsonValue& at, const char* name) {
   static const std::vector<JsonValue> none;
   const JsonValue* value = at.find(name);

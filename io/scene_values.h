@@ -21,6 +21,8 @@ bool set(const JsonValue& at, const char* name, int& target);
 bool set(const JsonValue& at, const char* name, float& target);
 bool set(const JsonValue& at, const char* name, std::string& target);
 bool set(const JsonValue& at, const char* name, Vec3f& target);
+/// A list of the numbers of the bits that are set.
+bool set(const JsonValue& at, const char* name, std::uint32_t& target);
 
 /// The elements of the member `name`, or nothing where there is none.
 const std::vector<JsonValue>& elements(const JsonValue& at, const char* name);

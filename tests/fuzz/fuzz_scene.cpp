@@ -17,7 +17,7 @@ namespace {
 using pliant::scene_file::JsonValue;
 
 bool is_large(const JsonValue& at) {
-  const bool count = at.key == "columns" || at.key == "rows" || at.key == "points";
+  const bool count = at.key == "columns" || at.key == "rows" || at.key == "points" || at.key == "segments";
   if ((count && at.number > 24) || (at.key == "subdivisions" && at.number > 2)) return true;
   for (const JsonValue& item : at.items)
     if (is_large(item)) return true;

@@ -229,7 +229,7 @@ TEST(SceneRead, ReportsWhatWasMendedInAMesh) {
 
 TEST(SceneRead, ReadsEverySceneOfTheProject) {
   int scenes = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(PLIANT_SOURCE_DIR "/scenes")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(PLIANT_SOURCE_DIR "/scenes")) {
     if (entry.path().extension() != ".json") continue;
     SCOPED_TRACE(entry.path());
     const SceneFile file = read_scene_file(entry.path(), false);
@@ -238,7 +238,7 @@ TEST(SceneRead, ReadsEverySceneOfTheProject) {
     EXPECT_TRUE(file.repairs.empty());
     ++scenes;
   }
-  EXPECT_GE(scenes, 11);
+  EXPECT_GE(scenes, 20);
 }
 
 // ---------------------------------------------------------------- shapes

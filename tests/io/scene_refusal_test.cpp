@@ -39,7 +39,7 @@ TEST(SceneRefusal, SaysWhatIsWrongAndWhatToDo) {
             "give exactly one of 'cloth', 'rope' and 'particles'");
   EXPECT_EQ(scene_message(R"({"objects": [], "colliders": [{"box": {}, "plane": {}}]})"),
             "x.json:1:31: /colliders/0: more than one of a kind; "
-            "give exactly one of 'plane', 'sphere', 'capsule' and 'box'");
+            "give exactly one of 'plane', 'sphere', 'capsule', 'box' and 'mesh'");
   EXPECT_EQ(scene_message(R"({"objects": [], "settings": {"gravity": 1}})"),
             "x.json:1:30: /settings/gravity: 'gravity' is unknown in settings; it belongs into scene");
 }

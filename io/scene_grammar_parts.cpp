@@ -1,0 +1,205 @@
+// The part of the table that others refer to: stiffness, rotations, motions, meshes, fabrics.
+#include "scene_grammar_parts.h"
+
+#include "pliant/scene.h"
+#include "scene_grammar_words.h"
+
+namespace pliant::scene_file {
+
+namespace {
+
+// ------------------------------------------------------------------------------------------------ what many share
+
+const Record& stiffness_record() {
+  static const Record result{
+      "stiffness",
+      "How strongly constraints are enforced. Prefer `compliance`: it means the same whatever the time step, the substeps "
+      "and "
+      "the iterations.",
+      {either("compliance", number("inverse of stiffness; m/N for a distance", 0),
+              "XPBD: the inverse stiffness alpha in the unit of the constraint's type; 0 is rigid."),
+       either(
+           "stiffness", share(),
+           "PBD: the share k of the error that is removed in a step. The result depends on the time step and the masses."),
+       field("damping", number("N s/m for a distance", 0), Stiffness{}.damping,
+             "XPBD damping beta; only together with `compliance`.")},
+      {"compliance", "stiffness"}};
+  return result;
+}
+
+}  // namespace
+
+Type stiffness() { return any_of({choice({"rigid"}), record(stiffness_record())}); }
+
+const Record& rotation_record() {
+  static const Record result{
+      "rotation",
+      "A rotation about an axis.",
+      {needed("axis", vector("-", largest_place), "Direction of the axis; any length but zero."),
+       needed("degrees", number("degree", -1e6, 1e6), "Angle, counter-clockwise seen against the axis.")},
+      {}};
+  return result;
+}
+
+namespace {
+
+const Record& keyframe_record() {
+  static const Record result{"keyframe",
+                             "A rigid pose at a moment.",
+                             {needed("time", number("s", 0, 1e9), "When; increasing along the motion."),
+                              field("position", place(), Keyframe{}.position, "Translation away from where it is at rest."),
+                              field("rotation", record(rotation_record()), "none", "Rotation about the motion's `pivot`.")},
+                             {}};
+  return result;
+}
+
+}  // namespace
+
+const Record& motion_record() {
+  static const Record result{"motion",
+                             "A rigid motion by keyframes, linear between them, held before the first and after the last.",
+                             {needed("keyframes", list(record(keyframe_record()), 1), "The poses."),
+                              field("pivot", place(), Motion{}.pivot, "The point that rotations leave in place."),
+                              field("repeat", boolean(), Motion{}.repeat, "Start again after the last keyframe.")},
+                             {}};
+  return result;
+}
+
+const Record& volume_record() {
+  static const Record result{
+      "volume",
+      "The volume inside a closed surface, held at a pressure: what makes a balloon.",
+      {field("pressure", number("-", 0, 1000), Volume{}.pressure,
+             "Rest volume over the volume of the mesh as given: above 1 inflates, below 1 deflates."),
+       field("stiffness", stiffness(), "\"rigid\"", "Compliance in m^5/N, of six times the volume.")},
+      {}};
+  return result;
+}
+
+// ------------------------------------------------------------------------------------------------ meshes and fabrics
+
+namespace {
+
+const Record& grid_record() {
+  static const Record result{"grid",
+                             "A flat rectangle in the xz-plane about the origin, facing +y. Vertex (row r, column c) has "
+                             "index r * columns + c; columns "
+                             "run along x, rows along z.",
+                             {needed("columns", integer(2, largest_grid), "Vertices along x."),
+                              needed("rows", integer(2, largest_grid), "Vertices along z."),
+                              needed("width", positive("m", largest_place), "Size along x."),
+                              needed("depth", positive("m", largest_place), "Size along z.")},
+                             {}};
+  return result;
+}
+
+const Record& sphere_mesh_record() {
+  static const Record result{"sphere mesh",
+                             "A closed sphere about the origin: an icosahedron split again and again.",
+                             {needed("subdivisions", integer(0, 7), "How often each triangle is split in four."),
+                              field("radius", positive("m", largest_place), 1.f, "Radius.")},
+                             {}};
+  return result;
+}
+
+const Record& tube_record() {
+  static const Record result{"tube",
+                             "An open tube around the y-axis, its upper rim at y = 0 and its lower one at y = -length: a "
+                             "sleeve, a skirt. Vertex (row r, "
+                             "column c) has index r * columns + c, row 0 being the upper rim.",
+                             {needed("columns", integer(3, largest_grid), "Vertices around."),
+                              needed("rows", integer(2, largest_grid), "Vertices along the length, both rims included."),
+                              needed("length", positive("m", largest_place), "Height."),
+                              needed("top_radius", positive("m", largest_place), "Radius of the upper rim."),
+                              needed("bottom_radius", positive("m", largest_place), "Radius of the lower rim."),
+                              field("folds", integer(0, 256), 0, "Waves around the tube; 0 for none."),
+                              field("fold_depth", number("-", 0, 0.9), 0.f,
+                                    "Height of the waves as a share of the radius at the lower rim; it grows evenly from "
+                                    "nothing at the upper one.")},
+                             {}};
+  return result;
+}
+
+const Record& box_mesh_record() {
+  static const Record result{"box mesh",
+                             "A closed box about the origin with sides along the axes.",
+                             {needed("size", positive_vector("m", largest_place), "Its sizes."),
+                              field("segments", integer(1, 256), 1, "Squares along each edge; a square is two triangles.")},
+                             {}};
+  return result;
+}
+
+const Record& waves_record() {
+  static const Record result{"waves",
+                             "Heights h = height sin(2 pi along_x x / width) sin(2 pi along_z z / depth).",
+                             {needed("height", number("m", 0, largest_place), "Of the tops."),
+                              field("along_x", number("-", 0, 1000), 1.f, "Waves along x."),
+                              field("along_z", number("-", 0, 1000), 1.f, "Waves along z.")},
+                             {}};
+  return result;
+}
+
+const Record& heightfield_record() {
+  static const Record result{
+      "heightfield",
+      "A landscape: a grid with a height at every vertex.",
+      {needed("columns", integer(2, largest_grid), "Vertices along x."),
+       needed("rows", integer(2, largest_grid), "Vertices along z."),
+       needed("width", positive("m", largest_place), "Size along x."),
+       needed("depth", positive("m", largest_place), "Size along z."),
+       either("heights", list(number("m", -largest_place, largest_place), 4),
+              "Height of each vertex, row after row: vertex (row r, column c) has index r * columns + c."),
+       either("waves", record(waves_record()), "Hills and hollows.")},
+      {"heights", "waves"}};
+  return result;
+}
+
+}  // namespace
+
+const Record& mesh_record() {
+  static const Record result{
+      "mesh",
+      "Where a surface comes from, and where it is put: scaled, then rotated, then moved. This is also its rest shape.",
+      {either(
+           "file", string(),
+           "Path of an .obj, .ply or .stl file, relative to the folder of the scene. URLs, devices and pipes are refused."),
+       either("grid", record(grid_record()), "A rectangle."),
+       either("sphere", record(sphere_mesh_record()), "A closed sphere."),
+       either("tube", record(tube_record()), "An open tube."), either("box", record(box_mesh_record()), "A closed box."),
+       either("heightfield", record(heightfield_record()), "A landscape."),
+       field("scale", any_of({positive("-", 1e6), positive_vector("-", 1e6)}), 1,
+             "Factor, the same along all axes or one each."),
+       field("rotate", record(rotation_record()), "none", "Rotation about the origin."),
+       field("translate", place(), Vec3f{}, "Translation.")},
+      {"file", "grid", "sphere", "tube", "box", "heightfield"}};
+  return result;
+}
+
+std::vector<std::string> fabric_names() {
+  std::vector<std::string> names;
+  for (const Fabric& one : fabrics()) names.push_back(one.name);
+  return names;
+}
+
+const Record& fabric_record() {
+  static const Record result{
+      "fabric",
+      "A fabric in SI units, independent of the mesh. What is left out comes from `base`, and without a base from the "
+      "defaults.",
+      {field("base", choice(fabric_names()), "none", "A built-in fabric to start from."),
+       field("name", string(), "none", "Its name."), field("source", text(), "none", "Where the numbers come from."),
+       field("area_density", positive("kg/m^2"), Fabric{}.area_density, "Mass per area."),
+       field("thickness", positive("m", largest_place), Fabric{}.thickness,
+             "Thickness; also the distance kept from colliders."),
+       field("stretch_stiffness", any_of({choice({"inextensible"}), positive("N/m")}), Fabric{}.stretch_stiffness,
+             "Membrane stiffness: force per width and strain."),
+       field("bending_stiffness", number("N m", 0), Fabric{}.bending_stiffness, "Flexural rigidity per width."),
+       field("bending_damping", share(), Fabric{}.bending_damping, "Fraction of critical damping of bending."),
+       field("static_friction", number("-", 0, 1000), Fabric{}.static_friction, "Coefficient of friction at rest."),
+       field("kinetic_friction", number("-", 0, 1000), "0.3, or the static one where that is less",
+             "Coefficient of friction in motion; at most the static one.")},
+      {}};
+  return result;
+}
+
+}  // namespace pliant::scene_file

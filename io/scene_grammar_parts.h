@@ -1,0 +1,16 @@
+// Parts of the table that several records refer to.
+#pragma once
+
+#include "scene_grammar.h"
+
+namespace pliant::scene_file {
+
+Type stiffness();
+const Record& rotation_record();
+const Record& motion_record();
+const Record& volume_record();
+const Record& mesh_record();
+const Record& fabric_record();
+std::vector<std::string> fabric_names();
+
+}  // namespace pliant::scene_file
