@@ -85,7 +85,7 @@ std::vector<Finding> check_scene(const std::string& path, double seconds) {
   for (const Object& object : scene.objects)
     particles.insert(particles.end(), object.positions.begin(), object.positions.end());
   print(one_line(path) + ": " + counted(scene.objects.size(), "object") + " of " + counted(particles.size(), "particle") +
-        extent(particles) + ", " + counted(scene.colliders.size(), "collider") + ", " +
+        extent(particles) + ", " + counted(scene.colliders.size() + scene.mesh_colliders.size(), "collider") + ", " +
         counted(static_cast<std::size_t>(scene.frames), "frame") + "\n");
   for (const std::string& repair : file.repairs) print("mended: " + one_line(repair) + "\n");
   std::vector<Finding> findings = inspect(scene);

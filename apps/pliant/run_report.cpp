@@ -32,6 +32,21 @@ Json residuals_json(const World& world) {
   return json;
 }
 
+Json pairs_json(const PairReport& pairs) {
+  return {{"candidates", pairs.candidates}, {"contacts", pairs.contacts}, {"tangled", pairs.tangled},
+          {"shortened", pairs.shortened},   {"hopeless", pairs.hopeless}, {"lists", pairs.lists}};
+}
+
+/// What belongs to a moment is the last frame's, what is counted is counted over the run.
+void add_pairs(PairReport& sum, const PairReport& frame) {
+  sum.candidates = frame.candidates;
+  sum.contacts = frame.contacts;
+  sum.tangled = frame.tangled;
+  sum.shortened += frame.shortened;
+  sum.hopeless += frame.hopeless;
+  sum.lists += frame.lists;
+}
+
 Json nonfinite_json(const Report& report) {
   if (!report.nonfinite) return nullptr;
   const NonFinite& found = *report.nonfinite;
@@ -58,6 +73,7 @@ void RunReport::add(const Report& report, const World& world) {
   iterations_.smallest =
       milliseconds_.empty() ? report.iterations.smallest : std::min(iterations_.smallest, report.iterations.smallest);
   iterations_.largest = std::max(iterations_.largest, report.iterations.largest);
+  add_pairs(pairs_, report.pairs);
   iterations_.mean += report.iterations.mean;
   milliseconds_.push_back(report.milliseconds);
   for (const PhaseTime& phase : report.phases) phase_sums_[phase.name] += phase.milliseconds;
@@ -80,6 +96,7 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["particles"] = particle_count(world);
   json["constraints"] = constraints_by_type(world);
   json["contacts"] = last_.contacts;
+  json["pairs"] = pairs_json(pairs_);
   json["ms_per_frame"] = {{"median", median_milliseconds()}, {"p95", p95_milliseconds()}};
   json["phases_ms"] = Json::object();
   for (const auto& [phase, sum] : phase_sums_) json["phases_ms"][phase] = sum / frames;

@@ -31,6 +31,7 @@ class RunReport {
   bool hash_frames_;
   Report last_;
   IterationCount iterations_;  ///< its mean is the sum over frames until it is written
+  PairReport pairs_;           ///< candidates, contacts and tangles of the last frame, the rest summed
   std::vector<double> milliseconds_;
   std::map<std::string, double> phase_sums_;
   std::vector<std::string> hashes_;

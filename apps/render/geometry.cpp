@@ -124,7 +124,32 @@ Geometry build_collider(const RenderCollider& collider, const Vec3f& around, flo
   return geometry;
 }
 
+/// Every triangle with corners of its own, whose normals are the mean of those faces around that lie about as it does: round
+/// shapes look round and edges sharp.
+Geometry build_solid(const RenderMesh& mesh) {
+  constexpr float about = 0.8f;  // cosine of the largest angle between faces that look as one
+  Geometry geometry{.vertices = {}, .indices = {}, .colour = mesh.colour, .material = Material::solid};
+  std::vector<Vec3f> faces;  // normals as long as twice the area
+  std::vector<std::vector<std::size_t>> around(mesh.positions.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    faces.push_back(cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]));
+    for (const int corner : mesh.triangles[t]) around[corner].push_back(t);
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const int corner : mesh.triangles[t]) {
+      Vec3f normal{};
+      for (const std::size_t other : around[corner])
+        if (dot(unit(faces[other]), unit(faces[t])) > about) normal += faces[other];
+      geometry.indices.push_back(static_cast<std::uint32_t>(geometry.vertices.size()));
+      geometry.vertices.push_back({mesh.positions[corner], unit(normal)});
+    }
+  }
+  return geometry;
+}
+
 Geometry build_mesh(const RenderMesh& mesh) {
+  if (mesh.is_solid) return build_solid(mesh);
   Geometry geometry{.vertices = {}, .indices = {}, .colour = mesh.colour, .material = Material::cloth};
   const std::vector<Vec3f> normals = output::vertex_normals(mesh.positions, mesh.triangles);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) geometry.vertices.push_back({mesh.positions[i], normals[i]});
@@ -181,9 +206,13 @@ bool is_level_plane(const RenderCollider& collider) {
 
 std::vector<Vec3f> points_of_interest(const RenderScene& scene) {
   std::vector<Vec3f> points;
-  for (const RenderMesh& mesh : scene.meshes) points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
+  for (const RenderMesh& mesh : scene.meshes)
+    if (!mesh.is_solid) points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
   for (const RenderTube& tube : scene.tubes) points.insert(points.end(), tube.points.begin(), tube.points.end());
   const float size = bounds(points).radius();
+  for (const RenderMesh& mesh : scene.meshes)
+    if (mesh.is_solid && (size == 0 || bounds(mesh.positions).radius() < 2.5f * size))
+      points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
   for (const RenderCollider& collider : scene.colliders) {
     const Vec3f half = half_size(collider.shape);
     const bool fits = size == 0 || length(half) < 2.5f * size;

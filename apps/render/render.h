@@ -23,6 +23,7 @@ struct RenderMesh {
   std::vector<Vec3f> positions;  ///< [m]
   std::vector<std::array<int, 3>> triangles;
   Vec3f colour{0.75f, 0.35f, 0.30f};  ///< linear RGB, 0..1
+  bool is_solid = false;              ///< a collider: its sharp edges are drawn sharp
 };
 
 /// A round line, for ropes; one point alone is a ball.

@@ -49,6 +49,8 @@ float ground_height(const Scene& scene, const std::vector<RenderCollider>& at_re
   for (const Vec3f& point :
        points_of_interest({.meshes = {}, .tubes = {}, .colliders = at_rest, .ground = {}, .camera = {}}))
     low = std::min(low, point.y);
+  for (const MeshCollider& collider : scene.mesh_colliders)
+    for (const Vec3f& position : collider.mesh.positions) low = std::min(low, position.y);
   if (tilted && !all.empty()) low = std::min(low, all.low.y - all.radius());
   return low < 0 ? low - 0.02f * all.radius() : 0;
 }
@@ -75,7 +77,7 @@ void add_weights(RenderScene& result, const Object& object, const std::vector<Ve
 void add_object(RenderScene& result, const Object& object, std::vector<Vec3f> positions) {
   const output::FrameObject shape = output::describe(object);
   if (!shape.triangles.empty()) {
-    result.meshes.push_back({std::move(positions), shape.triangles, shape.colour});
+    result.meshes.push_back({std::move(positions), shape.triangles, shape.colour, false});
     return;
   }
   for (const auto& line : shape.lines) {
@@ -103,6 +105,11 @@ RenderScene make_render_scene(const Scene& scene, const World& world) {
   result.ground = ground_height(scene, at_rest);
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
     add_object(result, scene.objects[i], world.positions(static_cast<int>(i)));
+  for (std::size_t i = 0; i < scene.mesh_colliders.size(); ++i) {
+    const MeshCollider& collider = scene.mesh_colliders[i];
+    result.meshes.push_back(
+        {world.mesh_collider_positions(static_cast<int>(i)), collider.mesh.triangles, collider.colour, true});
+  }
   return result;
 }
 

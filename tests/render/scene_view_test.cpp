@@ -29,6 +29,27 @@ TEST(SceneView, TakesSurfacesRopesAndColliders) {
   EXPECT_EQ(picture.colliders[0].position, (Vec3f{2, 0.3f, 0}));
 }
 
+TEST(SceneView, ShowsMeshCollidersWhereTheyAre) {
+  Scene scene;
+  scene.add_cloth(grid_mesh(4, 3, 1, 1));
+  MeshCollider rock;
+  rock.mesh = sphere_mesh(1);
+  for (Vec3f& p : rock.mesh.positions) p.y -= 3;
+  rock.motion.keyframes = {{0, {}, {}}, {1, {1, 0, 0}, {}}};
+  rock.colour = {0.1f, 0.4f, 0.1f};
+  scene.add(rock);
+  World world(scene);
+  for (int frame = 0; frame < 30; ++frame) world.step(1.f / 60);
+  const RenderScene picture = make_render_scene(scene, world);
+  ASSERT_EQ(picture.meshes.size(), 2u);
+  EXPECT_FALSE(picture.meshes[0].is_solid);
+  EXPECT_TRUE(picture.meshes[1].is_solid);
+  EXPECT_EQ(picture.meshes[1].colour, rock.colour);
+  EXPECT_EQ(picture.meshes[1].triangles, rock.mesh.triangles);
+  EXPECT_NEAR(picture.meshes[1].positions[0].x, rock.mesh.positions[0].x + 0.5f, 1e-5f);
+  EXPECT_LT(picture.ground.value_or(0), -4) << "the ground is below what cloth falls on";
+}
+
 TEST(SceneView, ShowsWhatIsHeavyAsABall) {
   Scene scene;
   scene.add(make_rope({{0, 1, 0}, {0.1f, 1, 0}, {0.2f, 1, 0}, {0.3f, 1, 0}}));
