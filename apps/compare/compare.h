@@ -87,8 +87,8 @@ struct Result {
 Result run(const Scene& scene, const Options& options);
 
 /// `to` gets the motion of `from`, a World of the same scene with other settings: sweeps number particles as suits them. Both
-/// forget their multipliers.
-void take_state(World& to, World& from);
+/// forget their multipliers. The last `collider_particles` of either State are those of mesh colliders.
+void take_state(World& to, World& from, std::size_t collider_particles = 0);
 
 /// Four panels: residual and largest stretch against iterations and against milliseconds.
 std::vector<plot::Chart> to_charts(const Result& result);

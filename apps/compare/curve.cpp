@@ -22,6 +22,13 @@ std::vector<int> sampled_iterations(int last) {
   return numbers;
 }
 
+/// Particles that mesh colliders have in a State.
+std::size_t collider_particles(const Scene& scene) {
+  std::size_t count = 0;
+  for (const MeshCollider& collider : scene.mesh_colliders) count += collider.mesh.positions.size();
+  return count;
+}
+
 Settings settings_of(const Scene& scene, const Method& method, int iterations) {
   Settings settings = scene.settings;
   settings.sweep = method.sweep;
@@ -43,13 +50,13 @@ std::vector<IterationResidual> record_of(const Scene& scene, World& start, const
   Settings settings = settings_of(scene, method, options.iterations);
   settings.record_residuals = true;
   World world(scene, settings);
-  take_state(world, start);
+  take_state(world, start, collider_particles(scene));
   return step_once(world, scene, options).convergence;
 }
 
 Sample sample_at(const Scene& scene, World& start, const Method& method, int iterations, const Options& options) {
   World world(scene, settings_of(scene, method, iterations));
-  take_state(world, start);
+  take_state(world, start, collider_particles(scene));
   const State state = world.state();
   Sample sample{iterations, std::numeric_limits<double>::infinity(), 0, {}};
   double spent = 0;

@@ -3,6 +3,8 @@
 // A State lists particles in the order of the compiled model, which a sweep may choose; only a World knows which of them is
 // which of the user's. So a World is asked: it is given a state whose positions are the numbers of their places, and what it then
 // says of the user's particles are those numbers.
+#include <algorithm>
+
 #include "apps/compare/compare.h"
 
 namespace pliant::compare {
@@ -35,7 +37,7 @@ void move(Record& to, const Record& from) { to = {from.x, from.y, from.z, to.w};
 
 }  // namespace
 
-void take_state(World& to, World& from) {
+void take_state(World& to, World& from, std::size_t collider_particles) {
   const std::vector<std::size_t> there = places_in(from), here = places_in(to);
   const State& given = from.state();
   State taken = to.state();  // targets of attachments are nobody's particles: they go where they belong in the next substep
@@ -45,6 +47,13 @@ void take_state(World& to, World& from) {
     move(taken.positions[here[i]], given.positions[there[i]]);
     move(taken.remainders[here[i]], given.remainders[there[i]]);
     move(taken.velocities[here[i]], given.velocities[there[i]]);
+  }
+  // Mesh colliders come last and are numbered alike in every World.
+  const std::size_t total = taken.positions.size();
+  for (std::size_t i = total - std::min(collider_particles, total); i < total; ++i) {
+    move(taken.positions[i], given.positions[i]);
+    move(taken.remainders[i], given.remainders[i]);
+    move(taken.velocities[i], given.velocities[i]);
   }
   to.restore(taken);
 }

@@ -538,11 +538,13 @@ void PairSystem::find_tangles(const Record* positions) {
 }
 
 void PairSystem::begin_frame(const Record* positions, bool anew) {
-  const std::int64_t candidates = counts_.candidates, tangled = counts_.tangled;
+  const std::int64_t candidates = counts_.candidates, tangled = counts_.tangled, hopeless = counts_.hopeless;
   counts_ = {};
   counts_.candidates = candidates;
   counts_.tangled = tangled;
-  if (!anew && tangles_.empty()) return;
+  // Clean pairs stay clean, unless nothing kept them: what has crossed is then exempt, as it would be in a state put back.
+  const bool kept_apart = model_.filter && hopeless == 0;
+  if (!anew && tangles_.empty() && kept_apart) return;
   find_tangles(positions);
   listed_ = false;
 }

@@ -261,7 +261,8 @@ void Frame::count_iterations(int iterations) {
   IterationCount& count = report_.iterations;
   count.smallest = count.smallest == 0 ? iterations : std::min(count.smallest, iterations);
   count.largest = std::max(count.largest, iterations);
-  count.mean += static_cast<double>(iterations) / context_.substeps;
+  iterations_made_ += iterations;
+  count.mean = static_cast<double>(iterations_made_) / ++substeps_counted_;
 }
 
 void Frame::end() {

@@ -88,6 +88,8 @@ class Frame {
   Report& report_;
   double start_, dt_, time_after_ = 0;
   float h_;
+  std::int64_t iterations_made_ = 0;
+  int substeps_counted_ = 0;
   float substeps_ahead_ = 1;  ///< of the frame, this one included
   bool sweeps_on_entry_;
 };

@@ -28,7 +28,7 @@ constexpr double clearly_better = 0.8;
 constexpr double own_share = 0.3;
 
 Clock::time_point after(double seconds) {
-  const std::chrono::duration<double> limited(std::min(std::max(seconds, 0.0), 1e6));  // a clock has an end
+  const std::chrono::duration<double> limited(seconds > 0 ? std::min(seconds, 1e6) : 0.0);  // a clock has an end
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(limited);
 }
 
