@@ -141,9 +141,9 @@ void project_contact(PairContact& c, const Record* positions, const Record* rema
   move(c, change, positions, displacements);
 }
 
-void respond_to_contact(const PairContact& c, const Record* positions, Record* velocities) {
+void respond_to_contact(const PairContact& c, const Record* positions, Record* velocities, const Vec3f& missing) {
   if (!(c.push > 0)) return;
-  const float separating = dot(c.normal, relative(c, velocities));
+  const float separating = dot(c.normal, relative(c, velocities) + missing);
   if (separating > 0) move(c, c.normal * -separating, positions, velocities);
 }
 

@@ -66,7 +66,8 @@ PairContact make_contact(const PairStencil& pair, const PairBatch& at, int lane,
 /// the same for one particle). Arrays are of all particles of the model; w of `positions` the inverse mass.
 void project_contact(PairContact& contact, const Record* positions, const Record* remainders, Record* displacements);
 
-/// Takes away the speed at which a contact that pushed now separates: a push is no throw.
-void respond_to_contact(const PairContact& contact, const Record* positions, Record* velocities);
+/// Takes away the speed at which a contact that pushed now separates: a push is no throw. `missing` is what velocities lack of
+/// the relative one [m/s].
+void respond_to_contact(const PairContact& contact, const Record* positions, Record* velocities, const Vec3f& missing = {});
 
 }  // namespace pliant

@@ -395,8 +395,13 @@ void PairSystem::project(const PairParticles& particles) {
     project_contact(contact, particles.positions, particles.remainders, particles.displacements);
 }
 
-void PairSystem::respond(const Record* positions, Record* velocities) const {
-  for (const PairContact& contact : contacts_) respond_to_contact(contact, positions, velocities);
+void PairSystem::respond(const Record* positions, Record* velocities, FunctionRef<Vec3f(int body)> gravity) const {
+  for (const PairContact& contact : contacts_) {
+    Vec3f missing{};
+    for (int i = 0; i < 4; ++i)
+      if (positions[contact.vertex[i]].w > 0) missing += gravity(model_.vertex_body[contact.vertex[i]]) * contact.weight[i];
+    respond_to_contact(contact, positions, velocities, missing);
+  }
 }
 
 // ---------------------------------------------------------------- the filter

@@ -70,7 +70,8 @@ class PairSystem {
   void project(const PairParticles& particles);
   /// Shortens displacements so that nothing crosses.
   void filter(Executor& executor, const PairParticles& particles);
-  void respond(const Record* positions, Record* velocities) const;
+  /// After a substep. `gravity` is what velocities of a body's free particles lack: within a frame, that of the frame [m/s].
+  void respond(const Record* positions, Record* velocities, FunctionRef<Vec3f(int body)> gravity) const;
 
   const PairCounts& counts() const { return counts_; }
   const std::vector<PairContact>& contacts() const { return contacts_; }

@@ -173,7 +173,10 @@ PairParticles Frame::all_particles() const {
 void Frame::find_pairs() { work_.pairs->detect(executor_, all_particles()); }
 void Frame::sweep_pairs() { work_.pairs->project(all_particles()); }
 void Frame::filter_pairs() { work_.pairs->filter(executor_, all_particles()); }
-void Frame::respond_to_pairs() { work_.pairs->respond(state_.positions.data(), state_.velocities.data()); }
+void Frame::respond_to_pairs(bool ends_frame) {
+  work_.pairs->respond(state_.positions.data(), state_.velocities.data(),
+                       [&](int object) { return ends_frame ? Vec3f{} : gravity_for(work_.gravity[object].settled); });
+}
 
 // ---------------------------------------------------------------- constraints
 

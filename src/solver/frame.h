@@ -40,7 +40,7 @@ class Frame {
   void find_pairs();
   void sweep_pairs();
   void filter_pairs();
-  void respond_to_pairs();
+  void respond_to_pairs(bool ends_frame);
 
   /// Velocities and positions of every tile at the end of a substep, or of the frame.
   void finish_tiles(bool ends_frame);

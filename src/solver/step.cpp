@@ -57,7 +57,7 @@ void run(const StepContext& context, Frame& frame) {
     if (parted) {
       if (!first) frame.finish_tiles(false);
       if (frame.give_up(substep - 1)) return;
-      if (!first && frame.has_pairs()) frame.respond_to_pairs();
+      if (!first && frame.has_pairs()) frame.respond_to_pairs(false);
       if (forces) frame.apply_external_forces(substep);
     }
 
@@ -70,7 +70,7 @@ void run(const StepContext& context, Frame& frame) {
   }
   frame.finish_tiles(true);
   if (frame.give_up(context.substeps - 1)) return;
-  if (frame.has_pairs()) frame.respond_to_pairs();
+  if (frame.has_pairs()) frame.respond_to_pairs(true);
   frame.end();
 }
 
