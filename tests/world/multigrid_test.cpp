@@ -149,6 +149,26 @@ TEST(Multigrid, LetsWhatSlidesSlide) {
   EXPECT_NEAR(way, 1 / (2 * 0.4 * 9.81), 0.03 * way);
 }
 
+/// A cloth falls on a rough box, corners and all: what the contacts' projection gives back is never more than friction could
+/// have held, or the cloth is torn.
+TEST(Multigrid, IsNotTornByWhatFrictionHolds) {
+  Scene scene;
+  Object sheet = cotton(grid_mesh(40, 40, 1, 1));
+  sheet.thickness = 0.005f;
+  sheet.static_friction = sheet.kinetic_friction = 0.5f;
+  Collider box;
+  box.shape = Box{{0.25f, 0.05f, 0.25f}};
+  box.position = {0, -0.08f, 0};
+  box.static_friction = box.kinetic_friction = 0.5f;
+  scene.add(box);
+  scene.add(sheet);
+  for (int substeps : {4, 10}) {
+    const Worst worst = worst_of(scene, Sweep::multigrid, substeps);
+    EXPECT_LT(worst.p99, 1.05) << substeps;
+    EXPECT_LT(worst.largest, 1.6) << substeps;
+  }
+}
+
 TEST(Multigrid, FollowsPinsThatMove) {
   constexpr int n = 32;
   Scene scene = hung(grid_mesh(n, n, 1, 1), n);

@@ -72,7 +72,9 @@ void keep_push(const SweepArguments& a, const Record* change, float stiffness, C
   const float moves = a.positions[contact.particle].w / a.inverse_h2;
   const float deeper = dot(contact.normal, by);
   contact.push += max(0.f, -(s.depth + deeper) * s.along * moves);
-  contact.friction -= (s.slip + by - contact.normal * deeper) * (s.across * moves);
+  const Vec3f friction = (s.slip + by - contact.normal * deeper) * (s.across * moves);
+  const float size = length(friction), most = contact.kinetic_friction * -s.depth;
+  contact.friction -= friction * (size > most ? most / size : 1.f);
 }
 
 /// visit(contact, stiffness, object) for every contact of objects that are corrected.

@@ -215,14 +215,13 @@ void linearise(const MultigridLevel& level, const LinearisedAt& at, MultigridVal
       add_spring(from_registers(across).position, load_wide(level.stiffness.data() + s * batch_width),
                  load_wide(level.rest_length.data() + s * batch_width), values.blocks.data() + s * spring_floats, row);
     }
-    float real[wide_width];
-    for (int lane = 0; lane < wide_width; ++lane) real[lane] = row_of(b, lane) < level.rows ? 1.f : 0.f;
-    const Wide zero(0.f), is_row = load_wide(real), moves = select(row.moves, is_row, zero);
-    const WideMask free = moves > zero;
+    // Lanes beyond the last row are at the last row's place, without springs: no force, nothing to solve.
+    const Wide zero(0.f);
     store_block(values.diagonal.data() + batch * block_floats, row.diagonal);
-    store_block(values.inverse.data() + batch * block_floats, damped_inverse(row.whole, free));
-    store_rows(values.right.data(), b,
-               {select(free, row.force.x, zero), select(free, row.force.y, zero), select(free, row.force.z, zero)});
+    store_block(values.inverse.data() + batch * block_floats, damped_inverse(row.whole, row.moves));
+    store_rows(
+        values.right.data(), b,
+        {select(row.moves, row.force.x, zero), select(row.moves, row.force.y, zero), select(row.moves, row.force.z, zero)});
   }
 }
 
