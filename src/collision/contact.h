@@ -44,7 +44,7 @@ void move_colliders(const Model& model, double time_before, double time_after, s
 struct ContactSearch {
   const CompiledObject& object;
   const AdvanceArguments& particles;  ///< the tile's, with displacements as predicted
-  const PointBounds& bounds;               ///< holds the particles' places before and after
+  const PointBounds& bounds;          ///< holds the particles' places before and after
   const std::vector<MovingCollider>& colliders;
   int (*find_near)(const NearQuery& query, std::int32_t* near);  ///< of Kernels
 };

@@ -51,7 +51,7 @@ struct Workspace {
   SweepScratch sweep;
   std::unique_ptr<PairSystem> pairs;  ///< null where nothing that moves can touch anything else that is made of triangles
   bool look_for_tangles = true;       ///< at the next frame: the first, or after a State was put back
-  ResidualScratch residual;  ///< where iterations stop at a tolerance
+  ResidualScratch residual;           ///< where iterations stop at a tolerance
 };
 
 /// Which multipliers are kept: those that a second iteration needs, or all.
