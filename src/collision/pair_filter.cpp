@@ -1,0 +1,184 @@
+// The filter of PairSystem, and the tangles that it leaves alone.
+#include <algorithm>
+
+#include "collision/pair_bounds.h"
+
+namespace pliant {
+
+namespace {
+
+/// Rounds in which moves are shortened by as much as they must; after them offenders stay where they are.
+constexpr int rounds_of_shares = 3;
+
+void sort_out(std::vector<std::uint64_t>& keys) {
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+}
+
+/// For each vertex the triangles at it, ascending.
+IntLists triangles_around(const ContactElements& elements) {
+  IntLists out;
+  out.start.assign(static_cast<std::size_t>(elements.vertex_count) + 1, 0);
+  for (const Triangle& t : elements.triangles)
+    for (const int v : t) ++out.start[static_cast<std::size_t>(v) + 1];
+  for (std::size_t i = 1; i < out.start.size(); ++i) out.start[i] += out.start[i - 1];
+  out.items.resize(3 * elements.triangles.size());
+  std::vector<int> next(out.start.begin(), out.start.end() - 1);
+  for (std::size_t t = 0; t < elements.triangles.size(); ++t)
+    for (const int v : elements.triangles[t]) out.items[next[v]++] = static_cast<int>(t);
+  return out;
+}
+
+bool moves_at_all(const Record& d) { return d.x != 0 || d.y != 0 || d.z != 0; }
+
+}  // namespace
+
+void PairSystem::filter_bucket(Bucket& bucket, Task& task, const PairParticles& particles) {
+  activate(bucket, task, particles);
+  if (bucket.active_last == bucket.first) return;
+  collect_near(bucket, task, least_of(material(bucket).thickness));
+  for (const std::int32_t p : task.near) filter_pair(bucket, p, particles, task);
+}
+
+void PairSystem::filter_pair(const Bucket& bucket, std::int32_t pair, const PairParticles& particles, Task& task) {
+  const PairStencil four = stencil(bucket, pair);
+  const float least = least_of(material(bucket).thickness);
+  if (!paths_within(four, particles, least)) return;
+  const PairDistance at = pair_distance(four, particles.positions);
+  // What an old bound could not dismiss and a new one does is left alone: bounds only save work.
+  if (static_cast<float>(at.distance) * sum_slack - moves(bucket, pair) > least) return;
+  SeparatingSlab slab;
+  std::array<float, 4> shares{1, 1, 1, 1};
+  const Separation found =
+      plan_separation(four, at, particles.positions, particles.displacements, double(least), slab, shares);
+  if (found == Separation::free) return;
+  if (found == Separation::hopeless) ++task.hopeless;
+  if (found == Separation::planned) task.slabs.push_back(slab);
+  for (int i = 0; i < 4; ++i)
+    if (shares[i] < 1) task.shares.emplace_back(four.vertex[i], shares[i]);
+}
+
+/// The least of what the pairs allow, or nothing of it; then what rounding let through stays where it was, until nothing more
+/// does. Whether any move was shortened.
+bool PairSystem::shorten(const PairParticles& particles, bool stops) {
+  touched_.clear();
+  const auto allow = [&](std::int32_t v, float share) {
+    if (!moves_at_all(particles.displacements[v])) return;
+    if (share_[v] == 1) touched_.push_back(v);
+    share_[v] = min(share_[v], stops ? 0 : share);
+  };
+  for (const Task& task : tasks_)
+    for (const auto& [vertex, share] : task.shares) allow(vertex, share);
+  hold_rounded(particles, allow);
+  for (const std::int32_t v : touched_) {
+    Record& d = particles.displacements[v];
+    d = {d.x * share_[v], d.y * share_[v], d.z * share_[v], 0};
+    share_[v] = 1;
+  }
+  shortened_.insert(shortened_.end(), touched_.begin(), touched_.end());
+  return !touched_.empty();
+}
+
+template <class Allow>
+void PairSystem::hold_rounded(const PairParticles& particles, Allow allow) {
+  for (bool again = true; again;) {
+    again = false;
+    for (const Task& task : tasks_)
+      for (const SeparatingSlab& slab : task.slabs)
+        for (int i = 0; i < 4; ++i) {
+          const std::int32_t v = slab.pair.vertex[i];
+          if (share_[v] == 0 || !ends_beyond(slab, i, particles.positions, particles.displacements, share_[v])) continue;
+          allow(v, 0);
+          again = share_[v] == 0 || again;
+        }
+  }
+}
+
+/// Pairs are dismissed by how much they move against each other, which grows where one of them alone is shortened: what was
+/// shortened is looked at again as it is then, until no more is.
+void PairSystem::keep_apart(Executor& executor, const PairParticles& particles) {
+  shortened_.clear();
+  for (int round = 0;; ++round) {
+    // What moved farther than was foreseen is looked for around the moves as they are now.
+    if (!listed_ || !all_within(particles, margin_beyond(least_of(model_.largest_thickness)))) rebuild(executor, particles);
+    measure_moves(executor, particles);
+    executor.parallel_for("filter moves", static_cast<int>(tasks_.size()), [&](int number) {
+      Task& task = tasks_[number];
+      task.slabs.clear();
+      task.shares.clear();
+      task.hopeless = 0;
+      for (int b = task.first; b < task.last; ++b) filter_bucket(buckets_[b], task, particles);
+    });
+    if (!shorten(particles, round >= rounds_of_shares)) break;
+  }
+  for (const Task& task : tasks_) counts_.hopeless += task.hopeless;
+  std::sort(shortened_.begin(), shortened_.end());
+  counts_.shortened += std::unique(shortened_.begin(), shortened_.end()) - shortened_.begin();
+}
+
+void PairSystem::filter(Executor& executor, const PairParticles& particles) {
+  counts_.contacts = 0;
+  for (const PairContact& contact : contacts_) counts_.contacts += contact.push > 0 ? 1 : 0;
+  if (!is_finite(particles)) return;
+  if (model_.filter) {
+    keep_apart(executor, particles);
+  } else {
+    measure_moves(executor, particles);
+  }
+  settle_moves();
+  drift_ += mean_move(particles);
+}
+
+// ---------------------------------------------------------------- tangles
+
+void PairSystem::find_tangles(const Record* positions) {
+  std::vector<Vec3f> places(model_.rest.size());
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] = {positions[i].x, positions[i].y, positions[i].z};
+  tangles_.clear();
+  for (const Intersection& found : intersections_.find(places)) {
+    const int a = model_.vertex_body[found.a], b = model_.vertex_body[model_.elements.triangles[found.triangle][0]];
+    if (model_.meets[static_cast<std::size_t>(a) * model_.bodies + b] != 0) tangles_.push_back(found);
+  }
+  tangled_pairs_.clear();
+  tangled_edges_.clear();
+  const auto edge_number = [&](int a, int b) {
+    const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
+    const auto& edges = model_.elements.edges;
+    const auto at = std::lower_bound(edges.begin(), edges.end(), edge);
+    return at != edges.end() && *at == edge ? static_cast<int>(at - edges.begin()) : -1;
+  };
+  counts_.tangled = static_cast<std::int64_t>(tangles_.size());
+  const IntLists around = tangles_.empty() ? IntLists{} : triangles_around(model_.elements);
+  for (const Intersection& tangle : tangles_) {
+    const Triangle& t = model_.elements.triangles[tangle.triangle];
+    tangled_pairs_.push_back(key_of(tangle.a, tangle.triangle));
+    tangled_pairs_.push_back(key_of(tangle.b, tangle.triangle));
+    const int crossing = edge_number(tangle.a, tangle.b);
+    for (int k = 0; k < 3; ++k) {
+      const int side = edge_number(t[k], t[(k + 1) % 3]);
+      tangled_edges_.push_back(key_of(std::min(crossing, side), std::max(crossing, side)));
+    }
+    // The triangle's corners against the triangles of the edge.
+    for (const int* other = around.begin(tangle.a); other != around.end(tangle.a); ++other) {
+      const Triangle& o = model_.elements.triangles[*other];
+      if (o[0] != tangle.b && o[1] != tangle.b && o[2] != tangle.b) continue;
+      for (const int corner : t) tangled_pairs_.push_back(key_of(corner, *other));
+    }
+  }
+  sort_out(tangled_pairs_);
+  sort_out(tangled_edges_);
+}
+
+void PairSystem::begin_frame(const Record* positions, bool anew) {
+  const std::int64_t candidates = counts_.candidates, tangled = counts_.tangled, hopeless = counts_.hopeless;
+  counts_ = {};
+  counts_.candidates = candidates;
+  counts_.tangled = tangled;
+  // Clean pairs stay clean, unless nothing kept them: what has crossed is then exempt, as it would be in a state put back.
+  const bool kept_apart = model_.filter && hopeless == 0;
+  if (!anew && tangles_.empty() && kept_apart) return;
+  find_tangles(positions);
+  listed_ = false;
+}
+
+}  // namespace pliant
