@@ -4,14 +4,16 @@
 //     forces        wind and force fields on the velocities (where there are any)
 //     predict       v += h g, displacement = h v                            symplectic Euler
 //     collide       contacts of the predicted path with the colliders
+//                   and, where surfaces meet, contacts among them
 //     solve         iterations x (constraints as the chosen sweep has it, acceleration, tethers, contacts)
+//     filter        moves shortened so that no surface crosses another
 //     update        v from the corrections, x += displacement
 //     respond       restitution where something touched (friction is part of a contact's projection)
 //
 // Mueller et al. 2007, algorithm 1, with the small steps of Macklin et al. 2019. What a tile needs from one substep to the
 // next is its own affair, so update, respond, predict, collide and the first sweep are one visit to each tile while it is
-// in the cache: the end of a substep stands at the start of the next. Only outside forces, which need all velocities, part
-// the two.
+// in the cache: the end of a substep stands at the start of the next. Only outside forces and
+// contacts among surfaces, which need all velocities, part the two.
 #include "solver/step.h"
 
 #include <chrono>

@@ -192,11 +192,8 @@ class Soup {
     std::map<Key, int> found, wanted;
     for (const PairContact& contact : system_.contacts()) ASSERT_LE(++found[contact.vertex], 2) << "twice";
     for (const PairStencil& pair : pairs_) {
-      Record ends[4], starts[4];
-      for (int i = 0; i < 4; ++i) {
-        const Record &x = starts[i] = positions_[pair.vertex[i]], &d = displacements_[pair.vertex[i]];
-        ends[i] = {x.x + d.x, x.y + d.y, x.z + d.z, x.w};
-      }
+      Record starts[4], ends[4];
+      find_path(pair, starts, ends);
       const PairStencil own{{0, 1, 2, 3}, pair.first_side};
       const double kept = double(thickness(pair)) * (1 - 1e-4);
       const double now = pair_distance(own, starts).distance, then = pair_distance(own, ends).distance;
@@ -224,15 +221,20 @@ class Soup {
           << "particle " << i;
   }
 
+  /// Where the four of a pair begin and end.
+  void find_path(const PairStencil& pair, Record (&starts)[4], Record (&ends)[4]) const {
+    for (int i = 0; i < 4; ++i) {
+      const Record &x = starts[i] = positions_[pair.vertex[i]], &d = displacements_[pair.vertex[i]];
+      ends[i] = {x.x + d.x, x.y + d.y, x.z + d.z, x.w};
+    }
+  }
+
   /// What no pair comes nearer than: min(least, 0.98 of the last distance).
   void check_distances() {
     if (!model_.filter || system_.counts().hopeless > 0) return;
     for (const PairStencil& pair : pairs_) {
       Record starts[4], ends[4];
-      for (int i = 0; i < 4; ++i) {
-        const Record &x = starts[i] = positions_[pair.vertex[i]], &d = displacements_[pair.vertex[i]];
-        ends[i] = {x.x + d.x, x.y + d.y, x.z + d.z, x.w};
-      }
+      find_path(pair, starts, ends);
       const PairStencil own{{0, 1, 2, 3}, pair.first_side};
       const double now = pair_distance(own, starts).distance, least = 0.05 * double(material(pair).thickness);
       if (now > 1e-4) {
