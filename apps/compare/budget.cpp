@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <optional>
 
 #include "apps/compare/compare.h"
@@ -35,54 +36,86 @@ void take_larger(Stretch& worst, const Stretch& stretch) {
   worst.largest = std::max(worst.largest, stretch.largest);
 }
 
-/// The first `frames` frames of the scene; no value where they do not stay finite.
-std::optional<Budgeted> simulate(const Scene& scene, const Method& method, int substeps, int iterations, int frames,
-                                 const Options& options) {
+/// What one number of substeps and iterations came to.
+struct Trial {
+  Budgeted row;
+  bool finite = true;  ///< where not, the row holds the frames before
+};
+
+/// The first `frames` frames of the scene, or those until a value is not finite.
+Trial simulate(const Scene& scene, const Method& method, int substeps, int iterations, int frames, const Options& options) {
   World world(scene, settings_of(scene, method, substeps, iterations));
-  Budgeted found{method.name, substeps, iterations, 0, {0, 0, 0}, {}};
+  Trial trial{{method.name, substeps, iterations, 0, {0, 0, 0}, {}}};
   std::vector<double> milliseconds;
-  for (int frame = 0; frame < frames; ++frame) {
+  for (int frame = 0; frame < frames && trial.finite; ++frame) {
     if (options.pause) options.pause();
     const Report report = world.step(scene.frame_time);
-    if (!report.ok()) return std::nullopt;
     milliseconds.push_back(report.milliseconds);
-    take_larger(found.worst, *report.stretch);
-    found.last = *report.stretch;
+    trial.finite = report.ok();
+    if (!trial.finite) break;
+    take_larger(trial.row.worst, *report.stretch);
+    trial.row.last = *report.stretch;
   }
   const auto middle = milliseconds.begin() + static_cast<std::ptrdiff_t>(milliseconds.size() / 2);
   std::nth_element(milliseconds.begin(), middle, milliseconds.end());
-  found.milliseconds = *middle;
-  return found;
+  trial.row.milliseconds = *middle;
+  return trial;
 }
 
-/// As many substeps of `iterations` as fit.
-std::optional<Budgeted> fit(const Scene& scene, const Method& method, int iterations, const Options& options) {
-  const auto probe = simulate(scene, method, probe_substeps, iterations, std::min(probe_frames, scene.frames), options);
-  if (!probe) return std::nullopt;
-  int substeps = static_cast<int>(std::min(options.budget / probe->milliseconds * probe_substeps, 1. * most_substeps));
+/// Why numbers of iterations gave nothing.
+struct Misses {
+  double fastest = std::numeric_limits<double>::infinity();  ///< of what takes too long [ms a frame]
+  int not_finite = 0;                                        ///< how many fit and do not stay finite
+};
+
+/// As many substeps of `iterations` as fit; the probe may be too few to stay finite, since it only tells the time.
+std::optional<Budgeted> fit(const Scene& scene, const Method& method, int iterations, const Options& options,
+                            Misses& misses) {
+  const int frames = std::min(probe_frames, scene.frames);
+  const double probed = simulate(scene, method, probe_substeps, iterations, frames, options).row.milliseconds;
+  int substeps = static_cast<int>(std::min(options.budget / probed * probe_substeps, 1. * most_substeps));
+  double fastest = probed / probe_substeps;
   for (int i = 0; i <= most_corrections && substeps >= 1; ++i) {
-    auto found = simulate(scene, method, substeps, iterations, scene.frames, options);
-    if (!found) return std::nullopt;
-    if (found->milliseconds <= options.budget) return found;
-    const double share = options.budget / found->milliseconds;
+    const Trial trial = simulate(scene, method, substeps, iterations, scene.frames, options);
+    if (trial.row.milliseconds <= options.budget) {
+      if (trial.finite) return trial.row;
+      ++misses.not_finite;
+      return std::nullopt;
+    }
+    fastest = trial.row.milliseconds;
+    const double share = options.budget / fastest;
     substeps = std::min(substeps - 1, static_cast<int>(std::floor(0.98 * share * substeps)));
   }
+  misses.fastest = std::min(misses.fastest, fastest);
   return std::nullopt;
+}
+
+std::string text_of(const char* pattern, double value) {
+  char text[128];
+  std::snprintf(text, sizeof text, pattern, value);
+  return text;
+}
+
+[[noreturn]] void refuse(const Misses& misses, const Options& options) {
+  const std::string budget = text_of("%.4g ms a frame", options.budget);
+  if (misses.not_finite == 0) {
+    throw Error({}, "nothing fits into " + budget + ": the least tried takes about " + text_of("%.2g ms", misses.fastest),
+                "give more milliseconds");
+  }
+  throw Error({}, "what fits into " + budget + " does not stay finite", "give more milliseconds, for more substeps");
 }
 
 }  // namespace
 
 Budgeted fit_budget(const Scene& scene, const Method& method, const Options& options) {
   std::optional<Budgeted> best;
+  Misses misses;
   for (int iterations : iterations_tried) {
-    const auto found = fit(scene, method, iterations, options);
+    const auto found = fit(scene, method, iterations, options, misses);
     if (found && (!best || found->worst.p99 < best->worst.p99)) best = found;
   }
-  if (best) return *best;
-  char words[96];
-  std::snprintf(words, sizeof words, "no substep of one iteration fits into %.4g ms a frame and stays finite",
-                options.budget);
-  throw Error({}, words, "give more milliseconds");
+  if (!best) refuse(misses, options);
+  return *best;
 }
 
 }  // namespace pliant::compare

@@ -1,4 +1,8 @@
-// Four panels: what an iteration buys, and what a millisecond buys; of the error that is solved for, and of what is seen.
+// Six panels: what an iteration buys, and what a millisecond buys; of the error that is solved for, and of what is seen of it,
+// at its worst and all over.
+#include <algorithm>
+#include <limits>
+
 #include "apps/compare/compare.h"
 
 namespace pliant::compare {
@@ -34,48 +38,69 @@ double milliseconds_of(const Sample& sample) { return sample.milliseconds; }
 double largest_of(const Sample& sample) { return percent(sample.stretch.largest); }
 double p99_of(const Sample& sample) { return percent(sample.stretch.p99); }
 
+constexpr int start_colour = 8;  // the palette's last, which no sweep has unless nine are compared
+
 /// Every iteration, which the record has; the first is no place on a logarithmic axis.
-plot::Series recorded(const Curve& curve, int colour, double scale) {
+template <class X>
+plot::Series recorded(const Curve& curve, int colour, double scale, const X& x) {
   plot::Series series;
   series.name = curve.name;
   series.colour = colour;
   for (std::size_t i = 1; i < curve.residuals.size(); ++i) {
-    series.x.push_back(static_cast<double>(i));
+    series.x.push_back(x(curve, static_cast<int>(i)));
     series.y.push_back(scale * curve.residuals[i]);
   }
   return series;
 }
 
+/// Across a panel, where all begin: the error as predicted.
+plot::Series start_of(const Result& result, double scale, const plot::Chart& chart) {
+  plot::Series series;
+  series.name = "at the start";
+  series.style = plot::Series::Style::dashed;
+  series.colour = start_colour;
+  double first = std::numeric_limits<double>::infinity(), last = 0;
+  for (const plot::Series& other : chart.series) {
+    first = std::min(first, other.x.front());
+    last = std::max(last, other.x.back());
+  }
+  series.x = {first, last};
+  series.y.assign(2, scale * result.curves.front().residuals.front());
+  return series;
+}
+
 template <class X>
-void add_stretch(const Curve& curve, int colour, const X& x, plot::Chart& chart) {
-  chart.series.push_back(line(curve, colour, x, largest_of));
-  plot::Series p99 = line(curve, colour, x, p99_of);
-  p99.name.clear();
-  p99.style = plot::Series::Style::dashed;
-  chart.series.push_back(p99);
+plot::Chart residual_panel(const Result& result, const std::string& against, const std::string& x_label, const X& x) {
+  const bool length = result.residual_type == "distance";
+  const double scale = length ? 1000 : 1;
+  const std::string error = length ? "rms error of lengths [mm]" : "rms error of " + result.residual_type;
+  plot::Chart chart = panel("Residual, by " + against, x_label, error);
+  int colour = 0;
+  for (const Curve& curve : result.curves) chart.series.push_back(recorded(curve, colour++, scale, x));
+  chart.series.push_back(start_of(result, scale, chart));
+  return chart;
+}
+
+template <class X, class Y>
+plot::Chart stretch_panel(const Result& result, const std::string& title, const std::string& x_label, const X& x,
+                          const Y& y) {
+  plot::Chart chart = panel(title, x_label, "beyond rest length [%]");
+  int colour = 0;
+  for (const Curve& curve : result.curves) chart.series.push_back(line(curve, colour++, x, y));
+  return chart;
 }
 
 }  // namespace
 
 std::vector<plot::Chart> to_charts(const Result& result) {
-  const bool length = result.residual_type == "distance";
-  const double scale = length ? 1000 : 1;
-  const std::string residual = length ? "rms error of lengths [mm]" : "rms error of " + result.residual_type;
-  const auto residual_of = [&](const Sample& sample) { return scale * sample.residual; };
-  const std::string stretch = "beyond rest length [%]", time = "milliseconds of the substep", count = "iterations";
-  std::vector<plot::Chart> charts{panel("Residual, by iterations", count, residual),
-                                  panel("Residual, by time", time, residual),
-                                  panel("Largest stretch (dashed: p99), by iterations", count, stretch),
-                                  panel("Largest stretch (dashed: p99), by time", time, stretch)};
-  int colour = 0;
-  for (const Curve& curve : result.curves) {
-    charts[0].series.push_back(recorded(curve, colour, scale));
-    charts[1].series.push_back(line(curve, colour, milliseconds_of, residual_of));
-    add_stretch(curve, colour, iterations_of, charts[2]);
-    add_stretch(curve, colour, milliseconds_of, charts[3]);
-    ++colour;
-  }
-  return charts;
+  const std::string time = "milliseconds of the substep", count = "iterations";
+  const auto iteration = [](const Curve&, int number) { return static_cast<double>(number); };
+  return {residual_panel(result, "iterations", count, iteration),
+          residual_panel(result, "time", time, milliseconds_at),
+          stretch_panel(result, "Largest stretch, by iterations", count, iterations_of, largest_of),
+          stretch_panel(result, "Largest stretch, by time", time, milliseconds_of, largest_of),
+          stretch_panel(result, "Stretch that 1 edge in 100 exceeds, by iterations", count, iterations_of, p99_of),
+          stretch_panel(result, "Stretch that 1 edge in 100 exceeds, by time", time, milliseconds_of, p99_of)};
 }
 
 }  // namespace pliant::compare

@@ -29,14 +29,14 @@ std::vector<std::string> option_names();
 /// The method of this name; what the name does not say is as in `base`. Throws Error that lists what there is.
 Method method_of(const std::string& name, const SweepOptions& base);
 
-/// Names compared unless told otherwise: every sweep there is but `sequential`, which has the bits of `tiled`, and two
-/// with options.
-std::vector<std::string> default_methods();
+/// Names compared unless told otherwise: every sweep there is but `sequential`, which has the bits of `tiled`, then Chebyshev
+/// over the default, and tethers where something of the scene is fixed to hold them.
+std::vector<std::string> default_methods(const Scene& scene);
 
 /// Where a substep stands after so many iterations.
 struct Sample {
   int iterations = 0;
-  double milliseconds = 0;  ///< of the whole substep, the fastest of several
+  double milliseconds = 0;  ///< of the whole substep, the fastest of several; never less than with fewer iterations
   double residual = 0;      ///< root mean square of |C + alpha~ lambda| of the curve's type, in the unit of C
   Stretch stretch;
 };
@@ -90,7 +90,7 @@ Result run(const Scene& scene, const Options& options);
 /// forget their multipliers. The last `collider_particles` of either State are those of mesh colliders.
 void take_state(World& to, World& from, std::size_t collider_particles = 0);
 
-/// Four panels: residual and largest stretch against iterations and against milliseconds.
+/// Six panels: residual, largest stretch and its 99th percentile, each against iterations and against milliseconds.
 std::vector<plot::Chart> to_charts(const Result& result);
 std::string to_table(const Result& result);
 std::string to_json(const Result& result);
@@ -103,7 +103,11 @@ double substep_of(const Scene& scene, const Options& options);
 /// Curves of one method from the state of `start`. Throws Error where it refuses the scene or does not stay finite.
 Curve measure_curve(const Scene& scene, World& start, const Method& method, const Options& options);
 
-/// The best of some numbers of iterations, with as many substeps as fit. Throws Error where not even one does.
+/// Of the substep with so many iterations, between the samples on a straight line: an iteration costs what another does [ms].
+double milliseconds_at(const Curve& curve, int iterations);
+
+/// The best of some numbers of iterations, with as many substeps as fit. Throws Error where none fits, or none of those that
+/// do stays finite, and says which.
 Budgeted fit_budget(const Scene& scene, const Method& method, const Options& options);
 
 }  // namespace pliant::compare

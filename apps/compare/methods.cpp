@@ -1,5 +1,6 @@
 // Names of methods: a sweep, and options after plus signs.
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "apps/compare/compare.h"
@@ -45,6 +46,14 @@ void apply_option(const std::string& name, SweepOptions& options) {
               "write a sweep and after it, with a plus sign each, any of " + joined(option_names()));
 }
 
+/// Whether anything holds a tether.
+bool has_fixed(const Scene& scene) {
+  const auto is_infinite = [](float mass) { return std::isinf(mass); };
+  return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+    return !object.pins.empty() || std::any_of(object.masses.begin(), object.masses.end(), is_infinite);
+  });
+}
+
 }  // namespace
 
 std::vector<std::string> option_names() {
@@ -62,11 +71,12 @@ Method method_of(const std::string& name, const SweepOptions& base) {
   return method;
 }
 
-std::vector<std::string> default_methods() {
+std::vector<std::string> default_methods(const Scene& scene) {
   std::vector<std::string> names;
   for (const NamedSweep& one : sweeps())
     if (one.sweep != Sweep::sequential) names.push_back(one.name);
-  names.insert(names.end(), {"tiled+chebyshev", "chains+tethers"});
+  names.emplace_back("tiled+chebyshev");
+  if (has_fixed(scene)) names.emplace_back("chains+tethers");
   return names;
 }
 

@@ -30,17 +30,6 @@ int iterations_to_a_tenth(const Curve& curve) {
   return -1;
 }
 
-/// Of a substep with so many iterations, between the samples on a straight line.
-double milliseconds_at(const Curve& curve, int iterations) {
-  const auto after = std::find_if(curve.samples.begin(), curve.samples.end(),
-                                  [&](const Sample& sample) { return sample.iterations >= iterations; });
-  if (after == curve.samples.end()) return curve.samples.back().milliseconds;
-  if (after == curve.samples.begin()) return after->milliseconds;
-  const auto before = after - 1;
-  const double share = static_cast<double>(iterations - before->iterations) / (after->iterations - before->iterations);
-  return before->milliseconds + share * (after->milliseconds - before->milliseconds);
-}
-
 double milliseconds_an_iteration(const Curve& curve) {
   const Sample &first = curve.samples.front(), &last = curve.samples.back();
   if (last.iterations == first.iterations) return last.milliseconds;

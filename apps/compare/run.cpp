@@ -23,7 +23,7 @@ World run_to(const Scene& scene, int frames, const Options& options) {
 
 std::vector<Method> methods_of(const Scene& scene, const Options& options) {
   std::vector<Method> methods;
-  for (const std::string& name : options.methods.empty() ? default_methods() : options.methods) {
+  for (const std::string& name : options.methods.empty() ? default_methods(scene) : options.methods) {
     const bool again = std::any_of(methods.begin(), methods.end(), [&](const Method& m) { return m.name == name; });
     if (again) throw Error({}, "'" + name + "' is named twice", "name every sweep once");
     methods.push_back(method_of(name, scene.settings.sweep_options));

@@ -15,8 +15,8 @@ constexpr double title_size = 2, text_size = 2, font_height = 7;
 constexpr double left_margin = 104, right_margin = 26, title_height = 44, legend_line = 22, legend_stroke = 34;
 
 // Told apart by readers with any colour vision (Okabe and Ito 2008).
-constexpr Colour palette[] = {{0, 114, 178}, {213, 94, 0},   {0, 158, 115},   {204, 121, 167},
-                              {230, 159, 0}, {86, 180, 233}, {110, 110, 110}, {0, 0, 0}};
+constexpr Colour palette[] = {{0, 114, 178},  {213, 94, 0},    {0, 158, 115}, {204, 121, 167}, {230, 159, 0},
+                              {86, 180, 233}, {110, 110, 110}, {0, 0, 0},     {150, 156, 164}};
 
 Colour colour_of(const Chart& chart, std::size_t series) {
   const int chosen = chart.series[series].colour;
@@ -45,7 +45,7 @@ std::string number(double value) {
 
 // On a logarithmic axis small and large numbers are written by their power, 2e-4: labels stay short beside the axis' own.
 std::string number_of_power(double place, double factor, int power) {
-  if (power >= -3 && power <= 4) return number(place);
+  if (power >= -2 && power <= 4) return number(place);
   return number(factor) + "e" + std::to_string(power);
 }
 
@@ -235,7 +235,8 @@ Ticks logarithmic_ticks(double low, double high, int wanted) {
       ticks.labels.push_back(number_of_power(place, factor, k));
     }
   }
-  return ticks;
+  // Within a decade there may be hardly any of these: then round numbers, unevenly spaced as they are on such an axis.
+  return ticks.places.size() < 3 ? linear_ticks(std::pow(10, low), std::pow(10, high), wanted) : ticks;
 }
 
 Canvas paint(const std::vector<Chart>& charts, int columns, int width, int height) {

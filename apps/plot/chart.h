@@ -32,7 +32,8 @@ struct Ticks {
 
 /// Marks at 1, 2 or 5 times a power of ten within [low, high], about `wanted` of them.
 Ticks linear_ticks(double low, double high, int wanted);
-/// Marks at powers of ten within [low, high], thinned out to `wanted`.
+/// Marks at powers of ten within 10^low and 10^high, thinned out to `wanted`; over less than two decades also at 2 and 5 times
+/// these, and where even that makes fewer than three, as linear_ticks has it.
 Ticks logarithmic_ticks(double low, double high, int wanted);
 
 /// The charts side by side and below each other, `columns` a row, each `width` x `height` pixels.

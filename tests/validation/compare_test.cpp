@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "pliant/error.h"
@@ -81,7 +82,7 @@ Options quick(const std::vector<std::string>& methods = {}) {
 
 TEST(Compare, EverySweepSolvesTheSameSubstep) {
   const Result result = run(swinging(), quick());
-  EXPECT_EQ(result.curves.size() + result.refused.size(), default_methods().size());
+  EXPECT_EQ(result.curves.size() + result.refused.size(), default_methods(swinging()).size());
   EXPECT_EQ(result.frame, 2);
   EXPECT_EQ(result.residual_type, "distance");
   for (const Curve& curve : result.curves) {
@@ -94,6 +95,9 @@ TEST(Compare, EverySweepSolvesTheSameSubstep) {
       EXPECT_EQ(sample.residual, curve.residuals.at(static_cast<std::size_t>(sample.iterations)));
     }
     EXPECT_EQ(sampled, (std::vector<int>{1, 2, 3, 5, 7, 10, 12}));
+    for (std::size_t i = 1; i < curve.samples.size(); ++i)
+      EXPECT_GE(curve.samples[i].milliseconds, curve.samples[i - 1].milliseconds) << curve.name << ", sample " << i;
+    EXPECT_GT(curve.samples[0].milliseconds, 0) << curve.name;
   }
 }
 
@@ -188,23 +192,77 @@ TEST(Budget, TakesWhatFitsAndRefusesWhatDoesNot) {
   const Result nothing = run(scene, options);
   EXPECT_TRUE(nothing.budgeted.empty());
   ASSERT_EQ(nothing.refused.size(), 2U);
-  EXPECT_NE(nothing.refused[0].reason.find("more milliseconds"), std::string::npos) << nothing.refused[0].reason;
+  EXPECT_NE(nothing.refused[0].reason.find("nothing fits into 1e-09 ms a frame"), std::string::npos)
+      << nothing.refused[0].reason;
+  EXPECT_EQ(nothing.refused[0].reason.find("finite"), std::string::npos) << "not the reason";
   EXPECT_EQ(nothing.curves.size(), 2U) << "the curves need no budget";
 }
 
-TEST(Compare, DrawsFourPanelsWithALineASweep) {
+TEST(Budget, TellsWhatIsTooSlowFromWhatDoesNotStayFinite) {
+  Scene scene = swinging();
+  scene.frames = 12;
+  scene.forces.push_back([](const Vec3f&, const Vec3f&, float, float time) {
+    return Vec3f{time > 0.15f ? 3e38f : 0, 0, 0};  // after the frame of the curves and that of the probe
+  });
+  Options options = quick({"tiled"});
+  options.frame = 1;
+  options.budget = 1e6;
+  const Result result = run(scene, options);
+  ASSERT_EQ(result.refused.size(), 1U);
+  EXPECT_NE(result.refused[0].reason.find("does not stay finite"), std::string::npos) << result.refused[0].reason;
+}
+
+TEST(Compare, EveryKindOfSweepIsComparedAndTethersWhereSomethingHoldsThem) {
+  const auto has = [](const std::vector<std::string>& names, const char* name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  Scene scene = swinging();
+  for (const NamedSweep& one : sweeps())
+    EXPECT_EQ(has(default_methods(scene), one.name.c_str()), one.sweep != Sweep::sequential) << one.name;
+  EXPECT_TRUE(has(default_methods(scene), "chains+tethers"));
+  for (Object& object : scene.objects) object.pins.clear();
+  EXPECT_FALSE(has(default_methods(scene), "chains+tethers"));
+  scene.objects[1].masses[0] = std::numeric_limits<float>::infinity();
+  EXPECT_TRUE(has(default_methods(scene), "chains+tethers"));
+}
+
+TEST(Compare, TimesBetweenSamplesLieOnALine) {
+  const Curve curve{"", {}, {}, {{1, 2.0, 0, {}}, {3, 6.0, 0, {}}, {7, 7.0, 0, {}}}};
+  const double expected[] = {2, 2, 4, 6, 6.25, 6.5, 6.75, 7, 7};
+  for (int i = 0; i < 9; ++i) EXPECT_DOUBLE_EQ(milliseconds_at(curve, i), expected[i]) << i;
+}
+
+TEST(Compare, DrawsSixPanelsWithALineASweep) {
   const Result result = run(swinging(), quick({"tiled", "jacobi", "chains"}));
   const std::vector<plot::Chart> charts = to_charts(result);
-  ASSERT_EQ(charts.size(), 4U);
-  for (const plot::Chart& chart : charts) {
+  ASSERT_EQ(charts.size(), 6U);
+  for (std::size_t i = 0; i < charts.size(); ++i) {
+    const plot::Chart& chart = charts[i];
     EXPECT_TRUE(chart.logarithmic_x && chart.logarithmic_y) << chart.title;
-    const auto named =
-        std::count_if(chart.series.begin(), chart.series.end(), [](const auto& s) { return !s.name.empty(); });
-    EXPECT_EQ(named, 3) << chart.title;
+    EXPECT_EQ(chart.series.size(), i < 2 ? 4U : 3U) << chart.title;
+    for (std::size_t sweep = 0; sweep < 3; ++sweep) {
+      EXPECT_EQ(chart.series[sweep].name, result.curves[sweep].name) << chart.title;
+      EXPECT_EQ(chart.series[sweep].colour, static_cast<int>(sweep)) << chart.title << ": one colour in all panels";
+      EXPECT_TRUE(std::is_sorted(chart.series[sweep].x.begin(), chart.series[sweep].x.end())) << chart.title;
+    }
   }
   EXPECT_DOUBLE_EQ(charts[0].series[2].y[4], 1000 * result.curves[2].residuals[5]) << "millimetres, from iteration 1 on";
+  EXPECT_EQ(charts[1].series[2].y, charts[0].series[2].y) << "by time as by iterations, whatever was sampled";
   EXPECT_DOUBLE_EQ(charts[2].series[0].y[0], 100 * (result.curves[0].samples[0].stretch.largest - 1)) << "percent";
-  EXPECT_EQ(charts[0].series[1].colour, charts[3].series[3].colour) << "a sweep has one colour in all panels";
+  EXPECT_DOUBLE_EQ(charts[5].series[1].y[6], 100 * (result.curves[1].samples[6].stretch.p99 - 1));
+}
+
+TEST(Compare, ShowsTheErrorThatAllBeginWith) {
+  const Result result = run(swinging(), quick({"tiled", "jacobi"}));
+  const plot::Series by_iterations = to_charts(result)[0].series[2], by_time = to_charts(result)[1].series[2];
+  const double start = 1000 * result.curves[0].record[0].primal[0].rms;
+  EXPECT_EQ(result.curves[0].record[0].primal[0].type, "distance");
+  EXPECT_EQ(by_iterations.y, (std::vector<double>{start, start}));
+  EXPECT_EQ(by_iterations.x, (std::vector<double>{1, 12}));
+  EXPECT_EQ(by_time.y, by_iterations.y);
+  double longest = 0;
+  for (const Curve& curve : result.curves) longest = std::max(longest, curve.samples.back().milliseconds);
+  EXPECT_EQ(by_time.x[1], longest);
 }
 
 TEST(Compare, WritesAllNumbers) {

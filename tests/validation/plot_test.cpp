@@ -1,6 +1,7 @@
 // Charts: marks where a reader expects them, ink where the curve is, and no crash whatever the data.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <limits>
 
@@ -21,6 +22,11 @@ TEST(Plot, TicksAreRoundNumbersWithinTheRange) {
   EXPECT_EQ(linear_ticks(-0.3, 10.2, 6).labels, (std::vector<std::string>{"0", "2", "4", "6", "8", "10"}));
   EXPECT_EQ(linear_ticks(0.0012, 0.0031, 4).labels, (std::vector<std::string>{"0.0015", "0.002", "0.0025", "0.003"}));
   EXPECT_EQ(logarithmic_ticks(0, 3, 7).labels, (std::vector<std::string>{"1", "10", "100", "1000"}));
+  EXPECT_EQ(logarithmic_ticks(-4, 0, 7).labels, (std::vector<std::string>{"1e-4", "1e-3", "0.01", "0.1", "1"}));
+  EXPECT_EQ(logarithmic_ticks(-0.1, 1.1, 7).labels, (std::vector<std::string>{"1", "2", "5", "10"}));
+  EXPECT_EQ(logarithmic_ticks(std::log10(0.95), std::log10(1.5), 6).labels,
+            (std::vector<std::string>{"1", "1.1", "1.2", "1.3", "1.4", "1.5"}))
+      << "an axis with one mark says nothing";
   EXPECT_TRUE(linear_ticks(1, 1, 5).places.empty());
 }
 
