@@ -57,9 +57,15 @@ std::vector<Finding> check_mesh(const std::string& path) {
   const MeshFile file = read_mesh_file(path);
   print(one_line(path) + ": " + std::to_string(file.mesh.positions.size()) + " vertices, " +
         counted(file.mesh.triangles.size(), "triangle") + extent(file.mesh.positions) + "; numbers count from 0\n");
-  for (const std::string& repair : file.repairs) print("mended: " + one_line(repair) + "\n");
+  print_repairs(file.repairs);
   if (!file.repairs.empty()) print("from here on, numbers are those of the mesh as mended\n");
   return inspect(file.mesh);
+}
+
+std::string text_of(const char* pattern, double value) {
+  char text[48];
+  std::snprintf(text, sizeof text, pattern, value);
+  return text;
 }
 
 /// Runs the scene and others like it, unless it can't be, or no time is given for it.
@@ -71,7 +77,8 @@ void try_out(const Scene& scene, double seconds, std::vector<Finding>& findings)
     return false;
   };
   const Advice advice = advise(scene, {seconds, 120, stops});
-  if (!advice.words.empty()) findings.push_back({false, advice.words, advice.what_to_do});
+  const std::string more_time = advice.cut_short ? "; --seconds " + text_of("%.3g", 10 * seconds) + " tries more" : "";
+  if (!advice.words.empty()) findings.push_back({false, advice.words, advice.what_to_do + more_time});
   const bool is_fine = advice.words.empty() && advice.cut_short;
   if (is_fine)
     print("tried " + counted(static_cast<std::size_t>(advice.own.frames), "frame") +
@@ -87,7 +94,7 @@ std::vector<Finding> check_scene(const std::string& path, double seconds) {
   print(one_line(path) + ": " + counted(scene.objects.size(), "object") + " of " + counted(particles.size(), "particle") +
         extent(particles) + ", " + counted(scene.colliders.size() + scene.mesh_colliders.size(), "collider") + ", " +
         counted(static_cast<std::size_t>(scene.frames), "frame") + "\n");
-  for (const std::string& repair : file.repairs) print("mended: " + one_line(repair) + "\n");
+  print_repairs(file.repairs);
   std::vector<Finding> findings = inspect(scene);
   try_out(scene, seconds, findings);
   return findings;

@@ -53,7 +53,7 @@ pliant::compare::Options options_of(const CompareOptions& options, const Scene& 
 
 int compare(const CompareOptions& options) {
   refuse_same_file_twice(options.scene, options.out);
-  const Scene scene = read_scene_with(options.scene, options.overrides);
+  const Scene scene = read_scene_with(options.scene, options.overrides, false);
   const Outputs outputs = open_outputs(options.out);
   const pliant::compare::Result result = pliant::compare::run(scene, options_of(options, scene));
   print(one_line(options.scene) + " " + pliant::compare::to_table(result));

@@ -27,19 +27,31 @@ CLI::Validator range(Number least, Number largest) {
   return CLI::Validator(CLI::Range(least, largest)).description("");
 }
 
-void add_overrides(CLI::App& app, Overrides& overrides) {
-  app.add_option("--frames", overrides.frames, "frames to simulate, instead of the scene's number")
-      ->type_name("N")
-      ->check(range(0, most));
+/// What run and render take alike.
+void add_settings(CLI::App& app, Overrides& overrides) {
   app.add_option("--threads", overrides.threads, "threads; 0: as many as the machine has")
       ->type_name("N")
       ->check(range(0, most_threads));
-  app.add_option("--substeps", overrides.substeps, "substeps a frame")->type_name("N")->check(range(1, 10000));
-  app.add_option("--iterations", overrides.iterations, "iterations a substep")->type_name("N")->check(range(1, 10000));
+  app.add_option("--substeps", overrides.substeps, "substeps a frame, instead of the scene's")
+      ->type_name("N")
+      ->check(range(1, 10000));
+  app.add_option("--iterations", overrides.iterations, "iterations a substep, instead of the scene's")
+      ->type_name("N")
+      ->check(range(1, 10000));
+  app.add_option("--sweep", overrides.sweep, "the sweep, instead of the scene's, as chains or chains+tethers")
+      ->type_name("NAME");
+}
+
+void add_overrides(CLI::App& app, Overrides& overrides) {
+  add_settings(app, overrides);
+  app.add_option("--frames", overrides.frames, "frames to simulate, instead of the scene's number")
+      ->type_name("N")
+      ->check(range(0, most));
   app.add_option("--isa", overrides.isa, "code path; the same bits at another speed")
       ->type_name("NAME")
       ->check(CLI::IsMember({"x86-64-v2", "x86-64-v3", "x86-64-v4"}));
-  app.add_flag("--sequential", overrides.sequential, "the plain reference sweep; the same bits, slowly");
+  app.add_flag("--sequential", overrides.sequential, "the plain reference sweep; the same bits, slowly")
+      ->excludes("--sweep");
 }
 
 // Every subcommand sets `chosen`, which main then calls.
@@ -80,9 +92,7 @@ void add_render(CLI::App& app, RenderOptions& options, Chosen& chosen) {
       ->type_name("FRAMES")
       ->delimiter(',')
       ->check(range(0, most));
-  render_app->add_option("--threads", options.overrides.threads, "threads; 0: as many as the machine has")
-      ->type_name("N")
-      ->check(range(0, most_threads));
+  add_settings(*render_app, options.overrides);
   render_app->add_flag("--quiet", options.quiet, "print nothing unless something goes wrong");
   render_app->callback([&] { chosen = [&] { return render(options); }; });
 }

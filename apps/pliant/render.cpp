@@ -128,7 +128,7 @@ int render(const RenderOptions& options) {
                 "give --out a name that ends in .png, and the frames to --strip alone");
   }
   const Size size = parse_size(options.size);
-  const Scene scene = read_scene_with(options.scene, options.overrides);
+  const Scene scene = read_scene_with(options.scene, options.overrides, options.quiet);
   if (is_movie) {
     draw_movie(options, scene, size);
   } else if (!options.strip.empty()) {

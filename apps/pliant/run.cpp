@@ -31,7 +31,7 @@ int run(const RunOptions& options) {
   std::vector<std::string> files = options.out;
   if (!options.report.empty()) files.push_back(options.report);
   refuse_same_file_twice(options.scene, files);
-  const Scene scene = read_scene_with(options.scene, options.overrides);
+  const Scene scene = read_scene_with(options.scene, options.overrides, options.quiet);
   World world(scene);
 
   std::vector<std::unique_ptr<FrameWriter>> writers;

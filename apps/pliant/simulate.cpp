@@ -1,16 +1,34 @@
 #include "simulate.h"
 
+#include <utility>
+
+#include "apps/compare/compare.h"
 #include "interrupt.h"
+#include "output.h"
 #include "pliant/error.h"
 #include "pliant/io.h"
 #include "progress.h"
 
 namespace pliant::command {
 
-Scene read_scene_with(const std::string& path, const Overrides& overrides) {
-  Scene scene = read_scene(path);
+namespace {
+
+/// What a name such as "chains+tethers" does not say stays as the scene has it.
+void set_sweep(const std::string& name, Settings& settings) {
+  const compare::Method method = compare::method_of(name, settings.sweep_options);
+  settings.sweep = method.sweep;
+  settings.sweep_options = method.options;
+}
+
+}  // namespace
+
+Scene read_scene_with(const std::string& path, const Overrides& overrides, bool quiet) {
+  SceneFile file = read_scene_file(path);
+  if (!quiet) print_repairs(file.repairs);
+  Scene scene = std::move(file.scene);
   if (overrides.frames) scene.frames = *overrides.frames;
   Settings& settings = scene.settings;
+  if (!overrides.sweep.empty()) set_sweep(overrides.sweep, settings);
   if (overrides.threads) settings.threads = *overrides.threads;
   if (overrides.substeps) settings.substeps = *overrides.substeps;
   if (overrides.iterations) settings.iterations = *overrides.iterations;

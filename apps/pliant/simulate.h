@@ -11,8 +11,8 @@
 
 namespace pliant::command {
 
-/// Reads a scene and applies what the caller changes of it.
-Scene read_scene_with(const std::string& path, const Overrides& overrides);
+/// Reads a scene and applies what the caller changes of it. Prints what reading its meshes mended, unless `quiet`.
+Scene read_scene_with(const std::string& path, const Overrides& overrides, bool quiet);
 
 /// Steps `frames` frames and calls `after_frame` after each. Stops early, and returns false, after a frame that is not
 /// finite. Shows progress where standard error is a terminal and not `quiet`. Throws Interrupted on a signal to end.

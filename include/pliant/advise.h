@@ -42,7 +42,8 @@ struct Advice {
 bool is_good(const Trial& trial);
 
 /// Runs the scene, and where it is not good (see is_good) runs it again from the start with more substeps, tethers and the
-/// chains sweep. From the start, since a state that a poor setting has stretched would only show how a better one mends it.
+/// sweeps that may do better on it. From the start, since a state that a poor setting has stretched would only show how a
+/// better one mends it.
 /// The bits of a trial do not depend on anything but its settings; how many trials there is time for does. Throws Error
 /// where a World would.
 Advice advise(const Scene& scene, const AdviseOptions& options = {});

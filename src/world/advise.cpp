@@ -1,8 +1,8 @@
 // Trials: a scene run again and again, each time with more of something, until its distances are as long as they should be.
 //
-// Three families: the scene's own sweep, the same with tethers, and chains (with tethers), each with its substeps doubled
-// until it is good or can't be the cheapest any more; what is good is then tried with less. Most trials are short: one is
-// given up as soon as it is worse than the best before it.
+// A few families: the sweeps that may do better, with tethers where these help, the scene's own sweep with tethers, and
+// without; each with its substeps doubled until it is good or can't be the cheapest any more; what is good is then tried with
+// less. Most trials are short: one is given up as soon as it is worse than the best before it.
 #include "pliant/advise.h"
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "world/advice.h"
+#include "world/advice_settings.h"
 
 namespace pliant {
 
@@ -98,33 +99,6 @@ class Trials {
   std::function<bool()> stops_;
 };
 
-bool is_rigid(const Object& object) {
-  return std::all_of(object.constraints.begin(), object.constraints.end(), [](const ConstraintGroup& group) {
-    const auto is_zero = [](float alpha) { return alpha == 0; };
-    return group.type != "distance" || (group.stiffness.kind == Stiffness::Kind::compliance && group.stiffness.value == 0 &&
-                                        std::all_of(group.compliances.begin(), group.compliances.end(), is_zero));
-  });
-}
-
-/// Tethers bound what is inextensible; what is meant to stretch they would hold back.
-bool may_tether(const Scene& scene) {
-  bool pinned = false;
-  for (const Object& object : scene.objects) {
-    if (object.pins.empty()) continue;
-    pinned = true;
-    if (!is_rigid(object)) return false;
-  }
-  return pinned;
-}
-
-/// Sweeps that may do better than the scene's own.
-constexpr Sweep alternatives[] = {Sweep::chains, Sweep::multigrid};
-
-std::string name_of(Sweep sweep) {
-  const auto is_it = [&](const NamedSweep& named) { return named.sweep == sweep; };
-  return std::find_if(sweeps().begin(), sweeps().end(), is_it)->name;
-}
-
 /// A setting of which there may be more.
 struct Family {
   Settings settings;  ///< of the next trial
@@ -136,8 +110,7 @@ std::vector<Family> families_of(const Scene& scene) {
   const Settings& own = scene.settings;
   const bool may = may_tether(scene);
   std::vector<Family> families;
-  for (Sweep alternative : alternatives) {
-    if (alternative == own.sweep) continue;
+  for (Sweep alternative : better_sweeps(scene)) {
     families.push_back({own});
     families.back().settings.sweep = alternative;
     families.back().settings.sweep_options.tethers = own.sweep_options.tethers || may;
@@ -239,59 +212,6 @@ class Search {
   Advice& advice_;
   std::vector<Family> families_;
 };
-
-// ---------------------------------------------------------------- words
-
-/// "40 substeps", "20 substeps of the sweep 'chains' with tethers".
-std::string setting_in_words(const Trial& trial, const Settings& own) {
-  std::string text = std::to_string(trial.settings.substeps) + (trial.settings.substeps == 1 ? " substep" : " substeps");
-  if (trial.settings.sweep != own.sweep) text += " of the sweep '" + name_of(trial.settings.sweep) + "'";
-  if (trial.settings.sweep_options.tethers && !own.sweep_options.tethers) text += " with tethers";
-  return text;
-}
-
-std::string cost_in_words(const Trial& trial) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g ms a frame", trial.milliseconds);
-  return text;
-}
-
-/// The cheapest good trial of another kind than the best, or -1.
-int runner_up(const Advice& advice) {
-  const auto kind = [](const Trial& t) { return std::make_pair(t.settings.sweep, t.settings.sweep_options.tethers); };
-  int found = -1;
-  for (int i = 0; i < static_cast<int>(advice.others.size()); ++i) {
-    const Trial& trial = advice.others[i];
-    if (!is_good(trial) || kind(trial) == kind(advice.others[advice.best])) continue;
-    if (found < 0 || trial.milliseconds < advice.others[found].milliseconds) found = i;
-  }
-  return found;
-}
-
-std::string setting_and_cost(const Advice& advice, int trial) {
-  const Trial& of = advice.others[trial];
-  return setting_in_words(of, advice.own.settings) + " (" + cost_in_words(of) + ")";
-}
-
-std::string remedy(const Advice& advice) {
-  const std::string tried = advice.cut_short ? " in the time there was" : "";
-  if (advice.best < 0) {
-    if (advice.others.empty()) return "no other setting could be tried" + tried;
-    return "none of " + std::to_string(advice.others.size()) + " other settings tried" + tried +
-           " brings it down: what holds it or pushes it may leave it no other way, or it needs more substeps still";
-  }
-  const Trial& best = advice.others[advice.best];
-  const std::string setting = setting_and_cost(advice, advice.best), before = cost_in_words(advice.own);
-  if (!is_good(best)) {
-    return "the best found" + tried + ", " + setting + ", brings it to " + percent(best.worst.largest) +
-           ", 1 edge in 100 to " + percent(best.worst.p99) + "; as it is it takes " + before;
-  }
-  const int other = runner_up(advice);
-  const std::string alternative = other < 0 ? "" : " or " + setting_and_cost(advice, other);
-  return setting + alternative + (other < 0 && best.settings.substeps == 1 ? " brings" : " bring") + " it under " +
-         percent(tolerated_overstretch) + "; as it is it takes " + before +
-         (advice.cut_short ? "; there was no time to look for cheaper ones" : "");
-}
 
 }  // namespace
 

@@ -123,7 +123,8 @@ void doubt_settings(Problems& problems, const Scene& scene) {
   if (substep < 1e-6)
     problems.doubtful("settings, substeps", "make substeps of " + words(substep) + " s, where floats begin to lose motion",
                       "use fewer");
-  if (settings.substeps * static_cast<std::int64_t>(settings.iterations) < 5)
+  const bool solves_at_once = settings.sweep == Sweep::chains || settings.sweep == Sweep::multigrid;
+  if (!solves_at_once && settings.substeps * static_cast<std::int64_t>(settings.iterations) < 5)
     problems.doubtful("settings, substeps", "and iterations together visit each constraint fewer than 5 times a frame",
                       "stiff things will look like rubber: 10 to 20 substeps are usual");
   if (settings.iterations > 10 && settings.iterations > settings.substeps)

@@ -16,6 +16,7 @@
 #include "solver/sweeps/chains.h"
 #include "solver/sweeps/sweep.h"
 #include "world/advice.h"
+#include "world/advice_settings.h"
 #include "world/inspect_scene.h"
 #include "world/sha256.h"
 
@@ -50,7 +51,7 @@ void add_records(Sha256& sha, const Records& records) { sha.add(records.data(), 
 
 struct World::Implementation {
   Implementation(const Scene& scene, const Settings& with)
-      : settings(with), executor(with.threads), kernels(kernels_for(with)) {
+      : settings(with), suggested(suggest(scene)), executor(with.threads), kernels(kernels_for(with)) {
     model.gravity = scene.gravity;
     model.wind = scene.wind;
     model.forces = scene.forces;
@@ -123,7 +124,7 @@ struct World::Implementation {
     return convert<float>(collider_pose(model.colliders[index], state.time));
   }
 
-  Settings settings;
+  Settings settings, suggested;  ///< as they are, and as measured best on scenes of this kind
   Executor executor;
   const Kernels& kernels;
   Model model;
@@ -298,8 +299,9 @@ std::string World::describe(const Overstretch& found) const {
 
 std::string World::advice(const Report& report) const {
   if (!report.overstretch || !(report.overstretch->largest > tolerated_overstretch)) return {};
-  const std::string sweep = self_->settings.sweep == Sweep::chains ? "" : " or the sweep 'chains'";
-  return describe(*report.overstretch) + "; more than " + std::to_string(self_->settings.substeps) + " substeps" + sweep +
+  const std::string sweep = in_json(self_->suggested, self_->settings);
+  return describe(*report.overstretch) + "; more than " + std::to_string(self_->settings.substeps) + " substeps" +
+         (sweep == "{}" ? "" : ", or \"settings\": " + sweep + " in the scene,") +
          " may bring that down: 'pliant check', or advise(), tries how many it takes";
 }
 

@@ -173,6 +173,63 @@ TEST_F(Command, OverridesChangeTheRunAndNotItsBits) {
   EXPECT_EQ(report("--frames 0").at("frames"), 0);
 }
 
+TEST_F(Command, ASweepMayBeNamedAndTheReportIsThatOfASceneThatNamesIt) {
+  const std::string hanging = R"("pins": [{"particles": [0]}], "cloth": {"mesh")";
+  std::string scene = small_scene(4);
+  scene.replace(scene.find(R"("cloth": {"mesh")"), std::string(R"("cloth": {"mesh")").size(), hanging);
+  const auto hash = [&](const std::string& settings, const std::string& arguments) {
+    std::string with = scene;
+    with.replace(with.find("\"substeps\": 4"), 13, settings);
+    std::ofstream(folder_ / "small.json") << with;
+    return report(arguments).at("state_hash").get<std::string>();
+  };
+  const std::string plain = hash("\"substeps\": 4", ""),
+                    named = hash(R"("substeps": 3, "iterations": 2, "sweep": "chains", "sweep_options": {"tethers": true})",
+                                 "");
+  EXPECT_NE(plain, named);
+  EXPECT_EQ(hash("\"substeps\": 4", "--sweep chains+tethers --substeps 3 --iterations 2"), named);
+  EXPECT_EQ(hash(R"("substeps": 4, "sweep": "jacobi")", "--sweep tiled"), plain);
+  EXPECT_EQ(hash(R"("substeps": 4, "sweep_options": {"tethers": true})", "--sweep chains --substeps 3 --iterations 2"),
+            named)
+      << "what the name does not say is the scene's";
+  expect_refused("run small.json --sweep tilde", 1, "tiled, sequential, symmetric");
+  expect_refused("run small.json --sweep tiled+lasers", 1, "tethers, chebyshev, average");
+  expect_refused("run small.json --sweep chains --sequential", 2, "sequential");
+  expect_refused("render small.json --out a.png --sweep tilde", 1, "tilde");
+  expect_refused("render small.json --out a.png --substeps 0", 2, "substeps");
+}
+
+TEST_F(Command, RenderDrawsWithTheSettingsThatAreGiven) {
+  std::ofstream(folder_ / "sagging.json") << R"({"frames": 20, "settings": {"substeps": 4}, "objects": [{"name": "sheet",
+      "cloth": {"mesh": {"grid": {"columns": 12, "rows": 12, "width": 1, "depth": 1}}, "stretch": {"compliance": 0}},
+      "pins": [{"particles": [0, 11]}]}]})";
+  const auto picture = [&](const std::string& arguments) {
+    const Result result = pliant("render sagging.json --out picture.png --size 160x120 --quiet " + arguments);
+    return result.status == 0 ? slurp(folder_ / "picture.png") : result.err;
+  };
+  const std::string plain = picture("");
+  if (plain.find("EGL") != std::string::npos) GTEST_SKIP() << plain;
+  ASSERT_EQ(plain.substr(1, 3), "PNG");
+  EXPECT_TRUE(picture("--sweep tiled --substeps 4 --iterations 1") == plain) << "what the scene says";
+  for (const char* other : {"--substeps 8", "--iterations 4", "--sweep chains+tethers"})
+    EXPECT_FALSE(picture(other) == plain) << other;
+}
+
+TEST_F(Command, RunAndRenderSayWhatWasMendedAsCheckDoes) {
+  std::ofstream(folder_ / "patch.obj") << "v 0 0 0\nv 0 0 2\nv 3 0 0\nv 9 9 9\nf 1 2 3\n";
+  std::ofstream(folder_ / "patch.json")
+      << R"({"frames": 1, "objects": [{"name": "p", "cloth": {"mesh": {"file": "patch.obj"}}}]})";
+  const std::string line = "mended: object 'p', patch.obj: dropped 1 vertex of no triangle, the first 3\n";
+  EXPECT_NE(pliant("check patch.json").out.find(line), std::string::npos);
+  const Result run = pliant("run patch.json");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.out.rfind(line, 0), 0u) << run.out;
+  EXPECT_EQ(pliant("run patch.json --quiet").out, "");
+  const Result drawn = pliant("render patch.json --out patch.png --size 64x48");
+  if (drawn.err.find("EGL") != std::string::npos) GTEST_SKIP() << drawn.err;
+  EXPECT_EQ(drawn.out, line + "wrote patch.png\n") << drawn.err;
+}
+
 TEST_F(Command, SaysNothingInAPipeThatIsNoResult) {
   const Result result = pliant("run small.json");
   EXPECT_EQ(result.err, "");
@@ -201,7 +258,22 @@ TEST_F(Command, CheckRunsASceneAndNamesWhatWouldMendIt) {
   EXPECT_NE(result.out.find("doubtful: in frame "), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("object 'sheet': stretched "), std::string::npos) << result.out;
   EXPECT_NE(result.out.find(" it under 1 %; as it is it takes "), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("--seconds"), std::string::npos) << "there was time enough";
   EXPECT_EQ(pliant("check sagging.json --seconds 0").out.find("stretched"), std::string::npos) << "not run at all";
+
+  // What it says to put into the scene, put into the scene.
+  const std::string mark = "put into the scene \"settings\": ";
+  const std::size_t at = result.out.find(mark);
+  ASSERT_NE(at, std::string::npos) << result.out;
+  const std::size_t end = result.out.find('\n', at);
+  Json scene = Json::parse(slurp(folder_ / "sagging.json"));
+  scene["settings"].update(Json::parse(result.out.substr(at + mark.size(), end - at - mark.size())));
+  std::ofstream(folder_ / "mended.json") << scene.dump();
+  scene["gravity"] = {0, -1e5, 0};
+  std::ofstream(folder_ / "heavy.json") << scene.dump();
+  const std::string hasty = pliant("check heavy.json --seconds 1e-3").out;
+  EXPECT_NE(hasty.find("; --seconds 0.01 tries more\n"), std::string::npos) << hasty;
+  EXPECT_NE(pliant("check mended.json --seconds 600").out.find("nothing wrong, nothing doubtful"), std::string::npos);
   expect_refused("check sagging.json --seconds -1", 2, "seconds");
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/scenes.h"
@@ -127,13 +128,69 @@ TEST(Words, OfAReportComeFromItsFigures) {
   const std::string words = world.advice(report);
   EXPECT_EQ(words.rfind("object 'chain': stretched 2 % too far at its pins (edge 0-1); more than 7 substeps", 0), 0U)
       << words;
-  EXPECT_NE(words.find("chains"), std::string::npos);
+  EXPECT_NE(words.find(R"("settings": {"sweep": "chains", "sweep_options": {"tethers": true}})"), std::string::npos)
+      << words;
   report.overstretch->largest = tolerated_overstretch;
   EXPECT_EQ(world.advice(report), "");
   report.overstretch.reset();
   EXPECT_EQ(world.advice(report), "") << "nothing measured";
   scene.settings.measure = false;
   EXPECT_FALSE(World(scene).step(dt).overstretch.has_value());
+}
+
+/// What World::advice names besides more substeps.
+std::string suggestion(Scene scene) {
+  scene.settings.measure = true;
+  World world(scene);
+  Report report = world.step(dt);
+  report.overstretch = Overstretch{0, 0.5, 0, {{0, 1}}};
+  const std::string words = world.advice(report);
+  const std::size_t first = words.find('{');
+  return first == std::string::npos ? "" : words.substr(first, words.rfind('}') + 1 - first);
+}
+
+TEST(Words, NameTheSweepThatSuitsTheScene) {
+  const std::string tethered = R"({"sweep": "chains", "sweep_options": {"tethers": true}})";
+  Scene scene;
+  scene.add_cloth(grid_mesh(5, 5, 1, 1), {});
+  scene.objects[0].constraints[0].stiffness = Stiffness::rigid();
+  scene.objects[0].constraints[0].compliances.clear();
+  EXPECT_EQ(suggestion(scene), R"({"sweep": "multigrid"})") << "nothing holds it";
+  scene.pin(0, {0});
+  EXPECT_EQ(suggestion(scene), tethered);
+  Scene chained = scene;
+  chained.settings.sweep = Sweep::chains;
+  EXPECT_EQ(suggestion(chained), R"({"sweep_options": {"tethers": true}})") << "what is there already is not named";
+  chained.settings.sweep_options.tethers = true;
+  EXPECT_EQ(suggestion(chained), "");
+  chained.settings.sweep = Sweep::multigrid;
+  EXPECT_EQ(suggestion(chained), "");
+  Scene elastic = scene;
+  elastic.objects[0].constraints[0].stiffness = Stiffness::compliance(1e-3f);
+  EXPECT_EQ(suggestion(elastic), R"({"sweep": "chains"})") << "tethers would hold back what is meant to stretch";
+}
+
+TEST(Words, NameNoSweepWhereNoneIsKnownToBeBetter) {
+  Scene scene;
+  scene.add_cloth(grid_mesh(5, 5, 1, 1), {});
+  EXPECT_NE(suggestion(scene), "") << "or this shows nothing";
+  Scene itself = scene;
+  itself.objects[0].self_collision = true;
+  EXPECT_EQ(suggestion(itself), "");
+  Scene two = scene;
+  two.add_cloth(grid_mesh(5, 5, 1, 1), {});
+  for (Object& object : two.objects) {
+    object.collides = true;
+    for (Vec3f& p : object.positions) p.y += &object == &two.objects[0] ? 0.f : 1.f;
+  }
+  EXPECT_EQ(suggestion(two), "");
+  two.objects[1].mask = 2;
+  EXPECT_NE(suggestion(two), "") << "they never touch";
+  Scene balloon;
+  ClothOptions options;
+  options.volume = Volume{};
+  balloon.add_cloth(sphere_mesh(2), options);
+  EXPECT_EQ(suggestion(balloon), "");
 }
 
 // ---------------------------------------------------------------- trials
@@ -148,6 +205,12 @@ Scene hanging_sheet(int n, const Stiffness& stretch, int substeps) {
   scene.settings = settings_of(substeps);
   scene.frames = 30;
   return scene;
+}
+
+std::string sweep_name(Sweep sweep) {
+  for (const NamedSweep& named : sweeps())
+    if (named.sweep == sweep) return named.name;
+  return {};
 }
 
 /// The largest stretch of any frame, by another way than that of a trial.
@@ -180,6 +243,19 @@ TEST(Advise, NamesASettingThatReallyHelps) {
   EXPECT_NE(advice.words.find("its pins"), std::string::npos) << advice.words;
   EXPECT_NE(advice.what_to_do.find(std::to_string(best.settings.substeps) + " substep"), std::string::npos);
   EXPECT_NE(advice.what_to_do.find("under 1 %"), std::string::npos) << advice.what_to_do;
+  for (const char* sweep : {"chains", "multigrid", "tiled"}) {
+    const auto is_of_it = [&](const Trial& trial) { return sweep_name(trial.settings.sweep) == sweep; };
+    EXPECT_TRUE(std::any_of(advice.others.begin(), advice.others.end(), is_of_it)) << sweep << " was not tried";
+  }
+}
+
+TEST(Advise, TriesNoMultigridWhereItPullsAgainstContacts) {
+  Scene scene = hanging_sheet(8, Stiffness::rigid(), 2);
+  scene.objects[0].self_collision = true;
+  scene.frames = 10;
+  const Advice advice = advise(scene, unhurried);
+  EXPECT_FALSE(advice.others.empty());
+  for (const Trial& trial : advice.others) EXPECT_NE(trial.settings.sweep, Sweep::multigrid);
 }
 
 TEST(Advise, FindsTheLeastOfWhatHelps) {

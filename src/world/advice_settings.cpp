@@ -1,0 +1,79 @@
+#include "world/advice_settings.h"
+
+#include <algorithm>
+
+namespace pliant {
+
+namespace {
+
+bool is_rigid(const Object& object) {
+  return std::all_of(object.constraints.begin(), object.constraints.end(), [](const ConstraintGroup& group) {
+    const auto is_zero = [](float alpha) { return alpha == 0; };
+    return group.type != "distance" || (group.stiffness.kind == Stiffness::Kind::compliance && group.stiffness.value == 0 &&
+                                        std::all_of(group.compliances.begin(), group.compliances.end(), is_zero));
+  });
+}
+
+bool may_touch(const Object& a, const Object& b) {
+  return a.collides && b.collides && (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
+}
+
+/// Itself, or one another. Mesh colliders are nothing that is moved.
+bool movers_may_touch(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    if (scene.objects[i].self_collision) return true;
+    for (std::size_t j = 0; j < i; ++j)
+      if (may_touch(scene.objects[i], scene.objects[j])) return true;
+  }
+  return false;
+}
+
+bool has_pins(const Scene& scene) {
+  return std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& o) { return !o.pins.empty(); });
+}
+
+bool has_volume(const Scene& scene) {
+  return std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& o) { return o.volume.has_value(); });
+}
+
+}  // namespace
+
+bool may_tether(const Scene& scene) {
+  const auto hangs_and_stretches = [](const Object& object) { return !object.pins.empty() && !is_rigid(object); };
+  return has_pins(scene) && std::none_of(scene.objects.begin(), scene.objects.end(), hangs_and_stretches);
+}
+
+std::vector<Sweep> better_sweeps(const Scene& scene) {
+  std::vector<Sweep> better{Sweep::chains};
+  if (!movers_may_touch(scene)) better.push_back(Sweep::multigrid);
+  better.erase(std::remove(better.begin(), better.end(), scene.settings.sweep), better.end());
+  return better;
+}
+
+Settings suggest(const Scene& scene) {
+  Settings wanted = scene.settings;
+  if (wanted.sweep == Sweep::multigrid || movers_may_touch(scene) || has_volume(scene)) return wanted;
+  if (!has_pins(scene)) {
+    wanted.sweep = Sweep::multigrid;
+    return wanted;
+  }
+  wanted.sweep = Sweep::chains;
+  wanted.sweep_options.tethers = wanted.sweep_options.tethers || may_tether(scene);
+  return wanted;
+}
+
+std::string name_of(Sweep sweep) {
+  const auto is_it = [&](const NamedSweep& named) { return named.sweep == sweep; };
+  return std::find_if(sweeps().begin(), sweeps().end(), is_it)->name;
+}
+
+std::string in_json(const Settings& wanted, const Settings& own) {
+  std::string members;
+  const auto add = [&](const std::string& member) { members += (members.empty() ? "" : ", ") + member; };
+  if (wanted.substeps != own.substeps) add("\"substeps\": " + std::to_string(wanted.substeps));
+  if (wanted.sweep != own.sweep) add("\"sweep\": \"" + name_of(wanted.sweep) + "\"");
+  if (wanted.sweep_options.tethers && !own.sweep_options.tethers) add("\"sweep_options\": {\"tethers\": true}");
+  return "{" + members + "}";
+}
+
+}  // namespace pliant

@@ -1,0 +1,30 @@
+// Which settings are worth advising for a scene, and how a scene file writes them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pliant/scene.h"
+
+namespace pliant {
+
+/// Whether tethers may help: something hangs from pins, and all that does is rigid. Tethers bound what is inextensible; what
+/// is meant to stretch they would hold back.
+bool may_tether(const Scene& scene);
+
+/// Sweeps other than the scene's own that may need less time for the same stretch. `multigrid` is none of them where what
+/// moves may touch what moves: it pulls against such contacts, which stretch alone does not show (docs/convergence.md).
+std::vector<Sweep> better_sweeps(const Scene& scene);
+
+/// The scene's settings with the sweep, and tethers, that measured best on scenes of its kind (docs/convergence.md); its own
+/// where that is none but the default.
+Settings suggest(const Scene& scene);
+
+/// What scenes call it.
+std::string name_of(Sweep sweep);
+
+/// What a scene's "settings" must say so that `own` becomes `wanted`, of substeps, sweep and tethers, as JSON:
+/// {"substeps": 10, "sweep": "chains", "sweep_options": {"tethers": true}}.
+std::string in_json(const Settings& wanted, const Settings& own);
+
+}  // namespace pliant
