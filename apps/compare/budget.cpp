@@ -16,7 +16,8 @@ constexpr int iterations_tried[] = {1, 2, 4, 10, 30};
 constexpr int probe_frames = 6;      // from which the first guess is made
 constexpr int probe_substeps = 2;    // of the probe
 constexpr int most_substeps = 2000;  // more help nobody
-constexpr int most_corrections = 3;  // of a guess that turns out too slow
+constexpr int most_corrections = 3;  // of a guess that turns out wrong
+constexpr double well_used = 1.2;    // budget over what is taken of it
 
 Settings settings_of(const Scene& scene, const Method& method, int substeps, int iterations) {
   Settings settings = scene.settings;
@@ -68,26 +69,37 @@ struct Misses {
   int not_finite = 0;                                        ///< how many fit and do not stay finite
 };
 
-/// As many substeps of `iterations` as fit; the probe may be too few to stay finite, since it only tells the time.
+/// The substeps to try next where so many took `share` times less than they may; no more than before: the search is over.
+int next_substeps(int substeps, double share) {
+  const int scaled = static_cast<int>(std::min(0.98 * share * substeps, 1. * most_substeps));
+  return share < 1 ? std::min(substeps - 1, scaled) : scaled;
+}
+
+/// As many substeps of `iterations` as fit; the probe may be too few to stay finite, since it only tells the time. What leaves
+/// much of the budget unused, because the probe met a busy moment, is tried with more.
 std::optional<Budgeted> fit(const Scene& scene, const Method& method, int iterations, const Options& options,
                             Misses& misses) {
   const int frames = std::min(probe_frames, scene.frames);
-  const double probed = simulate(scene, method, probe_substeps, iterations, frames, options).row.milliseconds;
-  int substeps = static_cast<int>(std::min(options.budget / probed * probe_substeps, 1. * most_substeps));
-  double fastest = probed / probe_substeps;
+  double taken = simulate(scene, method, probe_substeps, iterations, frames, options).row.milliseconds;
+  int substeps = static_cast<int>(std::min(options.budget / taken * probe_substeps, 1. * most_substeps));
+  taken /= probe_substeps;
+  std::optional<Budgeted> found;
   for (int i = 0; i <= most_corrections && substeps >= 1; ++i) {
     const Trial trial = simulate(scene, method, substeps, iterations, scene.frames, options);
-    if (trial.row.milliseconds <= options.budget) {
-      if (trial.finite) return trial.row;
+    taken = trial.row.milliseconds;
+    const double share = options.budget / taken;
+    if (share < 1 && found) break;
+    if (share >= 1 && !trial.finite) {
       ++misses.not_finite;
-      return std::nullopt;
+      return found;
     }
-    fastest = trial.row.milliseconds;
-    const double share = options.budget / fastest;
-    substeps = std::min(substeps - 1, static_cast<int>(std::floor(0.98 * share * substeps)));
+    if (share >= 1) found = trial.row;
+    const int next = next_substeps(substeps, share);
+    if (share >= 1 && (share < well_used || next <= substeps)) break;
+    substeps = next;
   }
-  misses.fastest = std::min(misses.fastest, fastest);
-  return std::nullopt;
+  if (!found) misses.fastest = std::min(misses.fastest, taken);
+  return found;
 }
 
 std::string text_of(const char* pattern, double value) {

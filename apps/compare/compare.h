@@ -103,6 +103,10 @@ double substep_of(const Scene& scene, const Options& options);
 /// Curves of one method from the state of `start`. Throws Error where it refuses the scene or does not stay finite.
 Curve measure_curve(const Scene& scene, World& start, const Method& method, const Options& options);
 
+/// A run contains every shorter one, so that what it took bounds what they take: where a time falls from one sample to the
+/// next, the earlier ones come down to it.
+void lower_to_longer_runs(std::vector<Sample>& samples);
+
 /// Of the substep with so many iterations, between the samples on a straight line: an iteration costs what another does [ms].
 double milliseconds_at(const Curve& curve, int iterations);
 

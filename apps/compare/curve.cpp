@@ -99,13 +99,11 @@ std::vector<Sample> samples_of(const Scene& scene, World& start, const Method& m
   for (int iterations : sampled_iterations(options.iterations)) runs.push_back(run_of(scene, start, method, iterations));
   solve_by_turns(runs, scene, options);
   std::vector<Sample> samples;
-  double longer = std::numeric_limits<double>::infinity();
-  for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
-    longer = run->sample.milliseconds = std::min(run->sample.milliseconds, longer);
-    run->sample.stretch = run->world.stretch();
-    samples.push_back(run->sample);
+  for (Run& run : runs) {
+    run.sample.stretch = run.world.stretch();
+    samples.push_back(run.sample);
   }
-  std::reverse(samples.begin(), samples.end());
+  lower_to_longer_runs(samples);
   return samples;
 }
 
@@ -131,6 +129,12 @@ Curve measure_curve(const Scene& scene, World& start, const Method& method, cons
   curve.samples = samples_of(scene, start, method, options);
   for (Sample& sample : curve.samples) sample.residual = curve.residuals.at(static_cast<std::size_t>(sample.iterations));
   return curve;
+}
+
+void lower_to_longer_runs(std::vector<Sample>& samples) {
+  double longer = std::numeric_limits<double>::infinity();
+  for (auto sample = samples.rbegin(); sample != samples.rend(); ++sample)
+    longer = sample->milliseconds = std::min(sample->milliseconds, longer);
 }
 
 double milliseconds_at(const Curve& curve, int iterations) {

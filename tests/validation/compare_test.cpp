@@ -226,6 +226,13 @@ TEST(Compare, EveryKindOfSweepIsComparedAndTethersWhereSomethingHoldsThem) {
   EXPECT_TRUE(has(default_methods(scene), "chains+tethers"));
 }
 
+TEST(Compare, ALongerRunBoundsWhatAShorterOneTakes) {
+  std::vector<Sample> samples{{1, 2.0, 0, {}}, {2, 5.0, 0, {}}, {3, 4.0, 0, {}}, {5, 3.0, 0, {}}, {7, 9.0, 0, {}}};
+  lower_to_longer_runs(samples);
+  const double expected[] = {2, 3, 3, 3, 9};
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(samples[i].milliseconds, expected[i]) << i;
+}
+
 TEST(Compare, TimesBetweenSamplesLieOnALine) {
   const Curve curve{"", {}, {}, {{1, 2.0, 0, {}}, {3, 6.0, 0, {}}, {7, 7.0, 0, {}}}};
   const double expected[] = {2, 2, 4, 6, 6.25, 6.5, 6.75, 7, 7};

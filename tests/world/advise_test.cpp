@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "support/scenes.h"
 
@@ -186,6 +187,8 @@ TEST(Words, NameNoSweepWhereNoneIsKnownToBeBetter) {
   EXPECT_EQ(suggestion(two), "");
   two.objects[1].mask = 2;
   EXPECT_NE(suggestion(two), "") << "they never touch";
+  std::swap(two.objects[0].mask, two.objects[1].mask);
+  EXPECT_NE(suggestion(two), "") << "whichever of them wants it so";
   Scene balloon;
   ClothOptions options;
   options.volume = Volume{};
