@@ -103,6 +103,9 @@ double substep_of(const Scene& scene, const Options& options);
 /// Curves of one method from the state of `start`. Throws Error where it refuses the scene or does not stay finite.
 Curve measure_curve(const Scene& scene, World& start, const Method& method, const Options& options);
 
+/// Takes the times of a curve of this method once more, and keeps the lower ones.
+void time_again(const Scene& scene, World& start, const Method& method, const Options& options, Curve& curve);
+
 /// A run contains every shorter one, so that what it took bounds what they take: where a time falls from one sample to the
 /// next, the earlier ones come down to it.
 void lower_to_longer_runs(std::vector<Sample>& samples);
