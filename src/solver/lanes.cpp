@@ -38,6 +38,7 @@ PLIANT_HD void load_stencil(const SweepArguments& a, const std::int32_t* index, 
   constexpr int stride = runs ? 4 : batch_width;
   const Registers first = load<runs>(a.positions, index);
   const Registers origin = without_w(first);
+  PLIANT_UNROLL
   for (int slot = 0; slot < size; ++slot) {
     const Registers base = slot == 0 ? w_alone(first) : load<runs>(a.positions, index + slot * stride) - origin;
     const WideRecords records = from_registers(base + load<runs>(a.displacements, index + slot * stride));
@@ -59,12 +60,14 @@ struct Rows {
   std::int32_t step[rows];
 
   PLIANT_HD Rows(const Pool& pool, int batch) {
+    PLIANT_UNROLL
     for (int row = 0; row < rows; ++row) {
       at[row] = pool.row(row, batch);
       step[row] = pool.row_step(row);
     }
   }
   PLIANT_HD void next() {
+    PLIANT_UNROLL
     for (int row = 0; row < rows; ++row) at[row] += step[row];
   }
 };
@@ -108,6 +111,7 @@ PLIANT_HD void project_batch(const Rows<row_count>& rows, const std::int32_t* in
   Wide w[T::size];
   load_stencil<T::size, runs>(a, index, x, w);
   Wide rest[fields];
+  PLIANT_UNROLL
   for (int field = 0; field < fields; ++field) rest[field] = load_wide(rows.at[field]);
   typename T::template Params<Wide> params;
   std::memcpy(&params, rest, sizeof params);
@@ -118,6 +122,7 @@ PLIANT_HD void project_batch(const Rows<row_count>& rows, const std::int32_t* in
   Vec3<Wide> motion[T::size];
   if constexpr (law == Law::damped) {
     answer.damping = load_wide(rows.at[fields + 1]);
+    PLIANT_UNROLL
     for (int slot = 0; slot < T::size; ++slot) motion[slot] = load_motion<runs>(a, index + slot * stride);
   }
   Vec3<Wide> correction[T::size];
@@ -128,12 +133,14 @@ PLIANT_HD void project_batch(const Rows<row_count>& rows, const std::int32_t* in
   if constexpr (keeps_multipliers) store_wide(multiplier, answer.multiplier);
   if constexpr (general) {
     if (aside.corrections != nullptr) {
+      PLIANT_UNROLL
       for (int slot = 0; slot < T::size; ++slot) store_aside(aside.corrections + slot * batch_width, correction[slot]);
       return;
     }
   } else {
     (void)aside;
   }
+  PLIANT_UNROLL
   for (int slot = 0; slot < T::size; ++slot) {
     const std::int32_t* at = index + slot * stride;
     const Registers moved = load<runs>(a.displacements, at) + to_registers({correction[slot], Wide(0.f)});
