@@ -54,7 +54,7 @@ struct Wide {
   Wide() = default;
   /// The same value in every lane.
   PLIANT_HD explicit Wide(float value) {
-    for (int i = 0; i < wide_parts; ++i) part[i] = Part{} + value;
+    for (int i = 0; i < wide_parts; ++i) part[i] = value - Part{};  // minus nothing is no operation; plus nothing would be
   }
 };
 
@@ -138,14 +138,37 @@ PLIANT_HD Wide select(const WideMask& mask, const Wide& a, const Wide& b) {
   PLIANT_EACH_PART(r.part[i] = mask.part[i] ? a.part[i] : b.part[i])
   return r;
 }
+/// a < b ? a : b, which is what the machine's own minimum does, down to zeros and NaN; g++ makes two instructions of the question.
+PLIANT_HD Part min_part(const Part& a, const Part& b) {
+#if defined(__AVX512F__)
+  return (Part)_mm512_maskz_min_ps(0xffff, (__m512)a, (__m512)b);  // the plain form makes g++ 12 warn of its own header
+#elif defined(__AVX2__)
+  return (Part)_mm256_min_ps((__m256)a, (__m256)b);
+#elif defined(__SSE2__)
+  return (Part)_mm_min_ps((__m128)a, (__m128)b);
+#else
+  return a < b ? a : b;
+#endif
+}
+PLIANT_HD Part max_part(const Part& a, const Part& b) {
+#if defined(__AVX512F__)
+  return (Part)_mm512_maskz_max_ps(0xffff, (__m512)a, (__m512)b);
+#elif defined(__AVX2__)
+  return (Part)_mm256_max_ps((__m256)a, (__m256)b);
+#elif defined(__SSE2__)
+  return (Part)_mm_max_ps((__m128)a, (__m128)b);
+#else
+  return a > b ? a : b;
+#endif
+}
 PLIANT_HD Wide min(const Wide& a, const Wide& b) {
   Wide r;
-  PLIANT_EACH_PART(r.part[i] = a.part[i] < b.part[i] ? a.part[i] : b.part[i])
+  PLIANT_EACH_PART(r.part[i] = min_part(a.part[i], b.part[i]))
   return r;
 }
 PLIANT_HD Wide max(const Wide& a, const Wide& b) {
   Wide r;
-  PLIANT_EACH_PART(r.part[i] = a.part[i] > b.part[i] ? a.part[i] : b.part[i])
+  PLIANT_EACH_PART(r.part[i] = max_part(a.part[i], b.part[i]))
   return r;
 }
 PLIANT_HD Wide abs(const Wide& a) {
@@ -221,16 +244,18 @@ PLIANT_HD Quad load_quad(const Record* from) {
   return q;
 }
 
-/// Part i of the register that holds records at[0], at[4], at[8], at[12].
+/// Part i of the register that holds records at[0], at[4], at[8], at[12]. By name of the instruction: from shuffles g++ makes twice as many.
 PLIANT_HD Part gather_part(const Record* base, const std::int32_t* at, int i) {
 #if PLIANT_PART_WIDTH == 16
   (void)i;
-  using Half = float __attribute__((vector_size(32)));
-  const Half low = __builtin_shufflevector(load_quad(base + at[0]), load_quad(base + at[4]), 0, 1, 2, 3, 4, 5, 6, 7);
-  const Half high = __builtin_shufflevector(load_quad(base + at[8]), load_quad(base + at[12]), 0, 1, 2, 3, 4, 5, 6, 7);
-  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const auto pair = [&](int k) __attribute__((always_inline)) {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(&base[at[k]].x)), _mm_loadu_ps(&base[at[k + 4]].x), 1);
+  };
+  const __m512d low = _mm512_castpd256_pd512(_mm256_castps_pd(pair(0)));
+  return (Part)_mm512_maskz_insertf64x4(0xff, low, _mm256_castps_pd(pair(8)), 1);  // as with the square root
 #elif PLIANT_PART_WIDTH == 8
-  return __builtin_shufflevector(load_quad(base + at[8 * i]), load_quad(base + at[8 * i + 4]), 0, 1, 2, 3, 4, 5, 6, 7);
+  const __m256 low = _mm256_castps128_ps256(_mm_loadu_ps(&base[at[8 * i]].x));
+  return (Part)_mm256_insertf128_ps(low, _mm_loadu_ps(&base[at[8 * i + 4]].x), 1);
 #else
   return load_quad(base + at[4 * i]);
 #endif
@@ -299,17 +324,35 @@ PLIANT_HD Registers without_w(const Registers& a) {
   return r;
 }
 
-/// The records with x, y and z zero.
-PLIANT_HD Registers w_alone(const Registers& a) {
+PLIANT_HD Part minus_xyz(const Part& a, const Part& b) {
+#if defined(__AVX512F__)
+  return (Part)_mm512_mask_sub_ps((__m512)a, 0x7777, (__m512)a, (__m512)b);
+#else
+  return a - (Part)((PartMask)b & xyz_mask());
+#endif
+}
+
+/// a - b in x, y and z, and a's w.
+PLIANT_HD Registers minus_xyz(const Registers& a, const Registers& b) {
   Registers r;
-  const PartMask mask = ~xyz_mask();
   PLIANT_EACH_PART({
-    r.at[0][i] = (Part)((PartMask)a.at[0][i] & mask);
-    r.at[1][i] = (Part)((PartMask)a.at[1][i] & mask);
-    r.at[2][i] = (Part)((PartMask)a.at[2][i] & mask);
-    r.at[3][i] = (Part)((PartMask)a.at[3][i] & mask);
+    r.at[0][i] = minus_xyz(a.at[0][i], b.at[0][i]);
+    r.at[1][i] = minus_xyz(a.at[1][i], b.at[1][i]);
+    r.at[2][i] = minus_xyz(a.at[2][i], b.at[2][i]);
+    r.at[3][i] = minus_xyz(a.at[3][i], b.at[3][i]);
   })
   return r;
+}
+
+/// The records' w alone, lane by lane.
+PLIANT_HD Wide w_of(const Registers& a) {
+  Wide w;
+  PLIANT_EACH_PART({
+    const Part ab = PLIANT_SHUFFLE(a.at[0][i], a.at[1][i], 3, 3, 7, 7);
+    const Part cd = PLIANT_SHUFFLE(a.at[2][i], a.at[3][i], 3, 3, 7, 7);
+    w.part[i] = PLIANT_SHUFFLE(ab, cd, 0, 2, 4, 6);
+  })
+  return w;
 }
 
 /// The records' fields, lane by lane.

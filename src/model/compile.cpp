@@ -5,12 +5,12 @@
 
 #include "constraints/all.h"
 #include "model/chains.h"
+#include "model/choose_order.h"
 #include "model/compiled_object.h"
 #include "model/fill_pool.h"
 #include "model/gather_constraints.h"
 #include "model/stiffness.h"
 #include "topology/colouring.h"
-#include "topology/numbering.h"
 #include "topology/tiles.h"
 
 namespace pliant {
@@ -25,21 +25,6 @@ std::vector<Vec3f> all_positions(const Object& object) {
   std::vector<Vec3f> positions = object.positions;
   for (const Attachment& attachment : object.attachments) positions.push_back(attachment.target);
   return positions;
-}
-
-/// Marks every particle i that some constraint shares with i + 1.
-std::vector<char> find_links(const std::vector<ConstraintList>& lists, std::size_t particles) {
-  std::vector<char> linked(particles, 0);
-  for (const ConstraintList& list : lists) {
-    for (std::size_t first = 0; first < list.stencils.size(); first += list.size) {
-      for (int a = 0; a < list.size; ++a) {
-        for (int b = 0; b < list.size; ++b) {
-          if (list.stencils[first + a] + 1 == list.stencils[first + b]) linked[list.stencils[first + a]] = 1;
-        }
-      }
-    }
-  }
-  return linked;
 }
 
 void fill_particles(const Object& object, const std::vector<Vec3f>& positions, CompiledObject& out) {
@@ -77,7 +62,7 @@ void fill_kinematics(const Object& object, CompiledObject& out) {
 void number_particles(const std::vector<Vec3f>& positions, const std::vector<ConstraintList>& lists, int largest_tile,
                       std::vector<int>& tile, CompiledObject& out) {
   tile = cut_into_tiles(positions, largest_tile);
-  out.order = number_in_chains(tile, find_links(lists, positions.size()));
+  out.order = choose_order(positions, tile, lists);
   out.place.resize(out.order.size());
   for (int storage = 0; storage < static_cast<int>(out.order.size()); ++storage) out.place[out.order[storage]] = storage;
   for (int storage = 0; storage < static_cast<int>(out.order.size()); ++storage) {
@@ -120,10 +105,10 @@ std::vector<std::vector<int>> split_by_tile(const ConstraintList& list, const st
   return members;
 }
 
-/// The constraint in a lane of a batch: runs interleave, lane 4 l + j being member l of run j (math/wide.h says why). Lanes
+/// The constraint in a lane of a batch: fours interleave, lane 4 l + j being member l of four j (math/wide.h says why). Lanes
 /// past the end repeat the first, which is then read but never written.
 int member_in_lane(const Colour& colour, int batch, int lane, bool& valid) {
-  const int position = colour.runs ? batch * batch_width + 4 * (lane % 4) + lane / 4 : batch * batch_width + lane;
+  const int position = colour.runs != 0 ? batch * batch_width + 4 * (lane % 4) + lane / 4 : batch * batch_width + lane;
   valid = position < static_cast<int>(colour.members.size());
   return colour.members[valid ? position : batch * batch_width];
 }
@@ -140,7 +125,7 @@ void append_batch(const ConstraintList& list, const std::vector<Row>& rows, cons
     pool.origin.push_back(valid ? list.origin[member] : -1);
   }
   for (int slot = 0; slot < list.size; ++slot) {
-    for (int lane = 0; lane < (colour.runs ? 4 : batch_width); ++lane) {
+    for (int lane = 0; lane < ((colour.runs >> slot & 1) != 0 ? 4 : batch_width); ++lane) {
       const int member = member_in_lane(colour, batch, lane, valid);
       pool.indices.push_back(list.stencils[static_cast<std::size_t>(member) * list.size + slot]);
     }
@@ -153,11 +138,11 @@ Segment append_segment(const ConstraintList& list, const Colour& colour, int fir
   const int count = static_cast<int>(colour.members.size());
   Segment segment;
   segment.pool = pool_number;
-  segment.runs = colour.runs ? 1 : 0;
+  segment.runs = colour.runs;
   segment.first_batch = pool.batches;
   segment.batches = last - first;
   const int in_last = std::min(batch_width, count - (last - 1) * batch_width);
-  segment.last_count = colour.runs ? in_last / 4 : in_last;
+  segment.last_count = colour.runs != 0 ? in_last / 4 : in_last;
   segment.index_offset = static_cast<std::int64_t>(pool.indices.size());
   const std::vector<Row> rows = rows_of(list);
   for (int batch = first; batch < last; ++batch) append_batch(list, rows, colour, batch, pool);
@@ -178,7 +163,7 @@ void append_colour(const ConstraintList& list, const Colour& colour, int largest
 std::vector<Colour> one_by_one(const std::vector<int>& members) {
   std::vector<Colour> colours;
   colours.reserve(members.size());
-  for (int member : members) colours.push_back({false, {member}});
+  for (int member : members) colours.push_back({0, {member}});
   return colours;
 }
 

@@ -23,10 +23,11 @@ inline constexpr int batch_width = 16;
 /// Batches of one pool that share no particle and are projected together.
 struct Segment {
   std::int32_t pool = 0;
-  std::int32_t runs = 0;         ///< 1: a slot's indices are four bases of runs; 0: sixteen particles
+  std::int32_t runs = 0;         ///< bit s: slot s has four bases of runs as indices; else sixteen particles
   std::int32_t first_batch = 0;  ///< in the pool
   std::int32_t batches = 0;
-  std::int32_t last_count = 0;    ///< valid runs (1..4) or lanes (1..16) in the last batch; the rest is padding
+  std::int32_t last_count =
+      0;  ///< in the last batch: valid lanes (1..16), or fours (1..4) where a slot is in runs; the rest is padding
   std::int64_t index_offset = 0;  ///< into Pool::indices
 };
 
@@ -52,14 +53,22 @@ struct Pool {
   std::int32_t row_step(int number) const { return row_offset[number] < 0 ? 0 : block_floats; }
 };
 
+/// Indices of a batch before those of `slot`, where the slots in `runs` are in runs.
+inline constexpr std::int32_t indices_before(std::int32_t runs, int slot) {
+  std::int32_t count = 0;
+  for (int before = 0; before < slot; ++before) count += (runs >> before & 1) != 0 ? 4 : batch_width;
+  return count;
+}
+
 /// Indices that one batch of a segment takes.
 inline std::int32_t indices_per_batch(const Pool& pool, const Segment& segment) {
-  return pool.stencil * (segment.runs != 0 ? 4 : batch_width);
+  return indices_before(segment.runs, pool.stencil);
 }
 
 /// The particle in `slot` of `lane` of a batch whose indices start at `index`.
 inline std::int32_t particle_of(const Segment& segment, const std::int32_t* index, int slot, int lane) {
-  return segment.runs != 0 ? index[4 * slot + lane % 4] + lane / 4 : index[batch_width * slot + lane];
+  const std::int32_t* at = index + indices_before(segment.runs, slot);
+  return (segment.runs >> slot & 1) != 0 ? at[lane % 4] + lane / 4 : at[lane];
 }
 
 /// Whether a lane of the segment's batch number `batch` (from its first) is a constraint and not padding.

@@ -12,45 +12,48 @@ namespace {
 
 // ---------------------------------------------------------------- constraints
 
-template <bool runs>
-PLIANT_HD Registers load(const Record* base, const std::int32_t* index) {
-  if constexpr (runs) {
-    return load_runs(base, index);
-  } else {
-    return load_indexed(base, index);
-  }
-}
+/// For a set of slots in runs that is known only when the segment is: a branch a slot, the same for all of a segment's batches.
+constexpr std::int32_t any_set = -1;
 
-template <bool runs>
-PLIANT_HD void store(Record* base, const std::int32_t* index, const Registers& records, bool whole, int count) {
-  if constexpr (runs) {
-    store_runs(base, index, records, whole ? 4 : count);
-  } else {
-    if (whole) return store_indexed(base, index, records);
-    store_indexed_some(base, index, records, count);
-  }
-}
+/// Which slots of a batch are in runs, and where each one's indices are.
+template <int size, std::int32_t fixed>
+struct Slots {
+  std::int32_t runs;
 
-/// A stencil's particles as its first one sees them: x_i = (position_i - position_0) + displacement_i. Differences of
-/// neighbours' positions are small and nearly exact, and no constraint among particles knows where the origin is.
-template <int size, bool runs>
-PLIANT_HD void load_stencil(const SweepArguments& a, const std::int32_t* index, Vec3<Wide> (&x)[size], Wide (&w)[size]) {
-  constexpr int stride = runs ? 4 : batch_width;
-  const Registers first = load<runs>(a.positions, index);
-  const Registers origin = without_w(first);
+  PLIANT_HD explicit Slots(std::int32_t in_runs) : runs(fixed == any_set ? in_runs : fixed) {}
+  PLIANT_HD bool in_runs(int slot) const { return ((fixed == any_set ? runs : fixed) >> slot & 1) != 0; }
+  /// Indices before those of a slot.
+  PLIANT_HD std::int32_t before(int slot) const { return indices_before(fixed == any_set ? runs : fixed, slot); }
+
+  PLIANT_HD Registers load(const Record* base, const std::int32_t* index, int slot) const {
+    return in_runs(slot) ? load_runs(base, index + before(slot)) : load_indexed(base, index + before(slot));
+  }
+  PLIANT_HD void store(Record* base, const std::int32_t* index, int slot, const Registers& records, bool whole,
+                       int count) const {
+    if (in_runs(slot)) return store_runs(base, index + before(slot), records, whole ? 4 : count);
+    if (whole) return store_indexed(base, index + before(slot), records);
+    store_indexed_some(base, index + before(slot), records, count);
+  }
+};
+
+/// A stencil's particles as its first one sees them: x_i = ((position_i - position_0) + displacement_i) - displacement_0, so that
+/// x_0 is zero. Differences of neighbours' positions are small and nearly exact, and no constraint among particles knows where the
+/// origin is. Taken between records, before fields are: the first one's fields but w need no transpose.
+template <int size, std::int32_t fixed>
+PLIANT_HD void load_stencil(const SweepArguments& a, const Slots<size, fixed>& slots, const std::int32_t* index,
+                            Registers (&moved)[size], Vec3<Wide> (&x)[size], Wide (&w)[size]) {
+  const Registers origin = slots.load(a.positions, index, 0);
+  moved[0] = slots.load(a.displacements, index, 0);
+  x[0] = {Wide(0.f), Wide(0.f), Wide(0.f)};
+  w[0] = w_of(origin);
   PLIANT_UNROLL
-  for (int slot = 0; slot < size; ++slot) {
-    const Registers base = slot == 0 ? w_alone(first) : load<runs>(a.positions, index + slot * stride) - origin;
-    const WideRecords records = from_registers(base + load<runs>(a.displacements, index + slot * stride));
+  for (int slot = 1; slot < size; ++slot) {
+    const Registers apart = minus_xyz(slots.load(a.positions, index, slot), origin);
+    moved[slot] = slots.load(a.displacements, index, slot);
+    const WideRecords records = from_registers((apart + moved[slot]) - moved[0]);
     x[slot] = records.position;
     w[slot] = records.w;
   }
-}
-
-/// x - x_start for one slot.
-template <bool runs>
-PLIANT_HD Vec3<Wide> load_motion(const SweepArguments& a, const std::int32_t* index) {
-  return from_registers(load<runs>(a.displacements, index) - load<runs>(a.remainders, index)).position;
 }
 
 /// Where a pool's rows are for one batch: those that are the same for all constraints stay where they are.
@@ -100,16 +103,17 @@ PLIANT_HD void store_aside(Record* to, const Vec3<Wide>& correction) {
   store_runs(to, places, to_registers({correction, Wide(0.f)}), 4);
 }
 
-/// One batch of sixteen constraints: their numbers in `rows`, their particles at `index`. `count` lanes or runs are
-/// written.
-template <class T, Law law, bool keeps_multipliers, bool runs, bool general, int row_count>
-PLIANT_HD void project_batch(const Rows<row_count>& rows, const std::int32_t* index, float* multiplier, bool whole,
-                             int count, const AsideOf<general>& aside, const SweepArguments& a) {
-  constexpr int stride = runs ? 4 : batch_width;
+/// One batch of sixteen constraints: their numbers in `rows`, their particles at `index`. All are written where it is `whole`, else
+/// `count` fours, or lanes where no slot is in runs.
+template <class T, Law law, bool keeps_multipliers, std::int32_t fixed, bool general, int row_count>
+PLIANT_HD void project_batch(const Rows<row_count>& rows, const Slots<T::size, fixed>& slots, const std::int32_t* index,
+                             float* multiplier, bool whole, int count, const AsideOf<general>& aside,
+                             const SweepArguments& a) {
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
   Vec3<Wide> x[T::size];
   Wide w[T::size];
-  load_stencil<T::size, runs>(a, index, x, w);
+  Registers moved[T::size];  // kept: sixteen records cost more to find again than to put by
+  load_stencil(a, slots, index, moved, x, w);
   Wide rest[fields];
   PLIANT_UNROLL
   for (int field = 0; field < fields; ++field) rest[field] = load_wide(rows.at[field]);
@@ -123,7 +127,8 @@ PLIANT_HD void project_batch(const Rows<row_count>& rows, const std::int32_t* in
   if constexpr (law == Law::damped) {
     answer.damping = load_wide(rows.at[fields + 1]);
     PLIANT_UNROLL
-    for (int slot = 0; slot < T::size; ++slot) motion[slot] = load_motion<runs>(a, index + slot * stride);
+    for (int slot = 0; slot < T::size; ++slot)
+      motion[slot] = from_registers(moved[slot] - slots.load(a.remainders, index, slot)).position;
   }
   Vec3<Wide> correction[T::size];
   if constexpr (general) {
@@ -142,36 +147,49 @@ PLIANT_HD void project_batch(const Rows<row_count>& rows, const std::int32_t* in
   }
   PLIANT_UNROLL
   for (int slot = 0; slot < T::size; ++slot) {
-    const std::int32_t* at = index + slot * stride;
-    const Registers moved = load<runs>(a.displacements, at) + to_registers({correction[slot], Wide(0.f)});
-    store<runs>(a.displacements, at, moved, whole, count);
+    const Registers after = moved[slot] + to_registers({correction[slot], Wide(0.f)});
+    slots.store(a.displacements, index, slot, after, whole, count);
   }
 }
 
-template <class T, Law law, bool keeps_multipliers, bool runs, bool general>
-void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
-  constexpr int indices = T::size * (runs ? 4 : batch_width);
+template <class T, Law law, bool keeps_multipliers, std::int32_t fixed, bool general>
+void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& arguments) {
+  const SweepArguments a = arguments;  // a copy that nothing stored can change, so that it stays in registers
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
   Rows<fields + 1 + (law == Law::damped ? 1 : 0)> rows(pool, segment.first_batch);
+  const Slots<T::size, fixed> slots(segment.runs);
   const std::int32_t* index = pool.indices.data() + segment.index_offset;
   float* multiplier =
       keeps_multipliers ? multipliers + static_cast<std::int64_t>(segment.first_batch) * batch_width : nullptr;
   AsideOf<general> aside(a, segment, T::size);
-  for (int batch = 0; batch + 1 < segment.batches; ++batch) {
-    project_batch<T, law, keeps_multipliers, runs, general>(rows, index, multiplier, true, 0, aside, a);
-    index += indices;
+  const bool whole = segment.last_count == (segment.runs != 0 ? 4 : batch_width);
+  for (int left = segment.batches; left > (whole ? 0 : 1); --left) {
+    project_batch<T, law, keeps_multipliers, fixed, general>(rows, slots, index, multiplier, true, 0, aside, a);
+    index += slots.before(T::size);
     aside.next(T::size);
     rows.next();
     if constexpr (keeps_multipliers) multiplier += batch_width;
   }
-  const bool whole = segment.last_count == (runs ? 4 : batch_width);
-  project_batch<T, law, keeps_multipliers, runs, general>(rows, index, multiplier, whole, segment.last_count, aside, a);
+  if (whole) return;
+  project_batch<T, law, keeps_multipliers, fixed, general>(rows, slots, index, multiplier, false, segment.last_count, aside,
+                                                           a);
 }
 
 template <class T, Law law, bool keeps_multipliers, bool general>
 void sweep_either(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
-  if (segment.runs != 0) return sweep_segment<T, law, keeps_multipliers, true, general>(pool, segment, multipliers, a);
-  sweep_segment<T, law, keeps_multipliers, false, general>(pool, segment, multipliers, a);
+  constexpr std::int32_t all = (1 << T::size) - 1;
+  const auto with = [&]<std::int32_t fixed>(std::integral_constant<std::int32_t, fixed>) {
+    sweep_segment<T, law, keeps_multipliers, fixed, general>(pool, segment, multipliers, a);
+  };
+  if (segment.runs == all) return with(std::integral_constant<std::int32_t, all>{});
+  if constexpr (!general) {
+    if (segment.runs == 0) return with(std::integral_constant<std::int32_t, 0>{});
+    if constexpr (T::size == 2) {
+      return segment.runs == 1 ? with(std::integral_constant<std::int32_t, 1>{})
+                               : with(std::integral_constant<std::int32_t, 2>{});
+    }
+  }
+  if constexpr (general || T::size != 2) with(std::integral_constant<std::int32_t, any_set>{});
 }
 
 template <class T, bool general>

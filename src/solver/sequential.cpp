@@ -36,12 +36,13 @@ void project_lane(const Pool& pool, const Place& at, const std::int32_t (&partic
 
   Vec3f x[T::size], motion[T::size], correction[T::size];
   float w[T::size];
-  const Record& origin = a.positions[particle[0]];
+  const Record &origin = a.positions[particle[0]], first = a.displacements[particle[0]];
   for (int slot = 0; slot < T::size; ++slot) {
     const Record& p = a.positions[particle[slot]];
     const Record &d = a.displacements[particle[slot]], &r = a.remainders[particle[slot]];
-    x[slot] = slot == 0 ? Vec3f{0 + d.x, 0 + d.y, 0 + d.z}
-                        : Vec3f{(p.x - origin.x) + d.x, (p.y - origin.y) + d.y, (p.z - origin.z) + d.z};
+    x[slot] = slot == 0 ? Vec3f{0, 0, 0}
+                        : Vec3f{((p.x - origin.x) + d.x) - first.x, ((p.y - origin.y) + d.y) - first.y,
+                                ((p.z - origin.z) + d.z) - first.z};
     w[slot] = p.w;
     motion[slot] = {d.x - r.x, d.y - r.y, d.z - r.z};
   }

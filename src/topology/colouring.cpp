@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace pliant {
 
@@ -14,6 +15,8 @@ namespace {
 
 constexpr int bits = 64;
 constexpr int largest_stencil = 4;
+constexpr std::size_t batch = 16;             // constraints that are projected at once
+constexpr std::size_t fewest_to_group = 512;  // constraints that are not in runs with all slots
 
 struct Key {
   std::array<int, largest_stencil> shape;  // differences to slot 0, then slot 0 itself last
@@ -51,16 +54,65 @@ bool is_run(const Key* key, int size) {
   return true;
 }
 
-void add(std::vector<Colour>& colours, std::vector<int>& number_of, int colour, bool runs, int member) {
-  if (static_cast<int>(number_of.size()) <= colour) number_of.resize(colour + 1, -1);
-  if (number_of[colour] < 0) {
-    number_of[colour] = static_cast<int>(colours.size());
-    colours.push_back({runs, {}});
+/// The constraints of one colour by which slots are in runs.
+using Class = std::array<std::vector<int>, 1 << largest_stencil>;
+
+/// Fours beyond whole batches go on as if fewer of their slots were in runs: to others that are so, or to the single ones.
+void demote_rest(int runs, Class& members) {
+  const std::size_t whole = members[runs].size() / batch * batch;
+  int to = 0;
+  for (int fewer = 1; fewer < runs; ++fewer) {
+    if ((fewer & ~runs) == 0 && !members[fewer].empty()) to = fewer;
   }
-  colours[number_of[colour]].members.push_back(member);
+  const auto rest = members[runs].begin() + static_cast<std::ptrdiff_t>(whole);
+  members[to].insert(members[to].end(), rest, members[runs].end());
+  members[runs].resize(whole);
+}
+
+/// Appends a colour's constraints, those with most slots in runs first. Single ones come by their first particles: those of one batch
+/// then find their particles close together. Inside a colour any order gives the same bits.
+void append_class(const std::vector<int>& stencils, int size, Class& members, std::vector<Colour>& colours) {
+  const int all = (1 << size) - 1;
+  for (int runs = all; runs > 0; --runs) {
+    if (runs < all) demote_rest(runs, members);
+    if (!members[runs].empty()) colours.push_back({runs, std::move(members[runs])});
+  }
+  const auto first = [&](int member) { return stencils[static_cast<std::size_t>(size) * member]; };
+  std::sort(members[0].begin(), members[0].end(), [&](int a, int b) { return first(a) < first(b); });
+  if (!members[0].empty()) colours.push_back({0, std::move(members[0])});
+}
+
+/// Calls run(key) for the first of every four that are a run and single(key) for what is in none, in order.
+template <class Run, class Single>
+void for_runs(const std::vector<Key>& keys, int size, const Run& run, const Single& single) {
+  for (std::size_t i = 0; i < keys.size();) {
+    const bool is = i + 4 <= keys.size() && is_run(&keys[i], size);
+    is ? run(&keys[i]) : single(keys[i]);
+    i += is ? 4 : 1;
+  }
+}
+
+/// None where few would be in fours: they would not fill batches for every set of slots.
+std::vector<Four> take_fours_if_many(const std::vector<int>& stencils, int size, std::vector<int>& members) {
+  if (members.size() < fewest_to_group) return {};
+  std::vector<int> rest = members;
+  std::vector<Four> fours = take_fours(stencils, size, rest);
+  if (rest.size() > members.size() / 4 * 3) return {};
+  members = std::move(rest);
+  return fours;
 }
 
 }  // namespace
+
+double share_in_runs(const std::vector<int>& stencils, int size) {
+  std::vector<int> members(stencils.size() / static_cast<std::size_t>(size));
+  std::iota(members.begin(), members.end(), 0);
+  if (members.empty()) return 1;
+  std::size_t in_runs = 0;
+  for_runs(
+      sorted_by_shape(stencils, size, members), size, [&](const Key*) { in_runs += 4; }, [](const Key&) {});
+  return static_cast<double>(in_runs) / static_cast<double>(members.size());
+}
 
 int Colouring::first_free(const int* particles, int count) {
   std::uint64_t used = 0;
@@ -77,6 +129,34 @@ int Colouring::first_free(const int* particles, int count) {
   return colour;
 }
 
+/// First fit, fours as wholes; colours are new ones.
+void Colouring::append(const std::vector<int>& stencils, int size, const std::vector<Four>& fours,
+                       const std::vector<int>& singles, std::vector<Colour>& colours) {
+  std::vector<Class> classes;
+  const auto class_of = [&](const std::vector<int>& particles) -> Class& {
+    const auto colour = static_cast<std::size_t>(first_free(particles.data(), static_cast<int>(particles.size())));
+    if (classes.size() <= colour) classes.resize(colour + 1);
+    return classes[colour];
+  };
+  std::vector<int> particles;
+  const auto add_particles = [&](int member) {
+    const int* stencil = &stencils[static_cast<std::size_t>(size) * member];
+    particles.insert(particles.end(), stencil, stencil + size);
+  };
+  for (const Four& four : fours) {
+    particles.clear();
+    for (int member : four.members) add_particles(member);
+    std::vector<int>& members = class_of(particles)[four.runs];
+    members.insert(members.end(), four.members.begin(), four.members.end());
+  }
+  for (int member : singles) {
+    particles.clear();
+    add_particles(member);
+    class_of(particles)[0].push_back(member);
+  }
+  for (Class& members : classes) append_class(stencils, size, members, colours);
+}
+
 void Colouring::reset(const std::vector<int>& stencils, int size, const std::vector<int>& members) {
   for (int member : members) {
     for (int slot = 0; slot < size; ++slot) {
@@ -87,35 +167,24 @@ void Colouring::reset(const std::vector<int>& stencils, int size, const std::vec
 }
 
 std::vector<Colour> Colouring::colour(const std::vector<int>& stencils, int size, const std::vector<int>& members) {
-  const std::vector<Key> keys = sorted_by_shape(stencils, size, members);
   std::vector<Colour> colours;
-  std::vector<int> singles, number_of;
-  std::vector<int> together(4 * static_cast<std::size_t>(size));
-
-  // Runs of four, each coloured as one.
+  std::vector<Four> fours;
+  std::vector<int> rest;
+  const int all = (1 << size) - 1;
+  for_runs(
+      sorted_by_shape(stencils, size, members), size,
+      [&](const Key* key) {
+        fours.push_back({all, {key[0].member, key[1].member, key[2].member, key[3].member}});
+      },
+      [&](const Key& key) { rest.push_back(key.member); });
   reset(stencils, size, members);
-  for (std::size_t i = 0; i < keys.size();) {
-    if (i + 4 > keys.size() || !is_run(&keys[i], size)) {
-      singles.push_back(keys[i++].member);
-      continue;
-    }
-    for (int l = 0; l < 4; ++l) {
-      for (int slot = 0; slot < size; ++slot) {
-        together[l * size + slot] = stencils[static_cast<std::size_t>(size) * keys[i + l].member + slot];
-      }
-    }
-    const int colour = first_free(together.data(), 4 * size);
-    for (int l = 0; l < 4; ++l) add(colours, number_of, colour, true, keys[i + l].member);
-    i += 4;
-  }
+  append(stencils, size, fours, {}, colours);
 
   // What is left, in colours of its own.
+  fours.clear();
+  if (rest.size() > members.size() / 4) fours = take_fours_if_many(stencils, size, rest);
   reset(stencils, size, members);
-  number_of.clear();
-  for (int member : singles) {
-    const int colour = first_free(&stencils[static_cast<std::size_t>(size) * member], size);
-    add(colours, number_of, colour, false, member);
-  }
+  append(stencils, size, fours, rest, colours);
   return colours;
 }
 

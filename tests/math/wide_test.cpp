@@ -155,15 +155,19 @@ TEST(WideRecordsInRegisters, AddAndPartLaneByLane) {
   const std::vector<Record> records = numbered_records(40);
   const std::array<int, 4> run{8, 0, 33, 20};
   const Registers all = load_runs(records.data(), run.data());
-  const WideRecords there = from_registers(without_w(all)), mass = from_registers(w_alone(all)),
-                    twice = from_registers(all + all);
+  const WideRecords there = from_registers(without_w(all)), twice = from_registers(all + all),
+                    apart = from_registers(minus_xyz(all + all, all));
+  const Wide mass = w_of(all);
   const WideRecords nothing = from_registers(all - all);
   for (std::size_t lane = 0; lane < wide_width; ++lane) {
     const float n = static_cast<float>(4 * (run[lane % 4] + static_cast<int>(lane / 4)));
     EXPECT_EQ(lanes_of(there.position.z)[lane], n + 2);
     EXPECT_EQ(lanes_of(there.w)[lane], 0);
-    EXPECT_EQ(lanes_of(mass.position.x)[lane], 0);
-    EXPECT_EQ(lanes_of(mass.w)[lane], n + 3);
+    EXPECT_EQ(lanes_of(mass)[lane], n + 3);
+    EXPECT_EQ(lanes_of(apart.position.x)[lane], n);
+    EXPECT_EQ(lanes_of(apart.position.y)[lane], n + 1);
+    EXPECT_EQ(lanes_of(apart.position.z)[lane], n + 2);
+    EXPECT_EQ(lanes_of(apart.w)[lane], 2 * (n + 3));
     EXPECT_EQ(lanes_of(twice.position.y)[lane], 2 * (n + 1));
     EXPECT_EQ(lanes_of(nothing.w)[lane], 0);
   }

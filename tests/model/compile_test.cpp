@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <random>
 #include <set>
+#include <tuple>
 
 #include "constraints/all.h"
 #include "math/vector.h"
@@ -117,12 +119,33 @@ std::vector<int> stencil_given(const Object& object, const std::string& type, in
   return {attachment.particle, static_cast<int>(object.positions.size()) + origin};
 }
 
-class Compiled : public testing::TestWithParam<int> {
+/// The same under other numbers, so that no lines are left to number along.
+Object renumbered(const Object& object) {
+  std::vector<int> name(object.positions.size());
+  std::iota(name.begin(), name.end(), 0);
+  std::shuffle(name.begin() + 2, name.end(), std::mt19937(3));  // 0 and 1 are fixed, and tests know them
+  Object out = object;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const auto to = static_cast<std::size_t>(name[i]);
+    out.positions[to] = object.positions[i];
+    out.masses[to] = object.masses[i];
+    out.velocities[to] = object.velocities[i];
+  }
+  const auto rename = [&](int& particle) { particle = name[static_cast<std::size_t>(particle)]; };
+  for (ConstraintGroup& group : out.constraints) std::for_each(group.particles.begin(), group.particles.end(), rename);
+  for (auto& triangle : out.triangles) std::for_each(triangle.begin(), triangle.end(), rename);
+  for (Attachment& attachment : out.attachments) rename(attachment.particle);
+  return out;
+}
+
+/// Tiles of some size, the grid numbered line by line or anyhow.
+class Compiled : public testing::TestWithParam<std::tuple<int, bool>> {
  protected:
-  Object object_ = rumpled_grid(23, 17);
-  CompiledObject compiled_ = compile(object_, {10, GetParam()});
+  int largest_tile() const { return std::get<0>(GetParam()); }
+  Object object_ = std::get<1>(GetParam()) ? renumbered(rumpled_grid(43, 37)) : rumpled_grid(23, 17);
+  CompiledObject compiled_ = compile(object_, {10, largest_tile()});
 };
-INSTANTIATE_TEST_SUITE_P(TileSizes, Compiled, testing::Values(1, 7, 40, 4096));
+INSTANTIATE_TEST_SUITE_P(TileSizes, Compiled, testing::Combine(testing::Values(1, 7, 40, 4096), testing::Bool()));
 
 TEST_P(Compiled, HasEveryConstraintOnceWithItsParticles) {
   const auto lanes = all_lanes(compiled_);
@@ -179,7 +202,7 @@ TEST_P(Compiled, TilesPartitionParticlesAndSegments) {
     EXPECT_EQ(tile.first_particle, particle);
     EXPECT_EQ(tile.first_segment, segment);
     EXPECT_GT(tile.last_particle, tile.first_particle);
-    EXPECT_LE(tile.last_particle - tile.first_particle, GetParam());
+    EXPECT_LE(tile.last_particle - tile.first_particle, largest_tile());
     particle = tile.last_particle;
     segment = tile.last_segment;
   }
@@ -265,6 +288,22 @@ TEST_P(Compiled, FindsTheTrianglesAroundEachParticle) {
     }
   }
   EXPECT_EQ(corners, 3 * object_.triangles.size());
+}
+
+TEST(Compile, BringsAnyNumberingIntoRuns) {
+  const CompiledObject compiled = compile(renumbered(rumpled_grid(43, 37)), {10, 4096});
+  std::set<int> sets;
+  int batches = 0, in_runs = 0;
+  for (const Segment& segment : compiled.segments) {
+    if (compiled.pools[static_cast<std::size_t>(segment.pool)].stencil == 4) sets.insert(segment.runs);
+    batches += segment.batches;
+    in_runs += segment.runs != 0 ? segment.batches : 0;
+    if (segment.runs != 0 && segment.runs + 1 != 1 << compiled.pools[static_cast<std::size_t>(segment.pool)].stencil) {
+      EXPECT_EQ(segment.last_count, 4) << "sweeps rely on whole batches where only some slots are in runs";
+    }
+  }
+  EXPECT_GT(in_runs, batches / 2);
+  EXPECT_GT(sets.size(), 3u) << "hinges with all, some and no slots in runs";
 }
 
 TEST(Compile, IsTheSameEachTime) {

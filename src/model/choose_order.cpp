@@ -1,0 +1,83 @@
+#include "model/choose_order.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "topology/colouring.h"
+#include "topology/lockstep.h"
+#include "topology/numbering.h"
+
+namespace pliant {
+
+namespace {
+
+/// With this share in runs chains are good enough to look no further.
+constexpr double enough_in_runs = 0.75;
+
+/// Below this many particles a sweep takes no time in any order.
+constexpr std::size_t fewest_to_choose_for = 64;
+
+using Links = std::vector<std::array<int, 2>>;
+
+/// The pairs of particles that some constraint shares, each once, ascending; if there are constraints between two, only
+/// those: they are the mesh on which the larger ones stand.
+Links links_of(const std::vector<ConstraintList>& lists) {
+  const bool pairs = std::any_of(lists.begin(), lists.end(), [](const ConstraintList& list) { return list.size == 2; });
+  Links links;
+  for (const ConstraintList& list : lists) {
+    if (pairs && list.size != 2) continue;
+    for (std::size_t first = 0; first < list.stencils.size(); first += list.size) {
+      for (int a = 0; a < list.size; ++a) {
+        for (int b = a + 1; b < list.size; ++b) {
+          const int i = list.stencils[first + a], j = list.stencils[first + b];
+          if (i != j) links.push_back({std::min(i, j), std::max(i, j)});
+        }
+      }
+    }
+  }
+  std::sort(links.begin(), links.end());
+  links.erase(std::unique(links.begin(), links.end()), links.end());
+  return links;
+}
+
+/// Marks every particle i that some constraint shares with i + 1.
+std::vector<char> find_links_to_next(const std::vector<ConstraintList>& lists, std::size_t particles) {
+  std::vector<char> linked(particles, 0);
+  for (const ConstraintList& list : lists) {
+    for (std::size_t first = 0; first < list.stencils.size(); first += list.size) {
+      for (int a = 0; a < list.size; ++a) {
+        for (int b = 0; b < list.size; ++b) {
+          if (list.stencils[first + a] + 1 == list.stencils[first + b]) linked[list.stencils[first + a]] = 1;
+        }
+      }
+    }
+  }
+  return linked;
+}
+
+double links_in_runs(const Links& links, const std::vector<int>& order) {
+  std::vector<int> place(order.size()), stencils;
+  for (int storage = 0; storage < static_cast<int>(order.size()); ++storage) place[order[storage]] = storage;
+  stencils.reserve(2 * links.size());
+  for (const auto& [a, b] : links) {
+    stencils.push_back(std::min(place[a], place[b]));
+    stencils.push_back(std::max(place[a], place[b]));
+  }
+  return share_in_runs(stencils, 2);
+}
+
+}  // namespace
+
+std::vector<int> choose_order(const std::vector<Vec3f>& positions, const std::vector<int>& tile,
+                              const std::vector<ConstraintList>& lists) {
+  std::vector<int> chains = number_in_chains(tile, find_links_to_next(lists, tile.size()));
+  if (tile.size() < fewest_to_choose_for) return chains;
+  const Links links = links_of(lists);
+  const double in_chains = links_in_runs(links, chains);
+  if (in_chains >= enough_in_runs) return chains;
+  std::vector<int> lockstep = number_in_lockstep(positions, tile, links);
+  return links_in_runs(links, lockstep) > in_chains ? lockstep : chains;
+}
+
+}  // namespace pliant
