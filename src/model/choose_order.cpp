@@ -18,10 +18,13 @@ constexpr double enough_in_runs = 0.75;
 /// Below this many particles a sweep takes no time in any order.
 constexpr std::size_t fewest_to_choose_for = 64;
 
+/// Particles by which an order is judged: more of the same would say the same.
+constexpr int most_to_judge_by = 1 << 14;
+
 using Links = std::vector<std::array<int, 2>>;
 
-/// The pairs of particles that some constraint shares, each once, ascending; if there are constraints between two, only
-/// those: they are the mesh on which the larger ones stand.
+/// The pairs of particles that some constraint shares; if there are constraints between two, only those: they are the mesh on which the
+/// larger ones stand.
 Links links_of(const std::vector<ConstraintList>& lists) {
   const bool pairs = std::any_of(lists.begin(), lists.end(), [](const ConstraintList& list) { return list.size == 2; });
   Links links;
@@ -29,15 +32,10 @@ Links links_of(const std::vector<ConstraintList>& lists) {
     if (pairs && list.size != 2) continue;
     for (std::size_t first = 0; first < list.stencils.size(); first += list.size) {
       for (int a = 0; a < list.size; ++a) {
-        for (int b = a + 1; b < list.size; ++b) {
-          const int i = list.stencils[first + a], j = list.stencils[first + b];
-          if (i != j) links.push_back({std::min(i, j), std::max(i, j)});
-        }
+        for (int b = a + 1; b < list.size; ++b) links.push_back({list.stencils[first + a], list.stencils[first + b]});
       }
     }
   }
-  std::sort(links.begin(), links.end());
-  links.erase(std::unique(links.begin(), links.end()), links.end());
   return links;
 }
 
@@ -56,13 +54,13 @@ std::vector<char> find_links_to_next(const std::vector<ConstraintList>& lists, s
   return linked;
 }
 
+/// The share of links in runs among the first particles stored: as many as tell.
 double links_in_runs(const Links& links, const std::vector<int>& order) {
   std::vector<int> place(order.size()), stencils;
   for (int storage = 0; storage < static_cast<int>(order.size()); ++storage) place[order[storage]] = storage;
-  stencils.reserve(2 * links.size());
   for (const auto& [a, b] : links) {
-    stencils.push_back(std::min(place[a], place[b]));
-    stencils.push_back(std::max(place[a], place[b]));
+    const int i = std::min(place[a], place[b]), j = std::max(place[a], place[b]);
+    if (j < most_to_judge_by) stencils.insert(stencils.end(), {i, j});
   }
   return share_in_runs(stencils, 2);
 }
