@@ -1,9 +1,11 @@
 // pliant bench: the workloads of apps/bench as a table, row by row as they are measured.
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "apps/bench/bench.h"
 #include "apps/bench/broadphase.h"
+#include "apps/bench/contact.h"
 #include "atomic_file.h"
 #include "command.h"
 #include "interrupt.h"
@@ -58,16 +60,39 @@ std::string bench_impacts() {
   return to_json(rows);
 }
 
+std::string bench_contact(const BenchOptions& options) {
+  pliant::bench::ContactOptions wanted;
+  if (!options.sizes.empty()) wanted.sizes = options.sizes;
+  if (options.frames > 0) wanted.frames = options.frames;
+  print("size  particles  without, ms  with, ms  ratio  slowest, ms  us/particle  candidates/particle  lists/frame\n");
+  wanted.on_row = [](const pliant::bench::ContactRow& row) {
+    throw_if_interrupted();
+    char text[256];
+    std::snprintf(text, sizeof text, "%4d %10d %12.2f %9.2f %6.2f %12.2f %12.3f %20.1f %12.0f\n", row.size, row.particles,
+                  row.without_ms, row.with_ms, row.ratio, row.largest_ms, row.with_us_per_particle,
+                  row.candidates_per_particle, row.lists);
+    print(text);
+  };
+  return to_json(pliant::bench::measure_contact(wanted));
+}
+
+/// Of a workload that is measured by name alone: its rows as JSON; nothing where it is none of them.
+std::optional<std::string> bench_by_name(const BenchOptions& options) {
+  if (options.workload == "broadphase") return bench_broad_phases(options);
+  if (options.workload == "ccd") return bench_impacts();
+  if (options.workload == "contact") return bench_contact(options);
+  return std::nullopt;
+}
+
 }  // namespace
 
 int bench(const BenchOptions& options) {
   std::unique_ptr<AtomicFile> file;
   if (!options.json.empty()) file = std::make_unique<AtomicFile>(options.json);
-  if (options.workload == "broadphase" || options.workload == "ccd") {
-    const std::string json = options.workload == "ccd" ? bench_impacts() : bench_broad_phases(options);
+  if (const auto json = bench_by_name(options)) {
     throw_if_interrupted();
     if (!file) return 0;
-    file->write(json);
+    file->write(*json);
     file->commit();
     return 0;
   }

@@ -8,15 +8,22 @@ namespace pliant {
 
 /// Nearer than any distance: to be measured before anything else.
 inline constexpr float not_measured = -1e30f;
-/// Bounds of distances are floats: this much is allowed for their rounding.
-inline constexpr float bound_slack = 1.0001f;
+/// Farther than any distance.
+inline constexpr float out_of_reach = 1e30f;
+/// Bounds are sums of floats: pairs are dismissed only when they are out of reach by more than this.
+inline constexpr float cull_slack = 1.0001f;
 /// Sums of moves that are taken off again later are rounded some ten times.
 inline constexpr float sum_slack = 1 - 1e-6f;
+/// Places as seen by one who drifts along are rounded this often, at most.
+inline constexpr float place_roundings = 16;
 /// One rounding of a float, as a share of it.
 inline constexpr float rounding = 6e-8f;
 
-/// Two numbers as one key that sorts like the pair.
-inline std::uint64_t key_of(int a, int b) { return (static_cast<std::uint64_t>(a) << 32) | static_cast<std::uint32_t>(b); }
+/// One of sixteen pairs.
+inline PairStencil stencil_at(const PairStencils& pairs, int lane, bool of_vertices) {
+  return {{pairs.vertex[0][lane], pairs.vertex[1][lane], pairs.vertex[2][lane], pairs.vertex[3][lane]},
+          of_vertices ? 1 : 2};
+}
 
 inline Vec3f end_of(const PairParticles& particles, std::size_t i, float times = 1) {
   const Record &x = particles.positions[i], &d = particles.displacements[i];

@@ -1,7 +1,7 @@
 #include "collision/pair_contact.h"
 
+#include "collision/pair_kernels.h"
 #include "geometry/triangle.h"
-#include "math/wide.h"
 
 namespace pliant {
 
@@ -60,53 +60,17 @@ PairDistance pair_distance(const PairStencil& pair, const Record* positions) {
   return out;
 }
 
-namespace {
-
-/// What a distance in float may be too long by, over the largest coordinate of the pair relative to its first particle: the
-/// worst seen among edges with angles and triangles with heights down to 10^-6 is 1.5e-4.
-constexpr float error_over_size = 4e-4f;
-
-Vec3<Wide> load_place(const PairStencil* pairs, int count, int slot, const Record* positions) {
-  alignas(64) float at[3][16];
-  for (int lane = 0; lane < 16; ++lane) {
-    const PairStencil& pair = pairs[lane < count ? lane : 0];
-    const Record &x = positions[pair.vertex[slot]], &o = positions[pair.vertex[0]];
-    at[0][lane] = x.x - o.x;
-    at[1][lane] = x.y - o.y;
-    at[2][lane] = x.z - o.z;
-  }
-  return {load_wide(at[0]), load_wide(at[1]), load_wide(at[2])};
+void pair_distances(const PairStencil* pairs, int count, const Record* positions, PairBatch& out) {
+  PairStencils batch;
+  for (int lane = 0; lane < 16; ++lane)
+    for (int i = 0; i < 4; ++i) batch.vertex[i][lane] = pairs[lane < count ? lane : 0].vertex[i];
+  pair_kernels_v2().distances(batch, pairs[0].first_side, positions, out);
 }
 
-}  // namespace
-
-void pair_distances(const PairStencil* pairs, int count, const Record* positions, PairBatch& out) {
-  Vec3<Wide> x[4], apart;
-  for (int slot = 0; slot < 4; ++slot) x[slot] = load_place(pairs, count, slot, positions);
-  Wide weight[4];
-  if (pairs[0].first_side == 1) {
-    const auto near = closest_on_triangle(x[0], x[1], x[2], x[3]);
-    weight[0] = Wide(1.f);
-    weight[1] = -near.weights.x;
-    weight[2] = -near.weights.y;
-    weight[3] = -near.weights.z;
-    apart = x[0] - near.point;
-  } else {
-    const auto near = closest_on_segments({x[0], x[1]}, {x[2], x[3]});
-    weight[0] = Wide(1.f) - near.s;
-    weight[1] = near.s;
-    weight[2] = near.t - Wide(1.f);
-    weight[3] = -near.t;
-    apart = near.first - near.second;
-  }
-  const Wide distance = sqrt(dot(apart, apart)), scale = Wide(1.f) / max(distance, Wide(1e-30f));
-  store_wide(out.distance, distance);
-  const Wide size = largest(max(max(abs(x[1]), abs(x[2])), abs(x[3])));
-  store_wide(out.at_least, max(distance * Wide(1 - 1e-5f) - size * Wide(error_over_size), Wide(0.f)));
-  for (int slot = 0; slot < 4; ++slot) store_wide(out.weight[slot], weight[slot]);
-  store_wide(out.normal[0], apart.x * scale);
-  store_wide(out.normal[1], apart.y * scale);
-  store_wide(out.normal[2], apart.z * scale);
+const PairKernels& pair_kernels(std::string_view isa) {
+  if (isa == "x86-64-v4") return pair_kernels_v4();
+  if (isa == "x86-64-v3") return pair_kernels_v3();
+  return pair_kernels_v2();
 }
 
 PairContact make_contact(const PairStencil& pair, const PairBatch& at, int lane, const PairMaterial& material, float h) {

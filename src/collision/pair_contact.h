@@ -29,6 +29,11 @@ struct PairDistance {
 /// In double, from float positions; each primitive may be degenerate.
 PairDistance pair_distance(const PairStencil& pair, const Record* positions);
 
+/// Sixteen pairs of one kind, corner by corner; all sixteen name particles, those that are not asked for any.
+struct alignas(64) PairStencils {
+  std::int32_t vertex[4][16];
+};
+
 /// Sixteen pairs of one kind at once, in float. Places are relative to each pair's first particle, so that rounding is that of the
 /// pair's own size. Where edges are nearly parallel or a triangle is a sliver, the closest points of a float are others:
 /// `distance` may be longer than the true one, `at_least` is not.

@@ -10,11 +10,6 @@ namespace {
 /// Rounds in which moves are shortened by as much as they must; after them offenders stay where they are.
 constexpr int rounds_of_shares = 3;
 
-void sort_out(std::vector<std::uint64_t>& keys) {
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-}
-
 /// For each vertex the triangles at it, ascending.
 IntLists triangles_around(const ContactElements& elements) {
   IntLists out;
@@ -34,19 +29,29 @@ bool moves_at_all(const Record& d) { return d.x != 0 || d.y != 0 || d.z != 0; }
 }  // namespace
 
 void PairSystem::filter_bucket(Bucket& bucket, Task& task, const PairParticles& particles) {
-  activate(bucket, task, particles);
-  if (bucket.active_last == bucket.first) return;
   collect_near(bucket, task, least_of(material(bucket).thickness));
-  for (const std::int32_t p : task.near) filter_pair(bucket, p, particles, task);
+  for (const std::int32_t i : task.near) {
+    bucket.least_reach = min(bucket.least_reach, bucket.pairs[i].reach);
+    filter_pair(bucket, stencil(bucket, bucket.pairs[i]), particles, task);
+  }
 }
 
-void PairSystem::filter_pair(const Bucket& bucket, std::int32_t pair, const PairParticles& particles, Task& task) {
-  const PairStencil four = stencil(bucket, pair);
-  const float least = least_of(material(bucket).thickness);
-  if (!paths_within(four, particles, least)) return;
+void PairSystem::filter_surroundings(Surroundings& of, Task& task, const PairParticles& particles) {
+  const float gone = moved(of) + moves(of), least = least_of(material(of).thickness);
+  if (of.least_reach - gone > least) return;
+  for (int b = of.first_block; b < of.last_block; ++b) {
+    if (block_reach_[b] - gone > least) continue;
+    const int count = std::min(16, of.pairs - 16 * (b - of.first_block));
+    for (int lane = 0; lane < count; ++lane) filter_pair(of, stencil_at(blocks_[b], lane, of.of_vertices), particles, task);
+  }
+}
+
+void PairSystem::filter_pair(const Between& clusters, const PairStencil& four, const PairParticles& particles, Task& task) {
+  const float least = least_of(material(clusters).thickness);
+  if (!paths_within(four, particles, least) || is_tangled(four)) return;
   const PairDistance at = pair_distance(four, particles.positions);
   // What an old bound could not dismiss and a new one does is left alone: bounds only save work.
-  if (static_cast<float>(at.distance) * sum_slack - moves(bucket, pair) > least) return;
+  if (static_cast<float>(at.distance) * sum_slack - moves(clusters, four, particles) > least) return;
   SeparatingSlab slab;
   std::array<float, 4> shares{1, 1, 1, 1};
   const Separation found =
@@ -99,14 +104,16 @@ void PairSystem::hold_rounded(const PairParticles& particles, Allow allow) {
 void PairSystem::keep_apart(Executor& executor, const PairParticles& particles) {
   shortened_.clear();
   for (int round = 0;; ++round) {
-    // What moved farther than was foreseen is looked for around the moves as they are now.
-    if (!listed_ || !all_within(particles, margin_beyond(least_of(model_.largest_thickness)))) rebuild(executor, particles);
     measure_moves(executor, particles);
+    if (!is_bounded_) return;
+    bring_up_to_date(executor, particles);
     executor.parallel_for("filter moves", static_cast<int>(tasks_.size()), [&](int number) {
       Task& task = tasks_[number];
       task.slabs.clear();
       task.shares.clear();
       task.hopeless = 0;
+      for (int s = task.first_surroundings; s < task.last_surroundings; ++s)
+        filter_surroundings(surroundings_[s], task, particles);
       for (int b = task.first; b < task.last; ++b) filter_bucket(buckets_[b], task, particles);
     });
     if (!shorten(particles, round >= rounds_of_shares)) break;
@@ -119,14 +126,12 @@ void PairSystem::keep_apart(Executor& executor, const PairParticles& particles) 
 void PairSystem::filter(Executor& executor, const PairParticles& particles) {
   counts_.contacts = 0;
   for (const PairContact& contact : contacts_) counts_.contacts += contact.push > 0 ? 1 : 0;
-  if (!is_finite(particles)) return;
   if (model_.filter) {
     keep_apart(executor, particles);
   } else {
     measure_moves(executor, particles);
   }
-  settle_moves();
-  drift_ += mean_move(particles);
+  if (is_bounded_) settle_moves();
 }
 
 // ---------------------------------------------------------------- tangles
@@ -139,34 +144,33 @@ void PairSystem::find_tangles(const Record* positions) {
     const int a = model_.vertex_body[found.a], b = model_.vertex_body[model_.elements.triangles[found.triangle][0]];
     if (model_.meets[static_cast<std::size_t>(a) * model_.bodies + b] != 0) tangles_.push_back(found);
   }
-  tangled_pairs_.clear();
-  tangled_edges_.clear();
-  const auto edge_number = [&](int a, int b) {
-    const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
-    const auto& edges = model_.elements.edges;
-    const auto at = std::lower_bound(edges.begin(), edges.end(), edge);
-    return at != edges.end() && *at == edge ? static_cast<int>(at - edges.begin()) : -1;
-  };
   counts_.tangled = static_cast<std::int64_t>(tangles_.size());
+  exempt_tangled();
+}
+
+/// Exempts the pairs that a tangled edge and triangle are made of, as their stencils.
+void PairSystem::exempt_tangled() {
+  tangled_.clear();
   const IntLists around = tangles_.empty() ? IntLists{} : triangles_around(model_.elements);
+  const auto exempt_corner = [&](int vertex, const Triangle& t) { tangled_.push_back({vertex, t[0], t[1], t[2], 1}); };
   for (const Intersection& tangle : tangles_) {
     const Triangle& t = model_.elements.triangles[tangle.triangle];
-    tangled_pairs_.push_back(key_of(tangle.a, tangle.triangle));
-    tangled_pairs_.push_back(key_of(tangle.b, tangle.triangle));
-    const int crossing = edge_number(tangle.a, tangle.b);
+    exempt_corner(tangle.a, t);
+    exempt_corner(tangle.b, t);
+    const std::array<int, 2> crossing{tangle.a, tangle.b};
     for (int k = 0; k < 3; ++k) {
-      const int side = edge_number(t[k], t[(k + 1) % 3]);
-      tangled_edges_.push_back(key_of(std::min(crossing, side), std::max(crossing, side)));
+      const std::array<int, 2> side{std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])};
+      const auto &e = std::min(crossing, side), &f = std::max(crossing, side);
+      tangled_.push_back({e[0], e[1], f[0], f[1], 2});
     }
     // The triangle's corners against the triangles of the edge.
     for (const int* other = around.begin(tangle.a); other != around.end(tangle.a); ++other) {
       const Triangle& o = model_.elements.triangles[*other];
       if (o[0] != tangle.b && o[1] != tangle.b && o[2] != tangle.b) continue;
-      for (const int corner : t) tangled_pairs_.push_back(key_of(corner, *other));
+      for (const int corner : t) exempt_corner(corner, o);
     }
   }
-  sort_out(tangled_pairs_);
-  sort_out(tangled_edges_);
+  std::sort(tangled_.begin(), tangled_.end());
 }
 
 void PairSystem::begin_frame(const Record* positions, bool anew) {
@@ -178,7 +182,7 @@ void PairSystem::begin_frame(const Record* positions, bool anew) {
   const bool kept_apart = model_.filter && hopeless == 0;
   if (!anew && tangles_.empty() && kept_apart) return;
   find_tangles(positions);
-  listed_ = false;
+  if (anew) listed_ = false;
 }
 
 }  // namespace pliant

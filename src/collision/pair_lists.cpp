@@ -1,6 +1,8 @@
-// The lists of PairSystem: candidates, and until when they hold.
+// The lists of PairSystem: of two clusters that are near one another, the pairs that are.
+//
+// A list is made where it is used, when the moves of its two clusters since it was made have used up its margin: sixteen
+// boxes are compared with one at once, those of one cluster that come near the other with those of the other that do.
 #include <algorithm>
-#include <limits>
 
 #include "collision/pair_bounds.h"
 
@@ -8,37 +10,39 @@ namespace pliant {
 
 namespace {
 
-constexpr int pairs_in_a_task = 4096;
 /// What the filter keeps, as a share of the thickness; and at least so many roundings of the positions.
 constexpr float least_share = 0.05f, least_roundings = 32;
-/// Places as seen by one who drifts along are rounded this often, at most.
-constexpr float place_roundings = 16;
+/// How far clusters may move against each other, as a share of what the radius leaves beyond the thickness, before their pairs
+/// are listed anew: longer lists against fewer looks.
+constexpr float skin_share = 1.5f;
+
+/// How far two boxes are apart along the axis where they are farthest.
+float distance_between(const BoxBounds& a, const BoxBounds& b) {
+  const Vec3f apart = max(a.low - b.high, b.low - a.high);
+  return max(max(apart.x, apart.y), apart.z);
+}
+
+BoxBounds box_at(const std::vector<float> (&box)[6], int i) {
+  return {{box[0][i], box[1][i], box[2][i]}, {box[3][i], box[4][i], box[5][i]}};
+}
+
+BoxRows rows_of(std::vector<float> (&box)[6]) {
+  return {{box[0].data(), box[1].data(), box[2].data(), box[3].data(), box[4].data(), box[5].data()}};
+}
 
 }  // namespace
 
-/// Measures the extent. Where a value is not finite, the end of the substep says so; until then nothing is looked for.
-bool PairSystem::is_finite(const PairParticles& particles) {
-  extent_ = 0;
-  for (const int v : model_.elements.vertices) {
-    const Vec3f p = end_of(particles, static_cast<std::size_t>(v));
-    if (!(abs(p.x) < 1e14f && abs(p.y) < 1e14f && abs(p.z) < 1e14f)) return false;
-    extent_ = max(extent_, largest(end_of(particles, static_cast<std::size_t>(v), 0)));
+PairStencil PairSystem::stencil(const Bucket& bucket, const Pair& pair) const {
+  if (bucket.of_vertices) {
+    const Triangle& t = model_.elements.triangles[pair.b];
+    return {{pair.a, t[0], t[1], t[2]}, 1};
   }
-  return true;
-}
-
-PairStencil PairSystem::stencil(const Bucket& bucket, std::int32_t pair) const {
-  const Pair& p = pairs_[pair];
-  if (bucket.vertices) {
-    const Triangle& t = model_.elements.triangles[p.b];
-    return {{p.a, t[0], t[1], t[2]}, 1};
-  }
-  const auto &e = model_.elements.edges[p.a], &f = model_.elements.edges[p.b];
+  const auto &e = model_.elements.edges[pair.a], &f = model_.elements.edges[pair.b];
   return {{e[0], e[1], f[0], f[1]}, 2};
 }
 
-const PairMaterial& PairSystem::material(const Bucket& bucket) const {
-  const int a = model_.cluster_body[bucket.first_cluster], b = model_.cluster_body[bucket.second_cluster];
+const PairMaterial& PairSystem::material(const Between& clusters) const {
+  const int a = model_.cluster_body[clusters.first], b = model_.cluster_body[clusters.second];
   return model_.materials[static_cast<std::size_t>(a) * model_.bodies + b];
 }
 
@@ -46,13 +50,13 @@ float PairSystem::least_of(float thickness) const {
   return max(least_share * thickness, least_roundings * rounding * extent_);
 }
 
-/// How far vertices may leave their boxes while lists hold all pairs whose paths come within `distance`.
-float PairSystem::margin_beyond(float distance) const {
-  return 0.5f * (model_.radius - distance) - place_roundings * rounding * extent_;
+/// Nearer than this, pairs of a bucket are of interest, to contacts or to the filter.
+float PairSystem::care_of(const Between& clusters) const {
+  const float thickness = material(clusters).thickness;
+  return max(cull_slack * thickness, 2 * least_of(thickness));
 }
 
-/// Whether the boxes of both sides' paths come within `distance`, as seen by one who drifts along. Lists hold all pairs of which
-/// this is true, whenever they were made, so that with it what is done about a pair does not depend on them.
+/// Whether the boxes of both sides' paths come within `distance`, as seen by one who drifts along.
 bool PairSystem::paths_within(const PairStencil& pair, const PairParticles& particles, float distance) const {
   Vec3f low[2], high[2];
   for (int i = 0; i < 4; ++i) {
@@ -67,120 +71,142 @@ bool PairSystem::paths_within(const PairStencil& pair, const PairParticles& part
   return max(max(apart.x, apart.y), apart.z) <= distance;
 }
 
-/// The mean displacement of all that can be pushed.
-Vec3f PairSystem::mean_move(const PairParticles& particles) const {
-  Vec3d sum{};
-  int count = 0;
-  for (const int v : model_.elements.vertices) {
-    if (!(particles.positions[v].w > 0)) continue;
-    sum += convert<double>(move_of(particles, static_cast<std::size_t>(v)));
-    ++count;
+/// By how much a pair's distance falls at most in this substep.
+float PairSystem::moves(const Between& clusters, const PairStencil& pair, const PairParticles& particles) const {
+  float of_side[2] = {0, 0};
+  for (int i = 0; i < 4; ++i) {
+    const int side = i < pair.first_side ? 0 : 1;
+    const auto v = static_cast<std::size_t>(pair.vertex[i]);
+    const ClusterMotion& motion = motions_[model_.vertex_cluster[pair.vertex[side == 0 ? 0 : pair.first_side]]];
+    const Vec3f move = move_of(particles, v) - motion.mean,
+                turn = cross(motion.spin, end_of(particles, v, 0) - motion.centre);
+    of_side[side] = max(of_side[side], length(move - turn) * bound_slack + 2e-6f * (length(move) + length(turn)) + 1e-12f);
   }
-  return count > 0 ? convert<float>(sum * (1. / count)) : Vec3f{};
+  return of_side[0] + of_side[1] + neighbours_[clusters.neighbours].apart;
 }
 
-/// Whether every vertex ends its move within its box, grown by `margin` around the motion for which lists were made, as seen
-/// by one who drifts along with the mean of all: what is apart for him at any time is apart.
-bool PairSystem::all_within(const PairParticles& particles, float margin) {
-  mean_ = mean_move(particles);
-  for (const int v : model_.elements.vertices) {
-    const auto i = static_cast<std::size_t>(v);
-    const Vec3f low = min(from_[i], to_[i]), high = max(from_[i], to_[i]), start = end_of(particles, i, 0) - drift_,
-                end = end_of(particles, i) - drift_ - mean_;
-    const Vec3f out = max(max(low - min(start, end), max(start, end) - high), Vec3f{});
-    if (!(largest(out) <= margin)) return false;
-  }
-  return true;
+bool PairSystem::is_tangled(const PairStencil& pair) const {
+  if (tangled_.empty()) return false;
+  const auto& v = pair.vertex;
+  return std::binary_search(tangled_.begin(), tangled_.end(),
+                            std::array<std::int32_t, 5>{v[0], v[1], v[2], v[3], pair.first_side});
 }
 
-/// Sorts candidates by kind and clusters. The order of buckets, and of pairs within one, is that of numbers alone: a pair more
-/// or less that is out of reach does not change the order of those that touch.
-void PairSystem::fill_buckets() {
-  const IntLists* lists[2] = {&finder_.vertex_triangles(), &finder_.edge_edges()};
-  const auto each = [&](auto visit) {
-    for (int kind = 0; kind < 2; ++kind) {
-      const std::vector<int>&first = kind == 0 ? model_.vertex_cluster : model_.edge_cluster,
-            &second = kind == 0 ? model_.triangle_cluster : model_.edge_cluster;
-      const std::vector<std::uint64_t>& tangled = kind == 0 ? tangled_pairs_ : tangled_edges_;
-      for (int a = 0; a + 1 < static_cast<int>(lists[kind]->start.size()); ++a)
-        for (const int* b = lists[kind]->begin(a); b != lists[kind]->end(a); ++b)
-          if (tangled.empty() || !std::binary_search(tangled.begin(), tangled.end(), key_of(a, *b)))
-            visit(a, *b,
-                  (static_cast<std::uint64_t>(kind) << 62) | (static_cast<std::uint64_t>(first[a]) << 31) |
-                      static_cast<std::uint64_t>(second[*b]));
+// ---------------------------------------------------------------- when
+
+/// Sees to it that all pairs that can matter in this substep are listed.
+void PairSystem::bring_up_to_date(Executor& executor, const PairParticles& particles) {
+  if (!listed_ || !clusters_hold()) list_clusters();
+  const int tasks = static_cast<int>(tasks_.size());
+  std::size_t stale = 0;
+  for (Task& task : tasks_) {
+    find_stale(task);
+    stale += task.stale.size();
+  }
+  if (stale == 0) return;
+  fit_boxes(executor, particles);
+  executor.parallel_for("list pairs", tasks, [&](int number) {
+    for (const std::int32_t bucket : tasks_[number].stale) refresh(buckets_[bucket], tasks_[number], particles);
+  });
+  counts_.candidates = pairs_of_surroundings_;
+  for (const Bucket& bucket : buckets_) counts_.candidates += static_cast<std::int64_t>(bucket.pairs.size());
+}
+
+void PairSystem::find_stale(Task& task) {
+  task.stale.clear();
+  for (int b = task.first; b < task.last; ++b) {
+    const Bucket& bucket = buckets_[b];
+    if (!(moved(bucket) + moves(bucket) <= bucket.margin)) task.stale.push_back(b);
+  }
+}
+
+/// Boxes around the paths of all that lists are made of.
+void PairSystem::fit_boxes(Executor& executor, const PairParticles& particles) {
+  for (std::vector<char>& wanted : wanted_) std::fill(wanted.begin(), wanted.end(), 0);
+  for (const Task& task : tasks_)
+    for (const std::int32_t number : task.stale) {
+      const Bucket& bucket = buckets_[number];
+      wanted_[bucket.of_vertices ? vertex_kind : edge_kind][bucket.first] = 1;
+      wanted_[bucket.of_vertices ? triangle_kind : edge_kind][bucket.second] = 1;
     }
-  };
-  // Neighbours in the lists mostly share a bucket: the last one found is tried first, then a search among those known.
-  keys_.clear();
-  std::size_t count = 0;
-  each([&](int, int, std::uint64_t key) {
-    ++count;
-    if (keys_.empty() || keys_.back().first != key) keys_.emplace_back(key, 0);
-  });
-  std::sort(keys_.begin(), keys_.end());
-  keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
-  bucket_of_.clear();
-  bucket_of_.reserve(count);
-  std::size_t last = 0;
-  each([&](int, int, std::uint64_t key) {
-    if (keys_[last].first != key)
-      last = static_cast<std::size_t>(std::lower_bound(keys_.begin(), keys_.end(), std::make_pair(key, 0)) - keys_.begin());
-    // The count of each, moved on by unique() and sort() from zero.
-    bucket_of_.push_back(static_cast<std::int32_t>(last));
-  });
-  for (const std::int32_t bucket : bucket_of_) ++keys_[bucket].second;
-  buckets_.clear();
-  std::int32_t first = 0;
-  for (const auto& [key, size] : keys_) {
-    Bucket bucket{};
-    bucket.vertices = key >> 62 == 0;
-    bucket.first_cluster = static_cast<int>((key >> 31) & 0x7fffffff);
-    bucket.second_cluster = static_cast<int>(key & 0x7fffffff);
-    bucket.first = bucket.last = first;
-    bucket.margin = not_measured;
-    buckets_.push_back(bucket);
-    first += size;
-  }
-  pairs_.resize(count);
-  active_.resize(count);
-  std::size_t number = 0;
-  each([&](int a, int b, std::uint64_t) {
-    pairs_[buckets_[bucket_of_[number]].last++] = {a, b, not_measured, -1};
-    ++number;
+  executor.parallel_for("fit boxes", model_.clusters, [&](int c) {
+    for (int kind = 0; kind < 3; ++kind)
+      if (wanted_[kind][c] != 0) fit_boxes_of(elements_[kind], c, particles);
   });
 }
 
-void PairSystem::cut_into_tasks() {
-  std::size_t tasks = 0;
-  for (int bucket = 0; bucket < static_cast<int>(buckets_.size()); ++tasks) {
-    if (tasks_.size() <= tasks) tasks_.emplace_back();
-    tasks_[tasks].first = bucket;
-    const std::int32_t first = buckets_[bucket].first;
-    do ++bucket;
-    while (bucket < static_cast<int>(buckets_.size()) && buckets_[bucket].last - first <= pairs_in_a_task);
-    tasks_[tasks].last = bucket;
+void PairSystem::fit_boxes_of(Elements& of, int cluster, const PairParticles& particles) {
+  const int first = of.start[cluster], last = of.start[cluster + 1];
+  kernels_.fit_boxes({{of.corner[0].data(), of.corner[1].data(), of.corner[2].data()}, of.corners}, first, last, particles,
+                     mean_, rows_of(of.box));
+  for (int i = first; i < last; i += 16) {
+    BoxBounds all = box_at(of.box, i);
+    for (int k = i + 1; k < i + 16; ++k) all = {min(all.low, box_at(of.box, k).low), max(all.high, box_at(of.box, k).high)};
+    of.batch_box[i / 16] = all;
   }
-  tasks_.resize(tasks);
+  for (int k = 0; k < 6; ++k)  // what fills up overlaps nothing
+    std::fill(of.box[k].begin() + first + of.count[cluster], of.box[k].begin() + last, k < 3 ? 3e38f : -3e38f);
 }
 
-void PairSystem::rebuild(Executor& executor, const PairParticles& particles) {
-  from_.resize(model_.rest.size());
-  to_.resize(model_.rest.size());
-  mean_ = mean_move(particles);
-  drift_ = {};
-  for (std::size_t i = 0; i < from_.size(); ++i) {
-    from_[i] = end_of(particles, i, 0);
-    to_[i] = from_[i] + (end_of(particles, i) - from_[i] - mean_) * particles.ahead;
+// ---------------------------------------------------------------- how
+
+/// Lists the pairs of a bucket whose paths in this substep come near, and with them all that can until the moves add up to
+/// the margin. What moves farther than that in one substep is listed for this one alone.
+void PairSystem::refresh(Bucket& bucket, Task& task, const PairParticles& particles) {
+  const Neighbours& pair = neighbours_[bucket.neighbours];
+  const float care = care_of(bucket), skin = skin_share * (model_.radius - model_.largest_thickness),
+              search = skin * bound_slack;
+  bucket.listed_at = pair.moved;
+  bucket.pairs.clear();
+  bucket.least_reach = out_of_reach;
+  const float apart = distance_between(path_box(bucket.first), path_box(bucket.second)) * (1 - 1e-5f);
+  if (apart > care + search) {
+    bucket.margin = apart - care;
+    return;
   }
-  finder_.find(executor, from_, to_, model_.radius, true);
-  fill_buckets();
-  cut_into_tasks();
-  vertex_sum_.assign(vertex_move_.size(), 0.f);
-  triangle_sum_.assign(triangle_move_.size(), 0.f);
-  edge_sum_.assign(edge_move_.size(), 0.f);
-  listed_ = true;
-  ++counts_.rebuilds;
-  counts_.candidates = static_cast<std::int64_t>(pairs_.size());
+  const bool is_fast = 1.1f * pair.moves > skin;
+  bucket.margin = is_fast ? -1 : skin;
+  find_pairs(bucket, is_fast ? care : care + search, task);
+  keep_near(bucket, care + max(search, 1.1f * pair.moves), task, particles);
+}
+
+/// Into task.found: pairs whose boxes come within `reach`, surroundings left out.
+void PairSystem::find_pairs(const Bucket& bucket, float reach, Task& task) {
+  task.found.clear();
+  Elements &rows = elements_[bucket.of_vertices ? vertex_kind : edge_kind],
+           &columns = elements_[bucket.of_vertices ? triangle_kind : edge_kind];
+  const bool once = !bucket.of_vertices && bucket.first == bucket.second;
+  const BoxBounds far = path_box(bucket.second).grown(reach);
+  const float far_box[6] = {far.low.x, far.low.y, far.low.z, far.high.x, far.high.y, far.high.z};
+  const int last = columns.start[bucket.second + 1] / 16;
+  for (int sixteen = rows.start[bucket.first] / 16; sixteen < rows.start[bucket.first + 1] / 16; ++sixteen) {
+    const BoxBounds own = rows.batch_box[sixteen].grown(reach);
+    if (!overlap(rows.batch_box[sixteen], far)) continue;
+    task.batches.clear();
+    for (int b = once ? sixteen : columns.start[bucket.second] / 16; b < last; ++b)
+      if (overlap(own, columns.batch_box[b])) task.batches.push_back(b);
+    if (task.batches.empty()) continue;
+    task.hits.resize(std::max(task.hits.size(), 256 * task.batches.size()));
+    const int count =
+        kernels_.find_overlaps({rows_of(rows.box), 16 * sixteen, reach, far_box, rows_of(columns.box), task.batches.data(),
+                                static_cast<int>(task.batches.size()), rows.left_out.data(), rows.left_out_start.data()},
+                               task.hits.data());
+    for (int k = 0; k < count; ++k)
+      if (const auto [i, j] = task.hits[k]; !once || j > i) add_pair(bucket, rows.item[i], columns.item[j], task);
+  }
+}
+
+/// Unless the two share a vertex.
+void PairSystem::add_pair(const Bucket& bucket, std::int32_t a, std::int32_t b, Task& task) const {
+  const ContactElements& all = model_.elements;
+  if (bucket.of_vertices) {
+    const Triangle& t = all.triangles[b];
+    if (t[0] != a && t[1] != a && t[2] != a) task.found.push_back({a, b, 0, -1});
+  } else {
+    const auto &e = all.edges[a], &f = all.edges[b];
+    if (e[0] != f[0] && e[0] != f[1] && e[1] != f[0] && e[1] != f[1])
+      task.found.push_back({std::min(a, b), std::max(a, b), 0, -1});
+  }
 }
 
 }  // namespace pliant

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision/morton.h"
 #include "collision/pairs.h"
 #include "math/vector.h"
 
@@ -36,22 +35,45 @@ std::vector<std::array<int, 2>> lines_of(const CompiledObject& object, int first
   return lines;
 }
 
-/// Vertices of each body along a Morton curve, cut into stretches.
+/// Cuts vertices, `from` to `to` - 1, across where they extend farthest until so many as make a cluster are left.
+void split(PairModel& model, std::vector<int>& vertices, std::size_t from, std::size_t to) {
+  const std::size_t pieces = (to - from + vertices_in_a_cluster - 1) / vertices_in_a_cluster;
+  if (pieces <= 1) {
+    for (std::size_t i = from; i < to; ++i) model.vertex_cluster[vertices[i]] = static_cast<int>(model.cluster_body.size());
+    if (from < to) model.cluster_body.push_back(model.vertex_body[vertices[from]]);
+    return;
+  }
+  const auto place = [&](int v, int axis) {
+    return axis == 0 ? model.rest[v].x : axis == 1 ? model.rest[v].y : model.rest[v].z;
+  };
+  int longest = 0;
+  float extent = -1;
+  for (int axis = 0; axis < 3; ++axis) {
+    float low = place(vertices[from], axis), high = low;
+    for (std::size_t i = from; i < to; ++i) {
+      low = min(low, place(vertices[i], axis));
+      high = max(high, place(vertices[i], axis));
+    }
+    if (high - low > extent) {
+      extent = high - low;
+      longest = axis;
+    }
+  }
+  const std::size_t middle = from + (to - from) * (pieces / 2) / pieces;
+  const auto at = [&](std::size_t i) { return vertices.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(at(from), at(middle), at(to), [&](int a, int b) {
+    return std::make_pair(place(a, longest), a) < std::make_pair(place(b, longest), b);
+  });
+  split(model, vertices, from, middle);
+  split(model, vertices, middle, to);
+}
+
+/// Vertices of each body in compact clusters.
 void make_clusters(PairModel& model) {
   std::vector<std::vector<int>> of_body(model.bodies);
   for (const int v : model.elements.vertices) of_body[model.vertex_body[v]].push_back(v);
   model.vertex_cluster.assign(model.rest.size(), -1);
-  MortonSorter sorter;
-  for (int body = 0; body < model.bodies; ++body) {
-    std::vector<Vec3f> places;
-    for (const int v : of_body[body]) places.push_back({model.rest[v].x, model.rest[v].y, model.rest[v].z});
-    std::vector<int> order;
-    sorter.sort(places, order);
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      if (i % vertices_in_a_cluster == 0) model.cluster_body.push_back(body);
-      model.vertex_cluster[of_body[body][order[i]]] = static_cast<int>(model.cluster_body.size()) - 1;
-    }
-  }
+  for (std::vector<int>& vertices : of_body) split(model, vertices, 0, vertices.size());
   model.clusters = static_cast<int>(model.cluster_body.size());
   for (const Triangle& t : model.elements.triangles) model.triangle_cluster.push_back(model.vertex_cluster[t[0]]);
   for (const auto& edge : model.elements.edges) model.edge_cluster.push_back(model.vertex_cluster[edge[0]]);

@@ -9,171 +9,145 @@ namespace pliant {
 
 namespace {
 
-/// Bounds are sums of floats: pairs are dismissed only when they are out of reach by more than this.
-constexpr float cull_slack = 1.0001f;
-/// Pairs stay active while all moves add up to less than this share of the skin.
-constexpr float share_of_skin = 0.25f;
 /// A contact keeps no more than this share of the distance that its primitives have at rest.
 constexpr double share_of_rest = 0.9;
+/// Whoever looks at a list at all looks at what it will want to know in so many substeps.
+constexpr float substeps_of_rest = 4;
 
 }  // namespace
 
-PairSystem::PairSystem(const PairModel& model)
-    : model_(model), finder_(model.elements), intersections_(model.elements.triangles, model.elements.vertex_count) {
-  const auto clusters = static_cast<std::size_t>(model.clusters);
-  vertex_move_.resize(model.rest.size());
-  triangle_move_.resize(model.elements.triangles.size());
-  edge_move_.resize(model.elements.edges.size());
-  cluster_move_.resize(clusters);
-  cluster_largest_.resize(clusters);
-  cluster_vertices_.resize(clusters);
-  cluster_triangles_.resize(clusters);
-  cluster_edges_.resize(clusters);
-  for (const int v : model.elements.vertices) cluster_vertices_[model.vertex_cluster[v]].push_back(v);
-  for (std::size_t i = 0; i < triangle_move_.size(); ++i)
-    cluster_triangles_[model.triangle_cluster[i]].push_back(static_cast<int>(i));
-  for (std::size_t i = 0; i < edge_move_.size(); ++i) cluster_edges_[model.edge_cluster[i]].push_back(static_cast<int>(i));
-  share_.assign(model.rest.size(), 1.f);
-}
-
-// ---------------------------------------------------------------- bounds of distances
-
-void PairSystem::measure_moves(Executor& executor, const PairParticles& particles) {
-  constexpr int clusters_in_a_task = 16;
-  const ContactElements& elements = model_.elements;
-  const int tasks = (model_.clusters + clusters_in_a_task - 1) / clusters_in_a_task;
-  executor.parallel_for("contact bounds", tasks, [&](int task) {
-    for (int c = task * clusters_in_a_task; c < std::min(model_.clusters, (task + 1) * clusters_in_a_task); ++c) {
-      Vec3f sum{};
-      for (const int v : cluster_vertices_[c]) sum += move_of(particles, static_cast<std::size_t>(v));
-      const Vec3f mean = cluster_move_[c] = sum * (1.f / static_cast<float>(cluster_vertices_[c].size()));
-      const auto relative = [&](int v) {
-        return length(move_of(particles, static_cast<std::size_t>(v)) - mean) * bound_slack + 1e-12f;
-      };
-      float most = 0;
-      for (const int v : cluster_vertices_[c]) most = max(most, vertex_move_[v] = relative(v));
-      for (const int t : cluster_triangles_[c]) {
-        const Triangle& corners = elements.triangles[t];
-        triangle_move_[t] = max(max(relative(corners[0]), relative(corners[1])), relative(corners[2]));
-        most = max(most, triangle_move_[t]);
-      }
-      for (const int e : cluster_edges_[c]) {
-        edge_move_[e] = max(relative(elements.edges[e][0]), relative(elements.edges[e][1]));
-        most = max(most, edge_move_[e]);
-      }
-      cluster_largest_[c] = most;
+/// Into task.near: pairs that can be nearer than `within` at the substep's end.
+void PairSystem::collect_near(Bucket& bucket, Task& task, float within) const {
+  task.near.clear();
+  const float gone = moved(bucket) + moves(bucket);
+  if (bucket.least_reach - gone > within) return;
+  bucket.least_reach = out_of_reach;
+  for (std::size_t i = 0; i < bucket.pairs.size(); ++i) {
+    const float reach = bucket.pairs[i].reach;
+    if (reach - gone <= within) {
+      task.near.push_back(static_cast<std::int32_t>(i));
+    } else {
+      bucket.least_reach = min(bucket.least_reach, reach);
     }
-  });
-}
-
-/// The substep's moves have been made.
-void PairSystem::settle_moves() {
-  const auto add = [](std::vector<float>& to, const std::vector<float>& from) {
-    for (std::size_t i = 0; i < to.size(); ++i) to[i] = (to[i] + from[i]) * (1 + 1e-7f);
-  };
-  add(vertex_sum_, vertex_move_);
-  add(triangle_sum_, triangle_move_);
-  add(edge_sum_, edge_move_);
-  for (Bucket& bucket : buckets_) {
-    const float means = between(bucket);
-    bucket.between_sum = (bucket.between_sum + means) * (1 + 1e-7f);
-    bucket.growth =
-        (bucket.growth + (cluster_largest_[bucket.first_cluster] + cluster_largest_[bucket.second_cluster] + means)) *
-        (1 + 1e-7f);
   }
 }
 
-/// How far the means of two clusters move against each other in this substep.
-float PairSystem::between(const Bucket& bucket) const {
-  if (bucket.first_cluster == bucket.second_cluster) return 0;
-  return length(cluster_move_[bucket.first_cluster] - cluster_move_[bucket.second_cluster]) * bound_slack;
-}
-
-/// What both sides of a pair have moved since lists were made, this substep left out.
-float PairSystem::sums(const Bucket& bucket, std::int32_t pair) const {
-  const Pair& p = pairs_[pair];
-  return (bucket.vertices ? vertex_sum_[p.a] + triangle_sum_[p.b] : edge_sum_[p.a] + edge_sum_[p.b]) + bucket.between_sum;
-}
-
-/// What they move in this substep.
-float PairSystem::moves(const Bucket& bucket, std::int32_t pair) const {
-  const Pair& p = pairs_[pair];
-  return (bucket.vertices ? vertex_move_[p.a] + triangle_move_[p.b] : edge_move_[p.a] + edge_move_[p.b]) + between(bucket);
-}
-
-/// Distances of the task's `near`, sixteen at a time; visit(pair, stencil, batch, lane) each.
+/// Distances of `which` of the pairs, sixteen at a time; visit(pair, stencil, batch, lane) each.
 template <class Visit>
-void PairSystem::measure(const Bucket& bucket, Task& task, const PairParticles& particles, Visit visit) {
-  task.stencils.clear();
-  for (const std::int32_t p : task.near) task.stencils.push_back(stencil(bucket, p));
+void PairSystem::measure(Bucket& bucket, std::vector<Pair>& pairs, const std::vector<std::int32_t>& which,
+                         const PairParticles& particles, Visit visit) {
+  PairStencils stencils;
+  PairStencil four[16];
   PairBatch batch;
-  for (std::size_t i = 0; i < task.near.size(); i += 16) {
-    const int count = static_cast<int>(std::min<std::size_t>(16, task.near.size() - i));
-    pair_distances(&task.stencils[i], count, particles.positions, batch);
+  for (std::size_t i = 0; i < which.size(); i += 16) {
+    const int count = static_cast<int>(std::min<std::size_t>(16, which.size() - i));
+    for (int lane = 0; lane < 16; ++lane) {
+      four[lane] = lane < count ? stencil(bucket, pairs[which[i + lane]]) : four[0];
+      for (int k = 0; k < 4; ++k) stencils.vertex[k][lane] = four[lane].vertex[k];
+    }
+    kernels_.distances(stencils, bucket.of_vertices ? 1 : 2, particles.positions, batch);
     for (int lane = 0; lane < count; ++lane) {
-      const std::int32_t p = task.near[i + lane];
-      pairs_[p].reach = (batch.at_least[lane] + sums(bucket, p)) * sum_slack;
-      visit(p, task.stencils[i + lane], batch, lane);
+      Pair& pair = pairs[which[i + lane]];
+      pair.reach = (batch.at_least[lane] + moved(bucket)) * sum_slack;
+      visit(pair, four[lane], batch, lane);
     }
   }
 }
 
-/// Sees to it that all pairs of the bucket that can matter in this substep are active: those that can come within their
-/// thickness before the moves add up to the margin.
-void PairSystem::activate(Bucket& bucket, Task& task, const PairParticles& particles) {
-  const float now = cluster_largest_[bucket.first_cluster] + cluster_largest_[bucket.second_cluster] + between(bucket);
-  if (bucket.growth + now <= bucket.margin) return;
-  bucket.growth = 0;
-  bucket.margin = max(share_of_skin * (model_.radius - model_.largest_thickness), 1.1f * now);
-  const float thickness = material(bucket).thickness;
-  const float near = max(cull_slack * thickness, 2 * least_of(thickness)) + bucket.margin;
-  task.near.clear();
-  for (std::int32_t p = bucket.first; p < bucket.last; ++p)
-    if (pairs_[p].reach - sums(bucket, p) <= near) task.near.push_back(p);
-  bucket.active_last = bucket.first;
-  measure(bucket, task, particles, [&](std::int32_t p, const PairStencil&, const PairBatch& at, int lane) {
-    if (at.at_least[lane] <= near) active_[bucket.active_last++] = p;
+/// Measures task.found and keeps what is nearer than `within`.
+void PairSystem::keep_near(Bucket& bucket, float within, Task& task, const PairParticles& particles) {
+  task.near.resize(task.found.size());
+  for (std::size_t i = 0; i < task.near.size(); ++i) task.near[i] = static_cast<std::int32_t>(i);
+  measure(bucket, task.found, task.near, particles, [&](Pair& pair, const PairStencil&, const PairBatch&, int) {
+    if (pair.reach > within) return;
+    bucket.least_reach = min(bucket.least_reach, pair.reach);
+    bucket.pairs.push_back(pair);
   });
 }
 
-/// Active pairs that can be nearer than `within` at the substep's end.
-void PairSystem::collect_near(Bucket& bucket, Task& task, float within) {
-  task.near.clear();
-  for (std::int32_t i = bucket.first; i < bucket.active_last; ++i)
-    if (pairs_[active_[i]].reach - sums(bucket, active_[i]) - moves(bucket, active_[i]) <= within)
-      task.near.push_back(active_[i]);
+/// Whether any of the surroundings can be nearer than `within` at the substep's end. Then their reach counts from now: moves
+/// are taken off.
+bool PairSystem::begin_anew(Surroundings& of, float within) {
+  const float gone = moved(of);
+  if (of.least_reach - (gone + moves(of)) > within) return false;
+  for (int b = of.first_block; b < of.last_block; ++b) block_reach_[b] -= gone + 1e-6f * (abs(block_reach_[b]) + gone);
+  of.listed_at = neighbours_[of.neighbours].moved;
+  return true;
 }
 
 // ---------------------------------------------------------------- contacts
 
+/// A pair becomes a contact if its distance, less what it may fall by, is below what it keeps. `rest`: where to keep what its
+/// distance at rest allows.
+void PairSystem::detect_pair(const Between& clusters, const PairStencil& four, const PairBatch& at, int lane, float* rest,
+                             Task& task, const PairParticles& particles) {
+  PairMaterial kept = material(clusters);
+  const float distance = at.distance[lane] * (1 - 1e-5f);
+  if (!(at.distance[lane] > 0) || distance - moves(clusters) > kept.thickness || is_tangled(four)) return;
+  const float nearest = distance - moves(clusters, four, particles);
+  if (nearest > kept.thickness) return;
+  float of_rest = rest != nullptr ? *rest : -1;
+  if (of_rest < 0) of_rest = static_cast<float>(share_of_rest * pair_distance(four, model_.rest.data()).distance);
+  if (rest != nullptr) *rest = of_rest;
+  kept.thickness = min(kept.thickness, of_rest);
+  if (nearest <= kept.thickness && paths_within(four, particles, kept.thickness))
+    task.contacts.push_back(make_contact(four, at, lane, kept, particles.h));
+}
+
 void PairSystem::detect_bucket(Bucket& bucket, Task& task, const PairParticles& particles) {
-  activate(bucket, task, particles);
-  if (bucket.active_last == bucket.first) return;
-  const PairMaterial& of = material(bucket);
-  collect_near(bucket, task, cull_slack * of.thickness);
-  measure(bucket, task, particles, [&](std::int32_t pair, const PairStencil& four, const PairBatch& at, int lane) {
-    Pair& p = pairs_[pair];
-    PairMaterial kept = of;
-    const float nearest = at.distance[lane] * (1 - 1e-5f) - moves(bucket, pair);
-    if (!(at.distance[lane] > 0) || nearest > kept.thickness) return;
-    if (p.rest < 0) p.rest = static_cast<float>(share_of_rest * pair_distance(four, model_.rest.data()).distance);
-    kept.thickness = min(kept.thickness, p.rest);
-    if (nearest <= kept.thickness && paths_within(four, particles, kept.thickness))
-      task.contacts.push_back(make_contact(four, at, lane, kept, particles.h));
-  });
+  collect_near(bucket, task, cull_slack * material(bucket).thickness);
+  measure(bucket, bucket.pairs, task.near, particles,
+          [&](Pair& pair, const PairStencil& four, const PairBatch& at, int lane) {
+            bucket.least_reach = min(bucket.least_reach, pair.reach);
+            detect_pair(bucket, four, at, lane, &pair.rest, task, particles);
+          });
+}
+
+/// Whoever looks at surroundings at all looks at all that will be due in some substeps, so as not to come again in the next.
+void PairSystem::detect_surroundings(Surroundings& of, Task& task, const PairParticles& particles) {
+  const float within = cull_slack * material(of).thickness;
+  if (!begin_anew(of, within)) return;
+  const float due = within + (1 + substeps_of_rest) * moves(of);
+  const int first_side = of.of_vertices ? 1 : 2;
+  of.least_reach = out_of_reach;
+  for (int b = of.first_block; b < of.last_block; ++b) {
+    if (block_reach_[b] <= due) {
+      const float least = kernels_.least_distance(blocks_[b], first_side, particles.positions);
+      block_reach_[b] = least * sum_slack;
+      if (least - moves(of) <= within) detect_block(of, b, task, particles);
+    }
+    of.least_reach = min(of.least_reach, block_reach_[b]);
+  }
+}
+
+void PairSystem::detect_block(const Surroundings& of, int block, Task& task, const PairParticles& particles) {
+  PairBatch batch;
+  kernels_.distances(blocks_[block], of.of_vertices ? 1 : 2, particles.positions, batch);
+  const int count = std::min(16, of.pairs - 16 * (block - of.first_block));
+  for (int lane = 0; lane < count; ++lane)
+    detect_pair(of, stencil_at(blocks_[block], lane, of.of_vertices), batch, lane, nullptr, task, particles);
 }
 
 void PairSystem::detect(Executor& executor, const PairParticles& particles) {
   contacts_.clear();
-  if (!is_finite(particles)) return;
-  if (!listed_ || !all_within(particles, margin_beyond(model_.largest_thickness))) rebuild(executor, particles);
   measure_moves(executor, particles);
+  if (!is_bounded_) return;  // the end of the substep says so
+  bring_up_to_date(executor, particles);
   executor.parallel_for("detect contacts", static_cast<int>(tasks_.size()), [&](int number) {
     Task& task = tasks_[number];
     task.contacts.clear();
+    for (int s = task.first_surroundings; s < task.last_surroundings; ++s)
+      detect_surroundings(surroundings_[s], task, particles);
+    task.contacts_of_surroundings = task.contacts.size();
     for (int b = task.first; b < task.last; ++b) detect_bucket(buckets_[b], task, particles);
   });
-  for (const Task& task : tasks_) contacts_.insert(contacts_.end(), task.contacts.begin(), task.contacts.end());
+  // Tasks are cut by how many buckets there are: all surroundings come first.
+  for (const Task& task : tasks_)
+    contacts_.insert(contacts_.end(), task.contacts.begin(),
+                     task.contacts.begin() + static_cast<std::ptrdiff_t>(task.contacts_of_surroundings));
+  for (const Task& task : tasks_)
+    contacts_.insert(contacts_.end(), task.contacts.begin() + static_cast<std::ptrdiff_t>(task.contacts_of_surroundings),
+                     task.contacts.end());
 }
 
 void PairSystem::project(const PairParticles& particles) {

@@ -1,22 +1,28 @@
 // Everything that moves against everything else that moves, and against meshes: from candidates to contacts to the filter.
 //
-//   lists       candidates whose boxes, around the motion ahead, come within a radius: kept while all stay within their boxes
+//   clusters    vertices that lie together and what begins at them: how they move, which are near one another
+//   lists       of two clusters that are, the pairs that are near: kept until the two have moved too far against each other
 //   detect      of those, pairs that may come within their thickness in this substep become contacts
 //   project     the contacts' constraints, after each sweep
 //   filter      no clean pair crosses: moves are shortened (plane_filter.h)
 //
 // What a substep does depends on positions and displacements alone: lists and bounds of distances only save work, so a
 // State put back gives the same bits. To that end whatever is done about a pair is decided by its own distance, moves and
-// paths as they are now, never by an old bound alone. A pair's distance falls by no more than both its primitives move, measured against the
-// mean motion of their clusters: as long as that leaves it out of reach it is not looked at.
+// paths as they are now, never by an old bound alone.
+//
+// A pair's distance falls by no more than both its primitives depart from a common motion that goes along and turns, and for
+// straight paths that holds without any error of second order: the points p and q go to p + m + w x p and q + m + w x q, and
+// p - q + w x (p - q) is no shorter than p - q. So cloth that falls, swings or turns as a whole is hardly looked at. As long as
+// the sum of departures leaves a pair out of reach nothing is done about it, nor about all pairs of two clusters at once.
 #pragma once
 
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "collision/candidates.h"
 #include "collision/intersections.h"
-#include "collision/pair_contact.h"
+#include "collision/pair_kernels.h"
 #include "collision/plane_filter.h"
 #include "model/model.h"
 #include "parallel/executor.h"
@@ -31,8 +37,7 @@ struct PairModel {
   std::vector<int> vertex_body;         ///< object of each particle
   std::vector<char> meets;              ///< bodies x bodies
   std::vector<PairMaterial> materials;  ///< bodies x bodies
-  /// Vertices of one body that lie together, some sixty-four, and the edges and triangles that begin at them. Moves are
-  /// measured against the mean of a cluster's: what falls, swings or turns as a whole hardly changes its own distances.
+  /// Vertices of one body that lie together, some sixty-four, and the edges and triangles that begin at them.
   int clusters = 0;
   std::vector<int> vertex_cluster, edge_cluster, triangle_cluster, cluster_body;
   float radius = 0;             ///< within which candidates are looked for [m]
@@ -43,15 +48,6 @@ struct PairModel {
 /// Nothing where no two things meet.
 std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& positions);
 
-/// Particles of a model in a substep.
-struct PairParticles {
-  const Record* positions = nullptr;
-  const Record* remainders = nullptr;
-  Record* displacements = nullptr;
-  float h = 0;
-  float ahead = 1;  ///< substeps until lists had better be made anew: the frame's end
-};
-
 /// What was done, for the Report.
 struct PairCounts {
   std::int64_t candidates = 0, contacts = 0, shortened = 0, hopeless = 0, tangled = 0, rebuilds = 0;
@@ -59,7 +55,8 @@ struct PairCounts {
 
 class PairSystem {
  public:
-  explicit PairSystem(const PairModel& model);
+  /// `isa` is a code path that this machine has ("x86-64-v3"); all give the same bits.
+  explicit PairSystem(const PairModel& model, std::string_view isa = {});
 
   /// At a frame's start: forgets counts, and finds out which tangled pairs are apart by now. `anew` looks at all pairs: due at
   /// the first frame and after a State was put back.
@@ -80,86 +77,153 @@ class PairSystem {
   const Triangle& triangle(int number) const { return model_.elements.triangles[number]; }
 
  private:
+  enum Kind { vertex_kind, edge_kind, triangle_kind };
   struct Pair {
-    std::int32_t a, b;  ///< vertex and triangle, or two edges
-    float reach;        ///< distance when it was last measured, plus what both sides had moved until then [m]
+    std::int32_t a, b;  ///< vertex and triangle, or two edges, the lower one first
+    float reach;        ///< distance when it was last measured, plus what its bucket had moved until then [m]
     float rest;         ///< what its distance at rest allows it to keep [m]; below 0: not measured
   };
-  /// Pairs of one kind between two clusters. Those that can matter soon are active; the others wait until the clusters' moves
-  /// add up to the margin.
-  struct Bucket {
-    int first_cluster, second_cluster;
-    bool vertices;                  ///< a vertex and a triangle, or two edges
-    std::int32_t first, last;       ///< of pairs_
-    std::int32_t active_last = 0;   ///< its active pairs are active_[first] to active_[active_last - 1]
-    float between_sum = 0;          ///< moves of the two means against each other since lists were made [m]
-    float growth = 0, margin = -1;  ///< moves since pairs were made active, and how far they may go [m]
+  /// Two clusters that are near one another, or one and itself.
+  struct Neighbours {
+    int a, b;  ///< a <= b
+    float apart =
+        0;  ///< by how much the distance of a point of one and one of the other falls as both go along and turn [m]
+    float moves = 0;  ///< the same with what vertices depart from that: by how much any distance falls at most [m]
+    float moved = 0;  ///< the same, in all substeps since clusters were last listed [m]
+  };
+  /// Two clusters and the kind of pairs between them: a vertex of the first and a triangle of the second, or two edges.
+  struct Between {
+    int first, second;
+    bool of_vertices;
+    int neighbours = -1;    ///< number of the two clusters'
+    float listed_at = 0;    ///< of `moved`
+    float least_reach = 0;  ///< of all pairs, or less [m]
+  };
+  /// Pairs that were found to be near. They are all until the moves since they were listed add up to the margin.
+  struct Bucket : Between {
+    float margin = -1;  ///< [m]
+    std::vector<Pair> pairs{};
+  };
+  /// Pairs that are near one another in the mesh, always the same, in sixteens.
+  struct Surroundings : Between {
+    int first_block = 0, last_block = 0, pairs = 0;
   };
   struct Task {
     int first = 0, last = 0;  ///< of buckets_
-    std::vector<std::int32_t> near;
-    std::vector<PairStencil> stencils;
+    int first_surroundings = 0, last_surroundings = 0;
+    std::vector<std::int32_t> stale, near, batches;
+    std::vector<BoxHit> hits;
+    std::vector<Pair> found;
     std::vector<PairContact> contacts;
+    std::size_t contacts_of_surroundings = 0;
     std::vector<SeparatingSlab> slabs;
     std::vector<std::pair<std::int32_t, float>> shares;
     int hopeless = 0;
   };
+  /// Elements of one kind, cluster by cluster, each cluster's along a curve and filled up to sixteens with what overlaps nothing.
+  struct Elements {
+    int corners = 0;
+    std::vector<int> start, count;  ///< of each cluster
+    std::vector<std::int32_t> item, corner[3];
+    std::vector<float> box[6];
+    std::vector<BoxBounds> batch_box;  ///< of sixteen
+    // What rows, if these are, leave out of the columns: what shares a vertex and what is among the surroundings.
+    std::vector<std::int32_t> left_out_start;
+    std::vector<LeftOut> left_out;
+  };
 
-  PairStencil stencil(const Bucket& bucket, std::int32_t pair) const;
-  const PairMaterial& material(const Bucket& bucket) const;
-  float least_of(float thickness) const;
-  float margin_beyond(float distance) const;
-  bool paths_within(const PairStencil& pair, const PairParticles& particles, float distance) const;
-  bool is_finite(const PairParticles& particles);
-  Vec3f mean_move(const PairParticles& particles) const;
-  bool all_within(const PairParticles& particles, float margin);
-  void rebuild(Executor& executor, const PairParticles& particles);
-  void fill_buckets();
-  void cut_into_tasks();
+  // pair_surroundings.cpp: what lies together on the surface.
+  void lay_out_elements(Kind kind, int corners);
+  void lay_out_vertices();
+  void find_surroundings();
+  void leave_out(Kind rows, Kind columns, std::vector<std::array<std::int32_t, 2>>& pairs);
+  void fill_surroundings(bool of_vertices, const std::vector<std::array<std::int32_t, 2>>& pairs);
+  void fill_blocks(Surroundings& of, std::vector<PairStencil>& pairs);
+
+  // pair_clusters.cpp: how clusters move, and which are near one another.
   void measure_moves(Executor& executor, const PairParticles& particles);
+  float travel_of(std::size_t cluster) const;
+  bool clusters_hold() const;
+  void list_clusters();
+  BoxBounds path_box(std::size_t cluster) const;
+  void measure_between(Neighbours& pair) const;
+  void number_surroundings(const std::vector<Neighbours>& old);
+  void make_buckets(const std::vector<Neighbours>& old);
+  void cut_into_tasks();
   void settle_moves();
-  float between(const Bucket& bucket) const;
-  float sums(const Bucket& bucket, std::int32_t pair) const;
-  float moves(const Bucket& bucket, std::int32_t pair) const;
-  void activate(Bucket& bucket, Task& task, const PairParticles& particles);
-  void collect_near(Bucket& bucket, Task& task, float within);
+
+  // pair_lists.cpp: which pairs are near.
+  void bring_up_to_date(Executor& executor, const PairParticles& particles);
+  void find_stale(Task& task);
+  void fit_boxes(Executor& executor, const PairParticles& particles);
+  void fit_boxes_of(Elements& of, int cluster, const PairParticles& particles);
+  void refresh(Bucket& bucket, Task& task, const PairParticles& particles);
+  void find_pairs(const Bucket& bucket, float reach, Task& task);
+  void add_pair(const Bucket& bucket, std::int32_t a, std::int32_t b, Task& task) const;
+  void keep_near(Bucket& bucket, float within, Task& task, const PairParticles& particles);
+
+  PairStencil stencil(const Bucket& bucket, const Pair& pair) const;
+  const PairMaterial& material(const Between& clusters) const;
+  bool is_tangled(const PairStencil& pair) const;
+  float least_of(float thickness) const;
+  float care_of(const Between& clusters) const;
+  float moves(const Between& clusters) const { return neighbours_[clusters.neighbours].moves; }
+  float moved(const Between& clusters) const { return neighbours_[clusters.neighbours].moved - clusters.listed_at; }
+  float moves(const Between& clusters, const PairStencil& pair, const PairParticles& particles) const;
+  bool paths_within(const PairStencil& pair, const PairParticles& particles, float distance) const;
+  void collect_near(Bucket& bucket, Task& task, float within) const;
+  bool begin_anew(Surroundings& of, float within);
   template <class Visit>
-  void measure(const Bucket& bucket, Task& task, const PairParticles& particles, Visit visit);
+  void measure(Bucket& bucket, std::vector<Pair>& pairs, const std::vector<std::int32_t>& which,
+               const PairParticles& particles, Visit visit);
+  void detect_pair(const Between& clusters, const PairStencil& pair, const PairBatch& at, int lane, float* rest, Task& task,
+                   const PairParticles& particles);
   void detect_bucket(Bucket& bucket, Task& task, const PairParticles& particles);
+  void detect_surroundings(Surroundings& of, Task& task, const PairParticles& particles);
+  void detect_block(const Surroundings& of, int block, Task& task, const PairParticles& particles);
   void filter_bucket(Bucket& bucket, Task& task, const PairParticles& particles);
-  void filter_pair(const Bucket& bucket, std::int32_t pair, const PairParticles& particles, Task& task);
+  void filter_surroundings(Surroundings& of, Task& task, const PairParticles& particles);
+  void filter_pair(const Between& clusters, const PairStencil& four, const PairParticles& particles, Task& task);
   bool shorten(const PairParticles& particles, bool stops);
   template <class Allow>
   void hold_rounded(const PairParticles& particles, Allow allow);
   void keep_apart(Executor& executor, const PairParticles& particles);
   void find_tangles(const Record* positions);
+  void exempt_tangled();
 
   const PairModel& model_;
-  CandidateFinder finder_;
+  const PairKernels& kernels_;
   IntersectionFinder intersections_;
-  std::vector<Vec3f> from_, to_;
-  std::vector<Pair> pairs_;
-  std::vector<std::int32_t> active_;  ///< room for all of pairs_
-  std::vector<Bucket> buckets_;
-  std::vector<std::pair<std::uint64_t, std::int32_t>> keys_;  ///< of buckets while they are made
-  std::vector<std::int32_t> bucket_of_;                       ///< of each candidate while they are made
-  Vec3f drift_{};  ///< of the mean since lists were made, this substep left out [m]
-  Vec3f mean_{};   ///< displacement in this substep [m]
-  bool listed_ = false;
 
-  // By particle, triangle, edge: the move of this substep, relative to its cluster's mean, and the sum of those made.
-  std::vector<float> vertex_move_, triangle_move_, edge_move_, vertex_sum_, triangle_sum_, edge_sum_;
-  std::vector<Vec3f> cluster_move_;     ///< mean
-  std::vector<float> cluster_largest_;  ///< of what begins at it, relative to the mean
-  std::vector<std::vector<int>> cluster_vertices_, cluster_triangles_, cluster_edges_;
+  // Clusters.
+  Elements elements_[3];
+  std::vector<std::int32_t> cluster_vertices_;  ///< and the corners of what begins at them
+  std::vector<int> cluster_start_;
+  std::vector<ClusterMotion> motions_;
+  std::vector<float> travel_;  ///< since clusters were listed, against the mean of all [m]
+  std::vector<BoxBounds> cluster_boxes_;
+  Tree<BoxBounds> cluster_tree_;
+  std::vector<Neighbours> neighbours_;
+  std::vector<std::vector<std::pair<int, int>>> partners_;  ///< of each cluster: others, and the neighbours' number
+  std::vector<Bucket> buckets_;
+  std::vector<Surroundings> surroundings_;
+  std::vector<PairStencils, CacheLineAllocator<PairStencils>> blocks_;  ///< of surroundings
+  std::vector<float> block_reach_;
+  std::int64_t pairs_of_surroundings_ = 0;
+  bool listed_ = false;
+  std::vector<char> wanted_[3];  ///< clusters whose boxes are
+
+  Vec3f mean_{};      ///< displacement of all that can be pushed in this substep [m]
+  float extent_ = 0;  ///< the largest coordinate [m]
+  bool is_bounded_ = true;
 
   std::vector<Task> tasks_;
   std::vector<PairContact> contacts_;
   std::vector<float> share_;
   std::vector<std::int32_t> touched_, shortened_;  ///< vertices, in a round of the filter and in all of a substep
   std::vector<Intersection> tangles_;
-  std::vector<std::uint64_t> tangled_pairs_, tangled_edges_;  ///< a << 32 | b, ascending
-  float extent_ = 0;                                          ///< the largest coordinate [m]
+  std::vector<std::array<std::int32_t, 5>>
+      tangled_;  ///< stencils of pairs that are exempt, and their first side; ascending
   PairCounts counts_;
 };
 

@@ -89,8 +89,6 @@ void Frame::for_each_task(const char* name, int tasks, FunctionRef<void(int)> bo
 
 void Frame::begin_substep(int substep) {
   time_after_ = time_of(substep + 1);
-  // To the middle of the next frame: slow things then keep their lists, and fast ones have none for much longer than needed.
-  substeps_ahead_ = static_cast<float>(context_.substeps - substep) + 0.5f * static_cast<float>(context_.substeps);
   move_colliders(model_, time_of(substep), time_after_, work_.colliders);
   for (FrameGravity& gravity : work_.gravity) gravity.next(h_);
 }
@@ -167,7 +165,7 @@ bool Frame::finish_tile(int task, bool ends_frame) {
 // ---------------------------------------------------------------- pairs
 
 PairParticles Frame::all_particles() const {
-  return {state_.positions.data(), state_.remainders.data(), work_.displacements.data(), h_, substeps_ahead_};
+  return {state_.positions.data(), state_.remainders.data(), work_.displacements.data(), h_};
 }
 
 void Frame::find_pairs() { work_.pairs->detect(executor_, all_particles()); }

@@ -90,7 +90,6 @@ class Frame {
   float h_;
   std::int64_t iterations_made_ = 0;
   int substeps_counted_ = 0;
-  float substeps_ahead_ = 1;  ///< of the frame, this one included
   bool sweeps_on_entry_;
 };
 

@@ -75,7 +75,7 @@ struct World::Implementation {
     pair_model = make_pair_model(model, state.positions);
     if (pair_model != nullptr) {
       pair_model->filter = settings.contact_filter;
-      workspace.pairs = std::make_unique<PairSystem>(*pair_model);
+      workspace.pairs = std::make_unique<PairSystem>(*pair_model, kernels.isa);
     }
     prepare(model, kept_multipliers(settings), workspace);
     prepare_sweep(model, settings, workspace);

@@ -1,0 +1,102 @@
+// The draping cloth of docs/performance.md, at any size with the same edges: what a particle costs should not depend on it.
+#include "apps/bench/contact.h"
+
+#include <algorithm>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "pliant/error.h"
+#include "pliant/world.h"
+
+namespace pliant::bench {
+namespace {
+
+constexpr float edge = 0.01f, frame_time = 1.f / 60;
+
+Scene drape(int size, bool self_collision) {
+  const float width = edge * static_cast<float>(size - 1);
+  TriangleMesh mesh = grid_mesh(size, size, width, width);
+  for (Vec3f& p : mesh.positions) p.y += 0.42f * width;
+  ClothOptions options;
+  options.material = fabric("cotton");
+  Object cloth = make_cloth(mesh, options);
+  cloth.thickness = 0.001f;
+  cloth.self_collision = self_collision;
+  Scene scene;
+  scene.settings.threads = 1;
+  scene.settings.substeps = 20;
+  scene.add(cloth);
+  Collider ball;
+  ball.shape = Sphere{0.3f * width};
+  ball.position = {0, 0.1f * width, 0};
+  scene.add(ball);
+  return scene;
+}
+
+double milliseconds(World& world, Report& report) {
+  const std::clock_t start = std::clock();
+  report = world.step(frame_time);
+  return static_cast<double>(std::clock() - start) * 1e3 / CLOCKS_PER_SEC;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+ContactRow measure(int size, int frames) {
+  World without(drape(size, false)), with(drape(size, true));
+  std::vector<double> times[2];
+  ContactRow row;
+  row.size = size;
+  row.particles = size * size;
+  std::vector<double> candidates;
+  for (int frame = 0; frame < frames; ++frame) {
+    Report report;
+    times[0].push_back(milliseconds(without, report));
+    times[1].push_back(milliseconds(with, report));
+    candidates.push_back(static_cast<double>(report.pairs.candidates) / row.particles);
+    row.lists += static_cast<double>(report.pairs.lists) / frames;
+  }
+  row.without_ms = median(times[0]);
+  row.with_ms = median(times[1]);
+  row.largest_ms = *std::max_element(times[1].begin(), times[1].end());
+  row.ratio = row.with_ms / row.without_ms;
+  row.with_us_per_particle = row.with_ms * 1e3 / row.particles;
+  row.candidates_per_particle = median(candidates);
+  return row;
+}
+
+}  // namespace
+
+std::vector<ContactRow> measure_contact(const ContactOptions& options) {
+  if (options.frames < 1) throw Error({}, "there are no frames to measure", "measure at least 1");
+  for (const int size : options.sizes)
+    if (size < 2 || size > 4096)
+      throw Error({}, "a cloth of " + std::to_string(size) + " vertices a side can't be measured",
+                  "choose a size in 2..4096");
+  std::vector<ContactRow> rows;
+  for (const int size : options.sizes) {
+    rows.push_back(measure(size, options.frames));
+    if (options.on_row) options.on_row(rows.back());
+  }
+  return rows;
+}
+
+std::string to_json(const std::vector<ContactRow>& rows) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const ContactRow& row : rows)
+    list.push_back({{"size", row.size},
+                    {"particles", row.particles},
+                    {"without_ms", row.without_ms},
+                    {"with_ms", row.with_ms},
+                    {"ratio", row.ratio},
+                    {"largest_ms", row.largest_ms},
+                    {"with_us_per_particle", row.with_us_per_particle},
+                    {"candidates_per_particle", row.candidates_per_particle},
+                    {"lists", row.lists}});
+  return list.dump(2) + "\n";
+}
+
+}  // namespace pliant::bench

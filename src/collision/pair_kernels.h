@@ -1,0 +1,93 @@
+// The inner loops of PairSystem, in sixteen lanes: compiled once for each level of x86 (pair_lanes.cpp), the same bits from
+// each. Everything around them is written once and is compiled once.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "collision/pair_contact.h"
+
+namespace pliant {
+
+/// Particles of a model in a substep.
+struct PairParticles {
+  const Record* positions = nullptr;
+  const Record* remainders = nullptr;
+  Record* displacements = nullptr;
+  float h = 0;
+};
+
+/// What a cluster does in a substep: it goes along and turns, and each vertex departs from that. What turns as a whole keeps
+/// its distances: two points moved by spin x (x - centre) are no nearer to one another than before.
+struct ClusterMotion {
+  Vec3f mean{};               ///< move of the centre [m]
+  Vec3f centre{};             ///< at the start [m]
+  Vec3f spin{};               ///< as a vector, over the substep [rad]
+  float radius = 0;           ///< how far vertices are from the centre, at most [m]
+  float largest = 0;          ///< departure of any vertex from mean + spin x (x - centre), at most [m]
+  Vec3f low[2]{}, high[2]{};  ///< box at the start and at the end [m]
+  float extent = 0;           ///< the largest coordinate at the start [m]
+  bool is_bounded = true;     ///< all coordinates at the end are finite and below 1e14
+  Vec3f sum{};                ///< of the moves of vertices that can be pushed [m]
+  float movable = 0;          ///< how many these are
+};
+
+/// Boxes coordinate by coordinate, a multiple of sixteen of them: low x, y, z, high x, y, z.
+struct BoxRows {
+  float* row[6];
+};
+
+/// Elements of one kind as their corners: vertices have one row, edges two, triangles three.
+struct ElementCorners {
+  const std::int32_t* row[3];
+  int rows;
+};
+
+/// Sixteen columns of which some are to be left out.
+struct LeftOut {
+  std::int32_t batch;  ///< the columns from 16 batch on
+  std::uint32_t bits;
+};
+
+/// Sixteen rows and what they are compared with: batches of sixteen columns, less those that a row leaves out.
+struct BoxComparison {
+  BoxRows rows;
+  int first_row;     ///< a multiple of sixteen
+  float reach;       ///< by which rows are grown
+  const float* far;  ///< rows that don't overlap this box are left out: low x, y, z, high x, y, z
+  BoxRows columns;
+  const std::int32_t* batch;  ///< of columns, ascending
+  int batches;
+  const LeftOut* left_out;             ///< ascending by batch, each row's ending with one that is beyond all
+  const std::int32_t* left_out_start;  ///< of each row
+};
+
+/// A row and a column whose boxes overlap.
+struct BoxHit {
+  std::int32_t row, column;
+};
+
+struct PairKernels {
+  /// `vertices` are those of a cluster and of all that begins at it: a multiple of sixteen, filled up by repeating.
+  void (*measure_cluster)(const std::int32_t* vertices, int count, const PairParticles& particles, ClusterMotion& out);
+  /// Boxes around the paths of elements `first` to `last` - 1, both multiples of sixteen, as seen by one who moves by `drift`.
+  void (*fit_boxes)(const ElementCorners& elements, int first, int last, const PairParticles& particles, const Vec3f& drift,
+                    const BoxRows& out);
+  /// Rows and columns that overlap, ascending. Returns how many there are; `hits` has room for all.
+  int (*find_overlaps)(const BoxComparison& boxes, BoxHit* hits);
+  /// The least of all sixteen `at_least`, or up to a rounding less.
+  float (*least_distance)(const PairStencils& pairs, int first_side, const Record* positions);
+  void (*distances)(const PairStencils& pairs, int first_side, const Record* positions, PairBatch& out);
+};
+
+const PairKernels& pair_kernels_v2();
+const PairKernels& pair_kernels_v3();
+const PairKernels& pair_kernels_v4();
+
+/// Those of a code path by its name, "x86-64-v2" for any that is unknown. The machine must have it.
+const PairKernels& pair_kernels(std::string_view isa);
+
+/// What is allowed for the rounding of bounds of distances.
+inline constexpr float bound_slack = 1.0001f;
+
+}  // namespace pliant
