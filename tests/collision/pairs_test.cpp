@@ -275,9 +275,10 @@ struct Way {
   Vec3d carried;  ///< velocity of all [m/s]
   Vec3d at;
   int bodies;
-  double approach;  ///< of the bodies [m/s]
-  bool immovable;   ///< the lowest, which moves all the same
-  Vec3d spin{};     ///< of the highest [rad/s]
+  double approach;    ///< of the bodies [m/s]
+  bool immovable;     ///< the lowest, which moves all the same
+  Vec3d spin{};       ///< of the highest [rad/s]
+  double gap = 0.12;  ///< from one to the next [m]
 };
 void PrintTo(const Way& motion, std::ostream* out) { *out << motion.name; }
 
@@ -285,7 +286,7 @@ std::vector<Body> bodies_of(const Way& motion) {
   std::vector<Body> bodies;
   for (int b = 0; b < motion.bodies; ++b) {
     Body body;
-    body.mesh = sheet(6, 0.5, motion.at + Vec3d{0.013 * b, 0.12 * b, 0.017 * b});
+    body.mesh = sheet(6, 0.5, motion.at + Vec3d{0.013 * b, motion.gap * b, 0.017 * b});
     body.velocity = motion.carried + Vec3d{0, -motion.approach * b, 0};
     body.movable = !(motion.immovable && b == 0);
     body.meets_itself = body.movable;
@@ -309,8 +310,8 @@ INSTANTIATE_TEST_SUITE_P(
         Way{"far", 0.5, {}, {1e4, -1e4, 1e4}, 2, 3, false}, Way{"far_head_on", 0, {}, {0, 1e4, 0}, 2, 0.6, false},
         Way{"turning", 1.5, {}, {}, 1, 0, false, {40, 60, -30}},
         Way{"two_turning", 0.05, {3, 1, 0}, {}, 2, 1, false, {10, 90, 20}},
-        Way{"crumpling", 4, {}, {}, 1, 0, false, {20, 0, 0}}, Way{"negative", 2, {}, {-30, -20, -40}, 2, 3, false},
-        Way{"head_on", 0, {}, {50, 50, 50}, 2, 4.0113, false}),
+        Way{"from_afar", 0.1, {}, {}, 2, 40, false, {}, 0.9}, Way{"crumpling", 4, {}, {}, 1, 0, false, {20, 0, 0}},
+        Way{"negative", 2, {}, {-30, -20, -40}, 2, 3, false}, Way{"head_on", 0, {}, {50, 50, 50}, 2, 4.0113, false}),
     [](const auto& named) { return named.param.name; });
 
 TEST_P(PairsOf, AreThoseOfBruteForceAndNothingCrosses) {
