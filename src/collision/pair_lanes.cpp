@@ -34,7 +34,10 @@ struct Corners {
 
 PLIANT_HD Corners corners_of(const PairStencils& pairs, const Record* positions) {
   const Vec3<Wide> origin = places(positions, pairs.vertex[0]);
-  return {{origin - origin, places(positions, pairs.vertex[1]) - origin, places(positions, pairs.vertex[2]) - origin,
+  const Wide zero(0.f);
+  return {{{zero, zero, zero},
+           places(positions, pairs.vertex[1]) - origin,
+           places(positions, pairs.vertex[2]) - origin,
            places(positions, pairs.vertex[3]) - origin}};
 }
 
