@@ -241,6 +241,7 @@ std::vector<std::vector<int>> members_of(const std::vector<int>& tile) {
 /// Cuts a tile in four of nearly equal size, compact ones.
 std::array<std::vector<int>, patches> cut_in_four(const std::vector<Vec3f>& positions, const std::vector<int>& members) {
   std::vector<Vec3f> places;
+  places.reserve(members.size());
   for (int particle : members) places.push_back(positions[particle]);
   const int quarter = static_cast<int>(members.size() + patches - 1) / patches;
   const std::vector<int> part = cut_into_tiles(places, std::max(quarter, 1));
