@@ -40,6 +40,12 @@ Settings settings_of(const JsonValue& at) {
   set(at, "iterations", settings.iterations);
   set(at, "threads", settings.threads);
   set(at, "contact_filter", settings.contact_filter);
+  set(at, "most_substeps", settings.most_substeps);
+  set(at, "untangling_speed", settings.untangling_speed);
+  std::string intersections;
+  set(at, "initial_intersections", intersections);
+  if (intersections == "untangle") settings.initial_intersections = Settings::Intersections::untangle;
+  if (intersections == "refuse") settings.initial_intersections = Settings::Intersections::refuse;
   set(at, "measure", settings.measure);
   set(at, "record_multipliers", settings.record_multipliers);
   set(at, "isa", settings.isa);
@@ -182,26 +188,99 @@ Collider collider_of(const JsonDocument& document, const JsonValue& at, Names& n
   document.fail(at, "more than " + std::to_string(largest_scene) + " particles so far", "make it smaller");
 }
 
-/// The mesh is put where `position` and `rotation` say, which a primitive keeps apart.
+void set_representation(const JsonDocument& document, const JsonValue& at, MeshCollider& collider) {
+  std::string as;
+  set(at, "as", as);
+  if (as == "distance_grid") collider.as = MeshCollider::As::distance_grid;
+  if (as == "heightfield") collider.as = MeshCollider::As::heightfield;
+  if (const JsonValue* spacing = at.find("grid_spacing"); spacing != nullptr) {
+    if (as != "distance_grid") document.fail_key(*spacing, "only a distance grid has a spacing", "remove it");
+    set(at, "grid_spacing", collider.grid_spacing);
+  }
+}
+
+void set_frames(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, const SceneMesh& surface,
+                MeshCollider& collider) {
+  for (const JsonValue& item : elements(at, "frames")) {
+    MeshFrame frame;
+    set(item, "time", frame.time);
+    if (!collider.frames.empty() && !(frame.time > collider.frames.back().time))
+      document.fail(*item.find("time"), "this time is not after the one before", "frames go forward in time");
+    frame.positions = make_frame(document, item, folder, surface);
+    collider.frames.push_back(std::move(frame));
+  }
+  set(at, "repeat_frames", collider.repeat_frames);
+}
+
+/// The mesh is put where `position` and `rotation` say, which a primitive keeps apart. One that deforms is read vertex by vertex.
 MeshCollider mesh_collider_of(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, Names& names,
                               std::vector<std::string>& repairs) {
   MeshCollider collider;
   collider.name = names.of(document, at, "mesh");
-  SceneMesh surface = make_mesh(document, *at.find("mesh"), folder);
-  for (const std::string& repair : surface.repairs) repairs.push_back("collider '" + collider.name + "', " + repair);
+  const Repair repair = at.find("frames") == nullptr ? Repair::yes : Repair::no;
+  SceneMesh surface = make_mesh(document, *at.find("mesh"), folder, collider.name, repair);
+  for (const std::string& one : surface.repairs) repairs.push_back("collider '" + collider.name + "', " + one);
+  set_frames(document, at, folder, surface, collider);
   collider.mesh = std::move(surface.mesh);
   Vec3f position;
   Quatf turn;
   const bool turns = set(document, at, "rotation", turn);
   set(at, "position", position);
-  for (Vec3f& p : collider.mesh.positions) p = (turns ? rotated(turn, p) : p) + position;
+  const auto put = [&](std::vector<Vec3f>& places) {
+    for (Vec3f& p : places) p = (turns ? rotated(turn, p) : p) + position;
+  };
+  put(collider.mesh.positions);
+  for (MeshFrame& frame : collider.frames) put(frame.positions);
+  set_representation(document, at, collider);
   set(document, at, "motion", collider.motion);
   set(at, "thickness", collider.thickness);
   set_friction(document, at, collider.static_friction, collider.kinetic_friction);
+  set(at, "restitution", collider.restitution);
   set(at, "groups", collider.groups);
   set(at, "mask", collider.mask);
   set(at, "colour", collider.colour);
   return collider;
+}
+
+bool set(const JsonValue& at, const char* name, std::optional<float>& target) {
+  float value = 0;
+  const bool given = set(at, name, value);
+  if (given) target = value;
+  return given;
+}
+
+PairProperties pair_of(const JsonDocument& document, const JsonValue& at, const Scene& scene) {
+  PairProperties pair;
+  const JsonValue& between = *at.find("between");
+  const auto exists = [&](const std::string& name) {
+    const auto called = [&](const auto& one) { return one.name == name; };
+    return std::any_of(scene.objects.begin(), scene.objects.end(), called) ||
+           std::any_of(scene.mesh_colliders.begin(), scene.mesh_colliders.end(), called);
+  };
+  for (const JsonValue& name : between.items)
+    if (!exists(name.text))
+      document.fail(name, "there is no object or mesh collider '" + printable(name.text) + "'", "use the name of one");
+  pair.first = between.items[0].text;
+  pair.second = between.items[1].text;
+  set(at, "thickness", pair.thickness);
+  set(at, "restitution", pair.restitution);
+  set(at, "static_friction", pair.static_friction);
+  const bool has_kinetic = set(at, "kinetic_friction", pair.kinetic_friction);
+  if (has_kinetic && pair.static_friction && *pair.kinetic_friction > *pair.static_friction)
+    document.fail(*at.find("kinetic_friction"), "kinetic friction is larger than static friction",
+                  "it is at most as large");
+  return pair;
+}
+
+/// Every mesh that was to come from elsewhere belongs to something.
+void require_known(const MeshFolder& folder, const JsonDocument& document, const Scene& scene) {
+  for (const auto& [name, path] : folder.instead) {
+    const auto called = [&, wanted = name](const auto& one) { return one.name == wanted; };
+    if (std::any_of(scene.objects.begin(), scene.objects.end(), called)) continue;
+    if (std::any_of(scene.mesh_colliders.begin(), scene.mesh_colliders.end(), called)) continue;
+    throw Error({document.name, 0, {}, {}}, "there is no object or collider '" + printable(name) + "' to give a mesh to",
+                "use the name of one that has a mesh");
+  }
 }
 
 }  // namespace
@@ -233,6 +312,8 @@ SceneFile build(const JsonDocument& document, const MeshFolder& folder) {
     particles += scene.mesh_colliders.back().mesh.positions.size();
     if (particles > largest_scene) fail_too_large(document, item);
   }
+  for (const JsonValue& item : elements(root, "pairs")) scene.pairs.push_back(pair_of(document, item, scene));
+  require_known(folder, document, scene);
   return file;
 }
 

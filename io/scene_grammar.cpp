@@ -111,10 +111,6 @@ Type selection() {
   return any_of({choice({"all", "corners", "ends"}), list(particle_index(), 1), record(select_record())});
 }
 
-constexpr const char* groups_meaning =
-    "What it belongs to, numbers from 0 to 31. Two things meet where each one's `mask` has a group of the other's.";
-constexpr const char* mask_meaning = "The groups that it meets; [] for none.";
-
 constexpr const char* selection_meaning =
     "Which: indices, a selection, or \"all\", \"corners\" (the four of a grid) or \"ends\" (the first and the last).";
 
@@ -157,7 +153,10 @@ const Record& object_record() {
              "Its surface, or its links where it has none, does not pass through itself (docs/contact.md)."),
        field("collides", boolean(), Object{}.collides,
              "Nor through other objects of which this holds. Mesh colliders are met in any case."),
-       field("groups", bits(), "[0]", groups_meaning), field("mask", bits(), "all", mask_meaning),
+       field(
+           "groups", bits(), "[0]",
+           "What it belongs to, numbers from 0 to 31. Two things meet where each one's `mask` has a group of the other's."),
+       field("mask", bits(), "all", "The groups that it meets; [] for none."),
        field("static_friction", number("-", 0, 1000), "the material's, else 0.4", "Coefficient of friction at rest."),
        field("kinetic_friction", number("-", 0, 1000), "the material's, else 0.3, or the static one where that is less",
              "Coefficient of friction in motion; at most the static one."),
@@ -171,67 +170,7 @@ const Record& object_record() {
   return result;
 }
 
-// ------------------------------------------------------------------------------------------------ what they meet
-
-const Record& plane_record() {
-  static const Record result{"plane", "The half-space y <= 0 of its frame is solid.", {}, {}};
-  return result;
-}
-
-const Record& sphere_record() {
-  static const Record result{
-      "sphere", "A ball.", {field("radius", positive("m", largest_place), Sphere{}.radius, "Radius.")}, {}};
-  return result;
-}
-
-const Record& capsule_record() {
-  static const Record result{"capsule",
-                             "A cylinder along the y-axis of its frame with half a ball on either end.",
-                             {field("radius", positive("m", largest_place), Capsule{}.radius, "Radius."),
-                              field("half_length", number("m", 0, largest_place), Capsule{}.half_length,
-                                    "Half the length of the cylinder, without the caps.")},
-                             {}};
-  return result;
-}
-
-const Record& box_record() {
-  static const Record result{
-      "box",
-      "A box about the origin of its frame.",
-      {field("half_extents", positive_vector("m", largest_place), Box{}.half_extents, "Half its sizes.")},
-      {}};
-  return result;
-}
-
-constexpr const char* mesh_meaning =
-    "A surface that nothing pushes, closed or open, met from both sides. `position` and `rotation` apply to the mesh as "
-    "placed.";
-
-const Record& collider_record() {
-  static const Record result{
-      "collider",
-      "A solid that nothing pushes. It stands still or follows keyframes.",
-      {field("name", string(), "the shape, and a number where that is taken", "A name of its own."),
-       either("plane", record(plane_record()), "A half-space."), either("sphere", record(sphere_record()), "A ball."),
-       either("capsule", record(capsule_record()), "A capsule."), either("box", record(box_record()), "A box."),
-       either("mesh", record(mesh_record()), mesh_meaning),
-       field("position", place(), Collider{}.position, "Where its frame is."),
-       field("rotation", record(rotation_record()), "none", "How its frame is turned."),
-       field("motion", record(motion_record()), "none", "How it moves from there."),
-       field("thickness", number("m", 0, largest_place), Collider{}.thickness,
-             "Added to the thickness of what touches it."),
-       field("static_friction", number("-", 0, 1000), Collider{}.static_friction,
-             "Coefficient of friction at rest; a pair has the geometric mean of both sides'."),
-       field("kinetic_friction", number("-", 0, 1000), "0.3, or the static one where that is less",
-             "Coefficient of friction in motion; at most the static one."),
-       field("restitution", share(), Collider{}.restitution,
-             "Share of the speed kept in a bounce; a pair has the larger one. Not of a mesh."),
-       field("groups", bits(), "[0]", "Of a mesh alone: what it belongs to, numbers from 0 to 31."),
-       field("mask", bits(), "all", "Of a mesh alone: the groups that it meets."),
-       field("colour", colour(), Collider{}.colour, "Linear red, green and blue.")},
-      {"plane", "sphere", "capsule", "box", "mesh"}};
-  return result;
-}
+// ------------------------------------------------------------------------------------------------ the rest
 
 const Record& wind_record() {
   static const Record result{
@@ -297,6 +236,13 @@ const Record& settings_record() {
              "Shorten moves so that nothing that collides passes through anything else (docs/contact.md); without it "
              "contacts "
              "alone must do."),
+       field("most_substeps", integer(1, 10000), Settings{}.most_substeps,
+             "Into how many substeps a frame may be divided where a mesh collider moves fast (docs/contact.md)."),
+       field("initial_intersections", choice({"leave", "untangle", "refuse"}), "leave",
+             "What is done about surfaces that pass through one another at the start: nothing, drawing them apart, or "
+             "refusing the scene."),
+       field("untangling_speed", positive("m/s", 1000), Settings{}.untangling_speed,
+             "At which they are drawn apart, at most."),
        field("measure", boolean(), Settings{}.measure, "Measure residuals and stretch each frame."),
        field("record_residuals", boolean(), Settings{}.record_residuals,
              "Measure both residuals after every iteration of each frame's last substep; slow."),
@@ -341,7 +287,8 @@ const Record& scene_record() {
        field("frames", integer(0, 10000000), Scene{}.frames, "How many a run lasts unless told otherwise."),
        field("settings", record(settings_record()), "the defaults", "How it is solved."),
        needed("objects", list(record(object_record())), "What moves."),
-       field("colliders", list(record(collider_record())), "none", "What it meets.")},
+       field("colliders", list(record(collider_record())), "none", "What it meets."),
+       field("pairs", list(record(pair_record())), "none", "What certain two are to one another.")},
       {}};
   return result;
 }

@@ -129,6 +129,16 @@ const Record& box_mesh_record() {
   return result;
 }
 
+const Record& rabbit_record() {
+  static const Record result{
+      "rabbit",
+      "A closed animal shape to drape things over, sitting on y = 0 and looking along +z.",
+      {field("height", positive("m", largest_place), 0.3f, "From the ground to the tips of its ears."),
+       field("cells", integer(16, 128), 40, "Of the grid that it is made on, along its height.")},
+      {}};
+  return result;
+}
+
 const Record& waves_record() {
   static const Record result{"waves",
                              "Heights h = height sin(2 pi along_x x / width) sin(2 pi along_z z / depth).",
@@ -159,7 +169,9 @@ const Record& heightfield_record() {
 const Record& mesh_record() {
   static const Record result{
       "mesh",
-      "Where a surface comes from, and where it is put: scaled, then rotated, then moved. This is also its rest shape.",
+      "Where a surface comes from, and where it is put: fitted, then scaled, then rotated, then moved. This is also its "
+      "rest "
+      "shape.",
       {either(
            "file", string(),
            "Path of an .obj, .ply or .stl file, relative to the folder of the scene. URLs, devices and pipes are refused."),
@@ -167,11 +179,15 @@ const Record& mesh_record() {
        either("sphere", record(sphere_mesh_record()), "A closed sphere."),
        either("tube", record(tube_record()), "An open tube."), either("box", record(box_mesh_record()), "A closed box."),
        either("heightfield", record(heightfield_record()), "A landscape."),
+       either("rabbit", record(rabbit_record()), "A closed animal shape."),
+       field("fit", positive("m", largest_place), "none",
+             "First scaled and moved so that its longest side is this, its middle above the origin and its lowest point at "
+             "y = 0: for meshes of unknown units."),
        field("scale", any_of({positive("-", 1e6), positive_vector("-", 1e6)}), 1,
              "Factor, the same along all axes or one each."),
        field("rotate", record(rotation_record()), "none", "Rotation about the origin."),
        field("translate", place(), Vec3f{}, "Translation.")},
-      {"file", "grid", "sphere", "tube", "box", "heightfield"}};
+      {"file", "grid", "sphere", "tube", "box", "heightfield", "rabbit"}};
   return result;
 }
 

@@ -13,4 +13,8 @@ const Record& mesh_record();
 const Record& fabric_record();
 std::vector<std::string> fabric_names();
 
+// scene_grammar_colliders.cpp
+const Record& collider_record();
+const Record& pair_record();
+
 }  // namespace pliant::scene_file

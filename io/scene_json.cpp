@@ -205,6 +205,13 @@ std::size_t sequence_length(const std::string& text, std::size_t i) {
 
 }  // namespace
 
+void JsonValue::ignore() const {
+  for (const JsonValue& item : items) {
+    item.used = true;
+    item.ignore();
+  }
+}
+
 const JsonValue* JsonValue::find(const char* name) const {
   for (const JsonValue& item : items)
     if (item.key == name) return item.used = true, &item;

@@ -28,6 +28,8 @@ struct JsonValue {
 
   /// The first member of that name, marked as used, or null.
   const JsonValue* find(const char* name) const;
+  /// Marks all members below as used.
+  void ignore() const;
 };
 
 /// A whole text with its tree.

@@ -27,7 +27,7 @@ ClothOptions cloth_options(const JsonDocument& document, const JsonValue& at, co
 
 BuiltObject cloth_of(const JsonDocument& document, const JsonValue& at, const std::string& name, const MeshFolder& folder,
                      std::vector<std::string>& repairs) {
-  SceneMesh surface = make_mesh(document, *at.find("mesh"), folder);
+  SceneMesh surface = make_mesh(document, *at.find("mesh"), folder, name);
   for (const std::string& repair : surface.repairs) repairs.push_back("object '" + name + "', " + repair);
   return {make_cloth(surface.mesh, cloth_options(document, at, name)), surface.columns, surface.rows};
 }

@@ -94,6 +94,14 @@ TriangleMesh box_of(const JsonValue& at) {
   return box_mesh(size, segments);
 }
 
+TriangleMesh rabbit_of(const JsonValue& at) {
+  float height = 0.3f;
+  int cells = 40;
+  set(at, "height", height);
+  set(at, "cells", cells);
+  return rabbit_mesh(height, cells);
+}
+
 float wave(float turns) { return rotated(rotation({0, 0, 1}, 360 * turns), {1, 0, 0}).y; }
 
 /// Heights by formula: where a vertex is in its wave is worked out from its number, so that both borders are alike.
@@ -126,20 +134,31 @@ TriangleMesh heightfield_of(const JsonDocument& document, const JsonValue& at, S
   return mesh;
 }
 
-void transform(const JsonDocument& document, const JsonValue& at, TriangleMesh& mesh) {
-  Vec3f scale{1, 1, 1}, translation;
+/// So that the longest side of the mesh's box is `size`, its middle above the origin, its lowest point at y = 0.
+void fit(const TriangleMesh& mesh, float size, Placement& placement) {
+  if (mesh.positions.empty()) return;
+  Vec3f low = mesh.positions.front(), high = low;
+  for (const Vec3f& p : mesh.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const Vec3f sides = high - low;
+  const float longest = std::max({sides.x, sides.y, sides.z});
+  if (longest > 0) placement.fit = size / longest;
+  placement.fit_offset = -placement.fit * Vec3f{0.5f * (low.x + high.x), low.y, 0.5f * (low.z + high.z)};
+}
+
+Placement placement_of(const JsonDocument& document, const JsonValue& at, const TriangleMesh& mesh) {
+  Placement placement;
+  float size = 0;
+  if (set(at, "fit", size)) fit(mesh, size, placement);
   if (const JsonValue* value = at.find("scale")) {
     const float factor = static_cast<float>(value->number);
-    scale = value->kind == JsonValue::Kind::array ? vector_of(*value) : Vec3f{factor, factor, factor};
+    placement.scale = value->kind == JsonValue::Kind::array ? vector_of(*value) : Vec3f{factor, factor, factor};
   }
-  Quatf turn;
-  const bool turns = set(document, at, "rotate", turn);
-  set(at, "translate", translation);
-  for (Vec3f& p : mesh.positions) {
-    p = {p.x * scale.x, p.y * scale.y, p.z * scale.z};
-    if (turns) p = rotated(turn, p);
-    p += translation;
-  }
+  placement.turns = set(document, at, "rotate", placement.turn);
+  set(at, "translate", placement.translation);
+  return placement;
 }
 
 void check_places(const JsonDocument& document, const JsonValue& at, const TriangleMesh& mesh) {
@@ -152,23 +171,64 @@ void check_places(const JsonDocument& document, const JsonValue& at, const Trian
   }
 }
 
-}  // namespace
+MeshFile read(const std::string& path, Repair repair) {
+  const bool mends = repair == Repair::yes;
+  return read_mesh_file(path, {mends, mends, mends});
+}
 
-SceneMesh make_mesh(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder) {
-  SceneMesh result;
-  if (const JsonValue* file = at.find("file")) {
-    MeshFile read = read_mesh_file(allowed_path(document, *file, folder));
-    result.mesh = std::move(read.mesh);
-    for (const std::string& repair : read.repairs) result.repairs.push_back(file->text + ": " + repair);
+/// From the file that stands for the record's own source, or from that.
+void fill(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, const std::string& name,
+          Repair repair, SceneMesh& result) {
+  const auto from_file = [&](const std::string& path, const std::string& called) {
+    MeshFile file = read(path, repair);
+    result.mesh = std::move(file.mesh);
+    for (const std::string& one : file.repairs) result.repairs.push_back(called + ": " + one);
+  };
+  if (const auto instead = folder.instead.find(name); instead != folder.instead.end()) {
+    for (const char* source : {"file", "grid", "sphere", "tube", "box", "heightfield", "rabbit"})
+      if (const JsonValue* unused = at.find(source)) unused->ignore();
+    return from_file(instead->second, instead->second);
   }
+  if (const JsonValue* file = at.find("file")) from_file(allowed_path(document, *file, folder), file->text);
   if (const JsonValue* grid = at.find("grid")) result.mesh = grid_of(*grid, result);
   if (const JsonValue* sphere = at.find("sphere")) result.mesh = sphere_of(*sphere);
   if (const JsonValue* tube = at.find("tube")) result.mesh = tube_of(*tube);
   if (const JsonValue* box = at.find("box")) result.mesh = box_of(*box);
+  if (const JsonValue* rabbit = at.find("rabbit")) result.mesh = rabbit_of(*rabbit);
   if (const JsonValue* heightfield = at.find("heightfield")) result.mesh = heightfield_of(document, *heightfield, result);
-  transform(document, at, result.mesh);
+}
+
+}  // namespace
+
+Vec3f Placement::place(const Vec3f& p) const {
+  Vec3f q = fit == 1 && fit_offset == Vec3f{} ? p : fit * p + fit_offset;
+  q = {q.x * scale.x, q.y * scale.y, q.z * scale.z};
+  return (turns ? rotated(turn, q) : q) + translation;
+}
+
+SceneMesh make_mesh(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, const std::string& name,
+                    Repair repair) {
+  SceneMesh result;
+  fill(document, at, folder, name, repair, result);
+  result.placement = placement_of(document, at, result.mesh);
+  for (Vec3f& p : result.mesh.positions) p = result.placement.place(p);
   check_places(document, at, result.mesh);
   return result;
+}
+
+std::vector<Vec3f> make_frame(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder,
+                              const SceneMesh& mesh) {
+  TriangleMesh frame;
+  if (const JsonValue* file = at.find("file")) frame = read(allowed_path(document, *file, folder), Repair::no).mesh;
+  for (const JsonValue& place : elements(at, "positions")) frame.positions.push_back(vector_of(place));
+  if (frame.positions.size() != mesh.mesh.positions.size())
+    document.fail(at,
+                  "this frame has " + std::to_string(frame.positions.size()) + " vertices, the mesh " +
+                      std::to_string(mesh.mesh.positions.size()),
+                  "give one for each vertex of the mesh, in its order");
+  for (Vec3f& p : frame.positions) p = mesh.placement.place(p);
+  check_places(document, at, frame);
+  return frame.positions;
 }
 
 }  // namespace pliant::scene_file

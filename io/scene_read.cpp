@@ -45,15 +45,19 @@ std::string text_of(const std::string& path) {
 
 }  // namespace
 
-SceneFile read_scene_file(const std::string& path, bool allow_outside) {
+SceneFile read_scene_file(const std::string& path, const SceneReadOptions& options) {
   const std::string folder = fs::path(path).parent_path().string();
-  return scene_from(text_of(path), path, {folder, allow_outside});
+  return scene_from(text_of(path), path, {folder, options.allow_outside, options.meshes});
+}
+
+SceneFile read_scene_file(const std::string& path, bool allow_outside) {
+  return read_scene_file(path, SceneReadOptions{allow_outside, {}});
 }
 
 Scene read_scene(const std::string& path, bool allow_outside) { return read_scene_file(path, allow_outside).scene; }
 
 Scene parse_scene(const std::string& text, const std::string& name, const std::string& folder, bool allow_outside) {
-  return scene_from(text, name, {folder, allow_outside}).scene;
+  return scene_from(text, name, {folder, allow_outside, {}}).scene;
 }
 
 }  // namespace pliant

@@ -14,9 +14,10 @@ namespace pliant::command {
 /// What run, render and whatever else simulates a scene let the caller change of the scene's own settings.
 struct Overrides {
   std::optional<int> frames, threads, substeps, iterations;
-  std::string sweep;        ///< as "chains" or "chains+tethers"; empty: the scene's own
-  std::string isa;          ///< empty: the best there is
-  bool sequential = false;  ///< the plain reference sweep
+  std::string sweep;                ///< as "chains" or "chains+tethers"; empty: the scene's own
+  std::string isa;                  ///< empty: the best there is
+  bool sequential = false;          ///< the plain reference sweep
+  std::vector<std::string> meshes;  ///< "name=path": files for the meshes of objects and colliders
 };
 
 struct RunOptions {

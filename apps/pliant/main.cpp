@@ -29,6 +29,10 @@ CLI::Validator range(Number least, Number largest) {
 
 /// What run and render take alike.
 void add_settings(CLI::App& app, Overrides& overrides) {
+  app.add_option("--mesh", overrides.meshes,
+                 "a mesh file for the object or collider of that name; may be given more than once")
+      ->type_name("NAME=FILE")
+      ->allow_extra_args(false);
   app.add_option("--threads", overrides.threads, "threads; 0: as many as the machine has")
       ->type_name("N")
       ->check(range(0, most_threads));

@@ -20,10 +20,22 @@ void set_sweep(const std::string& name, Settings& settings) {
   settings.sweep_options = method.options;
 }
 
+SceneReadOptions options_of(const std::vector<std::string>& meshes) {
+  SceneReadOptions options;
+  for (const std::string& one : meshes) {
+    const std::size_t sign = one.find('=');
+    if (sign == 0 || sign == std::string::npos || sign + 1 == one.size())
+      throw Error({}, "'" + one + "' is no mesh for an object", "give name=path, as --mesh body=bunny.obj");
+    const bool is_new = options.meshes.emplace(one.substr(0, sign), one.substr(sign + 1)).second;
+    if (!is_new) throw Error({}, "'" + one.substr(0, sign) + "' is given two meshes", "give it one");
+  }
+  return options;
+}
+
 }  // namespace
 
 Scene read_scene_with(const std::string& path, const Overrides& overrides, bool quiet) {
-  SceneFile file = read_scene_file(path);
+  SceneFile file = read_scene_file(path, options_of(overrides.meshes));
   if (!quiet) print_repairs(file.repairs);
   Scene scene = std::move(file.scene);
   if (overrides.frames) scene.frames = *overrides.frames;

@@ -1,6 +1,7 @@
 // Files: meshes and scenes in, geometry out. Part of the library pliant_io; the core knows no file.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,6 +46,16 @@ struct SceneFile {
 /// Reads a scene in strict JSON (docs/scene-format.md). Throws Error with file, line, column and JSON path. Mesh paths are
 /// relative to the scene's own folder and may not leave it, by links neither, unless `allow_outside`.
 SceneFile read_scene_file(const std::string& path, bool allow_outside = true);
+
+/// What reading a scene can be told besides.
+struct SceneReadOptions {
+  bool allow_outside = true;
+  /// By name of object or mesh collider: a mesh file, from the current folder, that takes the place of what its "mesh" names.
+  std::map<std::string, std::string> meshes;
+};
+
+/// The same. Throws Error too where a mesh is given to a name that nothing with a mesh has.
+SceneFile read_scene_file(const std::string& path, const SceneReadOptions& options);
 
 /// The scene of read_scene_file alone.
 Scene read_scene(const std::string& path, bool allow_outside = true);

@@ -1,8 +1,10 @@
 // A Scene is a description: plain data that a World compiles. Nothing here moves.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -141,17 +143,54 @@ struct Collider {
   Vec3f colour{0.45f, 0.48f, 0.52f};
 };
 
-/// A triangle mesh that nothing pushes, closed or open, met from both sides by every object whose groups and mask allow: its
-/// vertices, edges and triangles all take part.
+/// Where the vertices of a mesh that deforms are at a moment.
+struct MeshFrame {
+  float time = 0;                ///< [s], increasing along a list of frames
+  std::vector<Vec3f> positions;  ///< one a vertex of the mesh [m]
+};
+
+/// Signed distances to a closed mesh, negative inside, at the nodes of a grid. Plain data: it may be kept, and given to any
+/// number of colliders of the same mesh.
+struct DistanceField {
+  Vec3f low{};                   ///< first node [m]
+  float spacing = 0;             ///< between nodes [m]
+  std::array<int, 3> nodes{};    ///< along x, y, z
+  std::vector<float> distances;  ///< of node (x, y, z) at (z nodes[1] + y) nodes[0] + x [m]
+};
+
+/// A triangle mesh that nothing pushes, closed or open. As triangles it is met from both sides by every object whose groups and
+/// mask allow: its vertices, edges and triangles all take part.
 struct MeshCollider {
+  /// What stands for it. `triangles`: itself. `distance_grid`: a DistanceField of it, which must be closed; `heightfield`: its
+  /// heights over a regular grid in x and z, solid below. Those two are met by particles alone, as primitive colliders
+  /// are, by all objects, at a cost that does not depend on the mesh, and do not deform.
+  enum class As { triangles, distance_grid, heightfield };
+
   std::string name = "mesh";
-  TriangleMesh mesh;             ///< [m]
-  Motion motion{};               ///< of the whole mesh
-  float thickness = 0;           ///< added to the object's [m]
-  float static_friction = 0.4f;  ///< a pair has the geometric mean of both sides'
+  TriangleMesh mesh;              ///< [m]
+  Motion motion{};                ///< of the whole mesh
+  std::vector<MeshFrame> frames;  ///< deforms, linear between frames, held before the first and after the last; then moves
+  bool repeat_frames = false;     ///< start again after the last frame
+  As as = As::triangles;
+  float grid_spacing = 0;                        ///< of a distance grid; 0: a 48th of the longest side [m]
+  std::shared_ptr<const DistanceField> field{};  ///< of a distance grid, as measure_distances makes it; none: it is made
+  float thickness = 0;                           ///< added to the object's [m]
+  float static_friction = 0.4f;                  ///< a pair has the geometric mean of both sides'
   float kinetic_friction = 0.3f;
+  float restitution = 0;                 ///< a pair has the larger of both sides'
   std::uint32_t groups = 1, mask = ~0u;  ///< as of Object
   Vec3f colour{0.45f, 0.48f, 0.52f};
+};
+
+/// The distances of a closed mesh at nodes `spacing` apart [m] (0: a 48th of its longest side) over its box grown by two of them.
+/// Throws Error where an edge has not two triangles or there would be more than 2^27 nodes.
+std::shared_ptr<const DistanceField> measure_distances(const TriangleMesh& mesh, float spacing = 0);
+
+/// What two things, objects or mesh colliders as triangles, are to one another where it is not what their own numbers make it.
+struct PairProperties {
+  std::string first, second;                                            ///< names; both the same: of an object with itself
+  std::optional<float> thickness;                                       ///< distance kept between the two [m]
+  std::optional<float> static_friction, kinetic_friction, restitution;  ///< [-]
 };
 
 /// Moving air: a uniform wind with a gust of given period along it.
@@ -221,6 +260,17 @@ struct Settings {
   Sweep sweep = Sweep::tiled;
   SweepOptions sweep_options{};
   bool contact_filter = true;  ///< shorten moves so that nothing that collides passes through anything else
+  /// A frame in which a mesh collider comes near an object is divided into more substeps, up to so many, until the collider moves
+  /// no more than half the pair's thickness in one: what nothing pushes can't be stopped by shortening moves. 1..10000; no
+  /// more than `substeps`: never.
+  int most_substeps = 2000;
+  /// What is done about surfaces that pass through one another before anything has moved.
+  enum class Intersections {
+    leave,     ///< they may stay; contact leaves them out until they happen to be apart
+    untangle,  ///< they are drawn apart, and vertices inside a closed mesh collider out of it, at `untangling_speed`
+    refuse,    ///< making a World throws Error naming the first
+  } initial_intersections = Intersections::leave;
+  float untangling_speed = 0.5f;  ///< at most [m/s]
   bool measure = false;  ///< fill Report::residuals, stretch and overstretch each frame (costs about one more iteration)
   bool record_residuals = false;    ///< fill Report::convergence (slow: every iteration of the last substep is measured)
   bool record_multipliers = false;  ///< keep multipliers readable even where not needed (one iteration, or rigid)
@@ -238,6 +288,7 @@ struct Scene {
   std::vector<Object> objects;
   std::vector<Collider> colliders;
   std::vector<MeshCollider> mesh_colliders;
+  std::vector<PairProperties> pairs;
 
   /// Adds an object and returns its index. Its contents are checked when a World is made.
   int add(Object object);

@@ -107,6 +107,8 @@ struct PairReport {
       0;                     ///< pairs that no shortening keeps apart: two things that nothing pushes pinch what is between
   std::int64_t tangled = 0;  ///< edges that cross a triangle since the beginning: exempt until they are apart
   std::int64_t lists = 0;    ///< times that candidates were looked for
+  std::int64_t inside = 0;   ///< vertices inside a closed mesh collider, where they are being brought out
+  double deepest = 0;        ///< what the last substep left of a contact's overlap: thickness less distance, or 0 [m]
 };
 
 /// What a step has to say. A step never throws, but lets through what a force field of the user's throws.
@@ -114,6 +116,7 @@ struct Report {
   std::int64_t frame = 0;
   double time = 0;
   double milliseconds = 0;
+  int substeps = 0;  ///< that the frame was divided into (Settings::most_substeps)
   std::vector<PhaseTime> phases;
   std::int64_t contacts = 0;  ///< active in the last substep
   PairReport pairs;

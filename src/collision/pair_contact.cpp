@@ -82,7 +82,16 @@ PairContact make_contact(const PairStencil& pair, const PairBatch& at, int lane,
   c.thickness = min(material.thickness, c.gap + largest_pair_separation_speed * h);
   c.static_friction = material.static_friction;
   c.kinetic_friction = material.kinetic_friction;
+  c.restitution = material.restitution;
   return c;
+}
+
+float approach_of(const PairContact& c, const Record* displacements, const Record* remainders, float h) {
+  return dot(c.normal, relative(c, displacements) - relative(c, remainders)) / h;
+}
+
+float overlap_of(const PairContact& c, const Record* displacements) {
+  return c.thickness - (c.gap + dot(c.normal, relative(c, displacements)));
 }
 
 void project_contact(PairContact& c, const Record* positions, const Record* remainders, Record* displacements) {
@@ -105,10 +114,12 @@ void project_contact(PairContact& c, const Record* positions, const Record* rema
   move(c, change, positions, displacements);
 }
 
-void respond_to_contact(const PairContact& c, const Record* positions, Record* velocities, const Vec3f& missing) {
+void respond_to_contact(const PairContact& c, const Record* positions, Record* velocities, const PairResponse& response) {
   if (!(c.push > 0)) return;
-  const float separating = dot(c.normal, relative(c, velocities) + missing);
-  if (separating > 0) move(c, c.normal * -separating, positions, velocities);
+  const float separating = dot(c.normal, relative(c, velocities) + response.missing);
+  const bool bounces = c.restitution > 0 && -c.approach > response.slow;
+  const float wanted = bounces ? -c.restitution * c.approach : min(separating, 0.f);
+  if (wanted != separating) move(c, c.normal * (wanted - separating), positions, velocities);
 }
 
 }  // namespace pliant

@@ -49,6 +49,7 @@ void pair_distances(const PairStencil* pairs, int count, const Record* positions
 struct PairMaterial {
   float thickness = 0;  ///< distance kept [m]
   float static_friction = 0, kinetic_friction = 0;
+  float restitution = 0;  ///< 0..1 [-]
 };
 
 struct PairContact {
@@ -57,9 +58,10 @@ struct PairContact {
   Vec3f normal{};
   float gap = 0;        ///< distance at the substep's start [m]
   float thickness = 0;  ///< distance to be kept [m]
-  float static_friction = 0, kinetic_friction = 0;
-  float push = 0;    ///< sum of normal corrections of the relative place [m]
-  Vec3f friction{};  ///< sum of tangential ones [m]
+  float static_friction = 0, kinetic_friction = 0, restitution = 0;
+  float approach = 0;  ///< speed along the normal with which the substep began; below 0 where they come closer [m/s]
+  float push = 0;      ///< sum of normal corrections of the relative place [m]
+  Vec3f friction{};    ///< sum of tangential ones [m]
 };
 
 /// What overlaps separates at this speed at most [m/s].
@@ -67,12 +69,25 @@ inline constexpr float largest_pair_separation_speed = 1;
 
 PairContact make_contact(const PairStencil& pair, const PairBatch& at, int lane, const PairMaterial& material, float h);
 
+/// The speed along the contact's normal, from displacements as predicted [m/s].
+float approach_of(const PairContact& contact, const Record* displacements, const Record* remainders, float h);
+
 /// Projects one contact: n . (relative place) >= thickness, then friction within the cone of the pushes so far (contact.h has
 /// the same for one particle). Arrays are of all particles of the model; w of `positions` the inverse mass.
 void project_contact(PairContact& contact, const Record* positions, const Record* remainders, Record* displacements);
 
-/// Takes away the speed at which a contact that pushed now separates: a push is no throw. `missing` is what velocities lack of
-/// the relative one [m/s].
-void respond_to_contact(const PairContact& contact, const Record* positions, Record* velocities, const Vec3f& missing = {});
+/// By how much the contact's thickness is not kept after `displacements` [m]; below 0 where it is.
+float overlap_of(const PairContact& contact, const Record* displacements);
+
+/// What velocities lack, and what is no impact.
+struct PairResponse {
+  Vec3f missing{};  ///< of the relative velocity [m/s]
+  float slow = 0;   ///< approach no faster than this is rest [m/s]
+};
+
+/// Takes away the speed at which a contact that pushed now separates: a push is no throw. Where it came closer faster than is
+/// slow, its restitution times that speed is what it separates at.
+void respond_to_contact(const PairContact& contact, const Record* positions, Record* velocities,
+                        const PairResponse& response = {});
 
 }  // namespace pliant

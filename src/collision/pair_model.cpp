@@ -35,6 +35,32 @@ std::vector<std::array<int, 2>> lines_of(const CompiledObject& object, int first
   return lines;
 }
 
+/// What neither a triangle nor a line holds, targets of attachments left out: it meets triangles as a vertex.
+void add_loose(const CompiledObject& object, int first, const std::vector<std::array<int, 2>>& lines,
+               std::vector<int>& loose) {
+  std::vector<char> held(static_cast<std::size_t>(object.particles), 0);
+  for (const auto& t : object.surface.triangles)
+    for (const int corner : t) held[static_cast<std::size_t>(corner)] = 1;
+  for (const auto& [a, b] : lines)
+    held[static_cast<std::size_t>(a - first)] = held[static_cast<std::size_t>(b - first)] = 1;
+  for (int i = 0; i < object.particles; ++i)
+    if (held[static_cast<std::size_t>(i)] == 0 && object.order[static_cast<std::size_t>(i)] < object.user_particles)
+      loose.push_back(first + i);
+}
+
+PairMaterial material_of(const CompiledObject& a, const CompiledObject& b) {
+  return {a.thickness + b.thickness, std::sqrt(a.static_friction * b.static_friction),
+          std::sqrt(a.kinetic_friction * b.kinetic_friction), std::max(a.restitution, b.restitution)};
+}
+
+/// What the scene says of a certain pair; a static friction given alone lowers the kinetic one where it must.
+void apply(const PairProperties& said, PairMaterial& material) {
+  material.thickness = said.thickness.value_or(material.thickness);
+  material.static_friction = said.static_friction.value_or(material.static_friction);
+  material.kinetic_friction = std::min(said.kinetic_friction.value_or(material.kinetic_friction), material.static_friction);
+  material.restitution = said.restitution.value_or(material.restitution);
+}
+
 /// Cuts vertices, `from` to `to` - 1, across where they extend farthest until so many as make a cluster are left.
 void split(PairModel& model, std::vector<int>& vertices, std::size_t from, std::size_t to) {
   const std::size_t pieces = (to - from + vertices_in_a_cluster - 1) / vertices_in_a_cluster;
@@ -105,8 +131,10 @@ std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& po
       if (!(a == b ? p.self_collision : meet(p, q))) continue;
       const std::size_t at = static_cast<std::size_t>(a) * bodies + b;
       out->meets[at] = meets_some[a] = 1;
-      out->materials[at] = {p.thickness + q.thickness, std::sqrt(p.static_friction * q.static_friction),
-                            std::sqrt(p.kinetic_friction * q.kinetic_friction)};
+      out->materials[at] = material_of(p, q);
+      for (const PairProperties& pair : model.pairs)
+        if ((pair.first == p.name && pair.second == q.name) || (pair.first == q.name && pair.second == p.name))
+          apply(pair, out->materials[at]);
       out->largest_thickness = std::max(out->largest_thickness, out->materials[at].thickness);
     }
   }
@@ -114,6 +142,7 @@ std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& po
   out->vertex_body.assign(positions.size(), 0);
   std::vector<Triangle> triangles;
   std::vector<std::array<int, 2>> lines;
+  std::vector<int> loose;
   for (int o = 0; o < bodies; ++o) {
     const int first = model.first[o];
     std::fill(out->vertex_body.begin() + first, out->vertex_body.begin() + model.first[o + 1], o);
@@ -122,9 +151,10 @@ std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& po
       triangles.push_back({first + t[0], first + t[1], first + t[2]});
     const auto more = lines_of(model.objects[o], first);
     lines.insert(lines.end(), more.begin(), more.end());
+    add_loose(model.objects[o], first, more, loose);
   }
   if (triangles.empty() && lines.empty()) return nullptr;
-  out->elements = make_contact_elements(triangles, lines, {}, static_cast<int>(positions.size()));
+  out->elements = make_contact_elements(triangles, lines, loose, static_cast<int>(positions.size()));
   make_clusters(*out);
   out->elements.body = out->vertex_body;
   out->elements.bodies = bodies;

@@ -91,7 +91,7 @@ void PairSystem::detect_pair(const Between& clusters, const PairStencil& four, c
   if (rest != nullptr) *rest = of_rest;
   kept.thickness = min(kept.thickness, of_rest);
   if (nearest <= kept.thickness && paths_within(four, particles, kept.thickness))
-    task.contacts.push_back(make_contact(four, at, lane, kept, particles.h));
+    add_contact(four, at, lane, kept, particles, task);
 }
 
 void PairSystem::detect_bucket(Bucket& bucket, Task& task, const PairParticles& particles) {
@@ -128,6 +128,14 @@ void PairSystem::detect_block(const Surroundings& of, int block, Task& task, con
     detect_pair(of, stencil_at(blocks_[block], lane, of.of_vertices), batch, lane, nullptr, task, particles);
 }
 
+void PairSystem::add_contact(const PairStencil& four, const PairBatch& at, int lane, const PairMaterial& material,
+                             const PairParticles& particles, Task& task) {
+  PairContact contact = make_contact(four, at, lane, material, particles.h);
+  if (material.restitution > 0)
+    contact.approach = approach_of(contact, particles.displacements, particles.remainders, particles.h);
+  task.contacts.push_back(contact);
+}
+
 void PairSystem::detect(Executor& executor, const PairParticles& particles) {
   contacts_.clear();
   measure_moves(executor, particles);
@@ -155,12 +163,13 @@ void PairSystem::project(const PairParticles& particles) {
     project_contact(contact, particles.positions, particles.remainders, particles.displacements);
 }
 
-void PairSystem::respond(const Record* positions, Record* velocities, FunctionRef<Vec3f(int body)> gravity) const {
+void PairSystem::respond(const Record* positions, Record* velocities, float slow,
+                         FunctionRef<Vec3f(int body)> gravity) const {
   for (const PairContact& contact : contacts_) {
     Vec3f missing{};
     for (int i = 0; i < 4; ++i)
       if (positions[contact.vertex[i]].w > 0) missing += gravity(model_.vertex_body[contact.vertex[i]]) * contact.weight[i];
-    respond_to_contact(contact, positions, velocities, missing);
+    respond_to_contact(contact, positions, velocities, {missing, slow});
   }
 }
 

@@ -51,6 +51,7 @@ std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& po
 /// What was done, for the Report.
 struct PairCounts {
   std::int64_t candidates = 0, contacts = 0, shortened = 0, hopeless = 0, tangled = 0, rebuilds = 0;
+  double deepest = 0;  ///< overlap that contacts of the last substep left [m]
 };
 
 class PairSystem {
@@ -68,7 +69,8 @@ class PairSystem {
   /// Shortens displacements so that nothing crosses.
   void filter(Executor& executor, const PairParticles& particles);
   /// After a substep. `gravity` is what velocities of a body's free particles lack: within a frame, that of the frame [m/s].
-  void respond(const Record* positions, Record* velocities, FunctionRef<Vec3f(int body)> gravity) const;
+  /// Approaches no faster than `slow` are rest [m/s].
+  void respond(const Record* positions, Record* velocities, float slow, FunctionRef<Vec3f(int body)> gravity) const;
 
   const PairCounts& counts() const { return counts_; }
   const std::vector<PairContact>& contacts() const { return contacts_; }
@@ -178,6 +180,8 @@ class PairSystem {
                const PairParticles& particles, Visit visit);
   void detect_pair(const Between& clusters, const PairStencil& pair, const PairBatch& at, int lane, float* rest, Task& task,
                    const PairParticles& particles);
+  static void add_contact(const PairStencil& four, const PairBatch& at, int lane, const PairMaterial& material,
+                          const PairParticles& particles, Task& task);
   void detect_bucket(Bucket& bucket, Task& task, const PairParticles& particles);
   void detect_surroundings(Surroundings& of, Task& task, const PairParticles& particles);
   void detect_block(const Surroundings& of, int block, Task& task, const PairParticles& particles);

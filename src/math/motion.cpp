@@ -10,11 +10,10 @@
 namespace pliant {
 namespace {
 
-/// The time within the keyframes that stands for `time`.
-double time_in_cycle(const Motion& motion, double time) {
-  const double first = motion.keyframes.front().time, last = motion.keyframes.back().time;
+/// The time from `first` to `last` that stands for `time`.
+double time_in_cycle(double first, double last, bool repeat, double time) {
   const double period = last - first;
-  if (!motion.repeat || !(period > 0) || !(time > last)) return time;
+  if (!repeat || !(period > 0) || !(time > last)) return time;
   return time - period * __builtin_floor((time - first) / period);
 }
 
@@ -36,10 +35,21 @@ Posed interpolated(const std::vector<Keyframe>& keys, double time) {
 
 Posed pose_at(const Motion& motion, double time) {
   if (motion.keyframes.empty()) return {};
-  Posed pose = interpolated(motion.keyframes, time_in_cycle(motion, time));
+  const double first = motion.keyframes.front().time, last = motion.keyframes.back().time;
+  Posed pose = interpolated(motion.keyframes, time_in_cycle(first, last, motion.repeat, time));
   const Vec3d pivot = convert<double>(motion.pivot);
   pose.position += pivot - rotate(pose.rotation, pivot);
   return pose;
+}
+
+TimePlace place_in(const std::vector<float>& times, bool repeat, double time) {
+  const double at = time_in_cycle(times.front(), times.back(), repeat, time);
+  const auto after = std::upper_bound(times.begin(), times.end(), at, [](double t, float one) { return t < double(one); });
+  const auto number = static_cast<std::size_t>(after - times.begin());
+  if (number == 0) return {};
+  if (number == times.size()) return {number - 1, number - 1, 0};
+  const double from = times[number - 1], to = times[number];  // from <= at < to
+  return {number - 1, number, (at - from) / (to - from)};
 }
 
 Quatf rotation(const Vec3f& axis, float degrees) {

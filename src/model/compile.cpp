@@ -290,6 +290,34 @@ CompiledObject compile(const Object& object, const CompileOptions& options) {
   return out;
 }
 
+namespace {
+
+std::vector<Vec3f> in_storage_order(const std::vector<Vec3f>& places, const CompiledObject& object) {
+  std::vector<Vec3f> out;
+  out.reserve(places.size());
+  for (const int user : object.order) out.push_back(places[static_cast<std::size_t>(user)]);
+  return out;
+}
+
+/// It begins where it is at time 0.
+void fill_carrier(const MeshCollider& collider, CompiledObject& out) {
+  Carrier& carrier = out.carrier;
+  carrier.motion = collider.motion;
+  carrier.rest = in_storage_order(collider.mesh.positions, out);
+  carrier.repeat = collider.repeat_frames;
+  for (const MeshFrame& frame : collider.frames) {
+    carrier.times.push_back(frame.time);
+    carrier.frames.push_back(in_storage_order(frame.positions, out));
+  }
+  const CarrierPose start(carrier, 0);
+  for (int i = 0; carrier.moves() && i < out.particles; ++i) {
+    const Vec3f place = convert<float>(start.place(i));
+    out.positions[static_cast<std::size_t>(i)] = {place.x, place.y, place.z, 0};
+  }
+}
+
+}  // namespace
+
 CompiledObject compile(const MeshCollider& collider) {
   Object object;
   object.name = collider.name;
@@ -302,11 +330,11 @@ CompiledObject compile(const MeshCollider& collider) {
   object.collides = true;
   object.groups = collider.groups;
   object.mask = collider.mask;
+  object.restitution = collider.restitution;
   object.drag = object.lift = 0;
-  if (collider.motion.moves())
-    for (int i = 0; i < static_cast<int>(object.positions.size()); ++i) object.pins.push_back({i, collider.motion});
   CompiledObject out = compile(object, CompileOptions{});
   out.is_collider = true;
+  fill_carrier(collider, out);
   return out;
 }
 

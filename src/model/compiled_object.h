@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "model/carrier.h"
 #include "model/multigrid.h"
 #include "model/pool.h"
 #include "pliant/scene.h"
@@ -95,6 +96,7 @@ struct CompiledObject {
   Tethers tethers;
   Multigrid multigrid;
   std::vector<Kinematic> kinematics;  ///< those that move
+  Carrier carrier;                    ///< of a mesh collider: of all its particles
   Surface surface;
   std::vector<std::array<int, 2>> lines;  ///< distance constraints of an object without triangles, for contacts
   bool has_volume = false;

@@ -38,6 +38,7 @@ struct Model {
   Wind wind;
   std::vector<ForceField> forces;
   std::vector<Collider> colliders;
+  std::vector<PairProperties> pairs;
   std::vector<CompiledObject> objects;  ///< the user's, then one for each mesh collider
   int user_objects = 0;
   std::vector<int> first;  ///< first[o] is object o's first particle in a State; one more at the end

@@ -129,16 +129,29 @@ bool Frame::enter_tile(int task, bool finishes_first) {
   return true;
 }
 
+namespace {
+
+/// A particle whose place at the substep's end is given.
+void move_to(const Vec3d& target, int particle, const AdvanceArguments& a) {
+  const Record &x = a.positions[particle], &r = a.remainders[particle];
+  Record &d = a.displacements[particle], &v = a.velocities[particle];
+  d = {static_cast<float>(target.x - x.x), static_cast<float>(target.y - x.y), static_cast<float>(target.z - x.z), 0};
+  v = {(d.x - r.x) * a.inverse_h, (d.y - r.y) * a.inverse_h, (d.z - r.z) * a.inverse_h, 0};
+}
+
+}  // namespace
+
 /// Particles on keyframes go where they are to be at the substep's end.
 void Frame::move_kinematics(const CompiledObject& object, const AdvanceArguments& a) const {
+  if (object.carrier.moves()) {
+    const CarrierPose pose(object.carrier, time_after_);
+    for (int i = a.first; i < a.last; ++i) move_to(pose.place(i), i, a);
+  }
   auto kinematic = std::lower_bound(object.kinematics.begin(), object.kinematics.end(), a.first,
                                     [](const Kinematic& k, int first) { return k.particle < first; });
   for (; kinematic != object.kinematics.end() && kinematic->particle < a.last; ++kinematic) {
     const Vec3<double> target = to_world(pose_at(kinematic->motion, time_after_), convert<double>(kinematic->rest));
-    const Record &x = a.positions[kinematic->particle], &r = a.remainders[kinematic->particle];
-    Record &d = a.displacements[kinematic->particle], &v = a.velocities[kinematic->particle];
-    d = {static_cast<float>(target.x - x.x), static_cast<float>(target.y - x.y), static_cast<float>(target.z - x.z), 0};
-    v = {(d.x - r.x) * a.inverse_h, (d.y - r.y) * a.inverse_h, (d.z - r.z) * a.inverse_h, 0};
+    move_to(target, kinematic->particle, a);
   }
 }
 
@@ -172,7 +185,7 @@ void Frame::find_pairs() { work_.pairs->detect(executor_, all_particles()); }
 void Frame::sweep_pairs() { work_.pairs->project(all_particles()); }
 void Frame::filter_pairs() { work_.pairs->filter(executor_, all_particles()); }
 void Frame::respond_to_pairs(bool ends_frame) {
-  work_.pairs->respond(state_.positions.data(), state_.velocities.data(),
+  work_.pairs->respond(state_.positions.data(), state_.velocities.data(), 2 * length(model_.gravity) * h_,
                        [&](int object) { return ends_frame ? Vec3f{} : gravity_for(work_.gravity[object].settled); });
 }
 
@@ -273,7 +286,7 @@ void Frame::end() {
   }
   if (has_pairs()) {
     const PairCounts& c = work_.pairs->counts();
-    report_.pairs = {c.candidates, c.contacts, c.shortened, c.hopeless, c.tangled, c.rebuilds};
+    report_.pairs = {c.candidates, c.contacts, c.shortened, c.hopeless, c.tangled, c.rebuilds, 0, c.deepest};
     warn_of_pairs(model_, *work_.pairs, report_.warnings);
   }
   state_.time = start_ + dt_;

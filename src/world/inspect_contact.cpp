@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "collision/intersections.h"
+#include "model/carrier.h"
 #include "world/problems.h"
 
 namespace pliant {
@@ -72,8 +73,8 @@ void doubt_thickness(Problems& problems, const Object& object) {
   if (!object.self_collision && !object.collides) return;
   const double edge = median_edge(object), kept = 2 * static_cast<double>(object.thickness);
   if (edge == 0)
-    return problems.doubtful("", "has neither triangles nor links, so it can't touch what moves",
-                             "leave out self_collision and collides: particles alone meet primitive colliders only");
+    return problems.doubtful("", "has neither triangles nor links: its particles touch surfaces, but not one another",
+                             "leave out self_collision");
   if (kept > edge)
     problems.doubtful("thickness",
                       "is " + words(object.thickness) +
@@ -122,12 +123,26 @@ struct Surfaces {
   std::string local(int vertex) const { return std::to_string(vertex - parts[part_of(vertex)].first); }
 };
 
+std::vector<Vec3f> positions_at_start(const MeshCollider& collider) {
+  if (collider.frames.empty() && !collider.motion.moves()) return collider.mesh.positions;
+  Carrier carrier{collider.motion, collider.mesh.positions, {}, {}, collider.repeat_frames};
+  for (const MeshFrame& frame : collider.frames) {
+    carrier.times.push_back(frame.time);
+    carrier.frames.push_back(frame.positions);
+  }
+  const CarrierPose pose(carrier, 0);
+  std::vector<Vec3f> places;
+  for (std::size_t i = 0; i < carrier.rest.size(); ++i) places.push_back(convert<float>(pose.place(static_cast<int>(i))));
+  return places;
+}
+
 Surfaces surfaces_of(const Scene& scene) {
   Surfaces all;
   for (const Object& o : scene.objects)
     all.add({o.name, o.self_collision, o.collides, false, o.groups, o.mask, 0}, o.positions, o.triangles);
   for (const MeshCollider& c : scene.mesh_colliders)
-    all.add({c.name, false, true, true, c.groups, c.mask, 0}, c.mesh.positions, c.mesh.triangles);
+    if (c.as == MeshCollider::As::triangles)
+      all.add({c.name, false, true, true, c.groups, c.mask, 0}, positions_at_start(c), c.mesh.triangles);
   return all;
 }
 
@@ -165,12 +180,63 @@ void doubt_tangles(Problems& problems, const Scene& scene) {
 
 }  // namespace
 
+namespace {
+
+void check_frames(Problems& problems, const MeshCollider& collider) {
+  const std::size_t vertices = collider.mesh.positions.size();
+  for (std::size_t k = 0; k < collider.frames.size(); ++k) {
+    const MeshFrame& frame = collider.frames[k];
+    const std::string name = "frame " + std::to_string(k);
+    require_range(problems, name + ", time", frame.time, -largest_place, largest_place);
+    if (k > 0 && !(frame.time > collider.frames[k - 1].time))
+      problems.grave(name, "is at " + words(frame.time) + " s, not after the one before it", "sort frames by time");
+    if (frame.positions.size() != vertices)
+      problems.grave(name,
+                     "has " + counted(frame.positions.size(), "vertex position") + ", the mesh " + std::to_string(vertices),
+                     "give one for each vertex of the mesh, in its order");
+    Tally not_places;
+    for (std::size_t i = 0; i < frame.positions.size(); ++i)
+      if (!is_place(frame.positions[i])) not_places.add(static_cast<std::int64_t>(i));
+    problems.grave(not_places, name + ", vertex", "has a position that is not finite or more than 1e9 m away",
+                   "give finite coordinates in metres, near the origin");
+  }
+  if (!collider.frames.empty() && collider.as != MeshCollider::As::triangles)
+    problems.grave("frames", "deform what is met as a distance grid or a heightfield, which can't deform",
+                   "leave them out, or let it be met as triangles");
+}
+
+}  // namespace
+
 void check_mesh_collider(Problems& problems, const MeshCollider& collider) {
   check_mesh(problems, collider.mesh);
+  check_frames(problems, collider);
   check_motion(problems, "motion", collider.motion);
   require_range(problems, "thickness", collider.thickness, 0, largest_place);
-  check_friction(problems, collider.static_friction, collider.kinetic_friction, 0);
+  check_friction(problems, collider.static_friction, collider.kinetic_friction, collider.restitution);
   if (!is_finite(collider.colour)) problems.grave("colour", "is not finite", "give red, green and blue from 0 to 1");
+}
+
+void check_pairs(Problems& problems, const Scene& scene) {
+  const auto exists = [&](const std::string& name) {
+    const auto called = [&](const auto& one) { return one.name == name; };
+    return std::any_of(scene.objects.begin(), scene.objects.end(), called) ||
+           std::any_of(scene.mesh_colliders.begin(), scene.mesh_colliders.end(), called);
+  };
+  problems.at("");
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    const PairProperties& pair = scene.pairs[i];
+    const std::string name = "pair " + std::to_string(i);
+    for (const std::string& one : {pair.first, pair.second})
+      if (!exists(one))
+        problems.grave(name, "is of '" + one + "', which is no object or mesh collider", "use the name of one");
+    require_range(problems, name + ", thickness", pair.thickness.value_or(0), 0, largest_place);
+    require_range(problems, name + ", static_friction", pair.static_friction.value_or(0), 0, largest_place);
+    require_range(problems, name + ", kinetic_friction", pair.kinetic_friction.value_or(0), 0, largest_place);
+    require_range(problems, name + ", restitution", pair.restitution.value_or(0), 0, 1);
+    if (pair.static_friction && pair.kinetic_friction && *pair.kinetic_friction > *pair.static_friction)
+      problems.grave(name + ", kinetic_friction", "is larger than the static one",
+                     "nothing slides harder than it sticks: lower it");
+  }
 }
 
 void doubt_contact(Problems& problems, const Scene& scene) {

@@ -47,6 +47,10 @@ void check_settings(Problems& problems, const Scene& scene) {
   require_range(problems, "settings, iterations", settings.iterations, 1, 10000);
   require_range(problems, "settings, threads", settings.threads, 0, 1024);
   require_range(problems, "settings, tolerance", settings.tolerance, 0, largest_place);
+  require_range(problems, "settings, most_substeps", settings.most_substeps, 1, 10000);
+  if (!(settings.untangling_speed > 0 && settings.untangling_speed <= 1000))
+    problems.grave("settings, untangling_speed", "is " + words(settings.untangling_speed) + " m/s",
+                   "give one above 0, up to 1000");
   check_sweep(problems, settings);
   require_range(problems, "frames", scene.frames, 0, std::numeric_limits<int>::max());
   if (!(scene.frame_time > 0) || std::isinf(scene.frame_time))
@@ -172,6 +176,7 @@ void look_through(Problems& problems, const Scene& scene) {
     problems.at(collider.name);
     check_mesh_collider(problems, collider);
   }
+  check_pairs(problems, scene);
   const bool surroundings_are_sound = problems.grave_count() == 0;
   for (const Object& object : scene.objects) {
     problems.at(object.name);

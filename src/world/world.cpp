@@ -10,6 +10,7 @@
 #include "model/model.h"
 #include "parallel/executor.h"
 #include "pliant/error.h"
+#include "solver/divide.h"
 #include "solver/kernels.h"
 #include "solver/measure.h"
 #include "solver/step.h"
@@ -56,6 +57,7 @@ struct World::Implementation {
     model.wind = scene.wind;
     model.forces = scene.forces;
     model.colliders = scene.colliders;
+    model.pairs = scene.pairs;
     for (const Object& object : scene.objects) {
       CompileOptions options;
       options.passes = settings.substeps * settings.iterations * sweep_method(settings.sweep).passes;
@@ -111,6 +113,14 @@ struct World::Implementation {
     return out;
   }
 
+  /// Into how many substeps the next frame is divided.
+  int substeps_for(double dt, std::vector<std::string>& warnings) const {
+    if (pair_model == nullptr) return settings.substeps;
+    const double shortest = dt / shortest_substep;
+    const int most = shortest < settings.most_substeps ? static_cast<int>(shortest) : settings.most_substeps;
+    return divided_substeps(model, *pair_model, state, {state.time, dt, settings.substeps, most}, warnings);
+  }
+
   Lengths measured_lengths() const {
     Lengths measured;
     measure_lengths(model, state, workspace, last_h, measured);
@@ -161,9 +171,10 @@ Report World::step(float dt) {
     report.nonfinite = NonFinite{"", "the world stopped at an earlier step", report.frame, 0};
     return report;
   }
-  self_->last_h = static_cast<float>(double(dt) / self_->settings.substeps);
+  report.substeps = self_->substeps_for(dt, report.warnings);
+  self_->last_h = static_cast<float>(double(dt) / report.substeps);
   self_->stopped = true;  // unless the step comes to its end: a force field of the user's own may throw
-  pliant::step({self_->model, self_->state, self_->workspace, self_->executor, self_->kernels, self_->settings.substeps,
+  pliant::step({self_->model, self_->state, self_->workspace, self_->executor, self_->kernels, report.substeps,
                 self_->settings.iterations, self_->settings.sweep, self_->settings.sweep_options,
                 self_->settings.record_residuals, static_cast<double>(self_->settings.tolerance)},
                dt, report);

@@ -144,5 +144,25 @@ TEST(Motion, GivesSomePoseWhateverItsKeyframes) {
   }
 }
 
+TEST(Times, HoldAMomentBetweenTwo) {
+  const std::vector<float> times{1, 2, 4};
+  const auto expect = [&](bool repeat, double time, std::size_t before, std::size_t after, double share) {
+    const TimePlace at = place_in(times, repeat, time);
+    EXPECT_EQ(at.before, before) << time;
+    EXPECT_EQ(at.after, after) << time;
+    EXPECT_NEAR(at.share, share, 1e-12) << time;
+  };
+  expect(false, 0.5, 0, 0, 0);
+  expect(false, 1, 0, 1, 0);
+  expect(false, 1.25, 0, 1, 0.25);
+  expect(false, 3.5, 1, 2, 0.75);
+  expect(false, 4, 2, 2, 0);
+  expect(false, 9, 2, 2, 0);
+  expect(true, 0.5, 0, 0, 0);
+  expect(true, 4.25, 0, 1, 0.25);
+  expect(true, 9.5, 1, 2, 0.75);
+  EXPECT_EQ(place_in({3}, true, 17).after, 0u);
+}
+
 }  // namespace
 }  // namespace pliant

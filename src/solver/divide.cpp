@@ -1,0 +1,86 @@
+#include "solver/divide.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "math/vector.h"
+
+namespace pliant {
+
+namespace {
+
+/// A collider moves at most this share of a pair's thickness in a substep.
+constexpr double share_of_thickness = 0.5;
+
+bool come_near(const CarrierBox& a, const CarrierBox& b, double margin) {
+  const Vec3d apart = max(a.low - b.high, b.low - a.high);
+  return max(max(apart.x, apart.y), apart.z) <= margin;
+}
+
+CarrierBox joined(const CarrierBox& a, const CarrierBox& b) { return {min(a.low, b.low), max(a.high, b.high)}; }
+
+/// Of a collider in the frame: what it sweeps, and the most that it moves in one of the planned substeps [m].
+struct Swept {
+  CarrierBox box{};
+  double largest = 0;
+};
+
+Swept swept(const Carrier& carrier, const PlannedFrame& frame) {
+  Swept out{box_at(carrier, frame.start), 0};
+  for (int substep = 0; substep < frame.substeps; ++substep) {
+    const double from = frame.start + frame.dt * substep / frame.substeps,
+                 to = frame.start + frame.dt * (substep + 1) / frame.substeps;
+    out.box = joined(out.box, box_at(carrier, to));
+    out.largest = std::max(out.largest, largest_move(carrier, from, to));
+  }
+  return out;
+}
+
+/// Holds an object's particles on their way through the frame as velocities and gravity have it.
+CarrierBox foreseen(const Model& model, const State& state, int object, double dt) {
+  CarrierBox box{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
+  const Vec3d fall = convert<double>(model.gravity) * (dt * dt);
+  for (int i = model.first[object]; i < model.first[object + 1]; ++i) {
+    const Record &x = state.positions[static_cast<std::size_t>(i)], &v = state.velocities[static_cast<std::size_t>(i)];
+    const Vec3d from{x.x, x.y, x.z}, to = from + Vec3d{v.x, v.y, v.z} * dt + (x.w > 0 ? fall : Vec3d{});
+    box = joined(box, {min(from, to), max(from, to)});
+  }
+  return box;
+}
+
+std::string too_fast(const CompiledObject& collider, const CompiledObject& object, double move, double thickness,
+                     int substeps) {
+  char text[160];
+  std::snprintf(text, sizeof text, "moves %.3g m in a substep, %d of them in this frame, and keeps %.3g m from object '",
+                move, substeps, thickness);
+  return "collider '" + collider.name + "': " + text + object.name +
+         "': it may pass through; give a greater thickness or more of the setting most_substeps";
+}
+
+}  // namespace
+
+int divided_substeps(const Model& model, const PairModel& pairs, const State& state, const PlannedFrame& frame,
+                     std::vector<std::string>& warnings) {
+  const int most = std::max(frame.substeps, frame.most_substeps);
+  int substeps = frame.substeps;
+  for (int c = model.user_objects; c < static_cast<int>(model.objects.size()); ++c) {
+    const CompiledObject& collider = model.objects[c];
+    if (!collider.carrier.moves()) continue;
+    const Swept sweep = swept(collider.carrier, frame);
+    for (int o = 0; o < model.user_objects; ++o) {
+      const std::size_t at = static_cast<std::size_t>(c) * pairs.bodies + o;
+      const double thickness = pairs.materials[at].thickness, allowed = share_of_thickness * thickness;
+      if (pairs.meets[at] == 0 || !(allowed > 0) || !(sweep.largest > allowed)) continue;
+      const double margin = thickness + sweep.largest * frame.substeps * 0.1;
+      if (!come_near(sweep.box, foreseen(model, state, o, frame.dt), margin)) continue;
+      const double wanted = std::ceil(frame.substeps * (sweep.largest / allowed));
+      substeps = std::max(substeps, wanted < most ? static_cast<int>(wanted) : most);
+      if (wanted > most)
+        warnings.push_back(too_fast(collider, model.objects[o], sweep.largest * frame.substeps / most, thickness, most));
+    }
+  }
+  return substeps;
+}
+
+}  // namespace pliant
