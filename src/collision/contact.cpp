@@ -1,6 +1,7 @@
 #include "collision/contact.h"
 
 #include "constraints/plane_contact.h"
+#include "math/motion.h"
 
 namespace pliant {
 
@@ -27,42 +28,90 @@ struct SurfacePlane {
   float offset = 0;
 };
 
+/// A path that meets a solid ends no farther from it than it is long; ground is measured along its columns, which may end anywhere.
+bool may_meet(const LocalShape&, const SurfaceDistance<float>& end, float thickness, float path) {
+  return end.distance < thickness + path;
+}
+bool may_meet(const SolidField&, const SurfaceDistance<float>&, float, float) { return true; }
+
+SurfaceDistance<float> signed_distance(const SolidField& field, const Vec3f& p) { return field.distance(p); }
+FirstHit<float> first_hit(const SolidField& field, const Vec3f& a, const Vec3f& b, float margin) {
+  return field.first_hit(a, b, margin);
+}
+
 /// The plane for a particle on its way from a to b, in the collider's frame. Continuous where the path is long: the surface
 /// where it enters, or where it begins if that is within the thickness or inside, since the side that a particle is on is
 /// the side it stays on. Else static: the closest point of the surface.
-SurfacePlane surface_plane(const LocalShape& shape, const Vec3f& a, const Vec3f& b, float thickness, float h) {
-  const SurfaceDistance<float> end = signed_distance(shape, b);
+template <class Solid>
+SurfacePlane surface_plane(const Solid& solid, const Vec3f& a, const Vec3f& b, float thickness, float h) {
+  const SurfaceDistance<float> end = signed_distance(solid, b);
   const float path = length(b - a);
-  if (!(end.distance < thickness + path)) return {};  // a path that meets the shape ends no farther from it than it is long
+  if (!may_meet(solid, end, thickness, path)) return {};
   // From inside, out no faster than the cap; from outside, this is the thickness itself.
   const auto kept = [&](float start) { return min(thickness, start + largest_separation_speed * h); };
   if (path > 0.25f * thickness) {
-    const FirstHit<float> hit = first_hit(shape, a, b, 0.5f * thickness);
+    const FirstHit<float> hit = first_hit(solid, a, b, 0.5f * thickness);
     if (hit.hit) {
       const float height = hit.t > 0 ? thickness : kept(hit.distance);
       return {true, hit.normal, hit.point - hit.normal * hit.distance, dot(hit.normal, hit.point) - hit.distance + height};
     }
   }
-  const float height = kept(signed_distance(shape, a).distance);
+  if (!(end.distance < thickness + path)) return {};
+  const float height = kept(signed_distance(solid, a).distance);
   return {true, end.normal, b - end.normal * end.distance, dot(end.normal, b) - end.distance + height};
 }
 
 }  // namespace
 
+namespace {
+
+/// A box in a pose, grown.
+BoundingBox<float> bounding_box(const SolidField& field, const Pose<float>& pose, float margin) {
+  const BoxBounds box = field.bounds();
+  Vec3f low{3e38f, 3e38f, 3e38f}, high{-3e38f, -3e38f, -3e38f};
+  for (int i = 0; i < 8; ++i) {
+    const Vec3f corner = to_world(pose, Vec3f{(i & 1) != 0 ? box.high.x : box.low.x, (i & 2) != 0 ? box.high.y : box.low.y,
+                                              (i & 4) != 0 ? box.high.z : box.low.z});
+    low = min(low, corner);
+    high = max(high, corner);
+  }
+  const float grown = margin + 1e-6f * (largest(low) + largest(high));
+  return {low - Vec3f{grown, grown, grown}, high + Vec3f{grown, grown, grown}};
+}
+
+template <class Motion, class From>
+void move(const From& from, const Motion& pose_at_time, double time_before, double time_after, MovingCollider& to) {
+  to.before = convert<float>(pose_at_time(time_before));
+  to.moves = from.motion.moves();
+  to.after = to.moves ? convert<float>(pose_at_time(time_after)) : to.before;
+  to.thickness = from.thickness;
+  to.static_friction = from.static_friction;
+  to.kinetic_friction = from.kinetic_friction;
+  to.restitution = from.restitution;
+}
+
+}  // namespace
+
 void move_colliders(const Model& model, double time_before, double time_after, std::vector<MovingCollider>& colliders) {
-  colliders.resize(model.colliders.size());
-  for (std::size_t i = 0; i < colliders.size(); ++i) {
-    const Collider& from = model.colliders[i];
-    MovingCollider& to = colliders[i];
-    to.shape = local_shape(from.shape);
-    to.before = convert<float>(collider_pose(from, time_before));
-    to.moves = from.motion.moves();
-    to.after = to.moves ? convert<float>(collider_pose(from, time_after)) : to.before;
-    to.thickness = from.thickness;
-    to.static_friction = from.static_friction;
-    to.kinetic_friction = from.kinetic_friction;
-    to.restitution = from.restitution;
-    to.swept = merge(bounding_box(to.shape, to.before, to.thickness), bounding_box(to.shape, to.after, to.thickness));
+  colliders.resize(model.colliders.size() + model.fields.size());
+  MovingCollider* to = colliders.data();
+  for (const Collider& from : model.colliders) {
+    to->shape = local_shape(from.shape);
+    move(
+        from, [&](double time) { return collider_pose(from, time); }, time_before, time_after, *to);
+    to->swept =
+        merge(bounding_box(to->shape, to->before, to->thickness), bounding_box(to->shape, to->after, to->thickness));
+    ++to;
+  }
+  for (const FieldCollider& from : model.fields) {
+    to->field = from.field.get();
+    to->groups = from.groups;
+    to->mask = from.mask;
+    move(
+        from, [&](double time) { return pose_at(from.motion, time); }, time_before, time_after, *to);
+    to->swept =
+        merge(bounding_box(*to->field, to->before, to->thickness), bounding_box(*to->field, to->after, to->thickness));
+    ++to;
   }
 }
 
@@ -77,7 +126,8 @@ void find_contact(const ContactSearch& search, int i, int number, float thicknes
   const Vec3f position{x.x, x.y, x.z};
   const Vec3f to = to_local(collider.after, position + Vec3f{d.x, d.y, d.z});
   const Vec3f from = to_local(collider.before, position);
-  const SurfacePlane plane = surface_plane(collider.shape, from, to, thickness, a.h);
+  const SurfacePlane plane = collider.field != nullptr ? surface_plane(*collider.field, from, to, thickness, a.h)
+                                                       : surface_plane(collider.shape, from, to, thickness, a.h);
   if (!plane.found) return;
   Contact contact;
   contact.particle = i;
@@ -102,7 +152,7 @@ int find_near(const ContactSearch& search, const MovingCollider& collider, float
               std::vector<std::int32_t>& near) {
   const AdvanceArguments& a = search.particles;
   near.resize(a.last - a.first + batch_width);
-  if (collider.moves) {
+  if (collider.moves || collider.field != nullptr) {
     for (int i = a.first; i < a.last; ++i) near[i - a.first] = i;
     return a.last - a.first;
   }
@@ -116,10 +166,20 @@ int find_near(const ContactSearch& search, const MovingCollider& collider, float
 
 }  // namespace
 
+namespace {
+
+/// Primitives are met by everything.
+bool meet(const CompiledObject& object, const MovingCollider& collider) {
+  if (object.is_collider) return false;
+  return collider.field == nullptr || ((object.groups & collider.mask) != 0 && (collider.groups & object.mask) != 0);
+}
+
+}  // namespace
+
 void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near, std::vector<Contact>& contacts) {
   for (int c = 0; c < static_cast<int>(search.colliders.size()); ++c) {
     const MovingCollider& collider = search.colliders[c];
-    if (!overlap(search.bounds, collider.swept, search.object.thickness)) continue;
+    if (!overlap(search.bounds, collider.swept, search.object.thickness) || !meet(search.object, collider)) continue;
     const float thickness = search.object.thickness + collider.thickness;
     const int count = find_near(search, collider, thickness, near);
     for (int k = 0; k < count; ++k) find_contact(search, near[k], c, thickness, contacts);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "collision/collider_pose.h"
+#include "collision/solid_field.h"
 #include "geometry/shapes.h"
 #include "model/model.h"
 #include "model/substep.h"
@@ -17,6 +18,8 @@ namespace pliant {
 /// A collider during one substep.
 struct MovingCollider {
   LocalShape shape;
+  const SolidField* field = nullptr;  ///< in place of the shape
+  std::uint32_t groups = 1, mask = ~0u;
   Pose<float> before, after;  ///< at the substep's start and end
   bool moves = false;
   BoundingBox<float> swept{};  ///< holds the shape and its thickness at both

@@ -1,6 +1,7 @@
 // Cells by division, one to each side more than that says, so that rounding leaves none out; triangles decide by their boxes.
 #include "collision/heightfield.h"
 
+#include <algorithm>
 #include <string>
 
 #include "pliant/error.h"
@@ -30,6 +31,55 @@ Heightfield::Heightfield(int columns, int rows, float cell_width, float cell_dep
   for (std::size_t i = 0; i < heights_.size(); ++i)
     if (!(abs(heights_[i]) < 1e15f))
       throw Error(Location{.element = "height " + std::to_string(i)}, "it is not finite", "give heights in metres");
+  bounds_ = {vertex(0, 0), vertex(rows_ - 1, columns_ - 1)};
+  for (const float height : heights_) {
+    bounds_.low.y = min(bounds_.low.y, origin_.y + height);
+    bounds_.high.y = max(bounds_.high.y, origin_.y + height);
+  }
+}
+
+bool Heightfield::column(const Vec3f& p, Vec3f& corner, Vec3f& normal) const {
+  const float across = (p.x - origin_.x) / width_, along = (p.z - origin_.z) / depth_;
+  if (!(across >= 0 && along >= 0 && across <= static_cast<float>(columns_ - 1) && along <= static_cast<float>(rows_ - 1)))
+    return false;
+  const int c = std::min(static_cast<int>(across), columns_ - 2), r = std::min(static_cast<int>(along), rows_ - 2);
+  const bool second = across - static_cast<float>(c) > along - static_cast<float>(r);
+  Vec3f t[3];
+  corners(2 * (r * (columns_ - 1) + c) + (second ? 1 : 0), t);
+  corner = t[0];
+  normal = convert<float>(triangle_normal(convert<double>(t[0]), convert<double>(t[1]), convert<double>(t[2])));
+  return true;
+}
+
+namespace {
+
+[[noreturn]] void fail_not_even(std::size_t vertex) {
+  throw Error(Location{.element = "vertex " + std::to_string(vertex)}, "it does not continue rows of evenly spaced heights",
+              "give a grid with rows along z and columns along x, not turned, or let the mesh be met as triangles");
+}
+
+}  // namespace
+
+Heightfield heightfield_of(const TriangleMesh& mesh) {
+  const std::vector<Vec3f>& p = mesh.positions;
+  if (p.size() < 4) fail_not_even(0);
+  std::size_t columns = 1;
+  while (columns < p.size() && p[columns].x > p[columns - 1].x) ++columns;
+  const std::size_t rows = p.size() / columns;
+  if (columns < 2 || rows < 2 || rows * columns != p.size()) fail_not_even(columns);
+  const float width = (p[columns - 1].x - p[0].x) / static_cast<float>(columns - 1),
+              depth = (p.back().z - p[0].z) / static_cast<float>(rows - 1), slack = 1e-3f * min(width, depth);
+  std::vector<float> heights;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vec3f even{p[0].x + width * static_cast<float>(i % columns), p[i].y,
+                     p[0].z + depth * static_cast<float>(i / columns)};
+    if (!(largest(p[i] - even) <= slack)) fail_not_even(i);
+    heights.push_back(p[i].y);
+  }
+  if (mesh.triangles.size() != 2 * (columns - 1) * (rows - 1))
+    throw Error({}, "its " + std::to_string(mesh.triangles.size()) + " triangles do not cover a grid",
+                "give two for each cell, or let the mesh be met as triangles");
+  return {static_cast<int>(columns), static_cast<int>(rows), width, depth, {p[0].x, 0, p[0].z}, std::move(heights)};
 }
 
 Vec3f Heightfield::vertex(int row, int column) const {

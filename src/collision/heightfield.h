@@ -35,6 +35,11 @@ class Heightfield {
   /// The closest point nearer than `limit` [m]; of equally near ones that of the first triangle. Looks at all cells within.
   GroundPoint closest(const Vec3f& p, float limit) const;
 
+  /// The triangle above or below p: whether there is one, a corner of it and its upward normal.
+  bool column(const Vec3f& p, Vec3f& corner, Vec3f& normal) const;
+
+  const BoxBounds& bounds() const { return bounds_; }
+  float smaller_cell() const { return width_ < depth_ ? width_ : depth_; }
   int triangle_count() const { return 2 * (columns_ - 1) * (rows_ - 1); }
   /// The same ground as a mesh.
   TriangleMesh mesh() const;
@@ -50,7 +55,12 @@ class Heightfield {
   float width_, depth_;
   Vec3f origin_;
   std::vector<float> heights_;
+  BoxBounds bounds_;
 };
+
+/// The ground that a mesh numbered like grid_mesh's is: rows along z, evenly spaced columns along x. Throws Error naming the vertex that
+/// is not in its place.
+Heightfield heightfield_of(const TriangleMesh& mesh);
 
 template <class Visit>
 void Heightfield::query(const BoxBounds& box, const Visit& visit) const {

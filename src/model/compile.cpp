@@ -328,8 +328,9 @@ CompiledObject compile(const MeshCollider& collider) {
   object.static_friction = collider.static_friction;
   object.kinetic_friction = collider.kinetic_friction;
   object.collides = true;
-  object.groups = collider.groups;
-  object.mask = collider.mask;
+  const bool meets = collider.as == MeshCollider::As::triangles;  // else particles alone do, elsewhere
+  object.groups = meets ? collider.groups : 0;
+  object.mask = meets ? collider.mask : 0;
   object.restitution = collider.restitution;
   object.drag = object.lift = 0;
   CompiledObject out = compile(object, CompileOptions{});

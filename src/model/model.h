@@ -2,6 +2,7 @@
 // list of tasks over all objects. It changes only when objects come or go.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,11 +34,22 @@ struct ChainPhase {
   int steps = 0;
 };
 
+class SolidField;
+
+/// A mesh collider that particles meet as a distance grid or as ground.
+struct FieldCollider {
+  std::shared_ptr<const SolidField> field;
+  Motion motion;
+  float thickness = 0, static_friction = 0, kinetic_friction = 0, restitution = 0;
+  std::uint32_t groups = 1, mask = ~0u;
+};
+
 struct Model {
   Vec3f gravity{};
   Wind wind;
   std::vector<ForceField> forces;
   std::vector<Collider> colliders;
+  std::vector<FieldCollider> fields;
   std::vector<PairProperties> pairs;
   std::vector<CompiledObject> objects;  ///< the user's, then one for each mesh collider
   int user_objects = 0;

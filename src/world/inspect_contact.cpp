@@ -10,7 +10,9 @@
 
 #include "collision/intersections.h"
 #include "model/carrier.h"
+#include "pliant/error.h"
 #include "world/problems.h"
+#include "world/solid_fields.h"
 
 namespace pliant {
 
@@ -205,11 +207,23 @@ void check_frames(Problems& problems, const MeshCollider& collider) {
                    "leave them out, or let it be met as triangles");
 }
 
+/// A mesh that is otherwise sound.
+void check_solid(Problems& problems, const MeshCollider& collider) {
+  require_range(problems, "grid_spacing", collider.grid_spacing, 0, largest_place);
+  if (collider.as == MeshCollider::As::triangles || problems.grave_count() > 0) return;
+  try {
+    require_solid(collider);
+  } catch (const Error& error) {
+    problems.grave(error.where().element.empty() ? "mesh" : error.where().element, error.problem(), error.advice());
+  }
+}
+
 }  // namespace
 
 void check_mesh_collider(Problems& problems, const MeshCollider& collider) {
   check_mesh(problems, collider.mesh);
   check_frames(problems, collider);
+  check_solid(problems, collider);
   check_motion(problems, "motion", collider.motion);
   require_range(problems, "thickness", collider.thickness, 0, largest_place);
   check_friction(problems, collider.static_friction, collider.kinetic_friction, collider.restitution);

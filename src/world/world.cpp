@@ -20,6 +20,7 @@
 #include "world/advice_settings.h"
 #include "world/inspect_scene.h"
 #include "world/sha256.h"
+#include "world/solid_fields.h"
 
 namespace pliant {
 
@@ -71,7 +72,7 @@ struct World::Implementation {
       model.add(compile(object, options));
     }
     model.user_objects = static_cast<int>(model.objects.size());
-    for (const MeshCollider& collider : scene.mesh_colliders) model.add(compile(collider));
+    for (const MeshCollider& collider : scene.mesh_colliders) add(collider);
     if (model.first.empty()) model.first.push_back(0);
     state = initial_state(model);
     pair_model = make_pair_model(model, state.positions);
@@ -83,6 +84,13 @@ struct World::Implementation {
     prepare_sweep(model, settings, workspace);
     prepare_chains(model, executor.threads(), workspace);
     if (settings.tolerance > 0) prepare_residual(model, workspace.residual);
+  }
+
+  void add(const MeshCollider& collider) {
+    model.add(compile(collider));
+    if (collider.as == MeshCollider::As::triangles) return;
+    model.fields.push_back({solid_field_of(collider), collider.motion, collider.thickness, collider.static_friction,
+                            collider.kinetic_friction, collider.restitution, collider.groups, collider.mask});
   }
 
   const CompiledObject& object(int index) const {
