@@ -34,7 +34,8 @@ Json residuals_json(const World& world) {
 
 Json pairs_json(const PairReport& pairs) {
   return {{"candidates", pairs.candidates}, {"contacts", pairs.contacts}, {"tangled", pairs.tangled},
-          {"shortened", pairs.shortened},   {"hopeless", pairs.hopeless}, {"lists", pairs.lists}};
+          {"shortened", pairs.shortened},   {"hopeless", pairs.hopeless}, {"lists", pairs.lists},
+          {"inside", pairs.inside},         {"deepest", pairs.deepest}};
 }
 
 /// What belongs to a moment is the last frame's, what is counted is counted over the run.
@@ -42,6 +43,8 @@ void add_pairs(PairReport& sum, const PairReport& frame) {
   sum.candidates = frame.candidates;
   sum.contacts = frame.contacts;
   sum.tangled = frame.tangled;
+  sum.inside = frame.inside;
+  sum.deepest = frame.deepest;
   sum.shortened += frame.shortened;
   sum.hopeless += frame.hopeless;
   sum.lists += frame.lists;

@@ -28,6 +28,7 @@ PairSystem::PairSystem(const PairModel& model, std::string_view isa)
   travel_.resize(clusters);
   cluster_boxes_.resize(clusters);
   share_.assign(model.rest.size(), 1.f);
+  if (model.untangling_speed > 0) untangler_ = std::make_unique<Untangler>(model);
 }
 
 // ---------------------------------------------------------------- moves

@@ -178,13 +178,18 @@ void PairSystem::exempt_tangled() {
 
 void PairSystem::begin_frame(const Record* positions, bool anew) {
   const std::int64_t candidates = counts_.candidates, tangled = counts_.tangled, hopeless = counts_.hopeless;
+  const bool untangles = untangler_ && untangler_->is_busy();
   counts_ = {};
   counts_.candidates = candidates;
   counts_.tangled = tangled;
   // Clean pairs stay clean, unless nothing kept them: what has crossed is then exempt, as it would be in a state put back.
   const bool kept_apart = model_.filter && hopeless == 0;
-  if (!anew && tangles_.empty() && kept_apart) return;
+  if (!anew && tangles_.empty() && kept_apart && !untangles) return;
   find_tangles(positions);
+  if (untangler_) {
+    untangler_->begin_frame(positions, tangles_);
+    counts_.inside = untangler_->inside();
+  }
   if (anew) listed_ = false;
 }
 

@@ -12,7 +12,7 @@ namespace pliant {
 /// Particles of a model in a substep.
 struct PairParticles {
   const Record* positions = nullptr;
-  const Record* remainders = nullptr;
+  Record* remainders = nullptr;
   Record* displacements = nullptr;
   float h = 0;
 };

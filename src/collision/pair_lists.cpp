@@ -85,7 +85,17 @@ float PairSystem::moves(const Between& clusters, const PairStencil& pair, const 
   return of_side[0] + of_side[1] + neighbours_[clusters.neighbours].apart;
 }
 
+/// Whether one side of a pair is lost in the body of the other.
+bool PairSystem::is_lost(const PairStencil& pair) const {
+  if (!untangler_ || !untangler_->is_busy()) return false;
+  const int first = model_.vertex_body[pair.vertex[0]], second = model_.vertex_body[pair.vertex[pair.first_side]];
+  bool lost = false;
+  for (int i = 0; i < 4; ++i) lost = lost || untangler_->is_lost(pair.vertex[i], i < pair.first_side ? second : first);
+  return lost;
+}
+
 bool PairSystem::is_tangled(const PairStencil& pair) const {
+  if (is_lost(pair)) return true;
   if (tangled_.empty()) return false;
   const auto& v = pair.vertex;
   return std::binary_search(tangled_.begin(), tangled_.end(),

@@ -124,6 +124,7 @@ std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& po
   const int bodies = out->bodies = static_cast<int>(model.objects.size());
   out->meets.assign(static_cast<std::size_t>(bodies) * bodies, 0);
   out->materials.resize(out->meets.size());
+  for (const CompiledObject& object : model.objects) out->immovable.push_back(is_immovable(object) ? 1 : 0);
   std::vector<char> meets_some(bodies, 0);
   for (int a = 0; a < bodies; ++a) {
     for (int b = 0; b < bodies; ++b) {

@@ -138,6 +138,7 @@ void PairSystem::add_contact(const PairStencil& four, const PairBatch& at, int l
 
 void PairSystem::detect(Executor& executor, const PairParticles& particles) {
   contacts_.clear();
+  if (untangler_) untangler_->push(model_.untangling_speed * particles.h, particles.displacements, particles.remainders);
   measure_moves(executor, particles);
   if (!is_bounded_) return;  // the end of the substep says so
   bring_up_to_date(executor, particles);

@@ -24,6 +24,7 @@
 #include "collision/intersections.h"
 #include "collision/pair_kernels.h"
 #include "collision/plane_filter.h"
+#include "collision/untangle.h"
 #include "model/model.h"
 #include "parallel/executor.h"
 
@@ -43,6 +44,8 @@ struct PairModel {
   float radius = 0;             ///< within which candidates are looked for [m]
   float largest_thickness = 0;  ///< [m]
   bool filter = true;
+  std::vector<char> immovable;  ///< of each body
+  float untangling_speed = 0;   ///< at which what passes through at the beginning is drawn apart; 0: it is left [m/s]
 };
 
 /// Nothing where no two things meet.
@@ -50,7 +53,7 @@ std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& po
 
 /// What was done, for the Report.
 struct PairCounts {
-  std::int64_t candidates = 0, contacts = 0, shortened = 0, hopeless = 0, tangled = 0, rebuilds = 0;
+  std::int64_t candidates = 0, contacts = 0, shortened = 0, hopeless = 0, tangled = 0, rebuilds = 0, inside = 0;
   double deepest = 0;  ///< overlap that contacts of the last substep left [m]
 };
 
@@ -194,8 +197,10 @@ class PairSystem {
   void keep_apart(Executor& executor, const PairParticles& particles);
   void find_tangles(const Record* positions);
   void exempt_tangled();
+  bool is_lost(const PairStencil& pair) const;
 
   const PairModel& model_;
+  std::unique_ptr<Untangler> untangler_;  ///< where the model says so
   const PairKernels& kernels_;
   IntersectionFinder intersections_;
 

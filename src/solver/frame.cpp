@@ -286,7 +286,7 @@ void Frame::end() {
   }
   if (has_pairs()) {
     const PairCounts& c = work_.pairs->counts();
-    report_.pairs = {c.candidates, c.contacts, c.shortened, c.hopeless, c.tangled, c.rebuilds, 0, c.deepest};
+    report_.pairs = {c.candidates, c.contacts, c.shortened, c.hopeless, c.tangled, c.rebuilds, c.inside, c.deepest};
     warn_of_pairs(model_, *work_.pairs, report_.warnings);
   }
   state_.time = start_ + dt_;

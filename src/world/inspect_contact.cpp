@@ -156,7 +156,8 @@ bool any_meet(const Surfaces& all) {
   return false;
 }
 
-void doubt_tangles(Problems& problems, const Scene& scene) {
+void name_tangles(Problems& problems, const Scene& scene) {
+  const Settings::Intersections what = scene.settings.initial_intersections;
   const Surfaces all = surfaces_of(scene);
   if (all.triangles.empty() || !any_meet(all)) return;
   IntersectionFinder finder(all.triangles, static_cast<int>(all.positions.size()));
@@ -172,11 +173,16 @@ void doubt_tangles(Problems& problems, const Scene& scene) {
     const Triangle& t = all.triangles[static_cast<std::size_t>(first.triangle)];
     const int a = all.part_of(first.a), b = all.part_of(t[0]);
     problems.at(all.parts[a].name);
-    problems.doubtful("edge " + all.local(first.a) + "-" + all.local(first.b),
-                      "passes through triangle (" + all.local(t[0]) + ", " + all.local(t[1]) + ", " + all.local(t[2]) +
-                          ") of " + (a == b ? "the same object" : all.name(b)) + " at the start, one of " +
-                          counted(found.second, "crossing"),
-                      "contact leaves them out until they are apart: move one of them, or mend the mesh");
+    const std::string edge = "edge " + all.local(first.a) + "-" + all.local(first.b);
+    const std::string problem = "passes through triangle (" + all.local(t[0]) + ", " + all.local(t[1]) + ", " +
+                                all.local(t[2]) + ") of " + (a == b ? "the same object" : all.name(b)) +
+                                " at the start, one of " + counted(found.second, "crossing");
+    if (what == Settings::Intersections::refuse)
+      problems.grave(edge, problem, "move one of them or mend the mesh, or have initial_intersections untangled or left");
+    else if (what == Settings::Intersections::untangle)
+      problems.doubtful(edge, problem, "they will be drawn apart at untangling_speed");
+    else
+      problems.doubtful(edge, problem, "contact leaves them out until they are apart: move one of them, or mend the mesh");
   }
 }
 
@@ -258,7 +264,12 @@ void doubt_contact(Problems& problems, const Scene& scene) {
     problems.at(object.name);
     doubt_thickness(problems, object);
   }
-  doubt_tangles(problems, scene);
+  if (scene.settings.initial_intersections != Settings::Intersections::refuse) name_tangles(problems, scene);
+  problems.at("");
+}
+
+void refuse_tangles(Problems& problems, const Scene& scene) {
+  if (scene.settings.initial_intersections == Settings::Intersections::refuse) name_tangles(problems, scene);
   problems.at("");
 }
 

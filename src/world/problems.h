@@ -79,6 +79,8 @@ void doubt_object(Problems& problems, const Object& object, const Scene& scene);
 void check_mesh_collider(Problems& problems, const MeshCollider& collider);
 /// Everything about the scene's pairs that a World would refuse.
 void check_pairs(Problems& problems, const Scene& scene);
+/// Where surfaces may not pass through one another at the start, that they do: for a scene that nothing is grave in.
+void refuse_tangles(Problems& problems, const Scene& scene);
 /// What else is worth knowing about contact among what moves, in a scene that nothing is grave in.
 void doubt_contact(Problems& problems, const Scene& scene);
 

@@ -78,6 +78,8 @@ struct World::Implementation {
     pair_model = make_pair_model(model, state.positions);
     if (pair_model != nullptr) {
       pair_model->filter = settings.contact_filter;
+      if (settings.initial_intersections == Settings::Intersections::untangle)
+        pair_model->untangling_speed = settings.untangling_speed;
       workspace.pairs = std::make_unique<PairSystem>(*pair_model, kernels.isa);
     }
     prepare(model, kept_multipliers(settings), workspace);

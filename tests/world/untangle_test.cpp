@@ -1,0 +1,159 @@
+// What passes through at the beginning: drawn apart at a capped speed, left, or refused.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "collision/intersections.h"
+#include "math/vector.h"
+#include "pliant/error.h"
+#include "world/world_support.h"
+
+namespace pliant {
+namespace {
+
+using namespace testing_support;
+using Intersections = Settings::Intersections;
+
+Object cloth(const TriangleMesh& mesh, const std::string& name) {
+  ClothOptions options;
+  options.material = fabric("cotton");
+  options.stretch = Stiffness::rigid();
+  Object object = make_cloth(mesh, options);
+  object.name = name;
+  object.thickness = 0.002f;
+  object.self_collision = object.collides = true;
+  return object;
+}
+
+/// A sheet that is held flat, and one that stands across it, most of it above.
+Scene crossed(Intersections what) {
+  Scene scene;
+  scene.gravity = {};
+  scene.settings = settings_of(10);
+  scene.settings.initial_intersections = what;
+  Object flat = cloth(grid_mesh(10, 10, 0.4f, 0.4f), "flat");
+  flat.masses.assign(100, std::numeric_limits<float>::infinity());
+  scene.add(flat);
+  TriangleMesh upright = grid_mesh(9, 9, 0.31f, 0.31f);
+  for (Vec3f& p : upright.positions) p = {p.x + 0.007f, p.z + 0.1f, 0.012f};
+  scene.add(cloth(upright, "upright"));
+  return scene;
+}
+
+/// A sheet through the middle of a ball of triangles.
+Scene pierced(Intersections what) {
+  Scene scene;
+  scene.gravity = {};
+  scene.settings = settings_of(10);
+  scene.settings.initial_intersections = what;
+  MeshCollider ball;
+  ball.name = "ball";
+  ball.mesh = sphere_mesh(2);
+  for (Vec3f& p : ball.mesh.positions) p = p * 0.1f + Vec3f{0, -0.02f, 0};
+  scene.add(ball);
+  Object sheet = cloth(grid_mesh(16, 16, 0.4f, 0.4f), "sheet");
+  scene.add(sheet);
+  return scene;
+}
+
+std::size_t crossings(const World& world, const Scene& scene) {
+  std::vector<Triangle> triangles;
+  std::vector<Vec3f> places;
+  const auto add = [&](const std::vector<std::array<int, 3>>& of, const std::vector<Vec3f>& at) {
+    const int first = static_cast<int>(places.size());
+    for (const auto& t : of) triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    places.insert(places.end(), at.begin(), at.end());
+  };
+  for (int o = 0; o < world.object_count(); ++o) add(world.mesh(o).triangles, world.positions(o));
+  for (std::size_t i = 0; i < scene.mesh_colliders.size(); ++i)
+    add(scene.mesh_colliders[i].mesh.triangles, world.mesh_collider_positions(static_cast<int>(i)));
+  return IntersectionFinder(triangles, static_cast<int>(places.size())).find(places).size();
+}
+
+/// How many crossings are left after some frames, and how fast anything moved on the way.
+std::size_t left_after(const Scene& scene, int frames, float& fastest) {
+  World world(scene);
+  EXPECT_GT(crossings(world, scene), 5U);
+  fastest = 0;
+  for (int frame = 0; frame < frames; ++frame) {
+    std::vector<std::vector<Vec3f>> before;
+    for (int o = 0; o < world.object_count(); ++o) before.push_back(world.positions(o));
+    const Report report = world.step(dt);
+    EXPECT_TRUE(report.ok()) << report.explain();
+    for (int o = 0; o < world.object_count(); ++o) {
+      const std::vector<Vec3f> after = world.positions(o);
+      for (std::size_t i = 0; i < after.size(); ++i)
+        fastest = std::max(fastest, length(after[i] - before[static_cast<std::size_t>(o)][i]) / dt);
+    }
+  }
+  return crossings(world, scene);
+}
+
+TEST(Untangle, DrawsPiecesBack) {
+  float fastest = 0;
+  EXPECT_EQ(left_after(crossed(Intersections::untangle), 60, fastest), 0U);
+  EXPECT_LT(fastest, 3.f);
+  EXPECT_GT(left_after(crossed(Intersections::leave), 60, fastest), 5U) << "nothing else draws them apart";
+}
+
+TEST(Untangle, BringsOutWhatIsInsideABody) {
+  float fastest = 0;
+  Scene scene = pierced(Intersections::untangle);
+  EXPECT_EQ(left_after(scene, 60, fastest), 0U);
+  EXPECT_LT(fastest, 6.f) << "it does not explode";
+  World world(scene);
+  EXPECT_GT(world.step(dt).pairs.inside, 20);
+  for (int frame = 0; frame < 60; ++frame) world.step(dt);
+  EXPECT_EQ(world.step(dt).pairs.inside, 0);
+  for (const Vec3f& p : world.positions(0)) EXPECT_GT(length(p - Vec3f{0, -0.02f, 0}), 0.09f);
+  EXPECT_GT(left_after(pierced(Intersections::leave), 60, fastest), 5U);
+}
+
+TEST(Untangle, KeepsToItsSpeed) {
+  Scene scene = pierced(Intersections::untangle);
+  scene.settings.untangling_speed = 0.05f;
+  World world(scene);
+  std::vector<Vec3f> before = world.positions(0);
+  world.step(dt);
+  const std::vector<Vec3f> after = world.positions(0);
+  float most = 0;
+  for (std::size_t i = 0; i < after.size(); ++i) most = std::max(most, length(after[i] - before[i]));
+  EXPECT_GT(most, 0.5f * 0.05f * dt);
+  EXPECT_LT(most, 3 * 0.05f * dt);
+}
+
+TEST(Untangle, GoesOnInTheSameBitsFromAState) {
+  const Scene scene = pierced(Intersections::untangle);
+  World world(scene), another(scene);
+  std::vector<State> states{world.state()};
+  for (int frame = 0; frame < 24; ++frame) {
+    world.step(dt);
+    states.push_back(world.state());
+  }
+  for (const std::size_t from : {3U, 11U}) {
+    another.restore(states[from]);
+    for (std::size_t frame = from + 1; frame <= from + 12; ++frame) {
+      another.step(dt);
+      ASSERT_EQ(another.state_hash(), hash(states[frame])) << "from frame " << from << ", frame " << frame;
+    }
+  }
+}
+
+TEST(Untangle, MayBeRefused) {
+  try {
+    World world(crossed(Intersections::refuse));
+    FAIL() << "was made";
+  } catch (const Error& error) {
+    const std::string said = error.what();
+    EXPECT_NE(said.find("passes through triangle"), std::string::npos) << said;
+    EXPECT_NE(said.find("initial_intersections"), std::string::npos) << said;
+  }
+  Scene apart = crossed(Intersections::refuse);
+  for (Vec3f& p : apart.objects[1].positions) p.y += 0.2f;
+  EXPECT_NO_THROW(World{apart});
+}
+
+}  // namespace
+}  // namespace pliant
