@@ -52,6 +52,7 @@ const std::vector<Group>& groups() {
       {"momentum", "what internal constraints must not change; their gradients"},
       {"pendulum", "period against amplitude, energy"},
       {"contact", "incline, stopping distance, bounce"},
+      {"collision", "pairs, continuous tests, surfaces on surfaces, with the filter and without"},
       {"stiffness", "one rest shape whatever the iterations, the time step and the mesh"},
       {"balloon", "volume against pressure"},
       {"steadiness", "the inextensible cloth hung by two corners stays bounded"},

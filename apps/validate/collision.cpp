@@ -1,0 +1,269 @@
+// Collision: pair sets against brute force, continuous tests on queries whose answer is known by construction, and what a World
+// promises of surfaces, with the filter and without.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "apps/validate/rows.h"
+#include "collision/intersections.h"
+#include "collision/spatial_hash.h"
+#include "collision/tree.h"
+#include "geometry/continuous.h"
+
+namespace pliant::validate {
+namespace {
+
+constexpr double pi = 3.14159265358979323846, g = 9.81;
+
+// ------------------------------------------------------------------------------------------------ broad phase
+
+using Pairs = std::vector<std::pair<int, int>>;
+
+struct Corners {
+  Vec3f at[3];
+};
+
+/// Triangles at random: far and near, flat ones, ones in a row with gaps of nothing, ones on the borders of cells.
+std::vector<Corners> scattered(Random& random, int kind) {
+  std::vector<Corners> triangles;
+  const double reach = kind == 0 ? 1 : kind == 1 ? 1e4 : 3, size = kind == 2 ? 1 : 0.4 * (kind == 1 ? 1e3 : 1);
+  for (int i = 0; i < 40; ++i) {
+    Vec3d middle = random.vector(reach);
+    if (kind == 3) middle = {std::floor(middle.x), std::floor(middle.y), std::floor(middle.z)};
+    Corners one;
+    for (Vec3f& corner : one.at) {
+      Vec3d p = middle + (kind == 3 ? Vec3d{std::floor(random.uniform(0, 2)), 0, std::floor(random.uniform(0, 2))}
+                                    : random.vector(size));
+      if (kind == 2) p.y = 0;
+      corner = convert<float>(p);
+    }
+    triangles.push_back(one);
+  }
+  return triangles;
+}
+
+template <class B>
+std::vector<B> bounds_of(const std::vector<Corners>& triangles) {
+  std::vector<B> bounds;
+  for (const Corners& one : triangles) bounds.push_back(B::of(one.at, 3).grown(0.05f));
+  return bounds;
+}
+
+/// Pairs that are missed, found twice, or found though their volumes do not overlap.
+template <class B>
+int wrong(const std::vector<B>& bounds, Pairs found) {
+  for (auto& [a, b] : found)
+    if (a > b) std::swap(a, b);
+  std::sort(found.begin(), found.end());
+  Pairs expected;
+  for (int a = 0; a < static_cast<int>(bounds.size()); ++a)
+    for (int b = a + 1; b < static_cast<int>(bounds.size()); ++b)
+      if (overlap(bounds[static_cast<std::size_t>(a)], bounds[static_cast<std::size_t>(b)])) expected.emplace_back(a, b);
+  Pairs difference;
+  std::set_symmetric_difference(found.begin(), found.end(), expected.begin(), expected.end(),
+                                std::back_inserter(difference));
+  return static_cast<int>(difference.size());
+}
+
+constexpr int sets = 800;
+
+template <class B, class Structure>
+void broad_row(Result& result, const char* name, Structure structure) {
+  Random random(7);
+  int errors = 0;
+  for (int set = 0; set < sets; ++set) {
+    const std::vector<B> bounds = bounds_of<B>(scattered(random, set % 4));
+    structure.build(bounds);
+    Pairs found;
+    structure.self_pairs([&](int a, int b) { found.emplace_back(a, b); });
+    errors += wrong(bounds, found);
+  }
+  result.rows.push_back(at_most(std::string("collision: ") + name + ", pairs missed, found twice or too many", 0, errors,
+                                "", "800 sets of 40 triangles, against brute force"));
+}
+
+// ------------------------------------------------------------------------------------------------ continuous tests
+
+/// A vertex and a triangle, or two edges, that move straight: through one another at a moment in between, or past.
+void impact_rows(Result& result) {
+  Random random(11);
+  constexpr int queries = 20000;
+  int missed[2] = {0, 0}, false_alarms[2] = {0, 0};
+  for (int i = 0; i < queries; ++i) {
+    const bool edges = i % 2 == 1, hits = i % 4 < 2;
+    Vec3f at[4], from[4], to[4];  // at the moment of contact: in the plane z = 0, crossing or apart by 0.1
+    const float s = static_cast<float>(random.uniform(0.05, 0.95)), past = hits ? 0.f : 0.1f;
+    if (edges) {
+      at[0] = {-1, 0, past}, at[1] = {1, 0, past};
+      at[2] = {s, -1, 0}, at[3] = {s, 1, 0};
+    } else {
+      at[0] = {0.3f * s, 0.3f, past};
+      at[1] = {-1, -1, 0}, at[2] = {2, -1, 0}, at[3] = {-1, 2, 0};
+    }
+    const float time = static_cast<float>(random.uniform(0.05, 0.95));
+    const Vec3f common = convert<float>(random.vector(1)), spin{0, 0, static_cast<float>(random.uniform(0.5, 3))};
+    for (int k = 0; k < 4; ++k) {
+      const bool first = k < (edges ? 2 : 1);
+      const Vec3f speed = hits ? common + (first ? spin : Vec3f{}) : common;
+      from[k] = at[k] - speed * time;
+      to[k] = at[k] + speed * (1 - time);
+    }
+    const bool found = edges ? edge_edge_impact(from, to, 0.f).hit : vertex_triangle_impact(from, to, 0.f).hit;
+    missed[edges] += hits && !found ? 1 : 0;
+    false_alarms[edges] += !hits && found ? 1 : 0;
+  }
+  for (int edges = 0; edges < 2; ++edges) {
+    const std::string name = std::string("collision: continuous, ") + (edges == 1 ? "two edges" : "vertex and triangle");
+    result.rows.push_back(at_most(name + ", missed", 0, missed[edges], "", "5000 that meet in between, float"));
+    result.rows.push_back(at_most(name + ", false alarms", 0.01 * queries / 4, false_alarms[edges], "",
+                                  "1 % of 5000 that pass at 0.1 m, float"));
+  }
+}
+
+// ------------------------------------------------------------------------------------------------ surfaces
+
+Object patch(int n, float size, float height, const char* name) {
+  TriangleMesh mesh = grid_mesh(n, n, size, size);
+  for (Vec3f& p : mesh.positions) p.y += height;
+  Object object = make_cloth(mesh, {.name = name, .material = fabric("cotton")});
+  object.thickness = 0.002f;
+  object.self_collision = object.collides = true;
+  return object;
+}
+
+std::string with(bool filter) { return filter ? "" : ", without filter"; }
+
+std::size_t crossings(const World& world) {
+  std::vector<Triangle> triangles;
+  std::vector<Vec3f> places;
+  for (int o = 0; o < world.object_count(); ++o) {
+    const TriangleMesh mesh = world.mesh(o);
+    const int first = static_cast<int>(places.size());
+    for (const auto& [a, b, c] : mesh.triangles) triangles.push_back({first + a, first + b, first + c});
+    places.insert(places.end(), mesh.positions.begin(), mesh.positions.end());
+  }
+  return IntersectionFinder(triangles, static_cast<int>(places.size())).find(places).size();
+}
+
+/// Layers that fall on the ground and on one another: what crosses in any frame, and how far the top rests above the next.
+void layer_rows(Result& result, bool filter) {
+  Scene scene;
+  scene.settings = {.substeps = 20, .threads = 1, .contact_filter = filter};
+  for (int i = 0; i < 3; ++i)
+    scene.add(patch(10, 0.2f, 0.01f + 0.01f * static_cast<float>(i), i == 0 ? "a" : i == 1 ? "b" : "c"));
+  scene.add(Collider{});
+  World world(scene);
+  std::size_t most = 0;
+  for (int frame = 0; frame < 90; ++frame) {
+    world.step(1.f / 60);
+    most = std::max(most, crossings(world));
+  }
+  double apart = 0;
+  for (std::size_t i = 0; i < 100; ++i)
+    apart += static_cast<double>(world.positions(2)[i].y - world.positions(1)[i].y) / 100;
+  result.rows.push_back(at_most("collision: engine, three layers, edges through triangles" + with(filter), 0,
+                                static_cast<double>(most), "", "exact signs, 90 frames"));
+  result.rows.push_back(relative("collision: engine, distance of resting layers" + with(filter), 0.004, apart, 0.02, "m",
+                                 "the sum of both thicknesses"));
+}
+
+/// How far a patch slides in a second down two triangles askew.
+double slide(double degrees, bool filter) {
+  const double c = std::cos(degrees * pi / 180), s = std::sin(degrees * pi / 180);
+  const auto turned = [&](const Vec3f& p) {
+    return convert<float>(Vec3d{c * double(p.x) + s * double(p.y), c * double(p.y) - s * double(p.x), double(p.z)});
+  };
+  Scene scene;
+  scene.settings = {.substeps = 20, .threads = 1, .contact_filter = filter};
+  MeshCollider slope;
+  slope.mesh = grid_mesh(2, 2, 8, 2);
+  slope.static_friction = slope.kinetic_friction = 0.5f;
+  Object object = patch(4, 0.2f, 0.002f, "patch");
+  object.static_friction = object.kinetic_friction = 0.5f;
+  for (Vec3f& p : slope.mesh.positions) p = turned(p);
+  for (Vec3f& p : object.positions) p = turned(p);
+  const Vec3f start = object.positions[0];
+  scene.add(slope);
+  scene.add(object);
+  World world(scene);
+  for (int frame = 0; frame < 60; ++frame) world.step(1.f / 60);
+  return std::sqrt(static_cast<double>(length_squared(world.positions(0)[0] - start)));
+}
+
+void slope_rows(Result& result, bool filter) {
+  const double angle = 40 * pi / 180, way = 0.5 * g * (std::sin(angle) - 0.5 * std::cos(angle));
+  result.rows.push_back(at_most("collision: engine, creep on triangles at 25.6 degrees" + with(filter), 0.002,
+                                slide(25.6, filter), "m", "friction 0.5 holds to 26.57 degrees"));
+  result.rows.push_back(relative("collision: engine, slide on triangles at 40 degrees" + with(filter), way,
+                                 slide(40, filter), 0.03, "m", "g (sin - mu cos) / 2, in a second"));
+}
+
+/// How high a patch comes up again that falls flat on triangles from 0.5 m.
+double apex(float restitution, bool filter) {
+  Scene scene;
+  scene.settings = {.substeps = 50, .threads = 1, .contact_filter = filter};
+  MeshCollider ground;
+  ground.mesh = grid_mesh(3, 3, 2, 2);
+  ground.restitution = restitution;
+  scene.add(ground);
+  scene.add(patch(3, 0.2f, 0.502f, "patch"));
+  World world(scene);
+  for (int frame = 0; frame < 60; ++frame) {
+    world.step(1.f / 60);
+    const double y = double(world.positions(0)[4].y) - 0.002, v = double(world.velocities(0)[4].y);
+    if (v > 0.1) return y + v * v / (2 * g);
+  }
+  return 0;
+}
+
+/// A ball of triangles that nothing stops against a loose sheet.
+void ball_rows(Result& result) {
+  for (const float speed : {1.f, 10.f, 30.f}) {
+    Scene scene;
+    scene.gravity = {};
+    scene.settings = {.substeps = 20, .threads = 1};
+    scene.add(patch(14, 0.4f, 0, "sheet"));
+    MeshCollider ball;
+    ball.mesh = sphere_mesh(2);
+    for (Vec3f& p : ball.mesh.positions) p = p * 0.1f + Vec3f{0.011f, 0.12f, 0.007f};
+    ball.motion.keyframes = {{0, {}, {}}, {1, {0, -speed, 0}, {}}};
+    scene.add(ball);
+    World world(scene);
+    std::vector<Triangle> triangles;
+    for (const auto& [a, b, c] : world.mesh(0).triangles) triangles.push_back({a, b, c});
+    for (const auto& [a, b, c] : ball.mesh.triangles) triangles.push_back({196 + a, 196 + b, 196 + c});
+    IntersectionFinder finder(triangles, 196 + static_cast<int>(ball.mesh.positions.size()));
+    std::size_t most = 0;
+    for (int frame = 0; frame < 10; ++frame) {
+      world.step(1.f / 60);
+      std::vector<Vec3f> places = world.positions(0);
+      const std::vector<Vec3f> more = world.mesh_collider_positions(0);
+      places.insert(places.end(), more.begin(), more.end());
+      most = std::max(most, finder.find(places).size());
+    }
+    result.rows.push_back(at_most(
+        "collision: engine, mesh ball at " + brief(double(speed)) + " m/s against a loose sheet, edges through triangles",
+        0, static_cast<double>(most), "", "exact signs, 10 frames"));
+  }
+}
+
+}  // namespace
+
+void collision_rows(Result& result, bool) {
+  broad_row<BoxBounds>(result, "spatial hash", SpatialHash());
+  broad_row<BoxBounds>(result, "hierarchy of boxes", Tree<BoxBounds>());
+  broad_row<SphereBounds>(result, "hierarchy of spheres", Tree<SphereBounds>());
+  broad_row<OrientedBoxBounds>(result, "hierarchy of oriented boxes", Tree<OrientedBoxBounds>());
+  broad_row<KDopBounds<18>>(result, "hierarchy of 18-DOPs", Tree<KDopBounds<18>>());
+  impact_rows(result);
+  for (const bool filter : {true, false}) {
+    layer_rows(result, filter);
+    slope_rows(result, filter);
+    result.rows.push_back(relative("collision: engine, bounce on triangles, e = 0.5" + with(filter), 0.125,
+                                   apex(0.5f, filter), 0.03, "m", "e^2 h, from 0.5 m, 50 substeps"));
+  }
+  ball_rows(result);
+}
+
+}  // namespace pliant::validate
