@@ -126,10 +126,21 @@ void impact_rows(Result& result) {
 Object patch(int n, float size, float height, const char* name) {
   TriangleMesh mesh = grid_mesh(n, n, size, size);
   for (Vec3f& p : mesh.positions) p.y += height;
-  Object object = make_cloth(mesh, {.name = name, .material = fabric("cotton")});
+  ClothOptions options;
+  options.name = name;
+  options.material = fabric("cotton");
+  Object object = make_cloth(mesh, options);
   object.thickness = 0.002f;
   object.self_collision = object.collides = true;
   return object;
+}
+
+Settings settings_of(int substeps, bool filter) {
+  Settings settings;
+  settings.substeps = substeps;
+  settings.threads = 1;
+  settings.contact_filter = filter;
+  return settings;
 }
 
 std::string with(bool filter) { return filter ? "" : ", without filter"; }
@@ -149,7 +160,7 @@ std::size_t crossings(const World& world) {
 /// Layers that fall on the ground and on one another: what crosses in any frame, and how far the top rests above the next.
 void layer_rows(Result& result, bool filter) {
   Scene scene;
-  scene.settings = {.substeps = 20, .threads = 1, .contact_filter = filter};
+  scene.settings = settings_of(20, filter);
   for (int i = 0; i < 3; ++i)
     scene.add(patch(10, 0.2f, 0.01f + 0.01f * static_cast<float>(i), i == 0 ? "a" : i == 1 ? "b" : "c"));
   scene.add(Collider{});
@@ -175,7 +186,7 @@ double slide(double degrees, bool filter) {
     return convert<float>(Vec3d{c * double(p.x) + s * double(p.y), c * double(p.y) - s * double(p.x), double(p.z)});
   };
   Scene scene;
-  scene.settings = {.substeps = 20, .threads = 1, .contact_filter = filter};
+  scene.settings = settings_of(20, filter);
   MeshCollider slope;
   slope.mesh = grid_mesh(2, 2, 8, 2);
   slope.static_friction = slope.kinetic_friction = 0.5f;
@@ -202,7 +213,7 @@ void slope_rows(Result& result, bool filter) {
 /// How high a patch comes up again that falls flat on triangles from 0.5 m.
 double apex(float restitution, bool filter) {
   Scene scene;
-  scene.settings = {.substeps = 50, .threads = 1, .contact_filter = filter};
+  scene.settings = settings_of(50, filter);
   MeshCollider ground;
   ground.mesh = grid_mesh(3, 3, 2, 2);
   ground.restitution = restitution;
@@ -222,7 +233,7 @@ void ball_rows(Result& result) {
   for (const float speed : {1.f, 10.f, 30.f}) {
     Scene scene;
     scene.gravity = {};
-    scene.settings = {.substeps = 20, .threads = 1};
+    scene.settings = settings_of(20, true);
     scene.add(patch(14, 0.4f, 0, "sheet"));
     MeshCollider ball;
     ball.mesh = sphere_mesh(2);
@@ -251,7 +262,7 @@ void ball_rows(Result& result) {
 }  // namespace
 
 void collision_rows(Result& result, bool) {
-  broad_row<BoxBounds>(result, "spatial hash", SpatialHash());
+  broad_row<BoxBounds>(result, "spatial hash", SpatialHash(0.7f));
   broad_row<BoxBounds>(result, "hierarchy of boxes", Tree<BoxBounds>());
   broad_row<SphereBounds>(result, "hierarchy of spheres", Tree<SphereBounds>());
   broad_row<OrientedBoxBounds>(result, "hierarchy of oriented boxes", Tree<OrientedBoxBounds>());

@@ -14,8 +14,8 @@ namespace {
 
 using AddRows = void (*)(Result&, bool);
 
-const AddRows adders[] = {spring_rows,  chain_rows,      momentum_rows,    pendulum_rows,    contact_rows, stiffness_rows,
-                          balloon_rows, steadiness_rows, convergence_rows, heavy_chain_rows, sweep_rows};
+const AddRows adders[] = {spring_rows,    chain_rows,   momentum_rows,   pendulum_rows,    contact_rows,     collision_rows,
+                          stiffness_rows, balloon_rows, steadiness_rows, convergence_rows, heavy_chain_rows, sweep_rows};
 
 const char* word(Comparison comparison) {
   switch (comparison) {
