@@ -77,6 +77,7 @@ class PairSystem {
 
   const PairCounts& counts() const { return counts_; }
   const std::vector<PairContact>& contacts() const { return contacts_; }
+  std::vector<PairContact>& contacts() { return contacts_; }
   /// Edges and triangles that pass through one another though they are not meant to: left out until they are apart.
   const std::vector<Intersection>& tangles() const { return tangles_; }
   const Triangle& triangle(int number) const { return model_.elements.triangles[number]; }

@@ -31,7 +31,8 @@ std::vector<Spring> springs_of(const std::vector<ConstraintList>& lists) {
     if (list.type != index_of<Distance>(AllConstraints{})) continue;
     for (std::size_t i = 0; i < list.response.size(); ++i) {
       const int a = list.stencils[2 * i], b = list.stencils[2 * i + 1];
-      if (a != b) springs.push_back({a, b, list.rest[i], list.law == Law::pbd ? 0 : list.response[i]});
+      const bool shares = list.law == Law::pbd && list.response[i] < 1;  // no spring: a share of the error, sweep by sweep
+      if (a != b && !shares) springs.push_back({a, b, list.rest[i], list.law == Law::pbd ? 0 : list.response[i]});
     }
   }
   return springs;

@@ -39,6 +39,8 @@ class Frame {
   bool has_pairs() const { return work_.pairs != nullptr; }
   void find_pairs();
   void sweep_pairs();
+  std::vector<PairContact>& pair_contacts() { return work_.pairs->contacts(); }
+  PairParticles all_particles() const;
   void filter_pairs();
   void respond_to_pairs(bool ends_frame);
 
@@ -72,7 +74,6 @@ class Frame {
   Vec3f gravity_for(double seconds) const { return model_.gravity * static_cast<float>(seconds); }
   double time_of(int substep) const { return start_ + dt_ * substep / context_.substeps; }
   AdvanceArguments particles(int task) const;
-  PairParticles all_particles() const;
   bool enter_tile(int task, bool finishes_first);
   bool finish_tile(int task, bool ends_frame);
   void sweep_tile(int task, bool first_pass, Order order);

@@ -44,16 +44,15 @@ bool may_tether(const Scene& scene) {
 }
 
 std::vector<Sweep> better_sweeps(const Scene& scene) {
-  std::vector<Sweep> better{Sweep::chains};
-  if (!movers_may_touch(scene)) better.push_back(Sweep::multigrid);
+  std::vector<Sweep> better{Sweep::chains, Sweep::multigrid};
   better.erase(std::remove(better.begin(), better.end(), scene.settings.sweep), better.end());
   return better;
 }
 
 Settings suggest(const Scene& scene) {
   Settings wanted = scene.settings;
-  if (wanted.sweep == Sweep::multigrid || movers_may_touch(scene) || has_volume(scene)) return wanted;
-  if (!has_pins(scene)) {
+  if (wanted.sweep == Sweep::multigrid || has_volume(scene)) return wanted;
+  if (!has_pins(scene) || movers_may_touch(scene)) {
     wanted.sweep = Sweep::multigrid;
     return wanted;
   }

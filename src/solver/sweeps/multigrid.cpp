@@ -1,6 +1,7 @@
 #include "solver/sweeps/multigrid.h"
 
 #include <algorithm>
+#include <array>
 
 #include "constraints/all.h"
 #include "solver/frame.h"
@@ -18,11 +19,22 @@ constexpr int coarsest_passes = 8;
 /// than half of that one's rows: there a W-cycle's work would grow from level to level.
 constexpr int visits = 2;
 
+/// Cholesky; what is not held (a piece of no mass) stays.
+Record shift_of(const MultigridObject::Piece& piece) {
+  const double *a = piece.held, *b = piece.force;
+  const double d0 = a[0], l1 = d0 > 0 ? a[3] / d0 : 0, l2 = d0 > 0 ? a[4] / d0 : 0;
+  const double d1 = a[1] - l1 * a[3], l12 = d1 > 0 ? (a[5] - l2 * a[3]) / d1 : 0, d2 = a[2] - l2 * a[4] - l12 * l12 * d1;
+  if (!(d0 > 0 && d1 > 0 && d2 > 0)) return {};
+  const double y1 = b[1] - l1 * b[0], z = (b[2] - l2 * b[0] - l12 * y1) / d2, y = y1 / d1 - l12 * z;
+  return {static_cast<float>(b[0] / d0 - l1 * y - l2 * z), static_cast<float>(y), static_cast<float>(z), 0};
+}
+
 /// One object's solve in one substep.
 class Solve {
  public:
   Solve(Frame& frame, int object)
       : frame_(frame),
+        object_(object),
         model_(frame.model().objects[object].multigrid),
         work_(frame.scratch().multigrid[object]),
         kernels_(multigrid_kernels(frame.kernels().isa)) {}
@@ -36,42 +48,52 @@ class Solve {
       });
   }
 
-  /// Moves every piece as a whole so that no force on the whole of it is left over: what nothing holds then keeps its momentum,
-  /// however few the cycles.
-  void shift_pieces() {
-    // The only level has no anchors in its diagonal.
-    if (levels() == 1 && std::count(model_.piece.begin(), model_.piece.end(), -1) > 0) return;
-    const int last = levels() - 1;
-    for (int l = 1; l <= last; ++l)
-      for_batches(l, [&](int f, int t) { kernels_.restrict_to(level(l), values(l), values(l - 1).right.data(), f, t); });
-    sum_pieces(values(last));
-    std::fill(work_.direction.begin(), work_.direction.end(), Record{});
+  /// A step of conjugate gradients in parts, for objects that contacts join to make in step: its preconditioned residual,
+  /// whose product with the residual is returned; the direction; its image and their product; the step along it.
+  double precondition() {
+    MultigridValues& top = values(0);
+    precondition(0);
+    cycle(0);
+    return sum(0, [&](int f, int t) { return kernels_.dot(top.right.data(), top.x.data(), f, t); });
+  }
+  void turn(float beta) {
+    for_batches(0, [&](int f, int t) { kernels_.turn(beta, values(0).x.data(), work_.direction.data(), f, t); });
+  }
+  double apply() {
+    return sum(0, [&](int f, int t) {
+      return kernels_.apply(level(0), values(0), true, work_.direction.data(), work_.image.data(), f, t);
+    });
+  }
+  void advance(float alpha) {
+    for_batches(0, [&](int f, int t) {
+      kernels_.advance(alpha, work_.direction.data(), work_.image.data(), work_.change.data(), values(0).right.data(), f,
+                       t);
+    });
+  }
+  /// The direction that moves all that can move by `by`.
+  void turn_to(const Vec3f& by) {
+    for (std::size_t i = 0; i < model_.piece.size(); ++i)
+      work_.direction[i] = model_.piece[i] >= 0 ? Record{by.x, by.y, by.z, 0} : Record{};
+  }
+  void clear_change() { std::fill(work_.change.begin(), work_.change.end(), Record{}); }
+  void clear_direction() { std::fill(work_.direction.begin(), work_.direction.end(), Record{}); }
+
+  /// The direction that moves every piece as a whole so that no force on the whole of it is left over: what nothing holds then
+  /// keeps its momentum, however few the cycles. `springs` are contacts, of which those of a piece with itself hold it nowhere.
+  void turn_to_shifts(const std::vector<const PairSpring*>& springs) {
+    clear_direction();
+    if (!sum_pieces()) return;
+    for (const PairSpring* s : springs) release(*s);
     for (std::size_t i = 0; i < model_.piece.size(); ++i)
       if (model_.piece[i] >= 0) work_.direction[i] = shift_of(work_.pieces[model_.piece[i]]);
-    for_batches(0, [&](int f, int t) {
-      kernels_.apply(level(0), values(0), true, work_.direction.data(), work_.image.data(), f, t);
-    });
-    advance(1);
   }
 
-  /// Conjugate gradients on the finest level from zero; the right-hand side becomes what is left of it.
-  void solve(int cycles) {
-    std::fill(work_.change.begin(), work_.change.end(), Record{});
-    MultigridValues& top = values(0);
-    double before = 0;
-    for (int i = 0; i < cycles; ++i) {
-      precondition(0);
-      cycle(0);
-      const double now = sum(0, [&](int f, int t) { return kernels_.dot(top.right.data(), top.x.data(), f, t); });
-      const float beta = i > 0 && before > 0 ? static_cast<float>(now / before) : 0.f;
-      before = now;
-      if (i == 0) std::fill(work_.direction.begin(), work_.direction.end(), Record{});
-      for_batches(0, [&](int f, int t) { kernels_.turn(beta, top.x.data(), work_.direction.data(), f, t); });
-      const double curvature = sum(0, [&](int f, int t) {
-        return kernels_.apply(level(0), top, true, work_.direction.data(), work_.image.data(), f, t);
-      });
-      if (!(curvature > 0) || !(now > 0)) return;
-      advance(static_cast<float>(now / curvature));
+  /// Adds what holds all pieces, and what force they are owed.
+  void add_pieces(MultigridObject::Piece& sum) {
+    if (!sum_pieces()) return;
+    for (const MultigridObject::Piece& piece : work_.pieces) {
+      for (int c = 0; c < 6; ++c) sum.held[c] += piece.held[c];
+      for (int c = 0; c < 3; ++c) sum.force[c] += piece.force[c];
     }
   }
 
@@ -98,14 +120,25 @@ class Solve {
     return total;
   }
 
-  void advance(float alpha) {
-    for_batches(0, [&](int f, int t) {
-      kernels_.advance(alpha, work_.direction.data(), work_.image.data(), work_.change.data(), values(0).right.data(), f,
-                       t);
-    });
+  /// Takes what a contact holds of a piece away again where both its sides are of that piece.
+  void release(const PairSpring& s) {
+    int piece = -2;
+    for (int i = 0; i < 4; ++i) {
+      const int of = s.object[i] == object_ ? model_.piece[s.particle[i]] : -1;
+      if (of < 0 || (piece != -2 && of != piece)) return;
+      piece = of;
+    }
+    const std::array<float, 6> block = block_of(s);
+    for (int c = 0; c < 6; ++c) work_.pieces[piece].held[c] -= 2 * static_cast<double>(block[c]);  // a side's weights: 1
   }
 
-  void sum_pieces(const MultigridValues& coarsest) {
+  /// From what is left of the right-hand side. False where it can't be said: the only level has no anchors in its diagonal.
+  bool sum_pieces() {
+    if (levels() == 1 && std::count(model_.piece.begin(), model_.piece.end(), -1) > 0) return false;
+    const int last = levels() - 1;
+    for (int l = 1; l <= last; ++l)
+      for_batches(l, [&](int f, int t) { kernels_.restrict_to(level(l), values(l), values(l - 1).right.data(), f, t); });
+    const MultigridValues& coarsest = values(last);
     std::fill(work_.pieces.begin(), work_.pieces.end(), MultigridObject::Piece{});
     for (std::size_t row = 0; row < model_.coarsest_piece.size(); ++row) {
       if (model_.coarsest_piece[row] < 0) continue;
@@ -118,16 +151,7 @@ class Solve {
       piece.force[1] += static_cast<double>(force.y);
       piece.force[2] += static_cast<double>(force.z);
     }
-  }
-
-  /// Cholesky; what is not held (a piece of no mass) stays.
-  static Record shift_of(const MultigridObject::Piece& piece) {
-    const double *a = piece.held, *b = piece.force;
-    const double d0 = a[0], l1 = d0 > 0 ? a[3] / d0 : 0, l2 = d0 > 0 ? a[4] / d0 : 0;
-    const double d1 = a[1] - l1 * a[3], l12 = d1 > 0 ? (a[5] - l2 * a[3]) / d1 : 0, d2 = a[2] - l2 * a[4] - l12 * l12 * d1;
-    if (!(d0 > 0 && d1 > 0 && d2 > 0)) return {};
-    const double y1 = b[1] - l1 * b[0], z = (b[2] - l2 * b[0] - l12 * y1) / d2, y = y1 / d1 - l12 * z;
-    return {static_cast<float>(b[0] / d0 - l1 * y - l2 * z), static_cast<float>(y), static_cast<float>(z), 0};
+    return true;
   }
 
   void precondition(int l) {
@@ -163,6 +187,7 @@ class Solve {
   }
 
   Frame& frame_;
+  int object_;
   const Multigrid& model_;
   MultigridObject& work_;
   const MultigridKernels& kernels_;
@@ -218,13 +243,107 @@ void clear_multipliers(Frame& frame) {
   std::fill(frame.workspace().volume_multipliers.begin(), frame.workspace().volume_multipliers.end(), 0);
 }
 
-void correct(Frame& frame, int o, bool first) {
+/// Objects that contacts join, corrected as one.
+class Group {
+ public:
+  void add(Frame& frame, int object) {
+    solves_.emplace_back(frame, object);
+    objects_.push_back(object);
+  }
+  void add(const PairSpring& spring) { springs_.push_back(&spring); }
+
+  void linearise(Frame& frame) {
+    for (std::size_t i = 0; i < solves_.size(); ++i) solves_[i].linearise(frame.arguments(objects_[i], true));
+  }
+
+  /// Conjugate gradients; the right-hand side becomes what is left of it.
+  void solve(Frame& frame, int cycles) {
+    for (Solve& s : solves_) s.clear_change();
+    double before = 0;
+    for (int i = 0; i < cycles; ++i) {
+      double now = 0;
+      for (Solve& s : solves_) now += s.precondition();
+      const float beta = i > 0 && before > 0 ? static_cast<float>(now / before) : 0.f;
+      before = now;
+      for (Solve& s : solves_) {
+        if (i == 0) s.clear_direction();
+        s.turn(beta);
+      }
+      const double curvature = apply(frame);
+      if (!(curvature > 0) || !(now > 0)) break;
+      for (Solve& s : solves_) s.advance(static_cast<float>(now / curvature));
+    }
+    for (Solve& s : solves_) s.turn_to_shifts(springs_);
+    apply(frame);
+    for (Solve& s : solves_) s.advance(1);
+    if (solves_.size() > 1) shift_together(frame);
+  }
+
+ private:
+  /// What contacts join, as one: each piece was shifted as if the others stood still.
+  void shift_together(Frame& frame) {
+    MultigridObject::Piece sum{};
+    for (Solve& s : solves_) s.add_pieces(sum);
+    for (const PairSpring* s : springs_) {
+      const std::array<float, 6> block = block_of(*s);
+      float held = 0;  // one with a side that nothing moves does hold the other
+      for (int i = 0; i < 4; ++i) held += s->object[i] >= 0 ? abs(s->weight[i]) : 0;
+      if (held < 1.5f) continue;
+      for (int c = 0; c < 6; ++c) sum.held[c] -= static_cast<double>(held * block[c]);
+    }
+    const Record shift = shift_of(sum);
+    for (Solve& s : solves_) s.turn_to({shift.x, shift.y, shift.z});
+    apply(frame);
+    for (Solve& s : solves_) s.advance(1);
+  }
+
+  double apply(Frame& frame) {
+    double curvature = 0;
+    for (Solve& s : solves_) curvature += s.apply();
+    for (const PairSpring* s : springs_) curvature += couple_pair(*s, frame.scratch().multigrid);
+    return curvature;
+  }
+
+  std::vector<Solve> solves_;
+  std::vector<int> objects_;
+  std::vector<const PairSpring*> springs_;
+};
+
+/// Objects with levels, those that contacts join together, in the order of each group's first.
+std::vector<Group> groups_of(Frame& frame) {
+  const int objects = static_cast<int>(frame.model().objects.size());
+  std::vector<int> root(objects), number(objects, -1);
+  for (int o = 0; o < objects; ++o) root[o] = o;
+  const auto find = [&](int o) {
+    while (root[o] != o) o = root[o] = root[root[o]];
+    return o;
+  };
+  const std::vector<PairSpring>& springs = frame.scratch().pair_springs;
+  const auto first_of = [](const PairSpring& s) { return *std::max_element(s.object.begin(), s.object.end()); };
+  for (const PairSpring& s : springs)
+    for (const int o : s.object)
+      if (o >= 0) root[std::max(find(o), find(first_of(s)))] = std::min(find(o), find(first_of(s)));
+  std::vector<Group> groups;
+  for (int o = 0; o < objects; ++o) {
+    if (frame.model().objects[o].multigrid.levels.empty()) continue;
+    int& group = number[find(o)];
+    if (group < 0) {
+      group = static_cast<int>(groups.size());
+      groups.emplace_back();
+    }
+    groups[group].add(frame, o);
+  }
+  for (const PairSpring& s : springs) groups[number[find(first_of(s))]].add(s);
+  return groups;
+}
+
+void move(Frame& frame, int o, bool first) {
   const SweepArguments a = frame.arguments(o, first);
-  const Records& change = frame.scratch().multigrid[o].change;
-  Solve solve(frame, o);
-  if (first) solve.linearise(a);
-  solve.solve(frame.options().multigrid_cycles);
-  solve.shift_pieces();
+  Records& change = frame.scratch().multigrid[o].change;
+  // What is beyond the range of floats is left to the sweeps, which may cope with it or name what does not.
+  const int batches = frame.model().objects[o].multigrid.levels[0].batches();
+  if (!frame.kernels().all_finite(change.data(), 0, batches * batch_width))
+    std::fill(change.begin(), change.end(), Record{});
   for (int i = 0; i < frame.model().objects[o].particles; ++i) {
     Record& d = a.displacements[i];
     const Record& c = change[i];
@@ -262,16 +381,24 @@ void correct_multigrid(Frame& frame, bool first) {
   if (first) {
     clear_multipliers(frame);
     add_multigrid_contacts(frame);
+    add_multigrid_pairs(frame);
+  }
+  for (Group& group : groups_of(frame)) {
+    if (first) group.linearise(frame);
+    group.solve(frame, frame.options().multigrid_cycles);
   }
   for (std::size_t o = 0; o < frame.model().objects.size(); ++o)
-    if (!frame.model().objects[o].multigrid.levels.empty()) correct(frame, static_cast<int>(o), first);
-  if (first) keep_multigrid_pushes(frame);
+    if (!frame.model().objects[o].multigrid.levels.empty()) move(frame, static_cast<int>(o), first);
+  if (!first) return;
+  keep_multigrid_pushes(frame);
+  keep_multigrid_pair_pushes(frame);
 }
 
 void iterate_multigrid(Frame& frame, bool first) {
   correct_multigrid(frame, first);
   // There and back: distances, first of all types, have the last word, and what bending pulls apart is put right again.
   iterate_tiled(frame, false);
+  if (frame.has_pairs()) frame.sweep_pairs();
   frame.sweep_contacts();
   frame.sweep_straddlers(false, Order::backward);
   frame.sweep_tiles(false, Order::backward);

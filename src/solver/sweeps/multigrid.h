@@ -7,6 +7,8 @@
 // multigrid.h, multigrid_lanes.cpp).
 #pragma once
 
+#include <array>
+
 #include "model/model.h"
 #include "model/multigrid.h"
 #include "pliant/scene.h"
@@ -28,6 +30,21 @@ struct MultigridObject {
   std::vector<Piece> pieces;
 };
 
+/// A contact among surfaces (collision/pair_contact.h) as springs between the closest points of its two sides.
+struct PairSpring {
+  std::int32_t contact = 0;              ///< its number
+  std::array<std::int32_t, 4> object{};  ///< of each particle; -1: one that this correction does not move
+  std::array<std::int32_t, 4> particle{};
+  std::array<float, 4> weight{};
+  Vec3f normal{};
+  float depth = 0;              ///< negative where it reaches in [m]
+  float along = 0, across = 0;  ///< the normal and across it [N/m]
+  Vec3f slip{};                 ///< of one side over the other since the substep's start [m]
+};
+
+/// Its stiffness along and across, xx yy zz xy xz yz [N/m].
+std::array<float, 6> block_of(const PairSpring& spring);
+
 class Frame;
 
 /// The correction alone, of every object that has levels. The first of a substep is made from the prediction, before any sweep;
@@ -42,5 +59,10 @@ void prepare_multigrid(const Model& model, std::vector<MultigridObject>& objects
 // the friction that these have exerted, for the contacts' own projection to go on from.
 void add_multigrid_contacts(Frame& frame);
 void keep_multigrid_pushes(Frame& frame);
+// Of contacts among surfaces, in multigrid_pairs.cpp, likewise; and what such a spring adds to `image`, beside the rows of
+// its particles that have the other side held, where `direction` moves both. Returns what it adds to direction . image.
+void add_multigrid_pairs(Frame& frame);
+void keep_multigrid_pair_pushes(Frame& frame);
+double couple_pair(const PairSpring& spring, std::vector<MultigridObject>& objects);
 
 }  // namespace pliant

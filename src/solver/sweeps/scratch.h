@@ -43,6 +43,7 @@ struct SweepScratch {
   std::vector<JacobiObject> jacobi;  ///< one an object
   ChebyshevScratch chebyshev;
   std::vector<MultigridObject> multigrid;  ///< one an object
+  std::vector<PairSpring> pair_springs;    ///< of the multigrid correction
   Records predicted;                       ///< displacements as predicted, where residuals are recorded
 };
 
