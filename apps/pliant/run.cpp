@@ -60,7 +60,10 @@ int run(const RunOptions& options) {
     where.file = options.scene;
     throw Error(where, report.last().explain());
   }
-  if (!options.quiet) print(summary(options, world, report));
+  if (!options.quiet) {
+    for (const std::string& warning : report.warnings()) print("warning: " + one_line(warning) + "\n");
+    print(summary(options, world, report));
+  }
   return 0;
 }
 

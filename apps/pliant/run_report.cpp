@@ -1,6 +1,7 @@
 #include "run_report.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -50,6 +51,12 @@ void add_pairs(PairReport& sum, const PairReport& frame) {
   sum.lists += frame.lists;
 }
 
+std::string without_numbers(std::string text) {
+  text.erase(std::remove_if(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0 || c == '.'; }),
+             text.end());
+  return text;
+}
+
 Json nonfinite_json(const Report& report) {
   if (!report.nonfinite) return nullptr;
   const NonFinite& found = *report.nonfinite;
@@ -81,6 +88,9 @@ void RunReport::add(const Report& report, const World& world) {
   milliseconds_.push_back(report.milliseconds);
   for (const PhaseTime& phase : report.phases) phase_sums_[phase.name] += phase.milliseconds;
   if (hash_frames_) hashes_.push_back(world.state_hash());
+  for (const std::string& warning : report.warnings)
+    if (warned_of_.insert(without_numbers(warning)).second)
+      warnings_.push_back("frame " + std::to_string(report.frame) + ": " + warning);
 }
 
 std::string RunReport::json(const std::string& scene_path, const Scene& scene, const World& world) const {
@@ -108,7 +118,7 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["mean_stretch"] = stretch.mean;
   json["p99_stretch"] = stretch.p99;
   json["nonfinite"] = nonfinite_json(last_);
-  json["warnings"] = last_.warnings;
+  json["warnings"] = warnings_;
   json["advice"] = world.advice(last_);
   json["threads"] = world.threads();
   json["isa"] = world.isa();

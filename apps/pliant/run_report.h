@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ class RunReport {
   double median_milliseconds() const { return quantile(milliseconds_, 0.5); }
   double p95_milliseconds() const { return quantile(milliseconds_, 0.95); }
   const Report& last() const { return last_; }
+  /// Of all frames, the first of each kind with its frame; those that differ by numbers alone are of one kind.
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   bool hash_frames_;
@@ -34,7 +37,8 @@ class RunReport {
   PairReport pairs_;           ///< candidates, contacts and tangles of the last frame, the rest summed
   std::vector<double> milliseconds_;
   std::map<std::string, double> phase_sums_;
-  std::vector<std::string> hashes_;
+  std::vector<std::string> hashes_, warnings_;
+  std::set<std::string> warned_of_;  ///< without their numbers
 };
 
 }  // namespace pliant::command

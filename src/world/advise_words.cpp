@@ -40,9 +40,7 @@ std::string setting_and_cost(const Advice& advice, int trial) {
   return setting_in_words(of, advice.own.settings) + " (" + cost_in_words(of) + ")";
 }
 
-}  // namespace
-
-std::string remedy(const Advice& advice) {
+std::string remedy_in_words(const Advice& advice) {
   const std::string tried = advice.cut_short ? " in the time there was" : "";
   if (advice.best < 0) {
     if (advice.others.empty()) return "no other setting could be tried" + tried;
@@ -51,7 +49,7 @@ std::string remedy(const Advice& advice) {
   }
   const Trial& best = advice.others[advice.best];
   const std::string setting = setting_and_cost(advice, advice.best), before = cost_in_words(advice.own);
-  const std::string settings = "put into the scene \"settings\": " + in_json(best.settings, advice.own.settings);
+  const std::string settings = "add to the scene's \"settings\": " + in_json(best.settings, advice.own.settings);
   if (!is_good(best)) {
     return "the best found" + tried + ", " + setting + ", brings it to " + percent(best.worst.largest) +
            ", 1 edge in 100 to " + percent(best.worst.p99) + "; as it is it takes " + before + "; " + settings;
@@ -62,6 +60,17 @@ std::string remedy(const Advice& advice) {
          percent(tolerated_overstretch) + "; as it is it takes " + before +
          (advice.cut_short ? "; there was no time to look for cheaper ones" : "") +
          (other < 0 ? "; " : "; for the first ") + settings;
+}
+
+}  // namespace
+
+std::string remedy(const Advice& advice) {
+  // A verdict on the first frames says nothing of the others.
+  const bool knows_all = advice.own.complete || !advice.cut_short;
+  const std::string frames = advice.own.frames == 1 ? "frame" : std::to_string(advice.own.frames) + " frames";
+  return (knows_all ? ""
+                    : "only its first " + frames + " could be run in the time there was and later ones may be worse; ") +
+         remedy_in_words(advice);
 }
 
 }  // namespace pliant

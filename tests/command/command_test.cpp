@@ -262,7 +262,7 @@ TEST_F(Command, CheckRunsASceneAndNamesWhatWouldMendIt) {
   EXPECT_EQ(pliant("check sagging.json --seconds 0").out.find("stretched"), std::string::npos) << "not run at all";
 
   // What it says to put into the scene, put into the scene.
-  const std::string mark = "put into the scene \"settings\": ";
+  const std::string mark = "add to the scene's \"settings\": ";
   const std::size_t at = result.out.find(mark);
   ASSERT_NE(at, std::string::npos) << result.out;
   const std::size_t end = result.out.find('\n', at);

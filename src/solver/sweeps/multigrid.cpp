@@ -286,10 +286,11 @@ class Group {
     for (Solve& s : solves_) s.add_pieces(sum);
     for (const PairSpring* s : springs_) {
       const std::array<float, 6> block = block_of(*s);
-      float held = 0;  // one with a side that nothing moves does hold the other
-      for (int i = 0; i < 4; ++i) held += s->object[i] >= 0 ? abs(s->weight[i]) : 0;
-      if (held < 1.5f) continue;
-      for (int c = 0; c < 6; ++c) sum.held[c] -= static_cast<double>(held * block[c]);
+      float side[2] = {0, 0};  // what of each moves; the rows hold both, moving together feels their difference alone
+      for (int i = 0; i < 4; ++i)
+        if (s->object[i] >= 0) side[s->weight[i] > 0 ? 0 : 1] += abs(s->weight[i]);
+      const float free = side[0] + side[1] - (side[0] - side[1]) * (side[0] - side[1]);
+      for (int c = 0; c < 6; ++c) sum.held[c] -= static_cast<double>(free * block[c]);
     }
     const Record shift = shift_of(sum);
     for (Solve& s : solves_) s.turn_to({shift.x, shift.y, shift.z});
