@@ -100,13 +100,13 @@ struct IterationCount {
 
 /// What surfaces did among one another and with mesh colliders.
 struct PairReport {
-  std::int64_t candidates = 0;  ///< vertex-triangle and edge-edge pairs looked at when lists were last made
+  std::int64_t candidates = 0;  ///< pairs in lists: vertex-triangle and edge-edge, near in the mesh or found near
   std::int64_t contacts = 0;    ///< that pushed in the last substep
   std::int64_t shortened = 0;   ///< moves that the filter shortened so that nothing crossed, over all substeps
   std::int64_t hopeless =
       0;                     ///< pairs that no shortening keeps apart: two things that nothing pushes pinch what is between
   std::int64_t tangled = 0;  ///< edges that cross a triangle since the beginning: exempt until they are apart
-  std::int64_t lists = 0;    ///< times that candidates were looked for
+  std::int64_t lists = 0;    ///< times it was found out anew which clusters are near
   std::int64_t inside = 0;   ///< vertices inside a closed mesh collider, where they are being brought out
   double deepest = 0;        ///< what the last substep left of a contact's overlap: thickness less distance, or 0 [m]
 };
