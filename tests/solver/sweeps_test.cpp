@@ -85,12 +85,17 @@ Object compliant_line() {
   return line;
 }
 
-/// Averaging gives neighbours of different counts different parts of one force: it ends elsewhere, and is tested below.
+/// But two kinds, which end elsewhere and must be seen to: averaging gives neighbours of different counts different parts of one
+/// force, and tethers hold back what is meant to stretch.
 TEST_P(Sweeps, EndsWhereAllSweepsEnd) {
-  if (GetParam().lacks == Lacks::pairs || GetParam().lacks == Lacks::give) GTEST_SKIP() << "has an end of its own";
   const Outcome expected = run_sweep({compliant_line()}, run_of(Sweep::natural, 1, 4000));
   const Outcome found = run_sweep({compliant_line()}, run_of(GetParam().sweep, 1, 4000, GetParam().options));
-  EXPECT_LT(largest_difference(found.state, expected.state), 2e-6);
+  const double apart = largest_difference(found.state, expected.state);
+  if (GetParam().lacks == Lacks::pairs || GetParam().lacks == Lacks::give) {
+    EXPECT_GT(apart, 1e-4) << "it ends where all do: the table need not say that it can't";
+  } else {
+    EXPECT_LT(apart, 2e-6);
+  }
   EXPECT_GT(largest_difference(expected.state, initial_state(expected.model)), 1e-3) << "something must move";
 }
 
