@@ -8,21 +8,13 @@
 #include <random>
 #include <vector>
 
+#include "collision/random_support.h"
 #include "math/vector.h"
 
 namespace pliant {
 namespace {
 
-using Random = std::mt19937_64;
-
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-
-Vec3d random_place(Random& random, double range) {
-  const double x = uniform(random, -range, range), y = uniform(random, -range, range), z = uniform(random, -range, range);
-  return {x, y, z};
-}
+using namespace testing_support;
 
 /// Those that this machine can run; the first always does.
 std::vector<const PairKernels*> all_kernels() {

@@ -10,22 +10,14 @@
 #include <map>
 #include <random>
 
+#include "collision/random_support.h"
 #include "math/vector.h"
 #include "pliant/mesh.h"
 
 namespace pliant {
 namespace {
 
-using Random = std::mt19937_64;
-
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-
-Vec3d random_vector(Random& random, double range) {
-  const double x = uniform(random, -range, range), y = uniform(random, -range, range), z = uniform(random, -range, range);
-  return {x, y, z};
-}
+using namespace testing_support;
 
 struct Body {
   TriangleMesh mesh;
@@ -127,7 +119,7 @@ class Soup {
   /// A substep: predict, find, project, filter, update; all is checked on the way.
   void step(Random& random, double jitter) {
     for (std::size_t i = 0; i < positions_.size(); ++i) {
-      if (positions_[i].w > 0) velocities_[i] += random_vector(random, jitter);
+      if (positions_[i].w > 0) velocities_[i] += random_place(random, jitter);
       const Vec3d d =
           velocities_[i] * h + Vec3d{double(remainders_[i].x), double(remainders_[i].y), double(remainders_[i].z)};
       displacements_[i] = {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z), 0};
@@ -142,7 +134,7 @@ class Soup {
     system_.project(particles);
     // As constraints would: something else moves them, too.
     for (std::size_t i = 0; i < positions_.size(); ++i)
-      if (positions_[i].w > 0 && random() % 4 == 0) disturb(displacements_[i], random_vector(random, 4 * jitter * h));
+      if (positions_[i].w > 0 && random() % 4 == 0) disturb(displacements_[i], random_place(random, 4 * jitter * h));
     const std::vector<Record> solved = displacements_;
     system_.filter(executor_, particles);
     check_against_a_new_system(predicted, solved);

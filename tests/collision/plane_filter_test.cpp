@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "collision/random_support.h"
 #include "geometry/exact.h"
 #include "geometry/triangle.h"
 #include "math/vector.h"
@@ -14,11 +15,7 @@
 namespace pliant {
 namespace {
 
-using Random = std::mt19937_64;
-
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
+using namespace testing_support;
 
 struct Case {
   PairStencil pair{{0, 1, 2, 3}, 1};
@@ -28,11 +25,6 @@ struct Case {
 
 Record record(const Vec3d& v, float w = 0) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), w};
-}
-
-Vec3d random_place(Random& random, double range) {
-  const double x = uniform(random, -range, range), y = uniform(random, -range, range), z = uniform(random, -range, range);
-  return {x, y, z};
 }
 
 /// Without extent, on a line, or with two corners in one place.

@@ -5,26 +5,18 @@
 #include <cmath>
 
 #include "math/vector.h"
-#include "world/world_support.h"
+#include "world/surface_support.h"
 
 namespace pliant {
 namespace {
 
 using namespace testing_support;
 
-Object cloth(const TriangleMesh& mesh) {
-  ClothOptions options;
-  options.material = fabric("cotton");
-  options.stretch = Stiffness::rigid();
-  Object object = make_cloth(mesh, options);
-  object.thickness = 0.004f;
-  object.self_collision = object.collides = true;
-  return object;
-}
+constexpr float thickness = 0.004f;
 
-TriangleMesh sheet(int n, float size, const Vec3f& at) {
-  TriangleMesh mesh = grid_mesh(n, n, size, size);
-  for (Vec3f& p : mesh.positions) p += at;
+TriangleMesh sheet_at(int n, float size, const Vec3f& at) {
+  TriangleMesh mesh = sheet(n, size, at.y);
+  for (Vec3f& p : mesh.positions) p += Vec3f{at.x, 0, at.z};
   return mesh;
 }
 
@@ -32,8 +24,9 @@ TriangleMesh sheet(int n, float size, const Vec3f& at) {
 Scene hammock() {
   Scene scene;
   for (int i = 0; i < 3; ++i)
-    scene.add(cloth(sheet(i == 0 ? 24 : 16, i == 0 ? 0.5f : 0.3f,
-                          {0.003f * static_cast<float>(i), 0.012f * static_cast<float>(i), 0})));
+    scene.add(cloth(sheet_at(i == 0 ? 24 : 16, i == 0 ? 0.5f : 0.3f,
+                             {0.003f * static_cast<float>(i), 0.012f * static_cast<float>(i), 0}),
+                    thickness));
   scene.pin(0, {0, 23, 24 * 23, 24 * 24 - 1});
   return scene;
 }
@@ -59,8 +52,8 @@ TEST(MultigridContact, LayersStretchAsLittleAsOneSheet) {
 TEST(MultigridContact, KeepsMomentum) {
   Scene scene;
   scene.gravity = {};
-  scene.add(cloth(sheet(20, 0.4f, {})));
-  scene.add(cloth(sheet(14, 0.2f, {0.01f, 0.02f, 0.02f})));
+  scene.add(cloth(sheet_at(20, 0.4f, {}), thickness));
+  scene.add(cloth(sheet_at(14, 0.2f, {0.01f, 0.02f, 0.02f}), thickness));
   for (float& mass : scene.objects[1].masses) mass *= 3;
   scene.objects[1].velocities.assign(scene.objects[1].positions.size(), {0.3f, -2, 0});
   scene.settings = settings_of(6);

@@ -11,7 +11,7 @@
 #include "collision/intersections.h"
 #include "math/vector.h"
 #include "support/kernels.h"
-#include "world/world_support.h"
+#include "world/surface_support.h"
 
 namespace pliant {
 namespace {
@@ -50,28 +50,6 @@ class Watch {
   int objects_;
   std::unique_ptr<IntersectionFinder> finder_;
 };
-
-Object cloth(const TriangleMesh& mesh, float thickness = 0.002f) {
-  ClothOptions options;
-  options.material = fabric("cotton");
-  options.stretch = Stiffness::rigid();
-  Object object = make_cloth(mesh, options);
-  object.thickness = thickness;
-  object.self_collision = object.collides = true;
-  return object;
-}
-
-TriangleMesh sheet(int n, float size, float height) {
-  TriangleMesh mesh = grid_mesh(n, n, size, size);
-  for (Vec3f& p : mesh.positions) p.y += height;
-  return mesh;
-}
-
-Scene scene_of(int substeps) {
-  Scene scene;
-  scene.settings = settings_of(substeps);
-  return scene;
-}
 
 Collider floor_at(float height) {
   Collider floor;

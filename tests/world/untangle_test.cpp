@@ -8,7 +8,7 @@
 #include "collision/intersections.h"
 #include "math/vector.h"
 #include "pliant/error.h"
-#include "world/world_support.h"
+#include "world/surface_support.h"
 
 namespace pliant {
 namespace {
@@ -17,13 +17,8 @@ using namespace testing_support;
 using Intersections = Settings::Intersections;
 
 Object cloth(const TriangleMesh& mesh, const std::string& name) {
-  ClothOptions options;
-  options.material = fabric("cotton");
-  options.stretch = Stiffness::rigid();
-  Object object = make_cloth(mesh, options);
+  Object object = testing_support::cloth(mesh);
   object.name = name;
-  object.thickness = 0.002f;
-  object.self_collision = object.collides = true;
   return object;
 }
 
