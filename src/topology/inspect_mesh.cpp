@@ -256,10 +256,26 @@ class Inspector {
            "the surface turns freely about it; split the vertex or close the gap");
   }
 
+  /// How many parts there are that not even a vertex joins. What hangs together over edges of three triangles, or in a point, is
+  /// one: it does not move by itself, and what is the matter with it is said of those.
+  std::size_t pieces_apart() const {
+    std::vector<std::size_t> parent(mesh_.positions.size());
+    std::iota(parent.begin(), parent.end(), std::size_t{0});
+    const auto root = [&](std::size_t i) {
+      while (parent[i] != i) i = parent[i] = parent[parent[i]];
+      return i;
+    };
+    for (const Triangle& t : mesh_.triangles)
+      for (const int corner : {t[1], t[2]}) parent[root(index(corner))] = root(index(t[0]));
+    std::vector<bool> seen(parent.size(), false);
+    for (const Triangle& t : mesh_.triangles) seen[root(index(t[0]))] = true;
+    return static_cast<std::size_t>(std::count(seen.begin(), seen.end(), true));
+  }
+
   void check_whole() {
     const Pieces pieces = find_pieces(edges_, static_cast<int>(mesh_.triangles.size()));
-    if (pieces.count > 1)
-      tell(counted(static_cast<std::size_t>(pieces.count), "piece", "pieces") + " that no edge joins",
+    if (const std::size_t apart = pieces_apart(); apart > 1)
+      tell(counted(apart, "piece", "pieces") + " that share no vertex",
            "each moves by itself; merge their vertices if they belong together");
     const std::size_t border = static_cast<std::size_t>(
         std::count_if(edges_.begin(), edges_.end(), [](const Edge& edge) { return edge.is_border(); }));

@@ -99,6 +99,14 @@ TEST(Inspect, FindsWhatIsThereTwice) {
 TEST(Inspect, FindsEdgesThatAreNoManifold) {
   const TriangleMesh fan{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}};
   EXPECT_TRUE(tells(fan, "1 edge has more than two triangles, the first 0-1"));
+  EXPECT_FALSE(tells(fan, "piece")) << "none of the three moves by itself";
+}
+
+TEST(Inspect, CountsPiecesThatShareNoVertex) {
+  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {9, 9, 9}}, {{0, 1, 2}, {3, 4, 5}}};
+  EXPECT_TRUE(tells(mesh, "2 pieces that share no vertex"));
+  mesh.triangles.push_back({2, 3, 6});
+  EXPECT_FALSE(tells(mesh, "pieces"));
 }
 
 TEST(Inspect, FindsTrianglesThatAreTurnedOver) {
@@ -115,7 +123,7 @@ TEST(Inspect, FindsTrianglesThatAreTurnedOver) {
 TEST(Inspect, FindsVerticesThatJoinInAPointAlone) {
   const TriangleMesh bow{{{0, 0, 0}, {1, 1, 0}, {-1, 1, 0}, {1, -1, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 4, 3}}};
   EXPECT_TRUE(tells(bow, "1 vertex joins parts of the surface in a point alone, the first 0"));
-  EXPECT_TRUE(tells(bow, "2 pieces that no edge joins"));
+  EXPECT_FALSE(tells(bow, "pieces")) << "the point holds them together";
   EXPECT_TRUE(tells(bow, "open, with 2 borders of 6 edges"));
 }
 
