@@ -49,13 +49,22 @@ pliant::compare::Options options_of(const CompareOptions& options, const Scene& 
   return wanted;
 }
 
+pliant::compare::Result measured(const CompareOptions& options, const Scene& scene) {
+  const pliant::compare::Options wanted = options_of(options, scene);
+  try {
+    return pliant::compare::run(scene, wanted);
+  } catch (const Error& error) {
+    throw of_file(error, options.scene);
+  }
+}
+
 }  // namespace
 
 int compare(const CompareOptions& options) {
   refuse_same_file_twice(options.scene, options.out);
   const Scene scene = read_scene_with(options.scene, options.overrides, false);
   const Outputs outputs = open_outputs(options.out);
-  const pliant::compare::Result result = pliant::compare::run(scene, options_of(options, scene));
+  const pliant::compare::Result result = measured(options, scene);
   print(one_line(options.scene) + " " + pliant::compare::to_table(result));
   for (const auto& refusal : result.refused) print("left out: " + refusal.name + ": " + one_line(refusal.reason) + "\n");
   if (outputs.json) {

@@ -41,7 +41,7 @@ Size parse_size(const std::string& text) {
 
 void draw_picture(const RenderOptions& options, const Scene& scene, Size size) {
   Renderer renderer(size.width, size.height);
-  World world(scene);
+  World world = make_world(scene, options.scene);
   simulate_finite(world, scene, options.scene, options.quiet, [] {});
   RenderScene picture = make_render_scene(scene, world);
   picture.camera = pliant::render::frame_camera({picture}, size.width, size.height, options.azimuth, options.elevation);
@@ -52,7 +52,7 @@ void draw_picture(const RenderOptions& options, const Scene& scene, Size size) {
 std::vector<RenderScene> moments_of(const RenderOptions& options, Scene scene) {
   scene.frames = *std::max_element(options.strip.begin(), options.strip.end());
   std::vector<RenderScene> moments(options.strip.size());
-  World world(scene);
+  World world = make_world(scene, options.scene);
   const auto keep = [&](int frame) {
     for (std::size_t i = 0; i < moments.size(); ++i)
       if (options.strip[i] == frame) moments[i] = make_render_scene(scene, world);
@@ -102,7 +102,7 @@ void draw_movie(const RenderOptions& options, const Scene& scene, Size size) {
   Renderer renderer(size.width, size.height);
   const double rate = std::clamp(1.0 / static_cast<double>(scene.frame_time), 1.0, 240.0);
   MovieWriter movie(options.out, size.width, size.height, rate);
-  World world(scene);
+  World world = make_world(scene, options.scene);
   const Camera camera = camera_for(options, scene, world, size);
   const auto draw = [&] {
     RenderScene picture = make_render_scene(scene, world);

@@ -32,7 +32,7 @@ int run(const RunOptions& options) {
   if (!options.report.empty()) files.push_back(options.report);
   refuse_same_file_twice(options.scene, files);
   const Scene scene = read_scene_with(options.scene, options.overrides, options.quiet);
-  World world(scene);
+  World world = make_world(scene, options.scene);
 
   std::vector<std::unique_ptr<FrameWriter>> writers;
   for (const std::string& path : options.out) writers.push_back(make_frame_writer(path, scene, world));

@@ -49,6 +49,21 @@ Scene read_scene_with(const std::string& path, const Overrides& overrides, bool 
   return scene;
 }
 
+Error of_file(const Error& error, const std::string& path) {
+  if (!error.where().file.empty()) return error;
+  Location where = error.where();
+  where.file = path;
+  return {where, error.problem(), error.advice()};
+}
+
+World make_world(const Scene& scene, const std::string& path) {
+  try {
+    return World(scene);
+  } catch (const Error& error) {
+    throw of_file(error, path);
+  }
+}
+
 bool simulate(World& world, const Scene& scene, bool quiet, const std::function<void(const Report&)>& after_frame) {
   Progress progress(scene.frames, !quiet);
   for (int frame = 1; frame <= scene.frames; ++frame) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "command.h"
+#include "pliant/error.h"
 #include "pliant/scene.h"
 #include "pliant/world.h"
 
@@ -13,6 +14,12 @@ namespace pliant::command {
 
 /// Reads a scene and applies what the caller changes of it. Prints what reading its meshes mended, unless `quiet`.
 Scene read_scene_with(const std::string& path, const Overrides& overrides, bool quiet);
+
+/// Makes the World of a scene that was read from `path`: what is wrong with it names the file.
+World make_world(const Scene& scene, const std::string& path);
+
+/// The same error, of the file unless it names one already.
+Error of_file(const Error& error, const std::string& path);
 
 /// Steps `frames` frames and calls `after_frame` after each. Stops early, and returns false, after a frame that is not
 /// finite. Shows progress where standard error is a terminal and not `quiet`. Throws Interrupted on a signal to end.

@@ -1,15 +1,12 @@
-// What there is to say about contact among what moves and with meshes: mesh colliders that can't be, thickness that is too
-// much for a mesh, and what passes through what before anything has moved.
+// What there is to say about contact among what moves and with meshes: mesh colliders that can't be, and thickness that is too
+// much for a mesh. What passes through what before anything has moved: inspect_tangles.cpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "collision/intersections.h"
-#include "model/carrier.h"
 #include "pliant/error.h"
 #include "world/problems.h"
 #include "world/solid_fields.h"
@@ -85,105 +82,6 @@ void doubt_thickness(Problems& problems, const Object& object) {
   if (object.thickness == 0)
     problems.doubtful("thickness", "is 0: layers would rest on the last distance that the filter keeps",
                       "give about a tenth of an edge");
-}
-
-// ------------------------------------------------------------------------------------------------ tangles
-
-/// What takes part in contact, in one numbering: all objects, then all mesh colliders.
-struct Surfaces {
-  struct Part {
-    std::string name;
-    bool self, collides, is_collider;
-    std::uint32_t groups, mask;
-    int first;
-  };
-  std::vector<Part> parts;
-  std::vector<Vec3f> positions;
-  std::vector<Triangle> triangles;
-
-  void add(const Part& part, const std::vector<Vec3f>& places, const std::vector<std::array<int, 3>>& faces) {
-    parts.push_back(part);
-    const int first = parts.back().first = static_cast<int>(positions.size());
-    positions.insert(positions.end(), places.begin(), places.end());
-    for (const auto& [a, b, c] : faces) triangles.push_back({first + a, first + b, first + c});
-  }
-  int part_of(int vertex) const {
-    const auto after =
-        std::upper_bound(parts.begin(), parts.end(), vertex, [](int v, const Part& part) { return v < part.first; });
-    return static_cast<int>(after - parts.begin()) - 1;
-  }
-  /// As collision/pair_model.cpp decides.
-  bool meet(int a, int b) const {
-    const Part &p = parts[a], &q = parts[b];
-    if (a == b) return p.self;
-    const bool masks = (p.groups & q.mask) != 0 && (q.groups & p.mask) != 0;
-    return masks && !(p.is_collider && q.is_collider) && ((p.collides && q.collides) || p.is_collider || q.is_collider);
-  }
-  std::string name(int part) const {
-    return (parts[part].is_collider ? "collider '" : "object '") + parts[part].name + "'";
-  }
-  std::string local(int vertex) const { return std::to_string(vertex - parts[part_of(vertex)].first); }
-};
-
-std::vector<Vec3f> positions_at_start(const MeshCollider& collider) {
-  if (collider.frames.empty() && !collider.motion.moves()) return collider.mesh.positions;
-  Carrier carrier{collider.motion, collider.mesh.positions, {}, {}, collider.repeat_frames};
-  for (const MeshFrame& frame : collider.frames) {
-    carrier.times.push_back(frame.time);
-    carrier.frames.push_back(frame.positions);
-  }
-  const CarrierPose pose(carrier, 0);
-  std::vector<Vec3f> places;
-  for (std::size_t i = 0; i < carrier.rest.size(); ++i) places.push_back(convert<float>(pose.place(static_cast<int>(i))));
-  return places;
-}
-
-Surfaces surfaces_of(const Scene& scene) {
-  Surfaces all;
-  for (const Object& o : scene.objects)
-    all.add({o.name, o.self_collision, o.collides, false, o.groups, o.mask, 0}, o.positions, o.triangles);
-  for (const MeshCollider& c : scene.mesh_colliders)
-    if (c.as == MeshCollider::As::triangles)
-      all.add({c.name, false, true, true, c.groups, c.mask, 0}, positions_at_start(c), c.mesh.triangles);
-  return all;
-}
-
-bool any_meet(const Surfaces& all) {
-  const int count = static_cast<int>(all.parts.size());
-  for (int a = 0; a < count; ++a)
-    for (int b = a; b < count; ++b)
-      if (all.meet(a, b)) return true;
-  return false;
-}
-
-void name_tangles(Problems& problems, const Scene& scene) {
-  const Settings::Intersections what = scene.settings.initial_intersections;
-  const Surfaces all = surfaces_of(scene);
-  if (all.triangles.empty() || !any_meet(all)) return;
-  IntersectionFinder finder(all.triangles, static_cast<int>(all.positions.size()));
-  std::map<std::pair<int, int>, std::pair<Intersection, std::size_t>> between;
-  for (const Intersection& found : finder.find(all.positions)) {
-    const int a = all.part_of(found.a), b = all.part_of(all.triangles[static_cast<std::size_t>(found.triangle)][0]);
-    if (!all.meet(a, b)) continue;
-    auto& [first, count] = between[{std::min(a, b), std::max(a, b)}];
-    if (count++ == 0) first = found;
-  }
-  for (const auto& [parts, found] : between) {
-    const Intersection& first = found.first;
-    const Triangle& t = all.triangles[static_cast<std::size_t>(first.triangle)];
-    const int a = all.part_of(first.a), b = all.part_of(t[0]);
-    problems.at(all.parts[a].name);
-    const std::string edge = "edge " + all.local(first.a) + "-" + all.local(first.b);
-    const std::string problem = "passes through triangle (" + all.local(t[0]) + ", " + all.local(t[1]) + ", " +
-                                all.local(t[2]) + ") of " + (a == b ? "the same object" : all.name(b)) +
-                                " at the start, one of " + counted(found.second, "crossing");
-    if (what == Settings::Intersections::refuse)
-      problems.grave(edge, problem, "move one of them or mend the mesh, or have initial_intersections untangled or left");
-    else if (what == Settings::Intersections::untangle)
-      problems.doubtful(edge, problem, "they will be drawn apart at untangling_speed");
-    else
-      problems.doubtful(edge, problem, "contact leaves them out until they are apart: move one of them, or mend the mesh");
-  }
 }
 
 }  // namespace
@@ -264,12 +162,7 @@ void doubt_contact(Problems& problems, const Scene& scene) {
     problems.at(object.name);
     doubt_thickness(problems, object);
   }
-  if (scene.settings.initial_intersections != Settings::Intersections::refuse) name_tangles(problems, scene);
-  problems.at("");
-}
-
-void refuse_tangles(Problems& problems, const Scene& scene) {
-  if (scene.settings.initial_intersections == Settings::Intersections::refuse) name_tangles(problems, scene);
+  doubt_tangles(problems, scene);
   problems.at("");
 }
 

@@ -79,8 +79,11 @@ void doubt_object(Problems& problems, const Object& object, const Scene& scene);
 void check_mesh_collider(Problems& problems, const MeshCollider& collider);
 /// Everything about the scene's pairs that a World would refuse.
 void check_pairs(Problems& problems, const Scene& scene);
-/// Where surfaces may not pass through one another at the start, that they do: for a scene that nothing is grave in.
+/// Where things may not pass through one another at the start, that they do, or are shut up in one another: for a scene that
+/// nothing is grave in.
 void refuse_tangles(Problems& problems, const Scene& scene);
+/// Where they may, that they do.
+void doubt_tangles(Problems& problems, const Scene& scene);
 /// What else is worth knowing about contact among what moves, in a scene that nothing is grave in.
 void doubt_contact(Problems& problems, const Scene& scene);
 

@@ -98,6 +98,17 @@ TEST_F(Command, HelpAndVersion) {
   EXPECT_EQ(pliant("--version").out, pliant("version").out);
 }
 
+TEST_F(Command, NamesTheFileOfASceneThatNoWorldIsMadeOf) {
+  std::ofstream(folder_ / "shut_up.json") << R"({"frames": 2, "settings": {"initial_intersections": "refuse"},
+    "objects": [{"name": "sheet", "cloth": {"mesh": {"grid": {"columns": 4, "rows": 4, "width": 0.2, "depth": 0.2}}}}],
+    "colliders": [{"name": "ball", "mesh": {"sphere": {"subdivisions": 2, "radius": 0.5}}}]})";
+  const std::string word = "shut_up.json: object 'sheet', particle 0 and 15 more: is inside of closed collider 'ball'";
+  expect_refused("run shut_up.json", 1, word);
+  expect_refused("render shut_up.json --out a.png", 1, word);
+  expect_refused("compare shut_up.json", 1, word);
+  EXPECT_NE(pliant("check shut_up.json").out.find("wrong: object 'sheet', particle 0 and 15 more"), std::string::npos);
+}
+
 TEST_F(Command, UsageErrorsGiveTwo) {
   expect_refused("", 2, "pliant run");
   expect_refused("fly", 2, "fly");

@@ -150,5 +150,68 @@ TEST(Untangle, MayBeRefused) {
   EXPECT_NO_THROW(World{apart});
 }
 
+/// What a World says that is not made; empty: it is.
+std::string refusal_of(const Scene& scene) {
+  try {
+    World world(scene);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// A ball of triangles about the origin of half a metre, with a small sheet and two grains in it, and one outside.
+Scene shut_up(MeshCollider::As as) {
+  Scene scene;
+  scene.settings = settings_of(4);
+  scene.settings.initial_intersections = Intersections::refuse;
+  MeshCollider ball;
+  ball.name = "ball";
+  ball.mesh = sphere_mesh(2);
+  for (Vec3f& p : ball.mesh.positions) p = p * 0.5f;
+  ball.as = as;
+  if (as == MeshCollider::As::distance_grid) ball.field = measure_distances(ball.mesh, 0.1f);
+  scene.add(ball);
+  scene.add(cloth(sheet(4, 0.2f, 0.03f), "sheet"));
+  Object grains = loose_particles({{0, 2, 0}, {0.1f, 0.2f, 0.05f}, {0, -0.3f, 0}});
+  grains.name = "grains";
+  scene.add(grains);
+  return scene;
+}
+
+TEST(Untangle, RefusesWhatIsShutUpInACollider) {
+  for (const auto as : {MeshCollider::As::triangles, MeshCollider::As::distance_grid}) {
+    Scene scene = shut_up(as);
+    const std::string name = as == MeshCollider::As::triangles ? "closed collider 'ball'" : "distance grid 'ball'";
+    EXPECT_NE(refusal_of(scene).find("object 'sheet', particle 0 and 15 more: is inside of " + name), std::string::npos)
+        << refusal_of(scene);
+    for (Vec3f& p : scene.objects[0].positions) p.y += 1;
+    EXPECT_NE(refusal_of(scene).find("object 'grains', particle 1 and 1 more: is inside of " + name), std::string::npos)
+        << refusal_of(scene);
+    scene.objects[1].mask = 2;
+    EXPECT_EQ(refusal_of(scene), "") << "what does not meet may be anywhere";
+    scene.objects[1].mask = ~0u;
+    scene.settings.initial_intersections = Intersections::leave;
+    EXPECT_EQ(refusal_of(scene), "");
+  }
+}
+
+TEST(Untangle, RefusesWhatIsShutUpInClosedClothAndNotWhatIsInAnOpenOne) {
+  Scene scene;
+  scene.settings.initial_intersections = Intersections::refuse;
+  scene.add(cloth(sheet(4, 0.2f, 0.03f), "sheet"));
+  scene.add(cloth(sphere_mesh(2), "balloon"));
+  EXPECT_NE(refusal_of(scene).find("object 'sheet', particle 0 and 15 more: is inside of closed object 'balloon'"),
+            std::string::npos)
+      << refusal_of(scene);
+  Scene open = scene;
+  TriangleMesh torn = sphere_mesh(2);
+  torn.triangles.pop_back();
+  open.objects[1] = cloth(torn, "balloon");
+  EXPECT_EQ(refusal_of(open), "");
+  for (Vec3f& p : scene.objects[0].positions) p.x += 1.2f;
+  EXPECT_EQ(refusal_of(scene), "") << "beside it";
+}
+
 }  // namespace
 }  // namespace pliant

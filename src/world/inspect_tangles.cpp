@@ -1,0 +1,149 @@
+// What passes through what, or is shut up in it, before anything has moved: refused, or doubted, as the scene has it.
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "collision/intersections.h"
+#include "collision/mesh_query.h"
+#include "topology/boundary.h"
+#include "world/problems.h"
+#include "world/surfaces.h"
+
+namespace pliant {
+
+namespace {
+
+using Intersections = Settings::Intersections;
+
+constexpr const char* what_to_do = "move one of them or mend the mesh, or have initial_intersections untangled or left";
+
+/// What crosses between two parts: the first, and how many.
+struct Crossings {
+  Intersection first{};
+  std::size_t count = 0;
+};
+using CrossingsOfParts = std::map<std::pair<int, int>, Crossings>;
+
+CrossingsOfParts find_crossings(const Surfaces& all) {
+  CrossingsOfParts between;
+  IntersectionFinder finder(all.triangles, static_cast<int>(all.positions.size()));
+  for (const Intersection& found : finder.find(all.positions)) {
+    const int a = all.part_of(found.a), b = all.part_of(all.triangles[static_cast<std::size_t>(found.triangle)][0]);
+    if (!all.meet(a, b)) continue;
+    Crossings& crossings = between[std::minmax(a, b)];
+    if (crossings.count++ == 0) crossings.first = found;
+  }
+  return between;
+}
+
+bool any_meet(const Surfaces& all) {
+  const int count = static_cast<int>(all.parts.size());
+  for (int a = 0; a < count; ++a)
+    for (int b = a; b < count; ++b)
+      if (all.meet(a, b)) return true;
+  return false;
+}
+
+void name_crossings(Problems& problems, const Surfaces& all, const Crossings& crossings, Intersections what) {
+  const Intersection& first = crossings.first;
+  const Triangle& t = all.triangles[static_cast<std::size_t>(first.triangle)];
+  const int a = all.part_of(first.a), b = all.part_of(t[0]);
+  problems.at(all.parts[a].name);
+  const std::string edge = "edge " + all.local(first.a) + "-" + all.local(first.b);
+  const std::string problem = "passes through triangle (" + all.local(t[0]) + ", " + all.local(t[1]) + ", " +
+                              all.local(t[2]) + ") of " + (a == b ? "the same object" : all.name(b)) +
+                              " at the start, one of " + std::to_string(crossings.count) + " crossing" +
+                              (crossings.count == 1 ? "" : "s");
+  if (what == Intersections::refuse)
+    problems.grave(edge, problem, what_to_do);
+  else if (what == Intersections::untangle)
+    problems.doubtful(edge, problem, "they will be drawn apart at untangling_speed");
+  else
+    problems.doubtful(edge, problem, "contact leaves them out until they are apart: move one of them, or mend the mesh");
+}
+
+// ---------------------------------------------------------------- inside
+
+/// A closed surface that a thing may be shut up in without touching it.
+struct Closed {
+  std::string name;  ///< "closed collider 'ball'"
+  int part = -1;     ///< -1: a distance grid
+  std::uint32_t groups = 1, mask = ~0u;
+  MeshQuery query;
+};
+
+bool is_closed_mesh(const std::vector<Triangle>& triangles, int vertices) {
+  return !triangles.empty() && is_closed(find_edges(triangles, vertices));
+}
+
+std::vector<Closed> closed_surfaces(const Scene& scene, const Surfaces& all) {
+  std::vector<Closed> out;
+  for (int part = 0; part < static_cast<int>(all.parts.size()); ++part) {
+    const Surfaces::Part& of = all.parts[static_cast<std::size_t>(part)];
+    const std::vector<Triangle> triangles = all.triangles_of(part);
+    if (!is_closed_mesh(triangles, all.end_of(part) - of.first)) continue;
+    const std::vector<Vec3f> places(all.positions.begin() + of.first, all.positions.begin() + all.end_of(part));
+    out.push_back({"closed " + all.name(part), part, of.groups, of.mask, MeshQuery(places, triangles)});
+  }
+  for (const MeshCollider& c : scene.mesh_colliders)
+    if (c.as == MeshCollider::As::distance_grid)
+      out.push_back({"distance grid '" + c.name + "'", -1, c.groups, c.mask,
+                     MeshQuery(positions_at_start(c), {c.mesh.triangles.begin(), c.mesh.triangles.end()})});
+  return out;
+}
+
+bool meet(const Surfaces& all, int object, const Closed& closed) {
+  const Surfaces::Part& of = all.parts[static_cast<std::size_t>(object)];
+  if (closed.part >= 0) return object != closed.part && all.meet(object, closed.part);
+  return (of.groups & closed.mask) != 0 && (closed.groups & of.mask) != 0;
+}
+
+/// Particles of an object inside of a closed surface.
+Tally inside_of(const Surfaces& all, int object, const MeshQuery& query) {
+  Tally inside;
+  const BoxBounds& box = query.bounds();
+  const int first = all.parts[static_cast<std::size_t>(object)].first;
+  for (int v = first; v < all.end_of(object); ++v) {
+    const Vec3f& p = all.positions[static_cast<std::size_t>(v)];
+    if (overlap(BoxBounds{p, p}, box) && query.is_inside(p)) inside.add(v - first);
+  }
+  return inside;
+}
+
+/// Things that nothing crosses may still be where they can't be. What crosses is named already.
+void refuse_inside(Problems& problems, const Scene& scene, const Surfaces& all, const CrossingsOfParts& crossings) {
+  const int objects = static_cast<int>(scene.objects.size());
+  for (const Closed& closed : closed_surfaces(scene, all)) {
+    for (int object = 0; object < objects; ++object) {
+      if (!meet(all, object, closed) || crossings.count(std::minmax(object, closed.part)) > 0) continue;
+      problems.at(all.parts[static_cast<std::size_t>(object)].name);
+      problems.grave(inside_of(all, object, closed.query), "particle", "is inside of " + closed.name + " at the start",
+                     what_to_do);
+    }
+  }
+}
+
+void look_at(Problems& problems, const Scene& scene) {
+  const Intersections what = scene.settings.initial_intersections;
+  const Surfaces all = surfaces_of(scene);
+  CrossingsOfParts crossings;
+  if (!all.triangles.empty() && any_meet(all)) crossings = find_crossings(all);
+  for (const auto& [parts, found] : crossings) name_crossings(problems, all, found, what);
+  if (what == Intersections::refuse) refuse_inside(problems, scene, all, crossings);
+}
+
+}  // namespace
+
+void doubt_tangles(Problems& problems, const Scene& scene) {
+  if (scene.settings.initial_intersections != Intersections::refuse) look_at(problems, scene);
+  problems.at("");
+}
+
+void refuse_tangles(Problems& problems, const Scene& scene) {
+  if (scene.settings.initial_intersections == Intersections::refuse) look_at(problems, scene);
+  problems.at("");
+}
+
+}  // namespace pliant
