@@ -71,8 +71,8 @@ Heightfield heightfield_of(const TriangleMesh& mesh) {
               depth = (p.back().z - p[0].z) / static_cast<float>(rows - 1), slack = 1e-3f * min(width, depth);
   std::vector<float> heights;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const Vec3f even{p[0].x + width * static_cast<float>(i % columns), p[i].y,
-                     p[0].z + depth * static_cast<float>(i / columns)};
+    const std::size_t row = i / columns, column = i % columns;
+    const Vec3f even{p[0].x + width * static_cast<float>(column), p[i].y, p[0].z + depth * static_cast<float>(row)};
     if (!(largest(p[i] - even) <= slack)) fail_not_even(i);
     heights.push_back(p[i].y);
   }

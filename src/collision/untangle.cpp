@@ -100,6 +100,7 @@ struct Pieces {
 
 Pieces pieces_of(const PairModel& model, const std::vector<Intersection>& cuts, int body) {
   std::vector<std::pair<int, int>> cut;
+  cut.reserve(cuts.size());
   for (const Intersection& one : cuts) cut.push_back(std::minmax(one.a, one.b));
   std::sort(cut.begin(), cut.end());
   Pieces pieces;

@@ -314,6 +314,7 @@ Multigrid build_multigrid(const std::vector<ConstraintList>& lists, const std::v
   out.levels.emplace_back();
   MultigridLevel& level = out.levels.back();
   const std::vector<std::int32_t> place = lay_out(graph, level);
+  out.edge_length = static_cast<float>(measure(springs, positions).spacing);
   out.stiffness_limit = stiffness_limits(springs, graph, positions, fixed, gravity);
   level.stiffness.assign(level.column.size(), 0.f);
   level.rest_length.assign(level.column.size(), 1.f);

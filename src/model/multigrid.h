@@ -48,6 +48,7 @@ struct Multigrid {
   std::vector<std::int32_t> piece;  ///< of each particle: number of what springs join it to, or -1 where it can't move
   std::vector<std::int32_t> coarsest_piece;  ///< of each row of the last level, likewise
   int pieces = 0;
+  float edge_length = 0;               ///< of all springs at rest, the mean [m]
   std::vector<float> stiffness_limit;  ///< of the springs at each particle: an edge has the larger of its ends' [N/m]
 };
 

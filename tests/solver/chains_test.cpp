@@ -128,8 +128,8 @@ TEST(Chains, and_tethers_give_the_bits_of_the_reference_in_lanes) {
   std::mt19937 random(4);
   for (int round = 0; round < 24; ++round) {
     const bool nasty = round % 3 == 2;
-    Object from =
-        grid(3 + static_cast<int>(random() % 30), 3 + static_cast<int>(random() % 20), round % 2 == 0 ? 0.f : 1e-6f);
+    const int columns = 3 + static_cast<int>(random() % 30), rows = 3 + static_cast<int>(random() % 20);
+    Object from = grid(columns, rows, round % 2 == 0 ? 0.f : 1e-6f);
     for (int pin = 0; pin < round % 7; ++pin) from.pins.push_back({static_cast<int>(random() % from.positions.size()), {}});
     Substep start(from, chained(0.1f, true));
     disturb(start, random, nasty);

@@ -22,6 +22,7 @@ int number_from(const char* variable, int otherwise) {
   return text != nullptr ? std::atoi(text) : otherwise;
 }
 
+/// Two calls of one Dice never stand in the same list of arguments, which compilers evaluate in orders of their own.
 class Dice {
  public:
   explicit Dice(unsigned seed) : random_(seed) {}
@@ -42,8 +43,10 @@ Stiffness random_stiffness(Dice& dice) {
       return Stiffness::rigid();
     case 1:
       return Stiffness::pbd(dice.one_in(3) ? static_cast<float>(dice.below(2)) : dice.between(0, 1));
-    case 2:
-      return Stiffness::compliance(dice.one_in(4) ? 1e20f : dice.magnitude(-12, 6), dice.magnitude(-6, 6));
+    case 2: {
+      const float compliance = dice.one_in(4) ? 1e20f : dice.magnitude(-12, 6);
+      return Stiffness::compliance(compliance, dice.magnitude(-6, 6));
+    }
     default:
       return Stiffness::compliance(dice.magnitude(-12, 6));
   }
@@ -119,8 +122,9 @@ Scene random_scene(unsigned seed, float& step) {
   const float scale = dice.one_in(3) ? dice.magnitude(-3, 3) : 1;
   const Vec3f place = dice.one_in(4) ? Vec3f{1e4f, -1e4f, 0} : Vec3f{};
   step = dice.one_in(3) ? dice.magnitude(-5, 0) : 1.f / 60;
-  scene.settings =
-      settings_of(1 + dice.below(12), dice.one_in(3) ? 1 + dice.below(dice.one_in(5) ? 50 : 10) : 1, 1 + dice.below(2));
+  scene.settings.substeps = 1 + dice.below(12);
+  scene.settings.iterations = dice.one_in(3) ? 1 + dice.below(dice.one_in(5) ? 50 : 10) : 1;
+  scene.settings.threads = 1 + dice.below(2);
   scene.settings.measure = dice.one_in(2);
   if (dice.one_in(4)) scene.gravity = dice.point(100);
   if (dice.one_in(3)) scene.wind = {dice.point(50), dice.between(0, 1), dice.magnitude(-2, 1), dice.magnitude(-1, 2)};
@@ -135,7 +139,10 @@ Scene random_scene(unsigned seed, float& step) {
     collider.rotation = rotation({1, dice.between(-1, 1), 0.5f}, dice.between(0, 360));
     collider.static_friction = dice.magnitude(-2, 2);
     collider.kinetic_friction = collider.static_friction * dice.between(0, 1);
-    if (dice.one_in(2)) collider.motion = straight(dice.point(10 * scale), dice.magnitude(-2, 1));
+    if (dice.one_in(2)) {
+      const Vec3f way = dice.point(10 * scale);
+      collider.motion = straight(way, dice.magnitude(-2, 1));
+    }
     scene.add(collider);
   }
   return scene;
@@ -150,9 +157,8 @@ bool is_finite(const State& state) {
   return true;
 }
 
-void expect_finite_or_said(Sweep sweep) {
-  const int scenes = number_from("PLIANT_RANDOM_SCENES", 200), frames = scenes > 200 ? 300 : 40;
-  const unsigned first = static_cast<unsigned>(number_from("PLIANT_RANDOM_SEED", 0));
+void expect_finite_or_said(Sweep sweep, unsigned first, int scenes) {
+  const int frames = scenes > 200 ? 300 : 40;
   int refused = 0, stopped = 0;
   for (unsigned seed = first; seed < first + static_cast<unsigned>(scenes); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -186,8 +192,17 @@ void expect_finite_or_said(Sweep sweep) {
   EXPECT_LT(stopped, 1 + scenes / 8);
 }
 
+void expect_finite_or_said(Sweep sweep) {
+  const auto first = static_cast<unsigned>(number_from("PLIANT_RANDOM_SEED", 0));
+  expect_finite_or_said(sweep, first, number_from("PLIANT_RANDOM_SCENES", 200));
+}
+
 TEST(RandomScenes, StayFiniteOrSayWhatDidNot) { expect_finite_or_said(Sweep::tiled); }
 TEST(RandomScenes, StayFiniteOrSayWhatDidNotByMultigrid) { expect_finite_or_said(Sweep::multigrid); }
+
+// Cloth of masses from 1e-3 to 1e3 whose rigid bending undoes in each substep what was corrected: every correction by an unsound
+// Newton step threw it further, until no float held it.
+TEST(RandomScenes, UnsoundCorrectionsAreNotMade) { expect_finite_or_said(Sweep::multigrid, 1091, 1); }
 
 }  // namespace
 }  // namespace pliant

@@ -22,7 +22,7 @@ struct MultigridObject {
   Records direction, image, change;  ///< of conjugate gradients: p, A p, x
   AlignedVector<float> extra;        ///< of contacts: nine rows of sixteen a batch
   std::vector<char> has_extra;       ///< by batch
-  std::vector<float> sums;           ///< by task
+  std::vector<double> sums;          ///< by task
   /// Of a piece: what holds it to the world (xx yy zz xy xz yz), and what force it is still owed.
   struct Piece {
     double held[6], force[3];
@@ -45,6 +45,19 @@ struct PairSpring {
 /// Its stiffness along and across, xx yy zz xy xz yz [N/m].
 std::array<float, 6> block_of(const PairSpring& spring);
 
+/// Objects that contacts join, by number, and these contacts.
+struct MultigridGroup {
+  std::vector<int> objects;
+  std::vector<const PairSpring*> springs;
+};
+
+/// Of one substep; kept, so that none allocates.
+struct MultigridGroups {
+  std::vector<MultigridGroup> all;  ///< the first `count` are in use
+  int count = 0;
+  std::vector<int> root, of_root;  ///< of each object: another that it is joined to; of such a root: its group
+};
+
 class Frame;
 
 /// The correction alone, of every object that has levels. The first of a substep is made from the prediction, before any sweep;
@@ -64,5 +77,15 @@ void keep_multigrid_pushes(Frame& frame);
 void add_multigrid_pairs(Frame& frame);
 void keep_multigrid_pair_pushes(Frame& frame);
 double couple_pair(const PairSpring& spring, std::vector<MultigridObject>& objects);
+// In multigrid_group.cpp: the groups of all objects with levels, in the order of each group's first; and conjugate gradients for
+// one, after which its right-hand sides are what is left of them.
+void make_multigrid_groups(Frame& frame);
+void solve_multigrid_group(Frame& frame, const MultigridGroup& group, int cycles);
+/// False where the change of an object is not to be made: it is not finite, or moves something by more than an edge and makes
+/// the springs' energy no less.
+bool is_multigrid_change_sound(Frame& frame, int object);
+// In multigrid_multipliers.cpp: lambda of compliant distances after the change, and all at zero before it.
+void keep_multigrid_multipliers(Frame& frame, int object, bool first);
+void clear_multigrid_multipliers(Frame& frame);
 
 }  // namespace pliant

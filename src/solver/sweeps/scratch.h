@@ -44,6 +44,7 @@ struct SweepScratch {
   ChebyshevScratch chebyshev;
   std::vector<MultigridObject> multigrid;  ///< one an object
   std::vector<PairSpring> pair_springs;    ///< of the multigrid correction
+  MultigridGroups multigrid_groups;        ///< likewise
   Records predicted;                       ///< displacements as predicted, where residuals are recorded
 };
 

@@ -1,0 +1,111 @@
+// Objects that contacts join are corrected as one: the same conjugate gradients over all their hierarchies and the contacts
+// between them.
+#include <algorithm>
+#include <array>
+
+#include "solver/sweeps/multigrid_solve.h"
+
+namespace pliant {
+
+namespace {
+
+double apply(Frame& frame, const MultigridGroup& group) {
+  double curvature = 0;
+  for (const int o : group.objects) curvature += MultigridSolve(frame, o).apply();
+  for (const PairSpring* s : group.springs) curvature += couple_pair(*s, frame.scratch().multigrid);
+  return curvature;
+}
+
+void advance(Frame& frame, const MultigridGroup& group, float alpha) {
+  for (const int o : group.objects) MultigridSolve(frame, o).advance(alpha);
+}
+
+/// A step of conjugate gradients; false where there is none left to make.
+bool step(Frame& frame, const MultigridGroup& group, double& before) {
+  double now = 0;
+  for (const int o : group.objects) now += MultigridSolve(frame, o).precondition();
+  const float beta = before > 0 ? static_cast<float>(now / before) : 0.f;
+  before = now;
+  for (const int o : group.objects) MultigridSolve(frame, o).turn(beta);
+  const double curvature = apply(frame, group);
+  if (!(curvature > 0) || !(now > 0)) return false;
+  advance(frame, group, static_cast<float>(now / curvature));
+  return true;
+}
+
+/// What holds a contact of the group is between its sides alone: moving both together feels only their difference.
+void release(const PairSpring& s, MultigridObject::Piece& sum) {
+  const std::array<float, 6> block = block_of(s);
+  float side[2] = {0, 0};  // what of each moves; the rows hold both
+  for (int i = 0; i < 4; ++i)
+    if (s.object[i] >= 0) side[s.weight[i] > 0 ? 0 : 1] += abs(s.weight[i]);
+  const float free = side[0] + side[1] - (side[0] - side[1]) * (side[0] - side[1]);
+  for (int c = 0; c < 6; ++c) sum.held[c] -= static_cast<double>(free * block[c]);
+}
+
+/// What contacts join, as one: each piece was shifted as if the others stood still.
+void shift_together(Frame& frame, const MultigridGroup& group) {
+  MultigridObject::Piece sum{};
+  for (const int o : group.objects) MultigridSolve(frame, o).add_pieces(sum);
+  for (const PairSpring* s : group.springs) release(*s, sum);
+  const Record shift = shift_of(sum);
+  for (const int o : group.objects) MultigridSolve(frame, o).turn_to({shift.x, shift.y, shift.z});
+  apply(frame, group);
+  advance(frame, group, 1);
+}
+
+/// The number of the first object that a contact touches or of what is joined to it, halving the ways there.
+int find(std::vector<int>& root, int o) {
+  while (root[o] != o) o = root[o] = root[root[o]];
+  return o;
+}
+
+int first_of(const PairSpring& s) { return *std::max_element(s.object.begin(), s.object.end()); }
+
+}  // namespace
+
+void make_multigrid_groups(Frame& frame) {
+  MultigridGroups& groups = frame.scratch().multigrid_groups;
+  const int objects = static_cast<int>(frame.model().objects.size());
+  const std::vector<PairSpring>& springs = frame.scratch().pair_springs;
+  groups.root.resize(static_cast<std::size_t>(objects));
+  for (int o = 0; o < objects; ++o) groups.root[o] = o;
+  for (const PairSpring& s : springs) {
+    for (const int o : s.object) {
+      if (o < 0) continue;
+      const int a = find(groups.root, o), b = find(groups.root, first_of(s));
+      groups.root[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  groups.of_root.assign(static_cast<std::size_t>(objects), -1);
+  groups.count = 0;
+  for (int o = 0; o < objects; ++o) {
+    if (frame.model().objects[o].multigrid.levels.empty()) continue;
+    int& number = groups.of_root[find(groups.root, o)];
+    if (number < 0) {
+      number = groups.count++;
+      if (static_cast<std::size_t>(groups.count) > groups.all.size()) groups.all.emplace_back();
+      groups.all[number].objects.clear();
+      groups.all[number].springs.clear();
+    }
+    groups.all[number].objects.push_back(o);
+  }
+  for (const PairSpring& s : springs) groups.all[groups.of_root[find(groups.root, first_of(s))]].springs.push_back(&s);
+}
+
+void solve_multigrid_group(Frame& frame, const MultigridGroup& group, int cycles) {
+  for (const int o : group.objects) {
+    MultigridSolve solve(frame, o);
+    solve.clear_change();
+    solve.clear_direction();
+  }
+  double before = 0;
+  for (int i = 0; i < cycles && step(frame, group, before); ++i) {
+  }
+  for (const int o : group.objects) MultigridSolve(frame, o).turn_to_shifts(group.springs);
+  apply(frame, group);
+  advance(frame, group, 1);
+  if (group.objects.size() > 1) shift_together(frame, group);
+}
+
+}  // namespace pliant

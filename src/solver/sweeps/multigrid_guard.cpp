@@ -1,0 +1,70 @@
+// What keeps the multigrid correction from doing harm. It is one Newton step about the prediction, and right as long as springs
+// turn little in it. Where masses differ by many orders, or something else bends the mesh by more than an edge in every substep
+// (a long step with rigid bending), it need not lead anywhere, and made again and again it can throw particles ever further.
+#include <algorithm>
+#include <cmath>
+
+#include "solver/frame.h"
+#include "solver/sweeps/multigrid_solve.h"
+
+namespace pliant {
+
+namespace {
+
+/// The square of the farthest that any particle is moved.
+float farthest(const Records& change, int particles) {
+  float most = 0;
+  for (int i = 0; i < particles; ++i) {
+    const Record& c = change[i];
+    most = max(most, c.x * c.x + c.y * c.y + c.z * c.z);
+  }
+  return most;
+}
+
+/// Twice the stretching energy of the springs of batches [first, last), each counted at both ends, where `scale` of the change is made.
+double stretching(const MultigridLevel& level, const SweepArguments& a, const Records& change, float scale, int first,
+                  int last) {
+  double total = 0;
+  for (int slot = level.first_slot[first], b = first; b < last; ++b) {
+    for (; slot < level.first_slot[b + 1]; ++slot) {
+      for (int lane = 0; lane < batch_width; ++lane) {
+        const int at = slot * batch_width + lane, i = row_of(b, lane), j = level.column[at];
+        if (!(level.stiffness[at] > 0)) continue;
+        const Record &p = a.positions[i], &q = a.positions[j], &d = a.displacements[i], &e = a.displacements[j];
+        const Record &c = change[i], &f = change[j];
+        const Vec3f u{(q.x - p.x) + (e.x - d.x) + scale * (f.x - c.x), (q.y - p.y) + (e.y - d.y) + scale * (f.y - c.y),
+                      (q.z - p.z) + (e.z - d.z) + scale * (f.z - c.z)};
+        const auto error = static_cast<double>(length(u) - level.rest_length[at]);
+        total += static_cast<double>(level.stiffness[at]) * error * error;
+      }
+    }
+  }
+  return total;
+}
+
+double stretching(Frame& frame, int o, float scale) {
+  const MultigridLevel& level = frame.model().objects[o].multigrid.levels[0];
+  MultigridObject& work = frame.scratch().multigrid[o];
+  const SweepArguments a = frame.arguments(o, false);
+  const int batches = level.batches(), tasks = (batches + batches_per_task - 1) / batches_per_task;
+  frame.for_each_task("solve: multigrid", tasks, [&](int task) {
+    const int first = task * batches_per_task, last = std::min(first + batches_per_task, batches);
+    work.sums[task] = stretching(level, a, work.change, scale, first, last);
+  });
+  double total = 0;
+  for (int task = 0; task < tasks; ++task) total += work.sums[task];
+  return total;
+}
+
+}  // namespace
+
+bool is_multigrid_change_sound(Frame& frame, int o) {
+  const Multigrid& model = frame.model().objects[o].multigrid;
+  const Records& change = frame.scratch().multigrid[o].change;
+  if (!frame.kernels().all_finite(change.data(), 0, model.levels[0].batches() * batch_width)) return false;
+  const float most = farthest(change, frame.model().objects[o].particles);
+  if (most <= model.edge_length * model.edge_length) return true;
+  return stretching(frame, o, 1) <= stretching(frame, o, 0);
+}
+
+}  // namespace pliant

@@ -1,0 +1,60 @@
+// After the multigrid correction: the multipliers of compliant distances, so that the sweeps go on from what it has done.
+#include "constraints/all.h"
+#include "solver/frame.h"
+#include "solver/sweeps/multigrid.h"
+
+namespace pliant {
+
+namespace {
+
+/// What the correction has made each distance constraint do, so that the sweeps go on from there: lambda = -K C h^2 after the
+/// first of a substep, -K h^2 times what C has changed by after others. C as linearised: what turning lengthens a spring by is
+/// no force, and the sweeps' to mend. Rigid ones need none.
+void add_multipliers(const CompiledObject& object, const Segment& segment, const SweepArguments& a, const Record* change) {
+  const Pool& pool = object.pools[segment.pool];
+  float* multipliers = a.multipliers != nullptr ? a.multipliers[segment.pool] : nullptr;
+  if (multipliers == nullptr || pool.law == Law::pbd || pool.type != index_of<Distance>(AllConstraints{})) return;
+  const std::int32_t* index = pool.indices.data() + segment.index_offset;
+  for (int b = 0; b < segment.batches; ++b, index += indices_per_batch(pool, segment)) {
+    const std::int64_t batch = segment.first_batch + b;
+    for (int lane = 0; lane < batch_width; ++lane) {
+      if (!lane_is_valid(segment, b, lane)) continue;
+      const int i = particle_of(segment, index, 0, lane), j = particle_of(segment, index, 1, lane);
+      const Record &p = a.positions[i], &q = a.positions[j], &d = a.displacements[i], &e = a.displacements[j];
+      const Vec3f u{(q.x - p.x) + (e.x - d.x), (q.y - p.y) + (e.y - d.y), (q.z - p.z) + (e.z - d.z)};
+      const Record &from = change[i], &to = change[j];
+      const Vec3f moved{to.x - from.x, to.y - from.y, to.z - from.z}, before = u - moved;
+      const std::vector<float>& limits = object.multigrid.stiffness_limit;
+      const float stiffness = spring_stiffness(pool.row(1, batch)[lane], max(limits[i], limits[j]));
+      const float was = length(before), error = a.first_pass ? was - pool.row(0, batch)[lane] : 0;
+      const float linearised = error + dot(before, moved) / max(was, 1e-30f);
+      multipliers[batch * batch_width + lane] -= stiffness * linearised / a.inverse_h2;
+    }
+  }
+}
+
+bool keeps_distance_multipliers(const CompiledObject& object, const SweepArguments& a) {
+  if (a.multipliers == nullptr) return false;
+  for (std::size_t p = 0; p < object.pools.size(); ++p)
+    if (a.multipliers[p] != nullptr && object.pools[p].type == index_of<Distance>(AllConstraints{})) return true;
+  return false;
+}
+
+}  // namespace
+
+void keep_multigrid_multipliers(Frame& frame, int o, bool first) {
+  const CompiledObject& object = frame.model().objects[o];
+  const SweepArguments a = frame.arguments(o, first);
+  if (!keeps_distance_multipliers(object, a)) return;
+  const Record* change = frame.scratch().multigrid[o].change.data();
+  frame.for_each_task("solve: multigrid", static_cast<int>(object.segments.size()),
+                      [&](int s) { add_multipliers(object, object.segments[s], a, change); });
+}
+
+void clear_multigrid_multipliers(Frame& frame) {
+  for (auto& object : frame.workspace().multipliers)
+    for (auto& values : object) std::fill(values.begin(), values.end(), 0.f);
+  std::fill(frame.workspace().volume_multipliers.begin(), frame.workspace().volume_multipliers.end(), 0);
+}
+
+}  // namespace pliant
