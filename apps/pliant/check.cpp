@@ -1,6 +1,7 @@
 // pliant check: reads a scene or a mesh and says, in words, what is wrong or doubtful and what to do about it. A scene in
 // which nothing is wrong is also run, to see whether its solve keeps up.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "command.h"
@@ -62,9 +63,15 @@ std::vector<Finding> check_mesh(const std::string& path) {
   return inspect(file.mesh);
 }
 
-std::string text_of(const char* pattern, double value) {
+/// Enough for the scene itself, which gets a part of the time, or else for more other settings.
+double more_seconds(const Advice& advice, double seconds) {
+  const double missing = static_cast<double>(advice.frames) / std::max(1, advice.own.frames);
+  return std::min(86400., seconds * std::max(10., std::ceil(1.5 * missing)));
+}
+
+std::string in_digits(double seconds) {
   char text[48];
-  std::snprintf(text, sizeof text, pattern, value);
+  std::snprintf(text, sizeof text, seconds < 999.5 ? "%.3g" : "%.0f", seconds);
   return text;
 }
 
@@ -77,12 +84,14 @@ void try_out(const Scene& scene, double seconds, std::vector<Finding>& findings)
     return false;
   };
   const Advice advice = advise(scene, {seconds, 120, stops});
-  const std::string more_time = advice.cut_short ? "; --seconds " + text_of("%.3g", 10 * seconds) + " tries more" : "";
+  const std::string more_time =
+      advice.cut_short ? "; --seconds " + in_digits(more_seconds(advice, seconds)) + " tries more" : "";
   if (!advice.words.empty()) findings.push_back({false, advice.words, advice.what_to_do + more_time});
   const bool is_fine = advice.words.empty() && advice.cut_short;
   if (is_fine)
-    print("tried " + counted(static_cast<std::size_t>(advice.own.frames), "frame") +
-          " in the time there was; --seconds gives more\n");
+    print("tried " + std::to_string(advice.own.frames) + " of " +
+          counted(static_cast<std::size_t>(advice.frames), "frame") + " in the time there was; --seconds " +
+          in_digits(more_seconds(advice, seconds)) + " gives more\n");
 }
 
 std::vector<Finding> check_scene(const std::string& path, double seconds) {

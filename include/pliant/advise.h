@@ -23,6 +23,7 @@ struct Trial {
   Settings settings;
   int frames = 0;           ///< that it was run for
   bool complete = false;    ///< all frames that were to be tried; false where it was given up as worse, or for lack of time
+  bool worse = false;       ///< than the best before it, whether it was given up for that or got to its end
   double milliseconds = 0;  ///< a frame, the mean
   Overstretch worst;        ///< p99 and largest of any frame, and where the largest was
   std::int64_t frame = 0;   ///< in which the largest was, from 1
@@ -31,8 +32,11 @@ struct Trial {
 /// What came of it.
 struct Advice {
   Trial own;                  ///< the scene as it is
+  int frames = 0;             ///< that were to be tried; where `own` has fewer, all is about those alone
   std::vector<Trial> others;  ///< in the order of trying, where `own` is not good enough
-  int best = -1;  ///< of `others`: the cheapest that is good, else the nearest to it; -1: none is better than `own`
+  /// Of `others`: the cheapest that is good, else the nearest to it whose largest is clearly below that of `own` and whose p99 is
+  /// not above; -1: there is none.
+  int best = -1;
   bool cut_short = false;  ///< time ran out
   std::string words;       ///< the finding in a sentence; empty where nothing is the matter
   std::string what_to_do;  ///< the advice that belongs to it

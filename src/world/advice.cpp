@@ -52,12 +52,13 @@ int edges_to_pins(const CompiledObject& object, int a, int b) {
 
 }  // namespace
 
-std::string percent(double share) {
+std::string two_digits(double value) {
   char text[32];
-  const double value = 100 * share;
-  std::snprintf(text, sizeof text, std::fabs(value) < 99.5 ? "%.2g %%" : "%.0f %%", value);
+  std::snprintf(text, sizeof text, std::fabs(value) < 99.5 ? "%.2g" : std::fabs(value) < 1e15 ? "%.0f" : "%.1e", value);
   return text;
 }
+
+std::string percent(double share) { return two_digits(100 * share) + " %"; }
 
 std::string words_of(const Overstretch& found, const CompiledObject& object) {
   const auto [a, b] = found.particles;

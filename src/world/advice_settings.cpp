@@ -1,6 +1,7 @@
 #include "world/advice_settings.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pliant {
 
@@ -45,6 +46,7 @@ bool may_tether(const Scene& scene) {
 
 std::vector<Sweep> better_sweeps(const Scene& scene) {
   std::vector<Sweep> better{Sweep::chains, Sweep::multigrid};
+  if (suggest(scene).sweep == Sweep::multigrid) std::swap(better[0], better[1]);
   better.erase(std::remove(better.begin(), better.end(), scene.settings.sweep), better.end());
   return better;
 }

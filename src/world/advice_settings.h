@@ -12,8 +12,8 @@ namespace pliant {
 /// is meant to stretch they would hold back.
 bool may_tether(const Scene& scene);
 
-/// Sweeps other than the scene's own that may need less time for the same stretch. `multigrid` is none of them where what
-/// moves may touch what moves: it pulls against such contacts, which stretch alone does not show (docs/convergence.md).
+/// Sweeps other than the scene's own that may need less time for the same stretch, the one that measured best on scenes of its
+/// kind first (see suggest): there may be time for one alone.
 std::vector<Sweep> better_sweeps(const Scene& scene);
 
 /// The scene's settings with the sweep, and tethers, that measured best on scenes of its kind (docs/convergence.md); its own

@@ -1,7 +1,7 @@
 // Trials: a scene run again and again, each time with more of something, until its distances are as long as they should be.
 //
-// A few families: the sweeps that may do better, with tethers where these help, the scene's own sweep with tethers, and
-// without; each with its substeps doubled until it is good or can't be the cheapest any more; what is good is then tried with
+// A few families: the sweeps that may do better, the likeliest first, with tethers where these help, the scene's own sweep with
+// tethers, and without; each with its substeps doubled until it is good or can't be the cheapest any more; what is good is then tried with
 // less. Most trials are short: one is given up as soon as it is worse than the best before it.
 #include "pliant/advise.h"
 
@@ -54,10 +54,10 @@ class Trials {
         own_end_(after(own_share * options.seconds)),
         stops_(options.stops) {}
 
-  /// The scene as it is; from then on trials are as long as it got.
+  /// The scene as it is. Where its time was out before its end, trials are as long as it got from then on.
   Trial run_own(std::string& words) {
     Trial trial = run(scene_.settings, std::numeric_limits<double>::infinity(), own_end_, &words);
-    frames_ = trial.frames;
+    if (std::isfinite(trial.worst.largest)) frames_ = trial.frames;
     return trial;
   }
 
@@ -65,6 +65,7 @@ class Trials {
   Trial run_other(const Settings& settings, double bound) const { return run(settings, bound, end_, nullptr); }
 
   bool out_of_time() const { return is_over(end_); }
+  int frames() const { return frames_; }
 
  private:
   static std::string in_words(const World& world, const Trial& trial, const Report& last) {
@@ -84,7 +85,8 @@ class Trials {
       trial.milliseconds += (last.milliseconds - trial.milliseconds) / trial.frames;
       keep_worse(last, trial);
       const bool measurable = trial.worst.object >= 0;
-      goes_on = measurable && last.ok() && !(trial.worst.largest > std::max(bound, tolerated_overstretch)) && !is_over(end);
+      trial.worse = trial.worst.largest > std::max(bound, tolerated_overstretch);
+      goes_on = measurable && last.ok() && !trial.worse && !is_over(end);
       trial.complete = last.ok() && (trial.frames == frames_ || !measurable);
     }
     if (words != nullptr && trial.worst.largest > tolerated_overstretch) *words = in_words(world, trial, last);
@@ -136,7 +138,7 @@ class Search {
     for (int round = 0; round <= most_doublings; ++round)
       for (Family& family : families_) try_next(family);
     for (Family& family : families_) try_less(family);
-    advice_.best = best();
+    advice_.best = best_of(advice_);
   }
 
  private:
@@ -145,23 +147,6 @@ class Search {
     for (const Trial& trial : advice_.others)
       if (trial.complete) bound = std::min(bound, trial.worst.largest);
     return bound;
-  }
-
-  /// The cheapest good trial; without one the one nearest to it that is clearly better than the scene's own; or -1.
-  int best() const {
-    int best = -1;
-    double least = clearly_better * advice_.own.worst.largest;
-    for (int i = 0; i < static_cast<int>(advice_.others.size()); ++i) {
-      const Trial &trial = advice_.others[i], *before = best < 0 ? nullptr : &advice_.others[best];
-      if (!trial.complete) continue;
-      const bool good = is_good(trial), was_good = before != nullptr && is_good(*before);
-      const bool better =
-          good && was_good ? trial.milliseconds < before->milliseconds : good || (!was_good && trial.worst.largest < least);
-      if (!better) continue;
-      best = i;
-      least = trial.worst.largest;
-    }
-    return best;
   }
 
   /// False, and time noted as out, where it is.
@@ -184,7 +169,7 @@ class Search {
   void try_next(Family& family) {
     if (!family.open || !has_time()) return;
     const bool good = try_out(family);
-    const int found = best();
+    const int found = best_of(advice_);
     const bool dearer = found >= 0 && is_good(advice_.others[found]) &&
                         2 * advice_.others.back().milliseconds > advice_.others[found].milliseconds;
     family.open = !good && !dearer && 2 * family.settings.substeps <= most_substeps;
@@ -215,11 +200,31 @@ class Search {
 
 }  // namespace
 
+int best_of(const Advice& advice) {
+  int best = -1;
+  double least = clearly_better * advice.own.worst.largest;
+  const auto is_nearer = [&](const Trial& trial) {
+    return trial.worst.largest < least && trial.worst.p99 <= advice.own.worst.p99;
+  };
+  for (int i = 0; i < static_cast<int>(advice.others.size()); ++i) {
+    const Trial &trial = advice.others[i], *before = best < 0 ? nullptr : &advice.others[best];
+    if (!trial.complete) continue;
+    const bool good = is_good(trial), was_good = before != nullptr && is_good(*before);
+    const bool better =
+        good && was_good ? trial.milliseconds < before->milliseconds : good || (!was_good && is_nearer(trial));
+    if (!better) continue;
+    best = i;
+    least = trial.worst.largest;
+  }
+  return best;
+}
+
 bool is_good(const Trial& trial) { return trial.complete && trial.worst.largest <= tolerated_overstretch; }
 
 Advice advise(const Scene& scene, const AdviseOptions& options) {
   Advice advice;
   Trials trials(scene, options);
+  advice.frames = trials.frames();
   advice.own = trials.run_own(advice.words);
   advice.cut_short = !advice.own.complete && std::isfinite(advice.own.worst.largest);
   if (advice.words.empty()) return advice;

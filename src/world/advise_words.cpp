@@ -1,5 +1,6 @@
 // What trials came to, in words.
-#include <cstdio>
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "world/advice.h"
@@ -17,11 +18,7 @@ std::string setting_in_words(const Trial& trial, const Settings& own) {
   return text;
 }
 
-std::string cost_in_words(const Trial& trial) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g ms a frame", trial.milliseconds);
-  return text;
-}
+std::string cost_in_words(const Trial& trial) { return two_digits(trial.milliseconds) + " ms a frame"; }
 
 /// The cheapest good trial of another kind than the best, or -1.
 int runner_up(const Advice& advice) {
@@ -40,37 +37,57 @@ std::string setting_and_cost(const Advice& advice, int trial) {
   return setting_in_words(of, advice.own.settings) + " (" + cost_in_words(of) + ")";
 }
 
-std::string remedy_in_words(const Advice& advice) {
-  const std::string tried = advice.cut_short ? " in the time there was" : "";
-  if (advice.best < 0) {
-    if (advice.others.empty()) return "no other setting could be tried" + tried;
-    return "none of " + std::to_string(advice.others.size()) + " other settings tried" + tried +
-           " brings it down: what holds it or pushes it may leave it no other way, or it needs more substeps still";
-  }
+/// Whether the scene as it is got through all frames that were to be tried, or to where it was not finite. A verdict on the first
+/// frames says nothing of the others.
+bool knows_all(const Advice& advice) { return advice.own.complete || !std::isfinite(advice.own.worst.largest); }
+
+std::string json_of_best(const Advice& advice) {
+  return std::string(knows_all(advice) ? "" : "to try it, ") +
+         "add to the scene's \"settings\": " + in_json(advice.others[advice.best].settings, advice.own.settings);
+}
+
+/// Of which it is known what they came to: not those that time ran out on.
+int judged(const Advice& advice) {
+  const auto is_judged = [](const Trial& trial) { return trial.complete || trial.worse; };
+  return static_cast<int>(std::count_if(advice.others.begin(), advice.others.end(), is_judged));
+}
+
+/// Where no setting is good.
+std::string of_the_nearest(const Advice& advice) {
+  const std::string in_time = advice.cut_short ? " in the time there was" : "";
+  if (judged(advice) == 0) return "no other setting could be tried" + in_time;
+  const int count = judged(advice);
+  const std::string tried = std::to_string(count) + " other setting" + (count == 1 ? "" : "s") + " tried" + in_time;
+  if (advice.best < 0)
+    return "of " + tried +
+           " none is clearly better: what holds it or pushes it may leave it no other way, or it needs more " +
+           "substeps still";
   const Trial& best = advice.others[advice.best];
-  const std::string setting = setting_and_cost(advice, advice.best), before = cost_in_words(advice.own);
-  const std::string settings = "add to the scene's \"settings\": " + in_json(best.settings, advice.own.settings);
-  if (!is_good(best)) {
-    return "the best found" + tried + ", " + setting + ", brings it to " + percent(best.worst.largest) +
-           ", 1 edge in 100 to " + percent(best.worst.p99) + "; as it is it takes " + before + "; " + settings;
-  }
+  return "of " + tried + " none brings it under " + percent(tolerated_overstretch) + "; the best of them, " +
+         setting_and_cost(advice, advice.best) + ", brings it to " + percent(best.worst.largest) + ", 1 edge in 100 to " +
+         percent(best.worst.p99) + "; as it is it takes " + cost_in_words(advice.own) + "; " + json_of_best(advice);
+}
+
+/// The cheapest that is good, and the cheapest of another kind.
+std::string of_the_good(const Advice& advice) {
   const int other = runner_up(advice);
-  const std::string alternative = other < 0 ? "" : " or " + setting_and_cost(advice, other);
-  return setting + alternative + (other < 0 && best.settings.substeps == 1 ? " brings" : " bring") + " it under " +
-         percent(tolerated_overstretch) + "; as it is it takes " + before +
-         (advice.cut_short ? "; there was no time to look for cheaper ones" : "") +
-         (other < 0 ? "; " : "; for the first ") + settings;
+  const bool one = other < 0 && advice.others[advice.best].settings.substeps == 1;
+  return setting_and_cost(advice, advice.best) + (other < 0 ? "" : " or " + setting_and_cost(advice, other)) +
+         (one ? " brings" : " bring") + " it under " + percent(tolerated_overstretch) + "; as it is it takes " +
+         cost_in_words(advice.own) + (advice.cut_short ? "; there was no time to look for cheaper ones" : "") +
+         (other < 0 ? "; " : "; for the first, ") + json_of_best(advice);
 }
 
 }  // namespace
 
 std::string remedy(const Advice& advice) {
-  // A verdict on the first frames says nothing of the others.
-  const bool knows_all = advice.own.complete || !advice.cut_short;
-  const std::string frames = advice.own.frames == 1 ? "frame" : std::to_string(advice.own.frames) + " frames";
-  return (knows_all ? ""
-                    : "only its first " + frames + " could be run in the time there was and later ones may be worse; ") +
-         remedy_in_words(advice);
+  const int ran = advice.own.frames;
+  const std::string first = ran == 1 ? "first" : "first " + std::to_string(ran);
+  const std::string part = "only the " + first + " of " + std::to_string(advice.frames) +
+                           " frames could be run in the time there was: what follows holds for " +
+                           (ran == 1 ? "that one" : "those") + ", and later ones may be worse, with any settings; ";
+  const bool good = advice.best >= 0 && is_good(advice.others[advice.best]);
+  return (knows_all(advice) ? "" : part) + (good ? of_the_good(advice) : of_the_nearest(advice));
 }
 
 }  // namespace pliant
