@@ -5,6 +5,7 @@
 #include <set>
 
 #include "scene_grammar.h"
+#include "scene_hints.h"
 #include "scene_values.h"
 
 namespace pliant::scene_file {
@@ -272,14 +273,33 @@ PairProperties pair_of(const JsonDocument& document, const JsonValue& at, const 
   return pair;
 }
 
-/// Every mesh that was to come from elsewhere belongs to something.
+/// What of the scene has a mesh: cloths and mesh colliders.
+std::vector<std::string> names_with_mesh(const JsonDocument& document, const Scene& scene) {
+  std::vector<std::string> names;
+  const std::vector<JsonValue>& objects = elements(document.root, "objects");
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    if (objects[i].find("cloth") != nullptr) names.push_back(scene.objects[i].name);
+  for (const MeshCollider& collider : scene.mesh_colliders) names.push_back(collider.name);
+  return names;
+}
+
+std::string advice_on(const std::string& name, const std::vector<std::string>& names) {
+  constexpr std::size_t most = 12;
+  if (names.empty()) return "nothing in this scene has a mesh";
+  const std::string near = nearest_name(name, names);
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) list += (i == 0 ? "'" : ", '") + printable(names[i]) + "'";
+  if (names.size() > most) list += " and " + std::to_string(names.size() - most) + " more";
+  return (near.empty() ? "" : "did you mean '" + printable(near) + "'? ") + "the scene has meshes for " + list;
+}
+
+/// Every mesh that was to come from elsewhere belongs to something that has one.
 void require_known(const MeshFolder& folder, const JsonDocument& document, const Scene& scene) {
+  const std::vector<std::string> names = names_with_mesh(document, scene);
   for (const auto& [name, path] : folder.instead) {
-    const auto called = [&, wanted = name](const auto& one) { return one.name == wanted; };
-    if (std::any_of(scene.objects.begin(), scene.objects.end(), called)) continue;
-    if (std::any_of(scene.mesh_colliders.begin(), scene.mesh_colliders.end(), called)) continue;
-    throw Error({document.name, 0, {}, {}}, "there is no object or collider '" + printable(name) + "' to give a mesh to",
-                "use the name of one that has a mesh");
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    throw Error({document.name, 0, {}, {}}, "nothing with a mesh is called '" + printable(name) + "'",
+                advice_on(name, names));
   }
 }
 

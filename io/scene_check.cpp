@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <initializer_list>
 
+#include "scene_hints.h"
+
 namespace pliant::scene_file {
 
 namespace {
@@ -114,21 +116,6 @@ bool fits(const Type& type, Json kind) {
   return std::any_of(type.parts.begin(), type.parts.end(), [&](const Type& part) { return fits(part, kind); });
 }
 
-/// The name most like `wanted`, or nothing where none is near.
-std::string nearest_name(const std::string& wanted, const std::vector<std::string>& names) {
-  if (wanted.size() > 64) return {};
-  std::string best;
-  std::size_t least = std::max<std::size_t>(1, wanted.size() / 3) + 1;
-  for (const std::string& name : names) {
-    const std::size_t distance = edit_distance(wanted, name);
-    if (distance < least) best = name, least = distance;
-  }
-  if (!best.empty() || wanted.size() < 4) return best;
-  for (const std::string& name : names)  // 'friction' for 'static_friction'
-    if (name.find(wanted) != std::string::npos) return name;
-  return best;
-}
-
 class Checker {
  public:
   explicit Checker(const JsonDocument& document) : document_(document) {}
@@ -233,14 +220,8 @@ class Checker {
   }
 
   [[noreturn]] void unknown(const JsonValue& member, const Record& record) const {
-    std::vector<std::string> names;
-    for (const Field& field : record.fields) names.push_back(field.name);
-    const std::string near = nearest_name(member.key, names);
-    std::string advice = near.empty() ? "" : "did you mean '" + near + "'?";
-    for (const Record* other : all_records())
-      if (advice.empty() && other->find(member.key) != nullptr) advice = "it belongs into " + other->name;
-    if (advice.empty()) advice = names.empty() ? "nothing is expected here" : "known are " + joined(names, " and ");
-    document_.fail_key(member, "'" + printable(member.key) + "' is unknown in " + record.name, advice);
+    document_.fail_key(member, "'" + printable(member.key) + "' is unknown in " + record.name,
+                       hint_for(member.key, record));
   }
 
   const JsonDocument& document_;
@@ -259,21 +240,5 @@ void check_used_below(const JsonDocument& document, const JsonValue& at) {
 void check(const JsonDocument& document, const Record& record) { Checker(document).record(document.root, record); }
 
 void check_all_used(const JsonDocument& document) { check_used_below(document, document.root); }
-
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);  // rows i - 2, i - 1, i
-  for (std::size_t k = 0; k <= b.size(); ++k) row[k] = k;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    before.swap(last), last.swap(row);
-    row[0] = i;
-    for (std::size_t k = 1; k <= b.size(); ++k) {
-      const std::size_t changed = last[k - 1] + (a[i - 1] == b[k - 1] ? 0 : 1);
-      row[k] = std::min({last[k] + 1, row[k - 1] + 1, changed});
-      const bool swapped = i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1];
-      if (swapped) row[k] = std::min(row[k], before[k - 2] + 1);
-    }
-  }
-  return row[b.size()];
-}
 
 }  // namespace pliant::scene_file

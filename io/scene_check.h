@@ -15,8 +15,4 @@ void check(const JsonDocument& document, const Record& record);
 /// silence.
 void check_all_used(const JsonDocument& document);
 
-/// The number of single-character insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`
-/// (optimal string alignment).
-std::size_t edit_distance(const std::string& a, const std::string& b);
-
 }  // namespace pliant::scene_file

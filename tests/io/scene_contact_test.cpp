@@ -166,13 +166,43 @@ TEST(SceneMeshes, MayComeFromElsewhereByName) {
   ASSERT_EQ(body.positions.size(), 4U);
   EXPECT_EQ(body.positions[1], (Vec3f{1, 0, -0.5f}))
       << "fitted as the scene says: 8 m are 2, and the middle is above the origin";
+}
+
+/// What reading a scene file says where this name is given a mesh.
+std::string error_of_mesh_for(const std::string& name, const std::string& scene) {
+  const std::string folder = testing::TempDir() + "pliant_elsewhere_refused";
+  std::filesystem::create_directories(folder);
+  const std::string path = folder + "/a.json", mesh = folder + "/triangle.obj";
+  std::ofstream(path) << scene;
+  std::ofstream(mesh) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   try {
-    read_scene_file(scene, SceneReadOptions{false, {{"nobody", mesh}}});
-    FAIL() << "was read";
+    read_scene_file(path, SceneReadOptions{false, {{name, mesh}}});
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("there is no object or collider 'nobody' to give a mesh to"),
-              std::string::npos);
+    return error.what();
   }
+  return {};
+}
+
+TEST(SceneMeshes, FromElsewhereAreForNamesThatHaveOne) {
+  const std::string grid = R"("mesh": {"grid": {"columns": 2, "rows": 2, "width": 1, "depth": 1}})";
+  const std::string scene = R"({"objects": [{"name": "shirt", "cloth": {)" + grid + R"(}}, {"cloth": {)" + grid +
+                            R"(}}, {"name": "leash", "rope": {"points": [[0, 0, 0], [0, 1, 0]]}}],
+                            "colliders": [{"name": "body", )" +
+                            grid + R"(}, {"name": "floor", "plane": {}}]})";
+  const auto ends = [](const std::string& text, const std::string& end) {
+    return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+  };
+  EXPECT_EQ(error_of_mesh_for("body", scene), "");
+  EXPECT_EQ(error_of_mesh_for("cloth", scene), "") << "the one without a name of its own";
+  const std::string all = "the scene has meshes for 'shirt', 'cloth', 'body'";
+  for (const char* name : {"leash", "floor", "nobody_here"}) {
+    const std::string error = error_of_mesh_for(name, scene);
+    EXPECT_TRUE(ends(error, "nothing with a mesh is called '" + std::string(name) + "'; " + all)) << error;
+  }
+  const std::string misspelt = error_of_mesh_for("shrit", scene);
+  EXPECT_TRUE(ends(misspelt, "; did you mean 'shirt'? " + all)) << misspelt;
+  const std::string none = error_of_mesh_for("shirt", R"({"objects": []})");
+  EXPECT_TRUE(ends(none, "; nothing in this scene has a mesh")) << none;
 }
 
 TEST(SceneMeshes, DeformByFiles) {

@@ -8,6 +8,7 @@
 
 #include "io/scene_check.h"
 #include "io/scene_grammar.h"
+#include "io/scene_hints.h"
 #include "io/scene_json.h"
 #include "scene_support.h"
 
@@ -42,6 +43,27 @@ TEST(SceneRefusal, SaysWhatIsWrongAndWhatToDo) {
             "give exactly one of 'plane', 'sphere', 'capsule', 'box' and 'mesh'");
   EXPECT_EQ(scene_message(R"({"objects": [], "settings": {"gravity": 1}})"),
             "x.json:1:30: /settings/gravity: 'gravity' is unknown in settings; it belongs into scene");
+}
+
+/// Names that are right, or nearly, somewhere else.
+TEST(SceneRefusal, KnowsWhereANameBelongs) {
+  const auto hint = [](const std::string& scene) {
+    const std::string message = scene_message(scene);
+    return message.substr(std::min(message.size(), message.rfind("; ") + 2));
+  };
+  EXPECT_EQ(hint(R"({"objects": [], "substeps": 10})"), "it belongs into settings, as 'settings.substeps'");
+  EXPECT_EQ(hint(R"({"objects": [], "substps": 10})"), "did you mean 'settings.substeps'?");
+  EXPECT_EQ(hint(R"({"objects": [], "thethers": true})"), "did you mean 'settings.sweep_options.tethers'?");
+  EXPECT_EQ(hint(R"({"objects": [{"substep": 10}]})"), "did you mean 'settings.substeps'?");
+  EXPECT_EQ(hint(R"({"objects": [{"materail": "silk"}]})"), "did you mean 'cloth.material'?") << "below comes first";
+  EXPECT_EQ(hint(R"({"objects": [{"material": "silk"}]})"), "it belongs into cloth, as 'cloth.material'");
+  EXPECT_EQ(hint(R"({"objects": [], "self_colision": true})"), "did you mean 'objects[].self_collision'?");
+  EXPECT_EQ(hint(R"({"objects": [], "settings": {"gravty": [0, 0, 0]}})"), "did you mean 'gravity' of the scene?");
+  EXPECT_EQ(hint(R"({"objects": [], "settings": {"substep": 10}})"), "did you mean 'substeps'?") << "here comes before all";
+  EXPECT_EQ(hint(R"({"objects": [], "sphere": {}})").rfind("it belongs into collider, as 'colliders[].sphere'", 0), 0U);
+  EXPECT_EQ(hint(R"({"objects": [], "wind": {"qzx": 1}})"),
+            "known are 'velocity', 'air_density', 'gust' and 'gust_period'");
+  EXPECT_EQ(hint(R"({"objects": [], "wind": {")" + std::string(65, 's') + R"(": 1}})").rfind("known are ", 0), 0U);
 }
 
 /// A JSON pointer as an Error shows it.

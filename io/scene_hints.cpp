@@ -1,0 +1,122 @@
+// Names are looked for by how they are written, first where they were written, then below there, then in the whole format.
+#include "scene_hints.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pliant::scene_file {
+
+namespace {
+
+constexpr std::size_t longest_name = 64;  // of what is compared: the format's own are shorter
+
+std::string nearest_spelling(const std::string& wanted, const std::vector<std::string>& names) {
+  std::string best;
+  std::size_t least = std::max<std::size_t>(1, wanted.size() / 3) + 1;
+  for (const std::string& name : names) {
+    const std::size_t distance = edit_distance(wanted, name);
+    if (distance < least) best = name, least = distance;
+  }
+  return best;
+}
+
+std::vector<std::string> names_of(const Record& record) {
+  std::vector<std::string> names;
+  for (const Field& field : record.fields) names.push_back(field.name);
+  return names;
+}
+
+/// A record, and how to get to it: "settings.sweep_options", "objects[].cloth"; nothing for where the search began.
+struct Reached {
+  const Record* record;
+  std::string path;
+};
+
+/// Adds the records that a value of this type may be.
+void reach(const Type& type, const std::string& path, std::vector<Reached>& reached) {
+  const auto is_it = [&](const Reached& one) { return one.record == type.record; };
+  const bool is_new = type.record != nullptr && std::none_of(reached.begin(), reached.end(), is_it);
+  if (is_new) reached.push_back({type.record, path});
+  for (const Type& part : type.parts) reach(part, path + (type.kind == Type::Kind::list ? "[]" : ""), reached);
+}
+
+/// All records from `first` on, the near ones first, each once by its shortest way.
+std::vector<Reached> reached_from(const Record& first) {
+  std::vector<Reached> reached{{&first, {}}};
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const Reached from = reached[i];
+    const std::string before = from.path.empty() ? "" : from.path + ".";
+    for (const Field& field : from.record->fields) reach(field.type, before + field.name, reached);
+  }
+  return reached;
+}
+
+/// Where the name stands in another record, in words; nothing where it does not.
+std::string home_of(const std::string& wanted, const std::vector<Reached>& reached) {
+  for (const Reached& one : reached) {
+    if (one.record->find(wanted) == nullptr) continue;
+    return "it belongs into " + one.record->name + (one.path.empty() ? "" : ", as '" + one.path + "." + wanted + "'");
+  }
+  return {};
+}
+
+/// The name of all these records that is nearest, with the way to it; nothing where none is near.
+std::string nearest_elsewhere(const std::string& wanted, const std::vector<Reached>& reached) {
+  std::vector<std::string> names;
+  for (const Reached& one : reached)
+    for (std::string& name : names_of(*one.record)) names.push_back(std::move(name));
+  const std::string near = wanted.size() < 4 ? "" : nearest_spelling(wanted, names);  // short ones are like too many
+  for (const Reached& one : reached)
+    if (!near.empty() && one.record->find(near) != nullptr)
+      return "did you mean '" + (one.path.empty() ? "" : one.path + ".") + near + "'" +
+             (one.path.empty() ? " of the scene?" : "?");
+  return {};
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + ("'" + names[i] + "'");
+  return text;
+}
+
+}  // namespace
+
+std::string nearest_name(const std::string& wanted, const std::vector<std::string>& names) {
+  if (wanted.size() > longest_name) return {};
+  std::string best = nearest_spelling(wanted, names);
+  if (!best.empty() || wanted.size() < 4) return best;
+  for (const std::string& name : names)  // 'friction' for 'static_friction'
+    if (name.find(wanted) != std::string::npos) return name;
+  return best;
+}
+
+std::string hint_for(const std::string& wanted, const Record& record) {
+  const std::vector<std::string> names = names_of(record);
+  if (wanted.size() <= longest_name) {
+    if (const std::string near = nearest_name(wanted, names); !near.empty()) return "did you mean '" + near + "'?";
+    const std::vector<Reached> below = reached_from(record), all = reached_from(scene_record());
+    for (const auto& look : {home_of, nearest_elsewhere})
+      for (const auto* reached : {&below, &all})
+        if (std::string hint = look(wanted, *reached); !hint.empty()) return hint;
+  }
+  return names.empty() ? "nothing is expected here" : "known are " + joined(names);
+}
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);  // rows i - 2, i - 1, i
+  for (std::size_t k = 0; k <= b.size(); ++k) row[k] = k;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    before.swap(last), last.swap(row);
+    row[0] = i;
+    for (std::size_t k = 1; k <= b.size(); ++k) {
+      const std::size_t changed = last[k - 1] + (a[i - 1] == b[k - 1] ? 0 : 1);
+      row[k] = std::min({last[k] + 1, row[k - 1] + 1, changed});
+      const bool swapped = i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1];
+      if (swapped) row[k] = std::min(row[k], before[k - 2] + 1);
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace pliant::scene_file
