@@ -42,6 +42,7 @@ class WorldWriter final : public FrameWriter {
   }
 
   void finish() override { format_->finish(); }
+  std::vector<WrittenFile> written() const override { return format_->written(); }
 
  private:
   std::unique_ptr<output::FormatWriter> format_;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "atomic_file.h"
 #include "pliant/error.h"
 
 namespace pliant::output {
@@ -83,6 +84,11 @@ std::string identifier(const std::string& name) {
 }
 
 }  // namespace
+
+void FormatWriter::commit(AtomicFile& file) {
+  file.commit();
+  written_.push_back({file.path(), file.size()});
+}
 
 std::vector<std::vector<int>> join_lines(const std::vector<std::array<int, 2>>& edges) { return LineWalk(edges).lines(); }
 

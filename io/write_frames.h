@@ -9,8 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "pliant/io.h"
 #include "pliant/scene.h"
 #include "pliant/vec3.h"
+
+namespace pliant {
+class AtomicFile;
+}
 
 namespace pliant::output {
 
@@ -37,6 +42,16 @@ class FormatWriter {
   virtual ~FormatWriter() = default;
   virtual void add(const Frame& frame) = 0;
   virtual void finish() = 0;
+
+  /// Every file that is in its place, in the order in which they got there.
+  const std::vector<WrittenFile>& written() const { return written_; }
+
+ protected:
+  /// Puts a file in its place and notes it. Throws Error as AtomicFile::commit does.
+  void commit(AtomicFile& file);
+
+ private:
+  std::vector<WrittenFile> written_;
 };
 
 /// The objects of a scene as writers see them. The lines of an object without triangles are its first group of distance

@@ -251,7 +251,7 @@ class GlbWriter final : public FormatWriter {
       file_.write("BIN", 4);
       write_binary(animated);
     }
-    file_.commit();
+    commit(file_);
   }
 
   /// In the order in which the document's views were added.

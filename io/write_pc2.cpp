@@ -67,8 +67,8 @@ class Pc2Writer final : public FormatWriter {
     file_.overwrite(samples_at_, &samples_, sizeof samples_);
     AtomicFile mesh(mesh_path_);
     mesh.write(mesh_);
-    file_.commit();
-    mesh.commit();
+    commit(file_);
+    commit(mesh);
   }
 
  private:

@@ -23,7 +23,7 @@ class SequenceWriter : public FormatWriter {
     check_frame(path_, objects_, frame, last_time_);
     AtomicFile file(split_.stem + "_" + frame_number(count_) + path_.substr(split_.stem.size()));
     write(file, frame);
-    file.commit();
+    commit(file);
     last_time_ = frame.time;
     ++count_;
   }

@@ -155,7 +155,7 @@ class UsdaWriter final : public FormatWriter {
     const std::vector<std::string> names = identifiers(objects_);
     for (std::size_t o = 0; o < prims_.size(); ++o) prims_[o].write(file_, names[o]);
     file_.write("}\n");
-    file_.commit();
+    commit(file_);
   }
 
  private:

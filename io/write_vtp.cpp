@@ -133,11 +133,11 @@ class PvdWriter final : public FormatWriter {
         "byte_order=\"LittleEndian\">\n<Collection>\n");
     file_.write(entries_);
     file_.write("</Collection>\n</VTKFile>\n");
-    file_.commit();
+    commit(file_);
   }
 
  private:
-  void write_piece(const std::string& name, const Frame& frame, std::size_t o) const {
+  void write_piece(const std::string& name, const Frame& frame, std::size_t o) {
     AtomicFile file(folder_ + "/" + name);
     file.write(pieces_[o].head);
     if (!frame.velocities.empty())
@@ -146,7 +146,7 @@ class PvdWriter final : public FormatWriter {
     file.write("<Points>\n" + array("Float32", "Points", 3, frame.positions[o]) + "</Points>\n");
     file.write(pieces_[o].cells);
     file.write("</Piece>\n</PolyData>\n</VTKFile>\n");
-    file.commit();
+    commit(file);
   }
 
   std::string path_;

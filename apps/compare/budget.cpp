@@ -102,16 +102,10 @@ std::optional<Budgeted> fit(const Scene& scene, const Method& method, int iterat
   return found;
 }
 
-std::string text_of(const char* pattern, double value) {
-  char text[128];
-  std::snprintf(text, sizeof text, pattern, value);
-  return text;
-}
-
 [[noreturn]] void refuse(const Misses& misses, const Options& options) {
-  const std::string budget = text_of("%.4g ms a frame", options.budget);
+  const std::string budget = figure(options.budget, 4) + " ms a frame";
   if (misses.not_finite == 0) {
-    throw Error({}, "nothing fits into " + budget + ": the least tried takes about " + text_of("%.2g ms", misses.fastest),
+    throw Error({}, "nothing fits into " + budget + ": the least tried takes about " + figure(misses.fastest, 2) + " ms",
                 "give more milliseconds");
   }
   throw Error({}, "what fits into " + budget + " does not stay finite", "give more milliseconds, for more substeps");

@@ -39,6 +39,8 @@ struct Sample {
   double milliseconds = 0;  ///< of the whole substep, the fastest of several; never less than with fewer iterations
   double residual = 0;      ///< root mean square of |C + alpha~ lambda| of the curve's type, in the unit of C
   Stretch stretch;
+  bool of_next =
+      false;  ///< `milliseconds` are of the substep after it: surfaces meet, and the first lists their pairs anew
 };
 
 /// One method's way through the substep.
@@ -90,12 +92,18 @@ Result run(const Scene& scene, const Options& options);
 /// forget their multipliers. The last `collider_particles` of either State are those of mesh colliders.
 void take_state(World& to, World& from, std::size_t collider_particles = 0);
 
+/// So many digits, or all before the point where those are more: "0.00834", "118", "12345", and no powers of ten before 1e15.
+std::string figure(double value, int digits);
+
 /// Six panels: residual, largest stretch and its 99th percentile, each against iterations and against milliseconds.
 std::vector<plot::Chart> to_charts(const Result& result);
 std::string to_table(const Result& result);
 std::string to_json(const Result& result);
 
 // ---------------------------------------------------------------- the parts of run
+
+/// Whether what was timed is the substep after the one that is solved (see Sample::of_next).
+bool times_next(const Result& result);
 
 /// The length of the curves' substep [s].
 double substep_of(const Scene& scene, const Options& options);

@@ -52,11 +52,13 @@ std::vector<std::size_t> shown_samples(const Curve& curve) {
 std::string table_head(const Result& result) {
   const Curve& first = result.curves.front();
   std::string head =
-      format("after %d frames: the substep of %.4g ms that comes next, from one and the same state\n", result.frame,
-             1000 * result.substep) +
+      format("after %d frames: the substep of %s ms that comes next, from one and the same state\n", result.frame,
+             figure(1000 * result.substep, 4).c_str()) +
       format("residual: root mean square error of the %s constraints%s, %.3g before the first iteration\n",
              result.residual_type.c_str(), result.residual_type == "distance" ? " [m]" : "", first.residuals.front()) +
-      "stretch: the most beyond rest length [%]\n\n";
+      "stretch: the most beyond rest length [%]\n" +
+      (times_next(result) ? "ms: of the substep after it, since one from a state put back lists near pairs anew\n" : "") +
+      "\n";
   std::string above = format("%-18s %9s ", "", "ms an"), below = format("%-18s %9s ", "sweep", "iteration");
   for (const char* what : {"residual", "stretch"}) {
     for (std::size_t i : shown_samples(first)) {
@@ -78,8 +80,8 @@ std::string curve_row(const Curve& curve) {
 
 std::string budget_table(const Result& result) {
   if (result.budgeted.empty()) return {};
-  std::string table = format("\nwithin %.4g ms a frame, %d frames from the start; stretch: the worst of all frames [%%]\n",
-                             result.budget, result.frames) +
+  std::string table = format("\nwithin %s ms a frame, %d frames from the start; stretch: the worst of all frames [%%]\n",
+                             figure(result.budget, 4).c_str(), result.frames) +
                       format("%-18s %8s x %-10s %8s %9s %9s %9s\n", "sweep", "substeps", "iterations", "ms/frame", "mean",
                              "p99", "largest");
   for (const Budgeted& row : result.budgeted)
@@ -122,6 +124,20 @@ Json json_of(const Budgeted& row) {
 
 }  // namespace
 
+bool times_next(const Result& result) {
+  return std::any_of(result.curves.begin(), result.curves.end(), [](const Curve& curve) {
+    return std::any_of(curve.samples.begin(), curve.samples.end(), [](const Sample& sample) { return sample.of_next; });
+  });
+}
+
+std::string figure(double value, int digits) {
+  char text[32];
+  const double size = std::fabs(value);
+  const bool is_long = size >= std::pow(10., digits) - 0.5 && size < 1e15;
+  std::snprintf(text, sizeof text, is_long ? "%.*f" : "%.*g", is_long ? 0 : digits, value);
+  return text;
+}
+
 std::string to_table(const Result& result) {
   std::string table = table_head(result);
   for (const Curve& curve : result.curves) table += curve_row(curve);
@@ -129,9 +145,13 @@ std::string to_table(const Result& result) {
 }
 
 std::string to_json(const Result& result) {
-  Json json = {{"frame", result.frame},           {"substep", result.substep},
-               {"iterations", result.iterations}, {"residual_type", result.residual_type},
-               {"curves", Json::array()},         {"refused", Json::array()}};
+  Json json = {{"frame", result.frame},
+               {"substep", result.substep},
+               {"iterations", result.iterations},
+               {"residual_type", result.residual_type},
+               {"times_next", times_next(result)},
+               {"curves", Json::array()},
+               {"refused", Json::array()}};
   for (const Curve& curve : result.curves) json["curves"].push_back(json_of(curve));
   for (const Refusal& refusal : result.refused)
     json["refused"].push_back({{"sweep", refusal.name}, {"reason", refusal.reason}});

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "apps/compare/compare.h"
 #include "command.h"
 #include "interrupt.h"
 #include "output.h"
@@ -17,10 +18,6 @@
 namespace pliant::command {
 
 namespace {
-
-std::string counted(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
 
 // ", 1 x 0 x 0.8 m": what is drawn in centimetres is seen here.
 std::string extent(const std::vector<Vec3f>& positions) {
@@ -69,12 +66,6 @@ double more_seconds(const Advice& advice, double seconds) {
   return std::min(86400., seconds * std::max(10., std::ceil(1.5 * missing)));
 }
 
-std::string in_digits(double seconds) {
-  char text[48];
-  std::snprintf(text, sizeof text, seconds < 999.5 ? "%.3g" : "%.0f", seconds);
-  return text;
-}
-
 /// Runs the scene and others like it, unless it can't be, or no time is given for it.
 void try_out(const Scene& scene, double seconds, std::vector<Finding>& findings) {
   const bool grave = std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.grave; });
@@ -85,13 +76,13 @@ void try_out(const Scene& scene, double seconds, std::vector<Finding>& findings)
   };
   const Advice advice = advise(scene, {seconds, 120, stops});
   const std::string more_time =
-      advice.cut_short ? "; --seconds " + in_digits(more_seconds(advice, seconds)) + " tries more" : "";
+      advice.cut_short ? "; --seconds " + compare::figure(more_seconds(advice, seconds), 3) + " tries more" : "";
   if (!advice.words.empty()) findings.push_back({false, advice.words, advice.what_to_do + more_time});
   const bool is_fine = advice.words.empty() && advice.cut_short;
   if (is_fine)
     print("tried " + std::to_string(advice.own.frames) + " of " +
           counted(static_cast<std::size_t>(advice.frames), "frame") + " in the time there was; --seconds " +
-          in_digits(more_seconds(advice, seconds)) + " gives more\n");
+          compare::figure(more_seconds(advice, seconds), 3) + " gives more\n");
 }
 
 std::vector<Finding> check_scene(const std::string& path, double seconds) {

@@ -34,7 +34,8 @@ int run(const RunOptions& options);
 
 struct RenderOptions {
   std::string scene;
-  Overrides overrides;                 ///< `frames` is the frame of a picture, and the length of a movie
+  Overrides overrides;                 ///< but `frames`
+  std::optional<int> frame;            ///< of a picture, and the length of a movie; the scene's last unless told
   std::string out;                     ///< .png or .mp4
   std::string size = "1280x720";       ///< WxH in pixels
   float azimuth = 28, elevation = 18;  ///< where the camera stands [degrees]

@@ -78,7 +78,7 @@ void add_render(CLI::App& app, RenderOptions& options, Chosen& chosen) {
   CLI::App* render_app = app.add_subcommand("render", "Draw a scene, without a screen");
   render_app->add_option("SCENE", options.scene, "scene file, JSON")->required();
   render_app->add_option("--out", options.out, "picture (.png) or movie (.mp4)")->type_name("FILE")->required();
-  render_app->add_option("--frame", options.overrides.frames, "the frame drawn, the last by default; a movie ends with it")
+  render_app->add_option("--frame", options.frame, "the frame drawn, the last by default; a movie ends with it")
       ->type_name("N")
       ->check(range(0, most));
   render_app->add_option("--size", options.size, "width and height in pixels, as 1280x720")

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "apps/compare/compare.h"
 #include "pliant/error.h"
 
 namespace pliant::command {
@@ -18,7 +19,31 @@ std::string file_itself(const std::string& path) {
   return unknown ? path : resolved.string();
 }
 
+std::string size_in_words(std::uint64_t bytes) {
+  if (bytes < 1000) return std::to_string(bytes) + (bytes == 1 ? " byte" : " bytes");
+  double size = static_cast<double>(bytes) / 1000;
+  const char* const units[] = {" kB", " MB", " GB", " TB"};
+  std::size_t unit = 0;
+  for (; size >= 999.5 && unit < 3; ++unit) size /= 1000;
+  return compare::figure(size, 2) + units[unit];
+}
+
 }  // namespace
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+void print_written(const std::vector<WrittenFile>& files) {
+  std::uint64_t bytes = 0;
+  for (const WrittenFile& file : files) {
+    bytes += file.bytes;
+    if (files.size() <= 2) print("wrote " + one_line(file.path) + " (" + size_in_words(file.bytes) + ")\n");
+  }
+  if (files.size() > 2)
+    print("wrote " + std::to_string(files.size()) + " files, " + one_line(files.front().path) + " to " +
+          one_line(files.back().path) + " (" + size_in_words(bytes) + ")\n");
+}
 
 void refuse_same_file_twice(const std::string& read, const std::vector<std::string>& written) {
   std::set<std::string> seen{file_itself(read)};

@@ -123,12 +123,15 @@ int render(const RenderOptions& options) {
     where.file = options.out;
     throw Error(where, "is neither .png nor .mp4", "give --out one of these suffixes; geometry is what pliant run writes");
   }
-  if (!options.strip.empty() && (is_movie || options.overrides.frames)) {
+  if (!options.strip.empty() && (is_movie || options.frame)) {
     throw Error({}, std::string("--strip goes with ") + (is_movie ? "a picture, not with a movie" : "no --frame"),
                 "give --out a name that ends in .png, and the frames to --strip alone");
   }
   const Size size = parse_size(options.size);
-  const Scene scene = read_scene_with(options.scene, options.overrides, options.quiet);
+  Scene scene = read_scene_with(options.scene, options.overrides, options.quiet);
+  for (const int frame : options.strip) require_frame(scene, options.scene, frame);
+  if (options.frame) require_frame(scene, options.scene, *options.frame);
+  scene.frames = options.frame.value_or(scene.frames);
   if (is_movie) {
     draw_movie(options, scene, size);
   } else if (!options.strip.empty()) {

@@ -2,9 +2,10 @@
 //
 // Everything that can be refused is refused before the first frame: the formats and places of all files, and the report's
 // own.
-#include <cstdio>
+#include <cstdint>
 #include <memory>
 
+#include "apps/compare/compare.h"
 #include "atomic_file.h"
 #include "command.h"
 #include "output.h"
@@ -18,11 +19,12 @@ namespace pliant::command {
 namespace {
 
 std::string summary(const RunOptions& options, const World& world, const RunReport& report) {
-  char text[160];
-  std::snprintf(text, sizeof text, "%lld frames, %.3g ms a frame (95%%: %.3g), %d threads, %s",
-                static_cast<long long>(world.state().frame), report.median_milliseconds(), report.p95_milliseconds(),
-                world.threads(), world.isa().c_str());
-  return one_line(options.scene) + ": " + text + "\nstate " + world.state_hash() + "\n";
+  const std::int64_t frames = world.state().frame;
+  const std::string times = compare::figure(report.median_milliseconds(), 3) +
+                            " ms a frame (95%: " + compare::figure(report.p95_milliseconds(), 3) + "), ";
+  return one_line(options.scene) + ": " + counted(static_cast<std::size_t>(frames), "frame") + ", " +
+         (frames > 0 ? times : "") + counted(static_cast<std::size_t>(world.threads()), "thread") + ", " + world.isa() +
+         "\nstate " + world.state_hash() + "\n";
 }
 
 }  // namespace
@@ -63,6 +65,8 @@ int run(const RunOptions& options) {
   if (!options.quiet) {
     for (const std::string& warning : report.warnings()) print("warning: " + one_line(warning) + "\n");
     print(summary(options, world, report));
+    for (const auto& writer : writers) print_written(writer->written());
+    if (report_file) print_written({{report_file->path(), report_file->size()}});
   }
   return 0;
 }

@@ -77,6 +77,16 @@ bool simulate(World& world, const Scene& scene, bool quiet, const std::function<
   return true;
 }
 
+void require_frame(const Scene& scene, const std::string& path, int frame) {
+  if (frame <= scene.frames) return;
+  Location where;
+  where.file = path;
+  throw Error(
+      where,
+      "there is no frame " + std::to_string(frame) + ", it has " + counted(static_cast<std::size_t>(scene.frames), "frame"),
+      "name one from 0, the start, to " + std::to_string(scene.frames) + ", or raise the scene's \"frames\"");
+}
+
 bool has_suffix(const std::string& path, std::string_view suffix) {
   if (path.size() < suffix.size()) return false;
   for (std::size_t i = 0; i < suffix.size(); ++i) {

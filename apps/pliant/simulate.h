@@ -25,6 +25,9 @@ Error of_file(const Error& error, const std::string& path);
 /// finite. Shows progress where standard error is a terminal and not `quiet`. Throws Interrupted on a signal to end.
 bool simulate(World& world, const Scene& scene, bool quiet, const std::function<void(const Report&)>& after_frame);
 
+/// Throws Error where the scene has fewer frames than that.
+void require_frame(const Scene& scene, const std::string& path, int frame);
+
 /// Whether `path` ends in `suffix` (".png"), capitals or not.
 bool has_suffix(const std::string& path, std::string_view suffix);
 

@@ -1,6 +1,7 @@
 // Files: meshes and scenes in, geometry out. Part of the library pliant_io; the core knows no file.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -66,12 +67,19 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::s
 /// The JSON Schema (2020-12) of the scene format, as text.
 std::string scene_schema();
 
+/// A file that is whole and in its place.
+struct WrittenFile {
+  std::string path;
+  std::uint64_t bytes = 0;
+};
+
 /// Takes the frames of a run one by one. The file is complete after finish().
 class FrameWriter {
  public:
   virtual ~FrameWriter() = default;
   virtual void add(const World& world) = 0;  ///< call once a frame, the initial state first
   virtual void finish() = 0;
+  virtual std::vector<WrittenFile> written() const = 0;  ///< so far, in their order; all of them after finish()
 };
 
 /// A writer by suffix: NAME.obj and NAME.ply (one file a frame, NAME_0000.obj, ...), .glb (morph targets), .usda (time

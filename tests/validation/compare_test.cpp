@@ -118,6 +118,58 @@ TEST(Compare, ASampleIsWhatARunGives) {
   }
 }
 
+/// A sheet that lies on another, which is held: their pairs are listed anew in every World that was put back.
+Scene touching() {
+  Scene scene;
+  scene.frames = 4;
+  scene.settings.substeps = 3;
+  scene.settings.threads = 1;
+  for (const float height : {0.f, 0.004f}) {
+    TriangleMesh mesh = grid_mesh(8, 8, 0.2f, 0.2f);
+    for (Vec3f& p : mesh.positions) p.y += height;
+    const int object = scene.add_cloth(mesh, {});
+    scene.objects[static_cast<std::size_t>(object)].collides = true;
+    scene.objects[static_cast<std::size_t>(object)].thickness = 0.002f;
+  }
+  scene.pin(0, {0, 7, 56, 63});
+  return scene;
+}
+
+TEST(Compare, TimesTheSubstepAfterWhereARestoredOneListsPairs) {
+  Options options = quick({"tiled", "multigrid"});
+  options.frame = 0;
+  options.iterations = 3;
+  const Result result = run(touching(), options);
+  EXPECT_TRUE(times_next(result));
+  for (const Curve& curve : result.curves)
+    for (const Sample& sample : curve.samples) EXPECT_TRUE(sample.of_next) << curve.name;
+  EXPECT_EQ(to_charts(result)[1].x_label, "milliseconds of the substep after");
+  EXPECT_NE(to_table(result).find("\nms: of the substep after it"), std::string::npos) << to_table(result);
+  EXPECT_EQ(nlohmann::json::parse(to_json(result)).at("times_next"), true);
+  Scene scene = touching();
+  scene.settings.substeps = 1;
+  for (const Sample& sample : result.curves[0].samples) {
+    scene.settings.iterations = sample.iterations;
+    World world(scene);
+    ASSERT_GT(world.step(scene.frame_time / 3).pairs.lists, 0) << "or this shows nothing";
+    EXPECT_EQ(world.stretch().largest, sample.stretch.largest) << "of the substep itself, with " << sample.iterations;
+  }
+
+  const Result apart = run(swinging(), quick({"tiled"}));
+  EXPECT_FALSE(times_next(apart));
+  EXPECT_EQ(to_charts(apart)[1].x_label, "milliseconds of the substep");
+  EXPECT_EQ(to_table(apart).find("ms: of"), std::string::npos);
+}
+
+TEST(Compare, FiguresHaveNoPowersOfTen) {
+  EXPECT_EQ(figure(100000, 4), "100000");
+  EXPECT_EQ(figure(118.4, 2), "118");
+  EXPECT_EQ(figure(99.6, 2), "100");
+  EXPECT_EQ(figure(9.96, 2), "10");
+  EXPECT_EQ(figure(0.00834, 2), "0.0083");
+  EXPECT_EQ(figure(1234.5, 4), "1234");
+}
+
 TEST(Compare, ATightRopeIsSolvedByChainsAtOnce) {
   Scene scene;
   scene.settings.threads = 1;
