@@ -1,6 +1,10 @@
-// What the tests of surfaces that touch share: cloth that does, and sheets to make it of.
+// What the tests of surfaces that touch share: cloth that does, sheets to make it of, and a watch on what crosses.
 #pragma once
 
+#include <memory>
+#include <vector>
+
+#include "collision/intersections.h"
 #include "world/world_support.h"
 
 namespace pliant::testing_support {
@@ -28,5 +32,44 @@ inline Scene scene_of(int substeps) {
   scene.settings = settings_of(substeps);
   return scene;
 }
+
+inline Collider floor_at(float height) {
+  Collider floor;
+  floor.position = {0, height, 0};
+  return floor;
+}
+
+/// Finds what crosses among the objects of a World, and meshes that are carried along.
+class Watch {
+ public:
+  Watch(const World& world, const Scene& scene) : scene_(scene), objects_(world.object_count()) {
+    std::vector<Triangle> triangles;
+    int vertices = 0;
+    const auto add = [&](const TriangleMesh& mesh) {
+      for (const auto& t : mesh.triangles) triangles.push_back({vertices + t[0], vertices + t[1], vertices + t[2]});
+      vertices += static_cast<int>(mesh.positions.size());
+    };
+    for (int o = 0; o < objects_; ++o) add(world.mesh(o));
+    for (const MeshCollider& collider : scene.mesh_colliders) add(collider.mesh);
+    finder_ = std::make_unique<IntersectionFinder>(triangles, vertices);
+  }
+
+  /// `carried`: how far mesh colliders have come.
+  std::size_t crossings(const World& world, const Vec3f& carried = {}) {
+    std::vector<Vec3f> places;
+    for (int o = 0; o < objects_; ++o) {
+      const std::vector<Vec3f> more = world.positions(o);
+      places.insert(places.end(), more.begin(), more.end());
+    }
+    for (const MeshCollider& collider : scene_.mesh_colliders)
+      for (const Vec3f& p : collider.mesh.positions) places.push_back(p + carried);
+    return finder_->find(places).size();
+  }
+
+ private:
+  const Scene& scene_;
+  int objects_;
+  std::unique_ptr<IntersectionFinder> finder_;
+};
 
 }  // namespace pliant::testing_support
