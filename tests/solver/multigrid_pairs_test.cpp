@@ -94,5 +94,66 @@ TEST(MultigridPairs, KeepTheirForcesAsPushes) {
   EXPECT_NEAR(pushed, expected, 1e-3 * expected);
 }
 
+/// By how much a contact's sides overlap at the end of the displacements [m].
+double overlap_of(const PairContact& contact, const Corrected& found) {
+  double apart = double(contact.gap) - double(contact.thickness);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Record& d = found.workspace.displacements[std::size_t(contact.vertex[i])];
+    apart += double(contact.weight[i]) * dot(convert<double>(contact.normal), Vec3d{double(d.x), double(d.y), double(d.z)});
+  }
+  return std::max(0., -apart);
+}
+
+/// Between there and back an iteration sweeps contacts: of objects without levels nothing else pushes apart what overlaps.
+TEST(MultigridPairs, AreSweptBetweenThereAndBack) {
+  std::vector<Object> loose = two_sheets();
+  for (Object& object : loose) object.constraints.clear();
+  const Corrected corrected(loose, 3), iterated(loose, 3, iterate_multigrid);
+  ASSERT_TRUE(corrected.workspace.sweep.pair_springs.empty()) << "or the correction pushes them too";
+  double before = 0, after = 0, pushed = 0;
+  for (const PairContact& contact : corrected.workspace.pairs->contacts()) before += overlap_of(contact, corrected);
+  for (const PairContact& contact : iterated.workspace.pairs->contacts()) {
+    after += overlap_of(contact, iterated);
+    pushed += double(contact.push);
+  }
+  ASSERT_GT(before, 0.01) << "metres: they come through one another";
+  EXPECT_GT(pushed, 0);
+  EXPECT_LT(after, 0.2 * before);
+}
+
+/// A sheet folded over onto itself, off the grid's places, its upper half falling onto the lower; nothing holds it.
+Object folded_sheet() {
+  constexpr int columns = 15, rows = 8;
+  Object sheet = crumpled(columns, rows, 4);
+  sheet.pins.clear();
+  sheet.triangles = grid_mesh(columns, rows, 1, 1).triangles;
+  sheet.self_collision = true;
+  sheet.thickness = 0.03f;
+  sheet.velocities.assign(sheet.positions.size(), Vec3f{});
+  for (std::size_t i = 0; i < sheet.positions.size(); ++i) {
+    Vec3f& p = sheet.positions[i];
+    if (p.x < 0.05f) continue;
+    p = {-p.x + 0.017f, p.y + 0.06f, p.z + 0.011f};
+    sheet.velocities[i] = {0, -9, 0};
+  }
+  return sheet;
+}
+
+/// What pushes itself goes nowhere by that: its contacts with itself hold it to nothing, and its momentum stays, however few the
+/// cycles.
+TEST(MultigridPairs, OfAPieceWithItselfKeepItsMomentum) {
+  const Corrected found({folded_sheet()}, 1);
+  ASSERT_GT(found.workspace.sweep.pair_springs.size(), 20u);
+  const Vector change = found.change();
+  double sum[3] = {0, 0, 0}, size = 0;
+  for (std::size_t i = 0; i < change.size(); ++i) {
+    const double mass = 1 / double(found.state.positions[i / 3].w);
+    sum[i % 3] += mass * change[i];
+    size += mass * std::fabs(change[i]);
+  }
+  ASSERT_GT(size, 1e-5);
+  for (double s : sum) EXPECT_LT(std::fabs(s), 1e-4 * size);
+}
+
 }  // namespace
 }  // namespace pliant

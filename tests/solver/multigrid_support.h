@@ -202,8 +202,10 @@ inline void hold(const Linearised& of, System& system) {
   }
 }
 
-/// An object predicted and corrected, before any sweep.
+/// An object predicted and corrected, before any sweep; or given a whole iteration, by iterate_multigrid.
 struct Corrected {
+  using Part = void (*)(Frame& frame, bool first);
+
   Model model;
   State state;
   Workspace workspace;
@@ -212,7 +214,7 @@ struct Corrected {
 
   Corrected(const Object& object, int cycles) : Corrected(std::vector<Object>{object}, cycles) {}
 
-  Corrected(const std::vector<Object>& objects, int cycles) {
+  Corrected(const std::vector<Object>& objects, int cycles, Part part = correct_multigrid) {
     SweepRun run = run_of(Sweep::multigrid, 1, 1);
     run.settings.sweep_options.multigrid_cycles = cycles;
     CompileOptions options;
@@ -238,7 +240,7 @@ struct Corrected {
       frame.enter_tiles(false);
       predicted = workspace.displacements;
       if (frame.has_pairs()) frame.find_pairs();
-      correct_multigrid(frame, true);
+      part(frame, true);
     });
   }
   Vector change() const {

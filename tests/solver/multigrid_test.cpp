@@ -186,5 +186,18 @@ TEST(MultigridCorrection, ComesNearerWithEveryFewCycles) {
   EXPECT_LT(before, 2e-3) << "conjugate directions; steepest descent stands at 0.013";
 }
 
+/// Where a correction leaves the range of floats it is not made, and the prediction stays for the sweeps.
+TEST(MultigridCorrection, ThatIsNotFiniteIsNotMade) {
+  Object sheet = crumpled(9, 9, 2);
+  const Corrected sound({sheet}, 3);
+  EXPECT_GT(size_of(sound.change()), 1e-4) << "or this shows nothing";
+  std::mt19937 random(7);
+  for (std::size_t i = 0; i < sheet.positions.size(); ++i)
+    sheet.velocities.push_back(Vec3f{uniform(random, -1e20f, 1e20f), uniform(random, -1e20f, 1e20f), 0});
+  const Corrected found({sheet}, 3);
+  for (const Record& d : found.predicted) ASSERT_TRUE(std::isfinite(d.x) && std::isfinite(d.y) && std::isfinite(d.z));
+  for (const double moved : found.change()) ASSERT_EQ(moved, 0);
+}
+
 }  // namespace
 }  // namespace pliant
