@@ -185,7 +185,7 @@ const Record& wind_record() {
 }
 
 std::vector<std::string> sweep_names() {
-  std::vector<std::string> names;
+  std::vector<std::string> names{"automatic"};
   for (const NamedSweep& one : sweeps()) names.push_back(one.name);
   return names;
 }
@@ -221,15 +221,18 @@ const Record& settings_record() {
   static const Record result{
       "settings",
       "How the constraints are solved. `threads`, `isa` and what is measured do not change the result.",
-      {field("substeps", integer(1, 10000), Settings{}.substeps, "Substeps a frame."),
+      {field("substeps", integer(0, 10000), Settings{}.substeps,
+             "Substeps a frame; 0: 10 of the multigrid sweep, 20 of any other."),
        field("iterations", integer(1, 10000), Settings{}.iterations, "Iterations a substep."),
        field(
            "tolerance", number("m", 0, largest_place), Settings{}.tolerance,
            "A substep makes no more iterations once the root mean square error of its distance constraints is below this; "
            "0: always all of them."),
        field("threads", integer(0, 1024), Settings{}.threads, "0: as many as the machine has."),
-       field("sweep", choice(sweep_names()), "tiled",
-             "In what order constraints are visited (docs/convergence.md). `sequential` is the slow, "
+       field("sweep", choice(sweep_names()), "automatic",
+             "In what order constraints are visited (docs/convergence.md). `automatic` is `multigrid` for cloth and rope, "
+             "and "
+             "`tiled` where there are volumes, stiff sheets, PBD stiffness or iterations. `sequential` is the slow, "
              "readable reference with the bits of `tiled`."),
        field("sweep_options", record(sweep_options_record()), "the defaults", "What a sweep can be told besides."),
        field("contact_filter", boolean(), Settings{}.contact_filter,

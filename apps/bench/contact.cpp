@@ -25,6 +25,7 @@ Scene drape(int size, bool self_collision) {
   Scene scene;
   scene.settings.threads = 1;
   scene.settings.substeps = 20;
+  scene.settings.sweep = Sweep::tiled;
   scene.add(cloth);
   Collider ball;
   ball.shape = Sphere{0.3f * width};

@@ -7,6 +7,7 @@ namespace {
 
 Scene scene_of(const Cloth& cloth, Steps steps, int threads) {
   Scene scene;
+  scene.settings.sweep = Sweep::tiled;
   scene.settings.substeps = steps.substeps;
   scene.settings.iterations = steps.iterations;
   scene.settings.threads = threads;

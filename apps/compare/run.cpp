@@ -42,7 +42,9 @@ std::string type_of(const std::vector<Curve>& curves) {
 
 }  // namespace
 
-Result run(const Scene& scene, const Options& options) {
+Result run(const Scene& given, const Options& options) {
+  Scene scene = given;
+  scene.settings = chosen_settings(given);
   const std::vector<Method> methods = methods_of(scene, options);
   Result result;
   result.frame = options.frame < 0 ? scene.frames / 2 : options.frame;

@@ -85,6 +85,14 @@ void try_out(const Scene& scene, double seconds, std::vector<Finding>& findings)
           compare::figure(more_seconds(advice, seconds), 3) + " gives more\n");
 }
 
+std::string how_it_is_solved(const Scene& scene) {
+  std::string reason;
+  const Settings settings = chosen_settings(scene, &reason);
+  return "solved by the sweep '" + sweep_name(settings.sweep) + "' with " +
+         counted(static_cast<std::size_t>(std::max(settings.substeps, 0)), "substep") + " a frame" +
+         (reason.empty() ? "" : ", since the scene names no sweep and holds " + one_line(reason)) + "\n";
+}
+
 std::vector<Finding> check_scene(const std::string& path, double seconds) {
   const SceneFile file = read_scene_file(path);
   const Scene& scene = file.scene;
@@ -94,6 +102,7 @@ std::vector<Finding> check_scene(const std::string& path, double seconds) {
   print(one_line(path) + ": " + counted(scene.objects.size(), "object") + " of " + counted(particles.size(), "particle") +
         extent(particles) + ", " + counted(scene.colliders.size() + scene.mesh_colliders.size(), "collider") + ", " +
         counted(static_cast<std::size_t>(scene.frames), "frame") + "\n");
+  print(how_it_is_solved(scene));
   print_repairs(file.repairs);
   std::vector<Finding> findings = inspect(scene);
   try_out(scene, seconds, findings);

@@ -102,6 +102,7 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["state_hash"] = world.state_hash();
   json["frames"] = world.state().frame;
   json["frame_time"] = scene.frame_time;
+  json["sweep"] = sweep_name(world.settings().sweep);
   json["substeps"] = world.settings().substeps;
   json["iterations"] = world.settings().iterations;
   json["iterations_used"] = {

@@ -15,6 +15,10 @@ namespace {
 
 /// What a name such as "chains+tethers" does not say stays as the scene has it.
 void set_sweep(const std::string& name, Settings& settings) {
+  if (name == "automatic") {
+    settings.sweep = Sweep::automatic;
+    return;
+  }
   const compare::Method method = compare::method_of(name, settings.sweep_options);
   settings.sweep = method.sweep;
   settings.sweep_options = method.options;

@@ -137,6 +137,7 @@ Object patch(int n, float size, float height, const char* name) {
 
 Settings settings_of(int substeps, bool filter) {
   Settings settings;
+  settings.sweep = Sweep::tiled;
   settings.substeps = substeps;
   settings.threads = 1;
   settings.contact_filter = filter;

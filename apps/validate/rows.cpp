@@ -82,6 +82,7 @@ Object hanging_line(int count, float length, float mass, float last_mass, const 
 Scene scene_with(Object object, double g, int substeps, int iterations) {
   Scene scene;
   scene.gravity = {0, static_cast<float>(-g), 0};
+  scene.settings.sweep = Sweep::tiled;
   scene.settings.substeps = substeps;
   scene.settings.iterations = iterations;
   scene.settings.threads = 1;

@@ -209,7 +209,8 @@ using ForceField = std::function<Vec3f(const Vec3f& position, const Vec3f& veloc
 
 /// How constraints are visited; all give the same bits where they say so.
 enum class Sweep {
-  tiled,       ///< coloured Gauss-Seidel in tiles, sixteen lanes, all threads: the default
+  automatic,  ///< the one that measured best on scenes of the kind: see chosen_settings; the default
+  tiled,      ///< coloured Gauss-Seidel in tiles, sixteen lanes, all threads
   sequential,  ///< the same order, one constraint at a time in plain scalar code: the readable reference, bit-equal to `tiled`
   symmetric,  ///< `tiled` there and back: one iteration visits every constraint twice, in one order and in the reverse
   jacobi,     ///< all constraints at once from the same positions, each particle's corrections then shared out
@@ -224,8 +225,11 @@ struct NamedSweep {
   Sweep sweep;
 };
 
-/// Every sweep there is, the default first: the one list that scene files, `pliant compare` and tests go by.
+/// Every sweep there is, but for the choice among them: the one list that scene files, `pliant compare` and tests go by.
 const std::vector<NamedSweep>& sweeps();
+
+/// What scenes call it; "automatic" too.
+std::string sweep_name(Sweep sweep);
 
 /// What the sweeps can be told besides.
 struct SweepOptions {
@@ -250,14 +254,14 @@ struct SweepOptions {
 };
 
 struct Settings {
-  int substeps = 20;   ///< 1..10000 a frame
+  int substeps = 0;    ///< 1..10000 a frame; 0: as many as the sweep needs, see chosen_settings
   int iterations = 1;  ///< 1..10000 a substep
   /// Root mean square of |C + alpha~ lambda| over the distance constraints, the attachments among them, below which a substep
   /// makes no more iterations, so that `iterations` is only the most that it may make; 0 or more, 0: always all of them [m].
   /// Nothing else is judged, and a scene without distance constraints makes all. PBD stiffness is shared out as if all were made.
   float tolerance = 0;
   int threads = 0;  ///< 0: as many as the machine has
-  Sweep sweep = Sweep::tiled;
+  Sweep sweep = Sweep::automatic;
   SweepOptions sweep_options{};
   bool contact_filter = true;  ///< shorten moves so that nothing that collides passes through anything else
   /// A frame in which a mesh collider comes near an object is divided into more substeps, up to so many, until the collider moves
@@ -299,6 +303,13 @@ struct Scene {
   /// Fixes particles where they are, or moves them. Throws Error where the object or a particle does not exist.
   void pin(int object, const std::vector<int>& particles, const Motion& motion = {});
 };
+
+/// The settings that a World of this scene runs by: its own, with what they leave open decided by what the scene holds.
+/// `Sweep::automatic` becomes `multigrid` for cloth and rope of 32 particles or more, and `tiled` where that would do harm or no
+/// good: an object with a volume, a sheet so stiff that its bending length (B / rho g)^(1/3) is more than a quarter of its size, PBD
+/// stiffness, more than one iteration. 0 substeps become 10 of `multigrid` and 20 of any other (docs/convergence.md). `reason`
+/// is told what it is that decides, in words, where the sweep was left open.
+Settings chosen_settings(const Scene& scene, std::string* reason = nullptr);
 
 /// Checks everything that a World would refuse, and says what is doubtful besides.
 std::vector<Finding> inspect(const Scene& scene);

@@ -1,5 +1,9 @@
 #include "collision/contact.h"
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
 #include "constraints/plane_contact.h"
 #include "math/motion.h"
 
@@ -184,6 +188,13 @@ void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near,
     const int count = find_near(search, collider, thickness, near);
     for (int k = 0; k < count; ++k) find_contact(search, near[k], c, thickness, contacts);
   }
+}
+
+void merge_contacts(const std::vector<Contact>& first, const std::vector<Contact>& second, std::vector<Contact>& all) {
+  all.clear();
+  const auto place = [](const Contact& c) { return std::make_pair(c.collider, c.particle); };
+  std::set_union(first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(all),
+                 [&](const Contact& a, const Contact& b) { return place(a) < place(b); });
 }
 
 void project_contacts(std::vector<Contact>& contacts, const SweepArguments& a) {

@@ -55,6 +55,9 @@ struct ContactSearch {
 /// Appends the contacts of a tile, by collider, then by particle. `near` is scratch.
 void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near, std::vector<Contact>& contacts);
 
+/// Both in one, in the order of find_contacts; where both have one of a particle with a collider, that of `first`.
+void merge_contacts(const std::vector<Contact>& first, const std::vector<Contact>& second, std::vector<Contact>& all);
+
 /// Projects each contact once: the normal constraint, then friction within the cone of the pushes so far.
 void project_contacts(std::vector<Contact>& contacts, const SweepArguments& arguments);
 

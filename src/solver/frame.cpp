@@ -258,6 +258,40 @@ void Frame::sweep_contacts() {
   });
 }
 
+namespace {
+
+/// As deep as this share of the thickness. What reaches in less is pushed out in the next substep; where it is pushed at once,
+/// cloth that rests on a floor stirs two to four times as much.
+constexpr float worth_a_contact = 0.25f;
+
+}  // namespace
+
+void Frame::find_more_contacts() {
+  if (work_.colliders.empty()) return;
+  for_tiles("solve: contacts", [&](int task) {
+    TileScratch& scratch = work_.tiles[task];
+    const AdvanceArguments a = particles(task);
+    for (int i = a.first; i < a.last; ++i) {
+      const Record &x = a.positions[i], &d = a.displacements[i];
+      Record &low = scratch.bounds.low, &high = scratch.bounds.high;
+      low = {min(low.x, x.x + d.x), min(low.y, x.y + d.y), min(low.z, x.z + d.z), 0};
+      high = {max(high.x, x.x + d.x), max(high.y, x.y + d.y), max(high.z, x.z + d.z), 0};
+    }
+    const CompiledObject& object = model_.objects[model_.tiles[task].object];
+    scratch.more_contacts.clear();
+    find_contacts({object, a, scratch.bounds, work_.colliders, kernels_.find_near}, scratch.near, scratch.more_contacts);
+    const auto is_shallow = [&](const Contact& c) {
+      const Record& d = a.displacements[c.particle];
+      const float thickness = object.thickness + work_.colliders[c.collider].thickness;
+      return c.gap + dot(c.normal, Vec3f{d.x, d.y, d.z}) > -worth_a_contact * thickness;
+    };
+    std::erase_if(scratch.more_contacts, is_shallow);
+    if (scratch.more_contacts.empty()) return;
+    merge_contacts(scratch.contacts, scratch.more_contacts, scratch.all_contacts);
+    std::swap(scratch.contacts, scratch.all_contacts);
+  });
+}
+
 // ---------------------------------------------------------------- the end
 
 bool Frame::give_up(int substep) {

@@ -34,6 +34,9 @@ class Frame {
 
   void sweep_contacts();
 
+  /// Contacts of what has been moved since the prediction, beside those found then; for a sweep that moves particles far.
+  void find_more_contacts();
+
   /// Contacts among what moves, and with meshes (collision/pairs.h): whether there can be any; those of the substep; one
   /// projection of each; and moves shortened so that nothing crosses.
   bool has_pairs() const { return work_.pairs != nullptr; }

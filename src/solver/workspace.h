@@ -16,9 +16,9 @@ namespace pliant {
 
 /// Results of one tile.
 struct alignas(64) TileScratch {
-  std::vector<Contact> contacts;
-  std::vector<std::int32_t> near;  ///< particles that a collider could touch
-  std::vector<Record> touching;    ///< places of those in contact, while the others are extrapolated
+  std::vector<Contact> contacts, more_contacts, all_contacts;  ///< those that count; and for finding more, scratch
+  std::vector<std::int32_t> near;                              ///< particles that a collider could touch
+  std::vector<Record> touching;  ///< places of those in contact, while the others are extrapolated
   PointBounds bounds;
   bool finite = true;
   double gradient_squared = 0, position_along = 0, motion_along = 0;  ///< sums of the volume constraint

@@ -63,16 +63,12 @@ Settings suggest(const Scene& scene) {
   return wanted;
 }
 
-std::string name_of(Sweep sweep) {
-  const auto is_it = [&](const NamedSweep& named) { return named.sweep == sweep; };
-  return std::find_if(sweeps().begin(), sweeps().end(), is_it)->name;
-}
-
 std::string in_json(const Settings& wanted, const Settings& own) {
   std::string members;
   const auto add = [&](const std::string& member) { members += (members.empty() ? "" : ", ") + member; };
-  if (wanted.substeps != own.substeps) add("\"substeps\": " + std::to_string(wanted.substeps));
-  if (wanted.sweep != own.sweep) add("\"sweep\": \"" + name_of(wanted.sweep) + "\"");
+  // What the scene leaves open might else become another number with another sweep.
+  if (wanted.substeps != own.substeps || wanted.sweep != own.sweep) add("\"substeps\": " + std::to_string(wanted.substeps));
+  if (wanted.sweep != own.sweep) add("\"sweep\": \"" + sweep_name(wanted.sweep) + "\"");
   if (wanted.sweep_options.tethers && !own.sweep_options.tethers) add("\"sweep_options\": {\"tethers\": true}");
   return "{" + members + "}";
 }

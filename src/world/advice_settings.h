@@ -20,9 +20,6 @@ std::vector<Sweep> better_sweeps(const Scene& scene);
 /// where that is none but the default.
 Settings suggest(const Scene& scene);
 
-/// What scenes call it.
-std::string name_of(Sweep sweep);
-
 /// What a scene's "settings" must say so that `own` becomes `wanted`, of substeps, sweep and tethers, as JSON:
 /// {"substeps": 10, "sweep": "chains", "sweep_options": {"tethers": true}}.
 std::string in_json(const Settings& wanted, const Settings& own);

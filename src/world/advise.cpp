@@ -221,7 +221,9 @@ int best_of(const Advice& advice) {
 
 bool is_good(const Trial& trial) { return trial.complete && trial.worst.largest <= tolerated_overstretch; }
 
-Advice advise(const Scene& scene, const AdviseOptions& options) {
+Advice advise(const Scene& given, const AdviseOptions& options) {
+  Scene scene = given;
+  scene.settings = chosen_settings(given);
   Advice advice;
   Trials trials(scene, options);
   advice.frames = trials.frames();

@@ -13,7 +13,7 @@ namespace {
 /// "40 substeps", "20 substeps of the sweep 'chains' with tethers".
 std::string setting_in_words(const Trial& trial, const Settings& own) {
   std::string text = std::to_string(trial.settings.substeps) + (trial.settings.substeps == 1 ? " substep" : " substeps");
-  if (trial.settings.sweep != own.sweep) text += " of the sweep '" + name_of(trial.settings.sweep) + "'";
+  if (trial.settings.sweep != own.sweep) text += " of the sweep '" + sweep_name(trial.settings.sweep) + "'";
   if (trial.settings.sweep_options.tethers && !own.sweep_options.tethers) text += " with tethers";
   return text;
 }

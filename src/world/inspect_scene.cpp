@@ -43,7 +43,7 @@ void check_sweep(Problems& problems, const Settings& settings) {
 
 void check_settings(Problems& problems, const Scene& scene) {
   const Settings& settings = scene.settings;
-  require_range(problems, "settings, substeps", settings.substeps, 1, 10000);
+  require_range(problems, "settings, substeps", settings.substeps, 0, 10000);
   require_range(problems, "settings, iterations", settings.iterations, 1, 10000);
   require_range(problems, "settings, threads", settings.threads, 0, 1024);
   require_range(problems, "settings, tolerance", settings.tolerance, 0, largest_place);
@@ -55,7 +55,8 @@ void check_settings(Problems& problems, const Scene& scene) {
   require_range(problems, "frames", scene.frames, 0, std::numeric_limits<int>::max());
   if (!(scene.frame_time > 0) || std::isinf(scene.frame_time))
     problems.grave("frame_time", "is " + words(scene.frame_time) + " s", "give a positive, finite time, such as 1/60 s");
-  else if (settings.substeps > 0 && scene.frame_time / static_cast<double>(settings.substeps) < shortest_substep)
+  else if (settings.substeps >= 0 &&
+           scene.frame_time / static_cast<double>(chosen_settings(scene).substeps) < shortest_substep)
     problems.grave("frame_time", "is " + words(scene.frame_time) + " s, which makes substeps too short for floats",
                    "give a longer time or fewer substeps, such as 1/60 s and 20");
   try {
@@ -116,7 +117,7 @@ void check_count(Problems& problems, const Scene& scene) {
 }
 
 void doubt_settings(Problems& problems, const Scene& scene) {
-  const Settings& settings = scene.settings;
+  const Settings settings = chosen_settings(scene);
   const double substep = static_cast<double>(scene.frame_time) / settings.substeps;
   const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
   if (scene.objects.empty()) problems.doubtful("", "the scene has no objects, so nothing will move", "add one");

@@ -12,4 +12,10 @@ const std::vector<NamedSweep>& sweeps() {
   return list;
 }
 
+std::string sweep_name(Sweep sweep) {
+  for (const NamedSweep& one : sweeps())
+    if (one.sweep == sweep) return one.name;
+  return "automatic";
+}
+
 }  // namespace pliant

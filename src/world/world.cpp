@@ -162,7 +162,8 @@ World::World(const Scene& scene, const Settings& settings) {
   Scene checked = scene;
   checked.settings = settings;
   refuse_grave(checked);
-  self_ = std::make_unique<Implementation>(checked, settings);
+  checked.settings = chosen_settings(checked);
+  self_ = std::make_unique<Implementation>(checked, checked.settings);
 }
 
 World::~World() = default;

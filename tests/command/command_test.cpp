@@ -205,7 +205,7 @@ TEST_F(Command, ASweepMayBeNamedAndTheReportIsThatOfASceneThatNamesIt) {
     std::ofstream(folder_ / "small.json") << with;
     return report(arguments).at("state_hash").get<std::string>();
   };
-  const std::string plain = hash("\"substeps\": 4", ""),
+  const std::string plain = hash(R"("substeps": 4, "sweep": "tiled")", ""),
                     named = hash(R"("substeps": 3, "iterations": 2, "sweep": "chains", "sweep_options": {"tethers": true})",
                                  "");
   EXPECT_NE(plain, named);
@@ -222,7 +222,8 @@ TEST_F(Command, ASweepMayBeNamedAndTheReportIsThatOfASceneThatNamesIt) {
 }
 
 TEST_F(Command, RenderDrawsWithTheSettingsThatAreGiven) {
-  std::ofstream(folder_ / "sagging.json") << R"({"frames": 20, "settings": {"substeps": 4}, "objects": [{"name": "sheet",
+  std::ofstream(folder_ / "sagging.json")
+      << R"({"frames": 20, "settings": {"substeps": 4, "sweep": "tiled"}, "objects": [{"name": "sheet",
       "cloth": {"mesh": {"grid": {"columns": 12, "rows": 12, "width": 1, "depth": 1}}, "stretch": {"compliance": 0}},
       "pins": [{"particles": [0, 11]}]}]})";
   const auto picture = [&](const std::string& arguments) {

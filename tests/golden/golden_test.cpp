@@ -75,7 +75,7 @@ TEST_P(Golden, OnAnyInstructionSet) {
 
 /// `sequential` is the reference of `tiled` by a name of its own; any other sweep has one by its code path.
 TEST_P(Golden, InTheReferenceSweep) {
-  pliant::Settings settings = scene_.settings;
+  pliant::Settings settings = pliant::chosen_settings(scene_);
   settings.threads = 1;
   settings.isa = "sequential";
   if (settings.sweep == pliant::Sweep::tiled) {

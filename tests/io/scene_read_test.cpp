@@ -62,7 +62,9 @@ TEST(SceneSettings, ReadEverySweepByItsName) {
                                                  {"natural", Sweep::natural},     {"chains", Sweep::chains},
                                                  {"multigrid", Sweep::multigrid}};
   EXPECT_EQ(sweeps().size(), std::size(names)) << "a sweep that this test does not know";
-  EXPECT_EQ(sweeps().front().sweep, Settings{}.sweep) << "the default is named first";
+  EXPECT_EQ(parse_scene(R"({"settings": {"sweep": "automatic"}, "objects": []})", "x.json", ".").settings.sweep,
+            Sweep::automatic);
+  EXPECT_EQ(parse_scene(R"({"objects": []})", "x.json", ".").settings.sweep, Sweep::automatic) << "the default";
   for (const auto& [name, sweep] : names) {
     const std::string text = R"({"settings": {"sweep": ")" + std::string(name) + R"("}, "objects": []})";
     EXPECT_EQ(parse_scene(text, "x.json", ".").settings.sweep, sweep) << name;

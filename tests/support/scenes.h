@@ -33,8 +33,10 @@ inline Object chain(int particles, float spacing, const Stiffness& stiffness = {
   return object;
 }
 
+/// Of plain sweeps.
 inline Settings settings_of(int substeps, int iterations = 1, int threads = 1) {
   Settings settings;
+  settings.sweep = Sweep::tiled;
   settings.substeps = substeps;
   settings.iterations = iterations;
   settings.threads = threads;

@@ -130,7 +130,8 @@ TEST(Words, OfAReportComeFromItsFigures) {
   const std::string words = world.advice(report);
   EXPECT_EQ(words.rfind("object 'chain': stretched 2 % too far at its pins (edge 0-1); more than 7 substeps", 0), 0U)
       << words;
-  EXPECT_NE(words.find(R"("settings": {"sweep": "chains", "sweep_options": {"tethers": true}})"), std::string::npos)
+  EXPECT_NE(words.find(R"("settings": {"substeps": 7, "sweep": "chains", "sweep_options": {"tethers": true}})"),
+            std::string::npos)
       << words;
   report.overstretch->largest = tolerated_overstretch;
   EXPECT_EQ(world.advice(report), "");
@@ -152,12 +153,13 @@ std::string suggestion(Scene scene) {
 }
 
 TEST(Words, NameTheSweepThatSuitsTheScene) {
-  const std::string tethered = R"({"sweep": "chains", "sweep_options": {"tethers": true}})";
+  const std::string tethered = R"({"substeps": 20, "sweep": "chains", "sweep_options": {"tethers": true}})";
   Scene scene;
   scene.add_cloth(grid_mesh(5, 5, 1, 1), {});
   scene.objects[0].constraints[0].stiffness = Stiffness::rigid();
   scene.objects[0].constraints[0].compliances.clear();
-  EXPECT_EQ(suggestion(scene), R"({"sweep": "multigrid"})") << "nothing holds it";
+  EXPECT_EQ(suggestion(scene), R"({"substeps": 20, "sweep": "multigrid"})")
+      << "nothing holds it; as many substeps as it has, which another sweep would not";
   scene.pin(0, {0});
   EXPECT_EQ(suggestion(scene), tethered);
   Scene chained = scene;
@@ -169,12 +171,14 @@ TEST(Words, NameTheSweepThatSuitsTheScene) {
   EXPECT_EQ(suggestion(chained), "");
   Scene elastic = scene;
   elastic.objects[0].constraints[0].stiffness = Stiffness::compliance(1e-3f);
-  EXPECT_EQ(suggestion(elastic), R"({"sweep": "chains"})") << "tethers would hold back what is meant to stretch";
+  EXPECT_EQ(suggestion(elastic), R"({"substeps": 20, "sweep": "chains"})")
+      << "tethers would hold back what is meant to stretch";
 }
 
 /// Chains and tethers hold what hangs; where what moves touches what moves, multigrid alone counts with it.
 TEST(Words, NameMultigridWhereWhatMovesTouches) {
-  const std::string multigrid = R"({"sweep": "multigrid"})", chains = R"({"sweep": "chains"})";
+  const std::string multigrid = R"({"substeps": 20, "sweep": "multigrid"})",
+                    chains = R"({"substeps": 20, "sweep": "chains"})";
   Scene scene;
   scene.add_cloth(grid_mesh(5, 5, 1, 1), {});
   scene.objects[0].constraints[0].stiffness = Stiffness::compliance(1e-3f);
@@ -219,12 +223,6 @@ Scene hanging_sheet(int n, const Stiffness& stretch, int substeps) {
   scene.settings = settings_of(substeps);
   scene.frames = 30;
   return scene;
-}
-
-std::string sweep_name(Sweep sweep) {
-  for (const NamedSweep& named : sweeps())
-    if (named.sweep == sweep) return named.name;
-  return {};
 }
 
 /// The largest stretch of any frame, by another way than that of a trial.

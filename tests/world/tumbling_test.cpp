@@ -9,6 +9,7 @@
 #include "math/quat.h"
 #include "pliant/scene.h"
 #include "pliant/world.h"
+#include "support/scenes.h"
 
 namespace pliant {
 namespace {
@@ -34,7 +35,7 @@ TriangleMesh tube(float degrees, float aside) {
 TEST(Tumbling, StiffTubesComeToRest) {
   constexpr int throws = 48;
   Scene scene;
-  scene.settings.substeps = 10;
+  scene.settings = testing_support::settings_of(10);
   for (int i = 0; i < throws; ++i) {
     const auto number = static_cast<float>(i);
     ClothOptions options;

@@ -69,6 +69,7 @@ void correct_multigrid(Frame& frame, bool first) {
 
 void iterate_multigrid(Frame& frame, bool first) {
   correct_multigrid(frame, first);
+  if (first) frame.find_more_contacts();
   // There and back: distances, first of all types, have the last word, and what bending pulls apart is put right again.
   iterate_tiled(frame, false);
   if (frame.has_pairs()) frame.sweep_pairs();

@@ -1,0 +1,140 @@
+// Which sweep, and how many substeps, a scene is run with that leaves it open: what measured best at equal stretch
+// (docs/convergence.md, "The default, and what wins").
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "math/vector.h"
+#include "pliant/scene.h"
+
+namespace pliant {
+
+namespace {
+
+/// Where the sweeps differ: fewer particles are joined within a few edges of each other, and 20 plain substeps do.
+constexpr int fewest_particles = 32;
+/// A sheet whose bending length is more than this share of its size holds itself up: no sweep over stretch alone moves it well.
+constexpr double stiff_share = 0.25;
+/// Where gravity is less, something else bends the sheet [m/s^2].
+constexpr double least_acceleration = 9.81;
+constexpr int substeps_of_multigrid = 10, substeps_of_others = 20;
+
+/// Zero where there is no such particle: a scene is asked about before it is checked.
+Vec3d position(const Object& object, int particle) {
+  const auto i = static_cast<std::size_t>(particle);
+  return i < object.positions.size() ? convert<double>(object.positions[i]) : Vec3d{};
+}
+
+bool has_springs(const Object& object) {
+  return std::any_of(object.constraints.begin(), object.constraints.end(), [](const ConstraintGroup& group) {
+    return group.type == "distance" && group.stiffness.kind == Stiffness::Kind::compliance && !group.particles.empty();
+  });
+}
+
+double largest_extent(const Object& object) {
+  double extent = 0;
+  if (object.positions.empty()) return extent;
+  for (const auto coordinate : {&Vec3f::x, &Vec3f::y, &Vec3f::z}) {
+    const auto [low, high] =
+        std::minmax_element(object.positions.begin(), object.positions.end(),
+                            [&](const Vec3f& a, const Vec3f& b) { return a.*coordinate < b.*coordinate; });
+    extent = std::max(extent, static_cast<double>((*high).*coordinate) - static_cast<double>((*low).*coordinate));
+  }
+  return extent;
+}
+
+/// Of hinges: the sum of flexural rigidity [N m] times area, and of area [m^2]. See hinge_compliance in cloth.cpp.
+struct Bending {
+  double rigidity_times_area = 0, area = 0;
+
+  void add(const std::array<Vec3d, 4>& x, bool isometric, double compliance) {
+    const Vec3d edge = x[1] - x[0];
+    const double twice =
+        std::sqrt(length_squared(cross(edge, x[2] - x[0]))) + std::sqrt(length_squared(cross(edge, x[3] - x[0])));
+    const double beside = twice / 2;
+    const double rigidity = isometric ? 3 / compliance : beside / (length_squared(edge) * compliance);
+    rigidity_times_area += std::min(rigidity, 1e30) * beside;
+    area += beside;
+  }
+};
+
+/// Mean flexural rigidity [N m]; infinite where bending is rigid, or PBD stiffness makes it what the step makes of it.
+double rigidity_of(const Object& object) {
+  Bending bending;
+  for (const ConstraintGroup& group : object.constraints) {
+    const bool isometric = group.type == "isometric_bending";
+    if (!isometric && group.type != "dihedral_bending") continue;
+    if (group.stiffness.kind == Stiffness::Kind::pbd) {
+      if (group.stiffness.value > 0 && !group.particles.empty()) return std::numeric_limits<double>::infinity();
+      continue;
+    }
+    for (std::size_t i = 0; 4 * i + 3 < group.particles.size(); ++i) {
+      std::array<Vec3d, 4> x;
+      for (std::size_t slot = 0; slot < 4; ++slot) x[slot] = position(object, group.particles[4 * i + slot]);
+      const float compliance = i < group.compliances.size() ? group.compliances[i] : group.stiffness.value;
+      bending.add(x, isometric, static_cast<double>(compliance));
+    }
+  }
+  return bending.area > 0 ? bending.rigidity_times_area / bending.area : 0;
+}
+
+double area_of(const Object& object) {
+  double area = 0;
+  for (const auto& triangle : object.triangles) {
+    const Vec3d origin = position(object, triangle[0]);
+    const Vec3d a = position(object, triangle[1]) - origin, b = position(object, triangle[2]) - origin;
+    area += std::sqrt(length_squared(cross(a, b))) / 2;
+  }
+  return area;
+}
+
+/// The bending length, how far a sheet stands out before it bends under its own weight, (B / rho g)^(1/3) (Peirce 1930), against its
+/// size; by their cubes, since not every machine has the same cube root.
+bool is_stiff_sheet(const Object& object, double gravity) {
+  const double rigidity = rigidity_of(object), area = area_of(object);
+  if (!(rigidity > 0) || !(area > 0)) return rigidity > 0 && !std::isfinite(rigidity);
+  double mass = 0;
+  for (const float m : object.masses)
+    if (std::isfinite(m)) mass += static_cast<double>(m);
+  const double weight = std::max(mass / area * std::max(gravity, least_acceleration), 1e-30);
+  const double allowed = stiff_share * largest_extent(object);
+  return !(rigidity / weight <= allowed * allowed * allowed);
+}
+
+struct Choice {
+  Sweep sweep;
+  std::string reason;
+};
+
+Choice choose(const Scene& scene) {
+  if (scene.settings.iterations > 1) return {Sweep::tiled, "iterations, of which multigrid makes little"};
+  const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
+  std::size_t largest = 0;
+  for (const Object& object : scene.objects) {
+    if (!has_springs(object)) continue;
+    if (object.volume) return {Sweep::tiled, "'" + object.name + "', which has a volume"};
+    if (is_stiff_sheet(object, gravity))
+      return {Sweep::tiled, "'" + object.name + "', a sheet too stiff to bend under its weight"};
+    largest = std::max(largest, object.positions.size());
+  }
+  if (largest < fewest_particles) return {Sweep::tiled, "nothing so fine that it needs more"};
+  return {Sweep::multigrid, "cloth or rope of up to " + std::to_string(largest) + " particles"};
+}
+
+}  // namespace
+
+Settings chosen_settings(const Scene& scene, std::string* reason) {
+  Settings settings = scene.settings;
+  if (settings.sweep == Sweep::automatic) {
+    const Choice choice = choose(scene);
+    settings.sweep = choice.sweep;
+    if (reason != nullptr) *reason = choice.reason;
+  }
+  if (settings.substeps == 0)
+    settings.substeps = settings.sweep == Sweep::multigrid ? substeps_of_multigrid : substeps_of_others;
+  return settings;
+}
+
+}  // namespace pliant

@@ -1,0 +1,106 @@
+// What a scene is solved by that names no sweep: known answers, among them the bending length at which a sheet counts as stiff.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pliant/scene.h"
+#include "pliant/world.h"
+#include "support/scenes.h"
+
+namespace pliant {
+namespace {
+
+using namespace testing_support;
+
+Scene with(const TriangleMesh& mesh, const ClothOptions& options) {
+  Scene scene;
+  scene.add_cloth(mesh, options);
+  return scene;
+}
+
+Scene sheet(int n, float size, const ClothOptions& options = {}) { return with(grid_mesh(n, n, size, size), options); }
+
+void expect_chosen(const Scene& scene, Sweep sweep, int substeps, const std::string& why) {
+  SCOPED_TRACE(why);
+  std::string reason;
+  const Settings chosen = chosen_settings(scene, &reason);
+  EXPECT_EQ(sweep_name(chosen.sweep), sweep_name(sweep)) << reason;
+  EXPECT_EQ(chosen.substeps, substeps);
+  EXPECT_NE(reason.find(why), std::string::npos) << reason;
+  const World world(scene);
+  EXPECT_EQ(world.settings().sweep, sweep) << "a World runs by what is chosen";
+  EXPECT_EQ(world.settings().substeps, substeps);
+}
+
+TEST(ChosenSettings, AreMultigridForCloth) { expect_chosen(sheet(40, 1), Sweep::multigrid, 10, "1600 particles"); }
+
+TEST(ChosenSettings, ArePlainForWhatIsCoarse) {
+  expect_chosen(sheet(5, 1), Sweep::tiled, 20, "so fine");
+  expect_chosen(sheet(6, 1), Sweep::multigrid, 10, "36 particles");
+  expect_chosen(Scene{}, Sweep::tiled, 20, "so fine");
+}
+
+TEST(ChosenSettings, ArePlainForVolumes) {
+  ClothOptions options;
+  options.volume = Volume{1, Stiffness::rigid()};
+  options.name = "ball";
+  Scene scene = with(sphere_mesh(2), options);
+  scene.add_cloth(grid_mesh(20, 20, 1, 1));
+  expect_chosen(scene, Sweep::tiled, 20, "'ball', which has a volume");
+}
+
+TEST(ChosenSettings, ArePlainWherePbdStiffnessOrIterationsSaySo) {
+  ClothOptions options;
+  options.bending = Stiffness::pbd(0.1f);
+  expect_chosen(sheet(20, 1, options), Sweep::tiled, 20, "stiff to bend");
+  options.bending = Stiffness::rigid();
+  expect_chosen(sheet(20, 1, options), Sweep::tiled, 20, "stiff to bend");
+  options.bending.reset();
+  options.stretch = Stiffness::pbd(0.9f);
+  expect_chosen(sheet(20, 1, options), Sweep::tiled, 20, "so fine");
+  Scene scene = sheet(20, 1);
+  scene.settings.iterations = 2;
+  expect_chosen(scene, Sweep::tiled, 20, "iterations");
+}
+
+// Peirce's bending length c = (B / rho g)^(1/3); stiff where it is more than a quarter of the sheet's size, whatever the mesh and
+// the model of bending.
+TEST(ChosenSettings, ArePlainForSheetsThatHoldThemselvesUp) {
+  for (const auto model : {ClothOptions::Bending::dihedral, ClothOptions::Bending::isometric}) {
+    ClothOptions options;
+    options.bending_model = model;
+    options.material.bending_stiffness = 0.02f;
+    options.material.area_density = 0.75f;
+    const double length = std::cbrt(0.02 / (0.75 * 9.81));
+    for (const int n : {8, 30}) {
+      expect_chosen(sheet(n, static_cast<float>(3.9 * length), options), Sweep::tiled, 20, "stiff to bend");
+      expect_chosen(sheet(n, static_cast<float>(4.1 * length), options), Sweep::multigrid, 10, "particles");
+    }
+  }
+}
+
+TEST(ChosenSettings, LeaveWhatIsNamed) {
+  Scene scene = sheet(40, 1);
+  for (const NamedSweep& one : sweeps()) {
+    scene.settings.sweep = one.sweep;
+    std::string reason;
+    EXPECT_EQ(chosen_settings(scene, &reason).sweep, one.sweep);
+    EXPECT_EQ(chosen_settings(scene).substeps, one.sweep == Sweep::multigrid ? 10 : 20) << one.name;
+    EXPECT_EQ(reason, "");
+  }
+  scene.settings.substeps = 7;
+  EXPECT_EQ(chosen_settings(scene).substeps, 7);
+}
+
+TEST(ChosenSettings, AreFoundForScenesThatWillBeRefused) {
+  Scene scene = sheet(40, 1);
+  scene.objects[0].constraints[1].particles[3] = 1 << 30;
+  scene.objects[0].constraints[1].particles[4] = -1;
+  scene.objects[0].triangles[0] = {-5, 1 << 30, 0};
+  EXPECT_EQ(chosen_settings(scene).substeps, 10);
+  scene.objects[0].positions.clear();
+  EXPECT_GT(chosen_settings(scene).substeps, 0);
+}
+
+}  // namespace
+}  // namespace pliant
