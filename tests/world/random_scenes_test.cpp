@@ -10,6 +10,7 @@
 #include <random>
 
 #include "pliant/error.h"
+#include "support/sanitized.h"
 #include "support/scenes.h"
 
 namespace pliant {
@@ -194,7 +195,7 @@ void expect_finite_or_said(Sweep sweep, unsigned first, int scenes) {
 
 void expect_finite_or_said(Sweep sweep) {
   const auto first = static_cast<unsigned>(number_from("PLIANT_RANDOM_SEED", 0));
-  expect_finite_or_said(sweep, first, number_from("PLIANT_RANDOM_SCENES", 200));
+  expect_finite_or_said(sweep, first, number_from("PLIANT_RANDOM_SCENES", fewer_if_sanitized(200, 50)));
 }
 
 TEST(RandomScenes, StayFiniteOrSayWhatDidNot) { expect_finite_or_said(Sweep::tiled); }

@@ -1,0 +1,25 @@
+// Whether a sanitizer watches, under which everything takes ten times as long and more: a test that would take over a minute of a
+// core then runs fewer scenes or frames, and all the others as they are.
+#pragma once
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define PLIANT_SANITIZED 1
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define PLIANT_SANITIZED 1
+#endif
+
+namespace pliant::testing_support {
+
+#ifdef PLIANT_SANITIZED
+inline constexpr bool is_sanitized = true;
+#else
+inline constexpr bool is_sanitized = false;
+#endif
+
+/// `all`, or under a sanitizer so many.
+constexpr int fewer_if_sanitized(int all, int sanitized) { return is_sanitized ? sanitized : all; }
+
+}  // namespace pliant::testing_support
