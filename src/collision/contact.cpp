@@ -39,6 +39,15 @@ bool may_meet(const LocalShape&, const SurfaceDistance<float>& end, float thickn
 bool may_meet(const SolidField&, const SurfaceDistance<float>&, float, float) { return true; }
 
 SurfaceDistance<float> signed_distance(const SolidField& field, const Vec3f& p) { return field.distance(p); }
+
+/// How far from a solid a path began: of ground, whose distance jumps at its open sides and from column to column, no farther than
+/// its end allows. Else what comes in deep below would be taken for something that has just crossed the surface, and thrown up.
+float distance_before(const LocalShape& shape, const Vec3f& a, const SurfaceDistance<float>&, float) {
+  return signed_distance(shape, a).distance;
+}
+float distance_before(const SolidField& field, const Vec3f& a, const SurfaceDistance<float>& end, float path) {
+  return field.is_ground() ? min(field.distance(a).distance, end.distance + path) : field.distance(a).distance;
+}
 FirstHit<float> first_hit(const SolidField& field, const Vec3f& a, const Vec3f& b, float margin) {
   return field.first_hit(a, b, margin);
 }
@@ -61,7 +70,7 @@ SurfacePlane surface_plane(const Solid& solid, const Vec3f& a, const Vec3f& b, f
     }
   }
   if (!(end.distance < thickness + path)) return {};
-  const float height = kept(signed_distance(solid, a).distance);
+  const float height = kept(distance_before(solid, a, end, path));
   return {true, end.normal, b - end.normal * end.distance, dot(end.normal, b) - end.distance + height};
 }
 

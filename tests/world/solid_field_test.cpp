@@ -65,6 +65,22 @@ TEST(SolidField, OfGroundIsItsPlane) {
   EXPECT_FALSE(field.first_hit({0.5f, 3, 0.4f}, {0.5f, 1, 0.4f}, 0).hit);
 }
 
+TEST(SolidField, OfGroundEndsAtItsUnderside) {
+  const SolidField field(heightfield_of(ramp().mesh));
+  const float underside = -2.f / 3 - 4;  // as deep below its lowest point as it is wide
+  EXPECT_NEAR(field.bounds().low.y, underside, 1e-5f);
+  const auto below = field.distance({0.3f, underside - 0.5f, 0.2f}), in = field.distance({0.3f, underside + 0.5f, 0.2f});
+  EXPECT_NEAR(below.distance, 0.5f, 1e-5f);
+  EXPECT_NEAR(in.distance, -0.5f, 1e-5f);
+  EXPECT_EQ(below.normal, (Vec3f{0, -1, 0}));
+  EXPECT_EQ(in.normal, (Vec3f{0, -1, 0}));
+  const FirstHit<float> hit = field.first_hit({0.5f, -9, 0.4f}, {0.5f, 9, 0.4f}, 0.1f);
+  ASSERT_TRUE(hit.hit);
+  EXPECT_NEAR(hit.point.y, underside - 0.1f, 1e-3f);
+  EXPECT_EQ(hit.normal, (Vec3f{0, -1, 0}));
+  EXPECT_FALSE(field.first_hit({0.5f, -9, 0.4f}, {0.5f, underside - 0.2f, 0.4f}, 0.1f).hit);
+}
+
 TEST(SolidField, IsMeasuredOnceAndShared) {
   MeshCollider one = ball(1, 0.5f), two = one;
   one.field = two.field = measure_distances(one.mesh);
@@ -111,6 +127,48 @@ TEST(SolidField, LetsNothingThroughThatIsFast) {
   const MeshCollider slope = ramp(), round = measured_ball(0.6f);
   for (const Vec3f& p : rained_on(slope, 300, 2)) EXPECT_TRUE(std::fabs(p.x) > 2 || p.y > p.x / 3) << p.x << " " << p.y;
   for (const Vec3f& p : rained_on(round, 300, 2)) EXPECT_TRUE(length(p) > 0.59f && (p.y > -1 || length(p) > 5)) << p.y;
+}
+
+/// A particle on its own or with another far above, which is in the same tile and reaches into the ground.
+std::vector<Vec3f> way_near_the_ramp(const Vec3f& place, const Vec3f& velocity, bool with_another) {
+  Scene scene;
+  scene.gravity = {};
+  scene.settings = settings_of(10);
+  scene.add(ramp());
+  std::vector<Vec3f> places{place}, velocities{velocity};
+  if (with_another) {
+    places.push_back({1, 0.2f, 0});
+    velocities.push_back({});
+  }
+  Object grains = loose_particles(places, velocities);
+  grains.thickness = 0.01f;
+  scene.add(grains);
+  World world(scene);
+  std::vector<Vec3f> way{place};
+  for (int frame = 0; frame < 40; ++frame) {
+    EXPECT_TRUE(world.step(dt).ok());
+    way.push_back(world.positions(0)[0]);
+  }
+  return way;
+}
+
+TEST(SolidField, OfGroundIsSolidToADepthThatDependsOnNobodyElse) {
+  const float underside = -2.f / 3 - 4;
+  for (const float depth : {0.3f, 2.f, 3.9f, 4.3f, 8.f})
+    EXPECT_EQ(way_near_the_ramp({0, -depth, 0}, {}, false), way_near_the_ramp({0, -depth, 0}, {}, true)) << depth;
+  EXPECT_EQ(way_near_the_ramp({0, -8, 0}, {}, true).back().y, -8.f) << "nothing is solid there";
+  const Vec3f out = way_near_the_ramp({0, -0.5f, 0}, {}, true).back();
+  EXPECT_GT(out.y, out.x / 3) << "up";
+  EXPECT_LT(way_near_the_ramp({0, -4.3f, 0}, {}, true).back().y, underside) << "down, which is closer";
+  // What comes from below stays there, and nothing is pushed faster than 2 m/s.
+  for (const float speed : {0.5f, 5.f, 300.f}) {
+    const std::vector<Vec3f> way = way_near_the_ramp({0.3f, -6, 0.2f}, {0, speed, 0}, true);
+    EXPECT_NEAR(way.back().y, std::fmin(-6 + 40 * speed * dt, underside - 0.01f), 1e-3f) << speed;
+  }
+  const std::vector<Vec3f> way = way_near_the_ramp({2.1f, -0.6f, 0}, {-1, 0, 0}, true);  // in through a side, which is open
+  EXPECT_LT(way.back().x, 1.9f);
+  EXPECT_GT(way.back().y, 0.3f) << "on its way up";
+  for (std::size_t i = 1; i < way.size(); ++i) EXPECT_LT(length(way[i] - way[i - 1]), 2.3f * dt) << i;
 }
 
 TEST(SolidField, BringsOutWhatBeginsInside) {
