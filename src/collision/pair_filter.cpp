@@ -57,7 +57,7 @@ void PairSystem::filter_pair(const Between& clusters, const PairStencil& four, c
   const Separation found =
       plan_separation(four, at, particles.positions, particles.displacements, double(least), slab, shares);
   if (found == Separation::free) return;
-  if (found == Separation::hopeless) ++task.hopeless;
+  if (found == Separation::hopeless) task.hopeless.push_back(four);
   if (found == Separation::planned) task.slabs.push_back(slab);
   for (int i = 0; i < 4; ++i)
     if (shares[i] < 1) task.shares.emplace_back(four.vertex[i], shares[i]);
@@ -111,16 +111,27 @@ void PairSystem::keep_apart(Executor& executor, const PairParticles& particles) 
       Task& task = tasks_[number];
       task.slabs.clear();
       task.shares.clear();
-      task.hopeless = 0;
+      task.hopeless.clear();
       for (int s = task.first_surroundings; s < task.last_surroundings; ++s)
         filter_surroundings(surroundings_[s], task, particles);
       for (int b = task.first; b < task.last; ++b) filter_bucket(buckets_[b], task, particles);
     });
     if (!shorten(particles, round >= rounds_of_shares)) break;
   }
-  for (const Task& task : tasks_) counts_.hopeless += task.hopeless;
+  count_hopeless();
   std::sort(shortened_.begin(), shortened_.end());
   counts_.shortened += std::unique(shortened_.begin(), shortened_.end()) - shortened_.begin();
+}
+
+void PairSystem::count_hopeless() {
+  for (const Task& task : tasks_) {
+    for (const PairStencil& pair : task.hopeless) {
+      const int a = model_.vertex_body[pair.vertex[0]], b = model_.vertex_body[pair.vertex[3]];
+      HopelessPairs& between = hopeless_[std::minmax(a, b)];
+      if (between.count++ == 0) between.first = pair;
+      ++counts_.hopeless;
+    }
+  }
 }
 
 void PairSystem::filter(Executor& executor, const PairParticles& particles) {
@@ -180,6 +191,7 @@ void PairSystem::begin_frame(const Record* positions, bool anew) {
   const std::int64_t candidates = counts_.candidates, tangled = counts_.tangled, hopeless = counts_.hopeless;
   const bool untangles = untangler_ && untangler_->is_busy();
   counts_ = {};
+  hopeless_.clear();
   counts_.candidates = candidates;
   counts_.tangled = tangled;
   // Clean pairs stay clean, unless nothing kept them: what has crossed is then exempt, as it would be in a state put back.

@@ -13,6 +13,19 @@ namespace {
 constexpr double share_of_rest = 0.9;
 /// Whoever looks at a list at all looks at what it will want to know in so many substeps.
 constexpr float substeps_of_rest = 4;
+/// Where something drives that moves by up to half a thickness in a substep, contacts keep this much of theirs.
+constexpr float least_share_kept = 0.9f;
+
+/// Whether a side that can't be pushed moves by more than what is lacked without harm.
+bool is_driven(const PairContact& contact, const PairParticles& particles) {
+  float way = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Record& d = particles.displacements[contact.vertex[i]];
+    if (!(particles.positions[contact.vertex[i]].w > 0))
+      way += contact.weight[i] * dot(contact.normal, Vec3f{d.x, d.y, d.z});
+  }
+  return -way > (1 - least_share_kept) * contact.thickness;
+}
 
 }  // namespace
 
@@ -162,6 +175,17 @@ void PairSystem::detect(Executor& executor, const PairParticles& particles) {
 void PairSystem::project(const PairParticles& particles) {
   for (PairContact& contact : contacts_)
     project_contact(contact, particles.positions, particles.remainders, particles.displacements);
+}
+
+/// It is the contacts behind that matter as much as those with what drives: a move that the filter shortens for one of them is no
+/// longer out of the way.
+bool PairSystem::is_overrun(const PairParticles& particles) const {
+  const auto lacks = [&](const PairContact& contact) {
+    return overlap_of(contact, particles.displacements) > (1 - least_share_kept) * contact.thickness;
+  };
+  const auto is_driven_here = [&](const PairContact& contact) { return is_driven(contact, particles); };
+  return std::any_of(contacts_.begin(), contacts_.end(), is_driven_here) &&
+         std::any_of(contacts_.begin(), contacts_.end(), lacks);
 }
 
 void PairSystem::respond(const Record* positions, Record* velocities, float slow,

@@ -16,8 +16,10 @@
 // the sum of departures leaves a pair out of reach nothing is done about it, nor about all pairs of two clusters at once.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "collision/candidates.h"
@@ -51,6 +53,12 @@ struct PairModel {
 /// Nothing where no two things meet.
 std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& positions);
 
+/// Pairs between two bodies that no shortening keeps apart.
+struct HopelessPairs {
+  PairStencil first;
+  std::int64_t count = 0;
+};
+
 /// What was done, for the Report.
 struct PairCounts {
   std::int64_t candidates = 0, contacts = 0, shortened = 0, hopeless = 0, tangled = 0, rebuilds = 0, inside = 0;
@@ -69,6 +77,9 @@ class PairSystem {
   /// Contacts of the substep from predicted displacements.
   void detect(Executor& executor, const PairParticles& particles);
   void project(const PairParticles& particles);
+  /// Whether something that can't be pushed moves on into what contacts have not yet moved out of its way, so that the filter might
+  /// not keep them apart: then they should be projected again, which passes a push on to what lies behind.
+  bool is_overrun(const PairParticles& particles) const;
   /// Shortens displacements so that nothing crosses.
   void filter(Executor& executor, const PairParticles& particles);
   /// After a substep. `gravity` is what velocities of a body's free particles lack: within a frame, that of the frame [m/s].
@@ -81,6 +92,8 @@ class PairSystem {
   /// Edges and triangles that pass through one another though they are not meant to: left out until they are apart.
   const std::vector<Intersection>& tangles() const { return tangles_; }
   const Triangle& triangle(int number) const { return model_.elements.triangles[number]; }
+  /// Of this frame, by their bodies, the lower one first.
+  const std::map<std::pair<int, int>, HopelessPairs>& hopeless() const { return hopeless_; }
 
  private:
   enum Kind { vertex_kind, edge_kind, triangle_kind };
@@ -124,7 +137,7 @@ class PairSystem {
     std::size_t contacts_of_surroundings = 0;
     std::vector<SeparatingSlab> slabs;
     std::vector<std::pair<std::int32_t, float>> shares;
-    int hopeless = 0;
+    std::vector<PairStencil> hopeless;
   };
   /// Elements of one kind, cluster by cluster, each cluster's along a curve and filled up to sixteens with what overlaps nothing.
   struct Elements {
@@ -193,6 +206,7 @@ class PairSystem {
   void filter_surroundings(Surroundings& of, Task& task, const PairParticles& particles);
   void filter_pair(const Between& clusters, const PairStencil& four, const PairParticles& particles, Task& task);
   bool shorten(const PairParticles& particles, bool stops);
+  void count_hopeless();
   template <class Allow>
   void hold_rounded(const PairParticles& particles, Allow allow);
   void keep_apart(Executor& executor, const PairParticles& particles);
@@ -234,6 +248,7 @@ class PairSystem {
   std::vector<Intersection> tangles_;
   std::vector<std::array<std::int32_t, 5>>
       tangled_;  ///< stencils of pairs that are exempt, and their first side; ascending
+  std::map<std::pair<int, int>, HopelessPairs> hopeless_;
   PairCounts counts_;
 };
 

@@ -17,6 +17,9 @@ namespace {
 /// Below this many batches a colour of straddlers is done sooner than other threads can be told of it.
 constexpr int fewest_batches_to_share = 96;
 
+/// Rounds of contacts beyond the iterations in which a push is passed on through what lies in layers.
+constexpr int most_rounds_of_contacts = 16;
+
 }  // namespace
 
 Frame::Frame(const StepContext& context, double dt, Report& report)
@@ -183,7 +186,14 @@ PairParticles Frame::all_particles() const {
 
 void Frame::find_pairs() { work_.pairs->detect(executor_, all_particles()); }
 void Frame::sweep_pairs() { work_.pairs->project(all_particles()); }
-void Frame::filter_pairs() { work_.pairs->filter(executor_, all_particles()); }
+void Frame::filter_pairs() {
+  // What drives on can't be shortened: whatever it meets must be out of its way before moves are.
+  for (int round = 0; round < most_rounds_of_contacts && work_.pairs->is_overrun(all_particles()); ++round) {
+    sweep_pairs();
+    sweep_contacts();
+  }
+  work_.pairs->filter(executor_, all_particles());
+}
 void Frame::respond_to_pairs(bool ends_frame) {
   work_.pairs->respond(state_.positions.data(), state_.velocities.data(), 2 * length(model_.gravity) * h_,
                        [&](int object) { return ends_frame ? Vec3f{} : gravity_for(work_.gravity[object].settled); });

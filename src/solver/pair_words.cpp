@@ -35,6 +35,24 @@ std::string words_of(const Model& model, const Triangle& triangle, const Interse
   return text + ": tangled, and left out of contact until they are apart";
 }
 
+/// A pair in the numbers of its objects: "vertex 4 and triangle (1, 2, 3)".
+std::string words_of(const Model& model, const PairStencil& pair) {
+  const auto number = [&](int corner) { return number_of(model, pair.vertex[static_cast<std::size_t>(corner)]); };
+  if (pair.first_side == 1)
+    return "vertex " + number(0) + " and triangle (" + number(1) + ", " + number(2) + ", " + number(3) + ")";
+  return "edges " + number(0) + "-" + number(1) + " and " + number(2) + "-" + number(3);
+}
+
+std::string words_of(const Model& model, const HopelessPairs& pairs) {
+  const int a = object_of(model, pairs.first.vertex[0]), b = object_of(model, pairs.first.vertex[3]);
+  const std::string of = a == b ? " and itself: " : " and " + name_of(model, b) + ": ";
+  return name_of(model, a) + of + words_of(model, pairs.first) +
+         (pairs.count > 1 ? " and " + std::to_string(pairs.count - 1) + " more pairs were" : " were") +
+         " hopeless: they touched, or were pinched by what nothing pushes, and may pass through one another; give them "
+         "more room, "
+         "a greater thickness, or more substeps";
+}
+
 }  // namespace
 
 void warn_of_pairs(const Model& model, const PairSystem& pairs, std::vector<std::string>& warnings) {
@@ -46,9 +64,7 @@ void warn_of_pairs(const Model& model, const PairSystem& pairs, std::vector<std:
   }
   for (const auto& [objects, found] : between)
     warnings.push_back(words_of(model, pairs.triangle(found.first->triangle), *found.first, found.second));
-  if (const std::int64_t hopeless = pairs.counts().hopeless; hopeless > 0)
-    warnings.push_back(std::to_string(hopeless) + (hopeless == 1 ? " pair was hopeless: " : " pairs were hopeless: ") +
-                       "they touched, or were pinched by what nothing pushes, and may pass through one another");
+  for (const auto& [objects, found] : pairs.hopeless()) warnings.push_back(words_of(model, found));
 }
 
 }  // namespace pliant

@@ -197,7 +197,10 @@ TEST(Hopeless, PinchesAreSaid) {
     EXPECT_EQ(report.pairs.hopeless > 0, says(report.explain(), "hopeless"));
     words += report.explain();
   }
+  EXPECT_TRUE(says(words, "object 'sheet' and collider 'floor': ") || says(words, "collider 'floor' and object 'sheet': "))
+      << words;
   EXPECT_TRUE(says(words, "hopeless: they touched")) << words;
+  EXPECT_TRUE(says(words, "may pass through one another; give them more room")) << words;
 }
 
 /// Bending of a rope is a distance too, but no line that anything could touch.

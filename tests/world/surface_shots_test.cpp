@@ -111,6 +111,29 @@ TEST(Shot, OfABallCarriesTheSheetAlong) {
   }
 }
 
+/// Two sheets, the second held at its corners, which hold up what a ball drives into them.
+TEST(Shot, OfABallDrivesOneSheetIntoAnotherAndThroughNeither) {
+  for (const Sweep sweep : {Sweep::tiled, Sweep::symmetric}) {
+    Scene scene = scene_of(20);
+    scene.settings.sweep = sweep;
+    scene.gravity = {};
+    scene.add(cloth(sheet(12, 0.4f, 0), 0.003f));
+    scene.pin(scene.add(cloth(sheet(12, 0.4f, -0.02f), 0.003f)), {0, 11, 132, 143});
+    MeshCollider ball;
+    ball.mesh = sphere_mesh(2);
+    for (Vec3f& p : ball.mesh.positions) p = p * 0.08f + Vec3f{0.011f, 0.1f, 0.007f};
+    ball.motion = straight({0, -10, 0}, 1);
+    scene.add(ball);
+    World world(scene);
+    Watch watch(world, scene);
+    for (int frame = 1; frame <= 1; ++frame) {
+      const Report report = world.step(dt);
+      EXPECT_EQ(report.pairs.hopeless, 0) << "frame " << frame << ": " << report.explain();
+      EXPECT_EQ(watch.crossings(world, {0, -10 * static_cast<float>(world.state().time), 0}), 0u) << "frame " << frame;
+    }
+  }
+}
+
 TEST(Shot, OfABallThatOverrunsTheSheetIsSaidToBe) {
   // What nothing pushes and goes farther in a substep than the gap to what it meets can't be kept from it by shortening moves.
   for (const float speed : {10.f, 100.f, 1000.f}) {
