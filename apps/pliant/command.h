@@ -55,10 +55,11 @@ struct CheckOptions {
 int check(const CheckOptions& options);
 
 struct ValidateOptions {
-  std::string group;  ///< empty: all
-  bool slow = false;  ///< also what takes minutes
-  std::string json;   ///< file for the rows as JSON, empty: none; "-": standard output instead of the table
-  std::string plot;   ///< PNG file for the curves, empty: none
+  std::string group;    ///< empty: all
+  bool slow = false;    ///< also what takes minutes
+  std::string queries;  ///< folder of query sets for continuous tests, empty: none
+  std::string json;     ///< file for the rows as JSON, empty: none; "-": standard output instead of the table
+  std::string plot;     ///< PNG file for the curves, empty: none
 };
 
 /// Compares with known answers and prints a table; throws Error where a row fails.
@@ -69,6 +70,7 @@ struct BenchOptions {
   std::string against;     ///< "bullet", or empty
   std::vector<int> sizes;  ///< empty: 64, 128, 256, 512
   int frames = 120;        ///< measured, after 20 that are not
+  double limit = 120;      ///< of W3: on the time of a row [s]
   int threads = 0;         ///< of the run beside that with one thread; 0: all
   std::string json;        ///< file for the rows as JSON, empty: none
 };

@@ -116,6 +116,8 @@ void add_validate(CLI::App& app, ValidateOptions& options, Chosen& chosen) {
   CLI::App* validate_app = app.add_subcommand("validate", "Compare with known answers of mechanics");
   validate_app->add_option("NAME", options.group, "the group of answers, all by default");
   validate_app->add_flag("--slow", options.slow, "also what takes minutes");
+  validate_app->add_option("--queries", options.queries, "a folder of query sets for the continuous tests of `collision`")
+      ->type_name("FOLDER");
   validate_app->add_option("--json", options.json, "write the rows as JSON; without a file in place of the table")
       ->type_name("FILE")
       ->expected(0, 1)

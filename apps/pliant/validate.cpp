@@ -40,6 +40,7 @@ int validate(const ValidateOptions& options) {
   pliant::validate::Options wanted;
   if (!options.group.empty()) wanted.name = options.group;
   wanted.slow = options.slow;
+  wanted.queries = options.queries;
   const pliant::validate::Result result = pliant::validate::run_validation(wanted);
   throw_if_interrupted();
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "apps/validate/long_contact.h"
 #include "apps/validate/rows.h"
 #include "collision/intersections.h"
 #include "collision/spatial_hash.h"
@@ -262,7 +263,7 @@ void ball_rows(Result& result) {
 
 }  // namespace
 
-void collision_rows(Result& result, bool) {
+void collision_rows(Result& result, bool slow) {
   broad_row<BoxBounds>(result, "spatial hash", SpatialHash(0.7f));
   broad_row<BoxBounds>(result, "hierarchy of boxes", Tree<BoxBounds>());
   broad_row<SphereBounds>(result, "hierarchy of spheres", Tree<SphereBounds>());
@@ -276,6 +277,7 @@ void collision_rows(Result& result, bool) {
                                    apex(0.5f, filter), 0.03, "m", "e^2 h, from 0.5 m, 50 substeps"));
   }
   ball_rows(result);
+  if (slow) long_contact_rows(result);
 }
 
 }  // namespace pliant::validate

@@ -22,6 +22,8 @@ void steadiness_rows(Result& result, bool slow);
 void heavy_chain_rows(Result& result, bool slow);
 void convergence_rows(Result& result, bool slow);
 void sweep_rows(Result& result, bool slow);
+/// Of `collision`, where there are query sets. Throws Error where the folder holds none.
+void query_set_rows(Result& result, const std::string& folder);
 
 /// Rows with their verdict; what is not finite fails.
 Row relative(std::string name, double expected, double measured, double tolerance, std::string unit, std::string note = {});

@@ -71,6 +71,7 @@ Result run_validation(const Options& options) {
     names += (i == 0 ? "" : ", ") + groups()[i].name;
     if (options.name && *options.name != groups()[i].name) continue;
     found = true;
+    if (groups()[i].name == "collision" && !options.queries.empty()) query_set_rows(result, options.queries);
     adders[i](result, options.slow);
   }
   if (!found) throw Error({}, "there is nothing called '" + *options.name + "' to validate", "choose one of " + names);

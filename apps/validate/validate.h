@@ -37,6 +37,7 @@ struct Result {
 struct Options {
   std::optional<std::string> name;  ///< one of group_names() alone
   bool slow = false;                ///< also what takes minutes
+  std::string queries;              ///< a folder of query sets for continuous tests, rows of `collision`; empty: none
 };
 
 /// A family of rows.

@@ -4,13 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
+#include <iterator>
 #include <random>
 #include <string>
 #include <vector>
+
+#include "support/query_sets.h"
 
 namespace pliant {
 namespace {
@@ -180,46 +182,21 @@ struct Counts {
   int missed_in_double = 0, far_in_double = 0;  ///< of those that double precision invents: not even touching within 1e-12
 };
 
-double quotient(const std::string& numerator, const std::string& denominator) {
-  return std::strtod(numerator.c_str(), nullptr) / std::strtod(denominator.c_str(), nullptr);
-}
-
-/// Eight rows a query: a rational for each coordinate, then the answer (the README beside the data).
 template <bool edges>
-Counts run_queries(const std::filesystem::path& file) {
-  Counts counts;
-  std::ifstream in(file);
-  std::string field[7];
-  Motion4 m;
-  for (int row = 0;; ++row) {
-    for (int i = 0; i < 7; ++i)
-      if (!std::getline(in, field[i], i < 6 ? ',' : '\n')) return counts;
-    Vec3d* const corners = row % 8 < 4 ? m.from : m.to;  // g++ 12's sanitizer writes to a copy of (a ? b : c)[i]
-    corners[row % 4] = Vec3d{quotient(field[0], field[1]), quotient(field[2], field[3]), quotient(field[4], field[5])};
-    if (row % 8 != 7) continue;
-    const bool truth = field[6][0] == '1', found = sharp_impact_of<edges>(m, 0).hit;
-    const bool found_in_double = impact_of<edges>(m, 0.0).hit;
-    ++counts.queries;
-    counts.missed += truth && !found;
-    counts.invented += found && !truth;
-    counts.missed_in_double += truth && !found_in_double;
-    counts.far_in_double += found_in_double && !truth && !sharp_impact_of<edges>(m, 1e-12).hit;
-  }
-}
-
-template <bool edges>
-void check_queries(const char* folder) {
-  const std::filesystem::path root = std::string(PLIANT_SHARED_DATA) + "/ccd/sample-queries";
+void check_queries(const char* kind) {
+  const std::string root = PLIANT_SHARED_DATA "/ccd/sample-queries";
   if (!std::filesystem::exists(root)) GTEST_SKIP() << "no query sets beside this tree";
   Counts sum;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
-    if (entry.path().extension() != ".csv" || entry.path().parent_path().filename() != folder) continue;
-    const Counts counts = run_queries<edges>(entry.path());
-    sum.queries += counts.queries;
-    sum.missed += counts.missed;
-    sum.invented += counts.invented;
-    sum.missed_in_double += counts.missed_in_double;
-    sum.far_in_double += counts.far_in_double;
+  for (const testing_support::CollisionQuery& query : testing_support::read_query_sets(root, kind)) {
+    Motion4 m;
+    std::copy(std::begin(query.from), std::end(query.from), m.from);
+    std::copy(std::begin(query.to), std::end(query.to), m.to);
+    const bool found = sharp_impact_of<edges>(m, 0).hit, found_in_double = impact_of<edges>(m, 0.0).hit;
+    ++sum.queries;
+    sum.missed += query.hits && !found;
+    sum.invented += found && !query.hits;
+    sum.missed_in_double += query.hits && !found_in_double;
+    sum.far_in_double += found_in_double && !query.hits && !sharp_impact_of<edges>(m, 1e-12).hit;
   }
   EXPECT_GE(sum.queries, 900);
   EXPECT_EQ(sum.missed, 0);

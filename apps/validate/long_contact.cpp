@@ -1,0 +1,231 @@
+// The scenes that surfaces must come through whole: 600 frames each, every one of them looked at. Minutes each, so only `--slow`.
+#include "apps/validate/long_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "apps/validate/rows.h"
+
+namespace pliant::validate {
+namespace {
+
+constexpr float pi = 3.14159265f;
+constexpr float thickness_of_edge = 0.1f;  // as docs/contact.md advises
+
+/// Cotton that meets itself and others, of a sheet with edges of `edge`.
+Object sheet_of(const TriangleMesh& mesh, float edge, const std::string& name = "sheet") {
+  ClothOptions options;
+  options.name = name;
+  options.material = fabric("cotton");
+  Object object = make_cloth(mesh, options);
+  object.thickness = thickness_of_edge * edge;
+  object.self_collision = object.collides = true;
+  return object;
+}
+
+TriangleMesh square(int side, float edge) {
+  const float width = edge * static_cast<float>(side - 1);
+  return grid_mesh(side, side, width, width);
+}
+
+Scene scene_of(int substeps) {
+  Scene scene;
+  scene.settings.substeps = substeps;
+  scene.settings.threads = 1;
+  return scene;
+}
+
+/// Particles of a sheet at one end of it along x (`end` -1 or 1), or along y.
+std::vector<int> border(const Object& sheet, int end, float Vec3f::*axis) {
+  float farthest = 0;
+  for (const Vec3f& p : sheet.positions) farthest = std::max(farthest, p.*axis * static_cast<float>(end));
+  std::vector<int> found;
+  for (std::size_t i = 0; i < sheet.positions.size(); ++i)
+    if (sheet.positions[i].*axis * static_cast<float>(end) > 0.9999f * farthest) found.push_back(static_cast<int>(i));
+  return found;
+}
+
+}  // namespace
+
+Scene folded_scene(int side) {
+  constexpr float edge = 0.01f;
+  TriangleMesh mesh = square(side, edge);
+  const float half = 0.5f * edge * static_cast<float>(side - 1), radius = 0.06f * half, flat = half - pi / 2 * radius;
+  for (Vec3f& p : mesh.positions) {
+    const float along = p.x + half, angle = std::clamp((along - flat) / radius, 0.f, pi);
+    const float back = std::max(0.f, along - flat - pi * radius);
+    p.x = std::min(along, flat) + radius * std::sin(angle) - back;
+    p.y = 0.2f + radius * (1 - std::cos(angle));
+  }
+  Scene scene = scene_of(20);
+  scene.add(sheet_of(mesh, edge));
+  scene.add(Collider{});
+  return scene;
+}
+
+Scene layered_scene(int side) {
+  constexpr float width = 0.72f;
+  const float edge = width / static_cast<float>(side - 1);
+  Scene scene = scene_of(20);
+  for (int layer = 0; layer < 10; ++layer) {
+    TriangleMesh mesh = square(side, edge);
+    const double angle = layer * 9 * double(pi) / 180;
+    const float c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
+    for (Vec3f& p : mesh.positions) p = {c * p.x + s * p.z, 0.44f + 0.015f * static_cast<float>(layer), c * p.z - s * p.x};
+    scene.add(sheet_of(mesh, edge, "layer_" + std::to_string(layer + 1)));
+  }
+  Collider ball;
+  ball.name = "ball";
+  ball.shape = Sphere{0.2f};
+  ball.position = {0, 0.2f, 0};
+  scene.add(ball);
+  scene.add(Collider{});
+  return scene;
+}
+
+Scene twisted_scene(int side) {
+  constexpr float edge = 0.01f;
+  Scene scene = scene_of(20);
+  const Object sheet = sheet_of(square(side, edge), edge);
+  const int object = scene.add(sheet);
+  for (const int end : {-1, 1}) {
+    Motion motion;
+    for (int k = 0; k <= 16; ++k)  // a turn at each end in eight seconds, and drawn in by a tenth
+      motion.keyframes.push_back({0.5f * static_cast<float>(k),
+                                  {-0.05f / 16 * static_cast<float>(end * k) * edge * static_cast<float>(side - 1), 0, 0},
+                                  rotation({1, 0, 0}, 22.5f * static_cast<float>(end * k))});
+    scene.pin(object, border(sheet, end, &Vec3f::x), motion);
+  }
+  return scene;
+}
+
+Scene ball_scene(int side) {
+  constexpr float edge = 0.01f;
+  Scene scene = scene_of(5);
+  scene.frame_time = 1.f / 240;  // so that no frame begins on one side of the sheet and ends on the other
+  TriangleMesh mesh = square(side, edge);
+  const float width = edge * static_cast<float>(side - 1);
+  for (Vec3f& p : mesh.positions) p = {0, p.x, p.z};
+  const Object sheet = sheet_of(mesh, edge);
+  const int object = scene.add(sheet);
+  scene.pin(object, border(sheet, 1, &Vec3f::y));
+  MeshCollider ball;
+  ball.name = "ball";
+  ball.mesh = sphere_mesh(3);
+  for (Vec3f& p : ball.mesh.positions) p = p * (0.12f * width) + Vec3f{-0.8f * width, -0.2f * width, 0.05f * width};
+  const Vec3f across{1.6f * width, 0, 0};
+  const float time = 1.6f * width / 10;  // at 10 m/s
+  ball.motion.keyframes = {{0, {}, {}},        {0.1f, {}, {}},        {0.1f + time, across, {}},
+                           {0.6f, across, {}}, {0.6f + time, {}, {}}, {1, {}, {}}};
+  ball.motion.repeat = true;
+  scene.add(ball);
+  return scene;
+}
+
+namespace {
+
+/// A line through the points, as points `apart` from one another along it.
+std::vector<Vec3f> resampled(const std::vector<Vec3d>& line, double apart) {
+  std::vector<Vec3f> result{convert<float>(line.front())};
+  double left = apart;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const Vec3d step = line[i] - line[i - 1];
+    const double length = std::sqrt(dot(step, step));
+    double gone = 0;
+    for (; length - gone >= left; left = apart) {
+      gone += left;
+      result.push_back(convert<float>(line[i - 1] + step * (gone / length)));
+    }
+    left -= length - gone;
+  }
+  return result;
+}
+
+/// A trefoil, cut at the tip of a lobe, with its ends led outward [m].
+std::vector<Vec3f> open_trefoil(double size, double link) {
+  constexpr double turn = 2 * double(pi), gap = 0.12, leg = 8;
+  constexpr int pieces = 2000;
+  const auto at = [](double t) {
+    return Vec3d{std::sin(t) + 2 * std::sin(2 * t), std::cos(t) - 2 * std::cos(2 * t), -std::sin(3 * t)};
+  };
+  std::vector<Vec3d> line;
+  const double begin = turn / 2 + gap, end = turn / 2 + turn - gap;
+  line.push_back((at(begin) + Vec3d{leg / 2, -leg, 0}) * size);
+  for (int i = 0; i <= pieces; ++i) line.push_back(at(begin + (end - begin) * i / pieces) * size);
+  line.push_back((at(end) + Vec3d{-leg / 2, -leg, 0}) * size);
+  return resampled(line, link);
+}
+
+}  // namespace
+
+Scene knot_scene() {
+  constexpr float link = 0.009f;
+  RopeOptions options;
+  options.linear_density = 0.03f;
+  options.bends = true;
+  options.bending = Stiffness::compliance(0.01f);
+  options.thickness = 0.003f;
+  Object rope = make_rope(open_trefoil(0.018, double(link)), options);
+  rope.self_collision = true;
+  rope.damping = 1;
+  const int last = static_cast<int>(rope.positions.size()) - 1;
+  const float reach = 0.5f * (link * static_cast<float>(last) - 0.09f);  // what is left is less than the knot takes
+  for (const int end : {0, last}) {
+    Attachment attachment;
+    attachment.particle = end;
+    attachment.target = rope.positions[static_cast<std::size_t>(end)];
+    attachment.stiffness = Stiffness::compliance(0.0005f);
+    const Vec3f away{(end == 0 ? reach : -reach) - attachment.target.x, 0, -attachment.target.z};
+    attachment.motion.keyframes = {{0, {}, {}}, {4, away, {}}};
+    rope.attachments.push_back(attachment);
+  }
+  Scene scene = scene_of(20);
+  scene.gravity = {};
+  scene.add(rope);
+  return scene;
+}
+
+namespace {
+
+struct Long {
+  const char* what;
+  Scene scene;
+  Audit (*look)(const Scene&, int);
+};
+
+std::string in_words(const Audit& audit, const char* how) {
+  const auto brief3 = [](double x) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", x);
+    return std::string(text);
+  };
+  std::string words = std::string(how) + ", " + std::to_string(audit.frames) + " frames of " +
+                      std::to_string(audit.vertices) + " vertices, " + brief3(audit.ms) + " ms each, at most " +
+                      brief3(audit.slowest_ms) + "; least distance " + brief3(audit.least_distance * 1e3) + " mm";
+  if (audit.first >= 0) words += "; first in frame " + std::to_string(audit.first);
+  return words;
+}
+
+}  // namespace
+
+void long_contact_rows(Result& result) {
+  constexpr int frames = 600;
+  const std::string group = "collision: engine, ";
+  for (const auto& [what, scene, look] :
+       {Long{"100 x 100 cloth folded over itself and dropped", folded_scene(100), audit_surfaces},
+        Long{"ten layers of 33 x 33 over a sphere", layered_scene(33), audit_surfaces},
+        Long{"100 x 100 cloth twisted through two turns", twisted_scene(100), audit_surfaces},
+        Long{"ball at 10 m/s to and fro through 64 x 64 cloth", ball_scene(64), audit_surfaces},
+        Long{"knot pulled tight", knot_scene(), audit_rope}}) {
+    const Audit audit = look(scene, frames);
+    const bool rope = look == audit_rope;
+    const double bad = audit.ok ? static_cast<double>(audit.most) : std::numeric_limits<double>::quiet_NaN();
+    result.rows.push_back(at_most(group + what + (rope ? ", links that meet" : ", edges that meet triangles"), 0, bad, "",
+                                  in_words(audit, rope ? "paths of every substep" : "exact signs")));
+    result.rows.push_back(at_most(group + what + ", hopeless pairs", 0, static_cast<double>(audit.hopeless), "", ""));
+  }
+}
+
+}  // namespace pliant::validate

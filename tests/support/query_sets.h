@@ -1,0 +1,59 @@
+// Query sets for continuous tests: eight lines a query in a table of rationals, the corners at both ends of their moves and the
+// answer, as in the sample queries of B. Wang et al., "A large-scale benchmark and an inclusion-based algorithm for continuous
+// collision detection", 2021.
+#pragma once
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "pliant/vec3.h"
+
+namespace pliant::testing_support {
+
+/// A vertex and a triangle, or two edges, that move straight.
+struct CollisionQuery {
+  Vec3d from[4], to[4];
+  bool hits = false;
+};
+
+inline double quotient(const std::string& numerator, const std::string& denominator) {
+  return std::strtod(numerator.c_str(), nullptr) / std::strtod(denominator.c_str(), nullptr);
+}
+
+/// The queries of one file; none where it can't be read.
+inline std::vector<CollisionQuery> read_queries(const std::filesystem::path& file) {
+  std::vector<CollisionQuery> queries;
+  std::ifstream in(file);
+  std::string field[7];
+  CollisionQuery query;
+  for (int row = 0;; ++row) {
+    for (int i = 0; i < 7; ++i)
+      if (!std::getline(in, field[i], i < 6 ? ',' : '\n')) return queries;
+    Vec3d* const corners = row % 8 < 4 ? query.from : query.to;  // g++ 12's sanitizer writes to a copy of (a ? b : c)[i]
+    corners[row % 4] = Vec3d{quotient(field[0], field[1]), quotient(field[2], field[3]), quotient(field[4], field[5])};
+    query.hits = field[6][0] == '1';
+    if (row % 8 == 7) queries.push_back(query);
+  }
+}
+
+/// All queries of one kind ("vertex-face" or "edge-edge", the name of the folder that a file lies in) below `root`, in the
+/// order of their files' names; none where there is no such folder.
+inline std::vector<CollisionQuery> read_query_sets(const std::filesystem::path& root, const std::string& kind) {
+  std::vector<std::filesystem::path> files;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root, none))
+    if (entry.path().extension() == ".csv" && entry.path().parent_path().filename() == kind) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  std::vector<CollisionQuery> queries;
+  for (const auto& file : files) {
+    const std::vector<CollisionQuery> more = read_queries(file);
+    queries.insert(queries.end(), more.begin(), more.end());
+  }
+  return queries;
+}
+
+}  // namespace pliant::testing_support
