@@ -76,24 +76,29 @@ TriangleMesh make_irregular_mesh(int size) {
   return mesh;
 }
 
+std::vector<Edge> edges_of(const Object& object) {
+  std::vector<Edge> edges;
+  if (const ConstraintGroup* group = find(object, "distance"))
+    for (std::size_t i = 0; i + 1 < group->particles.size(); i += 2) {
+      const int a = group->particles[i], b = group->particles[i + 1];
+      edges.push_back({a, b, distance(object.positions[a], object.positions[b])});
+    }
+  sort_by_mesh(edges, mesh_order(object), [](const Edge& edge) { return key(edge.a, edge.b); });
+  return edges;
+}
+
 Cloth make_w1(int size, bool with_bending) {
   Cloth cloth;
   cloth.object = make_w1_object(size, with_bending);
   cloth.pins = {0, size - 1};
-  if (const ConstraintGroup* group = find(cloth.object, "distance"))
-    for (std::size_t i = 0; i + 1 < group->particles.size(); i += 2) {
-      const int a = group->particles[i], b = group->particles[i + 1];
-      cloth.edges.push_back({a, b, distance(cloth.object.positions[a], cloth.object.positions[b])});
-    }
+  cloth.edges = edges_of(cloth.object);
   if (const ConstraintGroup* group = find(cloth.object, "dihedral_bending"))
     for (std::size_t i = 0; i + 3 < group->particles.size(); i += 4) {
       const int* v = &group->particles[i];
       const float compliance = group->compliances.empty() ? group->stiffness.value : group->compliances[i / 4];
       cloth.hinges.push_back({v[0], v[1], v[2], v[3], compliance});
     }
-  const auto rank = mesh_order(cloth.object);
-  sort_by_mesh(cloth.edges, rank, [](const Edge& edge) { return key(edge.a, edge.b); });
-  sort_by_mesh(cloth.hinges, rank, [](const Hinge& hinge) { return key(hinge.v0, hinge.v1); });
+  sort_by_mesh(cloth.hinges, mesh_order(cloth.object), [](const Hinge& hinge) { return key(hinge.v0, hinge.v1); });
   return cloth;
 }
 

@@ -35,6 +35,9 @@ struct Cloth {
 Object make_w1_object(int size, bool with_bending);
 Cloth make_w1(int size, bool with_bending);
 
+/// The edges that a cloth's distance constraints stand on, in the order in which its triangles first name them.
+std::vector<Edge> edges_of(const Object& object);
+
 /// A grid of size x size over 1 m whose inner particles are moved by up to 0.3 of a cell, each cell's diagonal either way:
 /// nothing in it lines up.
 TriangleMesh make_irregular_mesh(int size);

@@ -1,8 +1,11 @@
 // Stands in where Bullet was not found.
 #include "apps/bench/cloth.h"
+#include "apps/bench/landing.h"
 
 namespace pliant::bench {
 
 std::unique_ptr<Engine> make_bullet(const Cloth&, Steps, BulletOrder) { return nullptr; }
+
+std::unique_ptr<LandingEngine> make_bullet_landing(const Landing&, Steps, int) { return nullptr; }
 
 }  // namespace pliant::bench

@@ -6,6 +6,7 @@
 #include "apps/bench/bench.h"
 #include "apps/bench/broadphase.h"
 #include "apps/bench/contact.h"
+#include "apps/bench/landing.h"
 #include "atomic_file.h"
 #include "command.h"
 #include "interrupt.h"
@@ -76,11 +77,33 @@ std::string bench_contact(const BenchOptions& options) {
   return to_json(pliant::bench::measure_contact(wanted));
 }
 
+std::string bench_landings(const BenchOptions& options) {
+  pliant::bench::LandingOptions wanted;
+  if (!options.sizes.empty()) wanted.sizes = options.sizes;
+  if (options.frames > 0) wanted.frames = options.frames;
+  wanted.limit = options.limit;
+  wanted.against_bullet = options.against == "bullet";
+  print(
+      "on     size  engine              substeps x iter  frames  mean, ms  median, ms  slowest, ms  stretch    p99  "
+      "crossings   ratio\n");
+  wanted.on_row = [](const pliant::bench::LandingRow& row) {
+    throw_if_interrupted();
+    char text[256];
+    std::snprintf(text, sizeof text, "%-5s %5d  %-18s %9d x %-4d %7d %9.2f %11.2f %12.2f %8.4f %6.3f %10zu %7.2f%s\n",
+                  row.on.c_str(), row.size, row.engine.c_str(), row.substeps, row.iterations, row.frames, row.mean_ms,
+                  row.median_ms, row.largest_ms, row.stretch_mean, row.stretch_p99, row.crossings, row.ratio,
+                  row.in_time ? "" : "  out of time");
+    print(text);
+  };
+  return to_json(pliant::bench::measure_landings(wanted));
+}
+
 /// Of a workload that is measured by name alone: its rows as JSON; nothing where it is none of them.
 std::optional<std::string> bench_by_name(const BenchOptions& options) {
   if (options.workload == "broadphase") return bench_broad_phases(options);
   if (options.workload == "ccd") return bench_impacts();
   if (options.workload == "contact") return bench_contact(options);
+  if (options.workload == "W3") return bench_landings(options);
   return std::nullopt;
 }
 

@@ -140,6 +140,10 @@ void add_bench(CLI::App& app, BenchOptions& options, Chosen& chosen) {
       ->type_name("N")
       ->check(range(1, 1000000))
       ->capture_default_str();
+  bench_app->add_option("--limit", options.limit, "of W3: seconds that a row may take")
+      ->type_name("S")
+      ->check(range(1.0, 86400.0))
+      ->capture_default_str();
   bench_app->add_option("--threads", options.threads, "of the run beside that with one thread; 0: all")
       ->type_name("N")
       ->check(range(0, most_threads));

@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "apps/bench/broadphase.h"
 #include "apps/bench/cloth.h"
+#include "apps/bench/landing.h"
 #include "apps/bench/quality.h"
 #include "pliant/error.h"
 
@@ -140,6 +143,67 @@ TEST(Bench, BroadPhasesOverTheSameBoxesFindTheSamePairs) {
   }
   EXPECT_THROW(measure_broad_phases({{1}, 2, 1, {}}), Error);
   EXPECT_THROW(measure_broad_phases({{12}, 0, 1, {}}), Error);
+}
+
+// ---------------------------------------------------------------- W3
+
+/// Whether no cloth is where the ball is.
+double nearest_to_ball(const Landing& landing, const LandingEngine& engine) {
+  double nearest = 9;
+  for (const Vec3f& x : engine.positions(0))
+    nearest = std::min(nearest, std::sqrt(double(length_squared(x - landing.ball))) - double(landing.radius));
+  return nearest;
+}
+
+TEST(BenchLanding, OnABallRestsOnItInBothEngines) {
+  const Landing landing = make_landing("ball", 12);
+  const auto pliant = make_pliant_landing(landing, steps);
+  for (int i = 0; i < 30; ++i) pliant->step(1.f / 60);
+  EXPECT_NEAR(nearest_to_ball(landing, *pliant), double(landing.cloths[0].thickness), 1e-3);
+  if (!has_bullet()) return;
+  for (const int clusters : {0, 64}) {
+    const auto bullet = make_bullet_landing(landing, steps, clusters);
+    for (int i = 0; i < 30; ++i) bullet->step(1.f / 60);
+    EXPECT_NEAR(nearest_to_ball(landing, *bullet), 0, 0.1) << clusters;
+  }
+}
+
+// What its own flag does not do in 3.24 (bullet_landing.cpp): a cloth that falls on another stays above it.
+TEST(BenchLanding, OnAClothIsCarriedInBothEngines) {
+  const Landing landing = make_landing("cloth", 8);
+  std::vector<std::unique_ptr<LandingEngine>> engines;
+  engines.push_back(make_pliant_landing(landing, steps));
+  if (has_bullet()) engines.push_back(make_bullet_landing(landing, steps, 0));
+  for (const auto& engine : engines) {
+    for (int i = 0; i < 40; ++i) engine->step(1.f / 60);
+    double middle = 0;
+    for (const Vec3f& x : engine->positions(1)) middle += double(x.y) / 64;
+    EXPECT_GT(middle, -0.5);  // it would have fallen by a metre
+  }
+}
+
+TEST(BenchLanding, ARunYieldsARowForEachEngineWithinItsTime) {
+  LandingOptions options;
+  options.sizes = {10};
+  options.frames = 12;
+  options.against_bullet = has_bullet();
+  const std::vector<LandingRow> rows = measure_landings(options);
+  ASSERT_EQ(rows.size(), has_bullet() ? 8U : 4U);
+  EXPECT_EQ(nlohmann::json::parse(to_json(rows)).size(), rows.size());
+  EXPECT_EQ(rows.back().engine, "pliant");
+  EXPECT_EQ(rows.back().crossings, 0U);
+  EXPECT_EQ(rows.back().frames, 12);
+  EXPECT_TRUE(rows.back().in_time);
+  EXPECT_GT(rows.back().stretch_p99, 0.9);
+  options.against_bullet = false;
+  options.limit = 1e-9;
+  for (const LandingRow& row : measure_landings(options)) {
+    EXPECT_EQ(row.frames, 1);
+    EXPECT_FALSE(row.in_time);
+  }
+  options.frames = 0;
+  EXPECT_THROW(measure_landings(options), Error);
+  EXPECT_THROW(make_landing("water", 10), Error);
 }
 
 }  // namespace
