@@ -46,6 +46,7 @@ class PliantLanding final : public LandingEngine {
     Scene scene;
     scene.settings.substeps = steps.substeps;
     scene.settings.iterations = steps.iterations;
+    scene.settings.sweep = Sweep::tiled;  // as many projections as Bullet makes
     scene.settings.threads = 1;
     for (const Object& cloth : landing.cloths) scene.add(cloth);
     if (landing.radius > 0) {
@@ -178,7 +179,7 @@ std::vector<LandingRow> measure_landings(const LandingOptions& options) {
   if (options.against_bullet && !has_bullet())
     throw Error({}, "this program was built without Bullet", "install libbullet-dev and configure again");
   std::vector<LandingRow> rows;
-  for (const char* on : {"ball", "cloth"})
+  for (const std::string& on : options.on)
     for (const int size : options.sizes) {
       const std::vector<LandingRow> more = measure_all(make_landing(on, size), options);
       rows.insert(rows.end(), more.begin(), more.end());

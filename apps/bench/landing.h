@@ -50,6 +50,7 @@ struct LandingRow {
 };
 
 struct LandingOptions {
+  std::vector<std::string> on{"ball", "cloth"};  ///< landings
   std::vector<int> sizes{64, 128};
   int frames = 120;    ///< from the start: the fall, the landing and the draping
   double limit = 120;  ///< on each row's time [s]

@@ -79,6 +79,7 @@ std::string bench_contact(const BenchOptions& options) {
 
 std::string bench_landings(const BenchOptions& options) {
   pliant::bench::LandingOptions wanted;
+  if (options.workload != "W3") wanted.on = {options.workload.substr(std::string("W3-").size())};
   if (!options.sizes.empty()) wanted.sizes = options.sizes;
   if (options.frames > 0) wanted.frames = options.frames;
   wanted.limit = options.limit;
@@ -103,7 +104,8 @@ std::optional<std::string> bench_by_name(const BenchOptions& options) {
   if (options.workload == "broadphase") return bench_broad_phases(options);
   if (options.workload == "ccd") return bench_impacts();
   if (options.workload == "contact") return bench_contact(options);
-  if (options.workload == "W3") return bench_landings(options);
+  if (options.workload == "W3" || options.workload == "W3-ball" || options.workload == "W3-cloth")
+    return bench_landings(options);
   return std::nullopt;
 }
 

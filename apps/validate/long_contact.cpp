@@ -33,6 +33,7 @@ TriangleMesh square(int side, float edge) {
 Scene scene_of(int substeps) {
   Scene scene;
   scene.settings.substeps = substeps;
+  scene.settings.sweep = Sweep::tiled;
   scene.settings.threads = 1;
   return scene;
 }

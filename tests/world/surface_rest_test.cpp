@@ -53,6 +53,18 @@ TEST(Groups, SayWhoMeetsWhom) {
 
 // ------------------------------------------------------------------------------------------------ rest and friction
 
+// What is near in the mesh keeps no more than nine tenths of its distance there: a mesh is not pushed apart by its own neighbours.
+TEST(Thickness, OfMoreThanTheEdgesMovesNothing) {
+  Scene scene = scene_of(10);
+  scene.gravity = {};
+  scene.add(cloth(sheet(8, 0.35f, 0), 0.05f));
+  World world(scene);
+  const std::vector<Vec3f> start = world.positions(0);
+  for (int frame = 0; frame < 5; ++frame) world.step(dt);
+  const std::vector<Vec3f> end = world.positions(0);
+  for (std::size_t i = 0; i < start.size(); ++i) EXPECT_LT(length_squared(end[i] - start[i]), 1e-10f) << i;
+}
+
 TEST(Layers, ComeToRestAtTheirThickness) {
   Scene scene = scene_of(10);
   for (int i = 0; i < 3; ++i) scene.add(cloth(sheet(8, 0.2f, 0.004f + 0.005f * static_cast<float>(i)), 0.002f));
