@@ -44,7 +44,8 @@ struct LandingRow {
   int frames = 0;       ///< done within the limit
   bool in_time = true;  ///< whether those are all
   double mean_ms = 0, median_ms = 0, largest_ms = 0;
-  std::size_t crossings = 0;                 ///< edges that pass through a triangle after the last of them
+  std::size_t crossings =
+      0;  ///< edges that pass through a triangle after the last of them; not counted where a position is no number
   double stretch_mean = 0, stretch_p99 = 0;  ///< length over rest length then; not a number where a position is not
   double ratio = 0;                          ///< how many times as fast as the first row of the same landing and size
 };
