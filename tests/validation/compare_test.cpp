@@ -18,6 +18,7 @@ Scene swinging(int columns = 9) {
   Scene scene;
   scene.frames = 4;
   scene.settings.substeps = 3;
+  scene.settings.sweep = Sweep::tiled;
   scene.settings.iterations = 2;
   scene.settings.threads = 1;
   ClothOptions options;
@@ -123,6 +124,7 @@ Scene touching() {
   Scene scene;
   scene.frames = 4;
   scene.settings.substeps = 3;
+  scene.settings.sweep = Sweep::tiled;
   scene.settings.threads = 1;
   for (const float height : {0.f, 0.004f}) {
     TriangleMesh mesh = grid_mesh(8, 8, 0.2f, 0.2f);
