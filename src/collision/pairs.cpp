@@ -151,7 +151,8 @@ void PairSystem::add_contact(const PairStencil& four, const PairBatch& at, int l
 
 void PairSystem::detect(Executor& executor, const PairParticles& particles) {
   contacts_.clear();
-  if (untangler_) untangler_->push(model_.untangling_speed * particles.h, particles.displacements, particles.remainders);
+  if (untangler_)
+    untangler_->push(model_.untangling_speed * particles.h, particles.h, particles.displacements, particles.remainders);
   measure_moves(executor, particles);
   if (!is_bounded_) return;  // the end of the substep says so
   bring_up_to_date(executor, particles);
@@ -196,6 +197,7 @@ void PairSystem::respond(const Record* positions, Record* velocities, float slow
       if (positions[contact.vertex[i]].w > 0) missing += gravity(model_.vertex_body[contact.vertex[i]]) * contact.weight[i];
     respond_to_contact(contact, positions, velocities, {missing, slow});
   }
+  if (untangler_) untangler_->calm(model_.untangling_speed, velocities, gravity);
 }
 
 }  // namespace pliant

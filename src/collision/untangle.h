@@ -1,17 +1,22 @@
 // Draws apart what passes through one another at the beginning.
 //
 // A surface that is cut in pieces by another has a piece on the wrong side: the smaller one. It is drawn back along the normals of
-// what cuts it, at a capped speed that never becomes momentum; until it is through, contact between the two leaves it out. A
-// vertex inside a closed body that nothing pushes goes to the closest point of its surface instead. A slit, which
-// separates nothing, is left as it is: which side would be the right one?
+// what cuts it; until it is through, contact between the two leaves it out. What is inside a closed body that nothing pushes goes to
+// the closest point of its surface instead, or, where a sheet passes through the body's middle, all of it the shorter way square
+// to the sheet: closest points would tear it to all sides. A slit, which separates nothing, is left as it is: which side would be
+// the right one?
+//
+// All at a capped speed that never becomes momentum: nor does what the links of a stretched surface make of it (calm).
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "collision/intersections.h"
 #include "collision/mesh_query.h"
 #include "model/substep.h"
+#include "parallel/executor.h"
 
 namespace pliant {
 
@@ -32,9 +37,16 @@ class Untangler {
     return !lost_in_.empty() && lost_in_[static_cast<std::size_t>(vertex)] == body;
   }
 
+  /// Whether anything of a body is being drawn out of another, or of itself.
+  bool draws(int body, int out_of) const;
+
   /// In place of what was predicted, lost vertices go at most `distance` [m] towards where they belong. What they go counts as
   /// done before the substep, so that it makes no speed.
-  void push(float distance, Record* displacements, Record* remainders);
+  void push(float distance, float h, Record* displacements, Record* remainders);
+
+  /// After a substep: nothing of a body that is being drawn is faster than `cap` [m/s] but what was so before it, and nothing that is lost.
+  /// `missing` is what velocities of a body lack.
+  void calm(float cap, Record* velocities, FunctionRef<Vec3f(int body)> missing) const;
 
  private:
   struct Push {
@@ -42,12 +54,20 @@ class Untangler {
     Vec3f direction;
     float remaining;  ///< [m]
   };
+  /// Lost in one closed body, and joined by edges.
+  using Patch = std::vector<int>;
+
   struct Closed {
     int body, first;  ///< particle
     std::unique_ptr<MeshQuery> query;
   };
 
   void find_inside(const Record* positions);
+  std::vector<Patch> patches_of(const std::vector<int>& vertices) const;
+  void lead_out(const Patch& patch, const Closed& closed, const Record* positions);
+  float thickness_of(int vertex, int body) const;
+  bool is_closed(int body) const;
+  bool is_drawn(int body) const { return !drawn_.empty() && drawn_[static_cast<std::size_t>(body)] != 0; }
   void find_pieces(const Record* positions, const std::vector<Intersection>& tangles);
   void draw_back(const Record* positions, const std::vector<Intersection>& cuts, int body, int through);
   void add(int vertex, int body, const Push& push);
@@ -56,6 +76,8 @@ class Untangler {
   std::vector<Closed> closed_;
   std::vector<int> lost_in_;  ///< of each vertex, -1: in none; empty: of all
   std::vector<Push> pushes_;
+  std::vector<char> drawn_;                    ///< bodies of which something is lost; empty: none
+  std::vector<std::pair<int, float>> speeds_;  ///< of all vertices of bodies that are drawn, as predicted [m/s]
   std::int64_t inside_ = 0;
 };
 

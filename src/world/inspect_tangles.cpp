@@ -59,7 +59,10 @@ void name_crossings(Problems& problems, const Surfaces& all, const Crossings& cr
   if (what == Intersections::refuse)
     problems.grave(edge, problem, what_to_do);
   else if (what == Intersections::untangle)
-    problems.doubtful(edge, problem, "they will be drawn apart at untangling_speed");
+    problems.doubtful(edge, problem,
+                      "what is cut off, or inside of a closed collider, will be drawn apart at untangling_speed; a slit "
+                      "from border to border is left: "
+                      "move one of them, or mend the mesh");
   else
     problems.doubtful(edge, problem, "contact leaves them out until they are apart: move one of them, or mend the mesh");
 }
