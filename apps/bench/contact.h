@@ -10,7 +10,8 @@ namespace pliant::bench {
 
 /// Medians over frames, processor time of one thread.
 struct ContactRow {
-  int size = 0;  ///< N of an N x N cloth with edges of 1 cm, over a ball as large as it
+  int size =
+      0;  ///< N of an N x N cloth with edges of 1 cm, over a ball as large as it; multiples of 100: as many cloths as make N x N
   int particles = 0;
   double without_ms = 0, with_ms = 0;  ///< a frame
   double ratio = 0;                    ///< with over without

@@ -26,6 +26,7 @@ PairSystem::PairSystem(const PairModel& model, std::string_view isa)
   const auto clusters = static_cast<std::size_t>(model.clusters);
   motions_.resize(clusters);
   travel_.resize(clusters);
+  extent_.resize(clusters);
   cluster_boxes_.resize(clusters);
   share_.assign(model.rest.size(), 1.f);
   if (model.untangling_speed > 0) untangler_ = std::make_unique<Untangler>(model);
@@ -43,12 +44,10 @@ void PairSystem::measure_moves(Executor& executor, const PairParticles& particle
   });
   Vec3d sum{};
   double count = 0;
-  extent_ = 0;
   is_bounded_ = true;
   for (const ClusterMotion& motion : motions_) {
     sum += convert<double>(motion.sum);
     count += double(motion.movable);
-    extent_ = max(extent_, motion.extent);
     is_bounded_ = is_bounded_ && motion.is_bounded;
   }
   mean_ = count > 0 ? convert<float>(sum * (1. / count)) : Vec3f{};
@@ -86,10 +85,19 @@ void PairSystem::settle_moves() {
 
 /// Whether all clusters that are near one another in this substep are neighbours already.
 bool PairSystem::clusters_hold() const {
-  const float room = travel_over_radius * model_.radius - place_roundings * rounding * extent_;
-  for (std::size_t c = 0; c < motions_.size(); ++c)
-    if (!(travel_[c] + travel_of(c) <= room)) return false;
+  const float room = travel_over_radius * model_.radius, drifted = largest(mean_);
+  for (std::size_t c = 0; c < motions_.size(); ++c) {
+    const float rounded = place_roundings * rounding * (motions_[c].extent + drifted);
+    if (!(travel_[c] + travel_of(c) <= room - rounded)) return false;
+  }
   return true;
+}
+
+/// Whether a cluster is so much farther from the origin that its roundings outgrow what lists allow for.
+bool PairSystem::has_gone_far() const {
+  for (std::size_t c = 0; c < motions_.size(); ++c)
+    if (!(motions_[c].extent <= 2 * extent_[c])) return true;
+  return false;
 }
 
 /// A box around the paths of all of a cluster, as seen by one who drifts along with the mean of all.
@@ -122,6 +130,8 @@ void PairSystem::list_clusters() {
   make_buckets(before);
   cut_into_tasks();
   std::fill(travel_.begin(), travel_.end(), 0.f);
+  if (!listed_)
+    for (std::size_t c = 0; c < motions_.size(); ++c) extent_[c] = motions_[c].extent;
   for (Neighbours& pair : neighbours_) measure_between(pair);
   listed_ = true;
   ++counts_.rebuilds;

@@ -29,7 +29,7 @@ bool moves_at_all(const Record& d) { return d.x != 0 || d.y != 0 || d.z != 0; }
 }  // namespace
 
 void PairSystem::filter_bucket(Bucket& bucket, Task& task, const PairParticles& particles) {
-  collect_near(bucket, task, least_of(material(bucket).thickness));
+  collect_near(bucket, task, least_of(bucket));
   for (const std::int32_t i : task.near) {
     bucket.least_reach = min(bucket.least_reach, bucket.pairs[i].reach);
     filter_pair(bucket, stencil(bucket, bucket.pairs[i]), particles, task);
@@ -37,7 +37,7 @@ void PairSystem::filter_bucket(Bucket& bucket, Task& task, const PairParticles& 
 }
 
 void PairSystem::filter_surroundings(Surroundings& of, Task& task, const PairParticles& particles) {
-  const float gone = moved(of) + moves(of), least = least_of(material(of).thickness);
+  const float gone = moved(of) + moves(of), least = least_of(of);
   if (of.least_reach - gone > least) return;
   for (int b = of.first_block; b < of.last_block; ++b) {
     if (block_reach_[b] - gone > least) continue;
@@ -47,7 +47,7 @@ void PairSystem::filter_surroundings(Surroundings& of, Task& task, const PairPar
 }
 
 void PairSystem::filter_pair(const Between& clusters, const PairStencil& four, const PairParticles& particles, Task& task) {
-  const float least = least_of(material(clusters).thickness);
+  const float least = least_of(clusters);
   if (!paths_within(four, particles, least) || is_tangled(four)) return;
   const PairDistance at = pair_distance(four, particles.positions);
   // What an old bound could not dismiss and a new one does is left alone: bounds only save work.

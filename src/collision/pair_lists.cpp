@@ -10,7 +10,7 @@ namespace pliant {
 
 namespace {
 
-/// What the filter keeps, as a share of the thickness; and at least so many roundings of the positions.
+/// What the filter keeps, as a share of the thickness; and at least so many roundings of the two clusters' positions.
 constexpr float least_share = 0.05f, least_roundings = 32;
 /// How far clusters may move against each other, as a share of what the radius leaves beyond the thickness, before their pairs
 /// are listed anew: longer lists against fewer looks.
@@ -46,14 +46,15 @@ const PairMaterial& PairSystem::material(const Between& clusters) const {
   return model_.materials[static_cast<std::size_t>(a) * model_.bodies + b];
 }
 
-float PairSystem::least_of(float thickness) const {
-  return max(least_share * thickness, least_roundings * rounding * extent_);
+/// What the filter keeps between two clusters [m].
+float PairSystem::least_of(const Between& clusters) const {
+  const float extent = max(motions_[clusters.first].extent, motions_[clusters.second].extent);
+  return max(least_share * material(clusters).thickness, least_roundings * rounding * extent);
 }
 
 /// Nearer than this, pairs of a bucket are of interest, to contacts or to the filter.
 float PairSystem::care_of(const Between& clusters) const {
-  const float thickness = material(clusters).thickness;
-  return max(cull_slack * thickness, 2 * least_of(thickness));
+  return max(cull_slack * material(clusters).thickness, 2 * least_of(clusters));
 }
 
 /// Whether the boxes of both sides' paths come within `distance`, as seen by one who drifts along.
@@ -106,6 +107,7 @@ bool PairSystem::is_tangled(const PairStencil& pair) const {
 
 /// Sees to it that all pairs that can matter in this substep are listed.
 void PairSystem::bring_up_to_date(Executor& executor, const PairParticles& particles) {
+  if (listed_ && has_gone_far()) listed_ = false;
   if (!listed_ || !clusters_hold()) list_clusters();
   const int tasks = static_cast<int>(tasks_.size());
   std::size_t stale = 0;

@@ -34,9 +34,15 @@ IntLists elements_around(const ListOfCorners& elements, int vertex_count) {
 
 int count_of(const IntLists& lists, int i) { return static_cast<int>(lists.end(i) - lists.begin(i)); }
 
+/// As one number, which compares faster; neither is negative.
+std::uint64_t key(const Numbers& pair) {
+  return (static_cast<std::uint64_t>(pair[0]) << 32) | static_cast<std::uint64_t>(pair[1]);
+}
+std::int32_t key(std::int32_t number) { return number; }
+
 template <class T>
 void sort_out(std::vector<T>& list) {
-  std::sort(list.begin(), list.end());
+  std::sort(list.begin(), list.end(), [](const T& x, const T& y) { return key(x) < key(y); });
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 

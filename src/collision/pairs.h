@@ -163,6 +163,7 @@ class PairSystem {
   void measure_moves(Executor& executor, const PairParticles& particles);
   float travel_of(std::size_t cluster) const;
   bool clusters_hold() const;
+  bool has_gone_far() const;
   void list_clusters();
   BoxBounds path_box(std::size_t cluster) const;
   void measure_between(Neighbours& pair) const;
@@ -184,7 +185,7 @@ class PairSystem {
   PairStencil stencil(const Bucket& bucket, const Pair& pair) const;
   const PairMaterial& material(const Between& clusters) const;
   bool is_tangled(const PairStencil& pair) const;
-  float least_of(float thickness) const;
+  float least_of(const Between& clusters) const;
   float care_of(const Between& clusters) const;
   float moves(const Between& clusters) const { return neighbours_[clusters.neighbours].moves; }
   float moved(const Between& clusters) const { return neighbours_[clusters.neighbours].moved - clusters.listed_at; }
@@ -225,6 +226,7 @@ class PairSystem {
   std::vector<int> cluster_start_;
   std::vector<ClusterMotion> motions_;
   std::vector<float> travel_;  ///< since clusters were listed, against the mean of all [m]
+  std::vector<float> extent_;  ///< of each cluster when all was last looked at anew: the largest coordinate [m]
   std::vector<BoxBounds> cluster_boxes_;
   Tree<BoxBounds> cluster_tree_;
   std::vector<Neighbours> neighbours_;
@@ -237,8 +239,7 @@ class PairSystem {
   bool listed_ = false;
   std::vector<char> wanted_[3];  ///< clusters whose boxes are
 
-  Vec3f mean_{};      ///< displacement of all that can be pushed in this substep [m]
-  float extent_ = 0;  ///< the largest coordinate [m]
+  Vec3f mean_{};  ///< displacement of all that can be pushed in this substep [m]
   bool is_bounded_ = true;
 
   std::vector<Task> tasks_;

@@ -60,6 +60,17 @@ int exact_volume_sign(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3
   return sum.sign();
 }
 
+/// Whether four points lie in a plane across an axis, as those of flat cloth do: exact sums of as many zeros are slow.
+bool in_plane_across_axis(const Vec3d (&p)[4]) {
+  bool x = true, y = true, z = true;
+  for (const Vec3d& q : p) {
+    x = x && q.x == p[0].x;
+    y = y && q.y == p[0].y;
+    z = z && q.z == p[0].z;
+  }
+  return x || y || z;
+}
+
 /// A point in one of the three coordinate planes.
 struct Point2 {
   double x, y;
@@ -72,6 +83,9 @@ Point2 project(const Vec3f& p, int axis) {
 
 /// The exact sign of the area of a, b, c: positive where they run counter-clockwise.
 int area_sign(const Point2& a, const Point2& b, const Point2& c) {
+  const double left = (b.x - a.x) * (c.y - a.y), right = (b.y - a.y) * (c.x - a.x), area = left - right,
+               bound = 4e-16 * (abs(left) + abs(right));  // (3 + 16 e) e of the magnitudes, e = 2^-53 (Shewchuk 1997)
+  if (area > bound || -area > bound) return area > 0 ? 1 : -1;
   ExactSum sum;
   for (const double product : {b.x * c.y, -b.x * a.y, -a.x * c.y, -b.y * c.x, b.y * a.x, a.y * c.x}) sum.add(product);
   return sum.sign();
@@ -128,6 +142,7 @@ int volume_sign(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d) 
   const Vec3d sizes{abs(u.y * v.z) + abs(u.z * v.y), abs(u.z * v.x) + abs(u.x * v.z), abs(u.x * v.y) + abs(u.y * v.x)};
   const double volume = dot(m, w), bound = 1e-15 * dot(sizes, abs(w));  // (7 + 56 e) e of the sum of magnitudes, e = 2^-53
   if (volume > bound || -volume > bound) return volume > 0 ? 1 : -1;
+  if (in_plane_across_axis(p)) return 0;
   return exact_volume_sign(p[0], p[1], p[2], p[3]);
 }
 

@@ -336,6 +336,58 @@ TEST(Pairs, CrossWithoutTheFilter) {
   EXPECT_GT(most, 0u);
 }
 
+/// Positions are rounded by how far they are from the origin: what is far away makes nothing else look farther.
+TEST(Pairs, AreNoMoreWhereAnythingElseIsFarAway) {
+  std::vector<Body> bodies = bodies_of({"", 0, {}, {}, 2, 0, false, {}, 0.09});
+  for (Body& body : bodies) body.thickness = 5e-4f;
+  std::int64_t candidates[2];
+  for (const bool far : {false, true}) {
+    if (far) {
+      bodies.push_back({sheet(2, 0.1, {1e4, 0, 0}), true, false, 5e-4f});
+    }
+    const PairModel model = model_of(bodies, true);
+    PairSystem system(model);
+    Executor executor(1);
+    std::vector<Record> positions = model.rest, remainders(positions.size()), displacements(positions.size());
+    const PairParticles particles{positions.data(), remainders.data(), displacements.data(), 1e-3f};
+    system.begin_frame(positions.data(), true);
+    system.detect(executor, particles);
+    candidates[far ? 1 : 0] = system.counts().candidates;
+  }
+  EXPECT_GT(candidates[0], 0);
+  EXPECT_EQ(candidates[0], candidates[1]);
+}
+
+/// What is kept apart grows with the roundings of positions: lists made near the origin do not do far from it.
+TEST(Pairs, AreLookedForAnewFarFromWhereTheyWere) {
+  std::vector<Body> bodies = bodies_of({"", 0, {}, {}, 2, 0, false, {}, 0.09});
+  for (Body& body : bodies) body.thickness = 5e-4f;
+  const PairModel model = model_of(bodies, true);
+  Executor executor(1);
+  std::vector<Record> positions = model.rest, remainders(positions.size()), displacements(positions.size());
+  const PairParticles particles{positions.data(), remainders.data(), displacements.data(), 1e-3f};
+  const auto step = [&](PairSystem& system) {
+    system.detect(executor, particles);
+    system.project(particles);
+    system.filter(executor, particles);
+    return system.counts().shortened;
+  };
+  PairSystem system(model);
+  system.begin_frame(positions.data(), true);
+  std::fill(displacements.begin(), displacements.end(), Record{5e4f, 0, 0, 0});
+  EXPECT_EQ(step(system), 0);
+  for (Record& x : positions) x.x += 5e4f;
+  // The upper comes closer; a tenth of a metre is what 32 roundings are here.
+  for (std::size_t i = 0; i < positions.size(); ++i) displacements[i] = {0, model.vertex_body[i] == 1 ? -0.03f : 0.f, 0, 0};
+  const std::vector<Record> predicted = displacements;
+  PairSystem fresh(model);
+  fresh.begin_frame(positions.data(), true);
+  const std::int64_t wanted = step(fresh);
+  EXPECT_GT(wanted, 0);
+  displacements = predicted;
+  EXPECT_EQ(step(system), wanted);
+}
+
 TEST(Pairs, OutliveWhatIsNotFinite) {
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 3e38f}) {
     const PairModel model = model_of(bodies_of({"", 0, {}, {}, 2, 0, false}), true);
