@@ -54,6 +54,7 @@ struct Bending {
     const double twice =
         std::sqrt(length_squared(cross(edge, x[2] - x[0]))) + std::sqrt(length_squared(cross(edge, x[3] - x[0])));
     const double beside = twice / 2;
+    if (!(beside > 0)) return;  // one of no area says nothing of the sheet, and 0 / 0 would say it of all
     const double rigidity = isometric ? 3 / compliance : beside / (length_squared(edge) * compliance);
     rigidity_times_area += std::min(rigidity, 1e30) * beside;
     area += beside;

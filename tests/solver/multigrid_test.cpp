@@ -197,6 +197,8 @@ TEST(MultigridCorrection, ThatIsNotFiniteIsNotMade) {
   const Corrected found({sheet}, 3);
   for (const Record& d : found.predicted) ASSERT_TRUE(std::isfinite(d.x) && std::isfinite(d.y) && std::isfinite(d.z));
   for (const double moved : found.change()) ASSERT_EQ(moved, 0);
+  for (const auto& pool : found.workspace.multipliers.at(0))
+    for (const float lambda : pool) ASSERT_EQ(lambda, 0) << "or sweeps take soft springs for met, which then hold nothing";
 }
 
 }  // namespace

@@ -92,6 +92,15 @@ TEST(ChosenSettings, LeaveWhatIsNamed) {
   EXPECT_EQ(chosen_settings(scene).substeps, 7);
 }
 
+TEST(ChosenSettings, AreNotDecidedByAHingeOfNoArea) {
+  ClothOptions options;
+  options.material.bending_stiffness = 5;
+  Scene scene = sheet(20, 1, options);
+  const std::vector<int> hinge = scene.objects[0].constraints[1].particles;
+  scene.objects[0].positions.at(std::size_t(hinge[1])) = scene.objects[0].positions.at(std::size_t(hinge[0]));
+  expect_chosen(scene, Sweep::tiled, 20, "stiff to bend");
+}
+
 TEST(ChosenSettings, AreFoundForScenesThatWillBeRefused) {
   Scene scene = sheet(40, 1);
   scene.objects[0].constraints[1].particles[3] = 1 << 30;

@@ -11,12 +11,13 @@ namespace {
 
 void move(Frame& frame, int o, bool first) {
   const SweepArguments a = frame.arguments(o, first);
-  Records& change = frame.scratch().multigrid[o].change;
+  MultigridObject& work = frame.scratch().multigrid[o];
   // What is not sound is left to the sweeps, which may cope with it or name what does not.
-  if (!is_multigrid_change_sound(frame, o)) std::fill(change.begin(), change.end(), Record{});
+  work.is_made = is_multigrid_change_sound(frame, o);
+  if (!work.is_made) return std::fill(work.change.begin(), work.change.end(), Record{});
   for (int i = 0; i < frame.model().objects[o].particles; ++i) {
     Record& d = a.displacements[i];
-    const Record& c = change[i];
+    const Record& c = work.change[i];
     d = {d.x + c.x, d.y + c.y, d.z + c.z, 0};
   }
   keep_multigrid_multipliers(frame, o, first);

@@ -28,6 +28,7 @@ struct MultigridObject {
     double held[6], force[3];
   };
   std::vector<Piece> pieces;
+  bool is_made = true;  ///< whether the change was: what was not has done nothing, and leaves no multipliers and no pushes
 };
 
 /// A contact among surfaces (collision/pair_contact.h) as springs between the closest points of its two sides.

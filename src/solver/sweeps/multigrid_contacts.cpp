@@ -102,7 +102,8 @@ void add_multigrid_contacts(Frame& frame) {
 
 void keep_multigrid_pushes(Frame& frame) {
   for_contacts(frame, [&](Contact& contact, float stiffness, int o) {
-    keep_push(frame.arguments(o, false), frame.scratch().multigrid[o].change.data(), stiffness, contact);
+    const MultigridObject& work = frame.scratch().multigrid[o];
+    if (work.is_made) keep_push(frame.arguments(o, false), work.change.data(), stiffness, contact);
   });
 }
 

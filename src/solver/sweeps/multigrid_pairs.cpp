@@ -144,7 +144,9 @@ void keep_multigrid_pair_pushes(Frame& frame) {
   const Record* positions = frame.all_particles().positions;
   const float h2 = frame.all_particles().h * frame.all_particles().h;
   std::vector<PairContact>& contacts = frame.pair_contacts();
+  const auto is_made = [&](int o) { return o < 0 || scratch.multigrid[o].is_made; };
   for (const PairSpring& s : scratch.pair_springs) {
+    if (!std::all_of(s.object.begin(), s.object.end(), is_made)) continue;
     PairContact& contact = contacts[s.contact];
     Vec3f by{};
     for (int i = 0; i < 4; ++i) {
