@@ -90,7 +90,7 @@ std::string how_it_is_solved(const Scene& scene) {
   const Settings settings = chosen_settings(scene, &reason);
   return "solved by the sweep '" + sweep_name(settings.sweep) + "' with " +
          counted(static_cast<std::size_t>(std::max(settings.substeps, 0)), "substep") + " a frame" +
-         (reason.empty() ? "" : ", since the scene names no sweep and holds " + one_line(reason)) + "\n";
+         (reason.empty() ? "" : ", since the scene leaves the sweep open and has " + one_line(reason)) + "\n";
 }
 
 std::vector<Finding> check_scene(const std::string& path, double seconds) {

@@ -24,6 +24,15 @@ void set_sweep(const std::string& name, Settings& settings) {
   settings.sweep_options = method.options;
 }
 
+/// `tiled` has a reference of another name; of any other sweep plain code is one of its code paths.
+void set_plain(Scene& scene) {
+  scene.settings = chosen_settings(scene);
+  if (scene.settings.sweep == Sweep::tiled)
+    scene.settings.sweep = Sweep::sequential;
+  else
+    scene.settings.isa = "sequential";
+}
+
 SceneReadOptions options_of(const std::vector<std::string>& meshes) {
   SceneReadOptions options;
   for (const std::string& one : meshes) {
@@ -49,7 +58,7 @@ Scene read_scene_with(const std::string& path, const Overrides& overrides, bool 
   if (overrides.substeps) settings.substeps = *overrides.substeps;
   if (overrides.iterations) settings.iterations = *overrides.iterations;
   if (!overrides.isa.empty()) settings.isa = overrides.isa;
-  if (overrides.sequential) settings.sweep = Sweep::sequential;
+  if (overrides.sequential) set_plain(scene);
   return scene;
 }
 

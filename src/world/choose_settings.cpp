@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
+#include <vector>
 
 #include "math/vector.h"
 #include "pliant/scene.h"
@@ -27,10 +27,13 @@ Vec3d position(const Object& object, int particle) {
   return i < object.positions.size() ? convert<double>(object.positions[i]) : Vec3d{};
 }
 
-bool has_springs(const Object& object) {
-  return std::any_of(object.constraints.begin(), object.constraints.end(), [](const ConstraintGroup& group) {
-    return group.type == "distance" && group.stiffness.kind == Stiffness::Kind::compliance && !group.particles.empty();
-  });
+/// Those that multigrid corrects: PBD stiffness is left to the sweeps.
+std::size_t springs_of(const Object& object) {
+  std::size_t count = 0;
+  for (const ConstraintGroup& group : object.constraints)
+    if (group.type == "distance" && group.stiffness.kind == Stiffness::Kind::compliance)
+      count += group.particles.size() / 2;
+  return count;
 }
 
 double largest_extent(const Object& object) {
@@ -45,40 +48,46 @@ double largest_extent(const Object& object) {
   return extent;
 }
 
-/// Of hinges: the sum of flexural rigidity [N m] times area, and of area [m^2]. See hinge_compliance in cloth.cpp.
+/// Flexural rigidities of hinges [N m], and the area of their triangles, each counted at up to three hinges [m^2]. See
+/// hinge_compliance in cloth.cpp.
 struct Bending {
-  double rigidity_times_area = 0, area = 0;
+  std::vector<double> rigidities;
+  double area = 0;
 
   void add(const std::array<Vec3d, 4>& x, bool isometric, double compliance) {
     const Vec3d edge = x[1] - x[0];
     const double twice =
         std::sqrt(length_squared(cross(edge, x[2] - x[0]))) + std::sqrt(length_squared(cross(edge, x[3] - x[0])));
     const double beside = twice / 2;
-    if (!(beside > 0)) return;  // one of no area says nothing of the sheet, and 0 / 0 would say it of all
-    const double rigidity = isometric ? 3 / compliance : beside / (length_squared(edge) * compliance);
-    rigidity_times_area += std::min(rigidity, 1e30) * beside;
+    if (!(beside > 0)) return;  // one of no area says nothing of the sheet
+    rigidities.push_back(isometric ? 3 / compliance : beside / (length_squared(edge) * compliance));
     area += beside;
+  }
+
+  /// The middle one: a few stiff hinges, as of a seam, do not make a stiff sheet.
+  double median() {
+    if (rigidities.empty()) return 0;
+    const auto middle = rigidities.begin() + static_cast<std::ptrdiff_t>(rigidities.size() / 2);
+    std::nth_element(rigidities.begin(), middle, rigidities.end());
+    return *middle;
   }
 };
 
-/// Mean flexural rigidity [N m]; infinite where bending is rigid, or PBD stiffness makes it what the step makes of it.
-double rigidity_of(const Object& object) {
+/// PBD stiffness above none counts as rigid: it is as stiff as mesh and step make it.
+Bending bending_of(const Object& object) {
   Bending bending;
   for (const ConstraintGroup& group : object.constraints) {
-    const bool isometric = group.type == "isometric_bending";
+    const bool isometric = group.type == "isometric_bending", is_pbd = group.stiffness.kind == Stiffness::Kind::pbd;
     if (!isometric && group.type != "dihedral_bending") continue;
-    if (group.stiffness.kind == Stiffness::Kind::pbd) {
-      if (group.stiffness.value > 0 && !group.particles.empty()) return std::numeric_limits<double>::infinity();
-      continue;
-    }
+    if (is_pbd && !(group.stiffness.value > 0)) continue;
     for (std::size_t i = 0; 4 * i + 3 < group.particles.size(); ++i) {
       std::array<Vec3d, 4> x;
       for (std::size_t slot = 0; slot < 4; ++slot) x[slot] = position(object, group.particles[4 * i + slot]);
       const float compliance = i < group.compliances.size() ? group.compliances[i] : group.stiffness.value;
-      bending.add(x, isometric, static_cast<double>(compliance));
+      bending.add(x, isometric, is_pbd ? 0 : static_cast<double>(compliance));
     }
   }
-  return bending.area > 0 ? bending.rigidity_times_area / bending.area : 0;
+  return bending;
 }
 
 double area_of(const Object& object) {
@@ -94,8 +103,9 @@ double area_of(const Object& object) {
 /// The bending length, how far a sheet stands out before it bends under its own weight, (B / rho g)^(1/3) (Peirce 1930), against its
 /// size; by their cubes, since not every machine has the same cube root.
 bool is_stiff_sheet(const Object& object, double gravity) {
-  const double rigidity = rigidity_of(object), area = area_of(object);
-  if (!(rigidity > 0) || !(area > 0)) return rigidity > 0 && !std::isfinite(rigidity);
+  Bending bending = bending_of(object);
+  const double rigidity = bending.median(), drawn = area_of(object), area = drawn > 0 ? drawn : bending.area / 3;
+  if (!(rigidity > 0) || !(area > 0)) return false;
   double mass = 0;
   for (const float m : object.masses)
     if (std::isfinite(m)) mass += static_cast<double>(m);
@@ -110,15 +120,16 @@ struct Choice {
 };
 
 Choice choose(const Scene& scene) {
-  if (scene.settings.iterations > 1) return {Sweep::tiled, "iterations, of which multigrid makes little"};
+  if (scene.settings.iterations > 1) return {Sweep::tiled, "more than one iteration"};
   const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
   std::size_t largest = 0;
   for (const Object& object : scene.objects) {
-    if (!has_springs(object)) continue;
+    const std::size_t springs = springs_of(object);
+    if (springs == 0) continue;
     if (object.volume) return {Sweep::tiled, "'" + object.name + "', which has a volume"};
     if (is_stiff_sheet(object, gravity))
       return {Sweep::tiled, "'" + object.name + "', a sheet too stiff to bend under its weight"};
-    largest = std::max(largest, object.positions.size());
+    largest = std::max(largest, std::min(object.positions.size(), springs + 1));  // a path has one particle more
   }
   if (largest < fewest_particles) return {Sweep::tiled, "nothing so fine that it needs more"};
   return {Sweep::multigrid, "cloth or rope of up to " + std::to_string(largest) + " particles"};

@@ -221,6 +221,16 @@ TEST_F(Command, ASweepMayBeNamedAndTheReportIsThatOfASceneThatNamesIt) {
   expect_refused("render small.json --out a.png --substeps 0", 2, "substeps");
 }
 
+TEST_F(Command, PlainCodeGivesTheBitsOfTheSweepThatIsChosen) {
+  std::ofstream(folder_ / "small.json") << R"({"frames": 3, "objects": [{"name": "sheet", "pins": [{"particles": [0]}],
+      "cloth": {"mesh": {"grid": {"columns": 12, "rows": 12, "width": 1, "depth": 1}}}}]})";
+  const nlohmann::json lanes = report(""), plain = report("--sequential");
+  EXPECT_EQ(lanes.at("sweep"), "multigrid");
+  EXPECT_EQ(plain.at("sweep"), "multigrid");
+  EXPECT_EQ(plain.at("isa"), "sequential");
+  EXPECT_EQ(plain.at("state_hash"), lanes.at("state_hash"));
+}
+
 TEST_F(Command, RenderDrawsWithTheSettingsThatAreGiven) {
   std::ofstream(folder_ / "sagging.json")
       << R"({"frames": 20, "settings": {"substeps": 4, "sweep": "tiled"}, "objects": [{"name": "sheet",

@@ -60,7 +60,7 @@ TEST(ChosenSettings, ArePlainWherePbdStiffnessOrIterationsSaySo) {
   expect_chosen(sheet(20, 1, options), Sweep::tiled, 20, "so fine");
   Scene scene = sheet(20, 1);
   scene.settings.iterations = 2;
-  expect_chosen(scene, Sweep::tiled, 20, "iterations");
+  expect_chosen(scene, Sweep::tiled, 20, "more than one iteration");
 }
 
 // Peirce's bending length c = (B / rho g)^(1/3); stiff where it is more than a quarter of the sheet's size, whatever the mesh and
@@ -99,6 +99,22 @@ TEST(ChosenSettings, AreNotDecidedByAHingeOfNoArea) {
   const std::vector<int> hinge = scene.objects[0].constraints[1].particles;
   scene.objects[0].positions.at(std::size_t(hinge[1])) = scene.objects[0].positions.at(std::size_t(hinge[0]));
   expect_chosen(scene, Sweep::tiled, 20, "stiff to bend");
+}
+
+TEST(ChosenSettings, AreNotDecidedByAFewStiffHingesOrLooseParticles) {
+  Scene scene = sheet(20, 1);
+  scene.objects[0].constraints[1].compliances.at(7) = 0;
+  expect_chosen(scene, Sweep::multigrid, 10, "400 particles");
+  ClothOptions stiff;
+  stiff.material.bending_stiffness = 5;
+  scene = sheet(20, 1, stiff);
+  scene.objects[0].triangles.clear();
+  expect_chosen(scene, Sweep::tiled, 20, "stiff to bend");
+  scene = {};
+  Object loose = chain(40, 0.1f);
+  loose.constraints[0].particles.resize(2);
+  scene.add(loose);
+  expect_chosen(scene, Sweep::tiled, 20, "so fine");
 }
 
 TEST(ChosenSettings, AreFoundForScenesThatWillBeRefused) {
