@@ -230,7 +230,8 @@ const Record& settings_record() {
            "0: always all of them."),
        field("threads", integer(0, 1024), Settings{}.threads, "0: as many as the machine has."),
        field("sweep", choice(sweep_names()), "automatic",
-             "In what order constraints are visited (docs/convergence.md). `automatic` is `multigrid` for cloth and rope, "
+             "In what order constraints are visited (docs/convergence.md). `automatic` is `multigrid` for cloth and rope "
+             "of 32 particles or more, "
              "and "
              "`tiled` where there are volumes, stiff sheets, PBD stiffness or iterations. `sequential` is the slow, "
              "readable reference with the bits of `tiled`."),

@@ -38,7 +38,7 @@ struct Advice {
   /// not above; -1: there is none.
   int best = -1;
   bool cut_short = false;  ///< time ran out
-  std::string words;       ///< the finding in a sentence; empty where nothing is the matter
+  std::string words;  ///< the finding in a sentence; empty where nothing was found in `own.frames` frames: see cut_short
   std::string what_to_do;  ///< the advice that belongs to it
 };
 

@@ -48,6 +48,7 @@ std::vector<Sweep> better_sweeps(const Scene& scene) {
   std::vector<Sweep> better{Sweep::chains, Sweep::multigrid};
   if (suggest(scene).sweep == Sweep::multigrid) std::swap(better[0], better[1]);
   better.erase(std::remove(better.begin(), better.end(), scene.settings.sweep), better.end());
+  if (has_stiff_sheet(scene)) better.erase(std::remove(better.begin(), better.end(), Sweep::multigrid), better.end());
   return better;
 }
 
@@ -55,7 +56,7 @@ Settings suggest(const Scene& scene) {
   Settings wanted = scene.settings;
   if (wanted.sweep == Sweep::multigrid || has_volume(scene)) return wanted;
   if (!has_pins(scene) || movers_may_touch(scene)) {
-    wanted.sweep = Sweep::multigrid;
+    if (!has_stiff_sheet(scene)) wanted.sweep = Sweep::multigrid;
     return wanted;
   }
   wanted.sweep = Sweep::chains;

@@ -20,6 +20,9 @@ std::vector<Sweep> better_sweeps(const Scene& scene);
 /// where that is none but the default.
 Settings suggest(const Scene& scene);
 
+/// Whether a sheet holds itself up, so that multigrid, which knows no bending, would make it rattle.
+bool has_stiff_sheet(const Scene& scene);
+
 /// What a scene's "settings" must say so that `own` becomes `wanted`, of substeps, sweep and tethers, as JSON:
 /// {"substeps": 10, "sweep": "chains", "sweep_options": {"tethers": true}}.
 std::string in_json(const Settings& wanted, const Settings& own);

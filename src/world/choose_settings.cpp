@@ -8,6 +8,7 @@
 
 #include "math/vector.h"
 #include "pliant/scene.h"
+#include "world/advice_settings.h"
 
 namespace pliant {
 
@@ -128,14 +129,20 @@ Choice choose(const Scene& scene) {
     if (springs == 0) continue;
     if (object.volume) return {Sweep::tiled, "'" + object.name + "', which has a volume"};
     if (is_stiff_sheet(object, gravity))
-      return {Sweep::tiled, "'" + object.name + "', a sheet too stiff to bend under its weight"};
+      return {Sweep::tiled, "'" + object.name + "', a sheet whose bending length is more than a quarter of its size"};
     largest = std::max(largest, std::min(object.positions.size(), springs + 1));  // a path has one particle more
   }
   if (largest < fewest_particles) return {Sweep::tiled, "nothing so fine that it needs more"};
-  return {Sweep::multigrid, "cloth or rope of up to " + std::to_string(largest) + " particles"};
+  return {Sweep::multigrid, "cloth or rope, the largest of " + std::to_string(largest) + " particles"};
 }
 
 }  // namespace
+
+bool has_stiff_sheet(const Scene& scene) {
+  const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
+  return std::any_of(scene.objects.begin(), scene.objects.end(),
+                     [&](const Object& object) { return springs_of(object) > 0 && is_stiff_sheet(object, gravity); });
+}
 
 Settings chosen_settings(const Scene& scene, std::string* reason) {
   Settings settings = scene.settings;

@@ -9,6 +9,7 @@
 
 #include "support/scenes.h"
 #include "world/advice.h"
+#include "world/advice_settings.h"
 
 namespace pliant {
 namespace {
@@ -198,6 +199,17 @@ TEST(Words, NameMultigridWhereWhatMovesTouches) {
   EXPECT_EQ(suggestion(two), chains) << "they never touch";
   std::swap(two.objects[0].mask, two.objects[1].mask);
   EXPECT_EQ(suggestion(two), chains) << "whichever of them wants it so";
+}
+
+/// What knows no bending makes a sheet rattle that holds itself up, so that it is neither named nor tried.
+TEST(Words, NameNoMultigridForSheetsThatHoldThemselvesUp) {
+  ClothOptions options;
+  options.material.bending_stiffness = 5;
+  Scene scene;
+  scene.add_cloth(grid_mesh(20, 20, 1, 1), options);
+  EXPECT_EQ(suggestion(scene), "");
+  scene.settings.sweep = Sweep::tiled;
+  EXPECT_EQ(better_sweeps(scene), std::vector<Sweep>{Sweep::chains});
 }
 
 TEST(Words, NameNoSweepWhereNoneIsKnownToBeBetter) {

@@ -52,9 +52,9 @@ TEST(ChosenSettings, ArePlainForVolumes) {
 TEST(ChosenSettings, ArePlainWherePbdStiffnessOrIterationsSaySo) {
   ClothOptions options;
   options.bending = Stiffness::pbd(0.1f);
-  expect_chosen(sheet(20, 1, options), Sweep::tiled, 20, "stiff to bend");
+  expect_chosen(sheet(20, 1, options), Sweep::tiled, 20, "a quarter of its size");
   options.bending = Stiffness::rigid();
-  expect_chosen(sheet(20, 1, options), Sweep::tiled, 20, "stiff to bend");
+  expect_chosen(sheet(20, 1, options), Sweep::tiled, 20, "a quarter of its size");
   options.bending.reset();
   options.stretch = Stiffness::pbd(0.9f);
   expect_chosen(sheet(20, 1, options), Sweep::tiled, 20, "so fine");
@@ -73,7 +73,7 @@ TEST(ChosenSettings, ArePlainForSheetsThatHoldThemselvesUp) {
     options.material.area_density = 0.75f;
     const double length = std::cbrt(0.02 / (0.75 * 9.81));
     for (const int n : {8, 30}) {
-      expect_chosen(sheet(n, static_cast<float>(3.9 * length), options), Sweep::tiled, 20, "stiff to bend");
+      expect_chosen(sheet(n, static_cast<float>(3.9 * length), options), Sweep::tiled, 20, "a quarter of its size");
       expect_chosen(sheet(n, static_cast<float>(4.1 * length), options), Sweep::multigrid, 10, "particles");
     }
   }
@@ -98,7 +98,7 @@ TEST(ChosenSettings, AreNotDecidedByAHingeOfNoArea) {
   Scene scene = sheet(20, 1, options);
   const std::vector<int> hinge = scene.objects[0].constraints[1].particles;
   scene.objects[0].positions.at(std::size_t(hinge[1])) = scene.objects[0].positions.at(std::size_t(hinge[0]));
-  expect_chosen(scene, Sweep::tiled, 20, "stiff to bend");
+  expect_chosen(scene, Sweep::tiled, 20, "a quarter of its size");
 }
 
 TEST(ChosenSettings, AreNotDecidedByAFewStiffHingesOrLooseParticles) {
@@ -109,7 +109,7 @@ TEST(ChosenSettings, AreNotDecidedByAFewStiffHingesOrLooseParticles) {
   stiff.material.bending_stiffness = 5;
   scene = sheet(20, 1, stiff);
   scene.objects[0].triangles.clear();
-  expect_chosen(scene, Sweep::tiled, 20, "stiff to bend");
+  expect_chosen(scene, Sweep::tiled, 20, "a quarter of its size");
   scene = {};
   Object loose = chain(40, 0.1f);
   loose.constraints[0].particles.resize(2);
