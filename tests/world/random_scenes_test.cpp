@@ -137,7 +137,8 @@ Scene random_scene(unsigned seed, float& step) {
                             Box{{scale, 0.01f * scale, scale}}};
     collider.shape = shapes[dice.below(4)];
     collider.position = dice.point(scale) + place;
-    collider.rotation = rotation({1, dice.between(-1, 1), 0.5f}, dice.between(0, 360));
+    const float degrees = dice.between(0, 360);
+    collider.rotation = rotation({1, dice.between(-1, 1), 0.5f}, degrees);
     collider.static_friction = dice.magnitude(-2, 2);
     collider.kinetic_friction = collider.static_friction * dice.between(0, 1);
     if (dice.one_in(2)) {
