@@ -146,6 +146,7 @@ void PairSystem::number_surroundings(const std::vector<Neighbours>& old) {
     const Neighbours wanted{std::min(of.first, of.second), std::max(of.first, of.second)};
     of.neighbours =
         static_cast<int>(std::lower_bound(neighbours_.begin(), neighbours_.end(), wanted, less) - neighbours_.begin());
+    neighbours_[of.neighbours].is_joined = true;
   }
   if (!listed_) std::fill(block_reach_.begin(), block_reach_.end(), not_measured);
 }

@@ -67,6 +67,23 @@ struct BoxHit {
   std::int32_t row, column;
 };
 
+/// Vertices coordinate by coordinate, a multiple of sixteen of them.
+struct PlaceRows {
+  float* row[3];
+};
+
+/// Sixteen vertices and what they are compared with: batches of sixteen others, less those that a vertex leaves out.
+struct VertexComparison {
+  PlaceRows rows;
+  int first_row;     ///< a multiple of sixteen
+  const float* far;  ///< rows outside this box are left out: low x, y, z, high x, y, z
+  PlaceRows columns;
+  const std::int32_t* batch;  ///< of columns, ascending
+  int batches;
+  const LeftOut* left_out;             ///< ascending by batch, each row's ending with one that is beyond all
+  const std::int32_t* left_out_start;  ///< of each row
+};
+
 struct PairKernels {
   /// `vertices` are those of a cluster and of all that begins at it: a multiple of sixteen, filled up by repeating.
   void (*measure_cluster)(const std::int32_t* vertices, int count, const PairParticles& particles, ClusterMotion& out);
@@ -75,6 +92,12 @@ struct PairKernels {
                     const BoxRows& out);
   /// Rows and columns that overlap, ascending. Returns how many there are; `hits` has room for all.
   int (*find_overlaps)(const BoxComparison& boxes, BoxHit* hits);
+  /// Vertices `first` to `last` - 1, both multiples of sixteen, to `out`.
+  void (*gather_places)(const std::int32_t* vertices, int first, int last, const Record* positions, const PlaceRows& out);
+  /// The longest of lines `first` to `last` - 1, both multiples of sixteen, squared.
+  float (*longest_squared)(const ElementCorners& lines, int first, int last, const Record* positions);
+  /// The least distance of a row and a column, squared; `beyond` where all are farther. [m^2]
+  float (*least_squared)(const VertexComparison& vertices, float beyond);
   /// The least of all sixteen `at_least`, or up to a rounding less.
   float (*least_distance)(const PairStencils& pairs, int first_side, const Record* positions);
   void (*distances)(const PairStencils& pairs, int first_side, const Record* positions, PairBatch& out);

@@ -21,10 +21,11 @@ PLIANT_HD Vec3<Wide> places(const Record* records, const std::int32_t* index) {
 PLIANT_HD float least_lane(const Wide& a) {
   float lanes[16];
   store_wide(lanes, a);
-  float least = lanes[0];
-  for (int i = 1; i < 16; ++i) least = pliant::min(least, lanes[i]);
-  return least;
+  for (int half = 8; half > 0; half /= 2)
+    for (int i = 0; i < half; ++i) lanes[i] = pliant::min(lanes[i], lanes[i + half]);
+  return lanes[0];
 }
+
 // ---------------------------------------------------------------- distances
 
 /// Places relative to the first.
@@ -254,11 +255,62 @@ int find_overlaps(const BoxComparison& of, BoxHit* hits) {
   return found;
 }
 
+// ---------------------------------------------------------------- vertices
+
+void gather_places(const std::int32_t* vertices, int first, int last, const Record* positions, const PlaceRows& out) {
+  for (int i = first; i < last; i += 16) {
+    const Vec3<Wide> at = places(positions, vertices + i);
+    store_wide(out.row[0] + i, at.x);
+    store_wide(out.row[1] + i, at.y);
+    store_wide(out.row[2] + i, at.z);
+  }
+}
+
+float longest_squared(const ElementCorners& lines, int first, int last, const Record* positions) {
+  Wide longest(0.f);
+  for (int i = first; i < last; i += 16) {
+    const Vec3<Wide> along = places(positions, lines.row[0] + i) - places(positions, lines.row[1] + i);
+    longest = max(dot(along, along), longest);
+  }
+  return largest_lane(longest);
+}
+
+/// The lanes whose bits are set.
+PLIANT_HD WideMask lanes_of(unsigned bits) {
+  WideMask mask;
+  for (int part = 0; part < wide_parts; ++part)
+    for (int lane = 0; lane < part_width; ++lane) mask.part[part][lane] = (bits >> (part * part_width + lane) & 1) != 0 ? -1 : 0;
+  return mask;
+}
+
+float least_squared(const VertexComparison& of, float beyond) {
+  float* const* row = of.rows.row;
+  const BoxRows points{{row[0], row[1], row[2], row[0], row[1], row[2]}};
+  Wide least(beyond);
+  for (unsigned rows = overlaps(of.far, points, of.first_row); rows != 0; rows &= rows - 1) {
+    const int at = of.first_row + __builtin_ctz(rows);
+    const Vec3<Wide> place{Wide(row[0][at]), Wide(row[1][at]), Wide(row[2][at])};
+    const LeftOut* left_out = of.left_out + of.left_out_start[at];
+    for (int k = 0; k < of.batches; ++k) {
+      const std::int32_t batch = of.batch[k];
+      const Vec3<Wide> apart = Vec3<Wide>{load_wide(of.columns.row[0] + 16 * batch), load_wide(of.columns.row[1] + 16 * batch),
+                                          load_wide(of.columns.row[2] + 16 * batch)} -
+                               place;
+      Wide squared = dot(apart, apart);
+      while (left_out->batch < batch) ++left_out;
+      if (left_out->batch == batch) squared = select(lanes_of(left_out->bits), Wide(beyond), squared);
+      least = min(squared, least);
+    }
+  }
+  return least_lane(least);
+}
+
 }  // namespace
 }  // namespace PLIANT_ISA
 
 const PairKernels& PLIANT_PAIR_KERNELS() {
-  static constexpr PairKernels kernels{measure_cluster, fit_boxes, find_overlaps, least_distance, distances};
+  static constexpr PairKernels kernels{measure_cluster, fit_boxes,     find_overlaps,  gather_places,
+                                       longest_squared, least_squared, least_distance, distances};
   return kernels;
 }
 

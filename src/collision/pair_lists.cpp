@@ -16,12 +16,6 @@ constexpr float least_share = 0.05f, least_roundings = 32;
 /// are listed anew: longer lists against fewer looks.
 constexpr float skin_share = 1.5f;
 
-/// How far two boxes are apart along the axis where they are farthest.
-float distance_between(const BoxBounds& a, const BoxBounds& b) {
-  const Vec3f apart = max(a.low - b.high, b.low - a.high);
-  return max(max(apart.x, apart.y), apart.z);
-}
-
 BoxBounds box_at(const std::vector<float> (&box)[6], int i) {
   return {{box[0][i], box[1][i], box[2][i]}, {box[3][i], box[4][i], box[5][i]}};
 }
@@ -51,6 +45,9 @@ float PairSystem::least_of(const Between& clusters) const {
   const float extent = max(motions_[clusters.first].extent, motions_[clusters.second].extent);
   return max(least_share * material(clusters).thickness, least_roundings * rounding * extent);
 }
+
+/// How far clusters may move against each other before their pairs are listed anew [m].
+float PairSystem::skin() const { return skin_share * (model_.radius - model_.largest_thickness); }
 
 /// Nearer than this, pairs of a bucket are of interest, to contacts or to the filter.
 float PairSystem::care_of(const Between& clusters) const {
@@ -110,12 +107,10 @@ void PairSystem::bring_up_to_date(Executor& executor, const PairParticles& parti
   if (listed_ && has_gone_far()) listed_ = false;
   if (!listed_ || !clusters_hold()) list_clusters();
   const int tasks = static_cast<int>(tasks_.size());
-  std::size_t stale = 0;
-  for (Task& task : tasks_) {
-    find_stale(task);
-    stale += task.stale.size();
-  }
-  if (stale == 0) return;
+  const auto is_stale = [](const Task& task) { return !task.stale.empty(); };
+  for (Task& task : tasks_) find_stale(task);
+  if (std::none_of(tasks_.begin(), tasks_.end(), is_stale)) return;
+  clear_stale(executor, particles);
   fit_boxes(executor, particles);
   executor.parallel_for("list pairs", tasks, [&](int number) {
     for (const std::int32_t bucket : tasks_[number].stale) refresh(buckets_[bucket], tasks_[number], particles);
@@ -166,18 +161,12 @@ void PairSystem::fit_boxes_of(Elements& of, int cluster, const PairParticles& pa
 /// the margin. What moves farther than that in one substep is listed for this one alone.
 void PairSystem::refresh(Bucket& bucket, Task& task, const PairParticles& particles) {
   const Neighbours& pair = neighbours_[bucket.neighbours];
-  const float care = care_of(bucket), skin = skin_share * (model_.radius - model_.largest_thickness),
-              search = skin * bound_slack;
+  const float care = care_of(bucket), search = skin() * bound_slack;
   bucket.listed_at = pair.moved;
   bucket.pairs.clear();
   bucket.least_reach = out_of_reach;
-  const float apart = distance_between(path_box(bucket.first), path_box(bucket.second)) * (1 - 1e-5f);
-  if (apart > care + search) {
-    bucket.margin = apart - care;
-    return;
-  }
-  const bool is_fast = 1.1f * pair.moves > skin;
-  bucket.margin = is_fast ? -1 : skin;
+  const bool is_fast = 1.1f * pair.moves > skin();
+  bucket.margin = is_fast ? -1 : skin();
   find_pairs(bucket, is_fast ? care : care + search, task);
   keep_near(bucket, care + max(search, 1.1f * pair.moves), task, particles);
 }

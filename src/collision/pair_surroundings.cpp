@@ -121,7 +121,7 @@ void PairSystem::find_surroundings() {
   };
   const auto other_end = [&](int edge, int v) { return all.edges[edge][0] == v ? all.edges[edge][1] : all.edges[edge][0]; };
   const auto few = [&](int v) { return count_of(edges_at, v) <= most_neighbours; };
-  std::vector<Numbers> near[2], sharing[2];
+  std::vector<Numbers> near[2], sharing[2], joined;
   for (const int v : all.vertices) {
     if (!meets_itself(v) || !few(v)) continue;
     for (const int* t = triangles_at.begin(v); t != triangles_at.end(v); ++t) sharing[0].push_back({v, *t});
@@ -129,6 +129,7 @@ void PairSystem::find_surroundings() {
       const int u = other_end(*e, v);
       for (const int* f = edges_at.begin(v); f != edges_at.end(v); ++f) sharing[1].push_back({*e, *f});
       if (!few(u)) continue;
+      joined.push_back({v, u});
       for (const int* t = triangles_at.begin(u); t != triangles_at.end(u); ++t) {
         const Triangle& c = all.triangles[*t];
         if (c[0] != v && c[1] != v && c[2] != v) near[0].push_back({v, *t});
@@ -147,6 +148,7 @@ void PairSystem::find_surroundings() {
       for (const Numbers& pair : near[1]) out.push_back({pair[1], pair[0]});
     leave_out(kind == 0 ? vertex_kind : edge_kind, kind == 0 ? triangle_kind : edge_kind, out);
   }
+  lay_out_corners(joined);
 }
 
 /// Rows leave out columns by their places, sixteen to a word.

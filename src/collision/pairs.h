@@ -109,6 +109,9 @@ class PairSystem {
         0;  ///< by how much the distance of a point of one and one of the other falls as both go along and turn [m]
     float moves = 0;  ///< the same with what vertices depart from that: by how much any distance falls at most [m]
     float moved = 0;  ///< the same, in all substeps since clusters were last listed [m]
+    bool is_joined = false;  ///< of one surface: a cluster and itself, or two with surroundings between them
+    bool is_asked = false;   ///< whether `clearance` is of this substep
+    float clearance = 0;     ///< no pair of theirs that lists could hold is nearer, as far as was looked [m]
   };
   /// Two clusters and the kind of pairs between them: a vertex of the first and a triangle of the second, or two edges.
   struct Between {
@@ -151,6 +154,21 @@ class PairSystem {
     std::vector<LeftOut> left_out;
   };
 
+  /// Vertices of each cluster and the corners of what begins at them, along a curve and filled up to sixteens by repeating.
+  struct Corners {
+    std::vector<int> start;  ///< of each cluster
+    std::vector<std::int32_t> vertex;
+    std::vector<float> place[3];
+    std::vector<BoxBounds> batch_box;  ///< of sixteen
+    std::vector<int> line_start;       ///< of each cluster
+    std::vector<std::int32_t> line[2];  ///< edges, and the sides of triangles, that begin there
+    std::vector<float> longest;         ///< of each cluster's lines, squared [m^2]
+    // Of each vertex, itself and those with which it has surroundings.
+    std::vector<std::int32_t> left_out_start;
+    std::vector<LeftOut> left_out;
+    std::vector<char> wanted;  ///< clusters whose places are
+  };
+
   // pair_surroundings.cpp: what lies together on the surface.
   void lay_out_elements(Kind kind, int corners);
   void lay_out_vertices();
@@ -172,6 +190,16 @@ class PairSystem {
   void cut_into_tasks();
   void settle_moves();
 
+  // pair_clearance.cpp: which clusters need no lists.
+  void lay_out_corners(const std::vector<std::array<std::int32_t, 2>>& joined);
+  void lay_out_lines();
+  void leave_out_joined(const std::vector<std::array<std::int32_t, 2>>& joined);
+  void clear_stale(Executor& executor, const PairParticles& particles);
+  void ask_for_clearance(Executor& executor, const PairParticles& particles);
+  void place_corners(int cluster, const PairParticles& particles);
+  float clearance_of(const Between& clusters, std::vector<std::int32_t>& batches);
+  bool is_clear(Bucket& bucket) const;
+
   // pair_lists.cpp: which pairs are near.
   void bring_up_to_date(Executor& executor, const PairParticles& particles);
   void find_stale(Task& task);
@@ -187,6 +215,7 @@ class PairSystem {
   bool is_tangled(const PairStencil& pair) const;
   float least_of(const Between& clusters) const;
   float care_of(const Between& clusters) const;
+  float skin() const;
   float moves(const Between& clusters) const { return neighbours_[clusters.neighbours].moves; }
   float moved(const Between& clusters) const { return neighbours_[clusters.neighbours].moved - clusters.listed_at; }
   float moves(const Between& clusters, const PairStencil& pair, const PairParticles& particles) const;
@@ -222,6 +251,8 @@ class PairSystem {
 
   // Clusters.
   Elements elements_[3];
+  Corners corners_;
+  std::vector<std::int32_t> asked_;  ///< buckets for whose clusters a clearance is looked for
   std::vector<std::int32_t> cluster_vertices_;  ///< and the corners of what begins at them
   std::vector<int> cluster_start_;
   std::vector<ClusterMotion> motions_;
