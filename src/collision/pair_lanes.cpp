@@ -18,12 +18,22 @@ PLIANT_HD Vec3<Wide> places(const Record* records, const std::int32_t* index) {
   return from_registers(load_indexed(records, index)).position;
 }
 
+/// Sixteen lanes to four, lane i from those at i + 4 k, by `join` of two vectors at a time: the upper half onto the lower.
+template <class Join>
+PLIANT_HD Quad to_four(const Wide& a, Join join) {
+#if PLIANT_PART_WIDTH == 16
+  const Part& p = a.part[0];
+  return join(join(quad_of<0>(p), quad_of<2>(p)), join(quad_of<1>(p), quad_of<3>(p)));
+#elif PLIANT_PART_WIDTH == 8
+  return join(join(quad_of<0>(a.part[0]), quad_of<0>(a.part[1])), join(quad_of<1>(a.part[0]), quad_of<1>(a.part[1])));
+#else
+  return join(join(a.part[0], a.part[2]), join(a.part[1], a.part[3]));
+#endif
+}
+
 PLIANT_HD float least_lane(const Wide& a) {
-  float lanes[16];
-  store_wide(lanes, a);
-  for (int half = 8; half > 0; half /= 2)
-    for (int i = 0; i < half; ++i) lanes[i] = pliant::min(lanes[i], lanes[i + half]);
-  return lanes[0];
+  const Quad four = to_four(a, [](const Quad& x, const Quad& y) -> Quad { return x < y ? x : y; });
+  return pliant::min(pliant::min(four[0], four[2]), pliant::min(four[1], four[3]));
 }
 
 // ---------------------------------------------------------------- distances
@@ -75,10 +85,49 @@ void distances(const PairStencils& pairs, int first_side, const Record* position
   store_wide(out.normal[2], apart.z * scale);
 }
 
+/// Of the origin to the segment from `a` along `along`; `over_length` is 1 over its squared length.
+PLIANT_HD Wide squared_to_segment(const Vec3<Wide>& a, const Vec3<Wide>& along, const Wide& over_length) {
+  const Wide share = min(max(-dot(a, along) * over_length, Wide(0.f)), Wide(1.f));
+  const Vec3<Wide> point = a + along * share;
+  return dot(point, point);
+}
+
+PLIANT_HD Wide over(const Wide& divisor) { return Wide(1.f) / max(divisor, Wide(1e-30f)); }
+PLIANT_HD Wide squared_to_plane(const Vec3<Wide>& point, const Vec3<Wide>& normal) {
+  const Wide along = dot(point, normal);
+  return along * along * over(dot(normal, normal));
+}
+
+/// Of the origin to a triangle: to its sides, or to its plane where the foot is inside. What is taken for inside and is not is
+/// a bound all the same.
+PLIANT_HD Wide least_squared_to_triangle(const Vec3<Wide>& a, const Vec3<Wide>& b, const Vec3<Wide>& c) {
+  const Vec3<Wide> ab = b - a, bc = c - b, ca = a - c, normal = cross(ab, bc);
+  const Wide sides = min(squared_to_segment(a, ab, over(dot(ab, ab))),
+                         min(squared_to_segment(b, bc, over(dot(bc, bc))), squared_to_segment(c, ca, over(dot(ca, ca)))));
+  const Wide least = min(dot(cross(a, b), normal), min(dot(cross(b, c), normal), dot(cross(c, a), normal)));
+  return select(least > Wide(0.f), min(squared_to_plane(a, normal), sides), sides);
+}
+
+/// Lines at less than this angle are taken for parallel [rad].
+constexpr float least_angle = 5e-4f;
+
+/// Of the segments from the origin to `u` and from `a` to `b`: of ends to the other, or of the lines where they are closest within.
+PLIANT_HD Wide least_squared_of_segments(const Vec3<Wide>& u, const Vec3<Wide>& a, const Vec3<Wide>& b) {
+  const Vec3<Wide> v = b - a, normal = cross(u, v);
+  const Wide uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), ua = dot(u, a), va = dot(v, a), over_u = over(uu),
+             over_v = over(vv), squared_sine = dot(normal, normal);
+  const Wide ends = min(min(squared_to_segment(a, v, over_v), squared_to_segment(a - u, v, over_v)),
+                        min(squared_to_segment(-a, u, over_u), squared_to_segment(-b, u, over_u)));
+  const Wide s = vv * ua - uv * va, t = uv * ua - uu * va;
+  const Wide least = min(min(s, squared_sine - s), min(t, squared_sine - t));
+  const Wide lines = select(least > Wide(0.f), min(squared_to_plane(a, normal), ends), ends);
+  return select(squared_sine > uu * vv * Wide(least_angle * least_angle), lines, ends);
+}
+
 float least_distance(const PairStencils& pairs, int first_side, const Record* positions) {
   const auto [x] = corners_of(pairs, positions);
-  const Wide squared = first_side == 1 ? closest_on_triangle(x[0], x[1], x[2], x[3]).distance_squared
-                                       : closest_on_segments({x[0], x[1]}, {x[2], x[3]}).distance_squared;
+  const Wide squared =
+      first_side == 1 ? least_squared_to_triangle(x[1], x[2], x[3]) : least_squared_of_segments(x[1], x[2], x[3]);
   return least_lane(at_least(sqrt(squared) * Wide(1 - 1e-6f), x));
 }
 
@@ -89,11 +138,8 @@ PLIANT_HD Vec3f least_lane(const Vec3<Wide>& a) { return {least_lane(a.x), least
 PLIANT_HD Vec3f largest_lane(const Vec3<Wide>& a) { return {largest_lane(a.x), largest_lane(a.y), largest_lane(a.z)}; }
 
 PLIANT_HD float sum_lanes(const Wide& a) {
-  float lanes[16];
-  store_wide(lanes, a);
-  for (int half = 8; half > 0; half /= 2)
-    for (int i = 0; i < half; ++i) lanes[i] += lanes[i + half];
-  return lanes[0];
+  const Quad four = to_four(a, [](const Quad& x, const Quad& y) -> Quad { return x + y; });
+  return (four[0] + four[2]) + (four[1] + four[3]);
 }
 PLIANT_HD Vec3f sum_lanes(const Vec3<Wide>& a) { return {sum_lanes(a.x), sum_lanes(a.y), sum_lanes(a.z)}; }
 PLIANT_HD Vec3<Wide> everywhere(const Vec3f& a) { return {Wide(a.x), Wide(a.y), Wide(a.z)}; }
