@@ -21,7 +21,7 @@ namespace pliant {
 namespace {
 
 /// Clearance is looked for up to so many skins beyond what is of interest, and is of use from so many on.
-constexpr float most_skins = 1.5f, fewest_skins = 0.2f;
+constexpr float most_skins = 1.25f, fewest_skins = 0.2f;
 /// A squared distance of floats is rounded by less than this.
 constexpr float squared_slack = 1e-5f;
 
@@ -117,7 +117,8 @@ bool PairSystem::is_clear(Bucket& bucket) const {
   const float apart = pair.is_asked
                           ? pair.clearance
                           : distance_between(path_box(bucket.first), path_box(bucket.second)) * (1 - squared_slack);
-  const float room = apart - care, least = pair.is_asked ? max(fewest_skins * skin(), 1.1f * pair.moves) : skin() * bound_slack;
+  const float room = apart - care,
+              least = pair.is_asked ? max(fewest_skins * skin(), 1.1f * pair.moves) : skin() * bound_slack;
   if (!(room > least)) return false;
   bucket.listed_at = pair.moved;
   bucket.pairs.clear();
@@ -144,7 +145,9 @@ void PairSystem::ask_for_clearance(Executor& executor, const PairParticles& part
     if (corners_.wanted[c] != 0) place_corners(c, particles);
   });
   const int tasks = static_cast<int>(tasks_.size());
-  const auto share = [&](int task) { return asked_.size() * static_cast<std::size_t>(task) / static_cast<std::size_t>(tasks); };
+  const auto share = [&](int task) {
+    return asked_.size() * static_cast<std::size_t>(task) / static_cast<std::size_t>(tasks);
+  };
   executor.parallel_for("look for clearance", tasks, [&](int task) {
     for (std::size_t i = share(task); i < share(task + 1); ++i) {
       const Bucket& bucket = buckets_[asked_[i]];
@@ -163,18 +166,20 @@ void PairSystem::place_corners(int cluster, const PairParticles& particles) {
     corners_.batch_box[i / 16] = box;
   }
   corners_.longest[cluster] =
-      kernels_.longest_squared({{corners_.line[0].data(), corners_.line[1].data(), nullptr}, 2}, corners_.line_start[cluster],
-                               corners_.line_start[cluster + 1], particles.positions);
+      kernels_.longest_squared({{corners_.line[0].data(), corners_.line[1].data(), nullptr}, 2},
+                               corners_.line_start[cluster], corners_.line_start[cluster + 1], particles.positions);
 }
 
 /// No pair of two clusters that lists could hold is nearer at the substep's start, as far as is of interest.
 float PairSystem::clearance_of(const Between& clusters, std::vector<std::int32_t>& batches) {
   const float wanted = care_of(clusters) + most_skins * skin(), a = corners_.longest[clusters.first],
-              b = corners_.longest[clusters.second], sizes = max(0.25f * (a + b), max(a, b) * (1 / 3.f)) * (1 + squared_slack),
-              beyond = wanted * wanted + sizes, reach = sqrt(beyond) * (1 + squared_slack);
+              b = corners_.longest[clusters.second],
+              sizes = max(0.25f * (a + b), max(a, b) * (1 / 3.f)) * (1 + squared_slack), beyond = wanted * wanted + sizes,
+              reach = sqrt(beyond) * (1 + squared_slack);
   const int first = corners_.start[clusters.second] / 16, last = corners_.start[clusters.second + 1] / 16;
   BoxBounds far = corners_.batch_box[first];
-  for (int k = first + 1; k < last; ++k) far = {min(far.low, corners_.batch_box[k].low), max(far.high, corners_.batch_box[k].high)};
+  for (int k = first + 1; k < last; ++k)
+    far = {min(far.low, corners_.batch_box[k].low), max(far.high, corners_.batch_box[k].high)};
   far = far.grown(reach);
   const float far_box[6] = {far.low.x, far.low.y, far.low.z, far.high.x, far.high.y, far.high.z};
   float least = beyond;
@@ -184,9 +189,14 @@ float PairSystem::clearance_of(const Between& clusters, std::vector<std::int32_t
     batches.clear();
     for (int k = clusters.first == clusters.second ? rows : first; k < last; ++k)
       if (overlap(own, corners_.batch_box[k])) batches.push_back(k);
-    const VertexComparison of{rows_of(corners_.place),  16 * rows,      far_box,
-                              rows_of(corners_.place),  batches.data(), static_cast<int>(batches.size()),
-                              corners_.left_out.data(), corners_.left_out_start.data()};
+    const VertexComparison of{rows_of(corners_.place),
+                              16 * rows,
+                              far_box,
+                              rows_of(corners_.place),
+                              batches.data(),
+                              static_cast<int>(batches.size()),
+                              corners_.left_out.data(),
+                              corners_.left_out_start.data()};
     least = min(least, kernels_.least_squared(of, beyond));
   }
   return sqrt(max(0.f, least * (1 - squared_slack) - sizes)) * (1 - squared_slack);

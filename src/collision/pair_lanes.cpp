@@ -323,9 +323,13 @@ float longest_squared(const ElementCorners& lines, int first, int last, const Re
 
 /// The lanes whose bits are set.
 PLIANT_HD WideMask lanes_of(unsigned bits) {
+  constexpr std::int32_t bit_of_lane[wide_width] = {1,      1 << 1, 1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
+                                                    1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
+  PartMask bit;
+  std::memcpy(&bit, bit_of_lane, sizeof bit);
   WideMask mask;
   for (int part = 0; part < wide_parts; ++part)
-    for (int lane = 0; lane < part_width; ++lane) mask.part[part][lane] = (bits >> (part * part_width + lane) & 1) != 0 ? -1 : 0;
+    mask.part[part] = ((PartMask{} + static_cast<std::int32_t>(bits >> (part * part_width))) & bit) != 0;
   return mask;
 }
 
@@ -339,9 +343,10 @@ float least_squared(const VertexComparison& of, float beyond) {
     const LeftOut* left_out = of.left_out + of.left_out_start[at];
     for (int k = 0; k < of.batches; ++k) {
       const std::int32_t batch = of.batch[k];
-      const Vec3<Wide> apart = Vec3<Wide>{load_wide(of.columns.row[0] + 16 * batch), load_wide(of.columns.row[1] + 16 * batch),
-                                          load_wide(of.columns.row[2] + 16 * batch)} -
-                               place;
+      const Vec3<Wide> apart =
+          Vec3<Wide>{load_wide(of.columns.row[0] + 16 * batch), load_wide(of.columns.row[1] + 16 * batch),
+                     load_wide(of.columns.row[2] + 16 * batch)} -
+          place;
       Wide squared = dot(apart, apart);
       while (left_out->batch < batch) ++left_out;
       if (left_out->batch == batch) squared = select(lanes_of(left_out->bits), Wide(beyond), squared);

@@ -107,8 +107,8 @@ class PairSystem {
     int a, b;  ///< a <= b
     float apart =
         0;  ///< by how much the distance of a point of one and one of the other falls as both go along and turn [m]
-    float moves = 0;  ///< the same with what vertices depart from that: by how much any distance falls at most [m]
-    float moved = 0;  ///< the same, in all substeps since clusters were last listed [m]
+    float moves = 0;         ///< the same with what vertices depart from that: by how much any distance falls at most [m]
+    float moved = 0;         ///< the same, in all substeps since clusters were last listed [m]
     bool is_joined = false;  ///< of one surface: a cluster and itself, or two with surroundings between them
     bool is_asked = false;   ///< whether `clearance` is of this substep
     float clearance = 0;     ///< no pair of theirs that lists could hold is nearer, as far as was looked [m]
@@ -159,8 +159,8 @@ class PairSystem {
     std::vector<int> start;  ///< of each cluster
     std::vector<std::int32_t> vertex;
     std::vector<float> place[3];
-    std::vector<BoxBounds> batch_box;  ///< of sixteen
-    std::vector<int> line_start;       ///< of each cluster
+    std::vector<BoxBounds> batch_box;   ///< of sixteen
+    std::vector<int> line_start;        ///< of each cluster
     std::vector<std::int32_t> line[2];  ///< edges, and the sides of triangles, that begin there
     std::vector<float> longest;         ///< of each cluster's lines, squared [m^2]
     // Of each vertex, itself and those with which it has surroundings.
@@ -252,7 +252,7 @@ class PairSystem {
   // Clusters.
   Elements elements_[3];
   Corners corners_;
-  std::vector<std::int32_t> asked_;  ///< buckets for whose clusters a clearance is looked for
+  std::vector<std::int32_t> asked_;             ///< buckets for whose clusters a clearance is looked for
   std::vector<std::int32_t> cluster_vertices_;  ///< and the corners of what begins at them
   std::vector<int> cluster_start_;
   std::vector<ClusterMotion> motions_;
