@@ -19,6 +19,9 @@ inline constexpr float place_roundings = 16;
 /// One rounding of a float, as a share of it.
 inline constexpr float rounding = 6e-8f;
 
+/// What the filter keeps, as a share of the thickness; and at least so many roundings of the two clusters' positions.
+inline constexpr float least_share = 0.05f, least_roundings = 32;
+
 /// One of sixteen pairs.
 inline PairStencil stencil_at(const PairStencils& pairs, int lane, bool of_vertices) {
   return {{pairs.vertex[0][lane], pairs.vertex[1][lane], pairs.vertex[2][lane], pairs.vertex[3][lane]},
@@ -33,6 +36,22 @@ inline Vec3f end_of(const PairParticles& particles, std::size_t i, float times =
 /// By how much a position changes: not quite by the displacement, which it can't hold.
 inline Vec3f move_of(const PairParticles& particles, std::size_t i) {
   return end_of(particles, i) - end_of(particles, i, 0);
+}
+
+inline const PairMaterial& PairSystem::material(const Between& clusters) const {
+  const int a = model_.cluster_body[clusters.first], b = model_.cluster_body[clusters.second];
+  return model_.materials[static_cast<std::size_t>(a) * model_.bodies + b];
+}
+
+/// What the filter keeps between two clusters [m].
+inline float PairSystem::least_of(const Between& clusters) const {
+  const float extent = max(motions_[clusters.first].extent, motions_[clusters.second].extent);
+  return max(least_share * material(clusters).thickness, least_roundings * rounding * extent);
+}
+
+/// Nearer than this, pairs of a bucket are of interest, to contacts or to the filter.
+inline float PairSystem::care_of(const Between& clusters) const {
+  return max(cull_slack * material(clusters).thickness, 2 * least_of(clusters));
 }
 
 }  // namespace pliant

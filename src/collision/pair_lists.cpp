@@ -10,8 +10,6 @@ namespace pliant {
 
 namespace {
 
-/// What the filter keeps, as a share of the thickness; and at least so many roundings of the two clusters' positions.
-constexpr float least_share = 0.05f, least_roundings = 32;
 /// How far clusters may move against each other, as a share of what the radius leaves beyond the thickness, before their pairs
 /// are listed anew: longer lists against fewer looks.
 constexpr float skin_share = 1.5f;
@@ -35,24 +33,8 @@ PairStencil PairSystem::stencil(const Bucket& bucket, const Pair& pair) const {
   return {{e[0], e[1], f[0], f[1]}, 2};
 }
 
-const PairMaterial& PairSystem::material(const Between& clusters) const {
-  const int a = model_.cluster_body[clusters.first], b = model_.cluster_body[clusters.second];
-  return model_.materials[static_cast<std::size_t>(a) * model_.bodies + b];
-}
-
-/// What the filter keeps between two clusters [m].
-float PairSystem::least_of(const Between& clusters) const {
-  const float extent = max(motions_[clusters.first].extent, motions_[clusters.second].extent);
-  return max(least_share * material(clusters).thickness, least_roundings * rounding * extent);
-}
-
 /// How far clusters may move against each other before their pairs are listed anew [m].
 float PairSystem::skin() const { return skin_share * (model_.radius - model_.largest_thickness); }
-
-/// Nearer than this, pairs of a bucket are of interest, to contacts or to the filter.
-float PairSystem::care_of(const Between& clusters) const {
-  return max(cull_slack * material(clusters).thickness, 2 * least_of(clusters));
-}
 
 /// Whether the boxes of both sides' paths come within `distance`, as seen by one who drifts along.
 bool PairSystem::paths_within(const PairStencil& pair, const PairParticles& particles, float distance) const {
