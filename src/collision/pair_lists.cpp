@@ -13,6 +13,14 @@ namespace {
 /// How far clusters may move against each other, as a share of what the radius leaves beyond the thickness, before their pairs
 /// are listed anew: longer lists against fewer looks.
 constexpr float skin_share = 1.5f;
+/// Clearance is looked for up to so many skins beyond what is of interest, and is of use from so many on.
+constexpr float most_skins = 1.25f, fewest_skins = 0.2f;
+
+/// How far two boxes are apart along the axis where they are farthest.
+float distance_between(const BoxBounds& a, const BoxBounds& b) {
+  const Vec3f apart = max(a.low - b.high, b.low - a.high);
+  return max(max(apart.x, apart.y), apart.z);
+}
 
 BoxBounds box_at(const std::vector<float> (&box)[6], int i) {
   return {{box[0][i], box[1][i], box[2][i]}, {box[3][i], box[4][i], box[5][i]}};
@@ -107,6 +115,57 @@ void PairSystem::find_stale(Task& task) {
     const Bucket& bucket = buckets_[b];
     if (!(moved(bucket) + moves(bucket) <= bucket.margin)) task.stale.push_back(b);
   }
+}
+
+/// Takes from what is stale the buckets in which nothing can be near for a while: they are empty until then.
+void PairSystem::clear_stale(Executor& executor, const PairParticles& particles) {
+  ask_for_clearance(executor, particles);
+  for (Task& task : tasks_) {
+    const auto is_clear_now = [&](std::int32_t number) { return is_clear(buckets_[number]); };
+    task.stale.erase(std::remove_if(task.stale.begin(), task.stale.end(), is_clear_now), task.stale.end());
+  }
+  for (const std::int32_t bucket : asked_) neighbours_[buckets_[bucket].neighbours].is_asked = false;
+  asked_.clear();
+}
+
+/// By the distances of vertices within one surface, of boxes around paths elsewhere.
+bool PairSystem::is_clear(Bucket& bucket) const {
+  const Neighbours& pair = neighbours_[bucket.neighbours];
+  const float apart = pair.is_asked ? pair.clearance
+                                    : distance_between(path_box(bucket.first), path_box(bucket.second)) * (1 - 1e-5f),
+              least = pair.is_asked ? max(fewest_skins * skin(), 1.1f * pair.moves) : skin() * bound_slack,
+              room = apart - care_of(bucket);
+  if (!(room > least)) return false;
+  bucket.listed_at = pair.moved;
+  bucket.pairs.clear();
+  bucket.least_reach = out_of_reach;
+  bucket.margin = room;
+  return true;
+}
+
+/// The clearance of the clusters of all buckets that are stale.
+void PairSystem::ask_for_clearance(Executor& executor, const PairParticles& particles) {
+  placed_.assign(static_cast<std::size_t>(model_.clusters), 0);
+  for (const Task& task : tasks_)
+    for (const std::int32_t number : task.stale) {
+      Neighbours& pair = neighbours_[buckets_[number].neighbours];
+      if (!pair.is_joined || pair.is_asked) continue;
+      pair.is_asked = true;
+      asked_.push_back(number);
+      placed_[pair.a] = placed_[pair.b] = 1;
+    }
+  executor.parallel_for("place corners", model_.clusters, [&](int c) {
+    if (placed_[c] != 0) clearance_.place(kernels_, c, particles.positions);
+  });
+  const std::size_t tasks = tasks_.size();
+  executor.parallel_for("look for clearance", static_cast<int>(tasks), [&](int number) {
+    const auto task = static_cast<std::size_t>(number);
+    for (std::size_t i = asked_.size() * task / tasks; i < asked_.size() * (task + 1) / tasks; ++i) {
+      const Bucket& bucket = buckets_[asked_[i]];
+      neighbours_[bucket.neighbours].clearance = clearance_.between(
+          kernels_, bucket.first, bucket.second, care_of(bucket) + most_skins * skin(), tasks_[task].batches);
+    }
+  });
 }
 
 /// Boxes around the paths of all that lists are made of.

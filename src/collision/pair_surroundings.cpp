@@ -148,7 +148,26 @@ void PairSystem::find_surroundings() {
       for (const Numbers& pair : near[1]) out.push_back({pair[1], pair[0]});
     leave_out(kind == 0 ? vertex_kind : edge_kind, kind == 0 ? triangle_kind : edge_kind, out);
   }
-  lay_out_corners(joined);
+  clearance_ = Clearance(pieces(), model_.rest, joined);
+}
+
+/// The clusters as clearance is told of them.
+std::vector<Clearance::Piece> PairSystem::pieces() const {
+  std::vector<Clearance::Piece> pieces(static_cast<std::size_t>(model_.clusters));
+  for (int c = 0; c < model_.clusters; ++c) {
+    Clearance::Piece& piece = pieces[static_cast<std::size_t>(c)];
+    piece.vertices.assign(cluster_vertices_.begin() + cluster_start_[c], cluster_vertices_.begin() + cluster_start_[c + 1]);
+    for (const Kind kind : {edge_kind, triangle_kind}) {
+      const Elements& of = elements_[kind];
+      for (int i = of.start[c]; i < of.start[c] + of.count[c]; ++i)
+        for (int k = 0; k < (kind == edge_kind ? 1 : 3); ++k) {
+          const auto [a, b] = std::minmax(of.corner[k][i], of.corner[(k + 1) % of.corners][i]);
+          piece.lines.push_back({a, b});
+        }
+    }
+    sort_out(piece.lines);
+  }
+  return pieces;
 }
 
 /// Rows leave out columns by their places, sixteen to a word.

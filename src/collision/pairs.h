@@ -1,7 +1,8 @@
 // Everything that moves against everything else that moves, and against meshes: from candidates to contacts to the filter.
 //
 //   clusters    vertices that lie together and what begins at them: how they move, which are near one another
-//   lists       of two clusters that are, the pairs that are near: kept until the two have moved too far against each other
+//   clearance   of two that belong to one surface, how far apart all is that is not near in the mesh (pair_clearance.h)
+//   lists       of two clusters that are near, the pairs that are: kept until the two have moved too far against each other
 //   detect      of those, pairs that may come within their thickness in this substep become contacts
 //   project     the contacts' constraints, after each sweep
 //   filter      no clean pair crosses: moves are shortened (plane_filter.h)
@@ -24,6 +25,7 @@
 
 #include "collision/candidates.h"
 #include "collision/intersections.h"
+#include "collision/pair_clearance.h"
 #include "collision/pair_kernels.h"
 #include "collision/plane_filter.h"
 #include "collision/untangle.h"
@@ -154,25 +156,11 @@ class PairSystem {
     std::vector<LeftOut> left_out;
   };
 
-  /// Vertices of each cluster and the corners of what begins at them, along a curve and filled up to sixteens by repeating.
-  struct Corners {
-    std::vector<int> start;  ///< of each cluster
-    std::vector<std::int32_t> vertex;
-    std::vector<float> place[3];
-    std::vector<BoxBounds> batch_box;   ///< of sixteen
-    std::vector<int> line_start;        ///< of each cluster
-    std::vector<std::int32_t> line[2];  ///< edges, and the sides of triangles, that begin there
-    std::vector<float> longest;         ///< of each cluster's lines, squared [m^2]
-    // Of each vertex, itself and those with which it has surroundings.
-    std::vector<std::int32_t> left_out_start;
-    std::vector<LeftOut> left_out;
-    std::vector<char> wanted;  ///< clusters whose places are
-  };
-
   // pair_surroundings.cpp: what lies together on the surface.
   void lay_out_elements(Kind kind, int corners);
   void lay_out_vertices();
   void find_surroundings();
+  std::vector<Clearance::Piece> pieces() const;
   void leave_out(Kind rows, Kind columns, std::vector<std::array<std::int32_t, 2>>& pairs);
   void fill_surroundings(bool of_vertices, const std::vector<std::array<std::int32_t, 2>>& pairs);
   void fill_blocks(Surroundings& of, std::vector<PairStencil>& pairs);
@@ -190,19 +178,12 @@ class PairSystem {
   void cut_into_tasks();
   void settle_moves();
 
-  // pair_clearance.cpp: which clusters need no lists.
-  void lay_out_corners(const std::vector<std::array<std::int32_t, 2>>& joined);
-  void lay_out_lines();
-  void leave_out_joined(const std::vector<std::array<std::int32_t, 2>>& joined);
-  void clear_stale(Executor& executor, const PairParticles& particles);
-  void ask_for_clearance(Executor& executor, const PairParticles& particles);
-  void place_corners(int cluster, const PairParticles& particles);
-  float clearance_of(const Between& clusters, std::vector<std::int32_t>& batches);
-  bool is_clear(Bucket& bucket) const;
-
   // pair_lists.cpp: which pairs are near.
   void bring_up_to_date(Executor& executor, const PairParticles& particles);
   void find_stale(Task& task);
+  void clear_stale(Executor& executor, const PairParticles& particles);
+  void ask_for_clearance(Executor& executor, const PairParticles& particles);
+  bool is_clear(Bucket& bucket) const;
   void fit_boxes(Executor& executor, const PairParticles& particles);
   void fit_boxes_of(Elements& of, int cluster, const PairParticles& particles);
   void refresh(Bucket& bucket, Task& task, const PairParticles& particles);
@@ -251,7 +232,8 @@ class PairSystem {
 
   // Clusters.
   Elements elements_[3];
-  Corners corners_;
+  Clearance clearance_;
+  std::vector<char> placed_;                    ///< clusters that clearance_ knows the places of, in this substep
   std::vector<std::int32_t> asked_;             ///< buckets for whose clusters a clearance is looked for
   std::vector<std::int32_t> cluster_vertices_;  ///< and the corners of what begins at them
   std::vector<int> cluster_start_;
