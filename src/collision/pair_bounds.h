@@ -28,14 +28,8 @@ inline PairStencil stencil_at(const PairStencils& pairs, int lane, bool of_verti
           of_vertices ? 1 : 2};
 }
 
-inline Vec3f end_of(const PairParticles& particles, std::size_t i, float times = 1) {
-  const Record &x = particles.positions[i], &d = particles.displacements[i];
-  return {x.x + d.x * times, x.y + d.y * times, x.z + d.z * times};
-}
-
-/// By how much a position changes: not quite by the displacement, which it can't hold.
-inline Vec3f move_of(const PairParticles& particles, std::size_t i) {
-  return end_of(particles, i) - end_of(particles, i, 0);
+inline void put(PairStencils& pairs, std::size_t lane, const std::array<std::int32_t, 4>& vertex) {
+  for (std::size_t k = 0; k < 4; ++k) pairs.vertex[k][lane] = vertex[k];
 }
 
 inline const PairMaterial& PairSystem::material(const Between& clusters) const {

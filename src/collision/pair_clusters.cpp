@@ -173,6 +173,7 @@ void PairSystem::make_buckets(const std::vector<Neighbours>& old) {
       bucket.margin = same.margin;
       bucket.least_reach = same.least_reach;
       bucket.pairs = std::move(same.pairs);
+      bucket.reach = std::move(same.reach);
     }
     buckets_.push_back(std::move(bucket));
   };

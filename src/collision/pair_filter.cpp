@@ -30,28 +30,41 @@ bool moves_at_all(const Record& d) { return d.x != 0 || d.y != 0 || d.z != 0; }
 
 void PairSystem::filter_bucket(Bucket& bucket, Task& task, const PairParticles& particles) {
   collect_near(bucket, task, least_of(bucket));
-  for (const std::int32_t i : task.near) {
-    bucket.least_reach = min(bucket.least_reach, bucket.pairs[i].reach);
-    filter_pair(bucket, stencil(bucket, bucket.pairs[i]), particles, task);
+  PairStencils pairs;
+  PairPaths paths;
+  for (std::size_t i = 0; i < task.near.size(); i += 16) {
+    const std::size_t count = std::min<std::size_t>(16, task.near.size() - i);
+    for (std::size_t lane = 0; lane < 16; ++lane)
+      put(pairs, lane, bucket.pairs[task.near[i + (lane < count ? lane : 0)]].vertex);
+    find_paths(bucket, pairs, particles, paths);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      bucket.least_reach = min(bucket.least_reach, bucket.reach[task.near[i + lane]]);
+      filter_pair(bucket, pairs, paths, static_cast<int>(lane), particles, task);
+    }
   }
 }
 
 void PairSystem::filter_surroundings(Surroundings& of, Task& task, const PairParticles& particles) {
   const float gone = moved(of) + moves(of), least = least_of(of);
   if (of.least_reach - gone > least) return;
+  PairPaths paths;
   for (int b = of.first_block; b < of.last_block; ++b) {
     if (block_reach_[b] - gone > least) continue;
+    find_paths(of, blocks_[b], particles, paths);
     const int count = std::min(16, of.pairs - 16 * (b - of.first_block));
-    for (int lane = 0; lane < count; ++lane) filter_pair(of, stencil_at(blocks_[b], lane, of.of_vertices), particles, task);
+    for (int lane = 0; lane < count; ++lane) filter_pair(of, blocks_[b], paths, lane, particles, task);
   }
 }
 
-void PairSystem::filter_pair(const Between& clusters, const PairStencil& four, const PairParticles& particles, Task& task) {
+void PairSystem::filter_pair(const Between& clusters, const PairStencils& pairs, const PairPaths& paths, int lane,
+                             const PairParticles& particles, Task& task) {
   const float least = least_of(clusters);
-  if (!paths_within(four, particles, least) || is_tangled(four)) return;
+  if (paths.apart[lane] > least) return;
+  const PairStencil four = stencil_at(pairs, lane, clusters.of_vertices);
+  if (is_tangled(four)) return;
   const PairDistance at = pair_distance(four, particles.positions);
   // What an old bound could not dismiss and a new one does is left alone: bounds only save work.
-  if (static_cast<float>(at.distance) * sum_slack - moves(clusters, four, particles) > least) return;
+  if (static_cast<float>(at.distance) * sum_slack - paths.falls[lane] > least) return;
   SeparatingSlab slab;
   std::array<float, 4> shares{1, 1, 1, 1};
   const Separation found =

@@ -84,6 +84,23 @@ struct VertexComparison {
   const std::int32_t* left_out_start;  ///< of each row
 };
 
+/// What sixteen pairs do in a substep.
+struct PairPaths {
+  alignas(64) float falls
+      [16];  ///< how far both sides depart from their clusters' motions: by as much and how these move apart, the
+             ///< distance falls at most [m]
+  alignas(
+      64) float apart[16];  ///< the distance of the boxes around both sides' paths, along the axis where it is greatest [m]
+};
+
+/// The clusters of a pair's two sides, the first's first but for the lanes of `swapped`, and who looks on.
+struct PairMotion {
+  const ClusterMotion* first;
+  const ClusterMotion* second;
+  unsigned swapped;
+  Vec3f drift;  ///< by which boxes of paths are seen to move less [m]
+};
+
 struct PairKernels {
   /// `vertices` are those of a cluster and of all that begins at it: a multiple of sixteen, filled up by repeating.
   void (*measure_cluster)(const std::int32_t* vertices, int count, const PairParticles& particles, ClusterMotion& out);
@@ -101,6 +118,8 @@ struct PairKernels {
   /// The least of all sixteen `at_least`, or up to a rounding less.
   float (*least_distance)(const PairStencils& pairs, int first_side, const Record* positions);
   void (*distances)(const PairStencils& pairs, int first_side, const Record* positions, PairBatch& out);
+  void (*paths)(const PairStencils& pairs, int first_side, const PairParticles& particles, const PairMotion& motion,
+                PairPaths& out);
 };
 
 const PairKernels& pair_kernels_v2();

@@ -229,6 +229,64 @@ void measure_cluster(const std::int32_t* vertices, int count, const PairParticle
                 2e-6f * (pliant::sqrt(largest_lane(plain)) + length(out.spin) * out.radius) + 1e-12f;
 }
 
+/// The lanes whose bits are set.
+PLIANT_HD WideMask lanes_of(unsigned bits) {
+  constexpr std::int32_t bit_of_lane[wide_width] = {1,      1 << 1, 1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
+                                                    1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
+  PartMask bit;
+  std::memcpy(&bit, bit_of_lane, sizeof bit);
+  WideMask mask;
+  for (int part = 0; part < wide_parts; ++part)
+    mask.part[part] = ((PartMask{} + static_cast<std::int32_t>(bits >> (part * part_width))) & bit) != 0;
+  return mask;
+}
+
+/// A cluster's motion in every lane.
+struct Motions {
+  Vec3<Wide> mean, centre, spin;
+};
+PLIANT_HD Motions everywhere(const ClusterMotion& m) {
+  return {everywhere(m.mean), everywhere(m.centre), everywhere(m.spin)};
+}
+PLIANT_HD Vec3<Wide> select(const WideMask& mask, const Vec3<Wide>& a, const Vec3<Wide>& b) {
+  return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
+}
+PLIANT_HD Motions select(const WideMask& mask, const Motions& a, const Motions& b) {
+  return {select(mask, a.mean, b.mean), select(mask, a.centre, b.centre), select(mask, a.spin, b.spin)};
+}
+
+/// By how much a vertex departs from its cluster's motion, at most.
+PLIANT_HD Wide departure_of(const Vec3<Wide>& start, const Vec3<Wide>& end, const Motions& of) {
+  const Vec3<Wide> move = (end - start) - of.mean, turn = cross(of.spin, start - of.centre);
+  return length(move - turn) * Wide(bound_slack) + Wide(2e-6f) * (length(move) + length(turn)) + Wide(1e-12f);
+}
+
+void paths(const PairStencils& pairs, int first_side, const PairParticles& particles, const PairMotion& motion,
+           PairPaths& out) {
+  Motions of[2] = {everywhere(*motion.first), everywhere(*motion.second)};
+  if (motion.swapped != 0) {
+    const WideMask swapped = lanes_of(motion.swapped);
+    const Motions first = of[0];
+    of[0] = select(swapped, of[1], first);
+    of[1] = select(swapped, first, of[1]);
+  }
+  const Vec3<Wide> drift = everywhere(motion.drift);
+  Vec3<Wide> low[2], high[2];
+  Wide departs[2] = {Wide(0.f), Wide(0.f)};
+  for (int i = 0; i < 4; ++i) {
+    const int side = i < first_side ? 0 : 1;
+    const Vec3<Wide> start = places(particles.positions, pairs.vertex[i]),
+                     end = start + places(particles.displacements, pairs.vertex[i]), seen = end - drift;
+    departs[side] = max(departure_of(start, end, of[side]), departs[side]);
+    const bool begins = i == 0 || i == first_side;
+    low[side] = begins ? min(start, seen) : min(low[side], min(start, seen));
+    high[side] = begins ? max(start, seen) : max(high[side], max(start, seen));
+  }
+  store_wide(out.falls, departs[0] + departs[1]);
+  const Vec3<Wide> apart = max(low[0] - high[1], low[1] - high[0]);
+  store_wide(out.apart, max(max(apart.x, apart.y), apart.z));
+}
+
 // ---------------------------------------------------------------- boxes
 
 void fit_boxes(const ElementCorners& elements, int first, int last, const PairParticles& particles, const Vec3f& drift,
@@ -321,18 +379,6 @@ float longest_squared(const ElementCorners& lines, int first, int last, const Re
   return largest_lane(longest);
 }
 
-/// The lanes whose bits are set.
-PLIANT_HD WideMask lanes_of(unsigned bits) {
-  constexpr std::int32_t bit_of_lane[wide_width] = {1,      1 << 1, 1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
-                                                    1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
-  PartMask bit;
-  std::memcpy(&bit, bit_of_lane, sizeof bit);
-  WideMask mask;
-  for (int part = 0; part < wide_parts; ++part)
-    mask.part[part] = ((PartMask{} + static_cast<std::int32_t>(bits >> (part * part_width))) & bit) != 0;
-  return mask;
-}
-
 float least_squared(const VertexComparison& of, float beyond) {
   float* const* row = of.rows.row;
   const BoxRows points{{row[0], row[1], row[2], row[0], row[1], row[2]}};
@@ -360,8 +406,8 @@ float least_squared(const VertexComparison& of, float beyond) {
 }  // namespace PLIANT_ISA
 
 const PairKernels& PLIANT_PAIR_KERNELS() {
-  static constexpr PairKernels kernels{measure_cluster, fit_boxes,     find_overlaps,  gather_places,
-                                       longest_squared, least_squared, least_distance, distances};
+  static constexpr PairKernels kernels{measure_cluster, fit_boxes,      find_overlaps, gather_places, longest_squared,
+                                       least_squared,   least_distance, distances,     paths};
   return kernels;
 }
 

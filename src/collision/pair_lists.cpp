@@ -32,45 +32,31 @@ BoxRows rows_of(std::vector<float> (&box)[6]) {
 
 }  // namespace
 
-PairStencil PairSystem::stencil(const Bucket& bucket, const Pair& pair) const {
-  if (bucket.of_vertices) {
-    const Triangle& t = model_.elements.triangles[pair.b];
-    return {{pair.a, t[0], t[1], t[2]}, 1};
+/// Of a vertex and a triangle, or of two edges.
+PairStencil PairSystem::stencil(bool of_vertices, std::int32_t a, std::int32_t b) const {
+  if (of_vertices) {
+    const Triangle& t = model_.elements.triangles[b];
+    return {{a, t[0], t[1], t[2]}, 1};
   }
-  const auto &e = model_.elements.edges[pair.a], &f = model_.elements.edges[pair.b];
+  const auto &e = model_.elements.edges[a], &f = model_.elements.edges[b];
   return {{e[0], e[1], f[0], f[1]}, 2};
 }
 
 /// How far clusters may move against each other before their pairs are listed anew [m].
 float PairSystem::skin() const { return skin_share * (model_.radius - model_.largest_thickness); }
 
-/// Whether the boxes of both sides' paths come within `distance`, as seen by one who drifts along.
-bool PairSystem::paths_within(const PairStencil& pair, const PairParticles& particles, float distance) const {
-  Vec3f low[2], high[2];
-  for (int i = 0; i < 4; ++i) {
-    const auto v = static_cast<std::size_t>(pair.vertex[i]);
-    const Vec3f from = end_of(particles, v, 0), to = end_of(particles, v) - mean_;
-    const int side = i < pair.first_side ? 0 : 1;
-    const bool begins = i == 0 || i == pair.first_side;
-    low[side] = begins ? min(from, to) : min(low[side], min(from, to));
-    high[side] = begins ? max(from, to) : max(high[side], max(from, to));
-  }
-  const Vec3f apart = max(low[0] - high[1], low[1] - high[0]);
-  return max(max(apart.x, apart.y), apart.z) <= distance;
-}
-
-/// By how much a pair's distance falls at most in this substep.
-float PairSystem::moves(const Between& clusters, const PairStencil& pair, const PairParticles& particles) const {
-  float of_side[2] = {0, 0};
-  for (int i = 0; i < 4; ++i) {
-    const int side = i < pair.first_side ? 0 : 1;
-    const auto v = static_cast<std::size_t>(pair.vertex[i]);
-    const ClusterMotion& motion = motions_[model_.vertex_cluster[pair.vertex[side == 0 ? 0 : pair.first_side]]];
-    const Vec3f move = move_of(particles, v) - motion.mean,
-                turn = cross(motion.spin, end_of(particles, v, 0) - motion.centre);
-    of_side[side] = max(of_side[side], length(move - turn) * bound_slack + 2e-6f * (length(move) + length(turn)) + 1e-12f);
-  }
-  return of_side[0] + of_side[1] + neighbours_[clusters.neighbours].apart;
+/// By how much the distances of sixteen pairs fall at most in this substep, and how far apart their paths are, as seen by one
+/// who drifts along.
+void PairSystem::find_paths(const Between& clusters, const PairStencils& pairs, const PairParticles& particles,
+                            PairPaths& out) const {
+  unsigned swapped = 0;
+  if (clusters.first != clusters.second)
+    for (int lane = 0; lane < 16; ++lane)
+      swapped |= (model_.vertex_cluster[pairs.vertex[0][lane]] != clusters.first ? 1U : 0U) << lane;
+  kernels_.paths(pairs, clusters.of_vertices ? 1 : 2, particles,
+                 {&motions_[clusters.first], &motions_[clusters.second], swapped, mean_}, out);
+  const float apart = neighbours_[clusters.neighbours].apart;
+  for (float& falls : out.falls) falls += apart;
 }
 
 /// Whether one side of a pair is lost in the body of the other.
@@ -138,6 +124,7 @@ bool PairSystem::is_clear(Bucket& bucket) const {
   if (!(room > least)) return false;
   bucket.listed_at = pair.moved;
   bucket.pairs.clear();
+  bucket.reach.clear();
   bucket.least_reach = out_of_reach;
   bucket.margin = room;
   return true;
@@ -205,6 +192,7 @@ void PairSystem::refresh(Bucket& bucket, Task& task, const PairParticles& partic
   const float care = care_of(bucket), search = skin() * bound_slack;
   bucket.listed_at = pair.moved;
   bucket.pairs.clear();
+  bucket.reach.clear();
   bucket.least_reach = out_of_reach;
   const bool is_fast = 1.1f * pair.moves > skin();
   bucket.margin = is_fast ? -1 : skin();
@@ -243,12 +231,13 @@ void PairSystem::add_pair(const Bucket& bucket, std::int32_t a, std::int32_t b, 
   const ContactElements& all = model_.elements;
   if (bucket.of_vertices) {
     const Triangle& t = all.triangles[b];
-    if (t[0] != a && t[1] != a && t[2] != a) task.found.push_back({a, b, 0, -1});
+    if (t[0] == a || t[1] == a || t[2] == a) return;
   } else {
     const auto &e = all.edges[a], &f = all.edges[b];
-    if (e[0] != f[0] && e[0] != f[1] && e[1] != f[0] && e[1] != f[1])
-      task.found.push_back({std::min(a, b), std::max(a, b), 0, -1});
+    if (e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1]) return;
+    if (b < a) std::swap(a, b);
   }
+  task.found.push_back({stencil(bucket.of_vertices, a, b).vertex, -1});
 }
 
 }  // namespace pliant

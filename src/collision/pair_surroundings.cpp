@@ -204,12 +204,10 @@ void PairSystem::fill_surroundings(bool of_vertices, const std::vector<std::arra
   };
   std::vector<Placed> placed;
   for (const Numbers& p : pairs) {
-    Bucket clusters{};
-    clusters.of_vertices = of_vertices;
     int first = of_vertices ? model_.vertex_cluster[p[0]] : model_.edge_cluster[p[0]],
         second = of_vertices ? model_.triangle_cluster[p[1]] : model_.edge_cluster[p[1]];
     if (!of_vertices && first > second) std::swap(first, second);
-    placed.push_back({first, second, stencil(clusters, {p[0], p[1], 0, 0})});
+    placed.push_back({first, second, stencil(of_vertices, p[0], p[1])});
   }
   std::stable_sort(placed.begin(), placed.end(), [](const Placed& x, const Placed& y) {
     return std::tie(x.first, x.second) < std::tie(y.first, y.second);

@@ -35,8 +35,8 @@ void PairSystem::collect_near(Bucket& bucket, Task& task, float within) const {
   const float gone = moved(bucket) + moves(bucket);
   if (bucket.least_reach - gone > within) return;
   bucket.least_reach = out_of_reach;
-  for (std::size_t i = 0; i < bucket.pairs.size(); ++i) {
-    const float reach = bucket.pairs[i].reach;
+  for (std::size_t i = 0; i < bucket.reach.size(); ++i) {
+    const float reach = bucket.reach[i];
     if (reach - gone <= within) {
       task.near.push_back(static_cast<std::int32_t>(i));
     } else {
@@ -45,37 +45,23 @@ void PairSystem::collect_near(Bucket& bucket, Task& task, float within) const {
   }
 }
 
-/// Distances of `which` of the pairs, sixteen at a time; visit(pair, stencil, batch, lane) each.
-template <class Visit>
-void PairSystem::measure(Bucket& bucket, std::vector<Pair>& pairs, const std::vector<std::int32_t>& which,
-                         const PairParticles& particles, Visit visit) {
-  PairStencils stencils;
-  PairStencil four[16];
-  PairBatch batch;
-  for (std::size_t i = 0; i < which.size(); i += 16) {
-    const int count = static_cast<int>(std::min<std::size_t>(16, which.size() - i));
-    for (int lane = 0; lane < 16; ++lane) {
-      four[lane] = lane < count ? stencil(bucket, pairs[which[i + lane]]) : four[0];
-      for (int k = 0; k < 4; ++k) stencils.vertex[k][lane] = four[lane].vertex[k];
-    }
-    kernels_.distances(stencils, bucket.of_vertices ? 1 : 2, particles.positions, batch);
-    for (int lane = 0; lane < count; ++lane) {
-      Pair& pair = pairs[which[i + lane]];
-      pair.reach = (batch.at_least[lane] + moved(bucket)) * sum_slack;
-      visit(pair, four[lane], batch, lane);
-    }
-  }
-}
-
 /// Measures task.found and keeps what is nearer than `within`.
 void PairSystem::keep_near(Bucket& bucket, float within, Task& task, const PairParticles& particles) {
-  task.near.resize(task.found.size());
-  for (std::size_t i = 0; i < task.near.size(); ++i) task.near[i] = static_cast<std::int32_t>(i);
-  measure(bucket, task.found, task.near, particles, [&](Pair& pair, const PairStencil&, const PairBatch&, int) {
-    if (pair.reach > within) return;
-    bucket.least_reach = min(bucket.least_reach, pair.reach);
-    bucket.pairs.push_back(pair);
-  });
+  PairStencils stencils;
+  PairBatch at;
+  const float gone = moved(bucket);
+  for (std::size_t i = 0; i < task.found.size(); i += 16) {
+    const std::size_t count = std::min<std::size_t>(16, task.found.size() - i);
+    for (std::size_t lane = 0; lane < 16; ++lane) put(stencils, lane, task.found[i + (lane < count ? lane : 0)].vertex);
+    kernels_.distances(stencils, bucket.of_vertices ? 1 : 2, particles.positions, at);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const float reach = (at.at_least[lane] + gone) * sum_slack;
+      if (reach > within) continue;
+      bucket.least_reach = min(bucket.least_reach, reach);
+      bucket.pairs.push_back(task.found[i + lane]);
+      bucket.reach.push_back(reach);
+    }
+  }
 }
 
 /// Whether any of the surroundings can be nearer than `within` at the substep's end. Then their reach counts from now: moves
@@ -90,30 +76,47 @@ bool PairSystem::begin_anew(Surroundings& of, float within) {
 
 // ---------------------------------------------------------------- contacts
 
+void PairSystem::measure(const Between& clusters, Batch& batch, const PairParticles& particles) const {
+  kernels_.distances(batch.stencils, clusters.of_vertices ? 1 : 2, particles.positions, batch.at);
+  find_paths(clusters, batch.stencils, particles, batch.paths);
+}
+
 /// A pair becomes a contact if its distance, less what it may fall by, is below what it keeps. `rest`: where to keep what its
 /// distance at rest allows.
-void PairSystem::detect_pair(const Between& clusters, const PairStencil& four, const PairBatch& at, int lane, float* rest,
-                             Task& task, const PairParticles& particles) {
-  PairMaterial kept = material(clusters);
-  const float distance = at.distance[lane] * (1 - 1e-5f);
-  if (!(at.distance[lane] > 0) || distance - moves(clusters) > kept.thickness || is_tangled(four)) return;
-  const float nearest = distance - moves(clusters, four, particles);
-  if (nearest > kept.thickness) return;
+void PairSystem::detect_pair(const Between& clusters, const Batch& batch, int lane, float* rest, Task& task,
+                             const PairParticles& particles) {
+  const PairMaterial& between = material(clusters);
+  const float distance = batch.at.distance[lane] * (1 - 1e-5f), nearest = distance - batch.paths.falls[lane];
+  if (!(batch.at.distance[lane] > 0) || distance - moves(clusters) > between.thickness || nearest > between.thickness)
+    return;
+  const PairStencil four = stencil_at(batch.stencils, lane, clusters.of_vertices);
+  if (is_tangled(four)) return;
   float of_rest = rest != nullptr ? *rest : -1;
   if (of_rest < 0) of_rest = static_cast<float>(share_of_rest * pair_distance(four, model_.rest.data()).distance);
   if (rest != nullptr) *rest = of_rest;
+  PairMaterial kept = between;
   kept.thickness = min(kept.thickness, of_rest);
-  if (nearest <= kept.thickness && paths_within(four, particles, kept.thickness))
-    add_contact(four, at, lane, kept, particles, task);
+  if (nearest <= kept.thickness && batch.paths.apart[lane] <= kept.thickness)
+    add_contact(four, batch.at, lane, kept, particles, task);
 }
 
 void PairSystem::detect_bucket(Bucket& bucket, Task& task, const PairParticles& particles) {
   collect_near(bucket, task, cull_slack * material(bucket).thickness);
-  measure(bucket, bucket.pairs, task.near, particles,
-          [&](Pair& pair, const PairStencil& four, const PairBatch& at, int lane) {
-            bucket.least_reach = min(bucket.least_reach, pair.reach);
-            detect_pair(bucket, four, at, lane, &pair.rest, task, particles);
-          });
+  const float gone = moved(bucket);
+  Batch batch;
+  for (std::size_t i = 0; i < task.near.size(); i += 16) {
+    const std::size_t count = std::min<std::size_t>(16, task.near.size() - i);
+    for (std::size_t lane = 0; lane < 16; ++lane)
+      put(batch.stencils, lane, bucket.pairs[task.near[i + (lane < count ? lane : 0)]].vertex);
+    measure(bucket, batch, particles);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const std::int32_t number = task.near[i + lane];
+      const float reach = (batch.at.at_least[lane] + gone) * sum_slack;
+      bucket.reach[number] = reach;
+      bucket.least_reach = min(bucket.least_reach, reach);
+      detect_pair(bucket, batch, static_cast<int>(lane), &bucket.pairs[number].rest, task, particles);
+    }
+  }
 }
 
 /// Whoever looks at surroundings at all looks at all that will be due in some substeps, so as not to come again in the next.
@@ -134,11 +137,11 @@ void PairSystem::detect_surroundings(Surroundings& of, Task& task, const PairPar
 }
 
 void PairSystem::detect_block(const Surroundings& of, int block, Task& task, const PairParticles& particles) {
-  PairBatch batch;
-  kernels_.distances(blocks_[block], of.of_vertices ? 1 : 2, particles.positions, batch);
+  Batch batch;
+  batch.stencils = blocks_[block];
+  measure(of, batch, particles);
   const int count = std::min(16, of.pairs - 16 * (block - of.first_block));
-  for (int lane = 0; lane < count; ++lane)
-    detect_pair(of, stencil_at(blocks_[block], lane, of.of_vertices), batch, lane, nullptr, task, particles);
+  for (int lane = 0; lane < count; ++lane) detect_pair(of, batch, lane, nullptr, task, particles);
 }
 
 void PairSystem::add_contact(const PairStencil& four, const PairBatch& at, int lane, const PairMaterial& material,
@@ -192,6 +195,7 @@ bool PairSystem::is_overrun(const PairParticles& particles) const {
 void PairSystem::respond(const Record* positions, Record* velocities, float slow,
                          FunctionRef<Vec3f(int body)> gravity) const {
   for (const PairContact& contact : contacts_) {
+    if (!(contact.push > 0)) continue;
     Vec3f missing{};
     for (int i = 0; i < 4; ++i)
       if (positions[contact.vertex[i]].w > 0) missing += gravity(model_.vertex_body[contact.vertex[i]]) * contact.weight[i];

@@ -100,9 +100,8 @@ class PairSystem {
  private:
   enum Kind { vertex_kind, edge_kind, triangle_kind };
   struct Pair {
-    std::int32_t a, b;  ///< vertex and triangle, or two edges, the lower one first
-    float reach;        ///< distance when it was last measured, plus what its bucket had moved until then [m]
-    float rest;         ///< what its distance at rest allows it to keep [m]; below 0: not measured
+    std::array<std::int32_t, 4> vertex;  ///< of a vertex and a triangle, or of two edges, that of the lower number first
+    float rest;                          ///< what its distance at rest allows it to keep [m]; below 0: not measured
   };
   /// Two clusters that are near one another, or one and itself.
   struct Neighbours {
@@ -127,6 +126,8 @@ class PairSystem {
   struct Bucket : Between {
     float margin = -1;  ///< [m]
     std::vector<Pair> pairs{};
+    std::vector<float>
+        reach{};  ///< of each, distance when it was last measured, plus what the bucket had moved until then [m]
   };
   /// Pairs that are near one another in the mesh, always the same, in sixteens.
   struct Surroundings : Between {
@@ -191,7 +192,7 @@ class PairSystem {
   void add_pair(const Bucket& bucket, std::int32_t a, std::int32_t b, Task& task) const;
   void keep_near(Bucket& bucket, float within, Task& task, const PairParticles& particles);
 
-  PairStencil stencil(const Bucket& bucket, const Pair& pair) const;
+  PairStencil stencil(bool of_vertices, std::int32_t a, std::int32_t b) const;
   const PairMaterial& material(const Between& clusters) const;
   bool is_tangled(const PairStencil& pair) const;
   float least_of(const Between& clusters) const;
@@ -199,14 +200,17 @@ class PairSystem {
   float skin() const;
   float moves(const Between& clusters) const { return neighbours_[clusters.neighbours].moves; }
   float moved(const Between& clusters) const { return neighbours_[clusters.neighbours].moved - clusters.listed_at; }
-  float moves(const Between& clusters, const PairStencil& pair, const PairParticles& particles) const;
-  bool paths_within(const PairStencil& pair, const PairParticles& particles, float distance) const;
+  void find_paths(const Between& clusters, const PairStencils& pairs, const PairParticles& particles, PairPaths& out) const;
   void collect_near(Bucket& bucket, Task& task, float within) const;
   bool begin_anew(Surroundings& of, float within);
-  template <class Visit>
-  void measure(Bucket& bucket, std::vector<Pair>& pairs, const std::vector<std::int32_t>& which,
-               const PairParticles& particles, Visit visit);
-  void detect_pair(const Between& clusters, const PairStencil& pair, const PairBatch& at, int lane, float* rest, Task& task,
+  /// Sixteen pairs that may become contacts.
+  struct Batch {
+    PairStencils stencils;
+    PairBatch at;
+    PairPaths paths;
+  };
+  void measure(const Between& clusters, Batch& batch, const PairParticles& particles) const;
+  void detect_pair(const Between& clusters, const Batch& batch, int lane, float* rest, Task& task,
                    const PairParticles& particles);
   static void add_contact(const PairStencil& four, const PairBatch& at, int lane, const PairMaterial& material,
                           const PairParticles& particles, Task& task);
@@ -215,7 +219,8 @@ class PairSystem {
   void detect_block(const Surroundings& of, int block, Task& task, const PairParticles& particles);
   void filter_bucket(Bucket& bucket, Task& task, const PairParticles& particles);
   void filter_surroundings(Surroundings& of, Task& task, const PairParticles& particles);
-  void filter_pair(const Between& clusters, const PairStencil& four, const PairParticles& particles, Task& task);
+  void filter_pair(const Between& clusters, const PairStencils& pairs, const PairPaths& paths, int lane,
+                   const PairParticles& particles, Task& task);
   bool shorten(const PairParticles& particles, bool stops);
   void count_hopeless();
   template <class Allow>
