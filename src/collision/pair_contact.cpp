@@ -97,6 +97,7 @@ float overlap_of(const PairContact& c, const Record* displacements) {
 void project_contact(PairContact& c, const Record* positions, const Record* remainders, Record* displacements) {
   const Vec3f moved = relative(c, displacements);
   const float depth = c.thickness - (c.gap + dot(c.normal, moved));
+  if (!(depth > 0) && !(c.push > 0)) return;
   Vec3f change{};
   if (depth > 0) {
     change = c.normal * depth;

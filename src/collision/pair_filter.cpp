@@ -156,9 +156,6 @@ void PairSystem::filter(Executor& executor, const PairParticles& particles) {
     measure_moves(executor, particles);
   }
   if (is_bounded_) settle_moves();
-  counts_.deepest = 0;
-  for (const PairContact& contact : contacts_)
-    counts_.deepest = std::max(counts_.deepest, static_cast<double>(overlap_of(contact, particles.displacements)));
 }
 
 // ---------------------------------------------------------------- tangles

@@ -109,6 +109,9 @@ struct PairKernels {
                     const BoxRows& out);
   /// Rows and columns that overlap, ascending. Returns how many there are; `hits` has room for all.
   int (*find_overlaps)(const BoxComparison& boxes, BoxHit* hits);
+  /// The numbers of the reaches that, less `gone`, are within `within`, ascending, to `near`, which has room for all; the least of
+  /// the others, or what it was, to `least`. Returns how many there are.
+  int (*collect)(const float* reach, int count, float gone, float within, std::int32_t* near, float& least);
   /// Vertices `first` to `last` - 1, both multiples of sixteen, to `out`.
   void (*gather_places)(const std::int32_t* vertices, int first, int last, const Record* positions, const PlaceRows& out);
   /// The longest of lines `first` to `last` - 1, both multiples of sixteen, squared.

@@ -359,6 +359,49 @@ int find_overlaps(const BoxComparison& of, BoxHit* hits) {
   return found;
 }
 
+// ---------------------------------------------------------------- reaches
+
+/// Bit i: whether lane i of the mask is set.
+PLIANT_HD unsigned bits_of(const WideMask& mask) {
+#if defined(__AVX512F__)
+  return _mm512_movepi32_mask((__m512i)mask.part[0]);
+#else
+  unsigned bits = 0;
+  for (int part = 0; part < wide_parts; ++part) {
+#if defined(__AVX2__)
+    bits |= static_cast<unsigned>(_mm256_movemask_ps((__m256)mask.part[part])) << (part * part_width);
+#elif defined(__SSE2__)
+    bits |= static_cast<unsigned>(_mm_movemask_ps((__m128)mask.part[part])) << (part * part_width);
+#else
+    for (int lane = 0; lane < part_width; ++lane)
+      bits |= static_cast<unsigned>(mask.part[part][lane] & 1) << (part * part_width + lane);
+#endif
+  }
+  return bits;
+#endif
+}
+
+int collect(const float* reach, int count, float gone, float within, std::int32_t* near, float& least) {
+  const Wide moved(gone), limit(within);
+  Wide others(least);
+  int found = 0;
+  for (int i = 0; i + 16 <= count; i += 16) {
+    const Wide at = load_wide(reach + i);
+    const WideMask is_near = at - moved <= limit;
+    others = min(select(is_near, others, at), others);
+    for (unsigned bits = bits_of(is_near); bits != 0; bits &= bits - 1) near[found++] = i + __builtin_ctz(bits);
+  }
+  least = least_lane(others);
+  for (int i = count - count % 16; i < count; ++i) {
+    if (reach[i] - gone <= within) {
+      near[found++] = i;
+    } else {
+      least = pliant::min(least, reach[i]);
+    }
+  }
+  return found;
+}
+
 // ---------------------------------------------------------------- vertices
 
 void gather_places(const std::int32_t* vertices, int first, int last, const Record* positions, const PlaceRows& out) {
@@ -406,8 +449,8 @@ float least_squared(const VertexComparison& of, float beyond) {
 }  // namespace PLIANT_ISA
 
 const PairKernels& PLIANT_PAIR_KERNELS() {
-  static constexpr PairKernels kernels{measure_cluster, fit_boxes,      find_overlaps, gather_places, longest_squared,
-                                       least_squared,   least_distance, distances,     paths};
+  static constexpr PairKernels kernels{measure_cluster, fit_boxes,     find_overlaps,  collect,   gather_places,
+                                       longest_squared, least_squared, least_distance, distances, paths};
   return kernels;
 }
 

@@ -35,14 +35,10 @@ void PairSystem::collect_near(Bucket& bucket, Task& task, float within) const {
   const float gone = moved(bucket) + moves(bucket);
   if (bucket.least_reach - gone > within) return;
   bucket.least_reach = out_of_reach;
-  for (std::size_t i = 0; i < bucket.reach.size(); ++i) {
-    const float reach = bucket.reach[i];
-    if (reach - gone <= within) {
-      task.near.push_back(static_cast<std::int32_t>(i));
-    } else {
-      bucket.least_reach = min(bucket.least_reach, reach);
-    }
-  }
+  task.near.resize(bucket.reach.size());
+  const int found = kernels_.collect(bucket.reach.data(), static_cast<int>(bucket.reach.size()), gone, within,
+                                     task.near.data(), bucket.least_reach);
+  task.near.resize(static_cast<std::size_t>(found));
 }
 
 /// Measures task.found and keeps what is nearer than `within`.
@@ -190,6 +186,12 @@ bool PairSystem::is_overrun(const PairParticles& particles) const {
   const auto is_driven_here = [&](const PairContact& contact) { return is_driven(contact, particles); };
   return std::any_of(contacts_.begin(), contacts_.end(), is_driven_here) &&
          std::any_of(contacts_.begin(), contacts_.end(), lacks);
+}
+
+void PairSystem::measure_overlaps(const PairParticles& particles) {
+  counts_.deepest = 0;
+  for (const PairContact& contact : contacts_)
+    counts_.deepest = std::max(counts_.deepest, static_cast<double>(overlap_of(contact, particles.displacements)));
 }
 
 void PairSystem::respond(const Record* positions, Record* velocities, float slow,

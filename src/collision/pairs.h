@@ -84,6 +84,8 @@ class PairSystem {
   bool is_overrun(const PairParticles& particles) const;
   /// Shortens displacements so that nothing crosses.
   void filter(Executor& executor, const PairParticles& particles);
+  /// After a frame's last substep: how much of their thickness contacts lack.
+  void measure_overlaps(const PairParticles& particles);
   /// After a substep. `gravity` is what velocities of a body's free particles lack: within a frame, that of the frame [m/s].
   /// Approaches no faster than `slow` are rest [m/s].
   void respond(const Record* positions, Record* velocities, float slow, FunctionRef<Vec3f(int body)> gravity) const;

@@ -186,13 +186,14 @@ PairParticles Frame::all_particles() const {
 
 void Frame::find_pairs() { work_.pairs->detect(executor_, all_particles()); }
 void Frame::sweep_pairs() { work_.pairs->project(all_particles()); }
-void Frame::filter_pairs() {
+void Frame::filter_pairs(bool ends_frame) {
   // What drives on can't be shortened: whatever it meets must be out of its way before moves are.
   for (int round = 0; round < most_rounds_of_contacts && work_.pairs->is_overrun(all_particles()); ++round) {
     sweep_pairs();
     sweep_contacts();
   }
   work_.pairs->filter(executor_, all_particles());
+  if (ends_frame) work_.pairs->measure_overlaps(all_particles());
 }
 void Frame::respond_to_pairs(bool ends_frame) {
   work_.pairs->respond(state_.positions.data(), state_.velocities.data(), 2 * length(model_.gravity) * h_,

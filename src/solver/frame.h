@@ -44,7 +44,7 @@ class Frame {
   void sweep_pairs();
   std::vector<PairContact>& pair_contacts() { return work_.pairs->contacts(); }
   PairParticles all_particles() const;
-  void filter_pairs();
+  void filter_pairs(bool ends_frame);
   void respond_to_pairs(bool ends_frame);
 
   /// Velocities and positions of every tile at the end of a substep, or of the frame.

@@ -68,7 +68,7 @@ void run(const StepContext& context, Frame& frame) {
     if (frame.give_up(substep - 1)) return;
     if (frame.has_pairs()) frame.find_pairs();
     frame.count_iterations(solve(context, frame, context.record_residuals && substep + 1 == context.substeps));
-    if (frame.has_pairs()) frame.filter_pairs();
+    if (frame.has_pairs()) frame.filter_pairs(substep + 1 == context.substeps);
   }
   frame.finish_tiles(true);
   if (frame.give_up(context.substeps - 1)) return;
