@@ -18,6 +18,7 @@ struct Overrides {
   std::string isa;                  ///< empty: the best there is
   bool sequential = false;          ///< the plain reference sweep
   std::vector<std::string> meshes;  ///< "name=path": files for the meshes of objects and colliders
+  std::string cache;                ///< folder where distance grids are kept; empty: nowhere
 };
 
 struct RunOptions {

@@ -33,6 +33,7 @@ void add_settings(CLI::App& app, Overrides& overrides) {
                  "a mesh file for the object or collider of that name; may be given more than once")
       ->type_name("NAME=FILE")
       ->allow_extra_args(false);
+  app.add_option("--cache", overrides.cache, "a folder where distance grids are kept from run to run")->type_name("FOLDER");
   app.add_option("--threads", overrides.threads, "threads; 0: as many as the machine has")
       ->type_name("N")
       ->check(range(0, most_threads));

@@ -59,6 +59,7 @@ Scene read_scene_with(const std::string& path, const Overrides& overrides, bool 
   if (overrides.iterations) settings.iterations = *overrides.iterations;
   if (!overrides.isa.empty()) settings.isa = overrides.isa;
   if (overrides.sequential) set_plain(scene);
+  if (!overrides.cache.empty()) use_cached_distances(scene, overrides.cache);
   return scene;
 }
 

@@ -67,6 +67,14 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::s
 /// The JSON Schema (2020-12) of the scene format, as text.
 std::string scene_schema();
 
+/// The distances of measure_distances, from `folder` if they are kept there, else measured and kept. The folder is made if need be; a
+/// file is known by the mesh and the spacing, and one that is damaged is made anew. Throws as measure_distances does, and Error with the
+/// path where the folder can't be made, read or written.
+std::shared_ptr<const DistanceField> cached_distances(const TriangleMesh& mesh, float spacing, const std::string& folder);
+
+/// Gives each of the scene's distance grids that has no field yet that of cached_distances.
+void use_cached_distances(Scene& scene, const std::string& folder);
+
 /// A file that is whole and in its place.
 struct WrittenFile {
   std::string path;

@@ -325,6 +325,18 @@ TEST_F(Command, AMeshForNobodyNamesThoseWhoHaveOne) {
   expect_refused("run small.json --mesh clot=a.obj", 1, "did you mean 'cloth'? the scene has meshes for 'cloth'");
 }
 
+TEST_F(Command, KeepsDistanceGridsWhereItIsTold) {
+  std::ofstream(folder_ / "grid.json") << R"({"frames": 2, "objects": [{"name": "sheet",
+      "cloth": {"mesh": {"grid": {"columns": 4, "rows": 4, "width": 1, "depth": 1}}}}],
+      "colliders": [{"name": "ball", "mesh": {"sphere": {"radius": 0.3, "subdivisions": 1}}, "as": "distance_grid", "grid_spacing": 0.1}]})";
+  const Result first = pliant("run grid.json --cache kept"), again = pliant("run grid.json --cache kept");
+  ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "kept"), fs::directory_iterator{}), 1);
+  const auto state = [](const Result& of) { return of.out.substr(of.out.find("state "), 70); };
+  EXPECT_EQ(state(first), state(again));
+  EXPECT_EQ(state(first), state(pliant("run grid.json")));
+}
+
 TEST_F(Command, CheckFindsNothingWrongInASoundScene) {
   const Result result = pliant("check small.json");
   EXPECT_EQ(result.status, 0) << result.err;
