@@ -32,7 +32,7 @@ std::vector<BroadPhaseRow> measure_broad_phases(const BroadPhaseOptions& options
 /// A continuous test's rate on one kind of query.
 struct ImpactRow {
   std::string test, queries;  ///< "vertex-triangle", "edge-edge"; what sort of motion
-  std::string precision;      ///< "float", "double", "sharp"
+  std::string precision;      ///< "float", "double", "undecided" (double without a second look)
   double million_per_second = 0;
   double hits = 0;  ///< share of the queries
 };

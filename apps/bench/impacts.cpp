@@ -4,7 +4,7 @@
 #include <random>
 
 #include "apps/bench/broadphase.h"
-#include "geometry/sharp_continuous.h"
+#include "geometry/continuous.h"
 
 namespace pliant::bench {
 
@@ -45,9 +45,10 @@ ImpactRow measure(const char* name, const char* precision, int count, double spe
           static_cast<double>(hits) / count};
 }
 
+constexpr int count = 300000;
+
 template <class R>
 void measure_both(const char* precision, double speed, std::vector<ImpactRow>& rows) {
-  constexpr int count = 300000;
   rows.push_back(measure<R>("vertex-triangle", precision, count, speed, [](const auto& from, const auto& to) {
     return vertex_triangle_impact(from, to, R(0.01f)).hit;
   }));
@@ -62,11 +63,11 @@ std::vector<ImpactRow> measure_impacts() {
   for (const double speed : {0.2, 2.0}) {
     measure_both<float>("float", speed, rows);
     measure_both<double>("double", speed, rows);
-    rows.push_back(measure<double>("vertex-triangle", "sharp", 20000, speed, [](const auto& from, const auto& to) {
-      return sharp_vertex_triangle_impact(from, to, 0.01).hit;
+    rows.push_back(measure<double>("vertex-triangle", "undecided", count, speed, [](const auto& from, const auto& to) {
+      return vertex_triangle_impact<double>(from, to, 0.01).hit;
     }));
-    rows.push_back(measure<double>("edge-edge", "sharp", 20000, speed, [](const auto& from, const auto& to) {
-      return sharp_edge_edge_impact(from, to, 0.01).hit;
+    rows.push_back(measure<double>("edge-edge", "undecided", count, speed, [](const auto& from, const auto& to) {
+      return edge_edge_impact<double>(from, to, 0.01).hit;
     }));
   }
   return rows;

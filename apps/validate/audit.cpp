@@ -1,11 +1,11 @@
-// Surfaces by IntersectionFinder; ropes by continuous tests in twice double's precision.
+// Surfaces by IntersectionFinder; ropes by continuous tests.
 #include "apps/validate/audit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
 
-#include "geometry/sharp_continuous.h"
+#include "geometry/continuous.h"
 #include "geometry/triangle.h"
 
 namespace pliant::validate {
@@ -87,7 +87,7 @@ class Links {
         Vec3d a[4], b[4];
         for (int c = 0; c < 4; ++c) a[c] = convert<double>(from_[ends[c]]), b[c] = convert<double>(to[ends[c]]);
         least_ = std::min(least_, std::sqrt(closest_on_segments<double>({b[0], b[1]}, {b[2], b[3]}).distance_squared));
-        met += overlap(paths_[i], paths_[k]) && sharp_edge_edge_impact(a, b, 0).hit ? 1 : 0;
+        met += overlap(paths_[i], paths_[k]) && edge_edge_impact(a, b, 0).hit ? 1 : 0;
       }
     from_ = std::move(to);
     return met;

@@ -2,7 +2,7 @@
 #include <ctime>
 
 #include "apps/validate/rows.h"
-#include "geometry/sharp_continuous.h"
+#include "geometry/continuous.h"
 #include "pliant/error.h"
 #include "tests/support/query_sets.h"
 
@@ -36,23 +36,24 @@ std::vector<CollisionQuery> repeated(const std::vector<CollisionQuery>& queries,
   return result;
 }
 
-/// `double` alone can't tell what touches from what passes by a hair: its false alarms are counted where `sharp` says that more
-/// than 1e-12 m lie between.
-template <class Plain, class Sharp>
-void add_rows(Result& result, const std::string& what, const std::vector<CollisionQuery>& queries, const Plain& plain,
-              const Sharp& sharp) {
+/// `undecided` is double precision alone, which can't tell what touches from what passes by a hair: its false alarms are counted
+/// where `decided` says that more than 1e-12 m lie between.
+template <class Undecided, class Decided>
+void add_rows(Result& result, const std::string& what, const std::vector<CollisionQuery>& queries,
+              const Undecided& undecided, const Decided& decided) {
   const std::string name = "collision: continuous, query sets, " + what;
   const std::string of = "of " + std::to_string(queries.size());
   const auto rate = [](const Answers& answers) { return "; " + brief(answers.per_second / 1e6) + " million a second"; };
-  const Answers in_double = ask(repeated(queries, 50), plain);
-  result.rows.push_back(at_most(name + ", double, missed", 0, in_double.missed, "", of + rate(in_double)));
+  const Answers answers = ask(queries, [&](const CollisionQuery& query) { return decided(query, 0.0); });
+  const Answers timed = ask(repeated(queries, 50), [&](const CollisionQuery& query) { return decided(query, 0.0); });
+  result.rows.push_back(at_most(name + ", missed", 0, answers.missed, "", of + rate(timed)));
+  result.rows.push_back(
+      at_most(name + ", false alarms", 0.01 * static_cast<double>(queries.size()), answers.false_alarms, "", "1 % " + of));
+  const Answers in_double = ask(repeated(queries, 50), undecided);
+  result.rows.push_back(at_most(name + ", undecided, missed", 0, in_double.missed, "", of + rate(in_double)));
   int far = 0;
-  for (const CollisionQuery& query : queries) far += plain(query) && !query.hits && !sharp(query, 1e-12) ? 1 : 0;
-  result.rows.push_back(at_most(name + ", double, false alarms beyond 1e-12 m", 0, far, "", of));
-  const Answers exact = ask(queries, [&](const CollisionQuery& query) { return sharp(query, 0.0); });
-  result.rows.push_back(at_most(name + ", sharp, missed", 0, exact.missed, "", of + rate(exact)));
-  result.rows.push_back(at_most(name + ", sharp, false alarms", 0.01 * static_cast<double>(queries.size()),
-                                exact.false_alarms, "", "1 % " + of));
+  for (const CollisionQuery& query : queries) far += undecided(query) && !query.hits && !decided(query, 1e-12) ? 1 : 0;
+  result.rows.push_back(at_most(name + ", undecided, false alarms beyond 1e-12 m", 0, far, "", of));
 }
 
 }  // namespace
@@ -68,11 +69,11 @@ void query_set_rows(Result& result, const std::string& folder) {
   }
   add_rows(
       result, "vertex and triangle", points,
-      [](const CollisionQuery& q) { return vertex_triangle_impact(q.from, q.to, 0.0).hit; },
-      [](const CollisionQuery& q, double within) { return sharp_vertex_triangle_impact(q.from, q.to, within).hit; });
+      [](const CollisionQuery& q) { return vertex_triangle_impact<double>(q.from, q.to, 0.0).hit; },
+      [](const CollisionQuery& q, double within) { return vertex_triangle_impact(q.from, q.to, within).hit; });
   add_rows(
-      result, "two edges", edges, [](const CollisionQuery& q) { return edge_edge_impact(q.from, q.to, 0.0).hit; },
-      [](const CollisionQuery& q, double within) { return sharp_edge_edge_impact(q.from, q.to, within).hit; });
+      result, "two edges", edges, [](const CollisionQuery& q) { return edge_edge_impact<double>(q.from, q.to, 0.0).hit; },
+      [](const CollisionQuery& q, double within) { return edge_edge_impact(q.from, q.to, within).hit; });
 }
 
 }  // namespace pliant::validate

@@ -185,18 +185,32 @@ PLIANT_HD bool boxes_apart(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], con
          apart_along<A>(from, to, least, [](const Vec3<R>& p) { return p.z; });
 }
 
-template <int A, class R>
-PLIANT_HD Impact<R> first_impact(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], const R& thickness) {
-  if (boxes_apart<A>(from, to, thickness)) return {};
-  // Relative to one corner: far from the origin differences are small and exact, products of coordinates are neither.
+/// The corners' motions relative to where the last one begins: far from the origin differences are small and exact,
+/// products of coordinates are neither.
+template <class R>
+struct Paths {
   Corners<R> start, motion;
+};
+
+template <class R>
+PLIANT_HD Paths<R> relative_paths(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4]) {
+  Paths<R> paths;
   for (int i = 0; i < 4; ++i) {
-    start.at[i] = from[i] - from[3];
-    motion.at[i] = (to[i] - from[3]) - start.at[i];
+    paths.start.at[i] = from[i] - from[3];
+    paths.motion.at[i] = (to[i] - from[3]) - paths.start.at[i];
   }
+  return paths;
+}
+
+/// `since`: until when they are known to be apart.
+template <int A, class R>
+PLIANT_HD Impact<R> first_impact(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], const R& thickness,
+                                 const R& since = R(0)) {
+  if (boxes_apart<A>(from, to, thickness)) return {};
+  const auto [start, motion] = relative_paths(from, to);
   const R rounding = R(32) * unit_roundoff(R(0)) * (extent(start, motion) + thickness);
   const R least = thickness + rounding;
-  R t = R(0), share = R(0);
+  R t = since, share = R(0);
   Slab<R> slab{};
   Vec3<R> normal{};
   for (int step = 0; step < most_advances; ++step) {
@@ -214,18 +228,23 @@ PLIANT_HD Impact<R> first_impact(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4
   return {true, t, normal, slab.gap, true};
 }
 
+template <class R>
+PLIANT_HD bool faces_front(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], const Impact<R>& impact) {
+  const Vec3<R> ab = (from[2] - from[1]) + ((to[2] - to[1]) - (from[2] - from[1])) * impact.time;
+  const Vec3<R> ac = (from[3] - from[1]) + ((to[3] - to[1]) - (from[3] - from[1])) * impact.time;
+  return !(dot(cross(ab, ac), impact.normal) < R(0));
+}
+
 }  // namespace detail
 
 /// When a vertex, (0) of the arrays, first comes within `thickness` (>= 0) [m] of a triangle, (1, 2, 3), as all move straight
 /// from `from` to `to`. Never misses a contact, nor finds it too late; finds one where the two pass each other at up to some
 /// 100 roundings of the motion's extent beyond the thickness, or turn by far more than a radian a thousandth of their size apart.
-/// R is float, double or DoubleDouble; coordinates finite and below 1e15.
+/// R is float, or another type of number that rounds; coordinates finite and below 1e15.
 template <class R>
 PLIANT_HD Impact<R> vertex_triangle_impact(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], const R& thickness) {
   Impact<R> impact = detail::first_impact<1>(from, to, thickness);
-  const Vec3<R> ab = (from[2] - from[1]) + ((to[2] - to[1]) - (from[2] - from[1])) * impact.time;
-  const Vec3<R> ac = (from[3] - from[1]) + ((to[3] - to[1]) - (from[3] - from[1])) * impact.time;
-  impact.front = !(dot(cross(ab, ac), impact.normal) < R(0));
+  impact.front = detail::faces_front(from, to, impact);
   return impact;
 }
 
@@ -234,5 +253,12 @@ template <class R>
 PLIANT_HD Impact<R> edge_edge_impact(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], const R& thickness) {
   return detail::first_impact<2>(from, to, thickness);
 }
+
+/// The same in double, and decided: what double precision takes for a contact and can't prove to be one is looked at
+/// again in twice the precision, so that what passes by at more than 1e-29 of the extent is no contact. For hosts.
+Impact<double> vertex_triangle_impact(const Vec3d (&from)[4], const Vec3d (&to)[4], double thickness);
+
+/// The same for the edges (0, 1) and (2, 3).
+Impact<double> edge_edge_impact(const Vec3d (&from)[4], const Vec3d (&to)[4], double thickness);
 
 }  // namespace pliant
