@@ -10,7 +10,8 @@ namespace pliant::validate {
 Scene folded_scene(int side);
 /// Ten square sheets of 0.72 m, each turned by 9 degrees against the one below, fall on a ball.
 Scene layered_scene(int side);
-/// A square sheet whose two ends turn against one another, two turns in eight seconds.
+/// A sheet four times as long as wide, 2 `side` by `side` / 2 vertices, whose two ends turn against one another, two turns in eight
+/// seconds, and come nearer by a tenth of its length, as a thing that does not stretch must.
 Scene twisted_scene(int side);
 /// A ball of triangles at 10 m/s, to and fro through where a square sheet hangs.
 Scene ball_scene(int side);

@@ -25,6 +25,22 @@ TEST(Audit, FindsNothingWhereTheEngineKeepsItsPromise) {
   }
 }
 
+// Ends that turn and do not come nearer would tear what lies between: its contacts would say nothing of cloth.
+TEST(Audit, TwistsWithoutTearing) {
+  Scene scene = twisted_scene(16);
+  scene.settings.measure = true;
+  World world(scene);
+  double longest = 0;
+  std::int64_t contacts = 0;
+  for (int frame = 0; frame < 480; ++frame) {
+    const Report report = world.step(scene.frame_time);
+    longest = std::max(longest, report.stretch->p99);
+    contacts += report.pairs.contacts;
+  }
+  EXPECT_LT(longest, 1.2);
+  EXPECT_GT(contacts, 1000);
+}
+
 TEST(Audit, SeesSurfacesThatPassThroughOneAnother) {
   Scene scene = layered_scene(6);
   for (Object& object : scene.objects) object.self_collision = object.collides = false;
