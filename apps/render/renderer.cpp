@@ -124,7 +124,7 @@ struct Renderer::Implementation {
   void draw_depth(const Eye& eye) const;
   void draw_occlusion(const Eye& eye, float reach) const;
   void draw_sky(const Eye& eye) const;
-  void draw_surfaces(const Eye& eye, const Sun& sun, const Bounds& content) const;
+  void draw_surfaces(const Eye& eye, const Sun& sun, const Bounds& content, float pixel) const;
   void draw_both_sides(const Range& range) const;
   std::vector<std::uint8_t> read_back() const;
 
@@ -263,7 +263,7 @@ void Renderer::Implementation::draw_sky(const Eye& eye) const {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, const Bounds& content) const {
+void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, const Bounds& content, float pixel) const {
   glBindVertexArray(array.get());
   glEnable(GL_DEPTH_TEST);
   glActiveTexture(GL_TEXTURE0);
@@ -290,7 +290,8 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   program.set("widest", 18.f);
   program.set("softness", sun.softness * shadow_size);
   program.set("spiral", spiral(16));
-  program.set("bias", 5 * size / shadow_size);
+  // Where a pixel's middle lies beside the triangle that is seen in it, its place is up to a pixel off the surface.
+  program.set("bias", std::max(5 * size / shadow_size, 2 * pixel));
   for (const Range& range : ranges) {
     program.set("albedo", range.colour);
     program.set("material", static_cast<int>(range.material));
@@ -358,7 +359,7 @@ std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scen
   glViewport(0, 0, width, height);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   draw_sky(eye);
-  draw_surfaces(eye, sun, content);
+  draw_surfaces(eye, sun, content, pixel);
   return read_back();
 }
 

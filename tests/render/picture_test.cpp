@@ -205,6 +205,26 @@ TEST_F(Picture, ShowsWhatLiesFlatOnTheGround) {
   EXPECT_GT(red, width * height / 20);
 }
 
+// A pixel whose middle lies beside the triangle that it shows is not where the shadow map thinks.
+TEST_F(Picture, OfAWavySheetInTheSunHasNoSpecks) {
+  RenderScene scene;
+  const TriangleMesh grid = grid_mesh(17, 17, 1, 1);
+  RenderMesh sheet{grid.positions, grid.triangles, {0.6f, 0.6f, 0.58f}, false};
+  for (Vec3f& p : sheet.positions) p.y = 0.3f + 0.04f * std::sin(7 * p.x + 2 * p.z) * std::sin(9 * p.z);
+  scene.meshes.push_back(sheet);
+  scene.camera = Camera{{1.2f, 1.4f, 3}, {0, 0.3f, 0}, 40};
+  const auto picture = renderer->draw(scene);
+  int specks = 0;
+  for (int y = 1; y + 1 < height; ++y) {
+    for (int x = 1; x + 1 < width; ++x) {
+      const int around = std::min({at(picture, x - 1, y).brightness(), at(picture, x + 1, y).brightness(),
+                                   at(picture, x, y - 1).brightness(), at(picture, x, y + 1).brightness()});
+      specks += at(picture, x, y).brightness() < around - 30;
+    }
+  }
+  EXPECT_LE(specks, 2);
+}
+
 TEST_F(Picture, OfAnEmptySceneIsSkyAndGround) {
   const auto picture = renderer->draw({});
   ASSERT_EQ(picture.size(), std::size_t{3} * width * height);
