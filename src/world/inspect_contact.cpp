@@ -74,7 +74,7 @@ void doubt_thickness(Problems& problems, const Object& object) {
   if (edge == 0)
     return problems.doubtful("", "has neither triangles nor links: its particles touch surfaces, but not one another",
                              "leave out self_collision");
-  if (kept > edge)
+  if (kept > edge && !object.triangles.empty())  // a rope may be: it bends no more sharply than it is thick
     problems.doubtful("thickness",
                       "is " + words(object.thickness) +
                           " m: two layers keep twice that apart, more than the median edge, " + words(edge) + " m",

@@ -135,7 +135,8 @@ void doubt_distances(const Doubts& d, const ConstraintGroup& group) {
                       "it will jump; check rest lengths and units");
   d.problems.doubtful(idle, "distance constraint", "is so compliant that its own weight stretches it tenfold",
                       "compliance is the inverse of stiffness, in m/N: 0 is rigid");
-  if (static_cast<double>(d.object.thickness) > shortest)
+  const double most = d.object.triangles.empty() ? 10 * shortest : shortest;  // short links make a thick rope bend smoothly
+  if (static_cast<double>(d.object.thickness) > most)
     d.problems.doubtful("thickness",
                         "is " + words(d.object.thickness) + " m, more than the shortest edge, " + words(shortest) + " m",
                         "it will hover: lengths are in metres");
