@@ -158,5 +158,29 @@ TEST(Clearance, OfAFlatSheetIsItsSpacing) {
   EXPECT_EQ(sheet.between(*all_kernels().front(), 0, 8, 0.02f, sheet.rest), 0.02f) << "far apart: as much as is wanted";
 }
 
+/// Where corners are all equally far, the bound is the distance itself: of a vertex above the middle of an equilateral triangle, and
+/// of edges that cross in their middles. The lengths of both pieces count, and which is asked about first does not matter.
+TEST(Clearance, IsTheDistanceWhereCornersAreEquallyFar) {
+  const float height = 0.003f, side = 0.02f, root = std::sqrt(3.f);
+  const std::vector<Record> rest{{0, height, 0, 1},
+                                 {side / root, 0, 0, 1},
+                                 {-side / root / 2, 0, side / 2, 1},
+                                 {-side / root / 2, 0, -side / 2, 1},
+                                 {5 - side / 2, 0, 0, 1},
+                                 {5 + side / 2, 0, 0, 1},
+                                 {5, height, -side / 2, 1},
+                                 {5, height, side / 2, 1}};
+  Clearance clearance({{{0}, {}}, {{1, 2, 3}, {{1, 2}, {2, 3}, {1, 3}}}, {{4, 5}, {{4, 5}}}, {{6, 7}, {{6, 7}}}}, rest, {});
+  std::vector<std::int32_t> scratch;
+  for (const PairKernels* kernels : all_kernels()) {
+    for (int piece = 0; piece < 4; ++piece) clearance.place(*kernels, piece, rest.data());
+    for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 0), std::pair(2, 3), std::pair(3, 2)}) {
+      const float found = clearance.between(*kernels, a, b, 0.1f, scratch);
+      EXPECT_LE(found, height * (1 + 1e-6f)) << a << ", " << b;
+      EXPECT_NEAR(found, height, 0.02 * double(height)) << a << ", " << b;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pliant

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -240,6 +241,34 @@ TEST(PairKernels, GiveALeastDistanceThatIsNoneOfSlivers) {
       const double found = double(kernels->least_distance(pairs, first_side, positions.data()));
       EXPECT_LE(found, least) << "flat " << flat;
       EXPECT_GT(found, least - 4e-4) << "flat " << flat;
+    }
+  }
+}
+
+/// Random edges come nowhere near the worst: edges that cross in their middles at so small an angle that floats, or least_distance on
+/// purpose, take them for parallel. Along (1, 1, 1) they are longest for their coordinates. The last two were found by climbing uphill.
+TEST(PairKernels, GiveALeastDistanceThatIsNoneOfEdgesThatCrossAtSmallAngles) {
+  std::vector<std::array<Record, 4>> all{{{{0.0520643033f, 0.0519618057f, 0.0519606583f, 1},
+                                           {-0.999916792f, -1.00050592f, -0.99964267f, 1},
+                                           {-0.999281824f, -1.00059807f, -0.999807179f, 1},
+                                           {0.101533897f, 0.102207147f, 0.102247775f, 1}}},
+                                         {{{1.00021136f, 0.999258578f, 0.999536335f, 1},
+                                           {-1.00201762f, -1.00074434f, -1.00164783f, 1},
+                                           {-0.999369562f, -0.999092877f, -1.00043845f, 1},
+                                           {0.999474764f, 0.999688983f, 1.00048161f, 1}}}};
+  for (int i = 1; i < 200; ++i) {
+    const float off = 1e-5f * static_cast<float>(i);
+    all.push_back({{{1, 1, 1, 1}, {-1, -1, -1, 1}, {1 + off, 1 - off, 1, 1}, {-1 - off, -1 + off, -1, 1}}});
+  }
+  for (const std::array<Record, 4>& four : all) {
+    PairStencils pairs;
+    for (int k = 0; k < 4; ++k) std::fill(pairs.vertex[k], pairs.vertex[k] + 16, k);
+    const double distance = pair_distance({{0, 1, 2, 3}, 2}, four.data()).distance;
+    for (const PairKernels* kernels : all_kernels()) {
+      PairBatch batch;
+      kernels->distances(pairs, 2, four.data(), batch);
+      EXPECT_LE(double(batch.at_least[0]), distance) << "by distances, " << four[2].x;
+      EXPECT_LE(double(kernels->least_distance(pairs, 2, four.data())), distance) << "by least_distance, " << four[2].x;
     }
   }
 }
