@@ -43,9 +43,11 @@ inline float PairSystem::least_of(const Between& clusters) const {
   return max(least_share * material(clusters).thickness, least_roundings * rounding * extent);
 }
 
-/// Nearer than this, pairs of a bucket are of interest, to contacts or to the filter.
+/// Nearer than this, pairs of a bucket are of interest, to contacts or to the filter, for as long as neither cluster has gone far
+/// (has_gone_far): to twice what its extent was when all was last looked at anew, wherever it is now.
 inline float PairSystem::care_of(const Between& clusters) const {
-  return max(cull_slack * material(clusters).thickness, 2 * least_of(clusters));
+  const float extent = max(extent_[clusters.first], extent_[clusters.second]);
+  return max(cull_slack * material(clusters).thickness, 2 * max(least_of(clusters), least_roundings * rounding * extent));
 }
 
 }  // namespace pliant

@@ -358,34 +358,58 @@ TEST(Pairs, AreNoMoreWhereAnythingElseIsFarAway) {
   EXPECT_EQ(candidates[0], candidates[1]);
 }
 
-/// What is kept apart grows with the roundings of positions: lists made near the origin do not do far from it.
+/// What is kept apart grows with the roundings of positions: lists made near the origin do not do far from it, wherever all began.
 TEST(Pairs, AreLookedForAnewFarFromWhereTheyWere) {
   std::vector<Body> bodies = bodies_of({"", 0, {}, {}, 2, 0, false, {}, 0.09});
-  for (Body& body : bodies) body.thickness = 5e-4f;
+  for (Body& body : bodies) {
+    body.thickness = 5e-4f;
+    body.meets_itself = false;
+  }
   const PairModel model = model_of(bodies, true);
   Executor executor(1);
-  std::vector<Record> positions = model.rest, remainders(positions.size()), displacements(positions.size());
-  const PairParticles particles{positions.data(), remainders.data(), displacements.data(), 1e-3f};
-  const auto step = [&](PairSystem& system) {
-    system.detect(executor, particles);
-    system.project(particles);
-    system.filter(executor, particles);
-    return system.counts().shortened;
-  };
-  PairSystem system(model);
-  system.begin_frame(positions.data(), true);
-  std::fill(displacements.begin(), displacements.end(), Record{5e4f, 0, 0, 0});
-  EXPECT_EQ(step(system), 0);
-  for (Record& x : positions) x.x += 5e4f;
-  // The upper comes closer; a tenth of a metre is what 32 roundings are here.
-  for (std::size_t i = 0; i < positions.size(); ++i) displacements[i] = {0, model.vertex_body[i] == 1 ? -0.03f : 0.f, 0, 0};
-  const std::vector<Record> predicted = displacements;
-  PairSystem fresh(model);
-  fresh.begin_frame(positions.data(), true);
-  const std::int64_t wanted = step(fresh);
-  EXPECT_GT(wanted, 0);
-  displacements = predicted;
-  EXPECT_EQ(step(system), wanted);
+  for (const bool returns : {false, true}) {
+    std::vector<Record> positions = model.rest, remainders(positions.size()), displacements(positions.size());
+    const PairParticles particles{positions.data(), remainders.data(), displacements.data(), 1e-3f};
+    const auto plan = [&](float along, float upper) {
+      for (std::size_t i = 0; i < positions.size(); ++i)
+        displacements[i] = {along, model.vertex_body[i] == 1 ? upper : 0.f, 0, 0};
+    };
+    const auto step = [&](PairSystem& system) {
+      system.detect(executor, particles);
+      system.project(particles);
+      system.filter(executor, particles);
+      return system.counts().shortened;
+    };
+    PairSystem system(model);
+    const auto go = [&](float along, float upper) {
+      plan(along, upper);
+      EXPECT_EQ(step(system), 0);
+      for (std::size_t i = 0; i < positions.size(); ++i) {
+        positions[i].x += displacements[i].x;
+        positions[i].y += displacements[i].y;
+      }
+    };
+    if (returns)
+      for (std::size_t i = 0; i < positions.size(); ++i) {
+        positions[i].x += 5e4f;
+        positions[i].y += model.vertex_body[i] == 1 ? 0.2f : 0.f;
+      }
+    system.begin_frame(positions.data(), true);
+    if (returns) {
+      go(-5e4f, 0);
+      for (int i = 0; i < 2; ++i) go(0, -0.1f);  // so that lists are made there
+    }
+    go(5e4f, 0);
+    // The upper comes closer; a tenth of a metre is what 32 roundings are here.
+    plan(0, -0.03f);
+    const std::vector<Record> predicted = displacements;
+    PairSystem fresh(model);
+    fresh.begin_frame(positions.data(), true);
+    const std::int64_t wanted = step(fresh);
+    EXPECT_GT(wanted, 0);
+    displacements = predicted;
+    EXPECT_EQ(step(system), wanted) << (returns ? "from afar and back" : "from the origin");
+  }
 }
 
 TEST(Pairs, OutliveWhatIsNotFinite) {
