@@ -59,5 +59,67 @@ TEST(Pairs, OfAVertexOfManyNeighboursAreFound) {
   EXPECT_EQ(std::count_if(system.contacts().begin(), system.contacts().end(), is_wanted), 1);
 }
 
+/// A sheet of 3 x 10 vertices, 2 cm apart, in two clusters of five rows each; lists last for a third of its thickness.
+PairModel strip() {
+  PairModel model;
+  std::vector<Triangle> triangles;
+  for (int v = 0; v < 30; ++v) {
+    model.rest.push_back({0.02f * static_cast<float>(v / 3), 0, 0.02f * static_cast<float>(v % 3), 1});
+    model.vertex_cluster.push_back(v / 15);
+    if (v % 3 == 2 || v >= 27) continue;
+    triangles.push_back({v, v + 1, v + 3});
+    triangles.push_back({v + 1, v + 4, v + 3});
+  }
+  model.bodies = 1;
+  model.clusters = 2;
+  model.vertex_body.assign(model.rest.size(), 0);
+  model.cluster_body = {0, 0};
+  model.meets = {1};
+  model.immovable = {0};
+  model.materials = {{0.012f, 0, 0, 0}};
+  model.largest_thickness = 0.012f;
+  model.radius = 0.014f;
+  model.filter = false;
+  model.elements = make_contact_elements(triangles, {}, {}, 30);
+  model.elements.body = model.vertex_body;
+  model.elements.bodies = 1;
+  model.elements.meets = model.meets;
+  for (const auto& edge : model.elements.edges) model.edge_cluster.push_back(model.vertex_cluster[edge[0]]);
+  for (const Triangle& t : triangles) model.triangle_cluster.push_back(model.vertex_cluster[t[0]]);
+  return model;
+}
+
+/// Half of it is folded over the other half by 0.4 degrees a substep: what is clear at first is so for some substeps, and no longer.
+TEST(Pairs, OfASheetThatFoldsAreFoundInTime) {
+  const PairModel model = strip();
+  std::vector<Record> positions = model.rest, remainders(positions.size()), displacements(positions.size());
+  const PairParticles particles{positions.data(), remainders.data(), displacements.data(), 1e-3f};
+  PairSystem system(model);
+  Executor executor(1);
+  system.begin_frame(positions.data(), true);
+  std::size_t most = 0;
+  for (int substep = 1; substep <= 425; ++substep) {
+    const double angle = substep * 0.4 * 3.141592653589793 / 180, c = std::cos(angle), s = std::sin(angle);
+    for (std::size_t i = 15; i < positions.size(); ++i) {
+      const double arm = double(model.rest[i].x) - 0.09;
+      displacements[i] = {float(0.09 + c * arm) - positions[i].x, float(s * arm) - positions[i].y, 0, 0};
+    }
+    PairSystem fresh(model);
+    fresh.begin_frame(positions.data(), true);
+    fresh.detect(executor, particles);
+    system.detect(executor, particles);
+    ASSERT_EQ(system.contacts().size(), fresh.contacts().size()) << "substep " << substep;
+    for (std::size_t i = 0; i < fresh.contacts().size(); ++i)
+      ASSERT_EQ(system.contacts()[i].vertex, fresh.contacts()[i].vertex) << "substep " << substep;
+    most = std::max(most, fresh.contacts().size());
+    system.filter(executor, particles);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      positions[i].x += displacements[i].x;
+      positions[i].y += displacements[i].y;
+    }
+  }
+  EXPECT_GT(most, 100u);
+}
+
 }  // namespace
 }  // namespace pliant
