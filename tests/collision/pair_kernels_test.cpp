@@ -246,7 +246,7 @@ TEST(PairKernels, GiveALeastDistanceThatIsNoneOfSlivers) {
 }
 
 /// Random edges come nowhere near the worst: edges that cross in their middles at so small an angle that floats, or least_distance on
-/// purpose, take them for parallel. Along (1, 1, 1) they are longest for their coordinates. The last two were found by climbing uphill.
+/// purpose, take them for parallel. Along (1, 1, 1) they are longest for their coordinates. The first two were found by climbing uphill.
 TEST(PairKernels, GiveALeastDistanceThatIsNoneOfEdgesThatCrossAtSmallAngles) {
   std::vector<std::array<Record, 4>> all{{{{0.0520643033f, 0.0519618057f, 0.0519606583f, 1},
                                            {-0.999916792f, -1.00050592f, -0.99964267f, 1},

@@ -64,7 +64,8 @@ PairModel strip() {
   PairModel model;
   std::vector<Triangle> triangles;
   for (int v = 0; v < 30; ++v) {
-    model.rest.push_back({0.02f * static_cast<float>(v / 3), 0, 0.02f * static_cast<float>(v % 3), 1});
+    const int row = v / 3, column = v % 3;
+    model.rest.push_back({0.02f * static_cast<float>(row), 0, 0.02f * static_cast<float>(column), 1});
     model.vertex_cluster.push_back(v / 15);
     if (v % 3 == 2 || v >= 27) continue;
     triangles.push_back({v, v + 1, v + 3});
