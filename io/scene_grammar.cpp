@@ -229,12 +229,14 @@ const Record& settings_record() {
            "A substep makes no more iterations once the root mean square error of its distance constraints is below this; "
            "0: always all of them."),
        field("threads", integer(0, 1024), Settings{}.threads, "0: as many as the machine has."),
-       field("sweep", choice(sweep_names()), "automatic",
-             "In what order constraints are visited (docs/convergence.md). `automatic` is `multigrid` for cloth and rope "
-             "of 32 particles or more, "
-             "and "
-             "`tiled` where there are volumes, stiff sheets, PBD stiffness or iterations. `sequential` is the slow, "
-             "readable reference with the bits of `tiled`."),
+       field(
+           "sweep", choice(sweep_names()), "automatic",
+           "In what order constraints are visited (docs/convergence.md). `automatic` is `multigrid` for cloth and rope "
+           "of 32 particles or more, "
+           "and "
+           "`tiled` where there are volumes, stiff sheets, PBD stiffness, iterations, or surfaces that can touch others or "
+           "themselves. `sequential` is the slow, "
+           "readable reference with the bits of `tiled`."),
        field("sweep_options", record(sweep_options_record()), "the defaults", "What a sweep can be told besides."),
        field("contact_filter", boolean(), Settings{}.contact_filter,
              "Shorten moves so that nothing that collides passes through anything else (docs/contact.md); without it "

@@ -307,7 +307,7 @@ struct Scene {
 /// The settings that a World of this scene runs by: its own, with what they leave open decided by what the scene holds.
 /// `Sweep::automatic` becomes `multigrid` for cloth and rope of 32 particles or more, and `tiled` where that would do harm or no
 /// good: an object with a volume, a sheet so stiff that its bending length (B / rho g)^(1/3) is more than a quarter of its size, PBD
-/// stiffness of bending or of all distances, more than one iteration. 0 substeps become 10 of `multigrid` and 20 of any
+/// stiffness of bending or of all distances, more than one iteration, surfaces that can touch others or themselves. 0 substeps become 10 of `multigrid` and 20 of any
 /// other (docs/convergence.md). `reason` is told what it is that decides, in words, where the sweep was left open.
 Settings chosen_settings(const Scene& scene, std::string* reason = nullptr);
 

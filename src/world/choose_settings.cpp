@@ -115,6 +115,18 @@ bool is_stiff_sheet(const Object& object, double gravity) {
   return !(rigidity / weight <= allowed * allowed * allowed);
 }
 
+/// Surfaces that meet others or themselves, by name; empty where none do.
+std::string meeting_surface(const Scene& scene) {
+  int colliding = 0;
+  for (const Object& object : scene.objects) {
+    if (object.self_collision) return object.name;
+    if (object.collides && ++colliding > 1) return object.name;
+  }
+  for (const MeshCollider& collider : scene.mesh_colliders)
+    if (collider.as == MeshCollider::As::triangles && !scene.objects.empty()) return collider.name;
+  return {};
+}
+
 struct Choice {
   Sweep sweep;
   std::string reason;
@@ -133,6 +145,8 @@ Choice choose(const Scene& scene) {
     largest = std::max(largest, std::min(object.positions.size(), springs + 1));  // a path has one particle more
   }
   if (largest < fewest_particles) return {Sweep::tiled, "nothing so fine that it needs more"};
+  if (const std::string meets = meeting_surface(scene); !meets.empty())
+    return {Sweep::tiled, "'" + meets + "', a surface that others or itself can touch"};
   return {Sweep::multigrid, "cloth or rope, the largest of " + std::to_string(largest) + " particles"};
 }
 

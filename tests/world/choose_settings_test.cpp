@@ -79,6 +79,32 @@ TEST(ChosenSettings, ArePlainForSheetsThatHoldThemselvesUp) {
   }
 }
 
+TEST(ChosenSettings, ArePlainWhereSurfacesMeet) {
+  Scene scene = sheet(20, 1);
+  scene.objects[0].name = "shirt";
+  scene.objects[0].collides = true;
+  expect_chosen(scene, Sweep::multigrid, 10, "particles");  // nobody else does
+  scene.objects[0].self_collision = true;
+  expect_chosen(scene, Sweep::tiled, 20, "'shirt', a surface that others or itself can touch");
+  scene.objects[0].self_collision = false;
+  Object other = scene.objects[0];
+  other.name = "trousers";
+  for (Vec3f& p : other.positions) p.y += 1;
+  scene.add(other);
+  expect_chosen(scene, Sweep::tiled, 20, "'trousers', a surface");
+  scene.objects[1].collides = false;
+  expect_chosen(scene, Sweep::multigrid, 10, "particles");
+  MeshCollider body;
+  body.name = "body";
+  body.mesh = sphere_mesh(2);
+  for (Vec3f& p : body.mesh.positions) p.y -= 3;
+  body.as = MeshCollider::As::distance_grid;
+  scene.add(body);
+  expect_chosen(scene, Sweep::multigrid, 10, "particles");
+  scene.mesh_colliders[0].as = MeshCollider::As::triangles;
+  expect_chosen(scene, Sweep::tiled, 20, "'body', a surface");
+}
+
 TEST(ChosenSettings, LeaveWhatIsNamed) {
   Scene scene = sheet(40, 1);
   for (const NamedSweep& one : sweeps()) {
