@@ -27,8 +27,9 @@ void require_closed(const std::vector<Triangle>& triangles, int vertices) {
   for (const Edge& edge : find_edges(triangles, vertices))
     if (edge.triangle_count != 2)
       throw Error(Location{.element = "edge " + std::to_string(edge.a) + "-" + std::to_string(edge.b)},
-                  "it has " + std::to_string(edge.triangle_count) + " triangles, so the mesh is not closed",
-                  "close it; signed distances need an inside");
+                  "it has " + std::to_string(edge.triangle_count) +
+                      (edge.triangle_count == 1 ? " triangle" : " triangles") + ", so the mesh is not closed",
+                  "close it, since signed distances need an inside, or let it be met as triangles, which need none");
 }
 
 namespace {

@@ -84,6 +84,29 @@ void doubt_thickness(Problems& problems, const Object& object) {
                       "give about a tenth of an edge");
 }
 
+template <class A, class B>
+bool masks_allow(const A& a, const B& b) {
+  return (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
+}
+
+/// What is said to collide and meets nobody would pass through everything in silence.
+void doubt_company(Problems& problems, const Object& object, const Scene& scene) {
+  if (!object.collides) return;
+  const auto is_met_by_object = [&](const Object& other) {
+    return &other != &object && other.collides && masks_allow(object, other);
+  };
+  const auto is_met_by_mesh = [&](const MeshCollider& mesh) {
+    return mesh.as == MeshCollider::As::triangles && masks_allow(object, mesh);
+  };
+  if (std::any_of(scene.objects.begin(), scene.objects.end(), is_met_by_object) ||
+      std::any_of(scene.mesh_colliders.begin(), scene.mesh_colliders.end(), is_met_by_mesh))
+    return;
+  problems.doubtful(
+      "collides", "is set, and no other object or mesh collider is met",
+      "let another collide too, and each one's mask have a group of the other's; planes, spheres, capsules and boxes are "
+      "met without it");
+}
+
 }  // namespace
 
 namespace {
@@ -161,6 +184,7 @@ void doubt_contact(Problems& problems, const Scene& scene) {
   for (const Object& object : scene.objects) {
     problems.at(object.name);
     doubt_thickness(problems, object);
+    doubt_company(problems, object, scene);
   }
   doubt_tangles(problems, scene);
   problems.at("");

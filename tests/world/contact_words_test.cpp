@@ -77,15 +77,17 @@ TEST(MeshColliders, ThatCannotBeAreRefusedByName) {
 TEST(Thickness, BeyondTheMedianEdgeIsDoubted) {
   Scene scene;
   scene.add(sheet("sheet", 0));
+  scene.objects[0].collides = false;
+  scene.objects[0].self_collision = true;
   EXPECT_EQ(words_of(scene), "");
   scene.objects[0].thickness = 0.15f;  // edges of 0.25 and 0.354
   EXPECT_TRUE(says(words_of(scene),
                    "object 'sheet', thickness: is 0.15 m: two layers keep twice that apart, more than the "
                    "median edge, 0.25 m"))
       << words_of(scene);
-  scene.objects[0].collides = false;
+  scene.objects[0].self_collision = false;
   EXPECT_FALSE(says(words_of(scene), "two layers")) << "nothing that moves is met";
-  scene.objects[0].collides = true;
+  scene.objects[0].self_collision = true;
   scene.objects[0].thickness = 0;
   EXPECT_TRUE(says(words_of(scene), "thickness: is 0:"));
 }
@@ -101,6 +103,39 @@ TEST(Thickness, OfRopesMayBeMoreThanTheirLinks) {
   EXPECT_EQ(words_of(scene), "");
   scene.objects[0].thickness = 1.1f;
   EXPECT_TRUE(says(words_of(scene), "thickness: is 1.1 m, more than the shortest edge, 0.1 m")) << words_of(scene);
+}
+
+/// Nothing is said where another object or a mesh collider is met.
+TEST(Company, WhatCollidesWithNobodyIsDoubted) {
+  Scene scene;
+  for (int i = 0; i < 2; ++i) {
+    ClothOptions options;
+    options.name = i == 0 ? "shirt" : "trousers";
+    Object cloth = make_cloth(grid_mesh(4, 4, 1, 1), options);
+    for (Vec3f& p : cloth.positions) p.y += static_cast<float>(i);
+    cloth.thickness = 0.01f;
+    scene.add(cloth);
+  }
+  const auto doubts = [&] {
+    int count = 0;
+    for (const Finding& found : inspect(scene))
+      count += found.message.find("no other object or mesh collider is met") != std::string::npos ? 1 : 0;
+    return count;
+  };
+  EXPECT_EQ(doubts(), 0) << "neither collides";
+  scene.objects[0].collides = true;
+  EXPECT_EQ(doubts(), 1);
+  scene.objects[1].collides = true;
+  EXPECT_EQ(doubts(), 0);
+  scene.objects[1].mask = 2;
+  EXPECT_EQ(doubts(), 2) << "masks keep them apart";
+  MeshCollider body;
+  body.mesh = sphere_mesh(1);
+  for (Vec3f& p : body.mesh.positions) p.y -= 5;
+  scene.add(body);
+  EXPECT_EQ(doubts(), 1) << "the mesh is in group 1";
+  scene.mesh_colliders[0].as = MeshCollider::As::distance_grid;
+  EXPECT_EQ(doubts(), 2) << "solids are met by particles, whether they collide or not";
 }
 
 TEST(Thickness, WhatHasNeitherTrianglesNorLinksCannotTouch) {
