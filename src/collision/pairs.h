@@ -90,6 +90,9 @@ class PairSystem {
   /// Approaches no faster than `slow` are rest [m/s].
   void respond(const Record* positions, Record* velocities, float slow, FunctionRef<Vec3f(int body)> gravity) const;
 
+  /// Whether something is drawn apart in this frame, so that contacts are to be found before constraints are projected.
+  bool untangles() const { return untangler_ && untangler_->calms(); }
+
   const PairCounts& counts() const { return counts_; }
   const std::vector<PairContact>& contacts() const { return contacts_; }
   std::vector<PairContact>& contacts() { return contacts_; }

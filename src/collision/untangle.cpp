@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "collision/pairs.h"
+#include "collision/triangles_around.h"
 #include "math/vector.h"
 
 namespace pliant {
@@ -41,6 +42,7 @@ Untangler::Untangler(const PairModel& model) : model_(model) {
     if (!model.immovable[static_cast<std::size_t>(body)] || !closed_surface(model, body, triangles, first, count)) continue;
     closed_.push_back({body, first, std::make_unique<MeshQuery>(places_of(model.rest.data(), first, count), triangles)});
   }
+  if (!closed_.empty()) around_ = triangles_around(model.elements);
 }
 
 void Untangler::begin_frame(const Record* positions, const std::vector<Intersection>& tangles) {
@@ -67,9 +69,13 @@ void Untangler::add(int vertex, int body, const Push& push) {
   int& lost = lost_in_[static_cast<std::size_t>(vertex)];
   if (lost >= 0) return;
   lost = body;
+  mark_drawn(vertex);
+  pushes_.push_back(push);
+}
+
+void Untangler::mark_drawn(int vertex) {
   if (drawn_.empty()) drawn_.assign(static_cast<std::size_t>(model_.bodies), 0);
   drawn_[static_cast<std::size_t>(model_.vertex_body[static_cast<std::size_t>(vertex)])] = 1;
-  pushes_.push_back(push);
 }
 
 // ---------------------------------------------------------------- inside closed bodies
@@ -133,21 +139,6 @@ float way_out(const MeshQuery& query, const Vec3f& from, const Vec3f& direction,
   return min(way, most);
 }
 
-/// The mean normal of the triangles that have a corner in a patch; zero where they face too many ways to speak of one.
-Vec3f mean_normal(const PairModel& model, const std::vector<int>& patch, const Record* positions) {
-  Vec3f sum{};
-  float all = 0;
-  for (const Triangle& t : model.elements.triangles) {
-    const auto is_in = [&](int corner) { return std::binary_search(patch.begin(), patch.end(), corner); };
-    if (!std::any_of(t.begin(), t.end(), is_in)) continue;
-    const Vec3f normal =
-        cross(place(positions[t[1]]) - place(positions[t[0]]), place(positions[t[2]]) - place(positions[t[0]]));
-    sum += normal;
-    all += length(normal);
-  }
-  return length(sum) > 0.8f * all ? unit_or(sum, Vec3f{}) : Vec3f{};
-}
-
 /// Along `normal`, or against it, whichever brings all out sooner, if that is not much farther than the closest points are; else zero.
 Vec3f common_way(const MeshQuery& query, const std::vector<Depth>& patch, const Vec3f& normal) {
   float deepest = 0, along = 0, against = 0;
@@ -163,11 +154,29 @@ Vec3f common_way(const MeshQuery& query, const std::vector<Depth>& patch, const 
 
 }  // namespace
 
+/// The mean normal of the triangles that have a corner in a patch; zero where they face too many ways to speak of one.
+Vec3f Untangler::mean_normal(const Patch& patch, const Record* positions) const {
+  std::vector<int> at_patch;
+  for (const int v : patch) at_patch.insert(at_patch.end(), around_.begin(v), around_.end(v));
+  std::sort(at_patch.begin(), at_patch.end());
+  at_patch.erase(std::unique(at_patch.begin(), at_patch.end()), at_patch.end());
+  Vec3f sum{};
+  float all = 0;
+  for (const int number : at_patch) {
+    const Triangle& t = model_.elements.triangles[static_cast<std::size_t>(number)];
+    const Vec3f normal =
+        cross(place(positions[t[1]]) - place(positions[t[0]]), place(positions[t[2]]) - place(positions[t[0]]));
+    sum += normal;
+    all += length(normal);
+  }
+  return length(sum) > 0.8f * all ? unit_or(sum, Vec3f{}) : Vec3f{};
+}
+
 void Untangler::lead_out(const Patch& patch, const Closed& closed, const Record* positions) {
   const MeshQuery& query = *closed.query;
   std::vector<Depth> depths;
   float across = 0, all = 0;
-  const Vec3f normal = mean_normal(model_, patch, positions);
+  const Vec3f normal = mean_normal(patch, positions);
   for (const int v : patch) {
     const Vec3f from = place(positions[v]);
     const SurfacePoint near = query.closest(from);
@@ -204,6 +213,9 @@ void Untangler::find_pieces(const Record* positions, const std::vector<Intersect
               b = model_.vertex_body[static_cast<std::size_t>(model_.elements.triangles[tangle.triangle][0])];
     // What a closed body cuts off is inside of it, or outside: that is told already, and not by which piece is smaller.
     if (!model_.immovable[static_cast<std::size_t>(a)] && !is_closed(b)) cuts[{a, b}].push_back(tangle);
+    // Its vertices may be out already: it is calmed until its edges are, too.
+    if (is_closed(b)) mark_drawn(tangle.a);
+    if (is_closed(a)) mark_drawn(model_.elements.triangles[tangle.triangle][0]);
   }
   for (const auto& [bodies, of_pair] : cuts) draw_back(positions, of_pair, bodies.first, bodies.second);
 }
@@ -273,7 +285,7 @@ void Untangler::draw_back(const Record* positions, const std::vector<Intersectio
 void Untangler::push(float distance, float h, Record* displacements, Record* remainders) {
   for (auto& [v, speed] : speeds_) {
     const Record &d = displacements[v], &r = remainders[v];
-    const bool is_lost = lost_in_[static_cast<std::size_t>(v)] >= 0;
+    const bool is_lost = !lost_in_.empty() && lost_in_[static_cast<std::size_t>(v)] >= 0;
     speed = is_lost ? 0 : length(Vec3f{d.x - r.x, d.y - r.y, d.z - r.z}) / h;
   }
   for (Push& push : pushes_) {

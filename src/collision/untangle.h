@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "collision/candidates.h"
 #include "collision/intersections.h"
 #include "collision/mesh_query.h"
 #include "model/substep.h"
@@ -30,6 +31,8 @@ class Untangler {
   void begin_frame(const Record* positions, const std::vector<Intersection>& tangles);
 
   bool is_busy() const { return !pushes_.empty(); }
+  /// Whether anything is kept from being faster than it may: what is drawn, and what a closed body that nothing pushes still cuts.
+  bool calms() const { return !speeds_.empty(); }
   /// Vertices inside closed bodies.
   std::int64_t inside() const { return inside_; }
   /// Whether a vertex is lost in a body: contact between the two is left out.
@@ -41,7 +44,7 @@ class Untangler {
   bool draws(int body, int out_of) const;
 
   /// In place of what was predicted, lost vertices go at most `distance` [m] towards where they belong. What they go counts as
-  /// done before the substep, so that it makes no speed.
+  /// done before the substep, so that it makes no speed. Due before anything else changes what is predicted.
   void push(float distance, float h, Record* displacements, Record* remainders);
 
   /// After a substep: nothing of a body that is being drawn is faster than `cap` [m/s] but what was so before it, and nothing that is lost.
@@ -68,15 +71,18 @@ class Untangler {
   float thickness_of(int vertex, int body) const;
   bool is_closed(int body) const;
   bool is_drawn(int body) const { return !drawn_.empty() && drawn_[static_cast<std::size_t>(body)] != 0; }
+  void mark_drawn(int vertex);
+  Vec3f mean_normal(const Patch& patch, const Record* positions) const;
   void find_pieces(const Record* positions, const std::vector<Intersection>& tangles);
   void draw_back(const Record* positions, const std::vector<Intersection>& cuts, int body, int through);
   void add(int vertex, int body, const Push& push);
 
   const PairModel& model_;
   std::vector<Closed> closed_;
+  IntLists around_;           ///< of each vertex the triangles at it, ascending; empty: no body is closed
   std::vector<int> lost_in_;  ///< of each vertex, -1: in none; empty: of all
   std::vector<Push> pushes_;
-  std::vector<char> drawn_;                    ///< bodies of which something is lost; empty: none
+  std::vector<char> drawn_;                    ///< bodies of which something is lost or cut by a closed body; empty: none
   std::vector<std::pair<int, float>> speeds_;  ///< of all vertices of bodies that are drawn, as predicted [m/s]
   std::int64_t inside_ = 0;
 };

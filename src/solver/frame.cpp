@@ -40,6 +40,7 @@ Frame::Frame(const StepContext& context, double dt, Report& report)
   if (!has_pairs()) return;
   work_.pairs->begin_frame(state_.positions.data(), work_.look_for_tangles);
   work_.look_for_tangles = false;
+  sweeps_on_entry_ = sweeps_on_entry_ && !work_.pairs->untangles();
 }
 
 // ---------------------------------------------------------------- views

@@ -8,6 +8,7 @@
 #include "collision/intersections.h"
 #include "math/vector.h"
 #include "pliant/error.h"
+#include "support/sweep_table.h"
 #include "world/surface_support.h"
 
 namespace pliant {
@@ -127,26 +128,40 @@ Scene sheet_in_a_ball(float height, Sweep sweep) {
   return scene;
 }
 
-/// What is drawn gains no speed while it is, unless a first sweep comes before what is drawn is known (tiled); what stretched links make
-/// of it afterwards is some metres a second at most.
-TEST(Untangle, ThrowsNothingAndEndsClearOfTheBall) {
-  for (const Sweep sweep : {Sweep::tiled, Sweep::multigrid}) {
-    for (const float height : {0.f, 0.02f}) {
-      SCOPED_TRACE(height);
-      const Scene scene = sheet_in_a_ball(height, sweep);
+/// The fastest of anything, while something passes through at a frame's start, and in all frames.
+struct Fastest {
+  float while_tangled = 0, ever = 0;
+};
+
+Fastest watch_speeds(World& world, int frames) {
+  Fastest fastest;
+  for (int frame = 0; frame < frames; ++frame) {
+    const PairReport pairs = world.step(dt).pairs;
+    for (int o = 0; o < world.object_count(); ++o)
+      for (const Vec3f& v : world.velocities(o)) fastest.ever = std::max(fastest.ever, length(v));
+    if (pairs.inside > 0 || pairs.tangled > 0) fastest.while_tangled = fastest.ever;
+  }
+  return fastest;
+}
+
+/// Whoever solves, what is drawn is no faster than it may be; what stretched links make of it afterwards is some metres a second at
+/// most. Relaxed by 1.3 this cloth flies apart by itself.
+TEST(Untangle, ThrowsNothingAndEndsClearByAnySweep) {
+  Scene scenes[] = {crossed(Intersections::untangle), sheet_in_a_ball(0, Sweep::tiled),
+                    sheet_in_a_ball(0.02f, Sweep::tiled)};
+  for (Scene& scene : scenes)
+    for (const SweepWay& way : sweep_ways()) {
+      if (way.name == "over_relaxed") continue;
+      SCOPED_TRACE(scene.objects[0].name + " by " + way.name);
+      scene.settings.sweep = way.sweep;
+      scene.settings.sweep_options = way.options;
       World world(scene);
       Watch watch(world, scene);
-      float fastest = 0, fastest_while_inside = 0;
-      for (int frame = 0; frame < 40; ++frame) {
-        const bool inside = world.step(dt).pairs.inside > 0;
-        for (const Vec3f& v : world.velocities(0)) fastest = std::max(fastest, length(v));
-        if (inside) fastest_while_inside = fastest;
-      }
+      const Fastest fastest = watch_speeds(world, 40);
       EXPECT_EQ(watch.crossings(world), 0U);
-      EXPECT_LT(fastest_while_inside, sweep == Sweep::multigrid ? 0.6f : 2.5f);
-      EXPECT_LT(fastest, 2.5f);
+      EXPECT_LE(fastest.while_tangled, 1.001f * scene.settings.untangling_speed);
+      EXPECT_LT(fastest.ever, 2.5f);
     }
-  }
 }
 
 TEST(Untangle, GoesOnInTheSameBitsFromAState) {
