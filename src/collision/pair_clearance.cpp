@@ -13,7 +13,9 @@ namespace {
 /// A squared distance of floats is rounded by less than this share of it.
 constexpr float squared_slack = 1e-5f;
 
-PlaceRows rows_of(std::vector<float> (&place)[3]) { return {{place[0].data(), place[1].data(), place[2].data()}}; }
+PlaceRows rows_of(std::array<std::vector<float>, 3>& place) {
+  return {{place[0].data(), place[1].data(), place[2].data()}};
+}
 
 template <class T>
 void fill_up(std::vector<T>& list) {
@@ -23,6 +25,7 @@ void fill_up(std::vector<T>& list) {
 /// The rank of each vertex along a curve.
 std::vector<int> ranks(const std::vector<Record>& rest) {
   std::vector<Vec3f> places;
+  places.reserve(rest.size());
   for (const Record& x : rest) places.push_back({x.x, x.y, x.z});
   std::vector<int> order, rank(places.size());
   MortonSorter().sort(places, order);
@@ -42,7 +45,7 @@ Clearance::Clearance(const std::vector<Piece>& pieces, const std::vector<Record>
     fill_up(piece.lines);
     vertex_.insert(vertex_.end(), piece.vertices.begin(), piece.vertices.end());
     for (const Line& line : piece.lines)
-      for (int end = 0; end < 2; ++end) line_[end].push_back(line[end]);
+      for (std::size_t end = 0; end < 2; ++end) line_[end].push_back(line[end]);
     start_.push_back(static_cast<int>(vertex_.size()));
     line_start_.push_back(static_cast<int>(line_[0].size()));
   }

@@ -43,10 +43,11 @@ class Clearance {
 
   // Piece by piece, along a curve and filled up to sixteens by repeating.
   std::vector<int> start_, line_start_;
-  std::vector<std::int32_t> vertex_, line_[2];
-  std::vector<float> place_[3];
-  std::vector<BoxBounds> batch_box_;  ///< of sixteen vertices
-  std::vector<float> longest_;        ///< of each piece's lines, squared [m^2]
+  std::vector<std::int32_t> vertex_;
+  std::array<std::vector<std::int32_t>, 2> line_;  ///< one end and the other
+  std::array<std::vector<float>, 3> place_;        ///< coordinate by coordinate [m]
+  std::vector<BoxBounds> batch_box_;               ///< of sixteen vertices
+  std::vector<float> longest_;                     ///< of each piece's lines, squared [m^2]
   // Of each place, that vertex itself and its neighbours.
   std::vector<std::int32_t> left_out_start_;
   std::vector<LeftOut> left_out_;
