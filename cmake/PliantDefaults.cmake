@@ -27,10 +27,23 @@ if(PLIANT_WARNINGS_AS_ERRORS)
   target_compile_options(pliant_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)
 endif()
 
-# pliant_folder(NAME [DEPENDS targets...]): the .cpp files of this folder as the library pliant_NAME, which may use only what
-# it names. A folder without .cpp files becomes an interface library.
+# pliant_include_root(TARGET SCOPE FOLDER PREFIX): files that link TARGET may include FOLDER's headers as "PREFIX/name.h", and
+# no other folder's: PREFIX is the only entry of a folder in the build tree that links to FOLDER. Linking a target is what makes
+# its headers visible, so an include that skips the layers does not compile.
+function(pliant_include_root target scope folder prefix)
+  string(REPLACE "/" "_" name ${prefix})
+  set(link ${PROJECT_BINARY_DIR}/roots/${name}/${prefix})
+  get_filename_component(parent ${link} DIRECTORY)
+  file(MAKE_DIRECTORY ${parent})
+  file(CREATE_LINK ${folder} ${link} SYMBOLIC)
+  target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/roots/${name}>)
+endfunction()
+
+# pliant_folder(NAME [DEPENDS targets...] [PREFIX path]): the .cpp files of this folder as the library pliant_NAME. It sees the
+# public headers, its own, and those of the targets that it names. A folder without .cpp files becomes an interface library.
+# PREFIX is what its headers are included by, NAME unless said.
 function(pliant_folder name)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "PREFIX" "DEPENDS;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   set(target pliant_${name})
   if(sources)
@@ -44,8 +57,11 @@ function(pliant_folder name)
   add_library(pliant::${name} ALIAS ${target})
   target_include_directories(${target} ${scope}
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
     $<INSTALL_INTERFACE:include>)
+  if(NOT ARG_PREFIX)
+    set(ARG_PREFIX ${name})
+  endif()
+  pliant_include_root(${target} ${scope} ${CMAKE_CURRENT_SOURCE_DIR} ${ARG_PREFIX})
   target_compile_features(${target} ${scope} cxx_std_20)
   target_link_libraries(${target} ${scope} ${ARG_DEPENDS})
   set_property(GLOBAL APPEND PROPERTY PLIANT_LIBRARIES ${target})

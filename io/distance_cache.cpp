@@ -5,11 +5,11 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/sha256.h"
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
 #include "pliant/error.h"
 #include "pliant/io.h"
-#include "world/sha256.h"
 
 namespace pliant {
 

@@ -5,8 +5,12 @@
 #include <cmath>
 #include <utility>
 
+#include "collision/solid_fields.h"
 #include "constraints/all.h"
+#include "core/sha256.h"
+#include "inspect/inspect_scene.h"
 #include "math/quat.h"
+#include "matter/advice_settings.h"
 #include "model/model.h"
 #include "parallel/executor.h"
 #include "pliant/error.h"
@@ -17,10 +21,6 @@
 #include "solver/sweeps/chains.h"
 #include "solver/sweeps/sweep.h"
 #include "world/advice.h"
-#include "world/advice_settings.h"
-#include "world/inspect_scene.h"
-#include "world/sha256.h"
-#include "world/solid_fields.h"
 
 namespace pliant {
 

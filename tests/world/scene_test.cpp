@@ -6,9 +6,9 @@
 #include <functional>
 #include <limits>
 
+#include "inspect/inspect_scene.h"
 #include "pliant/error.h"
 #include "pliant/scene.h"
-#include "world/inspect_scene.h"
 
 namespace pliant {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "matter/advice_settings.h"
 #include "world/advice.h"
-#include "world/advice_settings.h"
 
 namespace pliant {
 

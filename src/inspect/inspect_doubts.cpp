@@ -7,9 +7,9 @@
 #include "collision/collider_pose.h"
 #include "constraints/dihedral_bending.h"
 #include "geometry/shapes.h"
+#include "inspect/problems.h"
 #include "topology/boundary.h"
 #include "topology/edges.h"
-#include "world/problems.h"
 
 namespace pliant {
 

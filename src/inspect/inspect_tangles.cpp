@@ -7,9 +7,9 @@
 
 #include "collision/intersections.h"
 #include "collision/mesh_query.h"
+#include "inspect/problems.h"
+#include "matter/surfaces.h"
 #include "topology/boundary.h"
-#include "world/problems.h"
-#include "world/surfaces.h"
 
 namespace pliant {
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <utility>
 
+#include "matter/advice_settings.h"
 #include "support/scenes.h"
 #include "world/advice.h"
-#include "world/advice_settings.h"
 
 namespace pliant {
 namespace {

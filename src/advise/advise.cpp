@@ -12,8 +12,8 @@
 #include <limits>
 #include <utility>
 
+#include "matter/advice_settings.h"
 #include "world/advice.h"
-#include "world/advice_settings.h"
 
 namespace pliant {
 

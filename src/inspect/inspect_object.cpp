@@ -3,10 +3,10 @@
 #include <limits>
 #include <string>
 
+#include "inspect/problems.h"
 #include "pliant/error.h"
 #include "topology/boundary.h"
 #include "topology/edges.h"
-#include "world/problems.h"
 
 namespace pliant {
 

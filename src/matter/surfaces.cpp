@@ -1,4 +1,4 @@
-#include "world/surfaces.h"
+#include "matter/surfaces.h"
 
 #include <algorithm>
 

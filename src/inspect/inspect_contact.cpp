@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "collision/solid_fields.h"
+#include "inspect/problems.h"
 #include "pliant/error.h"
-#include "world/problems.h"
-#include "world/solid_fields.h"
 
 namespace pliant {
 

@@ -1,4 +1,4 @@
-#include "world/solid_fields.h"
+#include "collision/solid_fields.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "world/advice_settings.h"
+#include "matter/advice_settings.h"
 
 #include <algorithm>
 #include <utility>

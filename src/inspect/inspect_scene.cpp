@@ -1,5 +1,5 @@
 // The whole of a scene looked through: settings, air, colliders, and each object in turn.
-#include "world/inspect_scene.h"
+#include "inspect/inspect_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <string>
 #include <variant>
 
+#include "inspect/problems.h"
 #include "pliant/error.h"
 #include "solver/kernels.h"
-#include "world/problems.h"
 
 namespace pliant {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "math/vector.h"
+#include "matter/advice_settings.h"
 #include "pliant/scene.h"
-#include "world/advice_settings.h"
 
 namespace pliant {
 

@@ -1,5 +1,5 @@
 // SHA-256 against the examples of FIPS 180-4 and its own pieces.
-#include "world/sha256.h"
+#include "core/sha256.h"
 
 #include <gtest/gtest.h>
 

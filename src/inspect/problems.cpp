@@ -1,5 +1,5 @@
 // The list of findings, and the checks that objects and colliders share.
-#include "world/problems.h"
+#include "inspect/problems.h"
 
 #include <algorithm>
 #include <cmath>
