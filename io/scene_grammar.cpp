@@ -150,7 +150,7 @@ const Record& object_record() {
        field("thickness", number("m", 0, largest_place), "the material's; 0.005 for a rope, else 0.001",
              "Distance kept from colliders; two surfaces keep the sum of theirs."),
        field("self_collision", boolean(), Object{}.self_collision,
-             "Its surface, or its links where it has none, does not pass through itself (docs/contact.md)."),
+             "Its surface, or its links where it has none, does not pass through itself (docs/guide/contact.md)."),
        field("collides", boolean(), Object{}.collides,
              "Nor through other objects of which this holds. Mesh colliders are met in any case."),
        field(
@@ -193,7 +193,7 @@ std::vector<std::string> sweep_names() {
 const Record& sweep_options_record() {
   static const Record result{
       "sweep_options",
-      "What a sweep can be told besides; docs/convergence.md says what each is good for.",
+      "What a sweep can be told besides; docs/internals/convergence.md says what each is good for.",
       {field("relaxation", positive("-", 2), SweepOptions{}.relaxation,
              "Every correction is multiplied by it; below 2. Above 1 over-relaxes."),
        field("sharing", choice({"split", "average"}), "split",
@@ -231,7 +231,8 @@ const Record& settings_record() {
        field("threads", integer(0, 1024), Settings{}.threads, "0: as many as the machine has."),
        field(
            "sweep", choice(sweep_names()), "automatic",
-           "In what order constraints are visited (docs/convergence.md). `automatic` is `multigrid` for cloth and rope "
+           "In what order constraints are visited (docs/internals/convergence.md). `automatic` is `multigrid` for cloth "
+           "and rope "
            "of 32 particles or more, "
            "and "
            "`tiled` where there are volumes, stiff sheets, PBD stiffness, iterations, or surfaces that can touch others or "
@@ -239,11 +240,11 @@ const Record& settings_record() {
            "readable reference with the bits of `tiled`."),
        field("sweep_options", record(sweep_options_record()), "the defaults", "What a sweep can be told besides."),
        field("contact_filter", boolean(), Settings{}.contact_filter,
-             "Shorten moves so that nothing that collides passes through anything else (docs/contact.md); without it "
+             "Shorten moves so that nothing that collides passes through anything else (docs/guide/contact.md); without it "
              "contacts "
              "alone must do."),
        field("most_substeps", integer(1, 10000), Settings{}.most_substeps,
-             "Into how many substeps a frame may be divided where a mesh collider moves fast (docs/contact.md)."),
+             "Into how many substeps a frame may be divided where a mesh collider moves fast (docs/guide/contact.md)."),
        field("initial_intersections", choice({"leave", "untangle", "refuse"}), "leave",
              "What is done about surfaces that pass through one another at the start: nothing, drawing them apart, or "
              "refusing the scene."),

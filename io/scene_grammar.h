@@ -1,6 +1,6 @@
 // What a scene may say, as one table.
 //
-// Checking (scene_check), the JSON Schema and the reference in docs/scene-format.md (scene_schema) are all read off it, so
+// Checking (scene_check), the JSON Schema and the reference in docs/reference/scene-format.md (scene_schema) are all read off it, so
 // that a field is described in one place: name, type, unit, range, default and meaning. Defaults are written out from the
 // structures of the public headers, where they belong.
 #pragma once

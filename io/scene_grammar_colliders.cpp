@@ -96,7 +96,7 @@ const Record& collider_record() {
              "Of a mesh alone: start again after the last frame."),
        field("as", choice({"triangles", "distance_grid", "heightfield"}), "triangles",
              "Of a mesh alone: what stands for it. The latter two are cheap, solid, and met by particles alone "
-             "(docs/contact.md)."),
+             "(docs/guide/contact.md)."),
        field("grid_spacing", positive("m", largest_place), "a 48th of the longest side",
              "Of a distance grid alone: between its nodes."),
        field("groups", bits(), "[0]", "Of a mesh alone: what it belongs to, numbers from 0 to 31."),

@@ -5,7 +5,7 @@
 
 namespace pliant::scene_file {
 
-/// The reference of every record and field in Markdown; docs/scene-format.md holds it between two marks, and a test
+/// The reference of every record and field in Markdown; docs/reference/scene-format.md holds it between two marks, and a test
 /// compares.
 std::string scene_reference();
 

@@ -1,4 +1,4 @@
-// The draping cloth of docs/performance.md. What is larger than it is made of many of it, each with its ball: all do the same, and
+// The draping cloth of docs/internals/performance.md. What is larger than it is made of many of it, each with its ball: all do the same, and
 // what a particle costs should not depend on how many there are.
 #include "apps/bench/contact.h"
 

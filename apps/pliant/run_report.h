@@ -1,4 +1,4 @@
-// What a run has to say, collected frame by frame and written as JSON (docs/command.md lists the fields).
+// What a run has to say, collected frame by frame and written as JSON (docs/reference/command.md lists the fields).
 #pragma once
 
 #include <map>

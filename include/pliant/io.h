@@ -44,7 +44,7 @@ struct SceneFile {
   std::vector<std::string> repairs;
 };
 
-/// Reads a scene in strict JSON (docs/scene-format.md). Throws Error with file, line, column and JSON path. Mesh paths are
+/// Reads a scene in strict JSON (docs/reference/scene-format.md). Throws Error with file, line, column and JSON path. Mesh paths are
 /// relative to the scene's own folder and may not leave it, by links neither, unless `allow_outside`.
 SceneFile read_scene_file(const std::string& path, bool allow_outside = true);
 

@@ -33,7 +33,7 @@ struct ConstraintGroup {
 struct ConstraintType {
   std::string name;
   int stencil_size;                      ///< number of particles
-  std::vector<std::string> rest_fields;  ///< names of its rest data, with units in docs/constraints.md
+  std::vector<std::string> rest_fields;  ///< names of its rest data, with units in docs/reference/constraints.md
 };
 
 /// Every constraint type that a ConstraintGroup may name.
@@ -308,7 +308,7 @@ struct Scene {
 /// `Sweep::automatic` becomes `multigrid` for cloth and rope of 32 particles or more, and `tiled` where that would do harm or no
 /// good: an object with a volume, a sheet so stiff that its bending length (B / rho g)^(1/3) is more than a quarter of its size, PBD
 /// stiffness of bending or of all distances, more than one iteration, surfaces that can touch others or themselves. 0 substeps become 10 of `multigrid` and 20 of any
-/// other (docs/convergence.md). `reason` is told what it is that decides, in words, where the sweep was left open.
+/// other (docs/internals/convergence.md). `reason` is told what it is that decides, in words, where the sweep was left open.
 Settings chosen_settings(const Scene& scene, std::string* reason = nullptr);
 
 /// Checks everything that a World would refuse, and says what is doubtful besides.

@@ -3,7 +3,7 @@
 // Boxes hold each vertex's whole motion, grown by half the radius, and so do those of edges and triangles, which are the boxes of
 // their vertices together. Vertices are looked for in a hierarchy over the triangles, edges in one over the edges, in packets of
 // eight that lie together: one way down a tree for eight, then eight boxes at once. (Going by pairs of triangles and what each
-// of them owns was tried, is more code and was no faster: docs/broadphase.md.) Each packet's lists are written by one thread:
+// of them owns was tried, is more code and was no faster: docs/internals/broadphase.md.) Each packet's lists are written by one thread:
 // counts, then places, then the lists. Sorted, and the same on any number of threads.
 //
 // Memory grows with what is found and is kept: a frame that finds no more than an earlier one allocates nothing.

@@ -21,7 +21,7 @@ struct Intersection {
 };
 
 /// Finds intersections of one mesh over many frames without new memory. Two triangles that share no vertex intersect exactly
-/// if an edge of one meets the other; of two that share one, so do pairs about them (docs/broadphase.md).
+/// if an edge of one meets the other; of two that share one, so do pairs about them (docs/internals/broadphase.md).
 class IntersectionFinder {
  public:
   /// Throws Error where a triangle has a corner outside 0..vertex_count - 1.

@@ -3,7 +3,7 @@
 //
 // Straight paths that begin and end in a half-space stay there, so nothing crosses on the way either, and no root is
 // looked for. Shortening a move towards its start breaks no other pair's plane: what a vertex may do is the least of what
-// its pairs allow, in whatever order they are asked. ../../docs/contact.md has the whole argument.
+// its pairs allow, in whatever order they are asked. ../../docs/guide/contact.md has the whole argument.
 #pragma once
 
 #include "collision/pair_contact.h"

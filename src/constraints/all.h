@@ -1,5 +1,5 @@
 // Every constraint type that acts on a fixed stencil of particles. To add one: write its header, include it here and put it
-// in the list; pools, sweeps, files, tests and docs follow from the list (docs/architecture.md, "Adding a constraint").
+// in the list; pools, sweeps, files, tests and docs follow from the list (docs/internals/architecture.md, "Adding a constraint").
 #pragma once
 
 #include "constraints/dihedral_bending.h"

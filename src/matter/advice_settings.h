@@ -16,7 +16,7 @@ bool may_tether(const Scene& scene);
 /// kind first (see suggest): there may be time for one alone.
 std::vector<Sweep> better_sweeps(const Scene& scene);
 
-/// The scene's settings with the sweep, and tethers, that measured best on scenes of its kind (docs/convergence.md); its own
+/// The scene's settings with the sweep, and tethers, that measured best on scenes of its kind (docs/internals/convergence.md); its own
 /// where that is none but the default.
 Settings suggest(const Scene& scene);
 

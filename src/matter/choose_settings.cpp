@@ -1,5 +1,5 @@
 // Which sweep, and how many substeps, a scene is run with that leaves it open: what measured best at equal stretch
-// (docs/convergence.md, "The default, and what wins").
+// (docs/internals/convergence.md, "The default, and what wins").
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Fabrics as the textile trade measures them, in SI units. docs/materials.md holds the same table, with how to read it and
+// Fabrics as the textile trade measures them, in SI units. docs/guide/materials.md holds the same table, with how to read it and
 // how far to trust it; a test compares the two.
 //
 // The Kawabata evaluation system (KES-F) reports bending rigidity per width in gf cm^2/cm (1 = 9.81e-5 N m) and the

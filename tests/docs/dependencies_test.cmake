@@ -1,4 +1,4 @@
-# Run by ctest: docs/dependencies.md names every package of scripts/packages.txt.
+# Run by ctest: docs/internals/dependencies.md names every package of scripts/packages.txt.
 file(STRINGS ${PACKAGES} lines REGEX "^[a-z]")
 file(READ ${DOCUMENT} document)
 foreach(line ${lines})

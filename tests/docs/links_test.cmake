@@ -1,5 +1,5 @@
 # Run by ctest: every relative link of the documents, pictures included, names a file that is there.
-file(GLOB documents ${ROOT}/*.md ${ROOT}/docs/*.md)
+file(GLOB documents ${ROOT}/*.md ${ROOT}/docs/*.md ${ROOT}/docs/*/*.md)
 set(broken "")
 set(count 0)
 foreach(document ${documents})

@@ -301,7 +301,7 @@ TEST(SceneSchema, NamesEveryConstraintType) {
 
 class SceneDocument : public testing::Test {
  protected:
-  static constexpr const char* path = PLIANT_SOURCE_DIR "/docs/scene-format.md";
+  static constexpr const char* path = PLIANT_SOURCE_DIR "/docs/reference/scene-format.md";
   static constexpr const char* begin = "<!-- reference: begin -->\n";
   static constexpr const char* end = "<!-- reference: end -->\n";
 };
@@ -313,7 +313,7 @@ TEST_F(SceneDocument, HoldsTheReference) {
   const std::string reference = "\n" + scene_file::scene_reference();
   if (std::getenv("PLIANT_WRITE_DOCS") != nullptr) std::ofstream(path) << text.replace(from, to - from, reference);
   EXPECT_TRUE(test::text_of(path).find(begin + reference + end) != std::string::npos)
-      << "docs/scene-format.md is older than io/scene_grammar.cpp; run this test with PLIANT_WRITE_DOCS=1";
+      << "docs/reference/scene-format.md is older than io/scene_grammar.cpp; run this test with PLIANT_WRITE_DOCS=1";
 }
 
 TEST_F(SceneDocument, HasExamplesThatRead) {

@@ -1,4 +1,4 @@
-// The fabrics: their table in docs/materials.md says what the code says, and the numbers are physically possible.
+// The fabrics: their table in docs/guide/materials.md says what the code says, and the numbers are physically possible.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -20,7 +20,7 @@ std::string table_row(const Fabric& f) {
   return text;
 }
 
-/// What docs/materials.md must hold; printed where it does not, to be copied.
+/// What docs/guide/materials.md must hold; printed where it does not, to be copied.
 std::string table() {
   std::string rows =
       "| name | kg/m^2 | thickness, mm | Y, N/m | B, N m | damping | static friction | kinetic friction |\n"
@@ -30,14 +30,14 @@ std::string table() {
 }
 
 TEST(Fabrics, DocumentedTableIsTheTruth) {
-  std::ifstream file(PLIANT_SOURCE_DIR "/docs/materials.md");
-  ASSERT_TRUE(file) << "docs/materials.md is missing";
+  std::ifstream file(PLIANT_SOURCE_DIR "/docs/guide/materials.md");
+  ASSERT_TRUE(file) << "docs/guide/materials.md is missing";
   std::stringstream text;
   text << file.rdbuf();
-  EXPECT_NE(text.str().find(table()), std::string::npos) << "docs/materials.md should hold\n" << table();
+  EXPECT_NE(text.str().find(table()), std::string::npos) << "docs/guide/materials.md should hold\n" << table();
   for (const Fabric& f : fabrics()) {
     const std::string line = "- **" + f.name + "**: " + f.source + "\n";
-    EXPECT_NE(text.str().find(line), std::string::npos) << "docs/materials.md should hold\n" << line;
+    EXPECT_NE(text.str().find(line), std::string::npos) << "docs/guide/materials.md should hold\n" << line;
   }
 }
 

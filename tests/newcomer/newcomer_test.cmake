@@ -22,7 +22,7 @@ function(extract language file)
   file(WRITE ${file} "${text}")
 endfunction()
 
-file(READ ${SOURCE}/docs/architecture.md page)
+file(READ ${SOURCE}/docs/internals/architecture.md page)
 string(FIND "${page}" "### Adding a constraint" begin)
 string(SUBSTRING "${page}" ${begin} -1 section)
 
