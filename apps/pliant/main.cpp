@@ -54,7 +54,7 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
       ->check(range(0, most));
   app.add_option("--isa", overrides.isa, "code path; the same bits at another speed")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"x86-64-v2", "x86-64-v3", "x86-64-v4"}));
+      ->check(CLI::IsMember({"x86-64-v2", "x86-64-v3", "x86-64-v4", "generic"}));
   app.add_flag("--sequential", overrides.sequential, "in plain code; the same bits, slowly")->excludes("--sweep");
 }
 

@@ -278,7 +278,7 @@ struct Settings {
   bool measure = false;  ///< fill Report::residuals, stretch and overstretch each frame (costs about one more iteration)
   bool record_residuals = false;    ///< fill Report::convergence (slow: every iteration of the last substep is measured)
   bool record_multipliers = false;  ///< keep multipliers readable even where not needed (one iteration, or rigid)
-  std::string isa;  ///< "", or "x86-64-v2", "-v3", "-v4", "sequential" to force a code path (same bits, other speed)
+  std::string isa;  ///< "", or "x86-64-v2", "-v3", "-v4", "generic", "sequential" to force a code path (same bits, other speed)
 };
 
 /// Everything that a World is made from.

@@ -165,7 +165,7 @@ class World {
   int object_count() const;
   ObjectInfo info(int object) const;
   const Settings& settings() const;
-  std::string isa() const;  ///< the code path in use: "x86-64-v2", "-v3" or "-v4"
+  std::string isa() const;  ///< the code path in use: "x86-64-v2", "-v3", "-v4" or "generic"
   int threads() const;
 
   /// In the object's own numbering.

@@ -16,8 +16,8 @@ constexpr float travel_over_radius = 2;
 
 }  // namespace
 
-PairSystem::PairSystem(const PairModel& model, std::string_view isa)
-    : model_(model), kernels_(pair_kernels(isa)), intersections_(model.elements.triangles, model.elements.vertex_count) {
+PairSystem::PairSystem(const PairModel& model, const PairKernels& kernels)
+    : model_(model), kernels_(kernels), intersections_(model.elements.triangles, model.elements.vertex_count) {
   lay_out_elements(vertex_kind, 1);
   lay_out_elements(edge_kind, 2);
   lay_out_elements(triangle_kind, 3);

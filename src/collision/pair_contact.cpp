@@ -64,13 +64,7 @@ void pair_distances(const PairStencil* pairs, int count, const Record* positions
   PairStencils batch;
   for (int lane = 0; lane < 16; ++lane)
     for (int i = 0; i < 4; ++i) batch.vertex[i][lane] = pairs[lane < count ? lane : 0].vertex[i];
-  pair_kernels_v2().distances(batch, pairs[0].first_side, positions, out);
-}
-
-const PairKernels& pair_kernels(std::string_view isa) {
-  if (isa == "x86-64-v4") return pair_kernels_v4();
-  if (isa == "x86-64-v3") return pair_kernels_v3();
-  return pair_kernels_v2();
+  pair_kernels_generic().distances(batch, pairs[0].first_side, positions, out);
 }
 
 PairContact make_contact(const PairStencil& pair, const PairBatch& at, int lane, const PairMaterial& material, float h) {

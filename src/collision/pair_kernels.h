@@ -1,11 +1,11 @@
-// The inner loops of PairSystem, in sixteen lanes: compiled once for each level of x86 (pair_lanes.cpp), the same bits from
+// The inner loops of PairSystem, in sixteen lanes: compiled once for each instruction set (pair_lanes.cpp), the same bits from
 // each. Everything around them is written once and is compiled once.
 #pragma once
 
 #include <cstdint>
-#include <string_view>
 
 #include "collision/pair_contact.h"
+#include "math/levels.h"
 
 namespace pliant {
 
@@ -125,12 +125,7 @@ struct PairKernels {
                 PairPaths& out);
 };
 
-const PairKernels& pair_kernels_v2();
-const PairKernels& pair_kernels_v3();
-const PairKernels& pair_kernels_v4();
-
-/// Those of a code path by its name, "x86-64-v2" for any that is unknown. The machine must have it.
-const PairKernels& pair_kernels(std::string_view isa);
+PLIANT_DECLARE_LEVELS(PairKernels, pair_kernels)
 
 /// What is allowed for the rounding of bounds of distances.
 inline constexpr float bound_slack = 1.0001f;

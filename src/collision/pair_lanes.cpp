@@ -308,7 +308,7 @@ void fit_boxes(const ElementCorners& elements, int first, int last, const PairPa
 
 /// Bit i: whether box i of sixteen overlaps.
 PLIANT_HD unsigned overlaps(const float* box, const BoxRows& boxes, int at) {
-#if defined(__AVX512F__)
+#if PLIANT_X86_BITS == 512
   const auto from = [&](int row) { return _mm512_loadu_ps(boxes.row[row] + at); };
   __mmask16 bits = _mm512_cmp_ps_mask(from(0), _mm512_set1_ps(box[3]), _CMP_LE_OQ);
   bits = _mm512_mask_cmp_ps_mask(bits, from(1), _mm512_set1_ps(box[4]), _CMP_LE_OQ);
@@ -326,9 +326,9 @@ PLIANT_HD unsigned overlaps(const float* box, const BoxRows& boxes, int at) {
     };
     const PartMask inside = (from(0) <= Part{} + box[3]) & (from(1) <= Part{} + box[4]) & (from(2) <= Part{} + box[5]) &
                             (from(3) >= Part{} + box[0]) & (from(4) >= Part{} + box[1]) & (from(5) >= Part{} + box[2]);
-#if defined(__AVX2__)
+#if PLIANT_X86_BITS == 256
     bits |= static_cast<unsigned>(_mm256_movemask_ps((__m256)inside)) << (part * part_width);
-#elif defined(__SSE2__)
+#elif PLIANT_X86_BITS == 128
     bits |= static_cast<unsigned>(_mm_movemask_ps((__m128)inside)) << (part * part_width);
 #else
     for (int lane = 0; lane < part_width; ++lane)
@@ -363,14 +363,14 @@ int find_overlaps(const BoxComparison& of, BoxHit* hits) {
 
 /// Bit i: whether lane i of the mask is set.
 PLIANT_HD unsigned bits_of(const WideMask& mask) {
-#if defined(__AVX512F__)
+#if PLIANT_X86_BITS == 512
   return _mm512_movepi32_mask((__m512i)mask.part[0]);
 #else
   unsigned bits = 0;
   for (int part = 0; part < wide_parts; ++part) {
-#if defined(__AVX2__)
+#if PLIANT_X86_BITS == 256
     bits |= static_cast<unsigned>(_mm256_movemask_ps((__m256)mask.part[part])) << (part * part_width);
-#elif defined(__SSE2__)
+#elif PLIANT_X86_BITS == 128
     bits |= static_cast<unsigned>(_mm_movemask_ps((__m128)mask.part[part])) << (part * part_width);
 #else
     for (int lane = 0; lane < part_width; ++lane)
@@ -448,7 +448,7 @@ float least_squared(const VertexComparison& of, float beyond) {
 }  // namespace
 }  // namespace PLIANT_ISA
 
-const PairKernels& PLIANT_PAIR_KERNELS() {
+const PairKernels& PLIANT_OF_LEVEL(pair_kernels)() {
   static constexpr PairKernels kernels{measure_cluster, fit_boxes,     find_overlaps,  collect,   gather_places,
                                        longest_squared, least_squared, least_distance, distances, paths};
   return kernels;

@@ -19,7 +19,6 @@
 
 #include <map>
 #include <memory>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -69,8 +68,8 @@ struct PairCounts {
 
 class PairSystem {
  public:
-  /// `isa` is a code path that this machine has ("x86-64-v3"); all give the same bits.
-  explicit PairSystem(const PairModel& model, std::string_view isa = {});
+  /// `kernels` are those of an instruction set that this machine has; all give the same bits.
+  explicit PairSystem(const PairModel& model, const PairKernels& kernels = pair_kernels_generic());
 
   /// At a frame's start: forgets counts, and finds out which tangled pairs are apart by now. `anew` looks at all pairs: due at
   /// the first frame and after a State was put back.

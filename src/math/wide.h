@@ -6,7 +6,8 @@
 // bits that a plain float would: that is what the tests of "wide equals scalar" hold.
 //
 // Everything lives in an inline namespace named after the instruction set that this unit is compiled for: the sweeps are
-// built three times into one program, and nothing of one build may be linked into another.
+// built once for each level (math/levels.h) into one program, and nothing of one build may be linked into another. The generic
+// level has parts of 16 bytes in the compiler's own vector types and no instruction by name; it compiles on any CPU.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +17,27 @@
 #include "pliant/vec3.h"
 #include "pliant/world.h"
 
-#if defined(__SSE2__)
-#include <immintrin.h>
-#endif
-
-#if defined(__AVX512F__)
+// PLIANT_X86_BITS: the widest registers of x86 that this unit may name, or 0.
+#if defined(PLIANT_LEVEL_IS_generic) || !defined(__x86_64__)
+#define PLIANT_ISA isa_generic
+#define PLIANT_PART_WIDTH 4
+#define PLIANT_X86_BITS 0
+#elif defined(__AVX512F__)
 #define PLIANT_ISA isa_v4
 #define PLIANT_PART_WIDTH 16
+#define PLIANT_X86_BITS 512
 #elif defined(__AVX2__)
 #define PLIANT_ISA isa_v3
 #define PLIANT_PART_WIDTH 8
+#define PLIANT_X86_BITS 256
 #else
 #define PLIANT_ISA isa_v2
 #define PLIANT_PART_WIDTH 4
+#define PLIANT_X86_BITS 128
+#endif
+
+#if PLIANT_X86_BITS > 0
+#include <immintrin.h>
 #endif
 
 namespace pliant {
@@ -140,22 +149,22 @@ PLIANT_HD Wide select(const WideMask& mask, const Wide& a, const Wide& b) {
 }
 /// a < b ? a : b, which is what the machine's own minimum does, down to zeros and NaN; g++ makes two instructions of the question.
 PLIANT_HD Part min_part(const Part& a, const Part& b) {
-#if defined(__AVX512F__)
+#if PLIANT_X86_BITS == 512
   return (Part)_mm512_maskz_min_ps(0xffff, (__m512)a, (__m512)b);  // the plain form makes g++ 12 warn of its own header
-#elif defined(__AVX2__)
+#elif PLIANT_X86_BITS == 256
   return (Part)_mm256_min_ps((__m256)a, (__m256)b);
-#elif defined(__SSE2__)
+#elif PLIANT_X86_BITS == 128
   return (Part)_mm_min_ps((__m128)a, (__m128)b);
 #else
   return a < b ? a : b;
 #endif
 }
 PLIANT_HD Part max_part(const Part& a, const Part& b) {
-#if defined(__AVX512F__)
+#if PLIANT_X86_BITS == 512
   return (Part)_mm512_maskz_max_ps(0xffff, (__m512)a, (__m512)b);
-#elif defined(__AVX2__)
+#elif PLIANT_X86_BITS == 256
   return (Part)_mm256_max_ps((__m256)a, (__m256)b);
-#elif defined(__SSE2__)
+#elif PLIANT_X86_BITS == 128
   return (Part)_mm_max_ps((__m128)a, (__m128)b);
 #else
   return a > b ? a : b;
@@ -177,11 +186,11 @@ PLIANT_HD Wide abs(const Wide& a) {
   return r;
 }
 PLIANT_HD Part sqrt_part(const Part& a) {
-#if defined(__AVX512F__)
+#if PLIANT_X86_BITS == 512
   return (Part)_mm512_maskz_sqrt_ps(0xffff, (__m512)a);  // the plain form makes g++ 12 warn of its own header
-#elif defined(__AVX2__)
+#elif PLIANT_X86_BITS == 256
   return (Part)_mm256_sqrt_ps((__m256)a);
-#elif defined(__SSE2__)
+#elif PLIANT_X86_BITS == 128
   return (Part)_mm_sqrt_ps((__m128)a);
 #else
   Part r;
@@ -325,7 +334,7 @@ PLIANT_HD Registers without_w(const Registers& a) {
 }
 
 PLIANT_HD Part minus_xyz(const Part& a, const Part& b) {
-#if defined(__AVX512F__)
+#if PLIANT_X86_BITS == 512
   return (Part)_mm512_mask_sub_ps((__m512)a, 0x7777, (__m512)a, (__m512)b);
 #else
   return a - (Part)((PartMask)b & xyz_mask());

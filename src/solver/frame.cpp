@@ -248,14 +248,14 @@ void Frame::for_straddlers(Order order, FunctionRef<void(int, const Segment*)> b
 }
 
 void Frame::sweep_chains(bool first_pass) {
-  const ChainKernels& kernels = chain_kernels(kernels_.isa);
+  const ChainKernels& kernels = kernels_.chains;
   const auto of_object = [&](int object) { return arguments(object, first_pass); };
   solve_chains(model_, kernels, work_, executor_, of_object);
 }
 
 void Frame::hold_tethers() {
   const auto of_object = [&](int object) { return arguments(object, false); };
-  pliant::hold_tethers(model_, chain_kernels(kernels_.isa), work_, executor_, of_object);
+  pliant::hold_tethers(model_, kernels_.chains, work_, executor_, of_object);
 }
 
 void Frame::sweep_volumes(bool first_pass) {

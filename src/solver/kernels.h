@@ -1,4 +1,5 @@
-// The innermost loops of a step, behind one table of functions for each instruction set.
+// The innermost loops of a step, behind one table of functions for each instruction set. A kernel is a line in its struct and one
+// in each table of it; a level is a line in math/levels.h.
 //
 // Every table gives the same bits; they differ in speed alone. The sequential one is the readable reference: plain floats,
 // one constraint after the other, in the order of the same schedule.
@@ -6,6 +7,7 @@
 
 #include <string>
 
+#include "math/levels.h"
 #include "model/pool.h"
 #include "model/substep.h"
 
@@ -14,9 +16,11 @@ namespace pliant {
 /// Where a lane's correction lies among its batch's sixteen: as registers hold them (math/wide.h).
 inline constexpr int correction_place(int lane) { return 4 * (lane % 4) + lane / 4; }
 
-struct Kernels {
-  const char* isa;
+struct ChainKernels;      // solver/sweeps/chain_kernels.h
+struct MultigridKernels;  // solver/sweeps/multigrid_kernels.h
+struct PairKernels;       // collision/pair_kernels.h
 
+struct StepKernels {
   /// Projects every constraint of the segments, one segment after the other.
   void (*sweep)(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& arguments);
 
@@ -41,13 +45,22 @@ struct Kernels {
   int (*find_near)(const NearQuery& query, std::int32_t* near);
 };
 
-const Kernels& kernels_v2();
-const Kernels& kernels_v3();
-const Kernels& kernels_v4();
+PLIANT_DECLARE_LEVELS(StepKernels, step_kernels)
+const StepKernels& step_kernels_sequential();
+
+/// All that is compiled for one instruction set. A World picks one and hands it on.
+struct Kernels : StepKernels {
+  const char* isa;  ///< its name
+  const ChainKernels& chains;
+  const MultigridKernels& multigrid;
+  const PairKernels& pairs;
+};
+
+/// The readable reference in plain floats. What has no twin there (multigrid, pairs) is of the generic level.
 const Kernels& kernels_sequential();
 
-/// The widest kernels that this machine runs, or those named ("x86-64-v2", "x86-64-v3", "x86-64-v4", "sequential"). Throws Error where
-/// the name is unknown or the machine can't.
+/// The widest kernels that this machine runs, or those named: a level of math/levels.h, or "sequential". Throws Error where the
+/// name is unknown or the machine cannot run them.
 const Kernels& pick_kernels(const std::string& isa);
 
 }  // namespace pliant

@@ -1,5 +1,5 @@
-// The sweeps in sixteen lanes. This unit is compiled once for each instruction set, with kernels_NAME() telling them apart;
-// see CMakeLists.txt beside it. It uses nothing but always-inlined functions and the inline namespace of its instruction
+// The sweeps in sixteen lanes. This unit is compiled once for each instruction set (cmake/PliantLanes.cmake), with the
+// name of the table telling them apart. It uses nothing but always-inlined functions and the inline namespace of its instruction
 // set, so that no code of one build is ever linked into another.
 #include "constraints/all.h"
 #include "math/wide.h"
@@ -412,9 +412,8 @@ int find_near(const NearQuery& q, std::int32_t* near) {
 }  // namespace
 }  // namespace PLIANT_ISA
 
-const Kernels& PLIANT_KERNELS() {
-  static constexpr Kernels table{PLIANT_ISA_NAME, &sweep<false>, &sweep<true>, &all_finite,
-                                 &update,         &predict,      &advance,     &find_near};
+const StepKernels& PLIANT_OF_LEVEL(step_kernels)() {
+  static constexpr StepKernels table{&sweep<false>, &sweep<true>, &all_finite, &update, &predict, &advance, &find_near};
   return table;
 }
 

@@ -1,48 +1,67 @@
-// Which instruction set this machine has.
-#include <string_view>
+// The table of kernels for each instruction set, and which of them this machine runs.
+#include <string>
 
+#include "collision/pair_kernels.h"
 #include "pliant/error.h"
 #include "solver/kernels.h"
+#include "solver/sweeps/chain_kernels.h"
 #include "solver/sweeps/multigrid_kernels.h"
 
 namespace pliant {
 
 namespace {
 
-bool runs_v2() { return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt"); }
-bool runs_v3() {
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
-         __builtin_cpu_supports("bmi2");
-}
+#if defined(__x86_64__)
 bool runs_v4() {
   return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
          __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
 }
+bool runs_v3() {
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
+         __builtin_cpu_supports("bmi2");
+}
+bool runs_v2() { return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt"); }
+#endif
+bool runs_generic() { return true; }
+
+#define PLIANT_LEVEL_TABLE(suffix, isa, ...)                                                                         \
+  const Kernels& kernels_##suffix() {                                                                                \
+    static const Kernels table{step_kernels_##suffix(), isa, chain_kernels_##suffix(), multigrid_kernels_##suffix(), \
+                               pair_kernels_##suffix()};                                                             \
+    return table;                                                                                                    \
+  }
+PLIANT_FOR_EACH_LEVEL(PLIANT_LEVEL_TABLE, )
+
+struct Level {
+  const Kernels& (*kernels)();
+  bool (*runs)();
+};
+#define PLIANT_LEVEL_ENTRY(suffix, isa, ...) {kernels_##suffix, runs_##suffix},
+constexpr Level levels[] = {PLIANT_FOR_EACH_LEVEL(PLIANT_LEVEL_ENTRY, )};
+
+std::string level_names() {
+  std::string names;
+  for (const Level& level : levels) names += std::string(level.kernels().isa) + ", ";
+  return names;
+}
 
 }  // namespace
 
-const Kernels& pick_kernels(const std::string& isa) {
-  struct Choice {
-    const Kernels& (*kernels)();
-    bool (*runs)();
-  };
-  static constexpr Choice choices[] = {{kernels_v4, runs_v4}, {kernels_v3, runs_v3}, {kernels_v2, runs_v2}};
-  if (isa == kernels_sequential().isa) return kernels_sequential();
-  for (const Choice& choice : choices) {
-    if (isa == choice.kernels().isa && !choice.runs()) {
-      throw Error({}, "this machine can't run the code path '" + isa + "'", "leave settings.isa empty");
-    }
-    if ((isa.empty() || isa == choice.kernels().isa) && choice.runs()) return choice.kernels();
-  }
-  if (!isa.empty())
-    throw Error({}, "unknown code path '" + isa + "'", "use x86-64-v2, x86-64-v3, x86-64-v4, sequential or leave it empty");
-  return kernels_sequential();
+const Kernels& kernels_sequential() {
+  static const Kernels table{step_kernels_sequential(), "sequential", chain_kernels_sequential(),
+                             multigrid_kernels_generic(), pair_kernels_generic()};
+  return table;
 }
 
-const MultigridKernels& multigrid_kernels(const char* isa) {
-  if (isa == std::string_view(kernels_v4().isa)) return multigrid_kernels_v4();
-  if (isa == std::string_view(kernels_v3().isa)) return multigrid_kernels_v3();
-  return multigrid_kernels_v2();
+const Kernels& pick_kernels(const std::string& isa) {
+  if (isa == kernels_sequential().isa) return kernels_sequential();
+  for (const Level& level : levels) {
+    const Kernels& kernels = level.kernels();
+    if (isa == kernels.isa && !level.runs())
+      throw Error({}, "this machine cannot run the code path '" + isa + "'", "leave settings.isa empty");
+    if ((isa.empty() || isa == kernels.isa) && level.runs()) return kernels;
+  }
+  throw Error({}, "unknown code path '" + isa + "'", "use " + level_names() + "sequential or leave it empty");
 }
 
 }  // namespace pliant

@@ -164,9 +164,8 @@ bool all_finite(const Record* records, int first, int last) {
 
 }  // namespace
 
-const Kernels& kernels_sequential() {
-  static constexpr Kernels table{"sequential", &sweep<false>, &sweep<true>, &all_finite,
-                                 &update,      &predict,      &advance,     &find_near};
+const StepKernels& step_kernels_sequential() {
+  static constexpr StepKernels table{&sweep<false>, &sweep<true>, &all_finite, &update, &predict, &advance, &find_near};
   return table;
 }
 

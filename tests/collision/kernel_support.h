@@ -9,12 +9,13 @@ namespace pliant::testing_support {
 
 /// The first runs anywhere.
 inline std::vector<const PairKernels*> all_kernels() {
-  std::vector<const PairKernels*> all{&pair_kernels("x86-64-v2")};
+  std::vector<const PairKernels*> all{&pair_kernels_generic()};
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) all.push_back(&pair_kernels("x86-64-v3"));
+  all.push_back(&pair_kernels_v2());
+  if (__builtin_cpu_supports("avx2")) all.push_back(&pair_kernels_v3());
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
       __builtin_cpu_supports("avx512vl"))
-    all.push_back(&pair_kernels("x86-64-v4"));
+    all.push_back(&pair_kernels_v4());
 #endif
   return all;
 }

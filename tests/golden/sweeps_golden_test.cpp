@@ -91,7 +91,7 @@ TEST_P(GoldenSweep, OnAnyNumberOfThreads) {
 
 TEST_P(GoldenSweep, OnAnyInstructionSetAndInPlainCode) {
   int tried = 0;
-  for (const char* isa : {"x86-64-v2", "x86-64-v3", "x86-64-v4", "sequential"}) {
+  for (const char* isa : {"x86-64-v2", "x86-64-v3", "x86-64-v4", "generic", "sequential"}) {
     try {
       EXPECT_EQ(run_way(GetParam(), 2, isa), golden_) << isa;
       ++tried;

@@ -91,8 +91,8 @@ struct Linearised {
   std::vector<MultigridObject> work;
   const MultigridKernels* kernels = nullptr;
 
-  explicit Linearised(const Object& from, const std::string& isa = "x86-64-v2", bool touches = false)
-      : object(compile_with_levels(from)), kernels(&multigrid_kernels(isa.c_str())) {
+  explicit Linearised(const Object& from, const std::string& isa = "generic", bool touches = false)
+      : object(compile_with_levels(from)), kernels(&pick_kernels(isa).multigrid) {
     std::mt19937 random(5);
     positions.assign(object.positions.begin(), object.positions.end());
     displacements.resize(positions.size());
@@ -232,7 +232,7 @@ struct Corrected {
     Executor executor(1);
     Report report;
     const StepContext context{
-        model, state, workspace, executor, pick_kernels("x86-64-v2"), 1, 1, Sweep::multigrid, run.settings.sweep_options,
+        model, state, workspace, executor, pick_kernels("generic"), 1, 1, Sweep::multigrid, run.settings.sweep_options,
         false};
     executor.enter([&] {
       Frame frame(context, 1.0 / 360, report);

@@ -4,17 +4,24 @@
 #include <string>
 #include <vector>
 
+#include "math/levels.h"
 #include "pliant/error.h"
 #include "solver/kernels.h"
 
 namespace pliant::testing_support {
 
+#define PLIANT_LEVEL_NAME(suffix, isa, ...) isa,
+/// Narrowest first.
 inline const std::vector<std::string>& isa_names() {
-  static const std::vector<std::string> names{"x86-64-v2", "x86-64-v3", "x86-64-v4"};
+  static const std::vector<std::string> names = [] {
+    const std::vector<std::string> widest_first{PLIANT_FOR_EACH_LEVEL(PLIANT_LEVEL_NAME, )};
+    return std::vector<std::string>(widest_first.rbegin(), widest_first.rend());
+  }();
   return names;
 }
+#undef PLIANT_LEVEL_NAME
 
-/// Those of the three builds in lanes that run here; the first one always does on x86.
+/// Those of the builds in lanes that run here; "generic" is the first and always does.
 inline std::vector<std::string> available_isas() {
   std::vector<std::string> available;
   for (const std::string& name : isa_names()) {

@@ -2,6 +2,7 @@
 // bits.
 #pragma once
 
+#include "math/levels.h"
 #include "model/compiled_object.h"
 #include "model/substep.h"
 
@@ -11,8 +12,6 @@ namespace pliant {
 inline constexpr int chain_scratch_floats = 160;
 
 struct ChainKernels {
-  const char* isa;
-
   /// Solves sixteen paths exactly. `links` are the segments of a ChainBatch, `softness` its sixteen; `multipliers` is its
   /// pool's array or null; `scratch` has room for steps x chain_scratch_floats and starts at a cache line.
   void (*solve_chain)(const Pool& pool, const Segment* links, int steps, const float* softness, float* multipliers,
@@ -23,12 +22,7 @@ struct ChainKernels {
   void (*hold_tethers)(const Tethers& tethers, const Record* anchors, int first, int last, const SweepArguments& arguments);
 };
 
-const ChainKernels& chain_kernels_v2();
-const ChainKernels& chain_kernels_v3();
-const ChainKernels& chain_kernels_v4();
+PLIANT_DECLARE_LEVELS(ChainKernels, chain_kernels)
 const ChainKernels& chain_kernels_sequential();
-
-/// Those of the same instruction set as a table of Kernels with this name.
-const ChainKernels& chain_kernels(const char* isa);
 
 }  // namespace pliant

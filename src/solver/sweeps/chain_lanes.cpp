@@ -189,8 +189,8 @@ void hold_tethers(const Tethers& tethers, const Record* anchors, int first, int 
 }  // namespace
 }  // namespace PLIANT_ISA
 
-const ChainKernels& PLIANT_CHAIN_KERNELS() {
-  static constexpr ChainKernels table{PLIANT_ISA_NAME, &solve_chain, &hold_tethers};
+const ChainKernels& PLIANT_OF_LEVEL(chain_kernels)() {
+  static constexpr ChainKernels table{&solve_chain, &hold_tethers};
   return table;
 }
 

@@ -89,14 +89,8 @@ void hold_tethers(const Tethers& tethers, const Record* anchors, int first, int 
 }  // namespace
 
 const ChainKernels& chain_kernels_sequential() {
-  static constexpr ChainKernels table{"sequential", &solve_chain, &hold_tethers};
+  static constexpr ChainKernels table{&solve_chain, &hold_tethers};
   return table;
-}
-
-const ChainKernels& chain_kernels(const char* isa) {
-  for (const auto kernels : {chain_kernels_v2, chain_kernels_v3, chain_kernels_v4})
-    if (std::strcmp(kernels().isa, isa) == 0) return kernels();
-  return chain_kernels_sequential();
 }
 
 }  // namespace pliant

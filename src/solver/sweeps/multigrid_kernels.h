@@ -2,6 +2,7 @@
 // as in solver/kernels.h; all give the same bits.
 #pragma once
 
+#include "math/levels.h"
 #include "model/multigrid.h"
 #include "model/substep.h"
 
@@ -59,11 +60,6 @@ struct MultigridKernels {
                   int last);
 };
 
-const MultigridKernels& multigrid_kernels_v2();
-const MultigridKernels& multigrid_kernels_v3();
-const MultigridKernels& multigrid_kernels_v4();
-
-/// Those of the same instruction set as a table of Kernels with this name; "sequential" has those of x86-64-v2.
-const MultigridKernels& multigrid_kernels(const char* isa);
+PLIANT_DECLARE_LEVELS(MultigridKernels, multigrid_kernels)
 
 }  // namespace pliant

@@ -342,7 +342,7 @@ void advance(float alpha, const Record* direction, const Record* image, Record* 
 }  // namespace
 }  // namespace PLIANT_ISA
 
-const MultigridKernels& PLIANT_MULTIGRID_KERNELS() {
+const MultigridKernels& PLIANT_OF_LEVEL(multigrid_kernels)() {
   static constexpr MultigridKernels table{&linearise,   &coarsen, &precondition, &residual, &smooth, &apply,
                                           &restrict_to, &prolong, &dot_records,  &turn,     &advance};
   return table;

@@ -21,7 +21,7 @@ class MultigridSolve {
         object_(object),
         model_(frame.model().objects[object].multigrid),
         work_(frame.scratch().multigrid[object]),
-        kernels_(multigrid_kernels(frame.kernels().isa)) {}
+        kernels_(frame.kernels().multigrid) {}
 
   /// The matrices of all levels and the right-hand side, about where `a` has the particles.
   void linearise(const SweepArguments& a);
