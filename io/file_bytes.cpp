@@ -54,18 +54,19 @@ void refuse_large(std::uint64_t size, std::uint64_t most, const std::string& pat
 
 }  // namespace
 
-std::string read_file_bytes(const std::string& path, std::uint64_t most) {
+std::string read_file_bytes(const std::string& path, std::uint64_t most, AtMost at_most) {
   if (path.empty()) throw Error({}, "there is no name of a file to read", "give a path");
   if (path.find('\0') != std::string::npos) throw Error({}, "a path holds a zero byte", "give another path");
   const Descriptor file(path);
   struct stat status {};
   if (::fstat(file.number(), &status) != 0) fail(path, "cannot be examined", "check its permissions");
   refuse_what_is_no_file(status, path);
-  refuse_large(static_cast<std::uint64_t>(status.st_size), most, path);
+  const bool whole = at_most == AtMost::refuse;
+  if (whole) refuse_large(static_cast<std::uint64_t>(status.st_size), most, path);
 
   // A file may grow or shrink meanwhile, and some systems' own files say 0: the end is where reading says it is.
   std::string bytes;
-  bytes.resize(static_cast<std::size_t>(status.st_size) + 1);
+  bytes.resize(static_cast<std::size_t>(std::min(static_cast<std::uint64_t>(status.st_size), most)) + 1);
   std::size_t done = 0;
   for (;;) {
     const ssize_t got = ::read(file.number(), bytes.data() + done, bytes.size() - done);
@@ -73,10 +74,11 @@ std::string read_file_bytes(const std::string& path, std::uint64_t most) {
     if (got < 0) fail(path, "cannot read: " + std::generic_category().message(errno), "check the disk");
     if (got == 0) break;
     done += static_cast<std::size_t>(got);
-    refuse_large(done, most, path);
+    if (whole) refuse_large(done, most, path);
+    if (!whole && done >= most) break;
     if (done == bytes.size()) bytes.resize(done + std::max<std::size_t>(done, 4096));
   }
-  bytes.resize(done);
+  bytes.resize(whole ? done : std::min<std::size_t>(done, most));
   return bytes;
 }
 

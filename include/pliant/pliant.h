@@ -7,6 +7,7 @@
 #include "pliant/material.h"
 #include "pliant/mesh.h"
 #include "pliant/motion.h"
+#include "pliant/save.h"
 #include "pliant/scene.h"
 #include "pliant/vec3.h"
 #include "pliant/world.h"

@@ -1,0 +1,193 @@
+// What a State and a World are in a file (include/pliant/save.h).
+#include "pliant/save.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <utility>
+
+#include "core/sha256.h"
+#include "io/save_archive.h"
+#include "io/save_file.h"
+#include "pliant/error.h"
+
+namespace pliant {
+
+namespace {
+
+using namespace save_file;
+
+// ---------------------------------------------------------------- a State
+
+/// The names of a State's columns in a file.
+constexpr std::string_view time_block = "state.time", frame_block = "state.frame", positions_block = "state.positions",
+                           remainders_block = "state.remainders", velocities_block = "state.velocities";
+constexpr std::string_view fingerprint_blocks[] = {"fingerprint.scene", "fingerprint.settings"};
+constexpr std::string_view scene_block = "scene", settings_block = "settings";
+
+static_assert(sizeof(Record) == 16);
+
+/// Takes the State apart by a structured binding, so that a new column that is not written does not compile.
+std::vector<Block> blocks_of(const State& state) {
+  const auto& [time, frame, positions, remainders, velocities] = state;
+  const auto records = [](std::string_view name, const Records& column) {
+    return Block{name, Type::record, sizeof(Record), column.size(), column.data()};
+  };
+  return {{time_block, Type::float64, sizeof time, 1, &time},
+          {frame_block, Type::int64, sizeof frame, 1, &frame},
+          records(positions_block, positions),
+          records(remainders_block, remainders),
+          records(velocities_block, velocities)};
+}
+
+void read(const Contents& from, std::string_view name, Records& column) {
+  const Block& block = from.block(name, Type::record, sizeof(Record));
+  column.resize(block.count);
+  if (block.count > 0) std::memcpy(column.data(), block.data, block.count * sizeof(Record));
+}
+
+template <class T>
+void read(const Contents& from, std::string_view name, Type type, T& value) {
+  const Block& block = from.block(name, type, sizeof value);
+  if (block.count != 1) from.fail(fmt::format("is malformed: it has {} of '{}'", block.count, name), "use an earlier file");
+  std::memcpy(&value, block.data, sizeof value);
+}
+
+State state_in(const Contents& from) {
+  State state;
+  auto& [time, frame, positions, remainders, velocities] = state;
+  read(from, time_block, Type::float64, time);
+  read(from, frame_block, Type::int64, frame);
+  read(from, positions_block, positions);
+  read(from, remainders_block, remainders);
+  read(from, velocities_block, velocities);
+  if (remainders.size() != positions.size() || velocities.size() != positions.size())
+    from.fail("is malformed: its positions, remainders and velocities differ in number", "use an earlier file");
+  return state;
+}
+
+Contents state_file(const std::string& path) {
+  Contents contents(path, Content::state);
+  contents.refuse_unknown({time_block, frame_block, positions_block, remainders_block, velocities_block,
+                           fingerprint_blocks[0], fingerprint_blocks[1]});
+  return contents;
+}
+
+// ---------------------------------------------------------------- a Scene
+
+template <class T>
+std::string bytes_of(const T& of) {
+  std::string bytes;
+  Output out([&](const void* data, std::size_t size) { bytes.append(static_cast<const char*>(data), size); }, Take::all);
+  out(of);
+  return bytes;
+}
+
+template <class T>
+T read_bytes(const Contents& from, std::string_view name) {
+  T of;
+  Input in(from.text(name));
+  in(of);
+  if (!in.complete()) from.fail(fmt::format("is malformed: its block '{}' does not read", name), "use an earlier file");
+  return of;
+}
+
+template <class T, class... More>
+std::string hash_of(const T& of, const More&... more) {
+  Sha256 sha;
+  Output out([&](const void* data, std::size_t size) { sha.add(data, size); }, Take::deciding);
+  out(of, more...);
+  return sha.finish();
+}
+
+void refuse_other_scene(const World& world, const Scene& scene) {
+  const auto refuse = [](const Location& where, const std::string& problem) {
+    throw Error(where, problem, "give save() the scene that the World was made from");
+  };
+  const auto objects = static_cast<int>(scene.objects.size());
+  if (world.object_count() != objects)
+    refuse({}, fmt::format("the World has {} objects and the scene {}", world.object_count(), objects));
+  for (int o = 0; o < objects; ++o) {
+    const Object& object = scene.objects[static_cast<std::size_t>(o)];
+    const ObjectInfo info = world.info(o);
+    Location where;
+    where.object = object.name;
+    if (info.name != object.name) refuse(where, "is called '" + info.name + "' in the World");
+    if (static_cast<std::size_t>(info.particles) != object.positions.size())
+      refuse(where, fmt::format("has {} particles, and {} in the World", object.positions.size(), info.particles));
+  }
+}
+
+void refuse_force_fields(const Scene& scene) {
+  if (scene.forces.empty()) return;
+  throw Error({}, "the scene has force fields, which are functions and cannot be saved",
+              "save the State alone, and make the World from the scene in code");
+}
+
+}  // namespace
+
+// ---------------------------------------------------------------- for users
+
+Fingerprint fingerprint(const Scene& scene) {
+  Settings settings = chosen_settings(scene);
+  if (settings.sweep == Sweep::sequential) settings.sweep = Sweep::tiled;
+  return {hash_of(scene, static_cast<std::uint64_t>(scene.forces.size())), hash_of(settings)};
+}
+
+void save(const std::string& path, const State& state) { write(path, Content::state, blocks_of(state)); }
+
+void save(const std::string& path, const State& state, const Scene& scene) {
+  std::vector<Block> blocks = blocks_of(state);
+  const Fingerprint of = fingerprint(scene);
+  blocks.push_back({fingerprint_blocks[0], Type::bytes, 1, of.scene.size(), of.scene.data()});
+  blocks.push_back({fingerprint_blocks[1], Type::bytes, 1, of.settings.size(), of.settings.data()});
+  write(path, Content::state, blocks);
+}
+
+State load_state(const std::string& path) { return state_in(state_file(path)); }
+
+State load_state(const std::string& path, const Scene& scene) {
+  const Contents contents = state_file(path);
+  if (!contents.has(fingerprint_blocks[0]) || !contents.has(fingerprint_blocks[1]))
+    contents.fail("does not say which scene it was saved with", "save it with its scene, or load it without one");
+  const Fingerprint of = fingerprint(scene);
+  if (contents.text(fingerprint_blocks[0]) != of.scene)
+    contents.fail("was saved with another scene, or this one has changed since", "use the scene that it was saved with");
+  if (contents.text(fingerprint_blocks[1]) != of.settings) {
+    contents.fail("was saved with other settings of this scene: substeps, iterations, the sweep or contact settings differ",
+                  "use the settings that it was saved with");
+  }
+  return state_in(contents);
+}
+
+void save(const std::string& path, const World& world, const Scene& scene) {
+  refuse_other_scene(world, scene);
+  refuse_force_fields(scene);
+  Settings settings = world.settings();
+  settings.isa.clear();  // another machine may not have it, and the bits are the same
+  const std::string scene_bytes = bytes_of(scene), settings_bytes = bytes_of(settings);
+  std::vector<Block> blocks = blocks_of(world.state());
+  blocks.push_back({scene_block, Type::bytes, 1, scene_bytes.size(), scene_bytes.data()});
+  blocks.push_back({settings_block, Type::bytes, 1, settings_bytes.size(), settings_bytes.data()});
+  write(path, Content::world, blocks);
+}
+
+LoadedWorld load_world(const std::string& path) {
+  const Contents contents(path, Content::world);
+  contents.refuse_unknown(
+      {time_block, frame_block, positions_block, remainders_block, velocities_block, scene_block, settings_block});
+  Scene scene = read_bytes<Scene>(contents, scene_block);
+  scene.settings = read_bytes<Settings>(contents, settings_block);
+  const State state = state_in(contents);
+  try {
+    World world(scene);
+    world.restore(state);
+    return {std::move(scene), std::move(world)};
+  } catch (const Error& error) {
+    Location where = error.where();
+    where.file = path;
+    throw Error(where, error.problem(), "the file is malformed; use an earlier one");
+  }
+}
+
+}  // namespace pliant

@@ -1,0 +1,153 @@
+// Every member of a Scene, in one order: what is written, read and hashed. Each function takes a struct apart by a structured
+// binding, which stops compiling when the struct gets a member: then add it here and raise save_file::version.
+//
+// An archive is called with members that decide a run's bits; `aside` is called with those that do not (colours, threads).
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+#include "pliant/scene.h"
+
+namespace pliant::save_file {
+
+/// A struct, const or not: what is written is, what is read is not.
+template <class T, class As>
+concept Is = std::same_as<std::remove_const_t<T>, As>;
+
+template <class A>
+void fields(A& a, Is<Stiffness> auto& of) {
+  auto& [kind, value, damping] = of;
+  a(kind, value, damping);
+}
+template <class A>
+void fields(A& a, Is<ConstraintGroup> auto& of) {
+  auto& [type, particles, rest, stiffness, compliances] = of;
+  a(type, particles, rest, stiffness, compliances);
+}
+template <class A>
+void fields(A& a, Is<Volume> auto& of) {
+  auto& [pressure, stiffness] = of;
+  a(pressure, stiffness);
+}
+template <class A>
+void fields(A& a, Is<Keyframe> auto& of) {
+  auto& [time, position, rotation] = of;
+  a(time, position, rotation);
+}
+template <class A>
+void fields(A& a, Is<Motion> auto& of) {
+  auto& [keyframes, pivot, repeat] = of;
+  a(keyframes, pivot, repeat);
+}
+template <class A>
+void fields(A& a, Is<Pin> auto& of) {
+  auto& [particle, motion] = of;
+  a(particle, motion);
+}
+template <class A>
+void fields(A& a, Is<Attachment> auto& of) {
+  auto& [particle, target, motion, stiffness] = of;
+  a(particle, target, motion, stiffness);
+}
+template <class A>
+void fields(A& a, Is<Object> auto& of) {
+  auto& [name, positions, velocities, masses, constraints, triangles, volume, pins, attachments, thickness, self_collision,
+         collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift, damping, colour] = of;
+  a(name, positions, velocities, masses, constraints, triangles, volume, pins, attachments, thickness, self_collision,
+    collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift, damping);
+  a.aside(colour);
+}
+template <class A>
+void fields(A&, Is<Plane> auto&) {}
+template <class A>
+void fields(A& a, Is<Sphere> auto& of) {
+  auto& [radius] = of;
+  a(radius);
+}
+template <class A>
+void fields(A& a, Is<Capsule> auto& of) {
+  auto& [radius, half_length] = of;
+  a(radius, half_length);
+}
+template <class A>
+void fields(A& a, Is<Box> auto& of) {
+  auto& [half_extents] = of;
+  a(half_extents);
+}
+template <class A>
+void fields(A& a, Is<Collider> auto& of) {
+  auto& [name, shape, position, rotation, motion, thickness, static_friction, kinetic_friction, restitution, colour] = of;
+  a(name, shape, position, rotation, motion, thickness, static_friction, kinetic_friction, restitution);
+  a.aside(colour);
+}
+template <class A>
+void fields(A& a, Is<TriangleMesh> auto& of) {
+  auto& [positions, triangles] = of;
+  a(positions, triangles);
+}
+template <class A>
+void fields(A& a, Is<MeshFrame> auto& of) {
+  auto& [time, positions] = of;
+  a(time, positions);
+}
+template <class A>
+void fields(A& a, Is<DistanceField> auto& of) {
+  auto& [low, spacing, nodes, distances] = of;
+  a(low, spacing, nodes, distances);
+}
+template <class A>
+void fields(A& a, Is<MeshCollider> auto& of) {
+  auto& [name, mesh, motion, frames, repeat_frames, as, grid_spacing, field, thickness, static_friction, kinetic_friction,
+         restitution, groups, mask, colour] = of;
+  a(name, mesh, motion, frames, repeat_frames, as, grid_spacing);
+  a.aside(field);
+  a(thickness, static_friction, kinetic_friction, restitution, groups, mask);
+  a.aside(colour);
+}
+template <class A>
+void fields(A& a, Is<PairProperties> auto& of) {
+  auto& [first, second, thickness, static_friction, kinetic_friction, restitution] = of;
+  a(first, second, thickness, static_friction, kinetic_friction, restitution);
+}
+template <class A>
+void fields(A& a, Is<Wind> auto& of) {
+  auto& [velocity, gust, gust_period, air_density] = of;
+  a(velocity, gust, gust_period, air_density);
+}
+template <class A>
+void fields(A& a, Is<SweepOptions> auto& of) {
+  auto& [relaxation, sharing, acceleration, plain_iterations, spectral_radius, tethers, tether_slack, chain_softness,
+         multigrid_cycles] = of;
+  a(relaxation, sharing, acceleration, plain_iterations, spectral_radius, tethers, tether_slack, chain_softness,
+    multigrid_cycles);
+}
+template <class A>
+void fields(A& a, Is<Settings> auto& of) {
+  auto& [substeps, iterations, tolerance, threads, sweep, sweep_options, contact_filter, most_substeps,
+         initial_intersections, untangling_speed, measure, record_residuals, record_multipliers, isa] = of;
+  a(substeps, iterations, tolerance);
+  a.aside(threads);
+  a(sweep, sweep_options, contact_filter, most_substeps, initial_intersections, untangling_speed);
+  a.aside(measure, record_residuals, record_multipliers, isa);
+}
+/// Force fields are functions: of them only the number can be told, and the caller of `fields` decides about it. Settings are a
+/// block of their own.
+template <class A>
+void fields(A& a, Is<Scene> auto& of) {
+  [[maybe_unused]] auto& [gravity, wind, forces, settings, frame_time, frames, objects, colliders, mesh_colliders, pairs] =
+      of;
+  a(gravity, wind, frame_time);
+  a.aside(frames);
+  a(objects, colliders, mesh_colliders, pairs);
+}
+
+/// The last value of an enum, so that a reader can refuse one beyond it.
+constexpr int last_value(Stiffness::Kind) { return static_cast<int>(Stiffness::Kind::pbd); }
+constexpr int last_value(MeshCollider::As) { return static_cast<int>(MeshCollider::As::heightfield); }
+constexpr int last_value(Sweep) { return static_cast<int>(Sweep::multigrid); }
+constexpr int last_value(SweepOptions::Sharing) { return static_cast<int>(SweepOptions::Sharing::average); }
+constexpr int last_value(SweepOptions::Acceleration) { return static_cast<int>(SweepOptions::Acceleration::chebyshev); }
+constexpr int last_value(Settings::Intersections) { return static_cast<int>(Settings::Intersections::refuse); }
+
+}  // namespace pliant::save_file
