@@ -74,15 +74,14 @@ std::vector<int> bad_tasks(const StepContext& context) {
   return bad;
 }
 
-/// The name of what went wrong in the tiles of one object that are not finite. They are replayed together, since what
-/// straddles two of them needs both as they were: a constraint that spoils its particles spoils every tile they are in.
-std::string explain(const StepContext& context, const CompiledObject& object, const std::vector<int>& bad,
-                    FunctionRef<AdvanceArguments(int)> particles, SweepArguments arguments) {
-  const auto tile_of = [&](int task) -> const Tile& { return object.tiles[context.model.tiles[task].tile]; };
-  const std::string particle = first_bad_particle(object, tile_of(bad.front()), arguments.displacements);
+/// The name of what went wrong in the tiles of one object that are not finite. They are replayed together, since an
+/// inter-tile constraint needs both tiles as they were: one that makes its particles non-finite spoils each of their tiles.
+std::string explain(const Substep& s, const CompiledObject& object, const std::vector<int>& bad, SweepArguments arguments) {
+  const StepContext& context = s.context;
+  const std::string particle = first_bad_particle(object, tile_of(s, bad.front()), arguments.displacements);
   Records displacements(arguments.displacements, arguments.displacements + object.particles);
   for (int task : bad) {
-    AdvanceArguments again = particles(task);
+    AdvanceArguments again = particles(s, task);
     again.displacements = displacements.data();
     again.gravity_begun = again.gravity_finished;  // the substep that failed, not the one after it
     context.kernels.predict(again, nullptr);
@@ -95,7 +94,7 @@ std::string explain(const StepContext& context, const CompiledObject& object, co
   for (int iteration = 0; iteration < context.iterations; ++iteration) {
     arguments.first_pass = iteration == 0;
     for (int task : bad) {
-      const Tile& tile = tile_of(task);
+      const Tile& tile = tile_of(s, task);
       if (auto culprit = replay(context, object, tile.first_segment, tile.last_segment, arguments)) return *culprit;
     }
     for (const StraddlerColour& colour : object.straddlers) {
@@ -118,14 +117,14 @@ void make_finite(const StepContext& context) {
 
 }  // namespace
 
-NonFinite diagnose(const StepContext& context, FunctionRef<AdvanceArguments(int)> particles,
-                   FunctionRef<SweepArguments(int)> arguments) {
+NonFinite diagnose(const Substep& s) {
+  const StepContext& context = s.context;
   NonFinite found;
   const std::vector<int> bad = bad_tasks(context);
   if (!bad.empty()) {
     const int number = context.model.tiles[bad.front()].object;
     found.object = context.model.objects[number].name;
-    found.element = explain(context, context.model.objects[number], bad, particles, arguments(number));
+    found.element = explain(s, context.model.objects[number], bad, arguments(s, number, true));
   }
   make_finite(context);
   return found;

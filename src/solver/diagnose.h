@@ -1,17 +1,14 @@
 // Who made the first value that is not finite.
 #pragma once
 
-#include "parallel/executor.h"
 #include "pliant/world.h"
-#include "solver/step.h"
+#include "solver/substep.h"
 
 namespace pliant {
 
 /// After a tile was found with a displacement that is not finite: predicts its object's substep again and replays the
 /// sweep, one segment at a time, and names the first constraint whose particles are not finite after it. Then takes the
 /// displacements of such tiles back: their positions are those of the substep's start, so that the state is finite.
-/// `particles(task)` and `arguments(object)` are as in the substep that failed.
-NonFinite diagnose(const StepContext& context, FunctionRef<AdvanceArguments(int)> particles,
-                   FunctionRef<SweepArguments(int)> arguments);
+NonFinite diagnose(const Substep& s);
 
 }  // namespace pliant

@@ -6,8 +6,8 @@
 #include <type_traits>
 
 #include "constraints/all.h"
-#include "solver/frame.h"
 #include "solver/project.h"
+#include "solver/substep.h"
 
 namespace pliant {
 
@@ -97,17 +97,17 @@ void prepare_residual(const Model& model, ResidualScratch& scratch) {
   scratch.squares.assign(scratch.tasks.size(), 0);
 }
 
-double distance_residual(Frame& frame) {
-  ResidualScratch& scratch = frame.workspace().residual;
+double distance_residual(Substep& s) {
+  ResidualScratch& scratch = s.work.residual;
   if (scratch.constraints == 0) return std::numeric_limits<double>::infinity();
-  frame.for_each_task("solve: residual", static_cast<int>(scratch.tasks.size()), [&](int task) {
+  for_tasks(s, "solve: residual", static_cast<int>(scratch.tasks.size()), [&](int task) {
     const ResidualScratch::Task& of = scratch.tasks[task];
-    const CompiledObject& object = frame.model().objects[of.object];
+    const CompiledObject& object = s.model.objects[of.object];
     double sum = 0;
-    for (int s = of.first; s < of.last; ++s) {
-      const Segment& segment = object.segments[s];
+    for (int i = of.first; i < of.last; ++i) {
+      const Segment& segment = object.segments[i];
       const Pool& pool = object.pools[segment.pool];
-      if (is_distance(pool)) sum += sum_of(frame.arguments(of.object, false), pool, segment);
+      if (is_distance(pool)) sum += sum_of(arguments(s, of.object, false), pool, segment);
     }
     scratch.squares[task] = sum;
   });

@@ -10,7 +10,7 @@
 
 namespace pliant {
 
-class Frame;
+struct Substep;
 struct Model;
 
 /// Stretches of segments, cut by the model alone, and room for the sum over each.
@@ -29,6 +29,6 @@ void prepare_residual(const Model& model, ResidualScratch& scratch);
 
 /// Root mean square of |C + alpha~ lambda| over all distance constraints as they are now [m]; infinity where there are none.
 /// After the first sweep of a substep.
-double distance_residual(Frame& frame);
+double distance_residual(Substep& s);
 
 }  // namespace pliant

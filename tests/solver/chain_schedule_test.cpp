@@ -157,7 +157,7 @@ TEST(Tethers, bring_back_what_is_beyond_them_and_nothing_else) {
   std::mt19937 random(8);
   Object from = grid(21, 17, 0);
   from.pins = {{3, {}}};
-  Substep substep(from, chained(0.1f, true));
+  ChainedSubstep substep(from, chained(0.1f, true));
   for (std::size_t i = 0; i < substep.positions.size(); ++i)
     if (substep.positions[i].w > 0)
       substep.displacements[i] = {static_cast<float>(uniform(random, -0.3, 0.3)),

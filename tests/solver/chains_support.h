@@ -52,13 +52,13 @@ inline CompileOptions chained(float softness, bool tethers = false) {
 }
 
 /// One object in the middle of a substep.
-struct Substep {
+struct ChainedSubstep {
   CompiledObject object;
   Records positions, displacements;
   AlignedVector<float> multipliers, scratch;
   float h = 1.f / 600;
 
-  Substep(const Object& from, const CompileOptions& options) : object(compile(from, options)) {
+  ChainedSubstep(const Object& from, const CompileOptions& options) : object(compile(from, options)) {
     positions.assign(object.positions.begin(), object.positions.end());
     displacements.resize(positions.size());
     multipliers.assign(object.pools[0].origin.size(), 0.f);

@@ -45,7 +45,7 @@ TEST(Chains, give_the_solution_of_the_dense_system) {
       const int links = 1 + static_cast<int>(random() % 40);
       Object from = line(links, compliance, random);
       from.pins.push_back({0, {}});
-      Substep substep(from, chained(softness));
+      ChainedSubstep substep(from, chained(softness));
       std::vector<Vec3d> x;
       for (int i = 0; i <= links; ++i) {
         Record& d = substep.displacements[substep.object.place[i]];
@@ -87,7 +87,7 @@ TEST(Chains, give_the_solution_of_the_dense_system) {
 
 TEST(Chains, keep_momentum) {
   std::mt19937 random(2);
-  Substep substep(line(60, 0, random), chained(0.1f));
+  ChainedSubstep substep(line(60, 0, random), chained(0.1f));
   for (Record& d : substep.displacements) d = {static_cast<float>(uniform(random, -0.01, 0.01)), 0.02f, 0, 0};
   const auto momentum = [&] {
     Vec3d sum{};
@@ -114,7 +114,7 @@ void expect_same(const Records& a, const Records& b, const std::string& what) {
         << what << ", record " << i;
 }
 
-void disturb(Substep& substep, std::mt19937& random, bool nasty) {
+void disturb(ChainedSubstep& substep, std::mt19937& random, bool nasty) {
   const auto number = [&] { return nasty ? nasty_float(random) : static_cast<float>(uniform(random, -0.02, 0.02)); };
   for (Record& d : substep.displacements) d = {number(), number(), number(), 0};
   for (float& m : substep.multipliers) m = 1e-3f * number();
@@ -131,15 +131,15 @@ TEST(Chains, and_tethers_give_the_bits_of_the_reference_in_lanes) {
     const int columns = 3 + static_cast<int>(random() % 30), rows = 3 + static_cast<int>(random() % 20);
     Object from = grid(columns, rows, round % 2 == 0 ? 0.f : 1e-6f);
     for (int pin = 0; pin < round % 7; ++pin) from.pins.push_back({static_cast<int>(random() % from.positions.size()), {}});
-    Substep start(from, chained(0.1f, true));
+    ChainedSubstep start(from, chained(0.1f, true));
     disturb(start, random, nasty);
-    Substep reference = start;
+    ChainedSubstep reference = start;
     for (bool first : {true, false}) {
       reference.solve(chain_kernels_sequential(), first, true);
       reference.hold(chain_kernels_sequential());
     }
     for (const std::string& isa : available_isas()) {
-      Substep substep = start;
+      ChainedSubstep substep = start;
       for (bool first : {true, false}) {
         substep.solve(pick_kernels(isa).chains, first, true);
         substep.hold(pick_kernels(isa).chains);

@@ -10,7 +10,7 @@
 
 #include "constraints/all.h"
 #include "pliant/mesh.h"
-#include "solver/frame.h"
+#include "solver/stages/stages.h"
 #include "solver/sweeps/multigrid.h"
 #include "solver/sweeps_support.h"
 #include "topology/edges.h"
@@ -204,7 +204,7 @@ inline void hold(const Linearised& of, System& system) {
 
 /// An object predicted and corrected, before any sweep; or given a whole iteration, by iterate_multigrid.
 struct Corrected {
-  using Part = void (*)(Frame& frame, bool first);
+  using Part = void (*)(Substep& s, bool first);
 
   Model model;
   State state;
@@ -235,12 +235,12 @@ struct Corrected {
         model, state, workspace, executor, pick_kernels("generic"), 1, 1, Sweep::multigrid, run.settings.sweep_options,
         false};
     executor.enter([&] {
-      Frame frame(context, 1.0 / 360, report);
-      frame.begin_substep(0);
-      frame.enter_tiles(false);
+      Substep s = begin_frame(context, 1.0 / 360, report);
+      control(s);
+      predict(s);
       predicted = workspace.displacements;
-      if (frame.has_pairs()) frame.find_pairs();
-      part(frame, true);
+      collide(s);
+      part(s, true);
     });
   }
   Vector change() const {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "solver/frame.h"
+#include "solver/passes.h"
 #include "solver/sweeps/sweep.h"
 
 namespace pliant {
@@ -30,11 +30,11 @@ void solve_one(const Model& model, const ChainKernels& kernels, const ChainPhase
 
 }  // namespace
 
-void iterate_chains(Frame& frame, bool first) {
-  if (!(first && frame.swept_on_entry())) frame.sweep_tiles(first, Order::forward);  // what is not in chains
-  frame.sweep_straddlers(first, Order::forward);
-  frame.sweep_chains(first);
-  frame.sweep_volumes(first);
+void iterate_chains(Substep& s, bool first) {
+  if (!(first && s.sweeps_on_entry)) sweep_tiles(s, first, Order::forward);  // what is not in chains
+  sweep_inter_tile(s, first, Order::forward);
+  solve_chains(s, first);
+  sweep_volumes(s, first);
 }
 
 void prepare_chains(const Model& model, int threads, Workspace& workspace) {
@@ -48,36 +48,37 @@ void prepare_chains(const Model& model, int threads, Workspace& workspace) {
     workspace.anchors[o].resize(2 * model.objects[o].tethers.anchors.size());
 }
 
-void solve_chains(const Model& model, const ChainKernels& kernels, Workspace& workspace, Executor& executor,
-                  FunctionRef<SweepArguments(int)> arguments) {
-  for (const ChainPhase& phase : model.chains) {
+void solve_chains(Substep& s, bool first_pass) {
+  const ChainKernels& kernels = s.kernels.chains;
+  std::vector<AlignedVector<float>>& scratch = s.work.chain_scratch;
+  for (const ChainPhase& phase : s.model.chains) {
     const int tasks = static_cast<int>(phase.tasks.size());
-    const int shares =
-        phase.steps < fewest_steps_to_share ? 1 : std::min(tasks, static_cast<int>(workspace.chain_scratch.size()));
-    executor.parallel_for("solve: chains", shares, [&](int share) {  // dealt out like cards: neighbours are alike in length
-      for (int i = share; i < tasks; i += shares)
-        solve_one(model, kernels, phase.tasks[i], arguments(phase.tasks[i].object), workspace.chain_scratch[share].data());
+    const int shares = phase.steps < fewest_steps_to_share ? 1 : std::min(tasks, static_cast<int>(scratch.size()));
+    for_tasks(s, "solve: chains", shares, [&](int share) {  // dealt out like cards: neighbours are alike in length
+      for (int i = share; i < tasks; i += shares) {
+        const ChainPhase::Task& task = phase.tasks[i];
+        solve_one(s.model, kernels, task, arguments(s, task.object, first_pass), scratch[share].data());
+      }
     });
   }
 }
 
-void hold_tethers(const Model& model, const ChainKernels& kernels, Workspace& workspace, Executor& executor,
-                  FunctionRef<SweepArguments(int)> arguments) {
-  for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) {
-    const CompiledObject& object = model.objects[o];
+void hold_tethers(Substep& s) {
+  const ChainKernels& kernels = s.kernels.chains;
+  for (int o = 0; o < static_cast<int>(s.model.objects.size()); ++o) {
+    const CompiledObject& object = s.model.objects[o];
     if (object.tethers.slots == 0) continue;
-    const SweepArguments a = arguments(o);
-    // A copy of what is read by all, so that no thread reads records that another writes, be it with what they hold.
-    Records& anchors = workspace.anchors[o];
+    const SweepArguments a = arguments(s, o, false);
+    // A copy of what all threads read, so that none reads records that another writes, be it with what they hold.
+    Records& anchors = s.work.anchors[o];
     for (std::size_t i = 0; i < object.tethers.anchors.size(); ++i) {
       anchors[2 * i] = a.positions[object.tethers.anchors[i]];
       anchors[2 * i + 1] = a.displacements[object.tethers.anchors[i]];
     }
     const int tasks = (object.particles + particles_per_task - 1) / particles_per_task;
-    executor.parallel_for("solve: tethers", tasks, [&](int task) {
-      const int first = task * particles_per_task;
-      kernels.hold_tethers(object.tethers, anchors.data(), first, std::min(first + particles_per_task, object.particles),
-                           a);
+    for_tasks(s, "solve: tethers", tasks, [&](int task) {
+      const int first = task * particles_per_task, last = std::min(first + particles_per_task, object.particles);
+      kernels.hold_tethers(object.tethers, anchors.data(), first, last, a);
     });
   }
 }

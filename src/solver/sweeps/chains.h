@@ -5,21 +5,18 @@
 #pragma once
 
 #include "model/model.h"
-#include "parallel/executor.h"
+#include "solver/substep.h"
 #include "solver/sweeps/chain_kernels.h"
-#include "solver/workspace.h"
 
 namespace pliant {
 
 /// Room for the scratch of every thread and for the anchors.
 void prepare_chains(const Model& model, int threads, Workspace& workspace);
 
-/// Solves all chains once, colour after colour. `arguments(object)` gives the particles of one.
-void solve_chains(const Model& model, const ChainKernels& kernels, Workspace& workspace, Executor& executor,
-                  FunctionRef<SweepArguments(int)> arguments);
+/// Solves all chains once, colour after colour.
+void solve_chains(Substep& s, bool first_pass);
 
 /// Puts every particle back to within its tethers.
-void hold_tethers(const Model& model, const ChainKernels& kernels, Workspace& workspace, Executor& executor,
-                  FunctionRef<SweepArguments(int)> arguments);
+void hold_tethers(Substep& s);
 
 }  // namespace pliant

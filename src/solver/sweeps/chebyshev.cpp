@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "solver/frame.h"
+#include "solver/substep.h"
 
 namespace pliant {
 
@@ -128,16 +128,16 @@ void extrapolate_multipliers(float weight, const LaneValues& older, LaneValues& 
   }
 }
 
-void extrapolate_everything(Frame& frame, float weight) {
-  const Model& model = frame.model();
-  ChebyshevScratch& c = frame.scratch().chebyshev;
-  frame.for_tiles("solve: chebyshev", [&](int task) {
+void extrapolate_everything(Substep& s, float weight) {
+  const Model& model = s.model;
+  ChebyshevScratch& c = s.work.sweep.chebyshev;
+  for_tiles(s, "solve: chebyshev", [&](int task) {
     const int o = model.tiles[task].object;
     extrapolate_tile(weight, model.objects[o].tiles[model.tiles[task].tile], c.older.data() + model.first[o],
-                     frame.arguments(o, false).displacements, frame.workspace().tiles[task]);
+                     arguments(s, o, false).displacements, s.work.tiles[task]);
   });
-  extrapolate_multipliers(weight, c.multipliers_older, frame.workspace().multipliers);
-  std::vector<double>& volumes = frame.workspace().volume_multipliers;
+  extrapolate_multipliers(weight, c.multipliers_older, s.work.multipliers);
+  std::vector<double>& volumes = s.work.volume_multipliers;
   for (std::size_t o = 0; o < volumes.size(); ++o)
     volumes[o] = c.volumes_older[o] + static_cast<double>(weight) * (volumes[o] - c.volumes_older[o]);
 }
@@ -157,13 +157,13 @@ void keep_multipliers(const Workspace& work, bool first, ChebyshevScratch& c) {
   }
 }
 
-double correction_norm(Frame& frame) {
-  const Model& model = frame.model();
-  ChebyshevScratch& c = frame.scratch().chebyshev;
-  frame.for_tiles("solve: chebyshev", [&](int task) {
+double correction_norm(Substep& s) {
+  const Model& model = s.model;
+  ChebyshevScratch& c = s.work.sweep.chebyshev;
+  for_tiles(s, "solve: chebyshev", [&](int task) {
     const int o = model.tiles[task].object;
     const Tile& tile = model.objects[o].tiles[model.tiles[task].tile];
-    const SweepArguments a = frame.arguments(o, false);
+    const SweepArguments a = arguments(s, o, false);
     c.tile_sums[task] = correction_norm_squared(a.positions, a.displacements, c.before.data() + model.first[o],
                                                 tile.first_particle, tile.last_particle);
   });
@@ -182,29 +182,29 @@ void prepare_chebyshev(const Model& model, const Workspace& workspace, Chebyshev
   scratch.tile_sums.assign(model.tiles.size(), 0);
 }
 
-void keep_iterate(Frame& frame, int iteration) {
-  ChebyshevScratch& c = frame.scratch().chebyshev;
-  const Model& model = frame.model();
+void keep_iterate(Substep& s, int iteration) {
+  ChebyshevScratch& c = s.work.sweep.chebyshev;
+  const Model& model = s.model;
   if (iteration == 0) {
     c.weight = 1;
     c.last_norm = 0;
     c.steps = -1;
     c.given_up = false;
   }
-  frame.for_tiles("solve: chebyshev", [&](int task) {
+  for_tiles(s, "solve: chebyshev", [&](int task) {
     const int o = model.tiles[task].object;
     const Tile& tile = model.objects[o].tiles[model.tiles[task].tile];
-    const Record* displacements = frame.arguments(o, false).displacements;
+    const Record* displacements = arguments(s, o, false).displacements;
     std::copy(displacements + tile.first_particle, displacements + tile.last_particle,
               c.before.begin() + model.first[o] + tile.first_particle);
   });
-  keep_multipliers(frame.workspace(), iteration == 0, c);
+  keep_multipliers(s.work, iteration == 0, c);
 }
 
-void accelerate(Frame& frame, int iteration) {
-  ChebyshevScratch& c = frame.scratch().chebyshev;
-  c.weight = next_weight(frame.options(), iteration, correction_norm(frame), c);
-  if (c.weight != 1) extrapolate_everything(frame, static_cast<float>(c.weight));
+void accelerate(Substep& s, int iteration) {
+  ChebyshevScratch& c = s.work.sweep.chebyshev;
+  c.weight = next_weight(s.context.options, iteration, correction_norm(s), c);
+  if (c.weight != 1) extrapolate_everything(s, static_cast<float>(c.weight));
   std::swap(c.before, c.older);
   std::swap(c.multipliers_before, c.multipliers_older);
   std::swap(c.volumes_before, c.volumes_older);

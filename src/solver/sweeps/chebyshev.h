@@ -21,16 +21,16 @@
 
 namespace pliant {
 
-class Frame;
+struct Substep;
 struct Workspace;
 
 /// Makes room; multipliers as the workspace has them.
 void prepare_chebyshev(const Model& model, const Workspace& workspace, ChebyshevScratch& scratch);
 
 /// Before an iteration: keeps the iterate.
-void keep_iterate(Frame& frame, int iteration);
+void keep_iterate(Substep& s, int iteration);
 
 /// After its sweep and before its contacts.
-void accelerate(Frame& frame, int iteration);
+void accelerate(Substep& s, int iteration);
 
 }  // namespace pliant

@@ -1,6 +1,6 @@
 #include "solver/sweeps/jacobi.h"
 
-#include "solver/frame.h"
+#include "solver/passes.h"
 #include "solver/sweeps/sweep.h"
 
 namespace pliant {
@@ -52,39 +52,36 @@ void prepare_jacobi(const Model& model, const SweepOptions& options, std::vector
   }
 }
 
-void iterate_jacobi(Frame& frame, bool first) {
-  std::vector<JacobiObject>& objects = frame.scratch().jacobi;
-  const Model& model = frame.model();
-  const auto object_of = [&](int task) -> JacobiObject& { return objects[model.tiles[task].object]; };
-  const auto tile_of = [&](int task) -> const Tile& {
-    return model.objects[model.tiles[task].object].tiles[model.tiles[task].tile];
-  };
-  const auto arguments = [&](int number) {
-    SweepArguments a = frame.arguments(number, first);
+void iterate_jacobi(Substep& s, bool first) {
+  std::vector<JacobiObject>& objects = s.work.sweep.jacobi;
+  const Model& model = s.model;
+  const auto work_of = [&](int task) -> JacobiObject& { return objects[model.tiles[task].object]; };
+  const auto arguments_of = [&](int number) {
+    SweepArguments a = arguments(s, number, first);
     const JacobiObject& object = objects[number];
     if (!object.positions.empty()) a.positions = object.positions.data();
     if (!object.share_pointers.empty()) a.shares = object.share_pointers.data();
     a.corrections = object.correction_pointers.data();
     return a;
   };
-  const auto displacements = [&](int task) { return frame.arguments(model.tiles[task].object, first).displacements; };
+  const auto displacements = [&](int task) { return arguments(s, model.tiles[task].object, first).displacements; };
 
   if (first) {
-    frame.for_tiles("solve: split", [&](int task) {
-      if (object_of(task).positions.empty()) return;
-      split_masses(tile_of(task), frame.arguments(model.tiles[task].object, first).positions, object_of(task));
+    for_tiles(s, "solve: split", [&](int task) {
+      if (work_of(task).positions.empty()) return;
+      split_masses(tile_of(s, task), arguments(s, model.tiles[task].object, first).positions, work_of(task));
     });
   }
-  frame.for_tiles("solve: tiles", [&](int task) {
-    const CompiledObject& object = model.objects[model.tiles[task].object];
-    frame.kernels().sweep_general(object.pools.data(), object.segments.data() + tile_of(task).first_segment,
-                                  object.segments.data() + tile_of(task).last_segment, arguments(model.tiles[task].object));
+  for_tiles(s, "solve: tiles", [&](int task) {
+    const CompiledObject& object = object_of(s, task);
+    s.kernels.sweep_general(object.pools.data(), object.segments.data() + tile_of(s, task).first_segment,
+                            object.segments.data() + tile_of(s, task).last_segment, arguments_of(model.tiles[task].object));
   });
-  frame.for_straddlers(Order::forward, [&](int number, const Segment* segment) {
-    frame.kernels().sweep_general(model.objects[number].pools.data(), segment, segment + 1, arguments(number));
+  for_inter_tile(s, Order::forward, [&](int number, const Segment* segment) {
+    s.kernels.sweep_general(model.objects[number].pools.data(), segment, segment + 1, arguments_of(number));
   });
-  frame.for_tiles("solve: gather", [&](int task) { gather(tile_of(task), object_of(task), displacements(task)); });
-  frame.sweep_volumes(first);
+  for_tiles(s, "solve: gather", [&](int task) { gather(tile_of(s, task), work_of(task), displacements(task)); });
+  sweep_volumes(s, first);
 }
 
 }  // namespace pliant

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solver/passes.h"
 #include "solver/sweeps/multigrid_solve.h"
 #include "solver/sweeps/sweep.h"
 
@@ -9,18 +10,18 @@ namespace pliant {
 
 namespace {
 
-void move(Frame& frame, int o, bool first) {
-  const SweepArguments a = frame.arguments(o, first);
-  MultigridObject& work = frame.scratch().multigrid[o];
+void move(Substep& s, int o, bool first) {
+  const SweepArguments a = arguments(s, o, first);
+  MultigridObject& work = s.work.sweep.multigrid[o];
   // What is not sound is left to the sweeps, which may cope with it or name what does not.
-  work.is_made = is_multigrid_change_sound(frame, o);
+  work.is_made = is_multigrid_change_sound(s, o);
   if (!work.is_made) return std::fill(work.change.begin(), work.change.end(), Record{});
-  for (int i = 0; i < frame.model().objects[o].particles; ++i) {
+  for (int i = 0; i < s.model.objects[o].particles; ++i) {
     Record& d = a.displacements[i];
     const Record& c = work.change[i];
     d = {d.x + c.x, d.y + c.y, d.z + c.z, 0};
   }
-  keep_multigrid_multipliers(frame, o, first);
+  keep_multigrid_multipliers(s, o, first);
 }
 
 }  // namespace
@@ -48,35 +49,35 @@ void prepare_multigrid(const Model& model, std::vector<MultigridObject>& objects
   }
 }
 
-void correct_multigrid(Frame& frame, bool first) {
+void correct_multigrid(Substep& s, bool first) {
   if (first) {
-    clear_multigrid_multipliers(frame);
-    add_multigrid_contacts(frame);
-    add_multigrid_pairs(frame);
-    make_multigrid_groups(frame);
+    clear_multigrid_multipliers(s);
+    add_multigrid_contacts(s);
+    add_multigrid_pairs(s);
+    make_multigrid_groups(s);
   }
-  const MultigridGroups& groups = frame.scratch().multigrid_groups;
+  const MultigridGroups& groups = s.work.sweep.multigrid_groups;
   for (int g = 0; g < groups.count; ++g) {
     for (const int o : groups.all[g].objects)
-      if (first) MultigridSolve(frame, o).linearise(frame.arguments(o, true));
-    solve_multigrid_group(frame, groups.all[g], frame.options().multigrid_cycles);
+      if (first) MultigridSolve(s, o).linearise(arguments(s, o, true));
+    solve_multigrid_group(s, groups.all[g], s.context.options.multigrid_cycles);
   }
-  for (std::size_t o = 0; o < frame.model().objects.size(); ++o)
-    if (!frame.model().objects[o].multigrid.levels.empty()) move(frame, static_cast<int>(o), first);
+  for (std::size_t o = 0; o < s.model.objects.size(); ++o)
+    if (!s.model.objects[o].multigrid.levels.empty()) move(s, static_cast<int>(o), first);
   if (!first) return;
-  keep_multigrid_pushes(frame);
-  keep_multigrid_pair_pushes(frame);
+  keep_multigrid_pushes(s);
+  keep_multigrid_pair_pushes(s);
 }
 
-void iterate_multigrid(Frame& frame, bool first) {
-  correct_multigrid(frame, first);
-  if (first) frame.find_more_contacts();
+void iterate_multigrid(Substep& s, bool first) {
+  correct_multigrid(s, first);
+  if (first) find_more_contacts(s);
   // There and back: distances, first of all types, have the last word, and what bending pulls apart is put right again.
-  iterate_tiled(frame, false);
-  if (frame.has_pairs()) frame.sweep_pairs();
-  frame.sweep_contacts();
-  frame.sweep_straddlers(false, Order::backward);
-  frame.sweep_tiles(false, Order::backward);
+  iterate_tiled(s, false);
+  if (s.has_pairs()) sweep_pairs(s);
+  sweep_contacts(s);
+  sweep_inter_tile(s, false, Order::backward);
+  sweep_tiles(s, false, Order::backward);
 }
 
 }  // namespace pliant

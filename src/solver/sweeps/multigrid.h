@@ -59,34 +59,34 @@ struct MultigridGroups {
   std::vector<int> root, of_root;  ///< of each object: another that it is joined to; of such a root: its group
 };
 
-class Frame;
+struct Substep;
 
 /// The correction alone, of every object that has levels. The first of a substep is made from the prediction, before any sweep;
 /// after it the multipliers of compliant distances are those of where it leaves them, all others zero. Later ones go on from
 /// what the equations of the first still lacked: sweeps meet constraints and leave that as it is.
-void correct_multigrid(Frame& frame, bool first);
+void correct_multigrid(Substep& s, bool first);
 
 /// Makes room for every object that has levels.
 void prepare_multigrid(const Model& model, std::vector<MultigridObject>& objects);
 
 // Of correct_multigrid, in multigrid_contacts.cpp: contacts as springs on their particles' rows, and afterwards the pushes and
 // the friction that these have exerted, for the contacts' own projection to go on from.
-void add_multigrid_contacts(Frame& frame);
-void keep_multigrid_pushes(Frame& frame);
+void add_multigrid_contacts(Substep& s);
+void keep_multigrid_pushes(Substep& s);
 // Of contacts among surfaces, in multigrid_pairs.cpp, likewise; and what such a spring adds to `image`, beside the rows of
 // its particles that have the other side held, where `direction` moves both. Returns what it adds to direction . image.
-void add_multigrid_pairs(Frame& frame);
-void keep_multigrid_pair_pushes(Frame& frame);
+void add_multigrid_pairs(Substep& s);
+void keep_multigrid_pair_pushes(Substep& s);
 double couple_pair(const PairSpring& spring, std::vector<MultigridObject>& objects);
 // In multigrid_group.cpp: the groups of all objects with levels, in the order of each group's first; and conjugate gradients for
 // one, after which its right-hand sides are what is left of them.
-void make_multigrid_groups(Frame& frame);
-void solve_multigrid_group(Frame& frame, const MultigridGroup& group, int cycles);
+void make_multigrid_groups(Substep& s);
+void solve_multigrid_group(Substep& s, const MultigridGroup& group, int cycles);
 /// False where the change of an object is not to be made: it is not finite, or moves something by more than an edge and makes
 /// the springs' energy no less.
-bool is_multigrid_change_sound(Frame& frame, int object);
+bool is_multigrid_change_sound(Substep& s, int object);
 // In multigrid_multipliers.cpp: lambda of compliant distances after the change, and all at zero before it.
-void keep_multigrid_multipliers(Frame& frame, int object, bool first);
-void clear_multigrid_multipliers(Frame& frame);
+void keep_multigrid_multipliers(Substep& s, int object, bool first);
+void clear_multigrid_multipliers(Substep& s);
 
 }  // namespace pliant

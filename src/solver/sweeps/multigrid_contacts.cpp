@@ -5,7 +5,7 @@
 // and the friction that are read off the solution here.
 #include <algorithm>
 
-#include "solver/frame.h"
+#include "solver/substep.h"
 #include "solver/sweeps/multigrid.h"
 
 namespace pliant {
@@ -79,31 +79,30 @@ void keep_push(const SweepArguments& a, const Record* change, float stiffness, C
 
 /// visit(contact, stiffness, object) for every contact of objects that are corrected.
 template <class Visit>
-void for_contacts(Frame& frame, const Visit& visit) {
-  const Model& model = frame.model();
+void for_contacts(Substep& s, const Visit& visit) {
+  const Model& model = s.model;
   for (std::size_t task = 0; task < model.tiles.size(); ++task) {
     const int o = model.tiles[task].object;
     if (model.objects[o].multigrid.levels.empty()) continue;
     const std::vector<float>& limits = model.objects[o].multigrid.stiffness_limit;
-    for (Contact& contact : frame.workspace().tiles[task].contacts)
-      visit(contact, contact_stiffness * limits[contact.particle], o);
+    for (Contact& contact : s.work.tiles[task].contacts) visit(contact, contact_stiffness * limits[contact.particle], o);
   }
 }
 
 }  // namespace
 
-void add_multigrid_contacts(Frame& frame) {
-  std::vector<MultigridObject>& objects = frame.scratch().multigrid;
+void add_multigrid_contacts(Substep& s) {
+  std::vector<MultigridObject>& objects = s.work.sweep.multigrid;
   for (MultigridObject& object : objects) std::fill(object.has_extra.begin(), object.has_extra.end(), 0);
-  for_contacts(frame, [&](const Contact& contact, float stiffness, int o) {
-    add_contact(contact, frame.arguments(o, false), stiffness, objects[o]);
+  for_contacts(s, [&](const Contact& contact, float stiffness, int o) {
+    add_contact(contact, arguments(s, o, false), stiffness, objects[o]);
   });
 }
 
-void keep_multigrid_pushes(Frame& frame) {
-  for_contacts(frame, [&](Contact& contact, float stiffness, int o) {
-    const MultigridObject& work = frame.scratch().multigrid[o];
-    if (work.is_made) keep_push(frame.arguments(o, false), work.change.data(), stiffness, contact);
+void keep_multigrid_pushes(Substep& s) {
+  for_contacts(s, [&](Contact& contact, float stiffness, int o) {
+    const MultigridObject& work = s.work.sweep.multigrid[o];
+    if (work.is_made) keep_push(arguments(s, o, false), work.change.data(), stiffness, contact);
   });
 }
 

@@ -9,27 +9,27 @@ namespace pliant {
 
 namespace {
 
-double apply(Frame& frame, const MultigridGroup& group) {
+double apply(Substep& s, const MultigridGroup& group) {
   double curvature = 0;
-  for (const int o : group.objects) curvature += MultigridSolve(frame, o).apply();
-  for (const PairSpring* s : group.springs) curvature += couple_pair(*s, frame.scratch().multigrid);
+  for (const int o : group.objects) curvature += MultigridSolve(s, o).apply();
+  for (const PairSpring* spring : group.springs) curvature += couple_pair(*spring, s.work.sweep.multigrid);
   return curvature;
 }
 
-void advance(Frame& frame, const MultigridGroup& group, float alpha) {
-  for (const int o : group.objects) MultigridSolve(frame, o).advance(alpha);
+void advance(Substep& s, const MultigridGroup& group, float alpha) {
+  for (const int o : group.objects) MultigridSolve(s, o).advance(alpha);
 }
 
 /// A step of conjugate gradients; false where there is none left to make.
-bool step(Frame& frame, const MultigridGroup& group, double& before) {
+bool step(Substep& s, const MultigridGroup& group, double& before) {
   double now = 0;
-  for (const int o : group.objects) now += MultigridSolve(frame, o).precondition();
+  for (const int o : group.objects) now += MultigridSolve(s, o).precondition();
   const float beta = before > 0 ? static_cast<float>(now / before) : 0.f;
   before = now;
-  for (const int o : group.objects) MultigridSolve(frame, o).turn(beta);
-  const double curvature = apply(frame, group);
+  for (const int o : group.objects) MultigridSolve(s, o).turn(beta);
+  const double curvature = apply(s, group);
   if (!(curvature > 0) || !(now > 0)) return false;
-  advance(frame, group, static_cast<float>(now / curvature));
+  advance(s, group, static_cast<float>(now / curvature));
   return true;
 }
 
@@ -44,14 +44,14 @@ void release(const PairSpring& s, MultigridObject::Piece& sum) {
 }
 
 /// What contacts join, as one: each piece was shifted as if the others stood still.
-void shift_together(Frame& frame, const MultigridGroup& group) {
+void shift_together(Substep& s, const MultigridGroup& group) {
   MultigridObject::Piece sum{};
-  for (const int o : group.objects) MultigridSolve(frame, o).add_pieces(sum);
-  for (const PairSpring* s : group.springs) release(*s, sum);
+  for (const int o : group.objects) MultigridSolve(s, o).add_pieces(sum);
+  for (const PairSpring* spring : group.springs) release(*spring, sum);
   const Record shift = shift_of(sum);
-  for (const int o : group.objects) MultigridSolve(frame, o).turn_to({shift.x, shift.y, shift.z});
-  apply(frame, group);
-  advance(frame, group, 1);
+  for (const int o : group.objects) MultigridSolve(s, o).turn_to({shift.x, shift.y, shift.z});
+  apply(s, group);
+  advance(s, group, 1);
 }
 
 /// The number of the first object that a contact touches or of what is joined to it, halving the ways there.
@@ -64,23 +64,23 @@ int first_of(const PairSpring& s) { return *std::max_element(s.object.begin(), s
 
 }  // namespace
 
-void make_multigrid_groups(Frame& frame) {
-  MultigridGroups& groups = frame.scratch().multigrid_groups;
-  const int objects = static_cast<int>(frame.model().objects.size());
-  const std::vector<PairSpring>& springs = frame.scratch().pair_springs;
+void make_multigrid_groups(Substep& s) {
+  MultigridGroups& groups = s.work.sweep.multigrid_groups;
+  const int objects = static_cast<int>(s.model.objects.size());
+  const std::vector<PairSpring>& springs = s.work.sweep.pair_springs;
   groups.root.resize(static_cast<std::size_t>(objects));
   for (int o = 0; o < objects; ++o) groups.root[o] = o;
-  for (const PairSpring& s : springs) {
-    for (const int o : s.object) {
+  for (const PairSpring& spring : springs) {
+    for (const int o : spring.object) {
       if (o < 0) continue;
-      const int a = find(groups.root, o), b = find(groups.root, first_of(s));
+      const int a = find(groups.root, o), b = find(groups.root, first_of(spring));
       groups.root[std::max(a, b)] = std::min(a, b);
     }
   }
   groups.of_root.assign(static_cast<std::size_t>(objects), -1);
   groups.count = 0;
   for (int o = 0; o < objects; ++o) {
-    if (frame.model().objects[o].multigrid.levels.empty()) continue;
+    if (s.model.objects[o].multigrid.levels.empty()) continue;
     int& number = groups.of_root[find(groups.root, o)];
     if (number < 0) {
       number = groups.count++;
@@ -90,22 +90,23 @@ void make_multigrid_groups(Frame& frame) {
     }
     groups.all[number].objects.push_back(o);
   }
-  for (const PairSpring& s : springs) groups.all[groups.of_root[find(groups.root, first_of(s))]].springs.push_back(&s);
+  for (const PairSpring& spring : springs)
+    groups.all[groups.of_root[find(groups.root, first_of(spring))]].springs.push_back(&spring);
 }
 
-void solve_multigrid_group(Frame& frame, const MultigridGroup& group, int cycles) {
+void solve_multigrid_group(Substep& s, const MultigridGroup& group, int cycles) {
   for (const int o : group.objects) {
-    MultigridSolve solve(frame, o);
+    MultigridSolve solve(s, o);
     solve.clear_change();
     solve.clear_direction();
   }
   double before = 0;
-  for (int i = 0; i < cycles && step(frame, group, before); ++i) {
+  for (int i = 0; i < cycles && step(s, group, before); ++i) {
   }
-  for (const int o : group.objects) MultigridSolve(frame, o).turn_to_shifts(group.springs);
-  apply(frame, group);
-  advance(frame, group, 1);
-  if (group.objects.size() > 1) shift_together(frame, group);
+  for (const int o : group.objects) MultigridSolve(s, o).turn_to_shifts(group.springs);
+  apply(s, group);
+  advance(s, group, 1);
+  if (group.objects.size() > 1) shift_together(s, group);
 }
 
 }  // namespace pliant

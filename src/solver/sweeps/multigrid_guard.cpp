@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/frame.h"
+#include "solver/substep.h"
 #include "solver/sweeps/multigrid_solve.h"
 
 namespace pliant {
@@ -42,12 +42,12 @@ double stretching(const MultigridLevel& level, const SweepArguments& a, const Re
   return total;
 }
 
-double stretching(Frame& frame, int o, float scale) {
-  const MultigridLevel& level = frame.model().objects[o].multigrid.levels[0];
-  MultigridObject& work = frame.scratch().multigrid[o];
-  const SweepArguments a = frame.arguments(o, false);
+double stretching(Substep& s, int o, float scale) {
+  const MultigridLevel& level = s.model.objects[o].multigrid.levels[0];
+  MultigridObject& work = s.work.sweep.multigrid[o];
+  const SweepArguments a = arguments(s, o, false);
   const int batches = level.batches(), tasks = (batches + batches_per_task - 1) / batches_per_task;
-  frame.for_each_task("solve: multigrid", tasks, [&](int task) {
+  for_tasks(s, "solve: multigrid", tasks, [&](int task) {
     const int first = task * batches_per_task, last = std::min(first + batches_per_task, batches);
     work.sums[task] = stretching(level, a, work.change, scale, first, last);
   });
@@ -58,13 +58,13 @@ double stretching(Frame& frame, int o, float scale) {
 
 }  // namespace
 
-bool is_multigrid_change_sound(Frame& frame, int o) {
-  const Multigrid& model = frame.model().objects[o].multigrid;
-  const Records& change = frame.scratch().multigrid[o].change;
-  if (!frame.kernels().all_finite(change.data(), 0, model.levels[0].batches() * batch_width)) return false;
-  const float most = farthest(change, frame.model().objects[o].particles);
+bool is_multigrid_change_sound(Substep& s, int o) {
+  const Multigrid& model = s.model.objects[o].multigrid;
+  const Records& change = s.work.sweep.multigrid[o].change;
+  if (!s.kernels.all_finite(change.data(), 0, model.levels[0].batches() * batch_width)) return false;
+  const float most = farthest(change, s.model.objects[o].particles);
   if (most <= model.edge_length * model.edge_length) return true;
-  return stretching(frame, o, 1) <= stretching(frame, o, 0);
+  return stretching(s, o, 1) <= stretching(s, o, 0);
 }
 
 }  // namespace pliant

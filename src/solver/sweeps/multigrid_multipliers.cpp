@@ -1,6 +1,6 @@
 // After the multigrid correction: the multipliers of compliant distances, so that the sweeps go on from what it has done.
 #include "constraints/all.h"
-#include "solver/frame.h"
+#include "solver/substep.h"
 #include "solver/sweeps/multigrid.h"
 
 namespace pliant {
@@ -42,19 +42,19 @@ bool keeps_distance_multipliers(const CompiledObject& object, const SweepArgumen
 
 }  // namespace
 
-void keep_multigrid_multipliers(Frame& frame, int o, bool first) {
-  const CompiledObject& object = frame.model().objects[o];
-  const SweepArguments a = frame.arguments(o, first);
+void keep_multigrid_multipliers(Substep& s, int o, bool first) {
+  const CompiledObject& object = s.model.objects[o];
+  const SweepArguments a = arguments(s, o, first);
   if (!keeps_distance_multipliers(object, a)) return;
-  const Record* change = frame.scratch().multigrid[o].change.data();
-  frame.for_each_task("solve: multigrid", static_cast<int>(object.segments.size()),
-                      [&](int s) { add_multipliers(object, object.segments[s], a, change); });
+  const Record* change = s.work.sweep.multigrid[o].change.data();
+  for_tasks(s, "solve: multigrid", static_cast<int>(object.segments.size()),
+            [&](int i) { add_multipliers(object, object.segments[i], a, change); });
 }
 
-void clear_multigrid_multipliers(Frame& frame) {
-  for (auto& object : frame.workspace().multipliers)
+void clear_multigrid_multipliers(Substep& s) {
+  for (auto& object : s.work.multipliers)
     for (auto& values : object) std::fill(values.begin(), values.end(), 0.f);
-  std::fill(frame.workspace().volume_multipliers.begin(), frame.workspace().volume_multipliers.end(), 0);
+  std::fill(s.work.volume_multipliers.begin(), s.work.volume_multipliers.end(), 0);
 }
 
 }  // namespace pliant

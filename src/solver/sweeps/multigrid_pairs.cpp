@@ -5,7 +5,7 @@
 // where it is predicted. Conjugate gradients see the contact as it is, and put right what that gets wrong.
 #include <algorithm>
 
-#include "solver/frame.h"
+#include "solver/substep.h"
 #include "solver/sweeps/multigrid.h"
 
 namespace pliant {
@@ -98,16 +98,16 @@ std::array<float, 6> block_of(const PairSpring& s) {
           k * n.y * n.z};
 }
 
-void add_multigrid_pairs(Frame& frame) {
-  SweepScratch& scratch = frame.scratch();
+void add_multigrid_pairs(Substep& s) {
+  SweepScratch& scratch = s.work.sweep;
   scratch.pair_springs.clear();
-  if (!frame.has_pairs()) return;
-  const PairParticles all = frame.all_particles();
-  const std::vector<PairContact>& contacts = frame.pair_contacts();
+  if (!s.has_pairs()) return;
+  const PairParticles all = all_particles(s);
+  const std::vector<PairContact>& contacts = s.work.pairs->contacts();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     PairSpring spring{};
     float stiffness = 0;
-    if (!place(frame.model(), contacts[i], all.positions, spring, stiffness)) continue;
+    if (!place(s.model, contacts[i], all.positions, spring, stiffness)) continue;
     set_springs(contacts[i], all, stiffness, spring);
     if (!(spring.along > 0)) continue;
     spring.contact = static_cast<std::int32_t>(i);
@@ -138,26 +138,26 @@ double couple_pair(const PairSpring& s, std::vector<MultigridObject>& objects) {
   return curvature;
 }
 
-void keep_multigrid_pair_pushes(Frame& frame) {
-  SweepScratch& scratch = frame.scratch();
+void keep_multigrid_pair_pushes(Substep& s) {
+  SweepScratch& scratch = s.work.sweep;
   if (scratch.pair_springs.empty()) return;
-  const Record* positions = frame.all_particles().positions;
-  const float h2 = frame.all_particles().h * frame.all_particles().h;
-  std::vector<PairContact>& contacts = frame.pair_contacts();
+  const Record* positions = all_particles(s).positions;
+  const float h2 = all_particles(s).h * all_particles(s).h;
+  std::vector<PairContact>& contacts = s.work.pairs->contacts();
   const auto is_made = [&](int o) { return o < 0 || scratch.multigrid[o].is_made; };
-  for (const PairSpring& s : scratch.pair_springs) {
-    if (!std::all_of(s.object.begin(), s.object.end(), is_made)) continue;
-    PairContact& contact = contacts[s.contact];
+  for (const PairSpring& spring : scratch.pair_springs) {
+    if (!std::all_of(spring.object.begin(), spring.object.end(), is_made)) continue;
+    PairContact& contact = contacts[spring.contact];
     Vec3f by{};
     for (int i = 0; i < 4; ++i) {
-      if (s.object[i] < 0) continue;
-      const Record& change = scratch.multigrid[s.object[i]].change[s.particle[i]];
-      by += Vec3f{change.x, change.y, change.z} * s.weight[i];
+      if (spring.object[i] < 0) continue;
+      const Record& change = scratch.multigrid[spring.object[i]].change[spring.particle[i]];
+      by += Vec3f{change.x, change.y, change.z} * spring.weight[i];
     }
-    const float moves = mobility(contact, positions) * h2, deeper = dot(s.normal, by);
-    contact.push += max(0.f, -(s.depth + deeper) * s.along * moves);
-    const Vec3f friction = (s.slip + by - s.normal * deeper) * (s.across * moves);
-    const float size = length(friction), most = contact.kinetic_friction * -s.depth;
+    const float moves = mobility(contact, positions) * h2, deeper = dot(spring.normal, by);
+    contact.push += max(0.f, -(spring.depth + deeper) * spring.along * moves);
+    const Vec3f friction = (spring.slip + by - spring.normal * deeper) * (spring.across * moves);
+    const float size = length(friction), most = contact.kinetic_friction * -spring.depth;
     contact.friction -= friction * (size > most ? most / size : 1.f);
   }
 }

@@ -27,8 +27,8 @@ Record shift_of(const MultigridObject::Piece& piece) {
 template <class Body>
 void MultigridSolve::for_batches(int l, Body body) {
   const int batches = level(l).batches(), tasks = (batches + batches_per_task - 1) / batches_per_task;
-  frame_.for_each_task("solve: multigrid", tasks,
-                       [&](int task) { body(task * batches_per_task, std::min((task + 1) * batches_per_task, batches)); });
+  for_tasks(s_, "solve: multigrid", tasks,
+            [&](int task) { body(task * batches_per_task, std::min((task + 1) * batches_per_task, batches)); });
 }
 
 /// In the tasks' order, whichever thread had them.

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "solver/frame.h"
+#include "solver/substep.h"
 #include "solver/sweeps/multigrid.h"
 
 namespace pliant {
@@ -16,12 +16,12 @@ inline constexpr int batches_per_task = 128;
 /// A view of one object's hierarchy and numbers in one substep.
 class MultigridSolve {
  public:
-  MultigridSolve(Frame& frame, int object)
-      : frame_(frame),
+  MultigridSolve(Substep& s, int object)
+      : s_(s),
         object_(object),
-        model_(frame.model().objects[object].multigrid),
-        work_(frame.scratch().multigrid[object]),
-        kernels_(frame.kernels().multigrid) {}
+        model_(s.model.objects[object].multigrid),
+        work_(s.work.sweep.multigrid[object]),
+        kernels_(s.kernels.multigrid) {}
 
   /// The matrices of all levels and the right-hand side, about where `a` has the particles.
   void linearise(const SweepArguments& a);
@@ -57,7 +57,7 @@ class MultigridSolve {
   void smooth(int l);
   void cycle(int l);
 
-  Frame& frame_;
+  Substep& s_;
   int object_;
   const Multigrid& model_;
   MultigridObject& work_;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "constraints/all.h"
-#include "solver/frame.h"
+#include "solver/substep.h"
 #include "solver/visit.h"
 #include "solver/volume.h"
 
@@ -78,19 +78,19 @@ void add_unexplained(const View& view, const Record* predicted, ErrorSum& sum) {
   }
 }
 
-void leave_out_contacts(Frame& frame, std::vector<std::vector<char>>& left_out) {
-  for (std::size_t task = 0; task < frame.model().tiles.size(); ++task) {
-    for (const Contact& contact : frame.workspace().tiles[task].contacts) {
-      if (contact.push > 0) left_out[frame.model().tiles[task].object][contact.particle] = 1;
+void leave_out_contacts(Substep& s, std::vector<std::vector<char>>& left_out) {
+  for (std::size_t task = 0; task < s.model.tiles.size(); ++task) {
+    for (const Contact& contact : s.work.tiles[task].contacts) {
+      if (contact.push > 0) left_out[s.model.tiles[task].object][contact.particle] = 1;
     }
   }
 }
 
 }  // namespace
 
-void record_iteration(Frame& frame, int iteration) {
-  const Model& model = frame.model();
-  const Workspace& work = frame.workspace();
+void record_iteration(Substep& s, int iteration) {
+  const Model& model = s.model;
+  const Workspace& work = s.work;
   const std::size_t objects = model.objects.size();
   std::vector<std::vector<Vec3d>> explained;
   std::vector<std::vector<char>> left_out;
@@ -99,9 +99,9 @@ void record_iteration(Frame& frame, int iteration) {
     explained.emplace_back(object.particles);
     left_out.emplace_back(object.particles, 0);
   }
-  leave_out_contacts(frame, left_out);
+  leave_out_contacts(s, left_out);
   for (std::size_t o = 0; o < objects; ++o) {
-    views.push_back({model.objects[o], frame.arguments(static_cast<int>(o), false),
+    views.push_back({model.objects[o], arguments(s, static_cast<int>(o), false),
                      iteration > 0 ? &work.multipliers[o] : nullptr, explained[o], left_out[o]});
   }
   IterationResidual found;
@@ -120,13 +120,12 @@ void record_iteration(Frame& frame, int iteration) {
   if (volumes.count > 0) found.primal.push_back(volumes.residual("volume"));
   found.dual_rms = dual.rms();
   found.dual_largest = dual.largest;
-  frame.report().convergence.push_back(std::move(found));
+  s.report.convergence.push_back(std::move(found));
 }
 
-void record_prediction(Frame& frame) {
-  std::copy(frame.workspace().displacements.begin(), frame.workspace().displacements.end(),
-            frame.scratch().predicted.begin());
-  record_iteration(frame, 0);
+void record_prediction(Substep& s) {
+  std::copy(s.work.displacements.begin(), s.work.displacements.end(), s.work.sweep.predicted.begin());
+  record_iteration(s, 0);
 }
 
 }  // namespace pliant

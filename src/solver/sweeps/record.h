@@ -5,13 +5,13 @@
 
 namespace pliant {
 
-class Frame;
+struct Substep;
 
 /// Keeps the prediction, from which the dual residual is measured, and reports iteration 0. Before the first sweep of a
 /// substep.
-void record_prediction(Frame& frame);
+void record_prediction(Substep& s);
 
 /// Appends the residuals after iteration number `iteration`, from 1, to the report.
-void record_iteration(Frame& frame, int iteration);
+void record_iteration(Substep& s, int iteration);
 
 }  // namespace pliant

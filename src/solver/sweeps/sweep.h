@@ -9,7 +9,7 @@
 
 namespace pliant {
 
-class Frame;
+struct Substep;
 
 struct SweepMethod {
   /// Its first pass over the constraints of a tile may be made when the tile is entered, while it is in the cache.
@@ -18,16 +18,16 @@ struct SweepMethod {
   int passes;
   /// One iteration: every constraint among particles `passes` times. In the first of a substep the multipliers start at
   /// zero.
-  void (*iterate)(Frame& frame, bool first);
+  void (*iterate)(Substep& s, bool first);
 };
 
 /// What stands behind a Settings::sweep.
 const SweepMethod& sweep_method(Sweep sweep);
 
-void iterate_tiled(Frame& frame, bool first);      // tiled.cpp
-void iterate_symmetric(Frame& frame, bool first);  // symmetric.cpp
-void iterate_jacobi(Frame& frame, bool first);     // jacobi.cpp
-void iterate_chains(Frame& frame, bool first);     // chains.cpp
-void iterate_multigrid(Frame& frame, bool first);  // multigrid.cpp
+void iterate_tiled(Substep& s, bool first);      // tiled.cpp
+void iterate_symmetric(Substep& s, bool first);  // symmetric.cpp
+void iterate_jacobi(Substep& s, bool first);     // jacobi.cpp
+void iterate_chains(Substep& s, bool first);     // chains.cpp
+void iterate_multigrid(Substep& s, bool first);  // multigrid.cpp
 
 }  // namespace pliant

@@ -1,13 +1,13 @@
 // Coloured Gauss-Seidel: every tile by itself, then what straddles tiles, colour by colour.
-#include "solver/frame.h"
+#include "solver/passes.h"
 #include "solver/sweeps/sweep.h"
 
 namespace pliant {
 
-void iterate_tiled(Frame& frame, bool first) {
-  if (!(first && frame.swept_on_entry())) frame.sweep_tiles(first, Order::forward);
-  frame.sweep_straddlers(first, Order::forward);
-  frame.sweep_volumes(first);
+void iterate_tiled(Substep& s, bool first) {
+  if (!(first && s.sweeps_on_entry)) sweep_tiles(s, first, Order::forward);
+  sweep_inter_tile(s, first, Order::forward);
+  sweep_volumes(s, first);
 }
 
 }  // namespace pliant

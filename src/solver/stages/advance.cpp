@@ -1,0 +1,116 @@
+// Update and predict: what moves particles.
+//
+// The end of a substep and the start of the next touch the same particles, and a tile's fit a core's cache. So where nothing
+// between the two needs all velocities (external forces, contacts among surfaces), `update` does nothing and the next `predict`
+// does both in one visit to each tile, contacts with colliders and mostly the first sweep included. The bits are the same.
+#include <algorithm>
+
+#include "math/motion.h"
+#include "solver/diagnose.h"
+#include "solver/forces.h"
+#include "solver/passes.h"
+#include "solver/stages/stages.h"
+
+namespace pliant {
+
+namespace {
+
+/// Whether another stage reads velocities before the next prediction.
+bool velocities_are_read(const Substep& s) { return s.is_last() || s.has_pairs() || has_forces(s.model); }
+
+/// A particle whose place at the substep's end is given.
+void move_to(const Vec3d& target, int particle, const AdvanceArguments& a) {
+  const Record &x = a.positions[particle], &r = a.remainders[particle];
+  Record &d = a.displacements[particle], &v = a.velocities[particle];
+  d = {static_cast<float>(target.x - x.x), static_cast<float>(target.y - x.y), static_cast<float>(target.z - x.z), 0};
+  v = {(d.x - r.x) * a.inverse_h, (d.y - r.y) * a.inverse_h, (d.z - r.z) * a.inverse_h, 0};
+}
+
+/// Kinematic particles go where they are to be at the substep's end.
+void move_kinematics(const Substep& s, const CompiledObject& object, const AdvanceArguments& a) {
+  if (object.carrier.moves()) {
+    const CarrierPose pose(object.carrier, s.time_after);
+    for (int i = a.first; i < a.last; ++i) move_to(pose.place(i), i, a);
+  }
+  auto kinematic = std::lower_bound(object.kinematics.begin(), object.kinematics.end(), a.first,
+                                    [](const Kinematic& k, int first) { return k.particle < first; });
+  for (; kinematic != object.kinematics.end() && kinematic->particle < a.last; ++kinematic) {
+    const Vec3<double> target = to_world(pose_at(kinematic->motion, s.time_after), convert<double>(kinematic->rest));
+    move_to(target, kinematic->particle, a);
+  }
+}
+
+bool is_finite(const Substep& s, int task) {
+  const AdvanceArguments a = particles(s, task);
+  return s.kernels.all_finite(a.displacements, a.first, a.last);
+}
+
+/// Ends a tile's substep: velocities, positions, restitution at colliders.
+void update_tile(const Substep& s, int task, bool ends_frame) {
+  AdvanceArguments a = particles(s, task);
+  const Vec3f settled = gravity_for(s, s.work.gravity[s.model.tiles[task].object].settled);
+  if (ends_frame) a.gravity_settled = settled;
+  s.kernels.update(a);
+  const std::vector<Contact>& contacts = s.work.tiles[task].contacts;
+  if (!contacts.empty()) respond(contacts, ends_frame ? Vec3f{} : settled, a);
+}
+
+/// Begins a tile's substep, with `move` as the kernel: predict, or advance where the last substep's update is part of it.
+void predict_tile(const Substep& s, int task, void (*move)(const AdvanceArguments&, PointBounds*)) {
+  const CompiledObject& object = object_of(s, task);
+  const AdvanceArguments a = particles(s, task);
+  TileScratch& scratch = s.work.tiles[task];
+  scratch.contacts.clear();
+  scratch.bounds = {};
+  PointBounds* bounds = s.work.colliders.empty() ? nullptr : &scratch.bounds;
+  move(a, bounds);
+  move_kinematics(s, object, a);
+  if (bounds == nullptr) return;
+  find_contacts({object, a, *bounds, s.work.colliders, s.kernels.find_near}, scratch.near, scratch.contacts);
+}
+
+/// The end of one substep and the start of the next. False, and nothing changed, where a displacement is not finite.
+bool advance_tile(const Substep& s, int task) {
+  TileScratch& scratch = s.work.tiles[task];
+  scratch.finite = is_finite(s, task);
+  if (!scratch.finite) return false;
+  const bool in_one_pass = scratch.contacts.empty();
+  if (!in_one_pass) update_tile(s, task, false);
+  predict_tile(s, task, in_one_pass ? s.kernels.advance : s.kernels.predict);
+  return true;
+}
+
+/// True where every tile is finite; else the report names what is not, in substep number `substep`.
+bool all_finite(Substep& s, int substep) {
+  const std::vector<TileScratch>& tiles = s.work.tiles;
+  if (std::all_of(tiles.begin(), tiles.end(), [](const TileScratch& tile) { return tile.finite; })) return true;
+  s.report.nonfinite = diagnose(s);
+  s.report.nonfinite->frame = s.state.frame;
+  s.report.nonfinite->substep = substep;
+  return false;
+}
+
+}  // namespace
+
+bool predict(Substep& s) {
+  for_tiles(s, "solve: tiles", [&](int task) {
+    if (!s.update_is_due) predict_tile(s, task, s.kernels.predict);
+    if (s.update_is_due && !advance_tile(s, task)) return;
+    if (s.sweeps_on_entry) sweep_tile(s, task, true, Order::forward);
+  });
+  s.update_is_due = false;
+  return all_finite(s, s.number - 1);
+}
+
+bool update(Substep& s) {
+  for (FrameGravity& gravity : s.work.gravity) gravity.next(s.h);
+  s.update_is_due = !velocities_are_read(s);
+  if (s.update_is_due) return true;
+  for_tiles(s, "update", [&](int task) {
+    s.work.tiles[task].finite = is_finite(s, task);
+    if (s.work.tiles[task].finite) update_tile(s, task, s.is_last());
+  });
+  return all_finite(s, s.number);
+}
+
+}  // namespace pliant

@@ -1,0 +1,25 @@
+#include "solver/passes.h"
+#include "solver/stages/stages.h"
+
+namespace pliant {
+
+namespace {
+
+/// Rounds of contacts beyond the iterations, each of which passes a push on by one layer.
+constexpr int most_rounds_of_contacts = 16;
+
+}  // namespace
+
+void filter(Substep& s) {
+  if (!s.has_pairs()) return;
+  PairSystem& pairs = *s.work.pairs;
+  // The filter cannot limit kinematic colliders: whatever they meet must be out of their way first.
+  for (int round = 0; round < most_rounds_of_contacts && pairs.is_overrun(all_particles(s)); ++round) {
+    sweep_pairs(s);
+    sweep_contacts(s);
+  }
+  pairs.filter(s.executor, all_particles(s));
+  if (s.is_last()) pairs.measure_overlaps(all_particles(s));
+}
+
+}  // namespace pliant

@@ -1,0 +1,53 @@
+// What begins and ends a frame.
+#include <algorithm>
+
+#include "solver/pair_words.h"
+#include "solver/stages/stages.h"
+#include "solver/sweeps/sweep.h"
+
+namespace pliant {
+
+namespace {
+
+bool may_sweep_on_entry(const StepContext& context) {
+  const bool untangles = context.workspace.pairs != nullptr && context.workspace.pairs->untangles();
+  return sweep_method(context.sweep).begins_on_entry && !context.record_residuals &&
+         context.options.acceleration == SweepOptions::Acceleration::none && !untangles;
+}
+
+void begin_pairs(const StepContext& context) {
+  Workspace& work = context.workspace;
+  if (work.pairs == nullptr) return;
+  work.pairs->begin_frame(context.state.positions.data(), work.look_for_tangles);
+  work.look_for_tangles = false;
+}
+
+}  // namespace
+
+Substep begin_frame(const StepContext& context, double dt, Report& report) {
+  Substep s{context,          context.model,   context.state, context.workspace,
+            context.executor, context.kernels, report,        context.state.time};
+  s.dt = dt;
+  s.h = static_cast<float>(dt / context.substeps);
+  for (TileScratch& tile : s.work.tiles) tile.finite = true;
+  for (std::size_t o = 0; o < s.work.gravity.size(); ++o)
+    s.work.gravity[o] = {0, static_cast<double>(s.h), 0, 1 / (1 + s.h * s.model.objects[o].damping)};
+  begin_pairs(context);
+  s.sweeps_on_entry = may_sweep_on_entry(context);
+  return s;
+}
+
+void end_frame(Substep& s) {
+  for (const TileScratch& tile : s.work.tiles) {
+    s.report.contacts +=
+        std::count_if(tile.contacts.begin(), tile.contacts.end(), [](const Contact& c) { return c.push > 0; });
+  }
+  if (s.has_pairs()) {
+    const PairCounts& c = s.work.pairs->counts();
+    s.report.pairs = {c.candidates, c.contacts, c.shortened, c.hopeless, c.tangled, c.rebuilds, c.inside, c.deepest};
+    warn_of_pairs(s.model, *s.work.pairs, s.report.warnings);
+  }
+  s.state.time = s.frame_start + s.dt;
+}
+
+}  // namespace pliant

@@ -1,0 +1,57 @@
+// The iterations of a substep.
+#include <algorithm>
+
+#include "solver/passes.h"
+#include "solver/residual.h"
+#include "solver/stages/stages.h"
+#include "solver/sweeps/chains.h"
+#include "solver/sweeps/chebyshev.h"
+#include "solver/sweeps/record.h"
+#include "solver/sweeps/sweep.h"
+
+namespace pliant {
+
+namespace {
+
+/// Whether a tolerance is set and met, with iterations left that it saves.
+bool is_met(Substep& s, int iteration) {
+  const StepContext& context = s.context;
+  return context.tolerance > 0 && iteration + 1 < context.iterations && distance_residual(s) < context.tolerance;
+}
+
+/// One iteration: constraints as the sweep has it, acceleration, tethers, contacts.
+void iterate(Substep& s, int iteration) {
+  const bool accelerates = s.context.options.acceleration == SweepOptions::Acceleration::chebyshev;
+  if (accelerates) keep_iterate(s, iteration);
+  sweep_method(s.context.sweep).iterate(s, iteration == 0);
+  if (accelerates) accelerate(s, iteration);
+  hold_tethers(s);
+  sweep_pairs(s);
+  sweep_contacts(s);  // last, so that constraints pull no particle into a collider
+}
+
+/// Returns how many iterations were made.
+int iterate_to_tolerance(Substep& s) {
+  const bool records = s.context.record_residuals && s.is_last();
+  if (records) record_prediction(s);
+  for (int iteration = 0; iteration < s.context.iterations; ++iteration) {
+    iterate(s, iteration);
+    if (records) record_iteration(s, iteration + 1);
+    if (is_met(s, iteration)) return iteration + 1;
+  }
+  return s.context.iterations;
+}
+
+void count_iterations(Substep& s, int iterations) {
+  IterationCount& count = s.report.iterations;
+  count.smallest = s.number == 0 ? iterations : std::min(count.smallest, iterations);
+  count.largest = std::max(count.largest, iterations);
+  s.iterations_made += iterations;
+  count.mean = static_cast<double>(s.iterations_made) / (s.number + 1);
+}
+
+}  // namespace
+
+void solve(Substep& s) { count_iterations(s, iterate_to_tolerance(s)); }
+
+}  // namespace pliant

@@ -1,0 +1,56 @@
+#include "solver/substep.h"
+
+namespace pliant {
+
+double time_of(const Substep& s, int substep) { return s.frame_start + s.dt * substep / s.context.substeps; }
+
+Vec3f gravity_for(const Substep& s, double seconds) { return s.model.gravity * static_cast<float>(seconds); }
+
+SweepArguments arguments(const Substep& s, int object, bool first_pass) {
+  const int first = s.model.first[object];
+  SweepArguments a;
+  a.positions = s.state.positions.data() + first;
+  a.displacements = s.work.displacements.data() + first;
+  a.remainders = s.state.remainders.data() + first;
+  a.multipliers = s.work.multiplier_pointers[object].empty() ? nullptr : s.work.multiplier_pointers[object].data();
+  a.h = s.h;
+  a.inverse_h = 1 / s.h;
+  a.inverse_h2 = (1 / s.h) * (1 / s.h);
+  a.first_pass = first_pass;
+  a.relaxation = s.context.options.relaxation;
+  return a;
+}
+
+AdvanceArguments particles(const Substep& s, int task) {
+  const int object = s.model.tiles[task].object, first = s.model.first[object];
+  const Tile& tile = tile_of(s, task);
+  const FrameGravity& gravity = s.work.gravity[object];
+  AdvanceArguments a;
+  a.positions = s.state.positions.data() + first;
+  a.displacements = s.work.displacements.data() + first;
+  a.remainders = s.state.remainders.data() + first;
+  a.velocities = s.state.velocities.data() + first;
+  a.first = tile.first_particle;
+  a.last = tile.last_particle;
+  a.h = s.h;
+  a.inverse_h = 1 / s.h;
+  a.velocity_kept = gravity.kept;
+  a.gravity_step = s.model.gravity * s.h;
+  a.gravity_finished = gravity_for(s, gravity.finished);
+  a.gravity_begun = gravity_for(s, gravity.begun);
+  return a;
+}
+
+PairParticles all_particles(const Substep& s) {
+  return {s.state.positions.data(), s.state.remainders.data(), s.work.displacements.data(), s.h};
+}
+
+void for_tiles(Substep& s, const char* name, FunctionRef<void(int)> body) {
+  s.executor.parallel_for(name, static_cast<int>(s.model.tiles.size()), body);
+}
+
+void for_tasks(Substep& s, const char* name, int tasks, FunctionRef<void(int)> body) {
+  s.executor.parallel_for(name, tasks, body);
+}
+
+}  // namespace pliant

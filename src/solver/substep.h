@@ -1,0 +1,52 @@
+// The substep under way: what every stage of solver/step.cpp works on.
+#pragma once
+
+#include "solver/step.h"
+
+namespace pliant {
+
+/// Views of what a step works with, and the numbers of one substep. Plain data: the stages are free functions.
+struct Substep {
+  const StepContext& context;
+  const Model& model;
+  State& state;
+  Workspace& work;
+  Executor& executor;
+  const Kernels& kernels;
+  Report& report;
+  double frame_start = 0, dt = 0;  ///< of the frame [s]
+  float h = 0;                     ///< of a substep [s]
+  int number = 0;                  ///< of the substep within the frame, from 0
+  double time_after = 0;           ///< at the substep's end [s]
+  bool sweeps_on_entry = false;  ///< predict makes the first sweep over a tile's constraints while the tile is in the cache
+  bool update_is_due = false;    ///< update has left its work to the next predict (stages/advance.cpp)
+  std::int64_t iterations_made = 0;  ///< in this frame
+
+  bool is_last() const { return number + 1 == context.substeps; }
+  bool has_pairs() const { return work.pairs != nullptr; }
+};
+
+/// When substep number `substep` of the frame begins [s].
+double time_of(const Substep& s, int substep);
+
+/// Gravity over a time [m/s].
+Vec3f gravity_for(const Substep& s, double seconds);
+
+/// An object's particles and multipliers, as projections see them.
+SweepArguments arguments(const Substep& s, int object, bool first_pass);
+
+/// A tile's particles, as prediction and update see them.
+AdvanceArguments particles(const Substep& s, int task);
+
+/// Those of all objects, as contacts among surfaces see them.
+PairParticles all_particles(const Substep& s);
+
+/// The tile of a task, and the object that it is of.
+inline const CompiledObject& object_of(const Substep& s, int task) { return s.model.objects[s.model.tiles[task].object]; }
+inline const Tile& tile_of(const Substep& s, int task) { return object_of(s, task).tiles[s.model.tiles[task].tile]; }
+
+/// Parallel loops, timed under `name`: over all tiles, and over tasks of the caller's own.
+void for_tiles(Substep& s, const char* name, FunctionRef<void(int)> body);
+void for_tasks(Substep& s, const char* name, int tasks, FunctionRef<void(int)> body);
+
+}  // namespace pliant
