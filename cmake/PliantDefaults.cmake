@@ -39,11 +39,11 @@ function(pliant_include_root target scope folder prefix)
   target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/roots/${name}>)
 endfunction()
 
-# pliant_folder(NAME [DEPENDS targets...] [PREFIX path]): the .cpp files of this folder as the library pliant_NAME. It sees the
-# public headers, its own, and those of the targets that it names. A folder without .cpp files becomes an interface library.
+# pliant_folder(NAME [DEPENDS targets...] [PREFIX path] [NOT_INSTALLED]): the .cpp files of this folder as the library pliant_NAME. It sees
+# the public headers, its own, and those of the targets that it names. A folder without .cpp files becomes an interface library.
 # PREFIX is what its headers are included by, NAME unless said.
 function(pliant_folder name)
-  cmake_parse_arguments(ARG "" "PREFIX" "DEPENDS;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "NOT_INSTALLED" "PREFIX" "DEPENDS;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   set(target pliant_${name})
   if(sources)
@@ -64,5 +64,7 @@ function(pliant_folder name)
   pliant_include_root(${target} ${scope} ${CMAKE_CURRENT_SOURCE_DIR} ${ARG_PREFIX})
   target_compile_features(${target} ${scope} cxx_std_20)
   target_link_libraries(${target} ${scope} ${ARG_DEPENDS})
-  set_property(GLOBAL APPEND PROPERTY PLIANT_LIBRARIES ${target})
+  if(NOT ARG_NOT_INSTALLED)
+    set_property(GLOBAL APPEND PROPERTY PLIANT_LIBRARIES ${target})
+  endif()
 endfunction()

@@ -7,10 +7,11 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
-#include "collision/candidates.h"
-#include "collision/spatial_hash.h"
 #include "pliant/error.h"
 #include "pliant/mesh.h"
+#include "reference/candidates.h"
+#include "reference/spatial_hash.h"
+#include "reference/volumes.h"
 
 namespace pliant::bench {
 

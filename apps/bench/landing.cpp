@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/bench/bench.h"
-#include "collision/intersections.h"
+#include "collision/untangle/intersections.h"
 #include "math/quat.h"
 #include "pliant/error.h"
 #include "pliant/world.h"

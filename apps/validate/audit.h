@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "collision/intersections.h"
+#include "collision/untangle/intersections.h"
 #include "pliant/world.h"
 
 namespace pliant::validate {

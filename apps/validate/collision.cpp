@@ -7,10 +7,11 @@
 
 #include "apps/validate/long_contact.h"
 #include "apps/validate/rows.h"
-#include "collision/intersections.h"
-#include "collision/spatial_hash.h"
-#include "collision/tree.h"
+#include "collision/broad/tree.h"
+#include "collision/untangle/intersections.h"
 #include "geometry/continuous.h"
+#include "reference/spatial_hash.h"
+#include "reference/volumes.h"
 
 namespace pliant::validate {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "collision/solid_fields.h"
+#include "collision/fields/solid_fields.h"
 #include "inspect/problems.h"
 #include "pliant/error.h"
 

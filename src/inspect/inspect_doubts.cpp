@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "collision/collider_pose.h"
+#include "collision/fields/collider_pose.h"
 #include "constraints/dihedral_bending.h"
 #include "geometry/shapes.h"
 #include "inspect/problems.h"

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "collision/intersections.h"
-#include "collision/mesh_query.h"
+#include "collision/fields/mesh_query.h"
+#include "collision/untangle/intersections.h"
 #include "inspect/problems.h"
 #include "matter/surfaces.h"
 #include "topology/boundary.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "collision/pairs.h"
+#include "collision/surfaces/pairs.h"
 #include "model/model.h"
 
 namespace pliant {

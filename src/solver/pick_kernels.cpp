@@ -1,7 +1,7 @@
 // The table of kernels for each instruction set, and which of them this machine runs.
 #include <string>
 
-#include "collision/pair_kernels.h"
+#include "collision/proxies/pair_kernels.h"
 #include "pliant/error.h"
 #include "solver/kernels.h"
 #include "solver/sweeps/chain_kernels.h"

@@ -5,8 +5,8 @@
 
 #include <memory>
 
-#include "collision/contact.h"
-#include "collision/pairs.h"
+#include "collision/narrow/contact.h"
+#include "collision/surfaces/pairs.h"
 #include "model/model.h"
 #include "pliant/world.h"
 #include "solver/residual.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "collision/solid_fields.h"
+#include "collision/fields/solid_fields.h"
 #include "constraints/all.h"
 #include "core/sha256.h"
 #include "inspect/inspect_scene.h"

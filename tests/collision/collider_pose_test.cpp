@@ -1,5 +1,5 @@
 // Colliders as contacts see them.
-#include "collision/collider_pose.h"
+#include "collision/fields/collider_pose.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Contacts of one tile: the same whether particles are looked at closely one and all or only those found near; and what a
 // contact holds.
-#include "collision/contact.h"
+#include "collision/narrow/contact.h"
 
 #include <gtest/gtest.h>
 

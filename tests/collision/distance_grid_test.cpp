@@ -1,11 +1,11 @@
 // Grids against the solids whose distance is known: a sphere, and a box seen from all sides.
-#include "collision/distance_grid.h"
+#include "collision/fields/distance_grid.h"
 
 #include <gtest/gtest.h>
 
-#include "nasty.h"
 #include "pliant/error.h"
 #include "pliant/mesh.h"
+#include "support/nasty.h"
 
 namespace pliant {
 namespace {

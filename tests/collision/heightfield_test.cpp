@@ -1,12 +1,12 @@
 // Ground found by place against the same ground as a mesh, triangle by triangle.
-#include "collision/heightfield.h"
+#include "collision/fields/heightfield.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "nasty.h"
 #include "pliant/error.h"
+#include "support/nasty.h"
 
 namespace pliant {
 namespace {

@@ -1,13 +1,13 @@
 // Intersections by the tree against all pairs, and surfaces whose intersections are known.
-#include "collision/intersections.h"
+#include "collision/untangle/intersections.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "nasty.h"
 #include "pliant/error.h"
 #include "pliant/mesh.h"
+#include "support/nasty.h"
 
 namespace pliant {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "collision/pair_kernels.h"
+#include "collision/proxies/pair_kernels.h"
 
 namespace pliant::testing_support {
 

@@ -1,13 +1,13 @@
 // Closest points and insides against brute force and against solids that are known.
-#include "collision/mesh_query.h"
+#include "collision/fields/mesh_query.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "geometry/exact.h"
-#include "nasty.h"
 #include "pliant/mesh.h"
+#include "support/nasty.h"
 
 namespace pliant {
 namespace {

@@ -1,5 +1,5 @@
 // One contact between things that move: distances in lanes against double, momentum, the thickness reached, the friction cone.
-#include "collision/pair_contact.h"
+#include "collision/narrow/pair_contact.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The kernels of pairs in lanes: against plain double precision, and the same bits whatever they are compiled for.
-#include "collision/pair_kernels.h"
+#include "collision/proxies/pair_kernels.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "collision/pairs.h"
+#include "collision/surfaces/pairs.h"
 
 namespace pliant {
 namespace {

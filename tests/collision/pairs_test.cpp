@@ -1,6 +1,6 @@
 // The pair system against brute force: in every substep of random moving soups its contacts are those of all pairs, a system
 // that has just been made does the same to the bit, and after the filter nothing crosses.
-#include "collision/pairs.h"
+#include "collision/surfaces/pairs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The filter of one pair: random, degenerate and nearly touching pairs keep their distance to the end and all along the way.
-#include "collision/plane_filter.h"
+#include "collision/filter/plane_filter.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "collision/collider_pose.h"
+#include "collision/fields/collider_pose.h"
 #include "geometry/shapes.h"
 #include "math/vector.h"
 #include "support/scenes.h"

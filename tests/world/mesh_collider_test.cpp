@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "collision/intersections.h"
+#include "collision/untangle/intersections.h"
 #include "math/vector.h"
 #include "pliant/error.h"
 #include "world/surface_support.h"

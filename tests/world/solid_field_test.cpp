@@ -1,5 +1,5 @@
 // Solids met through a distance: a ball's grid against the ball itself, ground against its planes, and Worlds with either.
-#include "collision/solid_field.h"
+#include "collision/fields/solid_field.h"
 
 #include <gtest/gtest.h>
 

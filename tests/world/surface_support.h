@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "collision/intersections.h"
+#include "collision/untangle/intersections.h"
 #include "world/world_support.h"
 
 namespace pliant::testing_support {

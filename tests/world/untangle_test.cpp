@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "collision/intersections.h"
+#include "collision/untangle/intersections.h"
 #include "math/vector.h"
 #include "pliant/error.h"
 #include "support/sweep_table.h"

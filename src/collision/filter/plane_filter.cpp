@@ -1,0 +1,102 @@
+#include "collision/filter/plane_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/vector.h"
+
+namespace pliant {
+
+namespace {
+
+constexpr double nearest_to_a_side = 0.1, largest_slab = 0.98;
+
+/// Where a particle's rounded position is at the end, relative to another's start.
+Vec3d end_of(const Record& x, const Record& d, float share, const Record& origin) {
+  const float ex = x.x + d.x * share, ey = x.y + d.y * share, ez = x.z + d.z * share;
+  return {double(ex) - double(origin.x), double(ey) - double(origin.y), double(ez) - double(origin.z)};
+}
+
+Vec3d start_of(const Record& x, const Record& origin) {
+  return {double(x.x) - double(origin.x), double(x.y) - double(origin.y), double(x.z) - double(origin.z)};
+}
+
+/// Heights of the four along the normal at both ends of their moves.
+struct Heights {
+  double start[4], end[4];
+  double lowest_first = 1e300, highest_second = -1e300;  // at the start
+  double lowest_first_ever = 1e300, highest_second_ever = -1e300;
+  double first_sinks = 0, second_rises = 0;                    // by how much, at most
+  bool first_moves = false, second_moves = false;              // can be shortened
+  double first_fixed_low = 1e300, second_fixed_high = -1e300;  // ends of what can't
+};
+
+Heights heights_of(const PairStencil& pair, const Vec3d& normal, const Record* positions, const Record* displacements) {
+  Heights h;
+  const Record& origin = positions[pair.vertex[0]];
+  for (int i = 0; i < 4; ++i) {
+    const Record &x = positions[pair.vertex[i]], &d = displacements[pair.vertex[i]];
+    h.start[i] = dot(normal, start_of(x, origin));
+    h.end[i] = dot(normal, end_of(x, d, 1, origin));
+    if (i < pair.first_side) {
+      h.lowest_first = std::min(h.lowest_first, h.start[i]);
+      h.lowest_first_ever = std::min(h.lowest_first_ever, std::min(h.start[i], h.end[i]));
+      h.first_sinks = std::max(h.first_sinks, h.start[i] - h.end[i]);
+      if (!(x.w > 0)) h.first_fixed_low = std::min(h.first_fixed_low, std::min(h.start[i], h.end[i]));
+    } else {
+      h.highest_second = std::max(h.highest_second, h.start[i]);
+      h.highest_second_ever = std::max(h.highest_second_ever, std::max(h.start[i], h.end[i]));
+      h.second_rises = std::max(h.second_rises, h.end[i] - h.start[i]);
+      if (!(x.w > 0)) h.second_fixed_high = std::max(h.second_fixed_high, std::max(h.start[i], h.end[i]));
+    }
+  }
+  return h;
+}
+
+}  // namespace
+
+Separation plan_separation(const PairStencil& pair, const PairDistance& at, const Record* positions,
+                           const Record* displacements, double least, SeparatingSlab& slab, std::array<float, 4>& shares) {
+  const Heights h = heights_of(pair, at.normal, positions, displacements);
+  const double gap = h.lowest_first - h.highest_second;
+  if (!(gap > 0)) return Separation::hopeless;
+  const double thickness = std::min(least, largest_slab * gap), half = 0.5 * thickness;
+  // Up to rounding, so that moves shortened to a slab are free of another.
+  if (h.lowest_first_ever - h.highest_second_ever >= thickness * (1 - 1e-9)) return Separation::free;
+  // The plane lies where both sides' moves meet, but leaves half a slab to either.
+  const double moves = h.first_sinks + h.second_rises;
+  double share = std::clamp(moves > 0 ? h.second_rises / moves : 0.5, nearest_to_a_side, 1 - nearest_to_a_side);
+  share = std::clamp(share, half / gap, 1 - half / gap);
+  double middle = h.highest_second + share * gap;
+  // What can't be shortened has its way.
+  middle = std::min(middle, h.first_fixed_low - half);
+  middle = std::max(middle, h.second_fixed_high + half);
+  slab = {pair, at.normal, middle + half, middle - half};
+  // What lies on its limit but for the rounding of sums lies within it.
+  const double slop = 1e-14 * (std::abs(middle) + std::abs(h.lowest_first) + std::abs(h.highest_second) + half);
+  bool hopeless = false;
+  for (int i = 0; i < 4; ++i) {
+    const bool first = i < pair.first_side;
+    const double limit = first ? slab.above : slab.below, start = h.start[i], end = h.end[i];
+    shares[i] = 1;
+    if (first ? end >= limit : end <= limit) continue;
+    const bool fixed = !(positions[pair.vertex[i]].w > 0);
+    const double beyond = first ? limit - (fixed ? end : start) : (fixed ? end : start) - limit;
+    const bool inside = beyond <= slop;
+    hopeless = hopeless || !inside;
+    if (fixed) continue;
+    // Rounded down, and a little more: the product is rounded again when it is made.
+    shares[i] = inside ? std::max(0.f, static_cast<float>((start - limit) / (start - end) * (1 - 1e-6)) - 1e-7f) : 0.f;
+  }
+  return hopeless ? Separation::hopeless : Separation::planned;
+}
+
+bool ends_beyond(const SeparatingSlab& slab, int which, const Record* positions, const Record* displacements, float share) {
+  const std::int32_t vertex = slab.pair.vertex[which];
+  const Record& x = positions[vertex];
+  if (!(x.w > 0)) return false;
+  const double end = dot(slab.normal, end_of(x, displacements[vertex], share, positions[slab.pair.vertex[0]]));
+  return which < slab.pair.first_side ? end < slab.above : end > slab.below;
+}
+
+}  // namespace pliant

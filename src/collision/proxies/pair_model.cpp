@@ -1,0 +1,167 @@
+// Which surfaces meet, and how.
+#include <algorithm>
+#include <cmath>
+
+#include "collision/proxies/pair_model.h"
+#include "math/vector.h"
+
+namespace pliant {
+
+namespace {
+
+/// Beyond the largest thickness, pairs are listed within this share of the median edge, so that lists last for a while.
+constexpr float skin_over_edge = 0.5f;
+
+constexpr std::size_t vertices_in_a_cluster = 64;
+
+bool is_immovable(const CompiledObject& object) {
+  for (const Record& p : object.positions)
+    if (p.w > 0) return false;
+  return true;
+}
+
+bool meet(const CompiledObject& a, const CompiledObject& b) {
+  const bool masks = (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
+  // A mesh collider meets whatever its mask allows, other objects only those that collide too.
+  const bool meant = (a.collides && b.collides) || a.is_collider || b.is_collider;
+  return masks && meant && !(is_immovable(a) && is_immovable(b));
+}
+
+/// Distance constraints that are no side of a triangle: ropes.
+std::vector<std::array<int, 2>> lines_of(const CompiledObject& object, int first) {
+  std::vector<std::array<int, 2>> lines;
+  if (!object.surface.triangles.empty()) return lines;
+  for (const auto& [a, b] : object.lines) lines.push_back({first + a, first + b});
+  return lines;
+}
+
+/// What neither a triangle nor a line holds, targets of attachments left out: it meets triangles as a vertex.
+void add_loose(const CompiledObject& object, int first, const std::vector<std::array<int, 2>>& lines,
+               std::vector<int>& loose) {
+  std::vector<char> held(static_cast<std::size_t>(object.particles), 0);
+  for (const auto& t : object.surface.triangles)
+    for (const int corner : t) held[static_cast<std::size_t>(corner)] = 1;
+  for (const auto& [a, b] : lines)
+    held[static_cast<std::size_t>(a - first)] = held[static_cast<std::size_t>(b - first)] = 1;
+  for (int i = 0; i < object.particles; ++i)
+    if (held[static_cast<std::size_t>(i)] == 0 && object.order[static_cast<std::size_t>(i)] < object.user_particles)
+      loose.push_back(first + i);
+}
+
+PairMaterial material_of(const CompiledObject& a, const CompiledObject& b) {
+  return {a.thickness + b.thickness, std::sqrt(a.static_friction * b.static_friction),
+          std::sqrt(a.kinetic_friction * b.kinetic_friction), std::max(a.restitution, b.restitution)};
+}
+
+/// What the scene says of a certain pair; a static friction given alone lowers the kinetic one where it must.
+void apply(const PairProperties& said, PairMaterial& material) {
+  material.thickness = said.thickness.value_or(material.thickness);
+  material.static_friction = said.static_friction.value_or(material.static_friction);
+  material.kinetic_friction = std::min(said.kinetic_friction.value_or(material.kinetic_friction), material.static_friction);
+  material.restitution = said.restitution.value_or(material.restitution);
+}
+
+/// Cuts vertices, `from` to `to` - 1, across where they extend farthest until so many as make a cluster are left.
+void split(PairModel& model, std::vector<int>& vertices, std::size_t from, std::size_t to) {
+  const std::size_t pieces = (to - from + vertices_in_a_cluster - 1) / vertices_in_a_cluster;
+  if (pieces <= 1) {
+    for (std::size_t i = from; i < to; ++i) model.vertex_cluster[vertices[i]] = static_cast<int>(model.cluster_body.size());
+    if (from < to) model.cluster_body.push_back(model.vertex_body[vertices[from]]);
+    return;
+  }
+  const auto place = [&](int v, int axis) {
+    return axis == 0 ? model.rest[v].x : axis == 1 ? model.rest[v].y : model.rest[v].z;
+  };
+  int longest = 0;
+  float extent = -1;
+  for (int axis = 0; axis < 3; ++axis) {
+    float low = place(vertices[from], axis), high = low;
+    for (std::size_t i = from; i < to; ++i) {
+      low = min(low, place(vertices[i], axis));
+      high = max(high, place(vertices[i], axis));
+    }
+    if (high - low > extent) {
+      extent = high - low;
+      longest = axis;
+    }
+  }
+  const std::size_t middle = from + (to - from) * (pieces / 2) / pieces;
+  const auto at = [&](std::size_t i) { return vertices.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(at(from), at(middle), at(to), [&](int a, int b) {
+    return std::make_pair(place(a, longest), a) < std::make_pair(place(b, longest), b);
+  });
+  split(model, vertices, from, middle);
+  split(model, vertices, middle, to);
+}
+
+/// Vertices of each body in compact clusters.
+void make_clusters(PairModel& model) {
+  std::vector<std::vector<int>> of_body(model.bodies);
+  for (const int v : model.elements.vertices) of_body[model.vertex_body[v]].push_back(v);
+  model.vertex_cluster.assign(model.rest.size(), -1);
+  for (std::vector<int>& vertices : of_body) split(model, vertices, 0, vertices.size());
+  model.clusters = static_cast<int>(model.cluster_body.size());
+  for (const Triangle& t : model.elements.triangles) model.triangle_cluster.push_back(model.vertex_cluster[t[0]]);
+  for (const auto& edge : model.elements.edges) model.edge_cluster.push_back(model.vertex_cluster[edge[0]]);
+}
+
+float median_edge(const PairModel& model) {
+  std::vector<float> lengths;
+  for (const auto& [a, b] : model.elements.edges) {
+    const Record &p = model.rest[a], &q = model.rest[b];
+    lengths.push_back(length(Vec3f{p.x - q.x, p.y - q.y, p.z - q.z}));
+  }
+  if (lengths.empty()) return 0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& positions) {
+  auto out = std::make_unique<PairModel>();
+  const int bodies = out->bodies = static_cast<int>(model.objects.size());
+  out->meets.assign(static_cast<std::size_t>(bodies) * bodies, 0);
+  out->materials.resize(out->meets.size());
+  for (const CompiledObject& object : model.objects) out->immovable.push_back(is_immovable(object) ? 1 : 0);
+  std::vector<char> meets_some(bodies, 0);
+  for (int a = 0; a < bodies; ++a) {
+    for (int b = 0; b < bodies; ++b) {
+      const CompiledObject &p = model.objects[a], &q = model.objects[b];
+      if (!(a == b ? p.self_collision : meet(p, q))) continue;
+      const std::size_t at = static_cast<std::size_t>(a) * bodies + b;
+      out->meets[at] = meets_some[a] = 1;
+      out->materials[at] = material_of(p, q);
+      for (const PairProperties& pair : model.pairs)
+        if ((pair.first == p.name && pair.second == q.name) || (pair.first == q.name && pair.second == p.name))
+          apply(pair, out->materials[at]);
+      out->largest_thickness = std::max(out->largest_thickness, out->materials[at].thickness);
+    }
+  }
+  out->rest.assign(positions.begin(), positions.end());
+  out->vertex_body.assign(positions.size(), 0);
+  std::vector<Triangle> triangles;
+  std::vector<std::array<int, 2>> lines;
+  std::vector<int> loose;
+  for (int o = 0; o < bodies; ++o) {
+    const int first = model.first[o];
+    std::fill(out->vertex_body.begin() + first, out->vertex_body.begin() + model.first[o + 1], o);
+    if (meets_some[o] == 0) continue;
+    for (const auto& t : model.objects[o].surface.triangles)
+      triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    const auto more = lines_of(model.objects[o], first);
+    lines.insert(lines.end(), more.begin(), more.end());
+    add_loose(model.objects[o], first, more, loose);
+  }
+  if (triangles.empty() && lines.empty()) return nullptr;
+  out->elements = make_contact_elements(triangles, lines, loose, static_cast<int>(positions.size()));
+  make_clusters(*out);
+  out->elements.body = out->vertex_body;
+  out->elements.bodies = bodies;
+  out->elements.meets = out->meets;
+  out->radius = out->largest_thickness + skin_over_edge * median_edge(*out);
+  return out;
+}
+
+}  // namespace pliant

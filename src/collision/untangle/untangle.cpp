@@ -1,0 +1,314 @@
+#include "collision/untangle/untangle.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "collision/proxies/pair_model.h"
+#include "collision/proxies/triangles_around.h"
+#include "math/vector.h"
+
+namespace pliant {
+
+namespace {
+
+Vec3f place(const Record& r) { return {r.x, r.y, r.z}; }
+
+/// The triangles of a body, in its own numbers from `first`, where they close it.
+bool closed_surface(const PairModel& model, int body, std::vector<Triangle>& triangles, int& first, int& count) {
+  const auto of_body = [&](int v) { return model.vertex_body[static_cast<std::size_t>(v)] == body; };
+  first = static_cast<int>(std::find(model.vertex_body.begin(), model.vertex_body.end(), body) - model.vertex_body.begin());
+  count = static_cast<int>(std::count(model.vertex_body.begin(), model.vertex_body.end(), body));
+  for (const Triangle& t : model.elements.triangles)
+    if (of_body(t[0])) triangles.push_back({t[0] - first, t[1] - first, t[2] - first});
+  if (triangles.empty()) return false;
+  for (const Edge& edge : find_edges(triangles, count))
+    if (edge.triangle_count != 2) return false;
+  return true;
+}
+
+std::vector<Vec3f> places_of(const Record* positions, int first, int count) {
+  std::vector<Vec3f> places;
+  for (int i = first; i < first + count; ++i) places.push_back(place(positions[i]));
+  return places;
+}
+
+}  // namespace
+
+Untangler::Untangler(const PairModel& model) : model_(model) {
+  for (int body = 0; body < model.bodies; ++body) {
+    std::vector<Triangle> triangles;
+    int first = 0, count = 0;
+    if (!model.immovable[static_cast<std::size_t>(body)] || !closed_surface(model, body, triangles, first, count)) continue;
+    closed_.push_back({body, first, std::make_unique<MeshQuery>(places_of(model.rest.data(), first, count), triangles)});
+  }
+  if (!closed_.empty()) around_ = triangles_around(model.elements);
+}
+
+void Untangler::begin_frame(const Record* positions, const std::vector<Intersection>& tangles) {
+  pushes_.clear();
+  lost_in_.clear();
+  drawn_.clear();
+  speeds_.clear();
+  inside_ = 0;
+  find_inside(positions);
+  find_pieces(positions, tangles);
+  for (const int v : model_.elements.vertices)
+    if (positions[v].w > 0 && is_drawn(model_.vertex_body[static_cast<std::size_t>(v)])) speeds_.emplace_back(v, 0.f);
+}
+
+bool Untangler::draws(int body, int out_of) const {
+  return std::any_of(pushes_.begin(), pushes_.end(), [&](const Push& push) {
+    const auto v = static_cast<std::size_t>(push.vertex);
+    return model_.vertex_body[v] == body && lost_in_[v] == out_of;
+  });
+}
+
+void Untangler::add(int vertex, int body, const Push& push) {
+  if (lost_in_.empty()) lost_in_.assign(model_.rest.size(), -1);
+  int& lost = lost_in_[static_cast<std::size_t>(vertex)];
+  if (lost >= 0) return;
+  lost = body;
+  mark_drawn(vertex);
+  pushes_.push_back(push);
+}
+
+void Untangler::mark_drawn(int vertex) {
+  if (drawn_.empty()) drawn_.assign(static_cast<std::size_t>(model_.bodies), 0);
+  drawn_[static_cast<std::size_t>(model_.vertex_body[static_cast<std::size_t>(vertex)])] = 1;
+}
+
+// ---------------------------------------------------------------- inside closed bodies
+
+/// They go to where the thickness is kept.
+void Untangler::find_inside(const Record* positions) {
+  for (Closed& closed : closed_) {
+    MeshQuery& query = *closed.query;
+    query.move(places_of(positions, closed.first, static_cast<int>(query.positions().size())));
+    std::vector<int> inside;
+    for (const int v : model_.elements.vertices) {
+      const std::size_t pair =
+          static_cast<std::size_t>(model_.vertex_body[static_cast<std::size_t>(v)]) * model_.bodies + closed.body;
+      if (positions[v].w > 0 && model_.meets[pair] != 0 && query.is_inside(place(positions[v]))) inside.push_back(v);
+    }
+    inside_ += static_cast<std::int64_t>(inside.size());
+    for (const Patch& patch : patches_of(inside)) lead_out(patch, closed, positions);
+  }
+}
+
+/// Vertices, ascending, in lists of those that edges join; by their first ones.
+std::vector<Untangler::Patch> Untangler::patches_of(const std::vector<int>& vertices) const {
+  std::vector<int> parent(vertices.size());
+  for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = static_cast<int>(i);
+  const auto root = [&](int i) {
+    while (parent[static_cast<std::size_t>(i)] != i) i = parent[static_cast<std::size_t>(i)];
+    return i;
+  };
+  const auto number = [&](int v) {
+    const auto at = std::lower_bound(vertices.begin(), vertices.end(), v);
+    return at != vertices.end() && *at == v ? static_cast<int>(at - vertices.begin()) : -1;
+  };
+  for (const auto& [a, b] : model_.elements.edges) {
+    const int i = vertices.empty() ? -1 : number(a), j = i < 0 ? -1 : number(b);
+    if (j < 0) continue;
+    const int from = root(i), to = root(j);
+    parent[static_cast<std::size_t>(std::max(from, to))] = std::min(from, to);
+  }
+  std::map<int, Patch> patches;
+  for (std::size_t i = 0; i < vertices.size(); ++i) patches[root(static_cast<int>(i))].push_back(vertices[i]);
+  std::vector<Patch> out;
+  out.reserve(patches.size());
+  for (auto& [first, patch] : patches) out.push_back(std::move(patch));
+  return out;
+}
+
+namespace {
+
+/// A point inside a closed surface and the nearest way out.
+struct Depth {
+  Vec3f from, out;  // `out` is unit
+  float way;
+};
+
+/// How far it is out of a closed surface along a unit direction, by strides of the closest distance; no farther than `most`.
+float way_out(const MeshQuery& query, const Vec3f& from, const Vec3f& direction, float most) {
+  const float least = 0.01f * most;
+  float way = 0;
+  while (way < most && query.is_inside(from + direction * way))
+    way += max(query.closest(from + direction * way).distance, least);
+  return min(way, most);
+}
+
+/// Along `normal`, or against it, whichever brings all out sooner, if that is not much farther than the closest points are; else zero.
+Vec3f common_way(const MeshQuery& query, const std::vector<Depth>& patch, const Vec3f& normal) {
+  float deepest = 0, along = 0, against = 0;
+  for (const Depth& depth : patch) deepest = max(deepest, depth.way);
+  const float most = 1.5f * deepest;
+  for (const Depth& depth : patch) {
+    along = max(along, way_out(query, depth.from, normal, most));
+    against = max(against, way_out(query, depth.from, -normal, most));
+  }
+  if (min(along, against) >= most) return {};
+  return along <= against ? normal : -normal;
+}
+
+}  // namespace
+
+/// The mean normal of the triangles that have a corner in a patch; zero where they face too many ways to speak of one.
+Vec3f Untangler::mean_normal(const Patch& patch, const Record* positions) const {
+  std::vector<int> at_patch;
+  for (const int v : patch) at_patch.insert(at_patch.end(), around_.begin(v), around_.end(v));
+  std::sort(at_patch.begin(), at_patch.end());
+  at_patch.erase(std::unique(at_patch.begin(), at_patch.end()), at_patch.end());
+  Vec3f sum{};
+  float all = 0;
+  for (const int number : at_patch) {
+    const Triangle& t = model_.elements.triangles[static_cast<std::size_t>(number)];
+    const Vec3f normal =
+        cross(place(positions[t[1]]) - place(positions[t[0]]), place(positions[t[2]]) - place(positions[t[0]]));
+    sum += normal;
+    all += length(normal);
+  }
+  return length(sum) > 0.8f * all ? unit_or(sum, Vec3f{}) : Vec3f{};
+}
+
+void Untangler::lead_out(const Patch& patch, const Closed& closed, const Record* positions) {
+  const MeshQuery& query = *closed.query;
+  std::vector<Depth> depths;
+  float across = 0, all = 0;
+  const Vec3f normal = mean_normal(patch, positions);
+  for (const int v : patch) {
+    const Vec3f from = place(positions[v]);
+    const SurfacePoint near = query.closest(from);
+    depths.push_back({from, unit_or(near.point - from, Vec3f{0, 1, 0}), near.distance});
+    across += near.distance * abs(dot(depths.back().out, normal));
+    all += near.distance;
+  }
+  const bool is_cut_through = length_squared(normal) > 0 && across < 0.9f * all;
+  const Vec3f common = is_cut_through ? common_way(query, depths, normal) : Vec3f{};
+  for (std::size_t i = 0; i < patch.size(); ++i) {
+    const int v = patch[i];
+    const Depth& depth = depths[i];
+    const bool together = length_squared(common) > 0;
+    const float way = together ? way_out(query, depth.from, common, 1e30f) : depth.way;
+    add(v, closed.body, {v, together ? common : depth.out, way + thickness_of(v, closed.body)});
+  }
+}
+
+float Untangler::thickness_of(int vertex, int body) const {
+  const auto of = static_cast<std::size_t>(model_.vertex_body[static_cast<std::size_t>(vertex)]);
+  return model_.materials[of * static_cast<std::size_t>(model_.bodies) + static_cast<std::size_t>(body)].thickness;
+}
+
+// ---------------------------------------------------------------- pieces
+
+bool Untangler::is_closed(int body) const {
+  return std::any_of(closed_.begin(), closed_.end(), [&](const Closed& closed) { return closed.body == body; });
+}
+
+void Untangler::find_pieces(const Record* positions, const std::vector<Intersection>& tangles) {
+  std::map<std::pair<int, int>, std::vector<Intersection>> cuts;  // by bodies of edge and triangle
+  for (const Intersection& tangle : tangles) {
+    const int a = model_.vertex_body[static_cast<std::size_t>(tangle.a)],
+              b = model_.vertex_body[static_cast<std::size_t>(model_.elements.triangles[tangle.triangle][0])];
+    // What a closed body cuts off is inside of it, or outside: that is told already, and not by which piece is smaller.
+    if (!model_.immovable[static_cast<std::size_t>(a)] && !is_closed(b)) cuts[{a, b}].push_back(tangle);
+    // Its vertices may be out already: it is calmed until its edges are, too.
+    if (is_closed(b)) mark_drawn(tangle.a);
+    if (is_closed(a)) mark_drawn(model_.elements.triangles[tangle.triangle][0]);
+  }
+  for (const auto& [bodies, of_pair] : cuts) draw_back(positions, of_pair, bodies.first, bodies.second);
+}
+
+namespace {
+
+/// The connected pieces of a body's vertices once edges are cut: the number of each vertex's, and how many it has.
+struct Pieces {
+  std::vector<int> of, size;
+
+  int root(int v) const {
+    while (of[static_cast<std::size_t>(v)] != v) v = of[static_cast<std::size_t>(v)];
+    return v;
+  }
+};
+
+Pieces pieces_of(const PairModel& model, const std::vector<Intersection>& cuts, int body) {
+  std::vector<std::pair<int, int>> cut;
+  cut.reserve(cuts.size());
+  for (const Intersection& one : cuts) cut.push_back(std::minmax(one.a, one.b));
+  std::sort(cut.begin(), cut.end());
+  Pieces pieces;
+  for (int i = 0; i < static_cast<int>(model.rest.size()); ++i) pieces.of.push_back(i);
+  pieces.size.assign(model.rest.size(), 0);
+  for (const auto& [a, b] : model.elements.edges) {
+    if (model.vertex_body[static_cast<std::size_t>(a)] != body ||
+        std::binary_search(cut.begin(), cut.end(), std::pair{a, b}))
+      continue;
+    const int from = pieces.root(a), to = pieces.root(b);
+    pieces.of[static_cast<std::size_t>(std::max(from, to))] = std::min(from, to);
+  }
+  for (const int v : model.elements.vertices) {
+    const int root = pieces.of[static_cast<std::size_t>(v)] = pieces.root(v);
+    if (model.vertex_body[static_cast<std::size_t>(v)] == body) ++pieces.size[static_cast<std::size_t>(root)];
+  }
+  return pieces;
+}
+
+}  // namespace
+
+/// Every piece but the largest of a body goes back through what cuts it.
+void Untangler::draw_back(const Record* positions, const std::vector<Intersection>& cuts, int body, int through) {
+  const Pieces pieces = pieces_of(model_, cuts, body);
+  const int largest_piece =
+      static_cast<int>(std::max_element(pieces.size.begin(), pieces.size.end()) - pieces.size.begin());
+  std::map<int, Vec3f> ways;
+  for (const Intersection& cut : cuts) {
+    const Triangle& t = model_.elements.triangles[cut.triangle];
+    const Vec3f normal =
+        cross(place(positions[t[1]]) - place(positions[t[0]]), place(positions[t[2]]) - place(positions[t[0]]));
+    for (const auto& [from, to] : {std::pair{cut.a, cut.b}, {cut.b, cut.a}}) {
+      const int piece = pieces.of[static_cast<std::size_t>(from)];
+      if (piece == largest_piece || piece == pieces.of[static_cast<std::size_t>(to)]) continue;
+      const bool with = dot(normal, place(positions[to]) - place(positions[from])) > 0;
+      ways[piece] += unit_or(with ? normal : -normal, Vec3f{});
+    }
+  }
+  for (const int v : model_.elements.vertices) {
+    const auto way = ways.find(pieces.of[static_cast<std::size_t>(v)]);
+    if (way == ways.end() || !(positions[v].w > 0)) continue;
+    add(v, through, {v, unit_or(way->second, Vec3f{0, 1, 0}), 1e30f});
+  }
+}
+
+// ---------------------------------------------------------------- substeps
+
+void Untangler::push(float distance, float h, Record* displacements, Record* remainders) {
+  for (auto& [v, speed] : speeds_) {
+    const Record &d = displacements[v], &r = remainders[v];
+    const bool is_lost = !lost_in_.empty() && lost_in_[static_cast<std::size_t>(v)] >= 0;
+    speed = is_lost ? 0 : length(Vec3f{d.x - r.x, d.y - r.y, d.z - r.z}) / h;
+  }
+  for (Push& push : pushes_) {
+    const Record& d = displacements[push.vertex];
+    if (!(abs(d.x) + abs(d.y) + abs(d.z) < 1e30f)) continue;  // the end of the substep says so
+    const float way = min(distance, push.remaining);
+    push.remaining -= way;
+    Record& r = remainders[push.vertex];
+    r = {r.x + push.direction.x * way, r.y + push.direction.y * way, r.z + push.direction.z * way, r.w};
+    displacements[push.vertex] = {r.x, r.y, r.z, 0};
+  }
+}
+
+void Untangler::calm(float cap, Record* velocities, FunctionRef<Vec3f(int body)> missing) const {
+  for (const auto& [v, speed] : speeds_) {
+    const Vec3f lacks = missing(model_.vertex_body[static_cast<std::size_t>(v)]);
+    Record& r = velocities[v];
+    const Vec3f velocity = Vec3f{r.x, r.y, r.z} + lacks;
+    const float is = length(velocity), most = max(speed, cap);
+    if (!(is > most)) continue;
+    const Vec3f kept = velocity * (most / is) - lacks;
+    r = {kept.x, kept.y, kept.z, r.w};
+  }
+}
+
+}  // namespace pliant
