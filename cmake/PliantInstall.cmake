@@ -17,7 +17,7 @@ endforeach()
 
 # The one name that users link.
 add_library(pliant_pliant INTERFACE)
-target_link_libraries(pliant_pliant INTERFACE pliant_io pliant_advise)
+target_link_libraries(pliant_pliant INTERFACE pliant_io pliant_api)
 set_target_properties(pliant_pliant PROPERTIES EXPORT_NAME pliant)
 add_library(pliant::pliant ALIAS pliant_pliant)
 

@@ -148,7 +148,7 @@ void check(const Options& options) {
   const auto known = [&](const Workload& workload) { return workload.name == options.workload; };
   if (!options.workload.empty() && std::none_of(workloads().begin(), workloads().end(), known))
     throw Error({}, "there is no workload '" + options.workload + "'",
-                "choose one of " + names + ", broadphase, ccd, contact, W3, W3-ball, W3-cloth");
+                "choose one of " + names + ", contact, W3, W3-ball, W3-cloth");
   for (int size : options.sizes)
     if (size < smallest || size > largest)
       throw Error({}, "a cloth of " + std::to_string(size) + " x " + std::to_string(size) + " can't be measured",

@@ -8,9 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/bench/bench.h"
-#include "collision/untangle/intersections.h"
-#include "math/quat.h"
 #include "pliant/error.h"
+#include "pliant/queries.h"
 #include "pliant/world.h"
 
 namespace pliant::bench {
@@ -21,8 +20,8 @@ constexpr float damping = 6;  // without it Bullet's positions are infinite with
 
 Object cloth_at(int size, float height, float degrees, const std::string& name) {
   TriangleMesh mesh = grid_mesh(size, size, width, width);
-  const Quatf turn = rotation({0, 1, 0}, degrees);
-  for (Vec3f& p : mesh.positions) p = rotate(turn, p) + Vec3f{0, height, 0};
+  const float angle = degrees * 3.14159265f / 180, c = std::cos(angle), s = std::sin(angle);
+  for (Vec3f& p : mesh.positions) p = {c * p.x + s * p.z, p.y + height, c * p.z - s * p.x};
   ClothOptions options;
   options.name = name;
   options.material = fabric("cotton");
@@ -70,16 +69,15 @@ double quantile(std::vector<double> values, double q) {
 // ---------------------------------------------------------------- what is left at the end
 
 std::size_t crossings_of(const Landing& landing, const LandingEngine& engine) {
-  std::vector<Triangle> triangles;
-  std::vector<Vec3f> places;
+  TriangleMesh all;
   for (int c = 0; c < static_cast<int>(landing.cloths.size()); ++c) {
-    const int first = static_cast<int>(places.size());
+    const int first = static_cast<int>(all.positions.size());
     for (const auto& [i, j, k] : landing.cloths[static_cast<std::size_t>(c)].triangles)
-      triangles.push_back({first + i, first + j, first + k});
+      all.triangles.push_back({first + i, first + j, first + k});
     const std::vector<Vec3f> more = engine.positions(c);
-    places.insert(places.end(), more.begin(), more.end());
+    all.positions.insert(all.positions.end(), more.begin(), more.end());
   }
-  return IntersectionFinder(triangles, static_cast<int>(places.size())).find(places).size();
+  return find_crossings(all).size();
 }
 
 void measure_stretch(const Landing& landing, const LandingEngine& engine, LandingRow& row) {

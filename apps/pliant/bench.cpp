@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "apps/bench/bench.h"
-#include "apps/bench/broadphase.h"
 #include "apps/bench/contact.h"
 #include "apps/bench/landing.h"
 #include "atomic_file.h"
@@ -31,34 +30,6 @@ void print_row(const pliant::bench::Row& row) {
     std::snprintf(text, sizeof text, "  energy lost by frame 40: %.3g J\n", row.energy_lost);
     print(text);
   }
-}
-
-std::string bench_broad_phases(const BenchOptions& options) {
-  pliant::bench::BroadPhaseOptions wanted;
-  if (!options.sizes.empty()) wanted.sizes = options.sizes;
-  wanted.frames = options.frames;
-  wanted.threads = options.threads;
-  print("input         triangles  method                    build, ms  refit, ms  query, ms       pairs\n");
-  wanted.on_row = [](const pliant::bench::BroadPhaseRow& row) {
-    throw_if_interrupted();
-    char text[256];
-    std::snprintf(text, sizeof text, "%-13s %9d  %-24s %10.3f %10.3f %10.3f %11.0f\n", row.input.c_str(), row.triangles,
-                  row.method.c_str(), row.build_ms, row.refit_ms, row.query_ms, row.pairs);
-    print(text);
-  };
-  return to_json(pliant::bench::measure_broad_phases(wanted));
-}
-
-std::string bench_impacts() {
-  const auto rows = pliant::bench::measure_impacts();
-  print("test             queries      precision  million/s   hits\n");
-  for (const pliant::bench::ImpactRow& row : rows) {
-    char text[256];
-    std::snprintf(text, sizeof text, "%-16s %-12s %-9s %10.3f %6.3f\n", row.test.c_str(), row.queries.c_str(),
-                  row.precision.c_str(), row.million_per_second, row.hits);
-    print(text);
-  }
-  return to_json(rows);
 }
 
 std::string bench_contact(const BenchOptions& options) {
@@ -101,8 +72,6 @@ std::string bench_landings(const BenchOptions& options) {
 
 /// Of a workload that is measured by name alone: its rows as JSON; nothing where it is none of them.
 std::optional<std::string> bench_by_name(const BenchOptions& options) {
-  if (options.workload == "broadphase") return bench_broad_phases(options);
-  if (options.workload == "ccd") return bench_impacts();
   if (options.workload == "contact") return bench_contact(options);
   if (options.workload == "W3" || options.workload == "W3-ball" || options.workload == "W3-cloth")
     return bench_landings(options);

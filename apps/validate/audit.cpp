@@ -1,12 +1,11 @@
-// Surfaces by IntersectionFinder; ropes by continuous tests.
+// Surfaces by CrossingFinder; ropes by continuous tests.
 #include "apps/validate/audit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
 
-#include "geometry/continuous.h"
-#include "geometry/triangle.h"
+#include "apps/validate/rows.h"
 
 namespace pliant::validate {
 namespace {
@@ -41,34 +40,26 @@ void note(Audit& audit, std::size_t found, int frame) {
   audit.most = std::max(audit.most, found);
 }
 
-using Corners = std::array<Vec3d, 3>;
-
-double vertex_distance(const Vec3d& p, const Corners& t) {
-  return closest_on_triangle(p, t[0], t[1], t[2]).distance_squared;
-}
-
-/// The least squared distance of a vertex of one and the other, or of an edge of each, among those that share no vertex.
-double triangle_distance(const Triangle& s, const Corners& p, const Triangle& t, const Corners& q) {
-  const auto shares = [](int vertex, const Triangle& of) { return std::find(of.begin(), of.end(), vertex) != of.end(); };
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (!shares(s[i], t)) least = std::min(least, vertex_distance(p[i], q));
-    if (!shares(t[i], s)) least = std::min(least, vertex_distance(q[i], p));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t j = (i + 1) % 3, l = (k + 1) % 3;
-      if (s[i] == t[k] || s[i] == t[l] || s[j] == t[k] || s[j] == t[l]) continue;
-      const Vec3d first[2] = {p[i], p[j]}, second[2] = {q[k], q[l]};
-      least = std::min(least, closest_on_segments(first, second).distance_squared);
-    }
-  }
-  return least;
-}
-
 // ---------------------------------------------------------------- ropes
 
-BoxBounds path_of(const std::vector<Vec3f>& from, const std::vector<Vec3f>& to, std::size_t link) {
-  const Vec3f corners[4] = {from[link], from[link + 1], to[link], to[link + 1]};
-  return BoxBounds::of(corners, 4);
+/// Around the straight paths of a link's ends.
+struct Box {
+  Vec3d low, high;
+
+  bool is_near(const Box& other, double reach) const {
+    return low.x - reach <= other.high.x && other.low.x - reach <= high.x && low.y - reach <= other.high.y &&
+           other.low.y - reach <= high.y && low.z - reach <= other.high.z && other.low.z - reach <= high.z;
+  }
+};
+
+Box path_of(const std::vector<Vec3f>& from, const std::vector<Vec3f>& to, std::size_t link) {
+  Box box{to_double(from[link]), to_double(from[link])};
+  for (const Vec3f& corner : {from[link + 1], to[link], to[link + 1]}) {
+    const Vec3d p = to_double(corner);
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+  }
+  return box;
 }
 
 /// Links that meet on their straight ways, and the least distance of those that come near at the end.
@@ -82,12 +73,12 @@ class Links {
     least_ = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < paths_.size(); ++i)
       for (std::size_t k = i + 2; k < paths_.size(); ++k) {
-        if (!overlap(paths_[i].grown(reach), paths_[k])) continue;
-        const std::size_t ends[4] = {i, i + 1, k, k + 1};
-        Vec3d a[4], b[4];
-        for (int c = 0; c < 4; ++c) a[c] = convert<double>(from_[ends[c]]), b[c] = convert<double>(to[ends[c]]);
-        least_ = std::min(least_, std::sqrt(closest_on_segments<double>({b[0], b[1]}, {b[2], b[3]}).distance_squared));
-        met += overlap(paths_[i], paths_[k]) && edge_edge_impact(a, b, 0).hit ? 1 : 0;
+        if (!paths_[i].is_near(paths_[k], reach)) continue;
+        const std::array<std::size_t, 4> ends{i, i + 1, k, k + 1};
+        std::array<Vec3d, 4> a, b;
+        for (std::size_t c = 0; c < 4; ++c) a[c] = to_double(from_[ends[c]]), b[c] = to_double(to[ends[c]]);
+        least_ = std::min(least_, segment_distance(b));
+        met += paths_[i].is_near(paths_[k], 0) && edge_edge_impact(a, b, 0.0) ? 1 : 0;
       }
     from_ = std::move(to);
     return met;
@@ -96,69 +87,53 @@ class Links {
   double least() const { return least_; }
 
  private:
-  static constexpr float reach = 0.01f;  // [m]
+  static constexpr double reach = 0.01;  // [m]
   std::vector<Vec3f> from_;
-  std::vector<BoxBounds> paths_;
+  std::vector<Box> paths_;
   double least_ = 0;
 };
 
 }  // namespace
 
 Surfaces::Surfaces(const Scene& scene) : colliders_(static_cast<int>(scene.mesh_colliders.size())) {
-  const auto add = [&](const std::vector<std::array<int, 3>>& triangles, std::size_t count) {
-    for (const auto& [a, b, c] : triangles) triangles_.push_back({vertices_ + a, vertices_ + b, vertices_ + c});
-    vertices_ += static_cast<int>(count);
+  const auto add = [&](const std::vector<std::array<int, 3>>& triangles, const std::vector<Vec3f>& positions) {
+    const int first = static_cast<int>(mesh_.positions.size());
+    for (const auto& [a, b, c] : triangles) mesh_.triangles.push_back({first + a, first + b, first + c});
+    mesh_.positions.insert(mesh_.positions.end(), positions.begin(), positions.end());
   };
-  for (const Object& object : scene.objects) add(object.triangles, object.positions.size());
-  for (const MeshCollider& collider : scene.mesh_colliders) add(collider.mesh.triangles, collider.mesh.positions.size());
+  for (const Object& object : scene.objects) add(object.triangles, object.positions);
+  for (const MeshCollider& collider : scene.mesh_colliders) add(collider.mesh.triangles, collider.mesh.positions);
 }
 
-const std::vector<Vec3f>& Surfaces::places(const World& world) {
-  places_.clear();
-  const auto add = [&](const std::vector<Vec3f>& more) { places_.insert(places_.end(), more.begin(), more.end()); };
+const TriangleMesh& Surfaces::at(const World& world) {
+  mesh_.positions.clear();
+  const auto add = [&](const std::vector<Vec3f>& more) {
+    mesh_.positions.insert(mesh_.positions.end(), more.begin(), more.end());
+  };
   for (int o = 0; o < world.object_count(); ++o) add(world.positions(o));
   for (int c = 0; c < colliders_; ++c) add(world.mesh_collider_positions(c));
-  return places_;
-}
-
-double least_distance(const std::vector<Triangle>& triangles, const std::vector<Vec3f>& places, double reach) {
-  std::vector<Corners> corners;
-  std::vector<BoxBounds> boxes;
-  for (const Triangle& t : triangles) {
-    Vec3f at[3];
-    for (std::size_t k = 0; k < 3; ++k) at[k] = places[static_cast<std::size_t>(t[k])];
-    corners.push_back({convert<double>(at[0]), convert<double>(at[1]), convert<double>(at[2])});
-    boxes.push_back(BoxBounds::of(at, 3).grown(static_cast<float>(reach)));
-  }
-  Tree<BoxBounds> tree;
-  tree.build(boxes);
-  double least = reach * reach;
-  tree.self_pairs([&](int a, int b) {
-    const auto i = static_cast<std::size_t>(a), k = static_cast<std::size_t>(b);
-    least = std::min(least, triangle_distance(triangles[i], corners[i], triangles[k], corners[k]));
-  });
-  return std::sqrt(least);
+  return mesh_;
 }
 
 Audit audit_surfaces(const Scene& scene, int frames) {
   World world(scene);
   Surfaces surfaces(scene);
-  IntersectionFinder finder(surfaces.triangles(), surfaces.vertices());
+  CrossingFinder finder(surfaces.at_start().triangles, static_cast<int>(surfaces.at_start().positions.size()));
   Audit audit;
-  audit.vertices = surfaces.vertices();
+  audit.vertices = static_cast<int>(surfaces.at_start().positions.size());
   constexpr double reach = 0.005;
-  audit.least_distance = least_distance(surfaces.triangles(), surfaces.places(world), reach);
-  note(audit, finder.find(surfaces.places(world), true).size(), 0);
+  audit.least_distance = least_distance(surfaces.at(world), reach);
+  note(audit, finder.find(surfaces.at(world).positions, true).size(), 0);
   Stopwatch stopwatch;
   for (int frame = 1; frame <= frames && audit.ok; ++frame) {
     const Report report = stopwatch.step(world, scene.frame_time);
     stopwatch.lap(audit);
     audit.ok = report.ok();
     audit.hopeless += report.pairs.hopeless;
-    const std::vector<Vec3f>& places = surfaces.places(world);
-    note(audit, finder.find(places, true).size(), frame);
+    const TriangleMesh& mesh = surfaces.at(world);
+    note(audit, finder.find(mesh.positions, true).size(), frame);
     if (frame % frames_between_distances == 0)
-      audit.least_distance = std::min(audit.least_distance, least_distance(surfaces.triangles(), places, reach));
+      audit.least_distance = std::min(audit.least_distance, least_distance(mesh, reach));
   }
   return audit;
 }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "collision/untangle/intersections.h"
+#include "pliant/queries.h"
 #include "pliant/world.h"
 
 namespace pliant::validate {
@@ -21,20 +21,18 @@ struct Audit {
   bool ok = true;                 ///< nothing stopped being finite
 };
 
-/// All triangles of a World's objects and mesh colliders, numbered through.
+/// All triangles of a World's objects and mesh colliders as one mesh.
 class Surfaces {
  public:
   explicit Surfaces(const Scene& scene);
 
-  const std::vector<Triangle>& triangles() const { return triangles_; }
-  int vertices() const { return vertices_; }
-  /// Where they are now: valid until the next call [m].
-  const std::vector<Vec3f>& places(const World& world);
+  /// As it is now: valid until the next call.
+  const TriangleMesh& at(const World& world);
+  const TriangleMesh& at_start() const { return mesh_; }
 
  private:
-  std::vector<Triangle> triangles_;
-  std::vector<Vec3f> places_;
-  int vertices_ = 0, colliders_ = 0;
+  TriangleMesh mesh_;
+  int colliders_ = 0;
 };
 
 /// Runs a scene for `frames` frames and looks at each.
@@ -44,9 +42,5 @@ Audit audit_surfaces(const Scene& scene, int frames);
 /// went straight from one look to the next, and paths of all pairs of links that share no end are tested for a meeting.
 /// `most` counts them over a frame.
 Audit audit_rope(const Scene& scene, int frames);
-
-/// The least distance of a vertex and a triangle or of two edges that share no vertex, where it is below `reach` [m]; else
-/// `reach`.
-double least_distance(const std::vector<Triangle>& triangles, const std::vector<Vec3f>& places, double reach);
 
 }  // namespace pliant::validate

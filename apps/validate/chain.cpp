@@ -4,8 +4,7 @@
 #include <limits>
 
 #include "apps/validate/rows.h"
-#include "constraints/distance.h"
-#include "tests/support/reference_solver.h"
+#include "pliant/reference.h"
 
 namespace pliant::validate {
 namespace {
@@ -24,7 +23,7 @@ Solver hanging_reference(int count, double length, double last_mass, double comp
   Solver solver;
   solver.gravity = {0, -10, 0};
   for (int i = 0; i < count; ++i) solver.add({0, -length * i, 0}, i == 0 ? infinity : i + 1 == count ? last_mass : 1);
-  for (int i = 0; i + 1 < count; ++i) solver.add<Distance>({i, i + 1}, {length}, {compliance, 0, -1});
+  for (int i = 0; i + 1 < count; ++i) solver.add("distance", {i, i + 1}, {length}, {compliance, 0, -1});
   return solver;
 }
 
@@ -34,7 +33,7 @@ double reference_force(int iterations) {
   std::vector<double> forces;
   for (int i = 0; i < 900; ++i) {
     solver.step(frame);
-    if (i >= 600) forces.push_back(-solver.constraint(0).multiplier() / (frame * frame));
+    if (i >= 600) forces.push_back(-solver.multiplier(0) / (frame * frame));
   }
   return farthest(10 * links, forces);
 }
@@ -192,7 +191,7 @@ Solver nails_reference() {
   solver.gravity = {0, -nail_g, 0};
   solver.damping = 20;
   for (int i = 0; i <= nail_links; ++i) solver.add(nail_start(i), nail_weight(i));
-  for (int i = 0; i < nail_links; ++i) solver.add<Distance>({i, i + 1}, {nail_length / nail_links});
+  for (int i = 0; i < nail_links; ++i) solver.add("distance", {i, i + 1}, {nail_length / nail_links});
   for (int i = 0; i < 30000; ++i) solver.step(1e-4);
   for (int i = 0; i < 150000; ++i) solver.step(1e-5);  // what remains of the links' stretch goes with h^2
   return solver;

@@ -1,89 +1,19 @@
-// Collision: pair sets against brute force, continuous tests on queries whose answer is known by construction, and what a World
+// Collision: continuous tests on queries whose answer is known by construction, and what a World
 // promises of surfaces, with the filter and without.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "apps/validate/long_contact.h"
 #include "apps/validate/rows.h"
-#include "collision/broad/tree.h"
-#include "collision/untangle/intersections.h"
-#include "geometry/continuous.h"
-#include "reference/spatial_hash.h"
-#include "reference/volumes.h"
+#include "pliant/queries.h"
 
 namespace pliant::validate {
 namespace {
 
 constexpr double pi = 3.14159265358979323846, g = 9.81;
-
-// ------------------------------------------------------------------------------------------------ broad phase
-
-using Pairs = std::vector<std::pair<int, int>>;
-
-struct Corners {
-  Vec3f at[3];
-};
-
-/// Triangles at random: far and near, flat ones, ones in a row with gaps of nothing, ones on the borders of cells.
-std::vector<Corners> scattered(Random& random, int kind) {
-  std::vector<Corners> triangles;
-  const double reach = kind == 0 ? 1 : kind == 1 ? 1e4 : 3, size = kind == 2 ? 1 : 0.4 * (kind == 1 ? 1e3 : 1);
-  for (int i = 0; i < 40; ++i) {
-    Vec3d middle = random.vector(reach);
-    if (kind == 3) middle = {std::floor(middle.x), std::floor(middle.y), std::floor(middle.z)};
-    Corners one;
-    for (Vec3f& corner : one.at) {
-      Vec3d p = middle + (kind == 3 ? Vec3d{std::floor(random.uniform(0, 2)), 0, std::floor(random.uniform(0, 2))}
-                                    : random.vector(size));
-      if (kind == 2) p.y = 0;
-      corner = convert<float>(p);
-    }
-    triangles.push_back(one);
-  }
-  return triangles;
-}
-
-template <class B>
-std::vector<B> bounds_of(const std::vector<Corners>& triangles) {
-  std::vector<B> bounds;
-  for (const Corners& one : triangles) bounds.push_back(B::of(one.at, 3).grown(0.05f));
-  return bounds;
-}
-
-/// Pairs that are missed, found twice, or found though their volumes do not overlap.
-template <class B>
-int wrong(const std::vector<B>& bounds, Pairs found) {
-  for (auto& [a, b] : found)
-    if (a > b) std::swap(a, b);
-  std::sort(found.begin(), found.end());
-  Pairs expected;
-  for (int a = 0; a < static_cast<int>(bounds.size()); ++a)
-    for (int b = a + 1; b < static_cast<int>(bounds.size()); ++b)
-      if (overlap(bounds[static_cast<std::size_t>(a)], bounds[static_cast<std::size_t>(b)])) expected.emplace_back(a, b);
-  Pairs difference;
-  std::set_symmetric_difference(found.begin(), found.end(), expected.begin(), expected.end(),
-                                std::back_inserter(difference));
-  return static_cast<int>(difference.size());
-}
-
-constexpr int sets = 800;
-
-template <class B, class Structure>
-void broad_row(Result& result, const char* name, Structure structure) {
-  Random random(7);
-  int errors = 0;
-  for (int set = 0; set < sets; ++set) {
-    const std::vector<B> bounds = bounds_of<B>(scattered(random, set % 4));
-    structure.build(bounds);
-    Pairs found;
-    structure.self_pairs([&](int a, int b) { found.emplace_back(a, b); });
-    errors += wrong(bounds, found);
-  }
-  result.rows.push_back(at_most(std::string("collision: ") + name + ", pairs missed, found twice or too many", 0, errors,
-                                "", "800 sets of 40 triangles, against brute force"));
-}
 
 // ------------------------------------------------------------------------------------------------ continuous tests
 
@@ -94,7 +24,7 @@ void impact_rows(Result& result) {
   int missed[2] = {0, 0}, false_alarms[2] = {0, 0};
   for (int i = 0; i < queries; ++i) {
     const bool edges = i % 2 == 1, hits = i % 4 < 2;
-    Vec3f at[4], from[4], to[4];  // at the moment of contact: in the plane z = 0, crossing or apart by 0.1
+    std::array<Vec3f, 4> at, from, to;  // at the moment of contact: in the plane z = 0, crossing or apart by 0.1
     const float s = static_cast<float>(random.uniform(0.05, 0.95)), past = hits ? 0.f : 0.1f;
     if (edges) {
       at[0] = {-1, 0, past}, at[1] = {1, 0, past};
@@ -104,14 +34,15 @@ void impact_rows(Result& result) {
       at[1] = {-1, -1, 0}, at[2] = {2, -1, 0}, at[3] = {-1, 2, 0};
     }
     const float time = static_cast<float>(random.uniform(0.05, 0.95));
-    const Vec3f common = convert<float>(random.vector(1)), spin{0, 0, static_cast<float>(random.uniform(0.5, 3))};
-    for (int k = 0; k < 4; ++k) {
-      const bool first = k < (edges ? 2 : 1);
+    const Vec3f common = to_float(random.vector(1)), spin{0, 0, static_cast<float>(random.uniform(0.5, 3))};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const bool first = k < (edges ? 2U : 1U);
       const Vec3f speed = hits ? common + (first ? spin : Vec3f{}) : common;
       from[k] = at[k] - speed * time;
       to[k] = at[k] + speed * (1 - time);
     }
-    const bool found = edges ? edge_edge_impact(from, to, 0.f).hit : vertex_triangle_impact(from, to, 0.f).hit;
+    const bool found =
+        edges ? edge_edge_impact(from, to, 0.f).has_value() : vertex_triangle_impact(from, to, 0.f).has_value();
     missed[edges] += hits && !found ? 1 : 0;
     false_alarms[edges] += !hits && found ? 1 : 0;
   }
@@ -149,15 +80,14 @@ Settings settings_of(int substeps, bool filter) {
 std::string with(bool filter) { return filter ? "" : ", without filter"; }
 
 std::size_t crossings(const World& world) {
-  std::vector<Triangle> triangles;
-  std::vector<Vec3f> places;
+  TriangleMesh all;
   for (int o = 0; o < world.object_count(); ++o) {
     const TriangleMesh mesh = world.mesh(o);
-    const int first = static_cast<int>(places.size());
-    for (const auto& [a, b, c] : mesh.triangles) triangles.push_back({first + a, first + b, first + c});
-    places.insert(places.end(), mesh.positions.begin(), mesh.positions.end());
+    const int first = static_cast<int>(all.positions.size());
+    for (const auto& [a, b, c] : mesh.triangles) all.triangles.push_back({first + a, first + b, first + c});
+    all.positions.insert(all.positions.end(), mesh.positions.begin(), mesh.positions.end());
   }
-  return IntersectionFinder(triangles, static_cast<int>(places.size())).find(places).size();
+  return find_crossings(all).size();
 }
 
 /// Layers that fall on the ground and on one another: what crosses in any frame, and how far the top rests above the next.
@@ -186,7 +116,7 @@ void layer_rows(Result& result, bool filter) {
 double slide(double degrees, bool filter) {
   const double c = std::cos(degrees * pi / 180), s = std::sin(degrees * pi / 180);
   const auto turned = [&](const Vec3f& p) {
-    return convert<float>(Vec3d{c * double(p.x) + s * double(p.y), c * double(p.y) - s * double(p.x), double(p.z)});
+    return to_float(Vec3d{c * double(p.x) + s * double(p.y), c * double(p.y) - s * double(p.x), double(p.z)});
   };
   Scene scene;
   scene.settings = settings_of(20, filter);
@@ -244,10 +174,10 @@ void ball_rows(Result& result) {
     ball.motion.keyframes = {{0, {}, {}}, {1, {0, -speed, 0}, {}}};
     scene.add(ball);
     World world(scene);
-    std::vector<Triangle> triangles;
+    std::vector<std::array<int, 3>> triangles;
     for (const auto& [a, b, c] : world.mesh(0).triangles) triangles.push_back({a, b, c});
     for (const auto& [a, b, c] : ball.mesh.triangles) triangles.push_back({196 + a, 196 + b, 196 + c});
-    IntersectionFinder finder(triangles, 196 + static_cast<int>(ball.mesh.positions.size()));
+    CrossingFinder finder(triangles, 196 + static_cast<int>(ball.mesh.positions.size()));
     std::size_t most = 0;
     for (int frame = 0; frame < 10; ++frame) {
       world.step(1.f / 60);
@@ -265,11 +195,6 @@ void ball_rows(Result& result) {
 }  // namespace
 
 void collision_rows(Result& result, bool slow) {
-  broad_row<BoxBounds>(result, "spatial hash", SpatialHash(0.7f));
-  broad_row<BoxBounds>(result, "hierarchy of boxes", Tree<BoxBounds>());
-  broad_row<SphereBounds>(result, "hierarchy of spheres", Tree<SphereBounds>());
-  broad_row<OrientedBoxBounds>(result, "hierarchy of oriented boxes", Tree<OrientedBoxBounds>());
-  broad_row<KDopBounds<18>>(result, "hierarchy of 18-DOPs", Tree<KDopBounds<18>>());
   impact_rows(result);
   for (const bool filter : {true, false}) {
     layer_rows(result, filter);

@@ -134,7 +134,7 @@ namespace {
 
 /// A line through the points, as points `apart` from one another along it.
 std::vector<Vec3f> resampled(const std::vector<Vec3d>& line, double apart) {
-  std::vector<Vec3f> result{convert<float>(line.front())};
+  std::vector<Vec3f> result{to_float(line.front())};
   double left = apart;
   for (std::size_t i = 1; i < line.size(); ++i) {
     const Vec3d step = line[i] - line[i - 1];
@@ -142,7 +142,7 @@ std::vector<Vec3f> resampled(const std::vector<Vec3d>& line, double apart) {
     double gone = 0;
     for (; length - gone >= left; left = apart) {
       gone += left;
-      result.push_back(convert<float>(line[i - 1] + step * (gone / length)));
+      result.push_back(to_float(line[i - 1] + step * (gone / length)));
     }
     left -= length - gone;
   }

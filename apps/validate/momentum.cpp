@@ -8,8 +8,7 @@
 #include <limits>
 
 #include "apps/validate/rows.h"
-#include "constraints/all.h"
-#include "tests/support/reference_solver.h"
+#include "pliant/reference.h"
 
 namespace pliant::validate {
 namespace {
@@ -24,47 +23,41 @@ struct Worst {
   double gradient = 0, force = 0, torque = 0, linear = 0, angular = 0;
 };
 
-template <class Type>
 struct Sample {
-  Vec3d x[static_cast<std::size_t>(Type::size)];
-  typename Type::template Params<double> rest;
+  std::string type;
+  std::vector<Vec3d> x;
+  std::vector<double> rest;
 
-  double value() const {
-    Vec3d ignored[static_cast<std::size_t>(Type::size)];
-    return Type::template evaluate<double>(x, rest, ignored);
-  }
+  double value() const { return reference::evaluate(type, x, rest).value; }
 };
 
 // A random place for the stencil, its rest measured at another so that C is not zero.
-template <class Type>
-Sample<Type> make_sample(Random& random) {
-  Sample<Type> sample;
+Sample make_sample(const ConstraintType& type, Random& random) {
+  Sample sample{type.name, std::vector<Vec3d>(static_cast<std::size_t>(type.stencil_size)), {}};
   for (Vec3d& x : sample.x) x = random.vector(1);
-  sample.rest = Type::template measure<double>(sample.x);
+  sample.rest = reference::measure(type.name, sample.x);
   for (Vec3d& x : sample.x) x += random.vector(0.2);
   return sample;
 }
 
 // The five-point central difference of C along one coordinate.
-template <class Type>
-double difference(Sample<Type> sample, double Vec3d::*coordinate, int particle) {
+double difference(Sample sample, double Vec3d::*coordinate, std::size_t particle) {
   constexpr double step = 2e-4;
   const double at = sample.x[particle].*coordinate;
   const auto value = [&](double offset) {
     sample.x[particle].*coordinate = at + offset;
     return sample.value();
   };
-  return (8 * (value(step) - value(-step)) - (value(2 * step) - value(-2 * step))) / (12 * step);
+  const double near = value(step) - value(-step), far = value(2 * step) - value(-2 * step);
+  return (8 * near - far) / (12 * step);
 }
 
 // Relative to the largest gradient of the stencil.
-template <class Type>
-void compare_gradients(const Sample<Type>& sample, Worst& worst) {
-  Vec3d gradient[static_cast<std::size_t>(Type::size)], force{}, torque{};
-  Type::template evaluate<double>(sample.x, sample.rest, gradient);
+void compare_gradients(const Sample& sample, const std::vector<Vec3d>& gradient, Worst& worst) {
+  Vec3d force{}, torque{};
   double scale = 0;
   for (const Vec3d& g : gradient) scale = std::max(scale, length(g));
-  for (int i = 0; i < Type::size; ++i) {
+  for (std::size_t i = 0; i < gradient.size(); ++i) {
     const Vec3d numeric{difference(sample, &Vec3d::x, i), difference(sample, &Vec3d::y, i),
                         difference(sample, &Vec3d::z, i)};
     worst.gradient = std::max(worst.gradient, length(numeric - gradient[i]) / scale);
@@ -76,16 +69,15 @@ void compare_gradients(const Sample<Type>& sample, Worst& worst) {
 }
 
 // Projects the sample once with random masses; relative to the sum of |m dx| and of |x| |m dx|.
-template <class Type>
-void compare_momenta(const Sample<Type>& sample, Random& random, Worst& worst) {
+void compare_momenta(const Sample& sample, Random& random, Worst& worst) {
   Solver solver;
-  std::array<int, static_cast<std::size_t>(Type::size)> indices{};
-  for (int i = 0; i < Type::size; ++i) indices[i] = solver.add(sample.x[i], random.uniform(0.5, 2));
-  solver.add<Type>(indices, sample.rest);
+  std::vector<int> indices;
+  for (const Vec3d& x : sample.x) indices.push_back(solver.add(x, random.uniform(0.5, 2)));
+  solver.add(sample.type, indices, sample.rest);
   solver.step(1);
   Vec3d linear{}, angular{};
   double scale = 1e-300;
-  for (int i = 0; i < Type::size; ++i) {
+  for (std::size_t i = 0; i < sample.x.size(); ++i) {
     const Vec3d push = (solver.particles[i].position - sample.x[i]) * (1 / solver.particles[i].inverse_mass);
     linear += push;
     angular += cross(sample.x[i], push);
@@ -95,24 +87,22 @@ void compare_momenta(const Sample<Type>& sample, Random& random, Worst& worst) {
   worst.angular = std::max(worst.angular, length(angular) / scale);
 }
 
-template <class Type>
-void type_rows(Result& result) {
+void type_rows(Result& result, const ConstraintType& type) {
   Random random(2017);
   Worst worst;
   int samples = 0;
   while (samples < 1000) {
-    const Sample<Type> sample = make_sample<Type>(random);
-    Vec3d gradient[static_cast<std::size_t>(Type::size)];
-    const double c = Type::template evaluate<double>(sample.x, sample.rest, gradient);
+    const Sample sample = make_sample(type, random);
+    const reference::Evaluation at = reference::evaluate(type.name, sample.x, sample.rest);
     double largest = 0;
-    for (const Vec3d& g : gradient) largest = std::max(largest, length(g));
+    for (const Vec3d& g : at.gradients) largest = std::max(largest, length(g));
     // Left out: what is too sharp for differences, near the cut of an angle, or moves too little to measure.
-    if (largest > 30 || std::abs(c) > 2.5 || std::abs(c) < 0.05 * largest) continue;
+    if (largest > 30 || std::abs(at.value) > 2.5 || std::abs(at.value) < 0.05 * largest) continue;
     ++samples;
-    compare_gradients(sample, worst);
+    compare_gradients(sample, at.gradients, worst);
     compare_momenta(sample, random, worst);
   }
-  const std::string name = std::string(Type::name) + ", ", note = "largest of 1000 random places";
+  const std::string name = type.name + ", ", note = "largest of 1000 random places";
   auto& rows = result.rows;
   rows.push_back(absolute("momentum: " + name + "gradient against differences", 0, worst.gradient, 1e-9, "", note));
   rows.push_back(absolute("momentum: " + name + "net force", 0, worst.force, 1e-9, "", note));
@@ -150,22 +140,16 @@ Solver reference_of(const Object& object) {
     const Vec3f &x = object.positions[i], &v = object.velocities[i];
     solver.add({x.x, x.y, x.z}, object.masses[i], {v.x, v.y, v.z});
   }
-  for_each_type(AllConstraints{}, [&](auto tag, int) {
-    using Type = typename decltype(tag)::type;
-    for (const ConstraintGroup& group : object.constraints) {
-      if (group.type != Type::name) continue;
-      for (std::size_t first = 0; first < group.particles.size(); first += Type::size) {
-        std::array<int, static_cast<std::size_t>(Type::size)> indices{};
-        Vec3d x[static_cast<std::size_t>(Type::size)];
-        for (int i = 0; i < Type::size; ++i) {
-          indices[i] = group.particles[first + static_cast<std::size_t>(i)];
-          x[i] = solver.particles[indices[i]].position;
-        }
-        const float own = group.compliances.empty() ? group.stiffness.value : group.compliances[first / Type::size];
-        solver.add<Type>(indices, Type::template measure<double>(x), {own, 0, -1});
-      }
+  for (const ConstraintGroup& group : object.constraints) {
+    const auto type = std::find_if(constraint_types().begin(), constraint_types().end(),
+                                   [&](const ConstraintType& t) { return t.name == group.type; });
+    const auto size = static_cast<std::size_t>(type->stencil_size);
+    for (std::size_t first = 0; first < group.particles.size(); first += size) {
+      const float own = group.compliances.empty() ? group.stiffness.value : group.compliances[first / size];
+      const auto begin = group.particles.begin() + static_cast<std::ptrdiff_t>(first);
+      solver.add(group.type, {begin, begin + type->stencil_size}, {}, {own, 0, -1});
     }
-  });
+  }
   return solver;
 }
 
@@ -233,7 +217,7 @@ double reference_spin() {
   Solver solver;
   solver.add({0.5, 0, 0}, 1, {0, 0.5 * dumbbell_spin, 0});
   solver.add({-0.5, 0, 0}, 1, {0, -0.5 * dumbbell_spin, 0});
-  solver.add<Distance>({0, 1}, {1});
+  solver.add("distance", {0, 1}, {1});
   for (int i = 0; i < dumbbell_steps; ++i) solver.step(dumbbell_h);
   return spin_of(solver.particles[0].position, solver.particles[0].velocity);
 }
@@ -262,7 +246,7 @@ void dumbbell_rows(Result& result) {
 }  // namespace
 
 void momentum_rows(Result& result, bool) {
-  for_each_type(AllConstraints{}, [&](auto tag, int) { type_rows<typename decltype(tag)::type>(result); });
+  for (const ConstraintType& type : constraint_types()) type_rows(result, type);
   sheet_rows(result);
   dumbbell_rows(result);
 }

@@ -5,8 +5,7 @@
 #include <limits>
 
 #include "apps/validate/rows.h"
-#include "constraints/distance.h"
-#include "tests/support/reference_solver.h"
+#include "pliant/reference.h"
 
 namespace pliant::validate {
 namespace {
@@ -38,7 +37,7 @@ class ReferencePendulum {
     solver_.substeps = substeps;
     solver_.add({0, 0, 0}, std::numeric_limits<double>::infinity());
     solver_.add(bob_at(angle), 1);
-    solver_.add<Distance>({0, 1}, {1});
+    solver_.add("distance", {0, 1}, {1});
   }
   void step(double dt) { solver_.step(dt); }
   Bob bob() const { return {solver_.particles[1].position, solver_.particles[1].velocity}; }

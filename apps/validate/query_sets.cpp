@@ -1,15 +1,13 @@
 // Continuous tests on query sets whose answers are known exactly: none missed, hardly any false alarm, and how fast.
 #include <ctime>
 
+#include "apps/validate/query_sets.h"
 #include "apps/validate/rows.h"
-#include "geometry/continuous.h"
 #include "pliant/error.h"
-#include "tests/support/query_sets.h"
+#include "pliant/queries.h"
 
 namespace pliant::validate {
 namespace {
-
-using testing_support::CollisionQuery;
 
 struct Answers {
   int missed = 0, false_alarms = 0;
@@ -36,44 +34,32 @@ std::vector<CollisionQuery> repeated(const std::vector<CollisionQuery>& queries,
   return result;
 }
 
-/// `undecided` is double precision alone, which can't tell what touches from what passes by a hair: its false alarms are counted
-/// where `decided` says that more than 1e-12 m lie between.
-template <class Undecided, class Decided>
-void add_rows(Result& result, const std::string& what, const std::vector<CollisionQuery>& queries,
-              const Undecided& undecided, const Decided& decided) {
+template <class Test>
+void add_rows(Result& result, const std::string& what, const std::vector<CollisionQuery>& queries, const Test& test) {
   const std::string name = "collision: continuous, query sets, " + what;
   const std::string of = "of " + std::to_string(queries.size());
   const auto rate = [](const Answers& answers) { return "; " + brief(answers.per_second / 1e6) + " million a second"; };
-  const Answers answers = ask(queries, [&](const CollisionQuery& query) { return decided(query, 0.0); });
-  const Answers timed = ask(repeated(queries, 50), [&](const CollisionQuery& query) { return decided(query, 0.0); });
+  const Answers answers = ask(queries, test), timed = ask(repeated(queries, 50), test);
   result.rows.push_back(at_most(name + ", missed", 0, answers.missed, "", of + rate(timed)));
   result.rows.push_back(
       at_most(name + ", false alarms", 0.01 * static_cast<double>(queries.size()), answers.false_alarms, "", "1 % " + of));
-  const Answers in_double = ask(repeated(queries, 50), undecided);
-  result.rows.push_back(at_most(name + ", undecided, missed", 0, in_double.missed, "", of + rate(in_double)));
-  int far = 0;
-  for (const CollisionQuery& query : queries) far += undecided(query) && !query.hits && !decided(query, 1e-12) ? 1 : 0;
-  result.rows.push_back(at_most(name + ", undecided, false alarms beyond 1e-12 m", 0, far, "", of));
 }
 
 }  // namespace
 
 void query_set_rows(Result& result, const std::string& folder) {
-  const auto points = testing_support::read_query_sets(folder, "vertex-face");
-  const auto edges = testing_support::read_query_sets(folder, "edge-edge");
+  const auto points = read_query_sets(folder, "vertex-face");
+  const auto edges = read_query_sets(folder, "edge-edge");
   if (points.empty() || edges.empty()) {
     Location where;
     where.file = folder;
     throw Error(where, "holds no queries",
                 "give --queries a folder of .csv files below folders 'vertex-face' and 'edge-edge'");
   }
-  add_rows(
-      result, "vertex and triangle", points,
-      [](const CollisionQuery& q) { return vertex_triangle_impact<double>(q.from, q.to, 0.0).hit; },
-      [](const CollisionQuery& q, double within) { return vertex_triangle_impact(q.from, q.to, within).hit; });
-  add_rows(
-      result, "two edges", edges, [](const CollisionQuery& q) { return edge_edge_impact<double>(q.from, q.to, 0.0).hit; },
-      [](const CollisionQuery& q, double within) { return edge_edge_impact(q.from, q.to, within).hit; });
+  add_rows(result, "vertex and triangle", points,
+           [](const CollisionQuery& q) { return vertex_triangle_impact(q.from, q.to, 0.0).has_value(); });
+  add_rows(result, "two edges", edges,
+           [](const CollisionQuery& q) { return edge_edge_impact(q.from, q.to, 0.0).has_value(); });
 }
 
 }  // namespace pliant::validate

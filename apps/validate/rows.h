@@ -1,6 +1,7 @@
 // What the files of rows have in common: the groups themselves, makers of rows, and small scenes.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,13 @@
 #include "pliant/world.h"
 
 namespace pliant::validate {
+
+inline double length(const Vec3d& v) { return std::sqrt(length_squared(v)); }
+inline float length(const Vec3f& v) { return std::sqrt(length_squared(v)); }
+inline Vec3f to_float(const Vec3d& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+inline Vec3d to_double(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
 // Each adds its rows and charts.
 void spring_rows(Result& result, bool slow);

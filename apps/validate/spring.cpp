@@ -4,8 +4,7 @@
 #include <limits>
 
 #include "apps/validate/rows.h"
-#include "constraints/distance.h"
-#include "tests/support/reference_solver.h"
+#include "pliant/reference.h"
 
 namespace pliant::validate {
 namespace {
@@ -40,7 +39,7 @@ std::vector<double> by_reference(const Spring& s) {
   Solver solver;
   solver.add({0, 0, 0}, infinity);
   solver.add({s.start, 0, 0}, s.mass);
-  solver.add<Distance>({0, 1}, {s.rest_length}, {1 / s.stiffness, s.damping, -1});
+  solver.add("distance", {0, 1}, {s.rest_length}, {1 / s.stiffness, s.damping, -1});
   std::vector<double> path{s.start};
   for (int i = 0; i < s.steps; ++i) {
     solver.step(s.h);
@@ -150,7 +149,7 @@ double reference_stretch(const Hanging& s) {
   solver.iterations = s.iterations;
   solver.add({0, 0, 0}, infinity);
   solver.add({0, -1, 0}, s.mass);
-  solver.add<Distance>({0, 1}, {1}, {s.compliance, s.critical(), -1});
+  solver.add("distance", {0, 1}, {1}, {s.compliance, s.critical(), -1});
   for (int i = 0; i < s.steps(); ++i) solver.step(s.dt);
   return solver.value(0);
 }

@@ -1,5 +1,5 @@
 // Every sweep against the same known answers: what a scene is at rest, and how it moves, may not depend on the order in which
-// its constraints are visited. The ways are those of tests/support/sweep_table.h, a line each. What a way can't give is a
+// its constraints are visited. The ways are those of apps/validate/sweep_table.h, a line each. What a way can't give is a
 // row too, which says what it gives instead and why.
 #include <algorithm>
 #include <cmath>
@@ -7,14 +7,10 @@
 #include <limits>
 
 #include "apps/validate/rows.h"
-#include "tests/support/sweep_table.h"
+#include "apps/validate/sweep_table.h"
 
 namespace pliant::validate {
 namespace {
-
-using testing_support::Lacks;
-using testing_support::sweep_ways;
-using testing_support::SweepWay;
 
 constexpr double g = 10, pi = 3.14159265358979323846;
 

@@ -7,6 +7,8 @@
 #include "pliant/material.h"
 #include "pliant/mesh.h"
 #include "pliant/motion.h"
+#include "pliant/queries.h"
+#include "pliant/reference.h"
 #include "pliant/save.h"
 #include "pliant/scene.h"
 #include "pliant/vec3.h"

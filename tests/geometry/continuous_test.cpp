@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/validate/query_sets.h"
 #include "geometry/double_double.h"
-#include "support/query_sets.h"
 
 namespace pliant {
 namespace {
@@ -292,7 +292,7 @@ void check_queries(const char* kind) {
   const std::string root = PLIANT_SHARED_DATA "/ccd/sample-queries";
   if (!std::filesystem::exists(root)) GTEST_SKIP() << "no query sets beside this tree";
   Counts sum;
-  for (const testing_support::CollisionQuery& query : testing_support::read_query_sets(root, kind)) {
+  for (const validate::CollisionQuery& query : validate::read_query_sets(root, kind)) {
     Motion4 m;
     std::copy(std::begin(query.from), std::end(query.from), m.from);
     std::copy(std::begin(query.to), std::end(query.to), m.to);

@@ -5,15 +5,15 @@
 
 #include <algorithm>
 
+#include "apps/validate/sweep_table.h"
 #include "golden/golden.h"
-#include "support/sweep_table.h"
 
 namespace pliant::golden {
 
 namespace {
 
-using testing_support::sweep_ways;
-using testing_support::SweepWay;
+using validate::sweep_ways;
+using validate::SweepWay;
 
 constexpr int frames = 4;
 

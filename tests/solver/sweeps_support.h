@@ -5,14 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "apps/validate/sweep_table.h"
 #include "solver/step.h"
 #include "solver/step_support.h"
 #include "solver/sweeps/chains.h"
 #include "solver/sweeps/sweep.h"
 #include "support/kernels.h"
-#include "support/sweep_table.h"
 
 namespace pliant::testing_support {
+
+using validate::Lacks;
+using validate::sweep_ways;
+using validate::SweepWay;
 
 using Sharing = SweepOptions::Sharing;
 using Acceleration = SweepOptions::Acceleration;

@@ -9,6 +9,7 @@
 
 #include "apps/validate/long_contact.h"
 #include "geometry/triangle.h"
+#include "topology/edges.h"
 
 namespace pliant::validate {
 namespace {
@@ -95,8 +96,8 @@ TEST(Audit, MeasuresTheLeastDistanceOfBruteForce) {
       p += Vec3f{x, y, z} * (trial % 2 == 0 ? 0.05f : 0.6f);
     }
     const std::vector<Triangle> triangles(mesh.triangles.begin(), mesh.triangles.end());
-    EXPECT_NEAR(least_distance(triangles, mesh.positions, 5), brute_force(triangles, mesh.positions), 1e-12);
-    EXPECT_EQ(least_distance(triangles, mesh.positions, 1e-9), std::min(1e-9, brute_force(triangles, mesh.positions)));
+    EXPECT_NEAR(least_distance({mesh.positions, triangles}, 5), brute_force(triangles, mesh.positions), 1e-12);
+    EXPECT_EQ(least_distance({mesh.positions, triangles}, 1e-9), std::min(1e-9, brute_force(triangles, mesh.positions)));
   }
 }
 

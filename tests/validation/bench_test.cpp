@@ -8,7 +8,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/bench/broadphase.h"
 #include "apps/bench/cloth.h"
 #include "apps/bench/landing.h"
 #include "apps/bench/quality.h"
@@ -124,25 +123,6 @@ TEST(Bench, WhatIsUnknownIsRefused) {
   options.workload.clear();
   options.sizes = {1};
   EXPECT_THROW(run(options), Error);
-}
-
-// Volumes differ, what they hold does not: hash and boxes find the same pairs, whatever the cell or the fanout.
-TEST(Bench, BroadPhasesOverTheSameBoxesFindTheSamePairs) {
-  int seen = 0;
-  BroadPhaseOptions options{{12}, 2, 2, [&](const BroadPhaseRow&) { ++seen; }};
-  const auto rows = measure_broad_phases(options);
-  EXPECT_EQ(seen, static_cast<int>(rows.size()));
-  EXPECT_EQ(nlohmann::json::parse(to_json(rows)).size(), rows.size());
-  double pairs = 0;
-  for (const BroadPhaseRow& row : rows) {
-    EXPECT_GT(row.pairs, 100) << row.method;
-    if (row.method == "hash, cells of 1 edges") pairs = row.pairs;
-    if (row.method.rfind("hash", 0) == 0 || row.method.rfind("boxes", 0) == 0) {
-      EXPECT_EQ(row.pairs, pairs) << row.input << ", " << row.method;
-    }
-  }
-  EXPECT_THROW(measure_broad_phases({{1}, 2, 1, {}}), Error);
-  EXPECT_THROW(measure_broad_phases({{12}, 0, 1, {}}), Error);
 }
 
 // ---------------------------------------------------------------- W3

@@ -1,7 +1,7 @@
 // A World against the tests' own solver: double precision, one constraint after another in the order in which they were
 // given. They visit constraints in different orders, so they are compared where the order does not matter: constraints that
 // share nothing, and systems projected until they are met.
-#include "support/reference_solver.h"
+#include "pliant/reference.h"
 
 #include <gtest/gtest.h>
 
@@ -34,25 +34,17 @@ void add_object(const Object& object, reference::Solver& solver) {
     solver.add(convert<double>(object.positions[i]), object.masses[i], velocity);
   }
   for (const ConstraintGroup& group : object.constraints) {
-    for_each_type(AllConstraints{}, [&](auto tag, int) {
-      using T = typename decltype(tag)::type;
-      if (group.type != T::name) return;
-      for (std::size_t c = 0; c < group.particles.size() / size_of<T>; ++c) {
-        std::array<int, size_of<T>> particles;
-        Stencil<T, double> x;
-        for (std::size_t slot = 0; slot < particles.size(); ++slot) {
-          particles[slot] = group.particles[c * size_of<T> + slot];
-          x[slot] = convert<double>(object.positions[static_cast<std::size_t>(particles[slot])]);
-        }
-        ParamsOf<T, double> rest = measure<T, double>(x);
-        if (!group.rest.empty()) {
-          ParamsOf<T, float> given;
-          std::memcpy(static_cast<void*>(&given), &group.rest[c * static_cast<std::size_t>(field_count<T>)], sizeof given);
-          rest = convert_params<T, double, float>(given);
-        }
-        solver.add<T>(particles, rest, hardness_of(group.stiffness));
-      }
-    });
+    const auto type = std::find_if(constraint_types().begin(), constraint_types().end(),
+                                   [&](const ConstraintType& t) { return t.name == group.type; });
+    const auto size = static_cast<std::size_t>(type->stencil_size), fields = type->rest_fields.size();
+    for (std::size_t c = 0; c < group.particles.size() / size; ++c) {
+      const auto first = group.particles.begin() + static_cast<std::ptrdiff_t>(c * size);
+      std::vector<double> rest;
+      if (!group.rest.empty())
+        rest.assign(group.rest.begin() + static_cast<std::ptrdiff_t>(c * fields),
+                    group.rest.begin() + static_cast<std::ptrdiff_t>((c + 1) * fields));
+      solver.add(group.type, {first, first + type->stencil_size}, rest, hardness_of(group.stiffness));
+    }
   }
 }
 

@@ -5,16 +5,18 @@
 #include <limits>
 #include <vector>
 
+#include "apps/validate/sweep_table.h"
 #include "collision/untangle/intersections.h"
 #include "math/vector.h"
 #include "pliant/error.h"
-#include "support/sweep_table.h"
 #include "world/surface_support.h"
 
 namespace pliant {
 namespace {
 
 using namespace testing_support;
+using validate::sweep_ways;
+using validate::SweepWay;
 using Intersections = Settings::Intersections;
 
 Object cloth(const TriangleMesh& mesh, const std::string& name) {

@@ -1,4 +1,4 @@
-// Every way to solve, one a line: tests/solver, the golden hashes and the rows of `pliant validate sweeps` all go through this
+// Every way to solve, one a line: the tests of sweeps, the golden hashes and the rows of `pliant validate sweeps` all go through this
 // table, so that a new sweep is held to the same promises by a line here.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 #include "pliant/scene.h"
 
-namespace pliant::testing_support {
+namespace pliant::validate {
 
 /// What a way does not promise, and everybody else does.
 enum class Lacks {
@@ -74,4 +74,4 @@ inline const std::vector<SweepWay>& sweep_ways() {
   return ways;
 }
 
-}  // namespace pliant::testing_support
+}  // namespace pliant::validate

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -12,11 +13,11 @@
 
 #include "pliant/vec3.h"
 
-namespace pliant::testing_support {
+namespace pliant::validate {
 
 /// A vertex and a triangle, or two edges, that move straight.
 struct CollisionQuery {
-  Vec3d from[4], to[4];
+  std::array<Vec3d, 4> from, to;
   bool hits = false;
 };
 
@@ -33,8 +34,9 @@ inline std::vector<CollisionQuery> read_queries(const std::filesystem::path& fil
   for (int row = 0;; ++row) {
     for (int i = 0; i < 7; ++i)
       if (!std::getline(in, field[i], i < 6 ? ',' : '\n')) return queries;
-    Vec3d* const corners = row % 8 < 4 ? query.from : query.to;  // g++ 12's sanitizer writes to a copy of (a ? b : c)[i]
-    corners[row % 4] = Vec3d{quotient(field[0], field[1]), quotient(field[2], field[3]), quotient(field[4], field[5])};
+    std::array<Vec3d, 4>& corners = row % 8 < 4 ? query.from : query.to;
+    corners[static_cast<std::size_t>(row % 4)] =
+        Vec3d{quotient(field[0], field[1]), quotient(field[2], field[3]), quotient(field[4], field[5])};
     query.hits = field[6][0] == '1';
     if (row % 8 == 7) queries.push_back(query);
   }
@@ -56,4 +58,4 @@ inline std::vector<CollisionQuery> read_query_sets(const std::filesystem::path& 
   return queries;
 }
 
-}  // namespace pliant::testing_support
+}  // namespace pliant::validate

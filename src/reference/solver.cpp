@@ -1,0 +1,219 @@
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "constraints/all.h"
+#include "pliant/error.h"
+#include "pliant/reference.h"
+
+namespace pliant::reference {
+
+/// What the solver must know of a constraint, whatever its type.
+class AnyConstraint {
+ public:
+  virtual ~AnyConstraint() = default;
+  virtual void start_substep() = 0;
+  /// One projection. `start` holds the positions before the substep, `projections` how often it is projected in a step.
+  virtual void project(std::vector<Particle>& particles, const std::vector<Vec3d>& start, double h, int projections) = 0;
+  virtual double value(const std::vector<Particle>& particles) const = 0;
+  virtual double multiplier() const = 0;
+};
+
+namespace {
+
+template <class T>
+inline constexpr std::size_t size_of = static_cast<std::size_t>(T::size);
+
+template <class T>
+using Rest = typename T::template Params<double>;
+
+template <class T>
+inline constexpr std::size_t rest_size = sizeof(Rest<T>) / sizeof(double);
+
+template <class T>
+using Points = Vec3d[size_of<T>];
+
+void require(bool holds, const std::string& type, const std::string& problem) {
+  if (!holds) throw Error({.element = type + " constraint"}, problem, "see docs/reference/constraints.md");
+}
+
+template <class T>
+Rest<T> rest_of(const std::vector<double>& numbers) {
+  require(numbers.size() == rest_size<T>, T::name,
+          "has " + std::to_string(numbers.size()) + " numbers of rest data, not " + std::to_string(rest_size<T>));
+  Rest<T> rest;
+  std::memcpy(&rest, numbers.data(), sizeof rest);
+  return rest;
+}
+
+template <class T>
+void copy_stencil(const std::vector<Vec3d>& from, Points<T>& to) {
+  require(from.size() == size_of<T>, T::name,
+          "has " + std::to_string(from.size()) + " particles, not " + std::to_string(size_of<T>));
+  for (std::size_t i = 0; i < size_of<T>; ++i) to[i] = from[i];
+}
+
+/// Calls visit(TypeTag<T>{}) for the type of this name.
+template <class Visit>
+void with_name(const std::string& type, const Visit& visit) {
+  bool found = false;
+  for_each_type(AllConstraints{}, [&](auto tag, int) {
+    if (type != decltype(tag)::type::name) return;
+    found = true;
+    visit(tag);
+  });
+  require(found, "'" + type + "'", "is of no known type");
+}
+
+template <class T>
+class Constraint final : public AnyConstraint {
+ public:
+  Constraint(const std::vector<int>& particles, const Rest<T>& rest, const Hardness& hardness)
+      : rest_(rest), hardness_(hardness) {
+    for (std::size_t i = 0; i < size_of<T>; ++i) indices_[i] = static_cast<std::size_t>(particles[i]);
+  }
+
+  void start_substep() override { multiplier_ = 0; }
+  double multiplier() const override { return multiplier_; }
+
+  double value(const std::vector<Particle>& particles) const override {
+    Points<T> x, gradient;
+    gather(particles, x);
+    return T::template evaluate<double>(x, rest_, gradient);
+  }
+
+  void project(std::vector<Particle>& particles, const std::vector<Vec3d>& start, double h, int projections) override {
+    Points<T> x, gradient;
+    gather(particles, x);
+    const double c = T::template evaluate<double>(x, rest_, gradient);
+    double weight = 0, motion = 0;
+    for (std::size_t i = 0; i < size_of<T>; ++i) {
+      weight += particles[indices_[i]].inverse_mass * length_squared(gradient[i]);
+      motion += dot(gradient[i], x[i] - start[indices_[i]]);
+    }
+    if (weight == 0) return;
+    const double change = hardness_.pbd >= 0 ? pbd_change(c, weight, projections) : xpbd_change(c, weight, motion, h);
+    multiplier_ += change;
+    for (std::size_t i = 0; i < size_of<T>; ++i) {
+      Particle& particle = particles[indices_[i]];
+      particle.position += gradient[i] * (particle.inverse_mass * change);
+    }
+  }
+
+ private:
+  void gather(const std::vector<Particle>& particles, Points<T>& x) const {
+    for (std::size_t i = 0; i < size_of<T>; ++i) x[i] = particles[indices_[i]].position;
+  }
+
+  // k' = 1 - (1 - k)^(1/n): after n projections of an isolated linear constraint the share k of its error is gone.
+  double pbd_change(double c, double weight, int projections) const {
+    const double each = 1 - std::pow(1 - hardness_.pbd, 1.0 / projections);
+    return -each * c / weight;
+  }
+
+  // Macklin, Mueller and Chentanez 2016, eq. 18 and 26.
+  double xpbd_change(double c, double weight, double motion, double h) const {
+    const double alpha = hardness_.compliance / (h * h);
+    const double gamma = hardness_.compliance * hardness_.damping / h;
+    return (-c - alpha * multiplier_ - gamma * motion) / ((1 + gamma) * weight + alpha);
+  }
+
+  std::array<std::size_t, size_of<T>> indices_{};
+  Rest<T> rest_;
+  Hardness hardness_;
+  double multiplier_ = 0;
+};
+
+}  // namespace
+
+Evaluation evaluate(const std::string& type, const std::vector<Vec3d>& x, const std::vector<double>& rest) {
+  Evaluation out;
+  with_name(type, [&](auto tag) {
+    using T = typename decltype(tag)::type;
+    Points<T> places, gradients;
+    copy_stencil<T>(x, places);
+    out.value = T::template evaluate<double>(places, rest_of<T>(rest), gradients);
+    out.gradients.assign(gradients, gradients + size_of<T>);
+  });
+  return out;
+}
+
+std::vector<double> measure(const std::string& type, const std::vector<Vec3d>& x) {
+  std::vector<double> out;
+  with_name(type, [&](auto tag) {
+    using T = typename decltype(tag)::type;
+    Points<T> places;
+    copy_stencil<T>(x, places);
+    const Rest<T> rest = T::template measure<double>(places);
+    out.resize(rest_size<T>);
+    std::memcpy(out.data(), &rest, sizeof rest);
+  });
+  return out;
+}
+
+Solver::Solver() = default;
+Solver::~Solver() = default;
+Solver::Solver(Solver&&) noexcept = default;
+Solver& Solver::operator=(Solver&&) noexcept = default;
+
+int Solver::add(const Vec3d& position, double mass, const Vec3d& velocity) {
+  particles.push_back({position, velocity, 1 / mass});
+  return static_cast<int>(particles.size()) - 1;
+}
+
+int Solver::add(const std::string& type, const std::vector<int>& stencil, const std::vector<double>& rest,
+                const Hardness& hardness) {
+  std::vector<Vec3d> x;
+  for (const int p : stencil) {
+    require(p >= 0 && p < static_cast<int>(particles.size()), type, "names particle " + std::to_string(p));
+    x.push_back(particles[static_cast<std::size_t>(p)].position);
+  }
+  const std::vector<double> used = rest.empty() ? measure(type, x) : rest;
+  with_name(type, [&](auto tag) {
+    using T = typename decltype(tag)::type;
+    require(x.size() == size_of<T>, T::name, "has " + std::to_string(x.size()) + " particles");
+    constraints_.push_back(std::make_unique<Constraint<T>>(stencil, rest_of<T>(used), hardness));
+  });
+  return constraint_count() - 1;
+}
+
+double Solver::value(int constraint) const { return constraints_[static_cast<std::size_t>(constraint)]->value(particles); }
+
+double Solver::multiplier(int constraint) const { return constraints_[static_cast<std::size_t>(constraint)]->multiplier(); }
+
+void Solver::step(double dt) {
+  for (int i = 0; i < substeps; ++i) substep(dt / substeps);
+}
+
+double Solver::kinetic_energy() const {
+  double sum = 0;
+  for (const Particle& p : particles)
+    if (p.inverse_mass > 0) sum += length_squared(p.velocity) / (2 * p.inverse_mass);
+  return sum;
+}
+
+double Solver::potential_energy() const {
+  double sum = 0;
+  for (const Particle& p : particles)
+    if (p.inverse_mass > 0) sum -= dot(gravity, p.position) / p.inverse_mass;
+  return sum;
+}
+
+void Solver::substep(double h) {
+  std::vector<Vec3d> start;
+  for (Particle& p : particles) {
+    start.push_back(p.position);
+    if (p.inverse_mass == 0) continue;
+    p.velocity += gravity * h;
+    p.position += p.velocity * h;
+  }
+  for (auto& constraint : constraints_) constraint->start_substep();
+  for (int i = 0; i < iterations; ++i)
+    for (auto& constraint : constraints_) constraint->project(particles, start, h, substeps * iterations);
+  const double kept = std::exp(-damping * h);
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (particles[i].inverse_mass > 0) particles[i].velocity = (particles[i].position - start[i]) * (kept / h);
+}
+
+}  // namespace pliant::reference
