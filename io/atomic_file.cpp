@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cerrno>
@@ -44,6 +45,10 @@ const char* advice(int code) {
   }
 }
 
+/// The names of unfinished files. One beyond the last place is merely not removed by remove_unfinished_files().
+std::array<std::atomic<const char*>, 256> unfinished{};
+static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler reads it");
+
 std::string folder_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   if (slash == std::string::npos) return ".";
@@ -71,6 +76,16 @@ int write_all(int descriptor, const char* bytes, std::size_t count) {
   return 0;
 }
 
+std::string name_of_descriptor(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
+
+/// A file without a name, which is gone with the program however that ends; -1 where the system has none.
+int open_nameless(const std::string& folder) {
+  const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor < 0 || ::access(name_of_descriptor(descriptor).c_str(), F_OK) == 0) return descriptor;
+  ::close(descriptor);
+  return -1;
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(path_) {
@@ -93,7 +108,9 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(path_
 
 AtomicFile::~AtomicFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (temporary_.empty()) return;
+  ::unlink(temporary_.c_str());
+  forget_unfinished(temporary_.c_str());
 }
 
 void AtomicFile::fail(const char* what, int code) const {
@@ -101,16 +118,22 @@ void AtomicFile::fail(const char* what, int code) const {
               std::string(what) + ": " + std::generic_category().message(code), advice(code));
 }
 
-void AtomicFile::open_temporary() {
+/// A short name of its own: a long target name plus a suffix could exceed what the file system allows.
+std::string AtomicFile::next_name() const {
   static std::atomic<unsigned> counter{0};
+  return folder_of(target_) + "/.pliant-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".part";
+}
+
+void AtomicFile::open_temporary() {
+  descriptor_ = open_nameless(folder_of(target_));
+  if (descriptor_ >= 0) return;
   constexpr int attempts = 100;
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    // A short name of its own: a long target name plus a suffix could exceed what the file system allows.
-    std::string name =
-        folder_of(target_) + "/.pliant-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".part";
+    std::string name = next_name();
     descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ >= 0) {
       temporary_ = std::move(name);
+      remember_unfinished(temporary_.c_str());
       return;
     }
     if (errno != EEXIST) break;
@@ -118,8 +141,24 @@ void AtomicFile::open_temporary() {
   fail("cannot write", errno);
 }
 
+/// A rename needs a name: a nameless file gets one only now.
+void AtomicFile::name_temporary() {
+  if (!temporary_.empty()) return;
+  const std::string self = name_of_descriptor(descriptor_);
+  for (;;) {
+    temporary_ = next_name();
+    remember_unfinished(temporary_.c_str());
+    if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, temporary_.c_str(), AT_SYMLINK_FOLLOW) == 0) return;
+    const int code = errno;
+    forget_unfinished(temporary_.c_str());
+    temporary_.clear();
+    if (code != EEXIST) fail("cannot put the file in place", code);
+  }
+}
+
 void AtomicFile::open_directly() {
   // Opening a pipe that nobody reads would wait for ever.
+  direct_ = true;
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor_ < 0) fail("cannot write", errno);
   const int flags = ::fcntl(descriptor_, F_GETFL);
@@ -166,16 +205,37 @@ void AtomicFile::close_checked() {
 void AtomicFile::commit() {
   if (descriptor_ < 0) throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "was committed before");
   flush();
-  if (temporary_.empty()) return close_checked();
+  if (direct_) return close_checked();
   if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail("cannot write", errno);
+  name_temporary();
   close_checked();
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot put the file in place", errno);
+  forget_unfinished(temporary_.c_str());
   temporary_.clear();
   // The rename itself lives in the folder. Where a folder cannot be synced the file is whole all the same.
   const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder < 0) return;
   ::fsync(folder);
   ::close(folder);
+}
+
+void remember_unfinished(const char* name) noexcept {
+  for (auto& place : unfinished) {
+    const char* none = nullptr;
+    if (place.compare_exchange_strong(none, name)) return;
+  }
+}
+
+void forget_unfinished(const char* name) noexcept {
+  for (auto& place : unfinished) {
+    const char* found = name;
+    if (place.compare_exchange_strong(found, nullptr)) return;
+  }
+}
+
+void remove_unfinished_files() noexcept {
+  for (auto& place : unfinished)
+    if (const char* const name = place.load()) ::unlink(name);
 }
 
 }  // namespace pliant

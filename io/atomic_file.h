@@ -48,17 +48,29 @@ class AtomicFile {
 
  private:
   [[noreturn]] void fail(const char* what, int code) const;
+  std::string next_name() const;
   void open_temporary();
+  void name_temporary();
   void open_directly();
   void flush();
   void close_checked();
 
   std::string path_;       // as the caller gave it, for errors
   std::string target_;     // path_ with symbolic links followed
-  std::string temporary_;  // empty where written to directly
+  std::string temporary_;  // empty as long as the file has no name
+  bool direct_ = false;    // a device or pipe, written to as it is
   std::vector<char> buffer_;
   std::size_t written_ = 0;
   int descriptor_ = -1;
 };
+
+/// Names a file that remove_unfinished_files() removes; the name stays the caller's until it is forgotten. Every AtomicFile
+/// does this with its temporary file.
+void remember_unfinished(const char* name) noexcept;
+void forget_unfinished(const char* name) noexcept;
+
+/// Removes every file that is unfinished, without waiting for anything: for a signal handler that is about to end the program.
+/// Async-signal-safe.
+void remove_unfinished_files() noexcept;
 
 }  // namespace pliant

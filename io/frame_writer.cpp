@@ -33,7 +33,7 @@ class WorldWriter final : public FrameWriter {
   explicit WorldWriter(std::unique_ptr<output::FormatWriter> format) : format_(std::move(format)) {}
 
   void add(const World& world) override {
-    output::Frame frame{.time = world.state().time, .positions = {}, .velocities = {}};
+    output::Frame frame{.time = world.state().time, .positions = {}, .velocities = {}, .number = world.state().frame};
     for (int object = 0; object < world.object_count(); ++object) {
       frame.positions.push_back(world.positions(object));
       frame.velocities.push_back(world.velocities(object));

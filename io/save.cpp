@@ -136,9 +136,8 @@ Fingerprint fingerprint(const Scene& scene) {
 
 void save(const std::string& path, const State& state) { write(path, Content::state, blocks_of(state)); }
 
-void save(const std::string& path, const State& state, const Scene& scene) {
+void save(const std::string& path, const State& state, const Fingerprint& of) {
   std::vector<Block> blocks = blocks_of(state);
-  const Fingerprint of = fingerprint(scene);
   blocks.push_back({fingerprint_blocks[0], Type::bytes, 1, of.scene.size(), of.scene.data()});
   blocks.push_back({fingerprint_blocks[1], Type::bytes, 1, of.settings.size(), of.settings.data()});
   write(path, Content::state, blocks);
@@ -146,11 +145,10 @@ void save(const std::string& path, const State& state, const Scene& scene) {
 
 State load_state(const std::string& path) { return state_in(state_file(path)); }
 
-State load_state(const std::string& path, const Scene& scene) {
+State load_state(const std::string& path, const Fingerprint& of) {
   const Contents contents = state_file(path);
   if (!contents.has(fingerprint_blocks[0]) || !contents.has(fingerprint_blocks[1]))
     contents.fail("does not say which scene it was saved with", "save it with its scene, or load it without one");
-  const Fingerprint of = fingerprint(scene);
   if (contents.text(fingerprint_blocks[0]) != of.scene)
     contents.fail("was saved with another scene, or this one has changed since", "use the scene that it was saved with");
   if (contents.text(fingerprint_blocks[1]) != of.settings) {

@@ -255,8 +255,8 @@ const Record& settings_record() {
              "Measure both residuals after every iteration of each frame's last substep; slow."),
        field("record_multipliers", boolean(), Settings{}.record_multipliers,
              "Keep multipliers readable with one iteration too."),
-       field("isa", choice({"x86-64-v2", "x86-64-v3", "x86-64-v4", "generic", "sequential"}), "the best that the machine has",
-             "Forces a code path: the same bits at another speed.")},
+       field("isa", choice({"x86-64-v2", "x86-64-v3", "x86-64-v4", "generic", "sequential"}),
+             "the best that the machine has", "Forces a code path: the same bits at another speed.")},
       {}};
   return result;
 }

@@ -174,7 +174,7 @@ SplitPath split_path(const std::string& path) {
 
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
-std::string frame_number(int frame) {
+std::string frame_number(std::int64_t frame) {
   const std::string digits = std::to_string(frame);
   return digits.size() < 4 ? std::string(4 - digits.size(), '0') + digits : digits;
 }

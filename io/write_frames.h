@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,6 +35,7 @@ struct Frame {
   double time = 0;                             ///< [s]
   std::vector<std::vector<Vec3f>> positions;   ///< an object's particles [m]
   std::vector<std::vector<Vec3f>> velocities;  ///< the same, or empty [m/s]
+  std::int64_t number = 0;                     ///< in the run: names the file where a format has a file a frame
 };
 
 /// Writes one format. Frames come in the order of time; finish() completes the files.
@@ -82,7 +84,7 @@ SplitPath split_path(const std::string& path);
 std::string file_name(const std::string& path);
 
 /// A frame's number in four digits or more.
-std::string frame_number(int frame);
+std::string frame_number(std::int64_t frame);
 
 // One maker a format. `path` is the path with suffix as the user gave it; `frame_time` the nominal time between frames [s].
 using Objects = std::vector<FrameObject>;

@@ -21,11 +21,10 @@ class SequenceWriter : public FormatWriter {
 
   void add(const Frame& frame) final {
     check_frame(path_, objects_, frame, last_time_);
-    AtomicFile file(split_.stem + "_" + frame_number(count_) + path_.substr(split_.stem.size()));
+    AtomicFile file(split_.stem + "_" + frame_number(frame.number) + path_.substr(split_.stem.size()));
     write(file, frame);
     commit(file);
     last_time_ = frame.time;
-    ++count_;
   }
 
   void finish() final {}
@@ -38,7 +37,6 @@ class SequenceWriter : public FormatWriter {
   SplitPath split_;
   std::string path_;
   Objects objects_;
-  int count_ = 0;
   double last_time_ = -std::numeric_limits<double>::infinity();
 };
 

@@ -117,13 +117,12 @@ class PvdWriter final : public FormatWriter {
     std::string time;
     append(time, frame.time);
     for (std::size_t o = 0; o < objects_.size(); ++o) {
-      const std::string name = pieces_[o].name + "_" + frame_number(count_) + ".vtp";
+      const std::string name = pieces_[o].name + "_" + frame_number(frame.number) + ".vtp";
       write_piece(name, frame, o);
       entries_ += "<DataSet timestep=\"" + time + "\" group=\"\" part=\"" + std::to_string(o) + "\" name=\"" +
                   escaped(objects_[o].name) + "\" file=\"" + escaped(file_name(folder_)) + "/" + name + "\"/>\n";
     }
     last_time_ = frame.time;
-    ++count_;
   }
 
   void finish() override {
@@ -154,7 +153,6 @@ class PvdWriter final : public FormatWriter {
   AtomicFile file_;
   std::string folder_, entries_;
   std::vector<Piece> pieces_;
-  int count_ = 0;
   bool finished_ = false;
   double last_time_ = -std::numeric_limits<double>::infinity();
 };

@@ -26,6 +26,9 @@ struct RunOptions {
   Overrides overrides;
   std::vector<std::string> out;  ///< geometry files; the suffix picks the format
   std::string report;            ///< JSON file, empty: none
+  std::string checkpoint;        ///< file that the State is saved to every `every` frames and at the end, empty: none
+  int every = 60;                ///< frames
+  std::string resume;            ///< checkpoint to go on from, empty: none
   bool hash_frames = false;      ///< the state's hash of every frame in the report
   bool quiet = false;            ///< nothing on standard output, no progress
 };

@@ -61,7 +61,7 @@ pliant::compare::Result measured(const CompareOptions& options, const Scene& sce
 }  // namespace
 
 int compare(const CompareOptions& options) {
-  refuse_same_file_twice(options.scene, options.out);
+  refuse_same_file_twice({options.scene}, options.out);
   const Scene scene = read_scene_with(options.scene, options.overrides, false);
   if (options.frame) require_frame(scene, options.scene, *options.frame);
   const Outputs outputs = open_outputs(options.out);

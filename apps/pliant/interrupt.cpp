@@ -1,24 +1,55 @@
 #include "interrupt.h"
 
+#include <sys/time.h>
+#include <unistd.h>
+
 #include <csignal>
+#include <cstring>
+
+#include "atomic_file.h"
 
 namespace pliant::command {
 
 namespace {
 
-volatile std::sig_atomic_t received = 0;
+/// From a signal to the end of the program [us].
+constexpr suseconds_t patience = 700000;
 
-extern "C" void remember_signal(int signal) { received = signal; }
+std::atomic<int> received{0};
+std::atomic<bool> flag{false};
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
-std::string name_of(int signal) {
+extern "C" void remember_signal(int signal) {
+  received = signal;
+  flag = true;
+  const itimerval once{{0, 0}, {0, patience}};
+  ::setitimer(ITIMER_REAL, &once, nullptr);
+}
+
+const char* name_of(int signal) {
   if (signal == SIGINT) return "Ctrl-C";
   return signal == SIGTERM ? "SIGTERM" : "SIGHUP";
+}
+
+constexpr const char* consequence = "; no unfinished file is left behind";
+
+void say(const char* text) { (void)!::write(STDERR_FILENO, text, std::strlen(text)); }
+
+/// Nothing here allocates, locks or waits.
+extern "C" void end_program(int /*signal*/) {
+  const int signal = received;
+  remove_unfinished_files();
+  say("pliant: ended by ");
+  say(name_of(signal));
+  say(consequence);
+  say("\n");
+  ::_exit(128 + signal);
 }
 
 }  // namespace
 
 Interrupted::Interrupted(int signal)
-    : signal_(signal), message_("ended by " + name_of(signal) + "; no unfinished file is left behind") {}
+    : signal_(signal), message_(std::string("ended by ") + name_of(signal) + consequence) {}
 
 void catch_signals() {
   struct sigaction action {};
@@ -30,9 +61,13 @@ void catch_signals() {
     sigaction(signal, nullptr, &before);
     if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // nohup and `&` in scripts ignore some
   }
+  action.sa_handler = end_program;
+  sigaction(SIGALRM, &action, nullptr);
   action.sa_handler = SIG_IGN;
   sigaction(SIGPIPE, &action, nullptr);
 }
+
+const std::atomic<bool>& interrupted() { return flag; }
 
 void throw_if_interrupted() {
   const int signal = received;

@@ -1,7 +1,9 @@
-// Ctrl-C and its like: a signal only raises a flag; the frame loop sees it and unwinds, so that every temporary file is
-// removed by its own destructor and nothing half-written stays behind.
+// Ctrl-C and its like: a signal raises a flag; the frame loop and the step see it and unwind, so that every temporary file is
+// removed by its own destructor. Where that takes too long, as while a World is made, the program removes its temporary files
+// and ends all the same.
 #pragma once
 
+#include <atomic>
 #include <exception>
 #include <string>
 
@@ -20,9 +22,12 @@ class Interrupted : public std::exception {
   std::string message_;
 };
 
-/// From now on SIGINT, SIGTERM and SIGHUP raise the flag; a second one ends the program at once. A closed pipe becomes an
-/// error of the write instead of a signal.
+/// From now on SIGINT, SIGTERM and SIGHUP raise the flag, and end the program 0.7 s later if it still runs; a second one ends it
+/// at once. A closed pipe becomes an error of the write instead of a signal.
 void catch_signals();
+
+/// True after a signal: for whatever can end its work early.
+const std::atomic<bool>& interrupted();
 
 /// Throws Interrupted if a signal came.
 void throw_if_interrupted();

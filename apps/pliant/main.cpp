@@ -69,6 +69,15 @@ void add_run(CLI::App& app, RunOptions& options, Chosen& chosen) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   run_app->add_option("--report", options.report, "write hashes, times, residuals and stretch as JSON")->type_name("FILE");
+  CLI::Option* checkpoint =
+      run_app->add_option("--checkpoint", options.checkpoint, "save the state there, to go on from with --resume")
+          ->type_name("FILE");
+  run_app->add_option("--every", options.every, "frames from one --checkpoint to the next; also at the end and on Ctrl-C")
+      ->type_name("N")
+      ->check(range(1, most))
+      ->capture_default_str()
+      ->needs(checkpoint);
+  run_app->add_option("--resume", options.resume, "go on from this checkpoint of the scene")->type_name("FILE");
   run_app->add_flag("--hash-frames", options.hash_frames, "the state's hash of every frame in the report");
   run_app->add_flag("--quiet", options.quiet, "print nothing unless something goes wrong");
   run_app->callback([&] { chosen = [&] { return run(options); }; });

@@ -1,8 +1,13 @@
 #include "output.h"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <set>
+#include <system_error>
 
 #include "apps/compare/compare.h"
 #include "pliant/error.h"
@@ -28,6 +33,16 @@ std::string size_in_words(std::uint64_t bytes) {
   return compare::figure(size, 2) + units[unit];
 }
 
+constexpr const char* elsewhere = "write somewhere you are allowed to";
+
+[[noreturn]] void fail(const std::string& path, const std::string& problem, const std::string& advice) {
+  Location where;
+  where.file = path;
+  throw Error(where, problem, advice);
+}
+
+std::string cannot_write(int code) { return "cannot write: " + std::generic_category().message(code); }
+
 }  // namespace
 
 std::string counted(std::size_t count, const std::string& noun) {
@@ -45,8 +60,9 @@ void print_written(const std::vector<WrittenFile>& files) {
           one_line(files.back().path) + " (" + size_in_words(bytes) + ")\n");
 }
 
-void refuse_same_file_twice(const std::string& read, const std::vector<std::string>& written) {
-  std::set<std::string> seen{file_itself(read)};
+void refuse_same_file_twice(const std::vector<std::string>& read, const std::vector<std::string>& written) {
+  std::set<std::string> seen;
+  for (const std::string& file : read) seen.insert(file_itself(file));
   for (const std::string& file : written) {
     if (file == "/dev/null") continue;
     if (seen.insert(file_itself(file)).second) continue;
@@ -54,6 +70,30 @@ void refuse_same_file_twice(const std::string& read, const std::vector<std::stri
     where.file = file;
     throw Error(where, "is named twice", "give every file a name of its own");
   }
+}
+
+void refuse_unwritable(const std::string& path) {
+  std::error_code unknown;
+  std::filesystem::path place = std::filesystem::absolute(path, unknown);
+  if (unknown || path.empty()) fail(path, "is no path of a file", "name another");
+  if (std::filesystem::is_directory(place, unknown)) fail(path, "cannot write: it is a folder", "name a file");
+  if (std::filesystem::exists(place, unknown)) {
+    if (::access(place.c_str(), W_OK) != 0) fail(path, cannot_write(errno), elsewhere);
+    if (!std::filesystem::is_regular_file(place, unknown)) return;  // a device or pipe needs no folder
+  }
+  do place = place.parent_path();
+  while (!std::filesystem::exists(place, unknown) && place.has_relative_path());
+  if (!std::filesystem::is_directory(place, unknown))
+    fail(path, fmt::format("cannot write: '{}' is no folder", place.string()), elsewhere);
+  if (::access(place.c_str(), W_OK | X_OK) != 0) fail(path, cannot_write(errno), elsewhere);
+}
+
+void make_folder_of(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (folder.empty()) return;
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) fail(path, "cannot make its folder: " + failed.message(), elsewhere);
 }
 
 void print(const std::string& text) {

@@ -128,10 +128,13 @@ int render(const RenderOptions& options) {
                 "give --out a name that ends in .png, and the frames to --strip alone");
   }
   const Size size = parse_size(options.size);
+  refuse_same_file_twice({options.scene}, {options.out});
+  refuse_unwritable(options.out);
   Scene scene = read_scene_with(options.scene, options.overrides, options.quiet);
   for (const int frame : options.strip) require_frame(scene, options.scene, frame);
   if (options.frame) require_frame(scene, options.scene, *options.frame);
   scene.frames = options.frame.value_or(scene.frames);
+  make_folder_of(options.out);
   if (is_movie) {
     draw_movie(options, scene, size);
   } else if (!options.strip.empty()) {

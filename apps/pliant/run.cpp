@@ -1,13 +1,17 @@
 // pliant run: simulates a scene, and writes what was asked for.
 //
-// Everything that can be refused is refused before the first frame: the formats and places of all files, and the report's
-// own.
+// Everything that can be refused is refused before the first frame: the formats and places of all files.
+#include <fmt/format.h>
+
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 #include "apps/compare/compare.h"
 #include "atomic_file.h"
+#include "checkpoint.h"
 #include "command.h"
+#include "interrupt.h"
 #include "output.h"
 #include "pliant/error.h"
 #include "pliant/io.h"
@@ -23,18 +27,61 @@ std::string summary(const RunOptions& options, const World& world, const RunRepo
   const std::string times = compare::figure(report.median_milliseconds(), 3) +
                             " ms a frame (95%: " + compare::figure(report.p95_milliseconds(), 3) + "), ";
   return one_line(options.scene) + ": " + counted(static_cast<std::size_t>(frames), "frame") + ", " +
-         (frames > 0 ? times : "") + counted(static_cast<std::size_t>(world.threads()), "thread") + ", " + world.isa() +
+         (report.frames() > 0 ? times : "") + counted(static_cast<std::size_t>(world.threads()), "thread") + ", " + world.isa() +
          "\nstate " + world.state_hash() + "\n";
+}
+
+/// All files are refused that cannot be written or would take one another's place.
+void check_files(const RunOptions& options) {
+  std::vector<std::string> files = options.out;
+  for (const std::string& file : {options.report, options.checkpoint})
+    if (!file.empty()) files.push_back(file);
+  refuse_same_file_twice({options.scene}, files);
+  // A checkpoint may take the place of the one that the run goes on from, nothing else may.
+  if (!options.resume.empty() && options.resume != options.checkpoint)
+    refuse_same_file_twice({options.scene, options.resume}, files);
+  for (const std::string& file : files) refuse_unwritable(file);
+}
+
+void resume(World& world, const std::string& path, const Scene& scene) {
+  try {
+    world.restore(load_state(path, scene));
+  } catch (const Error& error) {
+    throw of_file(error, path);
+  }
+  if (world.state().frame <= scene.frames) return;
+  Location where;
+  where.file = path;
+  throw Error(where,
+              fmt::format("is of frame {}, beyond the {} to be simulated", world.state().frame,
+                          counted(static_cast<std::size_t>(scene.frames), "frame")),
+              "give --frames a larger number");
+}
+
+/// Steps to the end. A signal leaves the last complete frame in the checkpoint.
+bool simulate_with(Checkpoint& checkpoint, World& world, const Scene& scene, bool quiet,
+                   const std::function<void(const Report&)>& after_frame) {
+  checkpoint.begin(world);
+  try {
+    return simulate(world, scene, quiet, [&](const Report& frame) {
+      after_frame(frame);
+      if (frame.ok()) checkpoint.after_frame(world);
+    });
+  } catch (const Interrupted&) {
+    checkpoint.write_last();
+    throw;
+  }
 }
 
 }  // namespace
 
 int run(const RunOptions& options) {
-  std::vector<std::string> files = options.out;
-  if (!options.report.empty()) files.push_back(options.report);
-  refuse_same_file_twice(options.scene, files);
+  check_files(options);
   const Scene scene = read_scene_with(options.scene, options.overrides, options.quiet);
   World world = make_world(scene, options.scene);
+  if (!options.resume.empty()) resume(world, options.resume, scene);
+  for (const std::string& path : options.out) make_folder_of(path);
+  for (const std::string& path : {options.report, options.checkpoint}) make_folder_of(path);
 
   std::vector<std::unique_ptr<FrameWriter>> writers;
   for (const std::string& path : options.out) writers.push_back(make_frame_writer(path, scene, world));
@@ -42,8 +89,9 @@ int run(const RunOptions& options) {
   if (!options.report.empty()) report_file = std::make_unique<AtomicFile>(options.report);
 
   RunReport report(options.hash_frames);
+  Checkpoint checkpoint(options.checkpoint, options.every, scene);
   for (const auto& writer : writers) writer->add(world);
-  const bool finite = simulate(world, scene, options.quiet, [&](const Report& frame) {
+  const bool finite = simulate_with(checkpoint, world, scene, options.quiet, [&](const Report& frame) {
     report.add(frame, world);
     if (!frame.ok()) return;
     for (const auto& writer : writers) writer->add(world);
@@ -52,6 +100,7 @@ int run(const RunOptions& options) {
   // A run that blew up leaves its report, which says where, and no geometry.
   if (finite) {
     for (const auto& writer : writers) writer->finish();
+    checkpoint.write_last();
   }
   if (report_file) {
     report_file->write(report.json(options.scene, scene, world));

@@ -26,6 +26,7 @@ class RunReport {
 
   double median_milliseconds() const { return quantile(milliseconds_, 0.5); }
   double p95_milliseconds() const { return quantile(milliseconds_, 0.95); }
+  std::size_t frames() const { return milliseconds_.size(); }  ///< that this run simulated
   const Report& last() const { return last_; }
   /// Of all frames, the first of each kind with its frame; those that differ by numbers alone are of one kind.
   const std::vector<std::string>& warnings() const { return warnings_; }

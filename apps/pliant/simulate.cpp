@@ -79,13 +79,14 @@ World make_world(const Scene& scene, const std::string& path) {
 }
 
 bool simulate(World& world, const Scene& scene, bool quiet, const std::function<void(const Report&)>& after_frame) {
-  Progress progress(scene.frames, !quiet);
-  for (int frame = 1; frame <= scene.frames; ++frame) {
+  const auto done = static_cast<int>(world.state().frame);
+  Progress progress(scene.frames - done, !quiet);
+  for (int frame = done + 1; frame <= scene.frames; ++frame) {
     throw_if_interrupted();
     const Report report = world.step(scene.frame_time);
     after_frame(report);
     if (!report.ok()) return false;
-    progress.show(frame);
+    progress.show(frame - done);
   }
   throw_if_interrupted();
   return true;

@@ -21,7 +21,7 @@ World make_world(const Scene& scene, const std::string& path);
 /// The same error, of the file unless it names one already.
 Error of_file(const Error& error, const std::string& path);
 
-/// Steps `frames` frames and calls `after_frame` after each. Stops early, and returns false, after a frame that is not
+/// Steps until the World has made the scene's frames, from those that it has made, and calls `after_frame` after each. Stops early, and returns false, after a frame that is not
 /// finite. Shows progress where standard error is a terminal and not `quiet`. Throws Interrupted on a signal to end.
 bool simulate(World& world, const Scene& scene, bool quiet, const std::function<void(const Report&)>& after_frame);
 

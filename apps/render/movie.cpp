@@ -18,6 +18,7 @@
 #include <system_error>
 #include <utility>
 
+#include "io/atomic_file.h"
 #include "pliant/error.h"
 #include "render.h"
 
@@ -53,6 +54,7 @@ struct MovieWriter::Implementation {
       fail("cannot write: it is no ordinary file", "name a file");
     int descriptor = -1;
     temporary = make_beside(descriptor);
+    remember_unfinished(temporary.c_str());
     ::fchmod(descriptor, 0644);
     ::close(descriptor);
     const std::string name = make_beside(words);
@@ -134,7 +136,9 @@ struct MovieWriter::Implementation {
     if (process >= 0) ::kill(process, SIGKILL);
     wait();
     if (words >= 0) ::close(words);
-    if (!temporary.empty()) ::unlink(temporary.c_str());
+    if (temporary.empty()) return;
+    ::unlink(temporary.c_str());
+    forget_unfinished(temporary.c_str());
   }
 };
 
@@ -162,6 +166,7 @@ void MovieWriter::finish() {
   if (!self_->wait()) self_->fail(self_->complaint(), "check the space on the disk");
   if (std::rename(self_->temporary.c_str(), self_->path.c_str()) != 0)
     self_->fail("cannot put the file in place: " + std::generic_category().message(errno));
+  forget_unfinished(self_->temporary.c_str());
   self_->temporary.clear();
 }
 

@@ -90,7 +90,7 @@ class FrameWriter {
   virtual std::vector<WrittenFile> written() const = 0;  ///< so far, in their order; all of them after finish()
 };
 
-/// A writer by suffix: NAME.obj and NAME.ply (one file a frame, NAME_0000.obj, ...), .glb (morph targets), .usda (time
+/// A writer by suffix: NAME.obj and NAME.ply (one file a frame, NAME_0000.obj after State::frame 0, ...), .glb (morph targets), .usda (time
 /// samples), .pc2 (beside NAME.obj), .pvd (with one .vtp a frame and object). Throws Error for another suffix.
 std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Scene& scene, const World& world);
 

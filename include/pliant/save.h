@@ -28,14 +28,16 @@ Fingerprint fingerprint(const Scene& scene);
 void save(const std::string& path, const State& state);
 
 /// Writes a State with the fingerprint of the scene whose World it is of.
-void save(const std::string& path, const State& state, const Scene& scene);
+void save(const std::string& path, const State& state, const Fingerprint& of);
+inline void save(const std::string& path, const State& state, const Scene& scene) { save(path, state, fingerprint(scene)); }
 
 /// Reads a State, for World::restore. Throws Error with the path and the reason where the file is missing, no regular file,
 /// empty, of another format or version, shorter or longer than it says, or damaged.
 State load_state(const std::string& path);
 
-/// The same. Throws Error too where the file does not carry this scene's fingerprint.
-State load_state(const std::string& path, const Scene& scene);
+/// The same. Throws Error too where the file does not carry this fingerprint.
+State load_state(const std::string& path, const Fingerprint& of);
+inline State load_state(const std::string& path, const Scene& scene) { return load_state(path, fingerprint(scene)); }
 
 /// Writes a World: the scene that it was made from, its settings and its State. Throws Error where the scene has force fields,
 /// which are functions and cannot be written, or is not this World's by number, names and particles of its objects.

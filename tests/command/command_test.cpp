@@ -124,8 +124,11 @@ TEST_F(Command, UsageErrorsGiveTwo) {
 TEST_F(Command, ErrorsGiveOneAndOneLine) {
   expect_refused("run missing.json", 1, "missing.json");
   expect_refused("run small.json --out cloth.doc", 1, "cloth.doc");
-  expect_refused("run small.json --out nowhere/cloth.glb", 1, "nowhere");
-  expect_refused("run small.json --report nowhere/report.json", 1, "nowhere/report.json");
+  expect_refused("run small.json --out small.json/cloth.glb", 1, "small.json/cloth.glb: cannot write: ");
+  expect_refused("run small.json --report small.json/report.json", 1, "small.json' is no folder");
+  expect_refused("render small.json --out small.json/a.png", 1, "small.json' is no folder");
+  expect_refused("render small.json --out small.json", 1, "neither .png nor .mp4");
+  expect_refused("run small.json --report /proc/self/nowhere/report.json", 1, "/proc/self/nowhere/report.json: cannot");
   expect_refused("run small.json --report small.json", 1, "twice");
   expect_refused("run small.json --report ./small.json", 1, "twice");
   fs::create_symlink("small.json", folder_ / "link.json");
@@ -436,10 +439,11 @@ TEST_F(Command, AnInterruptedRunLeavesNothingHalfWritten) {
   ASSERT_GE(child, 0);
   if (child == 0) {
     if (chdir(folder_.c_str()) != 0 || std::freopen("/dev/null", "w", stderr) == nullptr) _exit(99);
-    execl(PLIANT_COMMAND, PLIANT_COMMAND, "run", "long.json", "--out", "long.pc2", "--report", "long-report.json", nullptr);
+    execl(PLIANT_COMMAND, PLIANT_COMMAND, "run", "long.json", "--out", "long.pc2", "--report", "long-report.json",
+          "--checkpoint", "c", "--every", "1", nullptr);
     _exit(98);
   }
-  // Only once the run has begun, which the temporary files show, is there something to leave behind.
+  // Only once the run has begun, which the checkpoint shows, is there something to leave behind.
   for (int wait = 0; wait < 3000 && files() == before; ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_GT(files(), before);
   kill(child, SIGINT);
@@ -447,7 +451,7 @@ TEST_F(Command, AnInterruptedRunLeavesNothingHalfWritten) {
   ASSERT_EQ(waitpid(child, &status, 0), child);
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 128 + SIGINT);
-  EXPECT_EQ(files(), before);
+  EXPECT_EQ(files(), before + 1) << "the checkpoint alone";
 }
 
 }  // namespace

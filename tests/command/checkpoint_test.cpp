@@ -1,0 +1,180 @@
+// pliant run --checkpoint and --resume: the bits of the run that never stopped, whenever and however it was stopped.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "pliant/error.h"
+#include "pliant/io.h"
+#include "pliant/save.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+/// A folder with a scene for one test, gone with it.
+class Checkpoint : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "pliant_checkpoint_XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+    write_scene("small.json", 12, 30);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write_scene(const std::string& name, int side, int frames) const {
+    const std::string count = std::to_string(side);
+    std::ofstream(folder_ / name) << R"({"frames": )" << frames << R"(, "settings": {"substeps": 4}, "objects": [{"cloth":
+      {"mesh": {"grid": {"columns": )"
+                                  << count << R"(, "rows": )" << count << R"(, "width": 1, "depth": 1}}}}],
+      "colliders": [{"sphere": {"radius": 0.3}, "position": [0, -0.4, 0]}]})";
+  }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// Starts `pliant run` with these arguments in the test's folder, where what it says goes to the file "said".
+  pid_t start(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {"pliant", "run"});
+    std::vector<char*> words;
+    for (std::string& argument : arguments) words.push_back(argument.data());
+    words.push_back(nullptr);
+    const pid_t child = fork();
+    if (child != 0) return child;
+    if (chdir(folder_.c_str()) != 0 || std::freopen("said", "w", stderr) == nullptr) _exit(99);
+    if (std::freopen("/dev/null", "w", stdout) == nullptr) _exit(99);
+    execv(PLIANT_COMMAND, words.data());
+    _exit(98);
+  }
+
+  static int wait_for(pid_t child) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  int run(const std::vector<std::string>& arguments) const { return wait_for(start(arguments)); }
+
+  std::string said() const {
+    std::ifstream file(folder_ / "said");
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+  fs::path folder_;
+};
+
+/// The hash of the state that a scene has after some frames, for frames that do not go down.
+class Uninterrupted {
+ public:
+  explicit Uninterrupted(const pliant::Scene& scene) : scene_(scene), world_(scene) {}
+  std::string after(std::int64_t frame) {
+    while (world_.state().frame < frame) world_.step(scene_.frame_time);
+    return world_.state_hash();
+  }
+
+ private:
+  pliant::Scene scene_;
+  pliant::World world_;
+};
+
+TEST_F(Checkpoint, GoesOnInTheBitsOfTheRunThatNeverStopped) {
+  Uninterrupted whole(pliant::read_scene(path("small.json")));
+  for (const int frames : {7, 10, 29}) {
+    ASSERT_EQ(run({"small.json", "--frames", std::to_string(frames), "--checkpoint", "kept/a", "--every", "4"}), 0)
+        << said();
+    ASSERT_EQ(pliant::load_state(path("kept/a")).frame, frames) << "also at the end";
+    ASSERT_EQ(run({"small.json", "--resume", "kept/a", "--checkpoint", "kept/b", "--threads", "1"}), 0) << said();
+    const pliant::State end = pliant::load_state(path("kept/b"));
+    EXPECT_EQ(end.frame, 30);
+  }
+  EXPECT_EQ(hash(pliant::load_state(path("kept/b"))), whole.after(30));
+}
+
+TEST_F(Checkpoint, GeometryIsNumberedByTheFramesOfTheWholeRun) {
+  ASSERT_EQ(run({"small.json", "--frames", "3", "--checkpoint", "a", "--out", "g/f.ply"}), 0) << said();
+  ASSERT_EQ(run({"small.json", "--frames", "5", "--resume", "a", "--out", "g/f.ply"}), 0) << said();
+  for (const char* name : {"0000", "0003", "0004", "0005"})
+    EXPECT_TRUE(fs::exists(folder_ / "g" / ("f_" + std::string(name) + ".ply")));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "g"), fs::directory_iterator()), 6);
+}
+
+TEST_F(Checkpoint, WhatDoesNotFitIsRefusedWithTheReason) {
+  ASSERT_EQ(run({"small.json", "--frames", "5", "--checkpoint", "a"}), 0) << said();
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& why) {
+    EXPECT_EQ(run(arguments), 1);
+    EXPECT_NE(said().find(why), std::string::npos) << said();
+  };
+  write_scene("other.json", 13, 30);
+  refused({"other.json", "--resume", "a"}, "pliant: a: was saved with another scene");
+  refused({"small.json", "--resume", "a", "--substeps", "5"}, "pliant: a: was saved with other settings");
+  refused({"small.json", "--resume", "a", "--frames", "4"}, "is of frame 5, beyond the 4 frames");
+  refused({"small.json", "--resume", "a", "--report", "a"}, "a: is named twice");
+  refused({"small.json", "--resume", "small.json"}, "small.json: is not a file that Pliant saved");
+  refused({"small.json", "--resume", "."}, "is a folder");
+  refused({"small.json", "--checkpoint", "."}, "cannot write: it is a folder");
+  refused({"small.json", "--checkpoint", "small.json/a"}, "is no folder");
+  fs::resize_file(folder_ / "a", 1000);
+  refused({"small.json", "--resume", "a"}, "pliant: a: is incomplete");
+}
+
+/// PLIANT_KILLS: how many, 30 unless said.
+TEST_F(Checkpoint, AKillAtAnyMomentLeavesAWholeFile) {
+  const char* const wanted = std::getenv("PLIANT_KILLS");
+  const int kills = wanted != nullptr ? std::atoi(wanted) : 30;
+  Uninterrupted whole(pliant::read_scene(path("small.json")));
+  std::mt19937 random(11);
+  std::int64_t frame = 0, most = 0;
+  int moved = 0;
+  for (int kill_number = 0; kill_number < kills; ++kill_number) {
+    std::vector<std::string> arguments{"small.json", "--frames",  "100000000", "--checkpoint", "c", "--every",
+                                       "1",          "--threads", "1"};
+    if (fs::exists(folder_ / "c")) arguments.insert(arguments.end(), {"--resume", "c"});
+    const pid_t child = start(arguments);
+    std::this_thread::sleep_for(std::chrono::microseconds(10000 + random() % 60000));
+    kill(child, SIGKILL);
+    ASSERT_EQ(wait_for(child), -SIGKILL) << said();
+    if (!fs::exists(folder_ / "c")) continue;
+    pliant::State state;
+    ASSERT_NO_THROW(state = pliant::load_state(path("c"))) << "after kill " << kill_number;
+    ASSERT_GE(state.frame, frame);
+    ASSERT_EQ(hash(state), whole.after(state.frame)) << "after kill " << kill_number;
+    moved += state.frame > frame ? 1 : 0;
+    most = std::max(most, state.frame - frame);
+    frame = state.frame;
+  }
+  EXPECT_GT(moved, kills / 10) << "too few kills fell where there was anything to spoil";
+  std::printf("%d kills, %d after at least one file of their run, at most %d files of a run; frame %d reached\n", kills,
+              moved, static_cast<int>(most), static_cast<int>(frame));
+}
+
+TEST_F(Checkpoint, AFullDiskEndsTheRunAndLeavesTheOldFile) {
+  ASSERT_EQ(run({"small.json", "--frames", "3", "--checkpoint", "c"}), 0) << said();
+  const std::string before = hash(pliant::load_state(path("c")));
+  const pid_t child = fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{4096, 4096};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    _exit(run({"small.json", "--resume", "c", "--checkpoint", "c"}));
+  }
+  EXPECT_EQ(wait_for(child), 1);
+  EXPECT_EQ(said().rfind("pliant: c: cannot write: ", 0), 0u) << said();
+  EXPECT_EQ(hash(pliant::load_state(path("c"))), before);
+}
+
+}  // namespace
