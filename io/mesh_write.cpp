@@ -1,6 +1,5 @@
 // One mesh to a file: OBJ as text, PLY as little-endian bytes. Coordinates in text are the shortest that read back to the
 // same float, so that writing and reading loses nothing.
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -8,6 +7,7 @@
 #include "atomic_file.h"
 #include "pliant/error.h"
 #include "pliant/io.h"
+#include "shortest_number.h"
 
 namespace pliant {
 
@@ -49,7 +49,7 @@ class Line {
   template <class Number>
   Line& add(Number number) {
     *end_++ = ' ';
-    end_ = std::to_chars(end_, text_ + sizeof text_ - 1, number).ptr;
+    end_ = write_shortest(end_, text_ + sizeof text_ - 1, number);
     return *this;
   }
   void write_to(AtomicFile& file) {

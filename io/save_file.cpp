@@ -183,7 +183,7 @@ const Block& Contents::block(std::string_view name, Type type, std::uint32_t ele
 
 std::string_view Contents::text(std::string_view name) const {
   const Block& found = block(name, Type::bytes, 1);
-  return {static_cast<const char*>(found.data), found.count};
+  return {static_cast<const char*>(found.data), static_cast<std::size_t>(found.count)};
 }
 
 void Contents::refuse_unknown(const std::vector<std::string_view>& known) const {

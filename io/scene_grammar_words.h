@@ -2,13 +2,13 @@
 #pragma once
 
 #include <array>
-#include <charconv>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "pliant/vec3.h"
 #include "scene_grammar.h"
+#include "shortest_number.h"
 
 namespace pliant::scene_file {
 
@@ -109,7 +109,7 @@ inline Type particle_index() { return integer(0, 2147483647); }
 
 inline std::string words(float value) {
   std::array<char, 32> digits{};  // the shortest that reads back as the same float
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+  return {digits.data(), write_shortest(digits.data(), digits.data() + digits.size(), value)};
 }
 inline std::string words(int value) { return std::to_string(value); }
 inline std::string words(bool value) { return value ? "true" : "false"; }

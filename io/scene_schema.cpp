@@ -3,11 +3,11 @@
 #include "scene_schema.h"
 
 #include <array>
-#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "pliant/io.h"
 #include "scene_grammar.h"
+#include "shortest_number.h"
 
 namespace pliant::scene_file {
 
@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 std::string words(double value) {
   std::array<char, 32> digits{};
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+  return {digits.data(), write_shortest(digits.data(), digits.data() + digits.size(), value)};
 }
 
 /// The name of a record as a key of "$defs".

@@ -1,9 +1,12 @@
 // See text_lines.h for why this is own code: it is a page, and every rule in it is one that a file of somebody's broke.
 #include "text_lines.h"
 
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <string>
 
 namespace pliant {
 
@@ -30,6 +33,28 @@ bool is_small(std::string_view word) {
   }
   return true;
 }
+
+#if defined(__cpp_lib_to_chars)
+std::from_chars_result read_float(const char* first, const char* last, float& value) {
+  return std::from_chars(first, last, value);
+}
+#else
+/// For libraries whose std::from_chars reads integers alone (libc++ 14): std::strtof where there are no locales, of a copy that
+/// ends, and of nothing that from_chars would not take.
+std::from_chars_result read_float(const char* first, const char* last, float& value) {
+  const std::string copy(first, last);
+  if (copy.find_first_of("xX+ \t\n\v\f\r") == 0 || copy.find_first_of("xX") != std::string::npos)
+    return {first, std::errc::invalid_argument};
+  char* stop = nullptr;
+  errno = 0;
+  const float parsed = std::strtof(copy.c_str(), &stop);
+  if (stop == copy.c_str()) return {first, std::errc::invalid_argument};
+  const char* const end = first + (stop - copy.c_str());
+  if (errno == ERANGE && (parsed == 0 || std::isinf(parsed))) return {end, std::errc::result_out_of_range};
+  value = parsed;
+  return {end, std::errc()};
+}
+#endif
 
 }  // namespace
 
@@ -83,7 +108,7 @@ NumberProblem parse_float(std::string_view word, float& value) {
   if (!strip_plus(word)) return NumberProblem::not_a_number;
   const char* const end = word.data() + word.size();
   float parsed = 0;
-  const auto [stop, code] = std::from_chars(word.data(), end, parsed);
+  const auto [stop, code] = read_float(word.data(), end, parsed);
   if (code == std::errc::invalid_argument || stop != end) return NumberProblem::not_a_number;
   if (code == std::errc::result_out_of_range) {
     if (!is_small(word)) return NumberProblem::too_large;

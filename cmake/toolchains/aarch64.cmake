@@ -1,4 +1,4 @@
-# Cross-builds for 64-bit ARM on Debian: packages of group `arm64` in scripts/packages.txt, run by qemu-user.
+# Cross-builds for 64-bit ARM on Debian: packages of group `aarch64` in scripts/packages.txt, run by qemu-user.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)

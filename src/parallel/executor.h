@@ -1,8 +1,8 @@
 // The one parallel loop of the engine.
 //
 // Every loop has a name and times itself: a Report's phases are these names. What a body does may not depend on which thread
-// runs it or in what order, so that any number of threads gives the same bits. Here on oneTBB; the same interface is to stand on
-// a thread pool in the browser and on CUDA.
+// runs it or in what order, so that any number of threads gives the same bits. On oneTBB (executor_tbb.cpp), or on the caller's
+// thread alone (executor_serial.cpp); CMake's PLIANT_THREADS chooses.
 #pragma once
 
 #include <memory>
@@ -60,7 +60,7 @@ class Stopwatch {
 
 class Executor {
  public:
-  /// `threads` of at least 1, or 0 for as many as the machine has.
+  /// `threads` of at least 1, or 0 for as many as the machine has. The serial backend has one, whatever is asked for.
   explicit Executor(int threads);
   ~Executor();
   Executor(Executor&&) noexcept;

@@ -38,7 +38,5 @@ inline std::string run(const Scene& scene, const Settings& settings, int frames)
 
 /// The hash of each way of apps/validate/sweep_table.h over the scene of the sweeps.
 std::map<std::string, std::string> sweep_hashes();
-/// Their names in the file.
-std::vector<std::string> sweep_names();
 
 }  // namespace pliant::golden

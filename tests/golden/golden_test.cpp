@@ -6,32 +6,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
+#include "golden/cases.h"
 #include "golden/golden.h"
 
 namespace {
 
-namespace fs = std::filesystem;
 using namespace pliant::golden;
 
-/// Long enough for what falls to land: the bits of a frame depend on all before it.
-constexpr int golden_frames = 40;
-
-std::vector<std::string> scene_names() {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(PLIANT_SOURCE_DIR "/scenes")) {
-    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 std::string run(const pliant::Scene& scene, const pliant::Settings& settings) {
-  return pliant::golden::run(scene, settings, golden_frames);
+  return pliant::golden::run(scene, settings, scene_frames);
 }
 
 class Golden : public testing::TestWithParam<std::string> {
@@ -87,11 +74,11 @@ TEST_P(Golden, InTheReferenceSweep) {
 
 TEST_P(Golden, AfterARestore) {
   pliant::World world(scene_);
-  for (int frame = 0; frame < golden_frames / 2; ++frame) (void)world.step(scene_.frame_time);
+  for (int frame = 0; frame < scene_frames / 2; ++frame) (void)world.step(scene_.frame_time);
   const pliant::State middle = world.state();
   for (int frame = 0; frame < 2; ++frame) (void)world.step(scene_.frame_time);
   world.restore(middle);
-  for (int frame = golden_frames / 2; frame < golden_frames; ++frame) (void)world.step(scene_.frame_time);
+  for (int frame = scene_frames / 2; frame < scene_frames; ++frame) (void)world.step(scene_.frame_time);
   EXPECT_EQ(world.state_hash(), golden_);
 }
 

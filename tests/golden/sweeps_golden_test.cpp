@@ -1,11 +1,9 @@
-// One hash a sweep, whatever runs it: threads, lanes or plain floats, compiler, build type. One scene for all, small but for a
-// cloth of two tiles, with whatever a sweep may meet: rigid and compliant lengths, bending, a volume, a rope, moving pins and
-// contacts.
+// One hash a sweep, whatever runs it: threads, lanes or plain floats, compiler, build type.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "apps/validate/sweep_table.h"
+#include "golden/cases.h"
 #include "golden/golden.h"
 
 namespace pliant::golden {
@@ -15,62 +13,12 @@ namespace {
 using validate::sweep_ways;
 using validate::SweepWay;
 
-constexpr int frames = 4;
-
-Object cloth() {
-  constexpr int n = 70;  // 4900 particles: more than a tile holds
-  ClothOptions options;
-  options.name = "cloth";
-  options.material = fabric("cotton");
-  options.stretch = Stiffness::rigid();
-  Object object = make_cloth(grid_mesh(n, n, 1, 1), options);
-  object.pins = {{0, {}}, {n - 1, Motion{{Keyframe{0, {}, {}}, Keyframe{0.1f, {-0.05f, 0.02f, 0}, {}}}, {}, false}}};
-  return object;
-}
-
-Object balloon() {
-  ClothOptions options;
-  options.name = "balloon";
-  options.bending_model = ClothOptions::Bending::isometric;
-  options.volume = Volume{1.2f, Stiffness::compliance(1e-7f)};
-  TriangleMesh mesh = sphere_mesh(2);
-  for (Vec3f& p : mesh.positions) p = {1.2f + 0.2f * p.x, 0.2f * p.y, 0.2f * p.z};
-  return make_cloth(mesh, options);
-}
-
-Object rope() {
-  std::vector<Vec3f> points;
-  for (int i = 0; i < 18; ++i) points.push_back({-1.5f + 0.05f * static_cast<float>(i), 0, 0});
-  RopeOptions options;
-  options.stretch = Stiffness::compliance(1e-5f);
-  options.bends = true;
-  Object object = make_rope(points, options);
-  object.pins = {{0, {}}};
-  return object;
-}
-
-Scene scene_of(const SweepWay& way) {
-  Scene scene;
-  for (const Object& object : {cloth(), balloon(), rope()}) scene.add(object);
-  Collider ball, floor;
-  ball.shape = Sphere{0.2f};
-  ball.position = {0, -0.206f, 0};
-  floor.position = {0, -0.22f, 0};
-  scene.add(ball);
-  scene.add(floor);
-  scene.settings.substeps = 2;
-  scene.settings.iterations = 4;
-  scene.settings.sweep = way.sweep;
-  scene.settings.sweep_options = way.options;
-  return scene;
-}
-
 std::string run_way(const SweepWay& way, int threads, const std::string& isa) {
   const Scene scene = scene_of(way);
   Settings settings = scene.settings;
   settings.threads = threads;
   settings.isa = isa;
-  return run(scene, settings, frames);
+  return run(scene, settings, sweep_frames);
 }
 
 class GoldenSweep : public testing::TestWithParam<SweepWay> {
@@ -106,7 +54,7 @@ TEST_P(GoldenSweep, MeetsContactsAndMoves) {
   const Scene scene = scene_of(GetParam());
   World world(scene);
   std::int64_t contacts = 0;
-  for (int frame = 0; frame < frames; ++frame) contacts += world.step(scene.frame_time).contacts;
+  for (int frame = 0; frame < sweep_frames; ++frame) contacts += world.step(scene.frame_time).contacts;
   EXPECT_GT(contacts, 0);
   EXPECT_GT(world.kinetic_energy(), 0);
 }
@@ -137,12 +85,6 @@ std::map<std::string, std::string> sweep_hashes() {
   std::map<std::string, std::string> hashes;
   for (const SweepWay& way : sweep_ways()) hashes["sweep_" + way.name] = run_way(way, 1, "sequential");
   return hashes;
-}
-
-std::vector<std::string> sweep_names() {
-  std::vector<std::string> names;
-  for (const SweepWay& way : sweep_ways()) names.push_back("sweep_" + way.name);
-  return names;
 }
 
 }  // namespace pliant::golden

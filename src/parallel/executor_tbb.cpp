@@ -6,8 +6,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cstring>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -33,30 +31,6 @@ constexpr char handed_out = 0, handed_back = 0;
 void hand_over_release(const void*) {}
 void hand_over_acquire(const void*) {}
 #endif
-
-long long nanoseconds() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-}  // namespace
-
-void Timings::add(const char* name, double milliseconds) {
-  for (Entry& entry : entries_) {
-    if (entry.name == name || std::strcmp(entry.name, name) == 0) {
-      entry.milliseconds += milliseconds;
-      return;
-    }
-  }
-  entries_.push_back({name, milliseconds});
-}
-
-void Timings::clear() {
-  for (Entry& entry : entries_) entry.milliseconds = 0;
-}
-
-Stopwatch::Stopwatch(Timings& timings, const char* name) : timings_(timings), name_(name), start_(nanoseconds()) {}
-Stopwatch::~Stopwatch() { timings_.add(name_, static_cast<double>(nanoseconds() - start_) * 1e-6); }
-
-namespace {
 
 /// Without it oneTBB caps the threads at the machine's. Of several limits the lowest holds, and oneTBB complains on standard
 /// error of who asks for more; so there is one for all, which only rises. It is never taken back: at a program's end there is

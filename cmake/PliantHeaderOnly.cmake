@@ -1,0 +1,23 @@
+# Libraries that are headers alone, nlohmann_json and fmt. Where another machine is built for they come from this one's
+# /usr/include, linked to from a folder of their own: the whole of /usr/include would bring in the wrong machine's headers.
+if(NOT CMAKE_CROSSCOMPILING)
+  find_package(nlohmann_json 3.11 REQUIRED)
+  find_package(fmt 9.1 REQUIRED)
+  return()
+endif()
+
+function(pliant_header_only target folder)
+  if(TARGET ${target})
+    return()
+  endif()
+  find_path(PLIANT_${folder}_INCLUDE ${folder} PATHS /usr/include NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH REQUIRED)
+  mark_as_advanced(PLIANT_${folder}_INCLUDE)
+  set(root ${PROJECT_BINARY_DIR}/roots/header_only_${folder})
+  file(MAKE_DIRECTORY ${root})
+  file(CREATE_LINK ${PLIANT_${folder}_INCLUDE}/${folder} ${root}/${folder} SYMBOLIC)
+  add_library(${target} INTERFACE IMPORTED GLOBAL)
+  set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES ${root})
+endfunction()
+pliant_header_only(nlohmann_json::nlohmann_json nlohmann)
+pliant_header_only(fmt::fmt-header-only fmt)
+set_property(TARGET fmt::fmt-header-only PROPERTY INTERFACE_COMPILE_DEFINITIONS FMT_HEADER_ONLY=1)

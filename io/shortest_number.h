@@ -1,0 +1,23 @@
+// A number in the fewest digits that give it back exactly, in no locale.
+#pragma once
+
+#include <charconv>
+#include <type_traits>
+
+#if !defined(__cpp_lib_to_chars)
+#include <fmt/format.h>
+#endif
+
+namespace pliant {
+
+/// Writes to [first, last), which has room for it, and returns where it ended.
+template <class Number>
+char* write_shortest(char* first, char* last, Number number) {
+  static_assert(std::is_arithmetic_v<Number>);
+#if !defined(__cpp_lib_to_chars)  // libc++ 14 writes integers alone
+  if constexpr (std::is_floating_point_v<Number>) return fmt::format_to_n(first, last - first, "{}", number).out;
+#endif
+  return std::to_chars(first, last, number).ptr;
+}
+
+}  // namespace pliant

@@ -1,0 +1,92 @@
+#include "golden/cases.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace pliant::golden {
+
+namespace {
+
+using validate::sweep_ways;
+using validate::SweepWay;
+
+constexpr const char* sweep_prefix = "sweep_";
+
+Object cloth() {
+  constexpr int n = 70;  // 4900 particles: more than a tile holds
+  ClothOptions options;
+  options.name = "cloth";
+  options.material = fabric("cotton");
+  options.stretch = Stiffness::rigid();
+  Object object = make_cloth(grid_mesh(n, n, 1, 1), options);
+  object.pins = {{0, {}}, {n - 1, Motion{{Keyframe{0, {}, {}}, Keyframe{0.1f, {-0.05f, 0.02f, 0}, {}}}, {}, false}}};
+  return object;
+}
+
+Object balloon() {
+  ClothOptions options;
+  options.name = "balloon";
+  options.bending_model = ClothOptions::Bending::isometric;
+  options.volume = Volume{1.2f, Stiffness::compliance(1e-7f)};
+  TriangleMesh mesh = sphere_mesh(2);
+  for (Vec3f& p : mesh.positions) p = {1.2f + 0.2f * p.x, 0.2f * p.y, 0.2f * p.z};
+  return make_cloth(mesh, options);
+}
+
+Object rope() {
+  std::vector<Vec3f> points;
+  for (int i = 0; i < 18; ++i) points.push_back({-1.5f + 0.05f * static_cast<float>(i), 0, 0});
+  RopeOptions options;
+  options.stretch = Stiffness::compliance(1e-5f);
+  options.bends = true;
+  Object object = make_rope(points, options);
+  object.pins = {{0, {}}};
+  return object;
+}
+
+}  // namespace
+
+Scene scene_of(const SweepWay& way) {
+  Scene scene;
+  for (const Object& object : {cloth(), balloon(), rope()}) scene.add(object);
+  Collider ball, floor;
+  ball.shape = Sphere{0.2f};
+  ball.position = {0, -0.206f, 0};
+  floor.position = {0, -0.22f, 0};
+  scene.add(ball);
+  scene.add(floor);
+  scene.settings.substeps = 2;
+  scene.settings.iterations = 4;
+  scene.settings.sweep = way.sweep;
+  scene.settings.sweep_options = way.options;
+  return scene;
+}
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(PLIANT_SOURCE_DIR "/scenes")) {
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<std::string> sweep_names() {
+  std::vector<std::string> names;
+  for (const SweepWay& way : sweep_ways()) names.push_back(sweep_prefix + way.name);
+  return names;
+}
+
+std::vector<std::string> case_names() {
+  std::vector<std::string> names = scene_names();
+  for (const std::string& name : sweep_names()) names.push_back(name);
+  return names;
+}
+
+Case make_case(const std::string& name) {
+  for (const SweepWay& way : sweep_ways())
+    if (name == sweep_prefix + way.name) return {name, scene_of(way), sweep_frames};
+  return {name, read_scene(PLIANT_SOURCE_DIR "/scenes/" + name + ".json"), scene_frames};
+}
+
+}  // namespace pliant::golden
