@@ -30,12 +30,12 @@ void CandidateFinder::find(Executor& executor, const std::vector<Vec3f>& from, c
   find_lists(executor, vertex_tree_, triangle_tree_, elements_.vertices.data(), vertex_triangles_,
              [&](int vertex, int triangle) {
                const Triangle& corners = elements_.triangles[static_cast<std::size_t>(triangle)];
-               return !has_corner(corners, vertex) && elements_.may_meet(vertex, corners[0]);
+               return !has_corner(corners, vertex);
              });
   find_lists(executor, edge_tree_, edge_tree_, nullptr, edge_edges_, [&](int edge, int other) {
     const auto [a, b] = elements_.edges[static_cast<std::size_t>(edge)];
     const auto [c, d] = elements_.edges[static_cast<std::size_t>(other)];
-    return other > edge && a != c && a != d && b != c && b != d && elements_.may_meet(a, c);
+    return other > edge && a != c && a != d && b != c && b != d;
   });
 }
 

@@ -69,9 +69,9 @@ int divided_substeps(const Model& model, const PairModel& pairs, const State& st
     if (!collider.carrier.moves()) continue;
     const Swept sweep = swept(collider.carrier, frame);
     for (int o = 0; o < model.user_objects; ++o) {
-      const std::size_t at = static_cast<std::size_t>(c) * pairs.bodies + o;
-      const double thickness = pairs.materials[at].thickness, allowed = share_of_thickness * thickness;
-      if (pairs.meets[at] == 0 || !(allowed > 0) || !(sweep.largest > allowed)) continue;
+      if (!pairs.rules.meet(c, o)) continue;
+      const double thickness = pairs.rules.material(c, o).thickness, allowed = share_of_thickness * thickness;
+      if (!(allowed > 0) || !(sweep.largest > allowed)) continue;
       const double margin = thickness + sweep.largest * frame.substeps * 0.1;
       if (!come_near(sweep.box, foreseen(model, state, o, frame.dt), margin)) continue;
       const double wanted = std::ceil(frame.substeps * (sweep.largest / allowed));

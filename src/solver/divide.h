@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "collision/surfaces/pairs.h"
+#include "collision/proxies/pair_model.h"
 #include "model/model.h"
 
 namespace pliant {

@@ -43,7 +43,7 @@ std::string words_of(const Model& model, const PairStencil& pair) {
   return "edges " + number(0) + "-" + number(1) + " and " + number(2) + "-" + number(3);
 }
 
-std::string words_of(const Model& model, const HopelessPairs& pairs) {
+std::string words_of(const Model& model, const UnresolvablePairs& pairs) {
   const int a = object_of(model, pairs.first.vertex[0]), b = object_of(model, pairs.first.vertex[3]);
   const std::string of = a == b ? " and itself: " : " and " + name_of(model, b) + ": ";
   return name_of(model, a) + of + words_of(model, pairs.first) +
@@ -55,16 +55,16 @@ std::string words_of(const Model& model, const HopelessPairs& pairs) {
 
 }  // namespace
 
-void warn_of_pairs(const Model& model, const PairSystem& pairs, std::vector<std::string>& warnings) {
+void warn_of_pairs(const Model& model, const SurfaceContact& pairs, std::vector<std::string>& warnings) {
   std::map<std::pair<int, int>, std::pair<const Intersection*, std::int64_t>> between;
-  for (const Intersection& found : pairs.tangles()) {
+  for (const Intersection& found : pairs.intersecting()) {
     const int a = object_of(model, found.a), b = object_of(model, pairs.triangle(found.triangle)[0]);
     auto& [first, count] = between[std::minmax(a, b)];
     if (count++ == 0) first = &found;
   }
   for (const auto& [objects, found] : between)
     warnings.push_back(words_of(model, pairs.triangle(found.first->triangle), *found.first, found.second));
-  for (const auto& [objects, found] : pairs.hopeless()) warnings.push_back(words_of(model, found));
+  for (const auto& [objects, found] : pairs.unresolvable()) warnings.push_back(words_of(model, found));
 }
 
 }  // namespace pliant

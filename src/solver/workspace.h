@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "collision/narrow/contact.h"
-#include "collision/surfaces/pairs.h"
+#include "collision/surfaces/surface_contact.h"
 #include "model/model.h"
 #include "pliant/world.h"
 #include "solver/residual.h"
@@ -49,9 +49,10 @@ struct Workspace {
   std::vector<AlignedVector<float>> chain_scratch;  ///< one a thread
   std::vector<Records> anchors;                     ///< [object], position and displacement of each anchor of tethers
   SweepScratch sweep;
-  std::unique_ptr<PairSystem> pairs;  ///< null where nothing that moves can touch anything else that is made of triangles
-  bool look_for_tangles = true;       ///< at the next frame: the first, or after a State was put back
-  ResidualScratch residual;           ///< where iterations stop at a tolerance
+  std::unique_ptr<SurfaceContact>
+      pairs;                     ///< null where nothing that moves can touch anything else that is made of triangles
+  bool look_for_tangles = true;  ///< at the next frame: the first, or after a State was put back
+  ResidualScratch residual;      ///< where iterations stop at a tolerance
 };
 
 /// Which multipliers are kept: those that a second iteration needs, or all.

@@ -80,7 +80,7 @@ struct World::Implementation {
       pair_model->filter = settings.contact_filter;
       if (settings.initial_intersections == Settings::Intersections::untangle)
         pair_model->untangling_speed = settings.untangling_speed;
-      workspace.pairs = std::make_unique<PairSystem>(*pair_model, kernels.pairs);
+      workspace.pairs = std::make_unique<SurfaceContact>(*pair_model, kernels.pairs);
     }
     prepare(model, kept_multipliers(settings), workspace);
     prepare_sweep(model, settings, workspace);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "collision/surfaces/pairs.h"
+#include "collision/surfaces/surface_contact.h"
 
 namespace pliant {
 namespace {
@@ -23,21 +23,18 @@ PairModel wheel() {
     model.rest.push_back({float(0.1 * std::cos(angle)), 0, float(0.1 * std::sin(angle)), 1});
     triangles.push_back({0, 1 + i, 1 + (i + 1) % spokes});
   }
-  model.bodies = 1;
   model.clusters = 2;
   model.vertex_body.assign(model.rest.size(), 0);
   model.vertex_cluster.assign(model.rest.size(), 0);
   model.vertex_cluster[spokes] = 1;
   model.cluster_body = {0, 0};
-  model.meets = {1};
-  model.immovable = {0};
-  model.materials = {{0.002f, 0, 0, 0}};
+  ContactBody body;
+  body.meets_itself = true;
+  body.thickness = 0.001f;
+  model.rules.add(body);
   model.largest_thickness = 0.002f;
   model.radius = 0.02f;
   model.elements = make_contact_elements(triangles, {}, {}, static_cast<int>(model.rest.size()));
-  model.elements.body = model.vertex_body;
-  model.elements.bodies = 1;
-  model.elements.meets = model.meets;
   model.edge_cluster.assign(model.elements.edges.size(), 0);
   model.triangle_cluster.assign(triangles.size(), 0);
   return model;
@@ -50,7 +47,7 @@ TEST(Pairs, OfAVertexOfManyNeighboursAreFound) {
   std::vector<Record> positions = model.rest, remainders(positions.size()), displacements(positions.size());
   const double angle = 174 * 6.283185307179586 / 360;
   positions[spokes] = {float(0.01 * std::cos(angle)), 0.001f, float(0.01 * std::sin(angle)), 1};
-  PairSystem system(model);
+  SurfaceContact system(model);
   Executor executor(1);
   system.begin_frame(positions.data(), true);
   system.detect(executor, {positions.data(), remainders.data(), displacements.data(), 1e-3f});
@@ -71,20 +68,17 @@ PairModel strip() {
     triangles.push_back({v, v + 1, v + 3});
     triangles.push_back({v + 1, v + 4, v + 3});
   }
-  model.bodies = 1;
   model.clusters = 2;
   model.vertex_body.assign(model.rest.size(), 0);
   model.cluster_body = {0, 0};
-  model.meets = {1};
-  model.immovable = {0};
-  model.materials = {{0.012f, 0, 0, 0}};
+  ContactBody body;
+  body.meets_itself = true;
+  body.thickness = 0.006f;
+  model.rules.add(body);
   model.largest_thickness = 0.012f;
   model.radius = 0.014f;
   model.filter = false;
   model.elements = make_contact_elements(triangles, {}, {}, 30);
-  model.elements.body = model.vertex_body;
-  model.elements.bodies = 1;
-  model.elements.meets = model.meets;
   for (const auto& edge : model.elements.edges) model.edge_cluster.push_back(model.vertex_cluster[edge[0]]);
   for (const Triangle& t : triangles) model.triangle_cluster.push_back(model.vertex_cluster[t[0]]);
   return model;
@@ -95,7 +89,7 @@ TEST(Pairs, OfASheetThatFoldsAreFoundInTime) {
   const PairModel model = strip();
   std::vector<Record> positions = model.rest, remainders(positions.size()), displacements(positions.size());
   const PairParticles particles{positions.data(), remainders.data(), displacements.data(), 1e-3f};
-  PairSystem system(model);
+  SurfaceContact system(model);
   Executor executor(1);
   system.begin_frame(positions.data(), true);
   std::size_t most = 0;
@@ -105,7 +99,7 @@ TEST(Pairs, OfASheetThatFoldsAreFoundInTime) {
       const double arm = double(model.rest[i].x) - 0.09;
       displacements[i] = {float(0.09 + c * arm) - positions[i].x, float(s * arm) - positions[i].y, 0, 0};
     }
-    PairSystem fresh(model);
+    SurfaceContact fresh(model);
     fresh.begin_frame(positions.data(), true);
     fresh.detect(executor, particles);
     system.detect(executor, particles);

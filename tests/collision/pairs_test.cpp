@@ -1,6 +1,6 @@
 // The pair system against brute force: in every substep of random moving soups its contacts are those of all pairs, a system
 // that has just been made does the same to the bit, and after the filter nothing crosses.
-#include "collision/surfaces/pairs.h"
+#include "collision/surfaces/surface_contact.h"
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,6 @@ void cluster(PairModel& model) {
 
 PairModel model_of(const std::vector<Body>& bodies, bool filter) {
   PairModel model;
-  model.bodies = static_cast<int>(bodies.size());
   model.filter = filter;
   std::vector<Triangle> triangles;
   double edges = 0;
@@ -63,30 +62,29 @@ PairModel model_of(const std::vector<Body>& bodies, bool filter) {
     }
     for (const auto& t : body.mesh.triangles) triangles.push_back({first + t[0], first + t[1], first + t[2]});
   }
-  for (const Body& a : bodies)
-    for (const Body& b : bodies) {
-      model.meets.push_back(&a == &b ? a.meets_itself : a.movable || b.movable);
-      model.materials.push_back({a.thickness + b.thickness, 0.4f, 0.3f});
-      if (model.meets.back() != 0) model.largest_thickness = std::max(model.largest_thickness, a.thickness + b.thickness);
-    }
+  for (const Body& body : bodies) {
+    ContactBody rule;
+    rule.is_immovable = !body.movable;
+    rule.meets_itself = body.meets_itself;
+    rule.thickness = body.thickness;
+    rule.static_friction = 0.4f;
+    rule.kinetic_friction = 0.3f;
+    model.rules.add(rule);
+  }
+  model.largest_thickness = model.rules.largest_thickness();
   model.elements = make_contact_elements(triangles, {}, {}, static_cast<int>(model.rest.size()));
   cluster(model);
   for (const auto& [a, b] : model.elements.edges) {
     const Record &p = model.rest[a], &q = model.rest[b];
     edges += double(length(Vec3f{p.x - q.x, p.y - q.y, p.z - q.z})) / static_cast<double>(model.elements.edges.size());
   }
-  model.elements.body = model.vertex_body;
-  model.elements.bodies = model.bodies;
-  model.elements.meets = model.meets;
   model.radius = model.largest_thickness + 0.5f * static_cast<float>(edges);
   return model;
 }
 
 std::vector<PairStencil> all_pairs(const PairModel& model) {
   std::vector<PairStencil> pairs;
-  const auto meet = [&](int a, int b) {
-    return model.meets[static_cast<std::size_t>(model.vertex_body[a]) * model.bodies + model.vertex_body[b]] != 0;
-  };
+  const auto meet = [&](int a, int b) { return model.rules.meet(model.vertex_body[a], model.vertex_body[b]); };
   for (const int v : model.elements.vertices)
     for (const Triangle& t : model.elements.triangles)
       if (v != t[0] && v != t[1] && v != t[2] && meet(v, t[0])) pairs.push_back({{v, t[0], t[1], t[2]}, 1});
@@ -148,12 +146,12 @@ class Soup {
     std::size_t count = 0;
     for (const Intersection& found : intersections_.find(places)) {
       const int a = model_.vertex_body[found.a], b = model_.vertex_body[model_.elements.triangles[found.triangle][0]];
-      count += model_.meets[static_cast<std::size_t>(a) * model_.bodies + b] != 0 ? 1 : 0;
+      count += model_.rules.meet(a, b) ? 1 : 0;
     }
     return count;
   }
 
-  const PairCounts& counts() const { return system_.counts(); }
+  PairCounts counts() const { return system_.counts(); }
   void push(int vertex, const Vec3d& velocity) { velocities_[vertex] = velocity; }
   Vec3d place(int vertex) const {
     return {double(positions_[vertex].x), double(positions_[vertex].y), double(positions_[vertex].z)};
@@ -172,9 +170,9 @@ class Soup {
     d = {d.x + static_cast<float>(by.x), d.y + static_cast<float>(by.y), d.z + static_cast<float>(by.z), 0};
   }
 
-  const PairMaterial& material(const PairStencil& pair) const {
+  PairMaterial material(const PairStencil& pair) const {
     const int a = model_.vertex_body[pair.vertex[0]], b = model_.vertex_body[pair.vertex[3]];
-    return model_.materials[static_cast<std::size_t>(a) * model_.bodies + b];
+    return model_.rules.material(a, b);
   }
 
   float thickness(const PairStencil& pair) const {
@@ -202,7 +200,7 @@ class Soup {
   }
 
   void check_against_a_new_system(const std::vector<Record>& predicted, const std::vector<Record>& solved) {
-    PairSystem fresh(model_);
+    SurfaceContact fresh(model_);
     fresh.begin_frame(positions_.data(), true);
     std::vector<Record> moved = predicted;
     const PairParticles particles{positions_.data(), remainders_.data(), moved.data(), static_cast<float>(h)};
@@ -228,7 +226,7 @@ class Soup {
 
   /// What no pair comes nearer than: min(least, 0.98 of the last distance).
   void check_distances() {
-    if (!model_.filter || system_.counts().hopeless > 0) return;
+    if (!model_.filter || system_.counts().unresolvable > 0) return;
     for (const PairStencil& pair : pairs_) {
       Record starts[4], ends[4];
       find_path(pair, starts, ends);
@@ -253,7 +251,7 @@ class Soup {
   std::vector<Body> bodies_;
   PairModel model_;
   std::vector<PairStencil> pairs_;
-  PairSystem system_;
+  SurfaceContact system_;
   Executor executor_{1};
   bool first_ = true;
   std::vector<Record> positions_, remainders_, displacements_;
@@ -312,12 +310,12 @@ TEST_P(PairsOf, AreThoseOfBruteForceAndNothingCrosses) {
     Soup soup(bodies_of(GetParam()));
     ASSERT_EQ(soup.crossings(), 0u);
     const int substeps = GetParam().at.y == 1e4 ? 200 : 40;  // half a rounding of the positions in each
-    for (int substep = 0; substep < substeps && soup.counts().hopeless == 0 && !HasFatalFailure(); ++substep) {
+    for (int substep = 0; substep < substeps && soup.counts().unresolvable == 0 && !HasFatalFailure(); ++substep) {
       soup.step(random, GetParam().jitter);
       // What nothing pushes may overrun what lies between it and another; nobody else may.
-      ASSERT_TRUE(GetParam().immovable || soup.counts().hopeless == 0);
+      ASSERT_TRUE(GetParam().immovable || soup.counts().unresolvable == 0);
       const bool flat = GetParam().jitter == 0;  // so that exact signs are those of zeros, and slow
-      if (soup.counts().hopeless == 0 && (!flat || substep == substeps - 1)) {
+      if (soup.counts().unresolvable == 0 && (!flat || substep == substeps - 1)) {
         ASSERT_EQ(soup.crossings(), 0u) << "seed " << seed << ", substep " << substep;
       }
     }
@@ -346,7 +344,7 @@ TEST(Pairs, AreNoMoreWhereAnythingElseIsFarAway) {
       bodies.push_back({sheet(2, 0.1, {1e4, 0, 0}), true, false, 5e-4f});
     }
     const PairModel model = model_of(bodies, true);
-    PairSystem system(model);
+    SurfaceContact system(model);
     Executor executor(1);
     std::vector<Record> positions = model.rest, remainders(positions.size()), displacements(positions.size());
     const PairParticles particles{positions.data(), remainders.data(), displacements.data(), 1e-3f};
@@ -374,13 +372,13 @@ TEST(Pairs, AreLookedForAnewFarFromWhereTheyWere) {
       for (std::size_t i = 0; i < positions.size(); ++i)
         displacements[i] = {along, model.vertex_body[i] == 1 ? upper : 0.f, 0, 0};
     };
-    const auto step = [&](PairSystem& system) {
+    const auto step = [&](SurfaceContact& system) {
       system.detect(executor, particles);
       system.project(particles);
       system.filter(executor, particles);
-      return system.counts().shortened;
+      return system.counts().truncated;
     };
-    PairSystem system(model);
+    SurfaceContact system(model);
     const auto go = [&](float along, float upper) {
       plan(along, upper);
       EXPECT_EQ(step(system), 0);
@@ -403,7 +401,7 @@ TEST(Pairs, AreLookedForAnewFarFromWhereTheyWere) {
     // The upper comes closer; a tenth of a metre is what 32 roundings are here.
     plan(0, -0.03f);
     const std::vector<Record> predicted = displacements;
-    PairSystem fresh(model);
+    SurfaceContact fresh(model);
     fresh.begin_frame(positions.data(), true);
     const std::int64_t wanted = step(fresh);
     EXPECT_GT(wanted, 0);
@@ -415,7 +413,7 @@ TEST(Pairs, AreLookedForAnewFarFromWhereTheyWere) {
 TEST(Pairs, OutliveWhatIsNotFinite) {
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 3e38f}) {
     const PairModel model = model_of(bodies_of({"", 0, {}, {}, 2, 0, false}), true);
-    PairSystem system(model);
+    SurfaceContact system(model);
     Executor executor(1);
     std::vector<Record> positions = model.rest, remainders(positions.size()), displacements(positions.size());
     const PairParticles particles{positions.data(), remainders.data(), displacements.data(), 1e-3f};

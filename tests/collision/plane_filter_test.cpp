@@ -78,7 +78,7 @@ Case random_case(Random& random) {
 
 Record end_of(const Record& x, const Record& d) { return {x.x + d.x, x.y + d.y, x.z + d.z, x.w}; }
 
-/// What PairSystem does with one pair alone.
+/// What the filter does with one pair alone.
 Separation filter(Case& c, std::array<float, 4>& shares) {
   SeparatingSlab slab;
   shares = {1, 1, 1, 1};

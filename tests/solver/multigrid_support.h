@@ -228,7 +228,7 @@ struct Corrected {
     prepare(model, Multipliers::all, workspace);
     prepare_sweep(model, run.settings, workspace);
     pairs = make_pair_model(model, state.positions);
-    if (pairs) workspace.pairs = std::make_unique<PairSystem>(*pairs);
+    if (pairs) workspace.pairs = std::make_unique<SurfaceContact>(*pairs);
     Executor executor(1);
     Report report;
     const StepContext context{

@@ -16,19 +16,12 @@ struct IntLists {
   const int* end(int i) const { return items.data() + start[static_cast<std::size_t>(i) + 1]; }
 };
 
-/// Surfaces and lines, as candidates are looked for among them.
+/// The elements of surfaces and lines that contact is found between.
 struct ContactElements {
   std::vector<Triangle> triangles;
   std::vector<std::array<int, 2>> edges;  ///< of the triangles and loose ones: a < b, ascending, each once
   std::vector<int> vertices;              ///< of all these and loose ones, ascending, each once
   int vertex_count = 0;                   ///< of all there are
-  std::vector<int> body;                  ///< of each vertex; empty: all are of one and meet
-  int bodies = 0;
-  std::vector<char> meets;  ///< bodies x bodies: whether pairs between them are wanted
-
-  bool may_meet(int vertex, int other) const {
-    return body.empty() || meets[static_cast<std::size_t>(body[vertex]) * bodies + body[other]] != 0;
-  }
 };
 
 /// What may touch: triangles, edges of no triangle (ropes), and vertices of neither (grains). Throws Error where an index is outside

@@ -1,4 +1,4 @@
-// The inner loops of PairSystem, in sixteen lanes: compiled once for each instruction set (pair_lanes.cpp), the same bits from
+// The inner loops of surface contact, in sixteen lanes: compiled once for each instruction set (pair_lanes.cpp), the same bits from
 // each. Everything around them is written once and is compiled once.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The kernels of PairSystem in sixteen lanes, compiled once for each instruction set under the rules of solver/lanes.cpp:
+// The kernels of surface contact in sixteen lanes, compiled once for each instruction set under the rules of solver/lanes.cpp:
 // everything is inlined or in an inline namespace, and only the table leaves this unit.
 #include "collision/proxies/pair_kernels.h"
 #include "geometry/triangle.h"

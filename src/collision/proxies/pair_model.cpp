@@ -1,8 +1,10 @@
 // Which surfaces meet, and how.
-#include <algorithm>
-#include <cmath>
-
 #include "collision/proxies/pair_model.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+
 #include "math/vector.h"
 
 namespace pliant {
@@ -18,13 +20,6 @@ bool is_immovable(const CompiledObject& object) {
   for (const Record& p : object.positions)
     if (p.w > 0) return false;
   return true;
-}
-
-bool meet(const CompiledObject& a, const CompiledObject& b) {
-  const bool masks = (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
-  // A mesh collider meets whatever its mask allows, other objects only those that collide too.
-  const bool meant = (a.collides && b.collides) || a.is_collider || b.is_collider;
-  return masks && meant && !(is_immovable(a) && is_immovable(b));
 }
 
 /// Distance constraints that are no side of a triangle: ropes.
@@ -48,9 +43,19 @@ void add_loose(const CompiledObject& object, int first, const std::vector<std::a
       loose.push_back(first + i);
 }
 
-PairMaterial material_of(const CompiledObject& a, const CompiledObject& b) {
-  return {a.thickness + b.thickness, std::sqrt(a.static_friction * b.static_friction),
-          std::sqrt(a.kinetic_friction * b.kinetic_friction), std::max(a.restitution, b.restitution)};
+ContactBody body_of(const CompiledObject& object) {
+  ContactBody body;
+  body.groups = object.groups;
+  body.mask = object.mask;
+  body.collides = object.collides;
+  body.is_collider = object.is_collider;
+  body.is_immovable = is_immovable(object);
+  body.meets_itself = object.self_collision;
+  body.thickness = object.thickness;
+  body.static_friction = object.static_friction;
+  body.kinetic_friction = object.kinetic_friction;
+  body.restitution = object.restitution;
+  return body;
 }
 
 /// What the scene says of a certain pair; a static friction given alone lowers the kinetic one where it must.
@@ -59,6 +64,23 @@ void apply(const PairProperties& said, PairMaterial& material) {
   material.static_friction = said.static_friction.value_or(material.static_friction);
   material.kinetic_friction = std::min(said.kinetic_friction.value_or(material.kinetic_friction), material.static_friction);
   material.restitution = said.restitution.value_or(material.restitution);
+}
+
+ContactRules make_rules(const Model& model) {
+  ContactRules rules;
+  std::map<std::string, std::vector<int>> named;
+  for (const CompiledObject& object : model.objects) {
+    named[object.name].push_back(rules.bodies());
+    rules.add(body_of(object));
+  }
+  for (const PairProperties& pair : model.pairs)
+    for (const int a : named[pair.first])
+      for (const int b : named[pair.second]) {
+        PairMaterial material = rules.material(a, b);
+        apply(pair, material);
+        rules.set_material(a, b, material);
+      }
+  return rules;
 }
 
 /// Cuts vertices, `from` to `to` - 1, across where they extend farthest until so many as make a cluster are left.
@@ -96,7 +118,7 @@ void split(PairModel& model, std::vector<int>& vertices, std::size_t from, std::
 
 /// Vertices of each body in compact clusters.
 void make_clusters(PairModel& model) {
-  std::vector<std::vector<int>> of_body(model.bodies);
+  std::vector<std::vector<int>> of_body(static_cast<std::size_t>(model.rules.bodies()));
   for (const int v : model.elements.vertices) of_body[model.vertex_body[v]].push_back(v);
   model.vertex_cluster.assign(model.rest.size(), -1);
   for (std::vector<int>& vertices : of_body) split(model, vertices, 0, vertices.size());
@@ -121,30 +143,15 @@ float median_edge(const PairModel& model) {
 
 std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& positions) {
   auto out = std::make_unique<PairModel>();
-  const int bodies = out->bodies = static_cast<int>(model.objects.size());
-  out->meets.assign(static_cast<std::size_t>(bodies) * bodies, 0);
-  out->materials.resize(out->meets.size());
-  for (const CompiledObject& object : model.objects) out->immovable.push_back(is_immovable(object) ? 1 : 0);
-  std::vector<char> meets_some(bodies, 0);
-  for (int a = 0; a < bodies; ++a) {
-    for (int b = 0; b < bodies; ++b) {
-      const CompiledObject &p = model.objects[a], &q = model.objects[b];
-      if (!(a == b ? p.self_collision : meet(p, q))) continue;
-      const std::size_t at = static_cast<std::size_t>(a) * bodies + b;
-      out->meets[at] = meets_some[a] = 1;
-      out->materials[at] = material_of(p, q);
-      for (const PairProperties& pair : model.pairs)
-        if ((pair.first == p.name && pair.second == q.name) || (pair.first == q.name && pair.second == p.name))
-          apply(pair, out->materials[at]);
-      out->largest_thickness = std::max(out->largest_thickness, out->materials[at].thickness);
-    }
-  }
+  out->rules = make_rules(model);
+  out->largest_thickness = out->rules.largest_thickness();
+  const std::vector<char> meets_some = out->rules.meeting();
   out->rest.assign(positions.begin(), positions.end());
   out->vertex_body.assign(positions.size(), 0);
   std::vector<Triangle> triangles;
   std::vector<std::array<int, 2>> lines;
   std::vector<int> loose;
-  for (int o = 0; o < bodies; ++o) {
+  for (int o = 0; o < out->rules.bodies(); ++o) {
     const int first = model.first[o];
     std::fill(out->vertex_body.begin() + first, out->vertex_body.begin() + model.first[o + 1], o);
     if (meets_some[o] == 0) continue;
@@ -157,9 +164,6 @@ std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& po
   if (triangles.empty() && lines.empty()) return nullptr;
   out->elements = make_contact_elements(triangles, lines, loose, static_cast<int>(positions.size()));
   make_clusters(*out);
-  out->elements.body = out->vertex_body;
-  out->elements.bodies = bodies;
-  out->elements.meets = out->meets;
   out->radius = out->largest_thickness + skin_over_edge * median_edge(*out);
   return out;
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "collision/proxies/contact_elements.h"
-#include "collision/proxies/pair_stencil.h"
+#include "collision/proxies/contact_rules.h"
 #include "model/model.h"
 
 namespace pliant {
@@ -13,19 +13,16 @@ namespace pliant {
 /// What of a model can touch, in numbers of its State.
 struct PairModel {
   ContactElements elements;
-  std::vector<Record> rest;  ///< positions at the beginning
-  int bodies = 0;
-  std::vector<int> vertex_body;         ///< object of each particle
-  std::vector<char> meets;              ///< bodies x bodies
-  std::vector<PairMaterial> materials;  ///< bodies x bodies
+  std::vector<Record> rest;      ///< positions at the beginning
+  ContactRules rules;            ///< of bodies: the objects and mesh colliders of the Model
+  std::vector<int> vertex_body;  ///< of each particle
   /// Vertices of one body that lie together, some sixty-four, and the edges and triangles that begin at them.
   int clusters = 0;
   std::vector<int> vertex_cluster, edge_cluster, triangle_cluster, cluster_body;
   float radius = 0;             ///< within which candidates are looked for [m]
   float largest_thickness = 0;  ///< [m]
   bool filter = true;
-  std::vector<char> immovable;  ///< of each body
-  float untangling_speed = 0;   ///< at which what passes through at the beginning is drawn apart; 0: it is left [m/s]
+  float untangling_speed = 0;  ///< at which what passes through at the beginning is drawn apart; 0: it is left [m/s]
 };
 
 /// Nothing where no two things meet.

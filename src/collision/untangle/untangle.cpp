@@ -36,10 +36,10 @@ std::vector<Vec3f> places_of(const Record* positions, int first, int count) {
 }  // namespace
 
 Untangler::Untangler(const PairModel& model) : model_(model) {
-  for (int body = 0; body < model.bodies; ++body) {
+  for (int body = 0; body < model.rules.bodies(); ++body) {
     std::vector<Triangle> triangles;
     int first = 0, count = 0;
-    if (!model.immovable[static_cast<std::size_t>(body)] || !closed_surface(model, body, triangles, first, count)) continue;
+    if (!model.rules.is_immovable(body) || !closed_surface(model, body, triangles, first, count)) continue;
     closed_.push_back({body, first, std::make_unique<MeshQuery>(places_of(model.rest.data(), first, count), triangles)});
   }
   if (!closed_.empty()) around_ = triangles_around(model.elements);
@@ -74,7 +74,7 @@ void Untangler::add(int vertex, int body, const Push& push) {
 }
 
 void Untangler::mark_drawn(int vertex) {
-  if (drawn_.empty()) drawn_.assign(static_cast<std::size_t>(model_.bodies), 0);
+  if (drawn_.empty()) drawn_.assign(static_cast<std::size_t>(model_.rules.bodies()), 0);
   drawn_[static_cast<std::size_t>(model_.vertex_body[static_cast<std::size_t>(vertex)])] = 1;
 }
 
@@ -87,9 +87,8 @@ void Untangler::find_inside(const Record* positions) {
     query.move(places_of(positions, closed.first, static_cast<int>(query.positions().size())));
     std::vector<int> inside;
     for (const int v : model_.elements.vertices) {
-      const std::size_t pair =
-          static_cast<std::size_t>(model_.vertex_body[static_cast<std::size_t>(v)]) * model_.bodies + closed.body;
-      if (positions[v].w > 0 && model_.meets[pair] != 0 && query.is_inside(place(positions[v]))) inside.push_back(v);
+      const bool meets = model_.rules.meet(model_.vertex_body[static_cast<std::size_t>(v)], closed.body);
+      if (positions[v].w > 0 && meets && query.is_inside(place(positions[v]))) inside.push_back(v);
     }
     inside_ += static_cast<std::int64_t>(inside.size());
     for (const Patch& patch : patches_of(inside)) lead_out(patch, closed, positions);
@@ -196,8 +195,7 @@ void Untangler::lead_out(const Patch& patch, const Closed& closed, const Record*
 }
 
 float Untangler::thickness_of(int vertex, int body) const {
-  const auto of = static_cast<std::size_t>(model_.vertex_body[static_cast<std::size_t>(vertex)]);
-  return model_.materials[of * static_cast<std::size_t>(model_.bodies) + static_cast<std::size_t>(body)].thickness;
+  return model_.rules.material(model_.vertex_body[static_cast<std::size_t>(vertex)], body).thickness;
 }
 
 // ---------------------------------------------------------------- pieces
@@ -212,7 +210,7 @@ void Untangler::find_pieces(const Record* positions, const std::vector<Intersect
     const int a = model_.vertex_body[static_cast<std::size_t>(tangle.a)],
               b = model_.vertex_body[static_cast<std::size_t>(model_.elements.triangles[tangle.triangle][0])];
     // What a closed body cuts off is inside of it, or outside: that is told already, and not by which piece is smaller.
-    if (!model_.immovable[static_cast<std::size_t>(a)] && !is_closed(b)) cuts[{a, b}].push_back(tangle);
+    if (!model_.rules.is_immovable(a) && !is_closed(b)) cuts[{a, b}].push_back(tangle);
     // Its vertices may be out already: it is calmed until its edges are, too.
     if (is_closed(b)) mark_drawn(tangle.a);
     if (is_closed(a)) mark_drawn(model_.elements.triangles[tangle.triangle][0]);

@@ -43,8 +43,9 @@ void end_frame(Substep& s) {
         std::count_if(tile.contacts.begin(), tile.contacts.end(), [](const Contact& c) { return c.push > 0; });
   }
   if (s.has_pairs()) {
-    const PairCounts& c = s.work.pairs->counts();
-    s.report.pairs = {c.candidates, c.contacts, c.shortened, c.hopeless, c.tangled, c.rebuilds, c.inside, c.deepest};
+    const PairCounts c = s.work.pairs->counts();
+    s.report.pairs = {c.candidates,   c.contacts, c.truncated, c.unresolvable,
+                      c.intersecting, c.rebuilds, c.inside,    c.deepest};
     warn_of_pairs(s.model, *s.work.pairs, s.report.warnings);
   }
   s.state.time = s.frame_start + s.dt;

@@ -1,0 +1,159 @@
+#include "collision/filter/step_filter.h"
+
+#include <algorithm>
+
+namespace pliant {
+
+namespace {
+
+/// Rounds in which steps are truncated by as much as they must; after them vertices that still offend stay where they are.
+constexpr int rounds_of_shares = 3;
+
+bool moves_at_all(const Record& d) { return d.x != 0 || d.y != 0 || d.z != 0; }
+
+}  // namespace
+
+/// What all tasks of a round share.
+struct StepFilter::Round {
+  Neighbourhood& near;
+  const PairParticles& particles;
+  const FunctionRef<bool(const PairStencil&)>& is_exempt;
+
+  void plan_list(NearList& list, Scratch& scratch) const;
+  void plan_group(const StaticGroup& group, Scratch& scratch) const;
+  void plan_pair(const ClusterSides& sides, const PairLanes& lanes, int lane, float margin, Scratch& scratch) const;
+};
+
+void StepFilter::Round::plan_list(NearList& list, Scratch& scratch) const {
+  const float margin = filter_margin(near, list);
+  collect_near(near, list, margin, scratch.near);
+  PairLanes lanes;
+  for (std::size_t i = 0; i < scratch.near.size(); i += 16) {
+    const std::size_t count = std::min<std::size_t>(16, scratch.near.size() - i);
+    for (std::size_t lane = 0; lane < 16; ++lane)
+      lanes.set(lane, list.pairs[scratch.near[i + (lane < count ? lane : 0)]].vertex);
+    find_paths(near, list, particles, lanes);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      list.least.value = min(list.least.value, list.value[scratch.near[i + lane]]);
+      plan_pair(list, lanes, static_cast<int>(lane), margin, scratch);
+    }
+  }
+}
+
+void StepFilter::Round::plan_group(const StaticGroup& group, Scratch& scratch) const {
+  const Odometer& odometer = near.odometer(group);
+  const float margin = filter_margin(near, group);
+  if (group.least.after(odometer) > margin) return;
+  const float spent = group.least.spent(odometer) + odometer.next;
+  PairLanes lanes;
+  for (int b = group.first_block; b < group.last_block; ++b) {
+    if (near.static_pairs.value[b] - spent > margin) continue;
+    lanes.stencils = near.static_pairs.blocks[b];
+    find_paths(near, group, particles, lanes);
+    for (int lane = 0; lane < StaticPairs::pairs_in(group, b); ++lane) plan_pair(group, lanes, lane, margin, scratch);
+  }
+}
+
+void StepFilter::Round::plan_pair(const ClusterSides& sides, const PairLanes& lanes, int lane, float margin,
+                                  Scratch& scratch) const {
+  if (lanes.paths.apart[lane] > margin) return;
+  const PairStencil pair = lanes.pair(lane, sides.of_vertices);
+  if (is_exempt(pair)) return;
+  const PairDistance at = pair_distance(pair, particles.positions);
+  // Bounds only save work: what a tighter bound would have dismissed is dismissed here.
+  if (static_cast<float>(at.distance) * sum_slack - lanes.paths.falls[lane] > margin) return;
+  SeparatingSlab slab;
+  std::array<float, 4> shares{1, 1, 1, 1};
+  const Separation found =
+      plan_separation(pair, at, particles.positions, particles.displacements, double(margin), slab, shares);
+  if (found == Separation::free) return;
+  if (found == Separation::hopeless) scratch.unresolvable.push_back(pair);
+  if (found == Separation::planned) scratch.slabs.push_back(slab);
+  for (int i = 0; i < 4; ++i)
+    if (shares[i] < 1) scratch.shares.emplace_back(pair.vertex[i], shares[i]);
+}
+
+void StepFilter::forget_counts() {
+  truncated_ = unresolvable_count_ = 0;
+  unresolvable_.clear();
+}
+
+/// Pairs are dismissed by how much their sides move against each other, which grows where one of them alone is truncated: what was
+/// truncated is looked at again with its new step, until no more is.
+bool StepFilter::apply(Executor& executor, NearLists& lists, const PairParticles& particles,
+                       FunctionRef<bool(const PairStencil&)> is_exempt) {
+  truncated_in_.clear();
+  for (int round = 0;; ++round) {
+    if (!lists.measure(executor, particles)) return false;
+    lists.update(executor, particles);
+    plan(executor, lists.neighbourhood(), particles, is_exempt);
+    if (!truncate(particles, round >= rounds_of_shares)) break;
+  }
+  count();
+  return true;
+}
+
+void StepFilter::plan(Executor& executor, Neighbourhood& near, const PairParticles& particles,
+                      const FunctionRef<bool(const PairStencil&)>& is_exempt) {
+  scratch_.resize(near.tasks.size());
+  const Round round{near, particles, is_exempt};
+  executor.parallel_for("filter moves", static_cast<int>(near.tasks.size()), [&](int number) {
+    const NearTask& task = near.tasks[number];
+    Scratch& scratch = scratch_[number];
+    scratch.slabs.clear();
+    scratch.shares.clear();
+    scratch.unresolvable.clear();
+    for (int g = task.first_group; g < task.last_group; ++g) round.plan_group(near.static_pairs.groups[g], scratch);
+    for (int i = task.first; i < task.last; ++i) round.plan_list(near.lists[i], scratch);
+  });
+}
+
+/// Each vertex takes the least share that its pairs permit, or none; then what rounding lets through stays where it was, until nothing
+/// more does. Returns whether any step was truncated.
+bool StepFilter::truncate(const PairParticles& particles, bool stops) {
+  touched_.clear();
+  const auto allow = [&](std::int32_t v, float share) {
+    if (!moves_at_all(particles.displacements[v])) return;
+    if (share_[v] == 1) touched_.push_back(v);
+    share_[v] = min(share_[v], stops ? 0 : share);
+  };
+  for (const Scratch& scratch : scratch_)
+    for (const auto& [vertex, share] : scratch.shares) allow(vertex, share);
+  hold_rounded(particles, allow);
+  for (const std::int32_t v : touched_) {
+    Record& d = particles.displacements[v];
+    d = {d.x * share_[v], d.y * share_[v], d.z * share_[v], 0};
+    share_[v] = 1;
+  }
+  truncated_in_.insert(truncated_in_.end(), touched_.begin(), touched_.end());
+  return !touched_.empty();
+}
+
+template <class Allow>
+void StepFilter::hold_rounded(const PairParticles& particles, Allow allow) {
+  for (bool again = true; again;) {
+    again = false;
+    for (const Scratch& scratch : scratch_)
+      for (const SeparatingSlab& slab : scratch.slabs)
+        for (int i = 0; i < 4; ++i) {
+          const std::int32_t v = slab.pair.vertex[i];
+          if (share_[v] == 0 || !ends_beyond(slab, i, particles.positions, particles.displacements, share_[v])) continue;
+          allow(v, 0);
+          again = share_[v] == 0 || again;
+        }
+  }
+}
+
+void StepFilter::count() {
+  for (const Scratch& scratch : scratch_)
+    for (const PairStencil& pair : scratch.unresolvable) {
+      const int a = model_.vertex_body[pair.vertex[0]], b = model_.vertex_body[pair.vertex[3]];
+      UnresolvablePairs& between = unresolvable_[std::minmax(a, b)];
+      if (between.count++ == 0) between.first = pair;
+      ++unresolvable_count_;
+    }
+  std::sort(truncated_in_.begin(), truncated_in_.end());
+  truncated_ += std::unique(truncated_in_.begin(), truncated_in_.end()) - truncated_in_.begin();
+}
+
+}  // namespace pliant

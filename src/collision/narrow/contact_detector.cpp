@@ -1,0 +1,124 @@
+#include "collision/narrow/contact_detector.h"
+
+#include <algorithm>
+
+namespace pliant {
+
+namespace {
+
+/// A contact keeps no more than this share of the distance that its primitives have at rest.
+constexpr double share_of_rest = 0.9;
+/// A block of static pairs that is measured at all is measured if it is due within so many substeps.
+constexpr float substeps_of_rest = 4;
+
+/// What all tasks share.
+struct Detection {
+  Neighbourhood& near;
+  const PairParticles& particles;
+  const FunctionRef<bool(const PairStencil&)>& is_exempt;
+};
+
+/// The distance that a pair may keep, by what its primitives keep at rest [m]. `known`: its value, below 0 where it was not measured
+/// yet; null where it is not kept.
+float kept_at_rest(const Neighbourhood& near, const PairStencil& pair, float* known) {
+  if (known != nullptr && *known >= 0) return *known;
+  const auto kept = static_cast<float>(share_of_rest * pair_distance(pair, near.model.rest.data()).distance);
+  if (known != nullptr) *known = kept;
+  return kept;
+}
+
+void add_contact(const PairStencil& pair, const PairBatch& at, int lane, const PairMaterial& material,
+                 const PairParticles& particles, std::vector<PairContact>& contacts) {
+  PairContact contact = make_contact(pair, at, lane, material, particles.h);
+  if (material.restitution > 0)
+    contact.approach = approach_of(contact, particles.displacements, particles.remainders, particles.h);
+  contacts.push_back(contact);
+}
+
+/// A pair becomes a contact if its distance, less what it may fall by, is below what it keeps.
+void detect_pair(const Detection& d, const ClusterSides& sides, const PairLanes& lanes, int lane, float* at_rest,
+                 std::vector<PairContact>& contacts) {
+  const ClusterPair& clusters = d.near.pair_of(sides);
+  const float thickness = clusters.material.thickness, distance = lanes.at.distance[lane] * (1 - 1e-5f),
+              nearest = distance - lanes.paths.falls[lane];
+  if (!(lanes.at.distance[lane] > 0) || distance - clusters.odometer.next > thickness || nearest > thickness) return;
+  const PairStencil pair = lanes.pair(lane, sides.of_vertices);
+  if (d.is_exempt(pair)) return;
+  PairMaterial kept = clusters.material;
+  kept.thickness = min(kept.thickness, kept_at_rest(d.near, pair, at_rest));
+  if (nearest <= kept.thickness && lanes.paths.apart[lane] <= kept.thickness)
+    add_contact(pair, lanes.at, lane, kept, d.particles, contacts);
+}
+
+void measure(const Detection& d, const ClusterSides& sides, PairLanes& lanes) {
+  d.near.kernels.distances(lanes.stencils, sides.of_vertices ? 1 : 2, d.particles.positions, lanes.at);
+  find_paths(d.near, sides, d.particles, lanes);
+}
+
+void detect_list(const Detection& d, NearList& list, std::vector<std::int32_t>& near, std::vector<PairContact>& contacts) {
+  collect_near(d.near, list, cull_slack * d.near.pair_of(list).material.thickness, near);
+  const float spent = list.least.spent(d.near.odometer(list));
+  PairLanes lanes;
+  for (std::size_t i = 0; i < near.size(); i += 16) {
+    const std::size_t count = std::min<std::size_t>(16, near.size() - i);
+    for (std::size_t lane = 0; lane < 16; ++lane) lanes.set(lane, list.pairs[near[i + (lane < count ? lane : 0)]].vertex);
+    measure(d, list, lanes);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const std::int32_t number = near[i + lane];
+      const float value = (lanes.at.at_least[lane] + spent) * sum_slack;
+      list.value[number] = value;
+      list.least.value = min(list.least.value, value);
+      detect_pair(d, list, lanes, static_cast<int>(lane), &list.pairs[number].kept, contacts);
+    }
+  }
+}
+
+void detect_block(const Detection& d, const StaticGroup& group, int block, std::vector<PairContact>& contacts) {
+  PairLanes lanes;
+  lanes.stencils = d.near.static_pairs.blocks[block];
+  measure(d, group, lanes);
+  for (int lane = 0; lane < StaticPairs::pairs_in(group, block); ++lane)
+    detect_pair(d, group, lanes, lane, nullptr, contacts);
+}
+
+/// Measures all blocks of a group that are due in some substeps, so that the next substep does not come back for them.
+void detect_group(const Detection& d, StaticGroup& group, std::vector<PairContact>& contacts) {
+  const ClusterPair& clusters = d.near.pair_of(group);
+  const float within = cull_slack * clusters.material.thickness, next = clusters.odometer.next;
+  if (group.least.after(clusters.odometer) > within) return;
+  StaticPairs& pairs = d.near.static_pairs;
+  pairs.rebase(group, clusters.odometer);
+  const float due = within + (1 + substeps_of_rest) * next;
+  group.least.value = out_of_reach;
+  for (int b = group.first_block; b < group.last_block; ++b) {
+    if (pairs.value[b] <= due) {
+      const float least = d.near.kernels.least_distance(pairs.blocks[b], group.of_vertices ? 1 : 2, d.particles.positions);
+      pairs.value[b] = least * sum_slack;
+      if (least - next <= within) detect_block(d, group, b, contacts);
+    }
+    group.least.value = min(group.least.value, pairs.value[b]);
+  }
+}
+
+}  // namespace
+
+void ContactDetector::detect(Executor& executor, Neighbourhood& near, const PairParticles& particles,
+                             FunctionRef<bool(const PairStencil&)> is_exempt, std::vector<PairContact>& contacts) {
+  contacts.clear();
+  scratch_.resize(near.tasks.size());
+  const Detection d{near, particles, is_exempt};
+  executor.parallel_for("detect contacts", static_cast<int>(near.tasks.size()), [&](int number) {
+    const NearTask& task = near.tasks[number];
+    Scratch& scratch = scratch_[number];
+    scratch.of_groups.clear();
+    scratch.of_lists.clear();
+    for (int g = task.first_group; g < task.last_group; ++g)
+      detect_group(d, near.static_pairs.groups[g], scratch.of_groups);
+    for (int i = task.first; i < task.last; ++i) detect_list(d, near.lists[i], scratch.near, scratch.of_lists);
+  });
+  for (const Scratch& scratch : scratch_)
+    contacts.insert(contacts.end(), scratch.of_groups.begin(), scratch.of_groups.end());
+  for (const Scratch& scratch : scratch_) contacts.insert(contacts.end(), scratch.of_lists.begin(), scratch.of_lists.end());
+}
+
+}  // namespace pliant

@@ -1,0 +1,28 @@
+// Makes contacts of the pairs that may come within their thickness in a substep.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "collision/narrow/pair_contact.h"
+#include "collision/near/neighbourhood.h"
+
+namespace pliant {
+
+class ContactDetector {
+ public:
+  /// Contacts of the substep, static pairs first, each in the order of clusters. Pairs for which `is_exempt` holds make none.
+  void detect(Executor& executor, Neighbourhood& near, const PairParticles& particles,
+              FunctionRef<bool(const PairStencil&)> is_exempt, std::vector<PairContact>& contacts);
+
+ private:
+  /// What one thread works with.
+  struct Scratch {
+    std::vector<std::int32_t> near;
+    std::vector<PairContact> of_groups, of_lists;
+  };
+
+  std::vector<Scratch> scratch_;
+};
+
+}  // namespace pliant

@@ -1,0 +1,78 @@
+#include "collision/near/cluster_motions.h"
+
+#include <algorithm>
+
+namespace pliant {
+
+namespace {
+
+constexpr int clusters_in_a_task = 16;
+/// A position as the observer sees it, who moves along with the mean, is rounded this often at most.
+constexpr float place_roundings = 16;
+
+}  // namespace
+
+ClusterMotions::ClusterMotions(const PairKernels& kernels, int clusters)
+    : kernels_(kernels),
+      motions_(static_cast<std::size_t>(clusters)),
+      travel_(static_cast<std::size_t>(clusters)),
+      extent_(static_cast<std::size_t>(clusters)) {}
+
+bool ClusterMotions::measure(Executor& executor, const ClusterLayout& layout, const PairParticles& particles) {
+  const int clusters = static_cast<int>(motions_.size()), tasks = (clusters + clusters_in_a_task - 1) / clusters_in_a_task;
+  const std::vector<int>& start = layout.vertex_start;
+  executor.parallel_for("contact bounds", tasks, [&](int task) {
+    for (int c = task * clusters_in_a_task; c < std::min(clusters, (task + 1) * clusters_in_a_task); ++c)
+      if (const int count = start[c + 1] - start[c]; count > 0)
+        kernels_.measure_cluster(layout.vertices.data() + start[c], count, particles, motions_[c]);
+  });
+  Vec3d sum{};
+  double count = 0;
+  bool is_bounded = true;
+  for (const ClusterMotion& motion : motions_) {
+    sum += convert<double>(motion.sum);
+    count += double(motion.movable);
+    is_bounded = is_bounded && motion.is_bounded;
+  }
+  mean_ = count > 0 ? convert<float>(sum * (1. / count)) : Vec3f{};
+  return is_bounded;
+}
+
+void ClusterMotions::advance() {
+  for (std::size_t c = 0; c < motions_.size(); ++c)
+    travel_[c] = (travel_[c] + travel_next(static_cast<int>(c))) * (1 + 1e-6f);
+}
+
+BoxBounds ClusterMotions::path_box(int cluster) const {
+  const ClusterMotion& m = motions_[static_cast<std::size_t>(cluster)];
+  return {min(m.low[0], m.low[1] - mean_), max(m.high[0], m.high[1] - mean_)};
+}
+
+/// How far anything in a cluster goes in this substep, against the mean of all.
+float ClusterMotions::travel_next(int cluster) const {
+  const ClusterMotion& motion = motions_[static_cast<std::size_t>(cluster)];
+  return (length(motion.mean - mean_) + length(motion.spin) * motion.radius) * bound_slack + motion.largest;
+}
+
+bool ClusterMotions::stay_within(float room) const {
+  const float drifted = largest(mean_);
+  for (std::size_t c = 0; c < motions_.size(); ++c) {
+    const float rounded = place_roundings * one_rounding * (motions_[c].extent + drifted);
+    if (!(travel_[c] + travel_next(static_cast<int>(c)) <= room - rounded)) return false;
+  }
+  return true;
+}
+
+bool ClusterMotions::has_gone_far() const {
+  for (std::size_t c = 0; c < motions_.size(); ++c)
+    if (!(motions_[c].extent <= 2 * extent_[c])) return true;
+  return false;
+}
+
+void ClusterMotions::begin_travel() { std::fill(travel_.begin(), travel_.end(), 0.f); }
+
+void ClusterMotions::keep_extents() {
+  for (std::size_t c = 0; c < motions_.size(); ++c) extent_[c] = motions_[c].extent;
+}
+
+}  // namespace pliant

@@ -1,0 +1,52 @@
+#include "collision/near/neighbourhood.h"
+
+namespace pliant {
+
+namespace {
+
+/// The filter keeps this share of the thickness, and at least so many roundings of the clusters' positions.
+constexpr float least_share = 0.05f, least_roundings = 32;
+
+}  // namespace
+
+void NearList::clear(const Odometer& odometer) {
+  pairs.clear();
+  value.clear();
+  least = {out_of_reach, odometer.total};
+}
+
+float filter_margin(const Neighbourhood& near, const ClusterSides& sides) {
+  const float extent = max(near.motions[sides.first].extent, near.motions[sides.second].extent);
+  return max(least_share * near.pair_of(sides).material.thickness, least_roundings * one_rounding * extent);
+}
+
+float activation_distance(const Neighbourhood& near, const ClusterSides& sides) {
+  const float extent = max(near.motions.extent(sides.first), near.motions.extent(sides.second));
+  return max(cull_slack * near.pair_of(sides).material.thickness,
+             2 * max(filter_margin(near, sides), least_roundings * one_rounding * extent));
+}
+
+void find_paths(const Neighbourhood& near, const ClusterSides& sides, const PairParticles& particles, PairLanes& lanes) {
+  unsigned swapped = 0;
+  if (sides.first != sides.second)
+    for (int lane = 0; lane < 16; ++lane)
+      swapped |= (near.model.vertex_cluster[lanes.stencils.vertex[0][lane]] != sides.first ? 1U : 0U) << lane;
+  near.kernels.paths(lanes.stencils, sides.of_vertices ? 1 : 2, particles,
+                     {&near.motions[sides.first], &near.motions[sides.second], swapped, near.motions.mean()}, lanes.paths);
+  const float rigid = near.pair_of(sides).rigid;
+  for (float& falls : lanes.paths.falls) falls += rigid;
+}
+
+void collect_near(const Neighbourhood& near, NearList& list, float within, std::vector<std::int32_t>& found) {
+  found.clear();
+  const Odometer& odometer = near.odometer(list);
+  if (list.least.after(odometer) > within) return;
+  list.least.value = out_of_reach;
+  found.resize(list.value.size());
+  const int count =
+      near.kernels.collect(list.value.data(), static_cast<int>(list.value.size()),
+                           list.least.spent(odometer) + odometer.next, within, found.data(), list.least.value);
+  found.resize(static_cast<std::size_t>(count));
+}
+
+}  // namespace pliant

@@ -1,0 +1,87 @@
+#include "collision/proxies/contact_rules.h"
+
+#include <cmath>
+#include <tuple>
+
+#include "math/vector.h"
+
+namespace pliant {
+
+bool ContactRules::meet(int a, int b) const {
+  const ContactBody &p = bodies_[static_cast<std::size_t>(a)], &q = bodies_[static_cast<std::size_t>(b)];
+  if (a == b) return p.meets_itself;
+  const bool masks = (p.groups & q.mask) != 0 && (q.groups & p.mask) != 0;
+  const bool meant = (p.collides && q.collides) || p.is_collider || q.is_collider;
+  return masks && meant && !(p.is_immovable && q.is_immovable);
+}
+
+PairMaterial ContactRules::material(int a, int b) const {
+  if (!exceptions_.empty())
+    if (const auto found = exceptions_.find(std::minmax(a, b)); found != exceptions_.end()) return found->second;
+  const ContactBody &p = bodies_[static_cast<std::size_t>(a)], &q = bodies_[static_cast<std::size_t>(b)];
+  return {p.thickness + q.thickness, std::sqrt(p.static_friction * q.static_friction),
+          std::sqrt(p.kinetic_friction * q.kinetic_friction), max(p.restitution, q.restitution)};
+}
+
+/// The class of each body.
+std::vector<int> ContactRules::find_classes(std::vector<Class>& classes) const {
+  std::vector<int> alone(bodies_.size(), -1);
+  for (const auto& [pair, material] : exceptions_)
+    for (const int body : {pair.first, pair.second}) alone[static_cast<std::size_t>(body)] = body;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, int, int>, int> numbers;
+  std::vector<int> class_of;
+  for (int i = 0; i < bodies(); ++i) {
+    const ContactBody& body = bodies_[static_cast<std::size_t>(i)];
+    const int flags = (body.collides ? 1 : 0) + (body.is_collider ? 2 : 0) + (body.is_immovable ? 4 : 0);
+    const auto next = static_cast<int>(classes.size());
+    const int number =
+        numbers.try_emplace({body.groups, body.mask, flags, alone[static_cast<std::size_t>(i)]}, next).first->second;
+    if (number == next) classes.emplace_back();
+    class_of.push_back(number);
+    Class& of = classes[static_cast<std::size_t>(number)];
+    const auto thickness = [&](int b) { return bodies_[static_cast<std::size_t>(b)].thickness; };
+    if (of.thickest < 0 || body.thickness > thickness(of.thickest)) {
+      of.second = of.thickest;
+      of.thickest = i;
+    } else if (of.second < 0 || body.thickness > thickness(of.second)) {
+      of.second = i;
+    }
+  }
+  return class_of;
+}
+
+float ContactRules::largest_thickness() const {
+  std::vector<Class> classes;
+  find_classes(classes);
+  float largest = 0;
+  const auto consider = [&](int a, int b) {
+    if (a >= 0 && b >= 0 && meet(a, b)) largest = max(largest, material(a, b).thickness);
+  };
+  for (int i = 0; i < bodies(); ++i) consider(i, i);
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    consider(classes[i].thickest, classes[i].second);
+    for (std::size_t j = 0; j < i; ++j) consider(classes[i].thickest, classes[j].thickest);
+  }
+  return largest;
+}
+
+std::vector<char> ContactRules::meeting() const {
+  std::vector<Class> classes;
+  const std::vector<int> class_of = find_classes(classes);
+  std::vector<char> meets(classes.size(), 0);
+  const auto consider = [&](std::size_t i, std::size_t j, int a, int b) {
+    if (a >= 0 && b >= 0 && meet(a, b)) meets[i] = meets[j] = 1;
+  };
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    consider(i, i, classes[i].thickest, classes[i].second);
+    for (std::size_t j = 0; j < i; ++j) consider(i, j, classes[i].thickest, classes[j].thickest);
+  }
+  std::vector<char> out;
+  for (int i = 0; i < bodies(); ++i) {
+    const bool meets_other = meets[static_cast<std::size_t>(class_of[static_cast<std::size_t>(i)])] != 0;
+    out.push_back(meets_other || bodies_[static_cast<std::size_t>(i)].meets_itself ? 1 : 0);
+  }
+  return out;
+}
+
+}  // namespace pliant

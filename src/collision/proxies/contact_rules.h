@@ -1,0 +1,51 @@
+// Who meets whom, and with what material: groups decide, and a short list of exceptions. No table is bodies x bodies.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "collision/proxies/pair_stencil.h"
+
+namespace pliant {
+
+/// What a body says about whom it meets, and how.
+struct ContactBody {
+  std::uint32_t groups = 1, mask = ~0u;
+  bool collides = true;       ///< with other bodies that collide
+  bool is_collider = false;   ///< meets also those that do not collide
+  bool is_immovable = false;  ///< static or kinematic: two such never meet
+  bool meets_itself = false;
+  float thickness = 0;  ///< two bodies keep the sum of theirs [m]
+  float static_friction = 0, kinetic_friction = 0, restitution = 0;
+};
+
+class ContactRules {
+ public:
+  void add(const ContactBody& body) { bodies_.push_back(body); }
+  /// Overrides what the combination of two bodies gives.
+  void set_material(int a, int b, const PairMaterial& material) { exceptions_[std::minmax(a, b)] = material; }
+
+  int bodies() const { return static_cast<int>(bodies_.size()); }
+  bool is_immovable(int body) const { return bodies_[static_cast<std::size_t>(body)].is_immovable; }
+  bool meet(int a, int b) const;
+  PairMaterial material(int a, int b) const;
+
+  /// Of any two that meet [m].
+  float largest_thickness() const;
+  /// Of each body, whether it meets any other or itself.
+  std::vector<char> meeting() const;
+
+ private:
+  /// Bodies that meet the same others; bodies with an exception are alone in theirs.
+  struct Class {
+    int thickest = -1, second = -1;  ///< bodies; -1: there is none
+  };
+  std::vector<int> find_classes(std::vector<Class>& classes) const;
+
+  std::vector<ContactBody> bodies_;
+  std::map<std::pair<int, int>, PairMaterial> exceptions_;  ///< the lower body first
+};
+
+}  // namespace pliant

@@ -1,0 +1,123 @@
+#include "collision/surfaces/surface_contact.h"
+
+#include <algorithm>
+
+namespace pliant {
+
+namespace {
+
+/// Where a kinematic collider moves by up to half a thickness in a substep, contacts keep this share of their thickness.
+constexpr float least_share_kept = 0.9f;
+
+/// Whether a side that cannot be pushed moves by more than the thickness may lack without harm.
+bool is_driven(const PairContact& contact, const PairParticles& particles) {
+  float way = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Record& d = particles.displacements[contact.vertex[i]];
+    if (!(particles.positions[contact.vertex[i]].w > 0))
+      way += contact.weight[i] * dot(contact.normal, Vec3f{d.x, d.y, d.z});
+  }
+  return -way > (1 - least_share_kept) * contact.thickness;
+}
+
+}  // namespace
+
+SurfaceContact::SurfaceContact(const PairModel& model, const PairKernels& kernels)
+    : model_(model), lists_(model, kernels), filter_(model), intersections_(model) {
+  if (model.untangling_speed > 0) untangler_ = std::make_unique<Untangler>(model);
+}
+
+PairCounts SurfaceContact::counts() const {
+  PairCounts counts;
+  counts.candidates = lists_.candidates();
+  counts.contacts = pushing_;
+  counts.truncated = filter_.truncated();
+  counts.unresolvable = filter_.unresolvable_count();
+  counts.intersecting = static_cast<std::int64_t>(intersections_.found().size());
+  counts.rebuilds = lists_.rebuilds() - rebuilds_before_;
+  counts.inside = untangler_ ? untangler_->inside() : 0;
+  counts.deepest = deepest_;
+  return counts;
+}
+
+void SurfaceContact::begin_frame(const Record* positions, bool anew) {
+  // Pairs that the filter kept apart stay apart; without it, what has crossed is exempt, as it would be in a State that is put back.
+  const bool kept_apart = model_.filter && filter_.unresolvable_count() == 0;
+  const bool untangles = untangler_ && untangler_->is_busy();
+  filter_.forget_counts();
+  pushing_ = 0;
+  deepest_ = 0;
+  rebuilds_before_ = lists_.rebuilds();
+  if (!anew && intersections_.found().empty() && kept_apart && !untangles) return;
+  intersections_.find(positions);
+  if (untangler_) untangler_->begin_frame(positions, intersections_.found());
+  if (anew) lists_.forget();
+}
+
+// ---------------------------------------------------------------- exempt pairs
+
+/// Whether one side of a pair is lost in the body of the other.
+bool SurfaceContact::is_lost(const PairStencil& pair) const {
+  if (!untangler_ || !untangler_->is_busy()) return false;
+  const int first = model_.vertex_body[pair.vertex[0]], second = model_.vertex_body[pair.vertex[pair.first_side]];
+  bool lost = false;
+  for (int i = 0; i < 4; ++i) lost = lost || untangler_->is_lost(pair.vertex[i], i < pair.first_side ? second : first);
+  return lost;
+}
+
+// ---------------------------------------------------------------- contacts
+
+void SurfaceContact::detect(Executor& executor, const PairParticles& particles) {
+  contacts_.clear();
+  if (untangler_)
+    untangler_->push(model_.untangling_speed * particles.h, particles.h, particles.displacements, particles.remainders);
+  is_bounded_ = lists_.measure(executor, particles);
+  if (!is_bounded_) return;  // the end of the substep says so
+  lists_.update(executor, particles);
+  detector_.detect(
+      executor, lists_.neighbourhood(), particles, [&](const PairStencil& pair) { return is_exempt(pair); }, contacts_);
+}
+
+void SurfaceContact::project(const PairParticles& particles) {
+  for (PairContact& contact : contacts_)
+    project_contact(contact, particles.positions, particles.remainders, particles.displacements);
+}
+
+/// Contacts behind the driven one matter as much: a vertex whose step the filter truncates for one of them is no longer out of the way.
+bool SurfaceContact::is_overrun(const PairParticles& particles) const {
+  const auto lacks = [&](const PairContact& contact) {
+    return overlap_of(contact, particles.displacements) > (1 - least_share_kept) * contact.thickness;
+  };
+  const auto is_driven_here = [&](const PairContact& contact) { return is_driven(contact, particles); };
+  return std::any_of(contacts_.begin(), contacts_.end(), is_driven_here) &&
+         std::any_of(contacts_.begin(), contacts_.end(), lacks);
+}
+
+void SurfaceContact::measure_overlaps(const PairParticles& particles) {
+  deepest_ = 0;
+  for (const PairContact& contact : contacts_)
+    deepest_ = std::max(deepest_, static_cast<double>(overlap_of(contact, particles.displacements)));
+}
+
+void SurfaceContact::respond(const Record* positions, Record* velocities, float slow,
+                             FunctionRef<Vec3f(int body)> gravity) const {
+  for (const PairContact& contact : contacts_) {
+    if (!(contact.push > 0)) continue;
+    Vec3f missing{};
+    for (int i = 0; i < 4; ++i)
+      if (positions[contact.vertex[i]].w > 0) missing += gravity(model_.vertex_body[contact.vertex[i]]) * contact.weight[i];
+    respond_to_contact(contact, positions, velocities, {missing, slow});
+  }
+  if (untangler_) untangler_->calm(model_.untangling_speed, velocities, gravity);
+}
+
+// ---------------------------------------------------------------- filter
+
+void SurfaceContact::filter(Executor& executor, const PairParticles& particles) {
+  pushing_ = std::count_if(contacts_.begin(), contacts_.end(), [](const PairContact& c) { return c.push > 0; });
+  const auto exempt = [&](const PairStencil& pair) { return is_exempt(pair); };
+  is_bounded_ = model_.filter ? filter_.apply(executor, lists_, particles, exempt) : lists_.measure(executor, particles);
+  if (is_bounded_) lists_.advance();
+}
+
+}  // namespace pliant

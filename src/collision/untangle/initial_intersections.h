@@ -1,0 +1,33 @@
+// Edges and triangles that intersect though they should not: where a frame begins so, contact and filter leave them out until they
+// are apart.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "collision/proxies/pair_model.h"
+#include "collision/untangle/intersections.h"
+
+namespace pliant {
+
+class InitialIntersections {
+ public:
+  explicit InitialIntersections(const PairModel& model);
+
+  /// Finds all between bodies that meet.
+  void find(const Record* positions);
+  const std::vector<Intersection>& found() const { return found_; }
+  /// Whether a pair belongs to an edge and a triangle that intersect.
+  bool hold(const PairStencil& pair) const;
+
+ private:
+  void exempt(const Intersection& found, const IntLists& triangles_at);
+
+  const PairModel& model_;
+  IntersectionFinder finder_;
+  std::vector<Intersection> found_;
+  std::vector<std::array<std::int32_t, 5>> exempt_;  ///< stencils, with the number of their first side; ascending
+};
+
+}  // namespace pliant
