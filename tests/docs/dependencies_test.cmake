@@ -2,7 +2,7 @@
 file(STRINGS ${PACKAGES} lines REGEX "^[a-z]")
 file(READ ${DOCUMENT} document)
 foreach(line ${lines})
-  string(REGEX REPLACE "^[a-z]+ +" "" package "${line}")
+  string(REGEX REPLACE "^[a-z0-9]+ +" "" package "${line}")
   string(FIND "${document}" "${package}" place)
   if(place EQUAL -1)
     message(FATAL_ERROR "${DOCUMENT} says nothing of ${package}")
