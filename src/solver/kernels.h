@@ -18,6 +18,7 @@ inline constexpr int correction_place(int lane) { return 4 * (lane % 4) + lane /
 
 struct ChainKernels;      // solver/sweeps/chain_kernels.h
 struct MultigridKernels;  // solver/sweeps/multigrid_kernels.h
+struct ContactKernels;    // solver/contact_kernels.h
 struct PairKernels;       // collision/pair_kernels.h
 
 struct StepKernels {
@@ -53,6 +54,7 @@ struct Kernels : StepKernels {
   const char* isa;  ///< its name
   const ChainKernels& chains;
   const MultigridKernels& multigrid;
+  const ContactKernels& contacts;
   const PairKernels& pairs;
 };
 

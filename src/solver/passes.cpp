@@ -38,7 +38,7 @@ void find_more_in_tile(Substep& s, int task) {
   scratch.more_contacts.clear();
   find_contacts({object, a, scratch.bounds, s.work.colliders, s.kernels.find_near}, scratch.near, scratch.more_contacts);
   const auto is_shallow = [&](const Contact& c) {
-    const Record& d = a.displacements[c.particle];
+    const Record& d = a.displacements[c.point[0]];
     const float thickness = object.thickness + s.work.colliders[c.collider].thickness;
     return c.gap + dot(c.normal, Vec3f{d.x, d.y, d.z}) > -least_depth * thickness;
   };
@@ -100,7 +100,7 @@ void sweep_contacts(Substep& s) {
 }
 
 void sweep_pairs(Substep& s) {
-  if (s.has_pairs()) s.work.pairs->project(all_particles(s));
+  if (s.has_pairs()) s.work.contact_solver.project(s.executor, s.work.pairs->contacts(), s.work.displacements.data());
 }
 
 void find_more_contacts(Substep& s) {

@@ -3,6 +3,7 @@
 
 #include "collision/proxies/pair_kernels.h"
 #include "pliant/error.h"
+#include "solver/contact_kernels.h"
 #include "solver/kernels.h"
 #include "solver/sweeps/chain_kernels.h"
 #include "solver/sweeps/multigrid_kernels.h"
@@ -24,11 +25,12 @@ bool runs_v2() { return __builtin_cpu_supports("sse4.2") && __builtin_cpu_suppor
 #endif
 bool runs_generic() { return true; }
 
-#define PLIANT_LEVEL_TABLE(suffix, isa, ...)                                                                         \
-  const Kernels& kernels_##suffix() {                                                                                \
-    static const Kernels table{step_kernels_##suffix(), isa, chain_kernels_##suffix(), multigrid_kernels_##suffix(), \
-                               pair_kernels_##suffix()};                                                             \
-    return table;                                                                                                    \
+#define PLIANT_LEVEL_TABLE(suffix, isa, ...)                                             \
+  const Kernels& kernels_##suffix() {                                                    \
+    static const Kernels table{step_kernels_##suffix(),    isa,                          \
+                               chain_kernels_##suffix(),   multigrid_kernels_##suffix(), \
+                               contact_kernels_##suffix(), pair_kernels_##suffix()};     \
+    return table;                                                                        \
   }
 PLIANT_FOR_EACH_LEVEL(PLIANT_LEVEL_TABLE, )
 
@@ -48,8 +50,9 @@ std::string level_names() {
 }  // namespace
 
 const Kernels& kernels_sequential() {
-  static const Kernels table{step_kernels_sequential(), "sequential", chain_kernels_sequential(),
-                             multigrid_kernels_generic(), pair_kernels_generic()};
+  static const Kernels table{step_kernels_sequential(),    "sequential",
+                             chain_kernels_sequential(),   multigrid_kernels_generic(),
+                             contact_kernels_sequential(), pair_kernels_generic()};
   return table;
 }
 

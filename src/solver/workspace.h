@@ -9,6 +9,7 @@
 #include "collision/surfaces/surface_contact.h"
 #include "model/model.h"
 #include "pliant/world.h"
+#include "solver/contact_solver.h"
 #include "solver/residual.h"
 #include "solver/sweeps/scratch.h"
 
@@ -51,6 +52,7 @@ struct Workspace {
   SweepScratch sweep;
   std::unique_ptr<SurfaceContact>
       pairs;                     ///< null where nothing that moves can touch anything else that is made of triangles
+  ContactSolver contact_solver;  ///< of the contacts of `pairs`
   bool look_for_tangles = true;  ///< at the next frame: the first, or after a State was put back
   ResidualScratch residual;      ///< where iterations stop at a tolerance
 };

@@ -38,7 +38,7 @@ struct Tiny {
   }
   /// How far above a contact's plane its particle is.
   float height(const Contact& contact) const {
-    const Record& d = displacements[static_cast<std::size_t>(contact.particle)];
+    const Record& d = displacements[static_cast<std::size_t>(contact.point[0])];
     return contact.gap + dot(contact.normal, Vec3f{d.x, d.y, d.z});
   }
   std::vector<Contact> contacts(const std::vector<Collider>& colliders, float h, const PointBounds& within) {
@@ -120,7 +120,7 @@ TEST(Contacts, BoundsSpareWorkAndNoContact) {
     std::size_t next = 0;
     for (const Contact& contact : all) {
       const bool same =
-          next < few.size() && few[next].particle == contact.particle && few[next].collider == contact.collider;
+          next < few.size() && few[next].point[0] == contact.point[0] && few[next].collider == contact.collider;
       if (same) ++next;
       EXPECT_TRUE(same || tiny.height(contact) > -1e-6f) << "round " << round << ": a contact was left out";
     }

@@ -52,7 +52,7 @@ TEST(Pairs, OfAVertexOfManyNeighboursAreFound) {
   system.begin_frame(positions.data(), true);
   system.detect(executor, {positions.data(), remainders.data(), displacements.data(), 1e-3f});
   const std::array<std::int32_t, 4> wanted{spokes, 0, 15, 16};
-  const auto is_wanted = [&](const PairContact& contact) { return contact.vertex == wanted; };
+  const auto is_wanted = [&](const Contact& contact) { return contact.point == wanted; };
   EXPECT_EQ(std::count_if(system.contacts().begin(), system.contacts().end(), is_wanted), 1);
 }
 
@@ -105,7 +105,7 @@ TEST(Pairs, OfASheetThatFoldsAreFoundInTime) {
     system.detect(executor, particles);
     ASSERT_EQ(system.contacts().size(), fresh.contacts().size()) << "substep " << substep;
     for (std::size_t i = 0; i < fresh.contacts().size(); ++i)
-      ASSERT_EQ(system.contacts()[i].vertex, fresh.contacts()[i].vertex) << "substep " << substep;
+      ASSERT_EQ(system.contacts()[i].point, fresh.contacts()[i].point) << "substep " << substep;
     most = std::max(most, fresh.contacts().size());
     system.filter(executor, particles);
     for (std::size_t i = 0; i < positions.size(); ++i) {

@@ -129,7 +129,7 @@ class Soup {
     system_.detect(executor_, particles);
     check_contacts();
     most_contacts = std::max(most_contacts, system_.contacts().size());
-    system_.project(particles);
+    for (Contact& contact : system_.contacts()) project_contact(contact, displacements_.data());
     // As constraints would: something else moves them, too.
     for (std::size_t i = 0; i < positions_.size(); ++i)
       if (positions_[i].w > 0 && random() % 4 == 0) disturb(displacements_[i], random_place(random, 4 * jitter * h));
@@ -185,7 +185,7 @@ class Soup {
     using Key = std::array<std::int32_t, 4>;
     // A vertex and a triangle may have the same four as two edges.
     std::map<Key, int> found, wanted;
-    for (const PairContact& contact : system_.contacts()) ASSERT_LE(++found[contact.vertex], 2) << "twice";
+    for (const Contact& contact : system_.contacts()) ASSERT_LE(++found[contact.point], 2) << "twice";
     for (const PairStencil& pair : pairs_) {
       Record starts[4], ends[4];
       find_path(pair, starts, ends);
@@ -207,7 +207,7 @@ class Soup {
     fresh.detect(executor_, particles);
     ASSERT_EQ(fresh.contacts().size(), system_.contacts().size());
     for (std::size_t i = 0; i < fresh.contacts().size(); ++i)
-      ASSERT_EQ(fresh.contacts()[i].vertex, system_.contacts()[i].vertex) << "in the same order";
+      ASSERT_EQ(fresh.contacts()[i].point, system_.contacts()[i].point) << "in the same order";
     moved = solved;
     fresh.filter(executor_, particles);
     for (std::size_t i = 0; i < moved.size(); ++i)
@@ -374,7 +374,7 @@ TEST(Pairs, AreLookedForAnewFarFromWhereTheyWere) {
     };
     const auto step = [&](SurfaceContact& system) {
       system.detect(executor, particles);
-      system.project(particles);
+      for (Contact& contact : system.contacts()) project_contact(contact, particles.displacements);
       system.filter(executor, particles);
       return system.counts().truncated;
     };
@@ -422,7 +422,7 @@ TEST(Pairs, OutliveWhatIsNotFinite) {
       displacements.assign(positions.size(), Record{0, -0.01f, 0, 0});
       if (spoilt) displacements[7] = {0, bad, 0, 0};
       system.detect(executor, particles);
-      system.project(particles);
+      for (Contact& contact : system.contacts()) project_contact(contact, particles.displacements);
       system.filter(executor, particles);
       if (!spoilt) {
         for (const Record& d : displacements) ASSERT_TRUE(std::isfinite(d.y));

@@ -74,13 +74,13 @@ TEST(MultigridPairs, AreSolvedWithTheirObjectsAsOne) {
 /// What a contact's springs did is kept as its push and friction, for the projection to go on from: the force times w h^2.
 TEST(MultigridPairs, KeepTheirForcesAsPushes) {
   const Corrected found(two_sheets(), 100);
-  const std::vector<PairContact>& contacts = found.workspace.pairs->contacts();
+  const std::vector<Contact>& contacts = found.workspace.pairs->contacts();
   double pushed = 0, expected = 0;
   for (const PairSpring& s : found.workspace.sweep.pair_springs) {
-    const PairContact& contact = contacts[std::size_t(s.contact)];
-    double apart = double(contact.gap) - double(contact.thickness), mobility = 0;
+    const Contact& contact = contacts[std::size_t(s.contact)];
+    double apart = double(contact.gap), mobility = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-      const std::size_t v = std::size_t(contact.vertex[i]);
+      const std::size_t v = std::size_t(contact.point[i]);
       const Record& d = found.workspace.displacements[v];
       apart +=
           double(contact.weight[i]) * dot(convert<double>(contact.normal), Vec3d{double(d.x), double(d.y), double(d.z)});
@@ -95,10 +95,10 @@ TEST(MultigridPairs, KeepTheirForcesAsPushes) {
 }
 
 /// By how much a contact's sides overlap at the end of the displacements [m].
-double overlap_of(const PairContact& contact, const Corrected& found) {
-  double apart = double(contact.gap) - double(contact.thickness);
+double overlap_of(const Contact& contact, const Corrected& found) {
+  double apart = double(contact.gap);
   for (std::size_t i = 0; i < 4; ++i) {
-    const Record& d = found.workspace.displacements[std::size_t(contact.vertex[i])];
+    const Record& d = found.workspace.displacements[std::size_t(contact.point[i])];
     apart += double(contact.weight[i]) * dot(convert<double>(contact.normal), Vec3d{double(d.x), double(d.y), double(d.z)});
   }
   return std::max(0., -apart);
@@ -111,8 +111,8 @@ TEST(MultigridPairs, AreSweptBetweenThereAndBack) {
   const Corrected corrected(loose, 3), iterated(loose, 3, iterate_multigrid);
   ASSERT_TRUE(corrected.workspace.sweep.pair_springs.empty()) << "or the correction pushes them too";
   double before = 0, after = 0, pushed = 0;
-  for (const PairContact& contact : corrected.workspace.pairs->contacts()) before += overlap_of(contact, corrected);
-  for (const PairContact& contact : iterated.workspace.pairs->contacts()) {
+  for (const Contact& contact : corrected.workspace.pairs->contacts()) before += overlap_of(contact, corrected);
+  for (const Contact& contact : iterated.workspace.pairs->contacts()) {
     after += overlap_of(contact, iterated);
     pushed += double(contact.push);
   }

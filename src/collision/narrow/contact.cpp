@@ -4,7 +4,6 @@
 #include <iterator>
 #include <utility>
 
-#include "constraints/plane_contact.h"
 #include "math/motion.h"
 
 namespace pliant {
@@ -143,7 +142,9 @@ void find_contact(const ContactSearch& search, int i, int number, float thicknes
                                                        : surface_plane(collider.shape, from, to, thickness, a.h);
   if (!plane.found) return;
   Contact contact;
-  contact.particle = i;
+  contact.point = {i, i, i, i};
+  contact.weight = contact.share = {1, 0, 0, 0};
+  contact.thickness = thickness;
   contact.collider = number;
   contact.normal = rotate(collider.after.rotation, plane.normal);
   // The plane in the world: through the same point, at the same distance from it.
@@ -154,6 +155,8 @@ void find_contact(const ContactSearch& search, int i, int number, float thicknes
   contact.static_friction = sqrt(search.object.static_friction * collider.static_friction);
   contact.kinetic_friction = sqrt(search.object.kinetic_friction * collider.kinetic_friction);
   contact.restitution = max(search.object.restitution, collider.restitution);
+  const Record& r = a.remainders[i];
+  contact.carried = {r.x, r.y, r.z};
   const Vec3f velocity = Vec3f{v.x, v.y, v.z} + (a.gravity_begun - a.gravity_step);  // before this substep's gravity
   contact.approach = dot(contact.normal, velocity - contact.surface_motion * a.inverse_h);
   contacts.push_back(contact);
@@ -201,45 +204,24 @@ void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near,
 
 void merge_contacts(const std::vector<Contact>& first, const std::vector<Contact>& second, std::vector<Contact>& all) {
   all.clear();
-  const auto place = [](const Contact& c) { return std::make_pair(c.collider, c.particle); };
+  const auto place = [](const Contact& c) { return std::make_pair(c.collider, c.point[0]); };
   std::set_union(first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(all),
                  [&](const Contact& a, const Contact& b) { return place(a) < place(b); });
 }
 
 void project_contacts(std::vector<Contact>& contacts, const SweepArguments& a) {
-  for (Contact& contact : contacts) {
-    Record& d = a.displacements[contact.particle];
-    Vec3f x[1] = {{d.x, d.y, d.z}}, gradient[1];
-    const float c = PlaneContact::evaluate(x, {contact.normal, -contact.gap}, gradient);
-    if (c < 0) {
-      x[0] -= gradient[0] * c;
-      contact.push -= c;
-    }
-    if (contact.push > 0) {
-      // The sum of the tangential corrections that would keep the particle with the surface, cut to the cone of friction.
-      const Record& r = a.remainders[contact.particle];
-      const Vec3f motion = x[0] - Vec3f{r.x, r.y, r.z} - contact.surface_motion;
-      const Vec3f slip = motion - contact.normal * dot(contact.normal, motion);
-      Vec3f friction = contact.friction - slip;
-      const float wanted = length(friction);
-      if (wanted > contact.static_friction * contact.push) {
-        friction = friction * (contact.kinetic_friction * contact.push / max(wanted, 1e-30f));
-      }
-      x[0] += friction - contact.friction;
-      contact.friction = friction;
-    }
-    d = {x[0].x, x[0].y, x[0].z, 0};
-  }
+  for (Contact& contact : contacts) project_point_contact(contact, a.displacements);
 }
 
 void respond(const std::vector<Contact>& contacts, const Vec3f& gravity, const AdvanceArguments& a) {
   const float slow = 2 * length(a.gravity_step);
   for (const Contact& contact : contacts) {
     if (!(contact.push > 0)) continue;
-    Record& v = a.velocities[contact.particle];
+    Record& v = a.velocities[contact.point[0]];
     const Vec3f relative = Vec3f{v.x, v.y, v.z} + gravity - contact.surface_motion * a.inverse_h;
-    const float wanted = -contact.approach > slow ? -contact.restitution * contact.approach : 0.f;
-    const Vec3f change = contact.normal * (wanted - dot(contact.normal, relative));
+    const float separating = dot(contact.normal, relative);
+    const float wanted = separation_after(separating, contact.approach, contact.restitution, slow, true);
+    const Vec3f change = contact.normal * (wanted - separating);
     v = {v.x + change.x, v.y + change.y, v.z + change.z, 0};
   }
 }

@@ -9,6 +9,7 @@
 
 #include "collision/fields/collider_pose.h"
 #include "collision/fields/solid_field.h"
+#include "constraints/contact.h"
 #include "geometry/shapes.h"
 #include "model/model.h"
 #include "model/substep.h"
@@ -25,19 +26,6 @@ struct MovingCollider {
   BoundingBox<float> swept{};  ///< holds the shape and its thickness at both
   float thickness = 0;         ///< of the collider alone [m]
   float static_friction = 0, kinetic_friction = 0, restitution = 0;
-};
-
-/// A particle at a plane of a collider's surface.
-struct Contact {
-  int particle = 0;  ///< in the object's storage order
-  int collider = 0;
-  Vec3f normal{};  ///< unit, away from the collider
-  float gap = 0;   ///< of the particle's position above the plane: it is free where gap + normal . displacement >= 0 [m]
-  Vec3f surface_motion{};  ///< of the surface during the substep [m]
-  float static_friction = 0, kinetic_friction = 0, restitution = 0;
-  float approach = 0;  ///< normal velocity relative to the surface before the substep; negative where it comes closer [m/s]
-  float push = 0;      ///< sum of the normal corrections [m]
-  Vec3f friction{};    ///< sum of the tangential ones [m]
 };
 
 /// The colliders of a model between two times.

@@ -28,16 +28,16 @@ float kept_at_rest(const Neighbourhood& near, const PairStencil& pair, float* kn
 }
 
 void add_contact(const PairStencil& pair, const PairBatch& at, int lane, const PairMaterial& material,
-                 const PairParticles& particles, std::vector<PairContact>& contacts) {
-  PairContact contact = make_contact(pair, at, lane, material, particles.h);
-  if (material.restitution > 0)
-    contact.approach = approach_of(contact, particles.displacements, particles.remainders, particles.h);
+                 const PairParticles& particles, std::vector<Contact>& contacts) {
+  Contact contact = make_contact(pair, at, lane, material, particles.h);
+  complete_contact(contact, particles.positions, particles.remainders);
+  if (material.restitution > 0) contact.approach = approach_of(contact, particles.displacements, particles.h);
   contacts.push_back(contact);
 }
 
 /// A pair becomes a contact if its distance, less what it may fall by, is below what it keeps.
 void detect_pair(const Detection& d, const ClusterSides& sides, const PairLanes& lanes, int lane, float* at_rest,
-                 std::vector<PairContact>& contacts) {
+                 std::vector<Contact>& contacts) {
   const ClusterPair& clusters = d.near.pair_of(sides);
   const float thickness = clusters.material.thickness, distance = lanes.at.distance[lane] * (1 - 1e-5f),
               nearest = distance - lanes.paths.falls[lane];
@@ -55,7 +55,7 @@ void measure(const Detection& d, const ClusterSides& sides, PairLanes& lanes) {
   find_paths(d.near, sides, d.particles, lanes);
 }
 
-void detect_list(const Detection& d, NearList& list, std::vector<std::int32_t>& near, std::vector<PairContact>& contacts) {
+void detect_list(const Detection& d, NearList& list, std::vector<std::int32_t>& near, std::vector<Contact>& contacts) {
   collect_near(d.near, list, cull_slack * d.near.pair_of(list).material.thickness, near);
   const float spent = list.least.spent(d.near.odometer(list));
   PairLanes lanes;
@@ -73,7 +73,7 @@ void detect_list(const Detection& d, NearList& list, std::vector<std::int32_t>& 
   }
 }
 
-void detect_block(const Detection& d, const StaticGroup& group, int block, std::vector<PairContact>& contacts) {
+void detect_block(const Detection& d, const StaticGroup& group, int block, std::vector<Contact>& contacts) {
   PairLanes lanes;
   lanes.stencils = d.near.static_pairs.blocks[block];
   measure(d, group, lanes);
@@ -82,7 +82,7 @@ void detect_block(const Detection& d, const StaticGroup& group, int block, std::
 }
 
 /// Measures all blocks of a group that are due in some substeps, so that the next substep does not come back for them.
-void detect_group(const Detection& d, StaticGroup& group, std::vector<PairContact>& contacts) {
+void detect_group(const Detection& d, StaticGroup& group, std::vector<Contact>& contacts) {
   const ClusterPair& clusters = d.near.pair_of(group);
   const float within = cull_slack * clusters.material.thickness, next = clusters.odometer.next;
   if (group.least.after(clusters.odometer) > within) return;
@@ -103,7 +103,7 @@ void detect_group(const Detection& d, StaticGroup& group, std::vector<PairContac
 }  // namespace
 
 void ContactDetector::detect(Executor& executor, Neighbourhood& near, const PairParticles& particles,
-                             FunctionRef<bool(const PairStencil&)> is_exempt, std::vector<PairContact>& contacts) {
+                             FunctionRef<bool(const PairStencil&)> is_exempt, std::vector<Contact>& contacts) {
   contacts.clear();
   scratch_.resize(near.tasks.size());
   const Detection d{near, particles, is_exempt};

@@ -13,13 +13,13 @@ class ContactDetector {
  public:
   /// Contacts of the substep, static pairs first, each in the order of clusters. Pairs for which `is_exempt` holds make none.
   void detect(Executor& executor, Neighbourhood& near, const PairParticles& particles,
-              FunctionRef<bool(const PairStencil&)> is_exempt, std::vector<PairContact>& contacts);
+              FunctionRef<bool(const PairStencil&)> is_exempt, std::vector<Contact>& contacts);
 
  private:
   /// What one thread works with.
   struct Scratch {
     std::vector<std::int32_t> near;
-    std::vector<PairContact> of_groups, of_lists;
+    std::vector<Contact> of_groups, of_lists;
   };
 
   std::vector<Scratch> scratch_;

@@ -10,11 +10,11 @@ namespace {
 constexpr float least_share_kept = 0.9f;
 
 /// Whether a side that cannot be pushed moves by more than the thickness may lack without harm.
-bool is_driven(const PairContact& contact, const PairParticles& particles) {
+bool is_driven(const Contact& contact, const PairParticles& particles) {
   float way = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Record& d = particles.displacements[contact.vertex[i]];
-    if (!(particles.positions[contact.vertex[i]].w > 0))
+    const Record& d = particles.displacements[contact.point[i]];
+    if (!(particles.positions[contact.point[i]].w > 0))
       way += contact.weight[i] * dot(contact.normal, Vec3f{d.x, d.y, d.z});
   }
   return -way > (1 - least_share_kept) * contact.thickness;
@@ -78,43 +78,39 @@ void SurfaceContact::detect(Executor& executor, const PairParticles& particles) 
       executor, lists_.neighbourhood(), particles, [&](const PairStencil& pair) { return is_exempt(pair); }, contacts_);
 }
 
-void SurfaceContact::project(const PairParticles& particles) {
-  for (PairContact& contact : contacts_)
-    project_contact(contact, particles.positions, particles.remainders, particles.displacements);
-}
-
 /// Contacts behind the driven one matter as much: a vertex whose step the filter truncates for one of them is no longer out of the way.
 bool SurfaceContact::is_overrun(const PairParticles& particles) const {
-  const auto lacks = [&](const PairContact& contact) {
+  const auto lacks = [&](const Contact& contact) {
     return overlap_of(contact, particles.displacements) > (1 - least_share_kept) * contact.thickness;
   };
-  const auto is_driven_here = [&](const PairContact& contact) { return is_driven(contact, particles); };
+  const auto is_driven_here = [&](const Contact& contact) { return is_driven(contact, particles); };
   return std::any_of(contacts_.begin(), contacts_.end(), is_driven_here) &&
          std::any_of(contacts_.begin(), contacts_.end(), lacks);
 }
 
 void SurfaceContact::measure_overlaps(const PairParticles& particles) {
   deepest_ = 0;
-  for (const PairContact& contact : contacts_)
+  for (const Contact& contact : contacts_)
     deepest_ = std::max(deepest_, static_cast<double>(overlap_of(contact, particles.displacements)));
 }
 
-void SurfaceContact::respond(const Record* positions, Record* velocities, float slow,
+void SurfaceContact::respond(const Contact& contact, const Record* positions, Record* velocities, float slow,
                              FunctionRef<Vec3f(int body)> gravity) const {
-  for (const PairContact& contact : contacts_) {
-    if (!(contact.push > 0)) continue;
-    Vec3f missing{};
-    for (int i = 0; i < 4; ++i)
-      if (positions[contact.vertex[i]].w > 0) missing += gravity(model_.vertex_body[contact.vertex[i]]) * contact.weight[i];
-    respond_to_contact(contact, positions, velocities, {missing, slow});
-  }
+  if (!(contact.push > 0)) return;
+  Vec3f missing{};
+  for (int i = 0; i < 4; ++i)
+    if (positions[contact.point[i]].w > 0) missing += gravity(model_.vertex_body[contact.point[i]]) * contact.weight[i];
+  respond_to_contact(contact, velocities, {missing, slow});
+}
+
+void SurfaceContact::limit_untangling(Record* velocities, FunctionRef<Vec3f(int body)> gravity) const {
   if (untangler_) untangler_->calm(model_.untangling_speed, velocities, gravity);
 }
 
 // ---------------------------------------------------------------- filter
 
 void SurfaceContact::filter(Executor& executor, const PairParticles& particles) {
-  pushing_ = std::count_if(contacts_.begin(), contacts_.end(), [](const PairContact& c) { return c.push > 0; });
+  pushing_ = std::count_if(contacts_.begin(), contacts_.end(), [](const Contact& c) { return c.push > 0; });
   const auto exempt = [&](const PairStencil& pair) { return is_exempt(pair); };
   is_bounded_ = model_.filter ? filter_.apply(executor, lists_, particles, exempt) : lists_.measure(executor, particles);
   if (is_bounded_) lists_.advance();

@@ -39,7 +39,6 @@ class SurfaceContact {
 
   /// Contacts of the substep from predicted displacements.
   void detect(Executor& executor, const PairParticles& particles);
-  void project(const PairParticles& particles);
   /// Whether a kinematic collider moves on into what contacts have not yet moved out of its way, so that the filter might not keep them
   /// apart: then they should be projected again, which passes a push on to what lies behind.
   bool is_overrun(const PairParticles& particles) const;
@@ -47,16 +46,19 @@ class SurfaceContact {
   void filter(Executor& executor, const PairParticles& particles);
   /// After a frame's last substep: how much of their thickness contacts lack.
   void measure_overlaps(const PairParticles& particles);
-  /// After a substep. `gravity` is what velocities of a body's free particles lack: within a frame, that of the frame [m/s].
-  /// Approaches no faster than `slow` are rest [m/s].
-  void respond(const Record* positions, Record* velocities, float slow, FunctionRef<Vec3f(int body)> gravity) const;
+  /// After a substep, to one of contacts(). `gravity` is what velocities of a body's free particles lack: within a frame, that of the
+  /// frame [m/s]. Approaches no faster than `slow` are rest [m/s].
+  void respond(const Contact& contact, const Record* positions, Record* velocities, float slow,
+               FunctionRef<Vec3f(int body)> gravity) const;
+  /// Then limits the speed of what is being led apart.
+  void limit_untangling(Record* velocities, FunctionRef<Vec3f(int body)> gravity) const;
 
   /// Whether initially intersecting surfaces are led apart in this frame: contacts are then to be found before constraints are projected.
   bool untangles() const { return untangler_ && untangler_->calms(); }
 
   PairCounts counts() const;
-  const std::vector<PairContact>& contacts() const { return contacts_; }
-  std::vector<PairContact>& contacts() { return contacts_; }
+  const std::vector<Contact>& contacts() const { return contacts_; }
+  std::vector<Contact>& contacts() { return contacts_; }
   /// Edges and triangles that intersect: left out until they are apart.
   const std::vector<Intersection>& intersecting() const { return intersections_.found(); }
   const Triangle& triangle(int number) const { return model_.elements.triangles[number]; }
@@ -73,7 +75,7 @@ class SurfaceContact {
   StepFilter filter_;
   InitialIntersections intersections_;
   std::unique_ptr<Untangler> untangler_;  ///< where the model asks for it
-  std::vector<PairContact> contacts_;
+  std::vector<Contact> contacts_;
   bool is_bounded_ = true;
   std::int64_t pushing_ = 0, rebuilds_before_ = 0;
   double deepest_ = 0;

@@ -107,10 +107,10 @@ void extrapolate(float weight, const Record* older, Record* displacements, int f
 void extrapolate_tile(float weight, const Tile& tile, const Record* older, Record* displacements, TileScratch& scratch) {
   std::vector<Record>& touching = scratch.touching;
   touching.clear();
-  for (const Contact& contact : scratch.contacts) touching.push_back(displacements[contact.particle]);
+  for (const Contact& contact : scratch.contacts) touching.push_back(displacements[contact.point[0]]);
   extrapolate(weight, older, displacements, tile.first_particle, tile.last_particle);
   for (std::size_t i = 0; i < touching.size(); ++i) {
-    if (scratch.contacts[i].push > 0) displacements[scratch.contacts[i].particle] = touching[i];
+    if (scratch.contacts[i].push > 0) displacements[scratch.contacts[i].point[0]] = touching[i];
   }
 }
 

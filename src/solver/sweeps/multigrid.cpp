@@ -53,7 +53,6 @@ void correct_multigrid(Substep& s, bool first) {
   if (first) {
     clear_multigrid_multipliers(s);
     add_multigrid_contacts(s);
-    add_multigrid_pairs(s);
     make_multigrid_groups(s);
   }
   const MultigridGroups& groups = s.work.sweep.multigrid_groups;
@@ -66,7 +65,6 @@ void correct_multigrid(Substep& s, bool first) {
     if (!s.model.objects[o].multigrid.levels.empty()) move(s, static_cast<int>(o), first);
   if (!first) return;
   keep_multigrid_pushes(s);
-  keep_multigrid_pair_pushes(s);
 }
 
 void iterate_multigrid(Substep& s, bool first) {

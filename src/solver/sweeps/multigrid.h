@@ -31,16 +31,20 @@ struct MultigridObject {
   bool is_made = true;  ///< whether the change was: what was not has done nothing, and leaves no multipliers and no pushes
 };
 
-/// A contact among surfaces (collision/pair_contact.h) as springs between the closest points of its two sides.
-struct PairSpring {
+/// A contact as two springs between its sides: along the normal, and across it no stiffer than Coulomb allows.
+struct ContactSpring {
+  float depth = 0;              ///< negative where the sides overlap [m]
+  float along = 0, across = 0;  ///< [N/m]
+  Vec3f slip{};                 ///< of one side over the other since the substep's start [m]
+};
+
+/// A contact among surfaces (constraints/contact.h) as springs between the closest points of its two sides.
+struct PairSpring : ContactSpring {
   std::int32_t contact = 0;              ///< its number
   std::array<std::int32_t, 4> object{};  ///< of each particle; -1: one that this correction does not move
   std::array<std::int32_t, 4> particle{};
   std::array<float, 4> weight{};
   Vec3f normal{};
-  float depth = 0;              ///< negative where it reaches in [m]
-  float along = 0, across = 0;  ///< the normal and across it [N/m]
-  Vec3f slip{};                 ///< of one side over the other since the substep's start [m]
 };
 
 /// Its stiffness along and across, xx yy zz xy xz yz [N/m].
@@ -73,10 +77,8 @@ void prepare_multigrid(const Model& model, std::vector<MultigridObject>& objects
 // the friction that these have exerted, for the contacts' own projection to go on from.
 void add_multigrid_contacts(Substep& s);
 void keep_multigrid_pushes(Substep& s);
-// Of contacts among surfaces, in multigrid_pairs.cpp, likewise; and what such a spring adds to `image`, beside the rows of
-// its particles that have the other side held, where `direction` moves both. Returns what it adds to direction . image.
-void add_multigrid_pairs(Substep& s);
-void keep_multigrid_pair_pushes(Substep& s);
+/// What the spring of a contact among surfaces adds to `image`, beside the rows of its particles that have the other side held, where
+/// `direction` moves both. Returns what it adds to direction . image.
 double couple_pair(const PairSpring& spring, std::vector<MultigridObject>& objects);
 // In multigrid_group.cpp: the groups of all objects with levels, in the order of each group's first; and conjugate gradients for
 // one, after which its right-hand sides are what is left of them.

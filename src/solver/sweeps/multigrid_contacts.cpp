@@ -3,6 +3,10 @@
 //
 // A spring is no friction: what it held too much is given back by the contacts' own projection, which goes on from the pushes
 // and the friction that are read off the solution here.
+//
+// A contact with a primitive touches one row. A contact among surfaces couples objects, and far parts of one, which no hierarchy
+// knows: there each side sees the other held where it is predicted. Conjugate gradients see the contact as it is (couple_pair), and put
+// right what that gets wrong.
 #include <algorithm>
 
 #include "solver/substep.h"
@@ -12,70 +16,64 @@ namespace pliant {
 
 namespace {
 
-/// A contact is this many times as stiff as a spring beside it.
+/// Stiffness of a contact with a primitive, over that of the springs beside it.
 constexpr float contact_stiffness = 10;
+/// The same among surfaces. Enough to tell the correction that there is something; where contacts are stiffer, the few steps go
+/// into them, and cloth in folds stretches more and comes to rest later.
+constexpr float pair_stiffness = 0.2f;
 
-/// A contact's springs about a displacement of its particle.
-struct ContactSprings {
-  float depth = 0;              ///< negative where it reaches in [m]
-  float along = 0, across = 0;  ///< the normal and across it [N/m]
-  Vec3f slip{};                 ///< over the surface since the substep's start [m]
-};
+Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
 
-/// Against sliding mu m depth / h^2 at most: the friction that the particle's own fall into the surface allows.
-ContactSprings springs_of(const Contact& contact, const SweepArguments& a, const Vec3f& moved, float stiffness) {
-  const Record& r = a.remainders[contact.particle];
-  const float w = a.positions[contact.particle].w;
-  ContactSprings springs;
-  springs.depth = contact.gap + dot(contact.normal, moved);
-  if (!(springs.depth < 0) || !(w > 0)) return springs;
-  const Vec3f motion = moved - Vec3f{r.x, r.y, r.z} - contact.surface_motion;
-  springs.slip = motion - contact.normal * dot(contact.normal, motion);
-  springs.along = stiffness;
-  const float held = contact.kinetic_friction * a.inverse_h2 / w * -springs.depth;
-  springs.across = min(min(contact.kinetic_friction, 1.f) * stiffness, held / max(length(springs.slip), 1e-20f));
-  return springs;
+/// The springs of a contact whose relative displacement is `moved`; both are 0 where it does not touch. Friction holds mu m depth / h^2
+/// at most, m = 1 / inverse_mass being the mass that the contact moves.
+ContactSpring spring_of(const Contact& contact, const Vec3f& moved, float inverse_mass, float inverse_h2, float stiffness) {
+  ContactSpring s;
+  s.depth = contact.gap + dot(contact.normal, moved);
+  if (!(s.depth < 0) || !(inverse_mass > 0)) return s;
+  const Vec3f motion = moved - contact.carried - contact.surface_motion;
+  s.slip = motion - contact.normal * dot(contact.normal, motion);
+  s.along = stiffness;
+  const float held = contact.kinetic_friction * inverse_h2 / inverse_mass * -s.depth;
+  s.across = min(min(contact.kinetic_friction, 1.f) * stiffness, held / max(length(s.slip), 1e-20f));
+  return s;
 }
 
-Vec3f displacement_of(const Record* records, int particle) {
-  return {records[particle].x, records[particle].y, records[particle].z};
-}
-
-/// Adds along n n^T + across (I - n n^T) to the particle's row, against depth and slip.
-void add_contact(const Contact& contact, const SweepArguments& a, float stiffness, MultigridObject& work) {
-  const Vec3f n = contact.normal;
-  const ContactSprings s = springs_of(contact, a, displacement_of(a.displacements, contact.particle), stiffness);
-  if (!(s.along > 0)) return;
-  const Vec3f force = n * (-s.along * s.depth) - s.slip * s.across;
+/// along n n^T + across (I - n n^T): xx yy zz xy xz yz.
+std::array<float, 6> block_of(const ContactSpring& s, const Vec3f& n) {
   const float k = s.along - s.across;
-  const int place = lane_place(contact.particle), batch = place / batch_width;
+  return {k * n.x * n.x + s.across,
+          k * n.y * n.y + s.across,
+          k * n.z * n.z + s.across,
+          k * n.x * n.y,
+          k * n.x * n.z,
+          k * n.y * n.z};
+}
+
+Vec3f force_of(const ContactSpring& s, const Vec3f& n) { return n * (-s.along * s.depth) - s.slip * s.across; }
+
+/// Adds a particle's part of a spring to its row: the block that holds it where the other side is held, and the force.
+void add_to_row(MultigridObject& work, int particle, float weight, const std::array<float, 6>& block, const Vec3f& force) {
+  const int at = lane_place(particle), batch = at / batch_width;
   float* extra = work.extra.data() + static_cast<std::ptrdiff_t>(batch) * 9 * batch_width;
   if (work.has_extra[batch] == 0) std::fill(extra, extra + 9 * batch_width, 0.f);
   work.has_extra[batch] = 1;
-  const float add[9] = {k * n.x * n.x + s.across,
-                        k * n.y * n.y + s.across,
-                        k * n.z * n.z + s.across,
-                        k * n.x * n.y,
-                        k * n.x * n.z,
-                        k * n.y * n.z,
-                        force.x,
-                        force.y,
-                        force.z};
-  for (int c = 0; c < 9; ++c) extra[c * batch_width + place % batch_width] += add[c];
+  extra += at % batch_width;
+  for (int c = 0; c < 6; ++c) extra[c * batch_width] += abs(weight) * block[c];
+  extra[6 * batch_width] += weight * force.x;
+  extra[7 * batch_width] += weight * force.y;
+  extra[8 * batch_width] += weight * force.z;
 }
 
-/// What the springs have done by now, as the corrections that projections would have made.
-void keep_push(const SweepArguments& a, const Record* change, float stiffness, Contact& contact) {
-  const Vec3f now = displacement_of(a.displacements, contact.particle), by = displacement_of(change, contact.particle);
-  const ContactSprings s = springs_of(contact, a, now - by, stiffness);
-  if (!(s.along > 0)) return;
-  const float moves = a.positions[contact.particle].w / a.inverse_h2;
-  const float deeper = dot(contact.normal, by);
+/// What the springs have done once the relative displacement has changed `by`, as the corrections that projections would have made.
+void keep_push(const ContactSpring& s, const Vec3f& by, float inverse_mass, float inverse_h2, Contact& contact) {
+  const float moves = inverse_mass / inverse_h2, deeper = dot(contact.normal, by);
   contact.push += max(0.f, -(s.depth + deeper) * s.along * moves);
   const Vec3f friction = (s.slip + by - contact.normal * deeper) * (s.across * moves);
   const float size = length(friction), most = contact.kinetic_friction * -s.depth;
   contact.friction -= friction * (size > most ? most / size : 1.f);
 }
+
+// ---------------------------------------------------------------- with primitives
 
 /// visit(contact, stiffness, object) for every contact of objects that are corrected.
 template <class Visit>
@@ -85,25 +83,133 @@ void for_contacts(Substep& s, const Visit& visit) {
     const int o = model.tiles[task].object;
     if (model.objects[o].multigrid.levels.empty()) continue;
     const std::vector<float>& limits = model.objects[o].multigrid.stiffness_limit;
-    for (Contact& contact : s.work.tiles[task].contacts) visit(contact, contact_stiffness * limits[contact.particle], o);
+    for (Contact& contact : s.work.tiles[task].contacts) visit(contact, contact_stiffness * limits[contact.point[0]], o);
   }
+}
+
+void add_point_contacts(Substep& s) {
+  std::vector<MultigridObject>& objects = s.work.sweep.multigrid;
+  for (MultigridObject& object : objects) std::fill(object.has_extra.begin(), object.has_extra.end(), 0);
+  for_contacts(s, [&](const Contact& contact, float stiffness, int o) {
+    const SweepArguments a = arguments(s, o, false);
+    const int i = contact.point[0];
+    const ContactSpring spring =
+        spring_of(contact, vector_of(a.displacements[i]), a.positions[i].w, a.inverse_h2, stiffness);
+    if (spring.along > 0) add_to_row(objects[o], i, 1, block_of(spring, contact.normal), force_of(spring, contact.normal));
+  });
+}
+
+void keep_point_pushes(Substep& s) {
+  for_contacts(s, [&](Contact& contact, float stiffness, int o) {
+    const MultigridObject& work = s.work.sweep.multigrid[o];
+    if (!work.is_made) return;
+    const SweepArguments a = arguments(s, o, false);
+    const int i = contact.point[0];
+    const Vec3f now = vector_of(a.displacements[i]), by = vector_of(work.change[i]);
+    const float w = a.positions[i].w;
+    const ContactSpring spring = spring_of(contact, now - by, w, a.inverse_h2, stiffness);
+    if (spring.along > 0) keep_push(spring, by, w, a.inverse_h2, contact);
+  });
+}
+
+// ---------------------------------------------------------------- among surfaces
+
+float inverse_h2_of(const PairParticles& all) { return (1 / all.h) * (1 / all.h); }
+
+/// Whose particles they are, and how stiff the springs beside the contact are: the softer side's.
+bool place(const Model& model, const Contact& contact, const Record* positions, PairSpring& spring, float& stiffness) {
+  float limit[2] = {0, 0};
+  for (int i = 0; i < 4; ++i) {
+    const int v = contact.point[i];
+    const int o = static_cast<int>(std::upper_bound(model.first.begin(), model.first.end(), v) - model.first.begin()) - 1;
+    spring.object[i] = -1;
+    if (!(positions[v].w > 0) || model.objects[o].multigrid.levels.empty()) continue;
+    spring.object[i] = o;
+    spring.particle[i] = v - model.first[o];
+    float& side = limit[contact.weight[i] > 0 ? 0 : 1];
+    side = max(side, model.objects[o].multigrid.stiffness_limit[spring.particle[i]]);
+  }
+  stiffness = pair_stiffness * (limit[0] > 0 && limit[1] > 0 ? min(limit[0], limit[1]) : max(limit[0], limit[1]));
+  return stiffness > 0;
+}
+
+void add_pair_contacts(Substep& s) {
+  SweepScratch& scratch = s.work.sweep;
+  scratch.pair_springs.clear();
+  if (!s.has_pairs()) return;
+  const PairParticles all = all_particles(s);
+  const std::vector<Contact>& contacts = s.work.pairs->contacts();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = contacts[i];
+    PairSpring spring{};
+    float stiffness = 0;
+    if (!place(s.model, contact, all.positions, spring, stiffness)) continue;
+    static_cast<ContactSpring&>(spring) = spring_of(contact, relative(contact, all.displacements),
+                                                    inverse_mass_of(contact, all.positions), inverse_h2_of(all), stiffness);
+    if (!(spring.along > 0)) continue;
+    spring.contact = static_cast<std::int32_t>(i);
+    spring.weight = contact.weight;
+    spring.normal = contact.normal;
+    const std::array<float, 6> block = block_of(spring);
+    const Vec3f force = force_of(spring, spring.normal);
+    for (int k = 0; k < 4; ++k)
+      if (spring.object[k] >= 0)
+        add_to_row(scratch.multigrid[spring.object[k]], spring.particle[k], spring.weight[k], block, force);
+    scratch.pair_springs.push_back(spring);
+  }
+}
+
+void keep_pair_pushes(Substep& s) {
+  SweepScratch& scratch = s.work.sweep;
+  if (scratch.pair_springs.empty()) return;
+  const PairParticles all = all_particles(s);
+  const auto is_made = [&](int o) { return o < 0 || scratch.multigrid[o].is_made; };
+  for (const PairSpring& spring : scratch.pair_springs) {
+    if (!std::all_of(spring.object.begin(), spring.object.end(), is_made)) continue;
+    Vec3f by{};
+    for (int i = 0; i < 4; ++i)
+      if (spring.object[i] >= 0)
+        by += vector_of(scratch.multigrid[spring.object[i]].change[spring.particle[i]]) * spring.weight[i];
+    Contact& contact = s.work.pairs->contacts()[spring.contact];
+    keep_push(spring, by, inverse_mass_of(contact, all.positions), inverse_h2_of(all), contact);
+  }
+}
+
+Vec3f spring_force(const PairSpring& s, const Vec3f& by) {
+  return s.normal * ((s.along - s.across) * dot(s.normal, by)) + by * s.across;
 }
 
 }  // namespace
 
+std::array<float, 6> block_of(const PairSpring& s) { return block_of(s, s.normal); }
+
+double couple_pair(const PairSpring& s, std::vector<MultigridObject>& objects) {
+  Vec3f x[4], between{};
+  for (int i = 0; i < 4; ++i) {
+    if (s.object[i] < 0) continue;
+    x[i] = vector_of(objects[s.object[i]].direction[s.particle[i]]);
+    between += x[i] * s.weight[i];
+  }
+  double curvature = 0;
+  for (int i = 0; i < 4; ++i) {
+    if (s.object[i] < 0) continue;
+    const float side = s.weight[i] < 0 ? -1.f : 1.f;
+    const Vec3f y = spring_force(s, between * side - x[i]) * abs(s.weight[i]);
+    Record& r = objects[s.object[i]].image[s.particle[i]];
+    r = {r.x + y.x, r.y + y.y, r.z + y.z, 0};
+    curvature += static_cast<double>(dot(y, x[i]));
+  }
+  return curvature;
+}
+
 void add_multigrid_contacts(Substep& s) {
-  std::vector<MultigridObject>& objects = s.work.sweep.multigrid;
-  for (MultigridObject& object : objects) std::fill(object.has_extra.begin(), object.has_extra.end(), 0);
-  for_contacts(s, [&](const Contact& contact, float stiffness, int o) {
-    add_contact(contact, arguments(s, o, false), stiffness, objects[o]);
-  });
+  add_point_contacts(s);
+  add_pair_contacts(s);
 }
 
 void keep_multigrid_pushes(Substep& s) {
-  for_contacts(s, [&](Contact& contact, float stiffness, int o) {
-    const MultigridObject& work = s.work.sweep.multigrid[o];
-    if (work.is_made) keep_push(arguments(s, o, false), work.change.data(), stiffness, contact);
-  });
+  keep_point_pushes(s);
+  keep_pair_pushes(s);
 }
 
 }  // namespace pliant

@@ -1,0 +1,98 @@
+#include "solver/contact_solver.h"
+
+#include <algorithm>
+
+namespace pliant {
+
+namespace {
+
+/// The colour of contacts that found none.
+constexpr int tail_colour = 64;
+/// A thread is given so many contacts of a colour at once, whole batches; fewer are done sooner than told of.
+constexpr int contacts_a_task = 512;
+
+void project_sequentially(Contact* contacts, const std::int32_t* order, int first, int last, Record* displacements) {
+  for (int i = first; i < last; ++i) project_contact(contacts[order[i]], displacements);
+}
+
+}  // namespace
+
+const ContactKernels& contact_kernels_sequential() {
+  static constexpr ContactKernels kernels{project_sequentially};
+  return kernels;
+}
+
+void ContactColours::colour(const std::vector<Contact>& contacts, const Record* positions, std::size_t points) {
+  if (taken_.size() < points) taken_.resize(points, 0);
+  const std::size_t count = contacts.size();
+  colour_.resize(count);
+  start_.assign(tail_colour + 2, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& point = contacts[i].point;
+    std::uint64_t taken = 0;
+    bool moves[4];
+    for (int k = 0; k < 4; ++k) {
+      moves[k] = positions[point[k]].w > 0;
+      if (moves[k]) taken |= taken_[point[k]];
+    }
+    const int colour = ~taken != 0 ? __builtin_ctzll(~taken) : tail_colour;
+    colour_[i] = static_cast<std::uint8_t>(colour);
+    ++start_[colour + 1];
+    if (colour == tail_colour) continue;
+    for (int k = 0; k < 4; ++k)
+      if (moves[k]) taken_[point[k]] |= std::uint64_t{1} << colour;
+  }
+  for (int c = 0; c <= tail_colour; ++c) start_[c + 1] += start_[c];
+  order_.resize(count);
+  std::int32_t next[tail_colour + 1];
+  std::copy(start_.begin(), start_.end() - 1, next);
+  for (std::size_t i = 0; i < count; ++i) order_[next[colour_[i]]++] = static_cast<std::int32_t>(i);
+  for (const Contact& contact : contacts)
+    for (const std::int32_t point : contact.point) taken_[point] = 0;
+}
+
+void ContactSolver::begin(const ContactKernels& kernels, const std::vector<Contact>& contacts, const Record* positions,
+                          std::size_t points) {
+  kernels_ = &kernels;
+  colours_.colour(contacts, positions, points);
+}
+
+void ContactSolver::for_ranges(Executor& executor, const char* name, FunctionRef<void(int, int)> body,
+                               FunctionRef<void(int, int)> tail) const {
+  const std::vector<std::int32_t>& start = colours_.start();
+  const auto tasks = [&](int c) { return executor.threads() == 1 ? 1 : (start[c + 1] - start[c]) / contacts_a_task; };
+  for (int c = 0; c < tail_colour && start[c] < start.back();) {
+    if (const int shared = tasks(c); shared > 1) {
+      executor.parallel_for(name, shared, [&](int task) {
+        const int from = start[c] + task * contacts_a_task;
+        body(from, task + 1 == shared ? start[c + 1] : from + contacts_a_task);
+      });
+      ++c;
+      continue;
+    }
+    Stopwatch watch(executor.timings(), name);
+    for (; c < tail_colour && start[c] < start.back() && tasks(c) <= 1; ++c) body(start[c], start[c + 1]);
+  }
+  tail(start[tail_colour], start.back());
+}
+
+void ContactSolver::project(Executor& executor, std::vector<Contact>& contacts, Record* displacements) const {
+  if (contacts.empty()) return;
+  for_ranges(
+      executor, "solve: contacts among surfaces",
+      [&](int first, int last) { kernels_->project(contacts.data(), colours_.order().data(), first, last, displacements); },
+      [&](int first, int last) {
+        project_sequentially(contacts.data(), colours_.order().data(), first, last, displacements);
+      });
+}
+
+void ContactSolver::for_each(Executor& executor, const char* name, const std::vector<Contact>& contacts,
+                             FunctionRef<void(const Contact&)> answer) const {
+  if (contacts.empty()) return;
+  const auto range = [&](int first, int last) {
+    for (int i = first; i < last; ++i) answer(contacts[colours_.order()[i]]);
+  };
+  for_ranges(executor, name, range, range);
+}
+
+}  // namespace pliant

@@ -1,0 +1,55 @@
+// Contacts of a substep, projected on all threads.
+//
+// Contacts come in a total order. Each gets the first of 64 colours that none of its points has yet, in that order, so that two of
+// one colour share no point that moves; the few that find none are the tail, projected in order at the end. Colours depend on the
+// contacts alone: neither the number of threads nor the instruction set changes a bit.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "constraints/contact.h"
+#include "parallel/executor.h"
+#include "solver/contact_kernels.h"
+
+namespace pliant {
+
+/// Contacts by colour.
+class ContactColours {
+ public:
+  /// Colours contacts whose points are numbers below `points`; those without mass in `positions` may be shared.
+  void colour(const std::vector<Contact>& contacts, const Record* positions, std::size_t points);
+
+  /// Numbers of contacts, colour by colour, the tail last; ascending in each.
+  const std::vector<std::int32_t>& order() const { return order_; }
+  /// Where each colour begins in order(), and where the last one ends.
+  const std::vector<std::int32_t>& start() const { return start_; }
+
+ private:
+  std::vector<std::uint64_t> taken_;  ///< colours of each point; all 0 between calls
+  std::vector<std::uint8_t> colour_;  ///< of each contact
+  std::vector<std::int32_t> order_, start_;
+};
+
+/// Projects contacts and answers with restitution, colour by colour.
+class ContactSolver {
+ public:
+  /// Forgets the contacts of the substep before and colours these.
+  void begin(const ContactKernels& kernels, const std::vector<Contact>& contacts, const Record* positions,
+             std::size_t points);
+  /// Projects each contact once.
+  void project(Executor& executor, std::vector<Contact>& contacts, Record* displacements) const;
+  /// answer(contact) once for each contact, at the same time only for those that share no point that moves.
+  void for_each(Executor& executor, const char* name, const std::vector<Contact>& contacts,
+                FunctionRef<void(const Contact&)> answer) const;
+
+ private:
+  /// body(first, last) over the order of each colour, on several threads where it is large; then tail(first, last).
+  void for_ranges(Executor& executor, const char* name, FunctionRef<void(int, int)> body,
+                  FunctionRef<void(int, int)> tail) const;
+
+  const ContactKernels* kernels_ = nullptr;
+  ContactColours colours_;
+};
+
+}  // namespace pliant
