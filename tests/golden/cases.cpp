@@ -62,8 +62,30 @@ Scene scene_of(const SweepWay& way) {
   return scene;
 }
 
+namespace {
+
+/// Scenes of contact that take paths of their own: heightfields, a collider that deforms, distance grids, untangling.
+const char* const contact_scenes[] = {"contact/heightfield", "contact/sleeve", "contact/solids", "contact/untangle"};
+constexpr int contact_frames = 16;
+
+/// Grids as fine as the scene has them take seconds to make.
+constexpr float nodes_a_side = 12;
+
+void coarsen(MeshCollider& collider) {
+  if (collider.as != MeshCollider::As::distance_grid) return;
+  Vec3f low = collider.mesh.positions[0], high = low;
+  for (const Vec3f& p : collider.mesh.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const Vec3f size = high - low;
+  collider.grid_spacing = std::max({size.x, size.y, size.z}) / nodes_a_side;
+}
+
+}  // namespace
+
 std::vector<std::string> scene_names() {
-  std::vector<std::string> names;
+  std::vector<std::string> names(std::begin(contact_scenes), std::end(contact_scenes));
   for (const auto& entry : std::filesystem::directory_iterator(PLIANT_SOURCE_DIR "/scenes")) {
     if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
   }
@@ -86,7 +108,10 @@ std::vector<std::string> case_names() {
 Case make_case(const std::string& name) {
   for (const SweepWay& way : sweep_ways())
     if (name == sweep_prefix + way.name) return {name, scene_of(way), sweep_frames};
-  return {name, read_scene(PLIANT_SOURCE_DIR "/scenes/" + name + ".json"), scene_frames};
+  Case found{name, read_scene(PLIANT_SOURCE_DIR "/scenes/" + name + ".json"), scene_frames};
+  if (name.find('/') != std::string::npos) found.frames = contact_frames;
+  for (MeshCollider& collider : found.scene.mesh_colliders) coarsen(collider);
+  return found;
 }
 
 }  // namespace pliant::golden

@@ -17,26 +17,25 @@ namespace {
 
 using namespace pliant::golden;
 
-std::string run(const pliant::Scene& scene, const pliant::Settings& settings) {
-  return pliant::golden::run(scene, settings, scene_frames);
-}
-
 class Golden : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    scene_ = pliant::read_scene(PLIANT_SOURCE_DIR "/scenes/" + GetParam() + ".json");
-    golden_ = updating() ? run(scene_, scene_.settings) : read_hashes()[GetParam()];
+    const Case found = make_case(GetParam());
+    scene_ = found.scene;
+    frames_ = found.frames;
+    golden_ = updating() ? run(scene_, scene_.settings, frames_) : read_hashes()[GetParam()];
   }
   /// The golden hash, or why there is none.
   std::string hash_with(int threads, const std::string& isa = {}) const {
     pliant::Settings settings = scene_.settings;
     settings.threads = threads;
     settings.isa = isa;
-    return run(scene_, settings);
+    return run(scene_, settings, frames_);
   }
 
   pliant::Scene scene_;
   std::string golden_;
+  int frames_ = 0;
 };
 
 TEST_P(Golden, OnAnyNumberOfThreads) {
@@ -69,16 +68,16 @@ TEST_P(Golden, InTheReferenceSweep) {
     settings.sweep = pliant::Sweep::sequential;
     settings.isa.clear();
   }
-  EXPECT_EQ(run(scene_, settings), golden_);
+  EXPECT_EQ(run(scene_, settings, frames_), golden_);
 }
 
 TEST_P(Golden, AfterARestore) {
   pliant::World world(scene_);
-  for (int frame = 0; frame < scene_frames / 2; ++frame) (void)world.step(scene_.frame_time);
+  for (int frame = 0; frame < frames_ / 2; ++frame) (void)world.step(scene_.frame_time);
   const pliant::State middle = world.state();
   for (int frame = 0; frame < 2; ++frame) (void)world.step(scene_.frame_time);
   world.restore(middle);
-  for (int frame = scene_frames / 2; frame < scene_frames; ++frame) (void)world.step(scene_.frame_time);
+  for (int frame = frames_ / 2; frame < frames_; ++frame) (void)world.step(scene_.frame_time);
   EXPECT_EQ(world.state_hash(), golden_);
 }
 
@@ -95,8 +94,8 @@ TEST(GoldenFile, HoldsEverySceneAndSweepAndNoOther) {
   if (updating()) {
     std::ofstream file(hash_file);
     for (const std::string& name : names) {
-      const pliant::Scene scene = pliant::read_scene(PLIANT_SOURCE_DIR "/scenes/" + name + ".json");
-      file << name << " " << run(scene, scene.settings) << "\n";
+      const Case found = make_case(name);
+      file << name << " " << run(found.scene, found.scene.settings, found.frames) << "\n";
     }
     for (const auto& [name, hash] : sweep_hashes()) file << name << " " << hash << "\n";
   }
