@@ -141,6 +141,24 @@ float median_edge(const PairModel& model) {
 
 }  // namespace
 
+namespace {
+
+/// Free particles that may meet others: those of bodies that meet themselves, and of all where there are several such bodies.
+void add_free_points(const Model& model, PairModel& out, const std::vector<char>& meets_some) {
+  std::vector<int> bodies;
+  for (int o = 0; o < out.rules.bodies(); ++o) {
+    const CompiledObject& object = model.objects[o];
+    if (meets_some[o] != 0 && object.surface.triangles.empty() && object.lines.empty()) bodies.push_back(o);
+  }
+  if (bodies.size() == 1 && !out.rules.meet(bodies[0], bodies[0])) return;
+  for (const int o : bodies)
+    for (int i = 0; i < model.objects[o].particles; ++i)
+      if (model.objects[o].order[static_cast<std::size_t>(i)] < model.objects[o].user_particles)
+        out.free_points.push_back(model.first[o] + i);
+}
+
+}  // namespace
+
 std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& positions) {
   auto out = std::make_unique<PairModel>();
   out->rules = make_rules(model);
@@ -161,7 +179,8 @@ std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& po
     lines.insert(lines.end(), more.begin(), more.end());
     add_loose(model.objects[o], first, more, loose);
   }
-  if (triangles.empty() && lines.empty()) return nullptr;
+  add_free_points(model, *out, meets_some);
+  if (triangles.empty() && lines.empty() && out->free_points.empty()) return nullptr;
   out->elements = make_contact_elements(triangles, lines, loose, static_cast<int>(positions.size()));
   make_clusters(*out);
   out->radius = out->largest_thickness + skin_over_edge * median_edge(*out);

@@ -16,6 +16,8 @@ struct PairModel {
   std::vector<Record> rest;      ///< positions at the beginning
   ContactRules rules;            ///< of bodies: the objects and mesh colliders of the Model
   std::vector<int> vertex_body;  ///< of each particle
+  std::vector<int>
+      free_points;  ///< particles of bodies without triangles and lines, which meet one another as spheres; ascending
   /// Vertices of one body that lie together, some sixty-four, and the edges and triangles that begin at them.
   int clusters = 0;
   std::vector<int> vertex_cluster, edge_cluster, triangle_cluster, cluster_body;

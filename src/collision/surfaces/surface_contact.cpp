@@ -23,7 +23,7 @@ bool is_driven(const Contact& contact, const PairParticles& particles) {
 }  // namespace
 
 SurfaceContact::SurfaceContact(const PairModel& model, const PairKernels& kernels)
-    : model_(model), lists_(model, kernels), filter_(model), intersections_(model) {
+    : model_(model), lists_(model, kernels), points_(model), filter_(model), intersections_(model) {
   if (model.untangling_speed > 0) untangler_ = std::make_unique<Untangler>(model);
 }
 
@@ -76,6 +76,7 @@ void SurfaceContact::detect(Executor& executor, const PairParticles& particles) 
   lists_.update(executor, particles);
   detector_.detect(
       executor, lists_.neighbourhood(), particles, [&](const PairStencil& pair) { return is_exempt(pair); }, contacts_);
+  points_.detect(executor, particles, contacts_);
 }
 
 /// Contacts behind the driven one matter as much: a vertex whose step the filter truncates for one of them is no longer out of the way.

@@ -16,6 +16,7 @@
 
 #include "collision/filter/step_filter.h"
 #include "collision/narrow/contact_detector.h"
+#include "collision/narrow/point_contacts.h"
 #include "collision/near/near_lists.h"
 #include "collision/untangle/initial_intersections.h"
 #include "collision/untangle/untangle.h"
@@ -72,6 +73,7 @@ class SurfaceContact {
   const PairModel& model_;
   NearLists lists_;
   ContactDetector detector_;
+  PointContacts points_;
   StepFilter filter_;
   InitialIntersections intersections_;
   std::unique_ptr<Untangler> untangler_;  ///< where the model asks for it

@@ -1,0 +1,104 @@
+#include "collision/narrow/point_contacts.h"
+
+#include <algorithm>
+
+#include "math/vector.h"
+
+namespace pliant {
+
+namespace {
+
+/// What passes within so many thicknesses is a contact: other contacts may push it nearer within the substep.
+constexpr float reach_over_thickness = 1.25f;
+/// Packets of the tree that a thread is given at once.
+constexpr int packets_a_task = 32;
+
+Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
+
+/// A box around the way of a point, grown by half the distance at which two are looked at.
+BoxBounds swept_box(const Record& position, const Record& displacement, float thickness) {
+  const Vec3f from = vector_of(position), to = from + vector_of(displacement);
+  const Vec3f low = min(from, to), high = max(from, to);
+  const float grown = 0.5f * reach_over_thickness * thickness + 1e-6f * (largest(low) + largest(high));
+  return {low - Vec3f{grown, grown, grown}, high + Vec3f{grown, grown, grown}};
+}
+
+/// The share of a way x + t m after which it is within `distance` of the origin; x is farther, and the way comes nearer than that.
+float first_within(const Vec3f& x, const Vec3f& m, float distance) {
+  const float b = dot(x, m), c = dot(x, x) - distance * distance;
+  const float root = sqrt(max(b * b - dot(m, m) * c, 0.f));
+  return min(c / max(root - b, 1e-30f), 1.f);
+}
+
+}  // namespace
+
+bool find_point_contact(int i, int j, const PairMaterial& material, const PairParticles& particles, Contact& contact) {
+  const Record &p = particles.positions[i], &q = particles.positions[j];
+  if (!(p.w + q.w > 0)) return false;
+  const Vec3f x = vector_of(p) - vector_of(q);
+  const Vec3f m = vector_of(particles.displacements[i]) - vector_of(particles.displacements[j]);
+  const float thickness = material.thickness, distance = length(x), mm = dot(m, m);
+  const float closest = mm > 0 ? clamp(-dot(x, m) / mm, 0.f, 1.f) : 0.f;
+  const float least = length(x + m * closest);
+  if (!(least < reach_over_thickness * thickness)) return false;
+  float t = closest, kept = thickness;
+  if (distance <= thickness) {
+    t = 0;
+    kept = min(thickness, distance + largest_pair_separation_speed * particles.h);
+  } else if (least < thickness) {
+    t = first_within(x, m, thickness);
+  }
+  contact = {};
+  contact.normal = unit_or(x + m * t, Vec3f{0, 1, 0});  // of two in one place, the first is above
+  contact.gap = dot(contact.normal, x) - kept;
+  contact.thickness = kept;
+  contact.static_friction = material.static_friction;
+  contact.kinetic_friction = material.kinetic_friction;
+  contact.restitution = material.restitution;
+  contact.point = {i, j, i, i};
+  contact.weight = {1, -1, 0, 0};
+  complete_contact(contact, particles.positions, particles.remainders);
+  if (material.restitution > 0) contact.approach = approach_of(contact, particles.displacements, particles.h);
+  return true;
+}
+
+void PointContacts::detect(Executor& executor, const PairParticles& particles, std::vector<Contact>& contacts) {
+  const std::vector<int>& points = model_.free_points;
+  if (points.empty()) return;
+  boxes_.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    boxes_[i] = swept_box(particles.positions[points[i]], particles.displacements[points[i]], model_.largest_thickness);
+  tree_.build(boxes_);
+  const int packets = tree_.packet_count();
+  tasks_.resize(static_cast<std::size_t>((packets + packets_a_task - 1) / packets_a_task));
+  const auto collect = [&](Task& task, int a, const std::vector<int>& others) {
+    for (const int b : others) {
+      if (b <= a) continue;
+      const int i = points[static_cast<std::size_t>(a)], j = points[static_cast<std::size_t>(b)];
+      const int first = model_.vertex_body[static_cast<std::size_t>(i)],
+                second = model_.vertex_body[static_cast<std::size_t>(j)];
+      Contact contact;
+      if (model_.rules.meet(first, second) &&
+          find_point_contact(i, j, model_.rules.material(first, second), particles, contact))
+        task.pairs.push_back({i, j});
+    }
+  };
+  executor.parallel_for("detect contacts", static_cast<int>(tasks_.size()), [&](int number) {
+    Task& task = tasks_[static_cast<std::size_t>(number)];
+    task.pairs.clear();
+    for (int packet = number * packets_a_task; packet < std::min(packets, (number + 1) * packets_a_task); ++packet)
+      tree_.packet_overlaps(packet, tree_, task.packs, task.hits,
+                            [&](int a, const std::vector<int>& others) { collect(task, a, others); });
+  });
+  pairs_.clear();
+  for (const Task& task : tasks_) pairs_.insert(pairs_.end(), task.pairs.begin(), task.pairs.end());
+  std::sort(pairs_.begin(), pairs_.end());
+  for (const auto& [i, j] : pairs_) {
+    const PairMaterial material = model_.rules.material(model_.vertex_body[static_cast<std::size_t>(i)],
+                                                        model_.vertex_body[static_cast<std::size_t>(j)]);
+    contacts.emplace_back();
+    find_point_contact(i, j, material, particles, contacts.back());
+  }
+}
+
+}  // namespace pliant
