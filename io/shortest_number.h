@@ -15,9 +15,14 @@ template <class Number>
 char* write_shortest(char* first, char* last, Number number) {
   static_assert(std::is_arithmetic_v<Number>);
 #if !defined(__cpp_lib_to_chars)  // libc++ 14 writes integers alone
-  if constexpr (std::is_floating_point_v<Number>) return fmt::format_to_n(first, last - first, "{}", number).out;
-#endif
+  if constexpr (std::is_floating_point_v<Number>) {
+    return fmt::format_to_n(first, last - first, "{}", number).out;
+  } else {
+    return std::to_chars(first, last, number).ptr;
+  }
+#else
   return std::to_chars(first, last, number).ptr;
+#endif
 }
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// The one parallel loop of the engine.
+// The one parallel loop of the engine. Work that is one text for each of many items goes through launch (launch.h).
 //
 // Every loop has a name and times itself: a Report's phases are these names. What a body does may not depend on which thread
 // runs it or in what order, so that any number of threads gives the same bits. On oneTBB (executor_tbb.cpp), or on the caller's

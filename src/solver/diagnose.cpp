@@ -4,12 +4,11 @@
 #include <optional>
 
 #include "constraints/all.h"
+#include "solver/points.h"
 
 namespace pliant {
 
 namespace {
-
-bool is_finite(const Record& r) { return (r.x - r.x) + (r.y - r.y) + (r.z - r.z) == 0; }
 
 std::string type_name(int type) {
   std::string name;

@@ -2,43 +2,17 @@
 
 #include "math/functions.h"
 #include "math/vector.h"
+#include "parallel/launch.h"
+#include "solver/air.h"
 
 namespace pliant {
 
 namespace {
 
-constexpr int triangles_per_task = 1024;
-
 Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
 
 void push(Record& velocity, const Vec3f& change) {
   velocity = {velocity.x + change.x, velocity.y + change.y, velocity.z + change.z, 0};
-}
-
-void forces_of_air(const CompiledObject& object, const Record* positions, const Record* velocities, const Wind& wind,
-                   const Vec3f& air, const Vec3f& gravity, float h, int first, int last, std::vector<Vec3f>& forces) {
-  for (int t = first; t < last; ++t) {
-    const auto& corner = object.surface.triangles[t];
-    const Vec3f x[3] = {vector_of(positions[corner[0]]), vector_of(positions[corner[1]]), vector_of(positions[corner[2]])};
-    const float third = 1.f / 3;
-    Vec3f velocity{};
-    for (int c : corner) velocity += vector_of(velocities[c]) + (positions[c].w > 0 ? gravity : Vec3f{});
-    velocity = velocity * third;
-    const float inverse_mass = (positions[corner[0]].w + positions[corner[1]].w + positions[corner[2]].w) * third;
-    forces[t] = air_force(x, air - velocity, wind.air_density, object.drag, object.lift, 2 * h * inverse_mass);
-  }
-}
-
-/// A third of the force of every triangle around each particle.
-void gather_air(const CompiledObject& object, const Record* positions, Record* velocities, float h,
-                const std::vector<Vec3f>& forces, const Tile& tile) {
-  for (int i = tile.first_particle; i < tile.last_particle; ++i) {
-    Vec3f sum{};
-    for (int c = object.surface.corner_begin[i]; c < object.surface.corner_begin[i + 1]; ++c) {
-      sum += forces[object.surface.corners[c] / 3];
-    }
-    push(velocities[i], sum * (h * positions[i].w * (1.f / 3)));
-  }
 }
 
 void apply_air(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h,
@@ -52,13 +26,13 @@ void apply_air(const Model& model, State& state, Workspace& workspace, Executor&
     const Vec3f gravity_so_far = gravity(static_cast<int>(o));
     const Record* positions = state.positions.data() + model.first[o];
     Record* velocities = state.velocities.data() + model.first[o];
-    executor.parallel_for("forces: air", (triangles + triangles_per_task - 1) / triangles_per_task, [&](int task) {
-      const int first = task * triangles_per_task;
-      forces_of_air(object, positions, velocities, model.wind, air, gravity_so_far, h, first,
-                    std::min(triangles, first + triangles_per_task), forces);
-    });
-    executor.parallel_for("forces: air", static_cast<int>(object.tiles.size()),
-                          [&](int tile) { gather_air(object, positions, velocities, h, forces, object.tiles[tile]); });
+    const int* corners = triangles > 0 ? object.surface.triangles.front().data() : nullptr;
+    launch(executor, "forces: air", triangles,
+           AirOnTriangle{corners, positions, velocities, air, gravity_so_far, h, model.wind.air_density, object.drag,
+                         object.lift, forces.data()});
+    launch(executor, "forces: air", object.particles,
+           AirOnParticle{object.surface.corner_begin.data(), object.surface.corners.data(), forces.data(), positions, h,
+                         velocities});
   }
 }
 
@@ -96,18 +70,6 @@ Vec3f wind_at(const Wind& wind, double time) {
   const double phase = time / wind.gust_period;
   const double turn = phase - __builtin_floor(phase);  // no integer holds every phase
   return wind.velocity * (1 + wind.gust * static_cast<float>(sin(turn * 6.283185307179586)));
-}
-
-Vec3f air_force(const Vec3f (&x)[3], const Vec3f& u, float air_density, float drag, float lift, float response) {
-  const Vec3f doubled = cross(x[1] - x[0], x[2] - x[0]);
-  const float doubled_area = length(doubled), speed = length(u);
-  if (!(doubled_area > 0) || !(speed > 0)) return {};
-  Vec3f n = doubled * (1 / doubled_area);
-  if (dot(u, n) < 0) n = -n;
-  const float through = dot(u, n);
-  const float scale = 0.25f * air_density * doubled_area * through;
-  const Vec3f force = u * (scale * drag) + (n - u * (through / (speed * speed))) * (scale * lift * speed);
-  return force * (1 / (1 + response * length(force) / speed));
 }
 
 void apply_forces(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h,

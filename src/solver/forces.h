@@ -22,13 +22,4 @@ void apply_forces(const Model& model, State& state, Workspace& workspace, Execut
 /// The wind's velocity at a time [m/s].
 Vec3f wind_at(const Wind& wind, double time);
 
-/// Force of air on a triangle [N]: with u the air's velocity relative to it, n its normal turned into the stream, A its
-/// area,
-///   drag  rho/2 A c_drag (u . n) u,      lift  rho/2 A c_lift (u . n) |u| (n - u (u . n)/|u|^2),
-/// as for a flat plate: nothing along the stream when edge on. `response` is 2 h times the mean inverse mass of its
-/// corners; the force is divided by 1 + response |f| / |u|, since no drag can do more in a step than stop the relative
-/// motion.
-Vec3f air_force(const Vec3f (&x)[3], const Vec3f& relative_velocity, float air_density, float drag, float lift,
-                float response);
-
 }  // namespace pliant

@@ -1,9 +1,11 @@
 // The readable reference: one constraint, one particle at a time, in plain floats, in the order of the schedule. It gives
 // the bits of the lanes, which is how they are tested.
+#include <algorithm>
 #include <cstring>
 
 #include "constraints/all.h"
 #include "solver/kernels.h"
+#include "solver/points.h"
 #include "solver/project.h"
 
 namespace pliant {
@@ -102,28 +104,9 @@ void sweep(const Pool* pools, const Segment* first, const Segment* last, const S
   }
 }
 
-/// Gravity on a particle, none where it has no mass.
-Vec3f gravity_on(const Record& x, const Vec3f& gravity) {
-  const bool free = x.w > 0;
-  return {select(free, gravity.x, 0.f), select(free, gravity.y, 0.f), select(free, gravity.z, 0.f)};
-}
-
-void update_component(float& x, float& d, float& r, float& v, float finished, float settled, const AdvanceArguments& a) {
-  const float predicted = r + (v + finished) * a.h;
-  v = (v + (d - predicted) * a.inverse_h) * a.velocity_kept + settled;
-  const float moved = x + d;
-  r = d - (moved - x);
-  x = moved;
-}
-
 void update(const AdvanceArguments& a) {
-  for (int i = a.first; i < a.last; ++i) {
-    Record &x = a.positions[i], &d = a.displacements[i], &r = a.remainders[i], &v = a.velocities[i];
-    const Vec3f finished = gravity_on(x, a.gravity_finished), settled = gravity_on(x, a.gravity_settled);
-    update_component(x.x, d.x, r.x, v.x, finished.x, settled.x, a);
-    update_component(x.y, d.y, r.y, v.y, finished.y, settled.y, a);
-    update_component(x.z, d.z, r.z, v.z, finished.z, settled.z, a);
-  }
+  const UpdatePoint update_point{a};
+  for (int i = a.first; i < a.last; ++i) update_point(i);
 }
 
 void add_point(const Record& p, PointBounds& bounds) {
@@ -132,12 +115,11 @@ void add_point(const Record& p, PointBounds& bounds) {
 }
 
 void predict(const AdvanceArguments& a, PointBounds* bounds) {
+  const PredictPoint predict_point{a};
   for (int i = a.first; i < a.last; ++i) {
-    const Record &x = a.positions[i], &r = a.remainders[i], &v = a.velocities[i];
-    const Vec3f gravity = gravity_on(x, a.gravity_begun);
-    Record& d = a.displacements[i];
-    d = {r.x + (v.x + gravity.x) * a.h, r.y + (v.y + gravity.y) * a.h, r.z + (v.z + gravity.z) * a.h, 0};
+    predict_point(i);
     if (bounds == nullptr) continue;
+    const Record &x = a.positions[i], &d = a.displacements[i];
     add_point(x, *bounds);
     add_point({x.x + d.x, x.y + d.y, x.z + d.z, 0}, *bounds);
   }
@@ -155,11 +137,7 @@ int find_near(const NearQuery& q, std::int32_t* near) {
 }
 
 bool all_finite(const Record* records, int first, int last) {
-  for (int i = first; i < last; ++i) {
-    const Record& p = records[i];
-    if (!((p.x - p.x) + (p.y - p.y) + (p.z - p.z) == 0)) return false;
-  }
-  return true;
+  return std::all_of(records + first, records + last, [](const Record& p) { return is_finite(p); });
 }
 
 }  // namespace

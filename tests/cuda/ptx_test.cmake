@@ -1,5 +1,10 @@
 # Run by ctest: the device code holds the formulas (else the search would prove nothing) and no fused multiply-add.
-file(READ ${PTX} text)
+string(REPLACE "|" ";" files "${PTX}")
+set(text "")
+foreach(file IN LISTS files)
+  file(READ ${file} one)
+  string(APPEND text "${one}")
+endforeach()
 string(REGEX MATCHALL "mul\\.(rn\\.)?f32" products "${text}")
 list(LENGTH products count)
 if(count LESS 100)

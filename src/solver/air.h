@@ -1,0 +1,68 @@
+// Forces of moving air, as functors for launch (parallel/launch.h): first on each triangle, then gathered by each particle.
+#pragma once
+
+#include "math/vector.h"
+#include "pliant/world.h"
+
+namespace pliant {
+
+/// Force of air on a triangle [N]: with u the air's velocity relative to it, n its normal turned into the stream, A its
+/// area,
+///   drag  rho/2 A c_drag (u . n) u,      lift  rho/2 A c_lift (u . n) |u| (n - u (u . n)/|u|^2),
+/// as for a flat plate: nothing along the stream when edge on. `response` is 2 h times the mean inverse mass of its
+/// corners; the force is divided by 1 + response |f| / |u|, since no drag can do more in a step than stop the relative
+/// motion.
+PLIANT_HD Vec3f air_force(const Vec3f (&x)[3], const Vec3f& u, float air_density, float drag, float lift, float response) {
+  const Vec3f doubled = cross(x[1] - x[0], x[2] - x[0]);
+  const float doubled_area = length(doubled), speed = length(u);
+  if (!(doubled_area > 0) || !(speed > 0)) return {};
+  Vec3f n = doubled * (1 / doubled_area);
+  if (dot(u, n) < 0) n = -n;
+  const float through = dot(u, n);
+  const float scale = 0.25f * air_density * doubled_area * through;
+  const Vec3f force = u * (scale * drag) + (n - u * (through / (speed * speed))) * (scale * lift * speed);
+  return force * (1 / (1 + response * length(force) / speed));
+}
+
+/// The force on each triangle of an object.
+struct AirOnTriangle {
+  const int* triangles;  ///< three corners each
+  const Record *positions, *velocities;
+  Vec3f air;      ///< the air's velocity [m/s]
+  Vec3f gravity;  ///< what the velocities of free particles do not hold yet [m/s]
+  float h, air_density, drag, lift;
+  Vec3f* forces;  ///< [N]
+
+  PLIANT_HD void operator()(int t) const {
+    const int* corner = triangles + static_cast<std::ptrdiff_t>(3) * t;
+    Vec3f x[3], velocity{};
+    float inverse_masses = 0;
+    for (int i = 0; i < 3; ++i) {
+      const Record &p = positions[corner[i]], &v = velocities[corner[i]];
+      x[i] = {p.x, p.y, p.z};
+      velocity += Vec3f{v.x, v.y, v.z} + (p.w > 0 ? gravity : Vec3f{});
+      inverse_masses = i == 0 ? p.w : inverse_masses + p.w;
+    }
+    const float third = 1.f / 3;
+    forces[t] = air_force(x, air - velocity * third, air_density, drag, lift, 2 * h * (inverse_masses * third));
+  }
+};
+
+/// A third of the force of every triangle around a particle, to its velocity.
+struct AirOnParticle {
+  const int *corner_begin, *corners;  ///< of Surface
+  const Vec3f* forces;                ///< of triangles [N]
+  const Record* positions;
+  float h;
+  Record* velocities;
+
+  PLIANT_HD void operator()(int i) const {
+    Vec3f sum{};
+    for (int c = corner_begin[i]; c < corner_begin[i + 1]; ++c) sum += forces[corners[c] / 3];
+    const Vec3f change = sum * (h * positions[i].w * (1.f / 3));
+    Record& v = velocities[i];
+    v = {v.x + change.x, v.y + change.y, v.z + change.z, 0};
+  }
+};
+
+}  // namespace pliant

@@ -1,0 +1,60 @@
+// What a substep does to each particle alone, as functors for launch (parallel/launch.h): plain floats, one particle at a time.
+// The sequential kernels run them, tests run them block by block and as device code; the lanes are tested against them.
+#pragma once
+
+#include "math/scalar.h"
+#include "model/substep.h"
+
+namespace pliant {
+
+/// Gravity on a particle, none where it has no mass.
+PLIANT_HD Vec3f gravity_on(const Record& x, const Vec3f& gravity) {
+  const bool free = x.w > 0;
+  return {select(free, gravity.x, 0.f), select(free, gravity.y, 0.f), select(free, gravity.z, 0.f)};
+}
+
+/// Ends a particle's substep: v = (v + (d - d predicted) / h) kept, x += d; the remainder is what x cannot hold.
+struct UpdatePoint {
+  AdvanceArguments a;
+
+  PLIANT_HD void operator()(int i) const {
+    Record &x = a.positions[i], &d = a.displacements[i], &r = a.remainders[i], &v = a.velocities[i];
+    const Vec3f finished = gravity_on(x, a.gravity_finished), settled = gravity_on(x, a.gravity_settled);
+    component(x.x, d.x, r.x, v.x, finished.x, settled.x);
+    component(x.y, d.y, r.y, v.y, finished.y, settled.y);
+    component(x.z, d.z, r.z, v.z, finished.z, settled.z);
+  }
+
+ private:
+  PLIANT_HD void component(float& x, float& d, float& r, float& v, float finished, float settled) const {
+    const float predicted = r + (v + finished) * a.h;
+    v = (v + (d - predicted) * a.inverse_h) * a.velocity_kept + settled;
+    const float moved = x + d;
+    r = d - (moved - x);
+    x = moved;
+  }
+};
+
+/// Begins a particle's substep: d = remainder + h (v + gravity).
+struct PredictPoint {
+  AdvanceArguments a;
+
+  PLIANT_HD void operator()(int i) const {
+    const Record &r = a.remainders[i], &v = a.velocities[i];
+    const Vec3f gravity = gravity_on(a.positions[i], a.gravity_begun);
+    a.displacements[i] = {r.x + (v.x + gravity.x) * a.h, r.y + (v.y + gravity.y) * a.h, r.z + (v.z + gravity.z) * a.h, 0};
+  }
+};
+
+/// Whether x, y and z are finite: x - x is zero for what is finite and not a number else.
+PLIANT_HD bool is_finite(const Record& p) { return (p.x - p.x) + (p.y - p.y) + (p.z - p.z) == 0; }
+
+/// Notes the particles that are not finite.
+struct FindNonfinite {
+  const Record* records;
+  unsigned char* nonfinite;
+
+  PLIANT_HD void operator()(int i) const { nonfinite[i] = is_finite(records[i]) ? 0 : 1; }
+};
+
+}  // namespace pliant

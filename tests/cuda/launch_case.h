@@ -1,0 +1,67 @@
+// Functors of the engine one after the other through launch, written once for any backend.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/air.h"
+#include "solver/points.h"
+
+namespace pliant::cuda {
+
+/// What the functors work on; pointers into the memory of whoever runs them.
+struct LaunchView {
+  Record *positions, *displacements, *remainders, *velocities;
+  int particles;
+  const int *triangles, *corner_begin, *corners;
+  int triangle_count;
+  Vec3f* forces;
+  unsigned char* nonfinite;
+};
+
+/// The numbers themselves, on the host.
+struct LaunchCase {
+  std::vector<Record> positions, displacements, remainders, velocities;
+  std::vector<int> triangles, corner_begin, corners;
+  std::vector<Vec3f> forces;
+  std::vector<unsigned char> nonfinite;
+
+  LaunchView view() {
+    return {positions.data(),
+            displacements.data(),
+            remainders.data(),
+            velocities.data(),
+            static_cast<int>(positions.size()),
+            triangles.data(),
+            corner_begin.data(),
+            corners.data(),
+            static_cast<int>(triangles.size() / 3),
+            forces.data(),
+            nonfinite.data()};
+  }
+};
+
+template <class Backend>
+void launch_all(Backend& backend, const LaunchView& v) {
+  AdvanceArguments a;
+  a.positions = v.positions;
+  a.displacements = v.displacements;
+  a.remainders = v.remainders;
+  a.velocities = v.velocities;
+  a.h = 1.f / 600;
+  a.inverse_h = 600;
+  a.velocity_kept = 0.99f;
+  a.gravity_finished = a.gravity_begun = {0, -0.05f, 0};
+  launch(backend, "find", v.particles, FindNonfinite{v.displacements, v.nonfinite});
+  launch(backend, "update", v.particles, UpdatePoint{a});
+  launch(
+      backend, "air", v.triangle_count,
+      AirOnTriangle{v.triangles, v.positions, v.velocities, {3, 0.5f, -1}, {0, -0.05f, 0}, a.h, 1.2f, 1, 0.5f, v.forces});
+  launch(backend, "air", v.particles, AirOnParticle{v.corner_begin, v.corners, v.forces, v.positions, a.h, v.velocities});
+  launch(backend, "predict", v.particles, PredictPoint{a});
+}
+
+/// launch_all on a device, over a copy there; the results come back. Throws std::runtime_error where the device refuses.
+void launch_all_on_device(LaunchCase& on_host);
+
+}  // namespace pliant::cuda

@@ -1,0 +1,121 @@
+// The functors of particles, run block by block from the last to the first, give the bits of every table of kernels: what a device
+// will run is what the lanes run.
+#include "solver/points.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "parallel/launch.h"
+#include "support/kernels.h"
+
+namespace pliant {
+namespace {
+
+using testing_support::available_isas;
+
+constexpr int count = 2 * launch_block + 37;
+
+/// Records of particles, a seventh of them without mass.
+struct Particles {
+  std::vector<Record> positions, displacements, remainders, velocities;
+
+  Particles() {
+    std::mt19937 random(10);
+    std::uniform_real_distribution<float> metres(-2, 2);
+    const auto make = [&](std::vector<Record>& records, float size) {
+      for (int i = 0; i < count; ++i)
+        records.push_back({size * metres(random), size * metres(random), size * metres(random), 0});
+    };
+    make(positions, 1);
+    make(displacements, 1e-3f);
+    make(remainders, 1e-9f);
+    make(velocities, 3);
+    for (int i = 0; i < count; ++i) positions[static_cast<std::size_t>(i)].w = i % 7 == 0 ? 0 : 1.f + static_cast<float>(i);
+  }
+
+  AdvanceArguments arguments() {
+    AdvanceArguments a;
+    a.positions = positions.data();
+    a.displacements = displacements.data();
+    a.remainders = remainders.data();
+    a.velocities = velocities.data();
+    a.last = count;
+    a.h = 1.f / 600;
+    a.inverse_h = 600;
+    a.velocity_kept = 0.99f;
+    a.gravity_finished = {0, -0.03f, 0.01f};
+    a.gravity_begun = {0, -0.05f, 0.02f};
+    a.gravity_settled = {0.001f, -0.16f, 0};
+    return a;
+  }
+};
+
+bool same(const std::vector<Record>& a, const std::vector<Record>& b) {
+  return std::memcmp(a.data(), b.data(), a.size() * sizeof(Record)) == 0;
+}
+
+void expect_same(const Particles& a, const Particles& b, const std::string& what) {
+  EXPECT_TRUE(same(a.positions, b.positions)) << what << ": positions";
+  EXPECT_TRUE(same(a.displacements, b.displacements)) << what << ": displacements";
+  EXPECT_TRUE(same(a.remainders, b.remainders)) << what << ": remainders";
+  EXPECT_TRUE(same(a.velocities, b.velocities)) << what << ": velocities";
+}
+
+template <class Functor>
+void run_backwards(const Functor& functor) {
+  for (int block = launch_blocks(count) - 1; block >= 0; --block) run_block(functor, block, count);
+}
+
+std::vector<std::string> tables() {
+  std::vector<std::string> names = available_isas();
+  names.emplace_back("sequential");
+  return names;
+}
+
+TEST(Points, UpdateAsEveryTableOfKernels) {
+  Particles expected;
+  run_backwards(UpdatePoint{expected.arguments()});
+  for (const std::string& isa : tables()) {
+    Particles found;
+    pick_kernels(isa).update(found.arguments());
+    expect_same(found, expected, isa);
+  }
+}
+
+TEST(Points, PredictAsEveryTableOfKernels) {
+  Particles expected;
+  run_backwards(PredictPoint{expected.arguments()});
+  for (const std::string& isa : tables()) {
+    Particles found;
+    pick_kernels(isa).predict(found.arguments(), nullptr);
+    expect_same(found, expected, isa);
+  }
+}
+
+TEST(Points, AdvanceOnAnyNumberOfThreads) {
+  Particles expected;
+  pick_kernels("sequential").advance(expected.arguments(), nullptr);
+  for (const int threads : {1, 2, 4}) {
+    Particles found;
+    Executor executor(threads);
+    launch(executor, "update", count, UpdatePoint{found.arguments()});
+    launch(executor, "predict", count, PredictPoint{found.arguments()});
+    expect_same(found, expected, std::to_string(threads) + " threads");
+  }
+}
+
+TEST(Points, FindWhatIsNotFinite) {
+  Particles particles;
+  particles.displacements[1500].z = std::numeric_limits<float>::infinity();
+  particles.displacements[3].x = particles.displacements[1500].z - particles.displacements[1500].z;
+  std::vector<unsigned char> nonfinite(count, 2);
+  run_backwards(FindNonfinite{particles.displacements.data(), nonfinite.data()});
+  for (int i = 0; i < count; ++i) EXPECT_EQ(nonfinite[static_cast<std::size_t>(i)], i == 3 || i == 1500 ? 1 : 0) << i;
+}
+
+}  // namespace
+}  // namespace pliant
