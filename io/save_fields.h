@@ -125,11 +125,11 @@ void fields(A& a, Is<SweepOptions> auto& of) {
 template <class A>
 void fields(A& a, Is<Settings> auto& of) {
   auto& [substeps, iterations, tolerance, threads, sweep, sweep_options, contact_filter, most_substeps,
-         initial_intersections, untangling_speed, measure, record_residuals, record_multipliers, isa] = of;
+         initial_intersections, untangling_speed, separate_phases, measure, record_residuals, record_multipliers, isa] = of;
   a(substeps, iterations, tolerance);
   a.aside(threads);
   a(sweep, sweep_options, contact_filter, most_substeps, initial_intersections, untangling_speed);
-  a.aside(measure, record_residuals, record_multipliers, isa);
+  a.aside(separate_phases, measure, record_residuals, record_multipliers, isa);
 }
 /// Force fields are functions: of them only the number can be told, and the caller of `fields` decides about it. Settings are a
 /// block of their own.

@@ -243,7 +243,7 @@ const Record& settings_record() {
              "Shorten moves so that nothing that collides passes through anything else (docs/guide/contact.md); without it "
              "contacts "
              "alone must do."),
-       field("most_substeps", integer(1, 10000), Settings{}.most_substeps,
+       field("most_substeps", integer(0, 10000), "eight times `substeps`",
              "Into how many substeps a frame may be divided where a mesh collider moves fast (docs/guide/contact.md)."),
        field("initial_intersections", choice({"leave", "untangle", "refuse"}), "leave",
              "What is done about surfaces that pass through one another at the start: nothing, drawing them apart, or "

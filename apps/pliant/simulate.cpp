@@ -79,11 +79,13 @@ World make_world(const Scene& scene, const std::string& path) {
 }
 
 bool simulate(World& world, const Scene& scene, bool quiet, const std::function<void(const Report&)>& after_frame) {
+  world.stop_when(&interrupted());
   const auto done = static_cast<int>(world.state().frame);
   Progress progress(scene.frames - done, !quiet);
   for (int frame = done + 1; frame <= scene.frames; ++frame) {
     throw_if_interrupted();
     const Report report = world.step(scene.frame_time);
+    throw_if_interrupted();
     after_frame(report);
     if (!report.ok()) return false;
     progress.show(frame - done);

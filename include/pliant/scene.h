@@ -265,9 +265,9 @@ struct Settings {
   SweepOptions sweep_options{};
   bool contact_filter = true;  ///< shorten moves so that nothing that collides passes through anything else
   /// A frame in which a mesh collider comes near an object is divided into more substeps, up to so many, until the collider moves
-  /// no more than half the pair's thickness in one: what nothing pushes can't be stopped by shortening moves. 1..10000; no
-  /// more than `substeps`: never.
-  int most_substeps = 2000;
+  /// at most half the pair's thickness in one: the filter cannot limit kinematic colliders. Such a frame is that much dearer,
+  /// and the Report warns of it. 1..10000, or 0: eight times `substeps`. At most `substeps`: never.
+  int most_substeps = 0;
   /// What is done about surfaces that pass through one another before anything has moved.
   enum class Intersections {
     leave,     ///< they may stay; contact leaves them out until they happen to be apart
@@ -275,10 +275,14 @@ struct Settings {
     refuse,    ///< making a World throws Error naming the first
   } initial_intersections = Intersections::leave;
   float untangling_speed = 0.5f;  ///< at most [m/s]
+  /// Report::phases has update, predict and the search for non-finite values apart from the sweeps, with which they share a
+  /// visit to each tile otherwise. The same bits, slower.
+  bool separate_phases = false;
   bool measure = false;  ///< fill Report::residuals, stretch and overstretch each frame (costs about one more iteration)
   bool record_residuals = false;    ///< fill Report::convergence (slow: every iteration of the last substep is measured)
   bool record_multipliers = false;  ///< keep multipliers readable even where not needed (one iteration, or rigid)
-  std::string isa;  ///< "", or "x86-64-v2", "-v3", "-v4", "generic", "sequential" to force a code path (same bits, other speed)
+  std::string
+      isa;  ///< "", or "x86-64-v2", "-v3", "-v4", "generic", "sequential" to force a code path (same bits, other speed)
 };
 
 /// Everything that a World is made from.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <new>
@@ -126,6 +127,7 @@ struct Report {
   std::optional<Overstretch> overstretch;      ///< where Settings::measure; World::advice says it in words
   std::vector<IterationResidual> convergence;  ///< of the last substep, where Settings::record_residuals
   std::optional<NonFinite> nonfinite;
+  bool stopped = false;  ///< by World::stop_when, before the frame was complete
   std::vector<std::string> warnings;
 
   bool ok() const { return !nonfinite; }
@@ -156,6 +158,11 @@ class World {
   /// `nonfinite` names no object) until it is restored; so it does where a force field throws. Keep dt even: constraints
   /// leave an error that belongs to their step, and a much shorter one after it turns what it mends into speed.
   Report step(float dt);
+
+  /// From now on a step looks at the flag after each substep, and ends there where it is true, with Report::stopped: the State
+  /// is that at the end of the substep, `time` with it, and the frame does not count. A flag that is true before a step lets
+  /// nothing move. Another thread or a signal handler may set it. It must outlive the World or be taken back by nullptr.
+  void stop_when(const std::atomic<bool>* flag);
 
   const State& state() const;
   /// Puts a state of this World back. Throws Error where it does not fit. Multipliers read as zero until the next step.

@@ -47,7 +47,7 @@ void check_settings(Problems& problems, const Scene& scene) {
   require_range(problems, "settings, iterations", settings.iterations, 1, 10000);
   require_range(problems, "settings, threads", settings.threads, 0, 1024);
   require_range(problems, "settings, tolerance", settings.tolerance, 0, largest_place);
-  require_range(problems, "settings, most_substeps", settings.most_substeps, 1, 10000);
+  require_range(problems, "settings, most_substeps", settings.most_substeps, 0, 10000);
   if (!(settings.untangling_speed > 0 && settings.untangling_speed <= 1000))
     problems.grave("settings, untangling_speed", "is " + words(settings.untangling_speed) + " m/s",
                    "give one above 0, up to 1000");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 #include "math/vector.h"
 
@@ -58,12 +59,27 @@ std::string too_fast(const CompiledObject& collider, const CompiledObject& objec
          "': it may pass through; give a greater thickness or more of the setting most_substeps";
 }
 
+/// The pair that needs the most substeps.
+struct Demand {
+  double substeps = 0;  ///< wanted; the frame may allow fewer
+  int collider = 0, object = 0;
+};
+
+std::string divides(const Model& model, const Demand& demand, int planned, int substeps) {
+  char text[160];
+  std::snprintf(text, sizeof text, "the frame has %d substeps instead of %d and takes about %.1f times as long", substeps,
+                planned, static_cast<double>(substeps) / planned);
+  return "collider '" + model.objects[demand.collider].name + "' moves fast near object '" +
+         model.objects[demand.object].name + "': " + text + "; a slower collider or a greater thickness needs fewer";
+}
+
 }  // namespace
 
 int divided_substeps(const Model& model, const PairModel& pairs, const State& state, const PlannedFrame& frame,
                      std::vector<std::string>& warnings) {
   const int most = std::max(frame.substeps, frame.most_substeps);
   int substeps = frame.substeps;
+  Demand demand;
   for (int c = model.user_objects; c < static_cast<int>(model.objects.size()); ++c) {
     const CompiledObject& collider = model.objects[c];
     if (!collider.carrier.moves()) continue;
@@ -76,10 +92,12 @@ int divided_substeps(const Model& model, const PairModel& pairs, const State& st
       if (!come_near(sweep.box, foreseen(model, state, o, frame.dt), margin)) continue;
       const double wanted = std::ceil(frame.substeps * (sweep.largest / allowed));
       substeps = std::max(substeps, wanted < most ? static_cast<int>(wanted) : most);
+      if (wanted > demand.substeps) demand = {wanted, c, o};
       if (wanted > most)
         warnings.push_back(too_fast(collider, model.objects[o], sweep.largest * frame.substeps / most, thickness, most));
     }
   }
+  if (substeps > frame.substeps) warnings.push_back(divides(model, demand, frame.substeps, substeps));
   return substeps;
 }
 

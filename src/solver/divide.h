@@ -20,7 +20,8 @@ struct PlannedFrame {
 };
 
 /// At least `substeps`; more, up to `most_substeps`, until no mesh collider that comes near an object moves more than half the
-/// pair's thickness in one. Depends on the state alone. Where the most is not enough a warning says so.
+/// pair's thickness in one. Depends on the state alone. A warning says how much dearer
+/// the frame becomes, another where the most is not enough.
 int divided_substeps(const Model& model, const PairModel& pairs, const State& state, const PlannedFrame& frame,
                      std::vector<std::string>& warnings);
 

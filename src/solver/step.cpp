@@ -24,12 +24,13 @@ namespace {
 
 void run(const StepContext& context, double dt, Report& report) {
   Substep s = begin_frame(context, dt, report);
-  for (; s.number < context.substeps; ++s.number) {
+  for (; s.number < s.substeps; ++s.number) {
     control(s);
     apply_forces(s);
     if (!predict(s)) return;
     collide(s);
     solve(s);
+    if (context.stop != nullptr && *context.stop) s.substeps = s.number + 1;  // this one is the frame's last
     filter(s);
     if (!update(s)) return;
     respond(s);
@@ -43,7 +44,7 @@ void step(const StepContext& context, double dt, Report& report) {
   const auto start = std::chrono::steady_clock::now();
   context.executor.timings().clear();
   context.executor.enter([&] { run(context, dt, report); });
-  ++context.state.frame;
+  if (!report.stopped) ++context.state.frame;
   report.frame = context.state.frame;
   report.time = context.state.time;
   report.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

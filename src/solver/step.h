@@ -1,6 +1,8 @@
 // One frame: how a World moves.
 #pragma once
 
+#include <atomic>
+
 #include "model/model.h"
 #include "parallel/executor.h"
 #include "pliant/world.h"
@@ -20,7 +22,9 @@ struct StepContext {
   Sweep sweep = Sweep::tiled;  ///< with any of these, the workspace comes from prepare_sweep too
   SweepOptions options{};
   bool record_residuals = false;
-  double tolerance = 0;  ///< of Settings; above 0 the workspace comes from prepare_residual too
+  const std::atomic<bool>* stop = nullptr;  ///< where it is true, the frame ends with the substep under way
+  bool separate_phases = false;             ///< of Settings
+  double tolerance = 0;                     ///< of Settings; above 0 the workspace comes from prepare_residual too
 };
 
 /// Advances the state by dt. Never throws; what went wrong is in the report.

@@ -17,12 +17,13 @@ struct Substep {
   double frame_start = 0, dt = 0;  ///< of the frame [s]
   float h = 0;                     ///< of a substep [s]
   int number = 0;                  ///< of the substep within the frame, from 0
+  int substeps = 1;                ///< of the frame, fewer where it is stopped
   double time_after = 0;           ///< at the substep's end [s]
   bool sweeps_on_entry = false;  ///< predict makes the first sweep over a tile's constraints while the tile is in the cache
   bool update_is_due = false;    ///< update has left its work to the next predict (stages/advance.cpp)
   std::int64_t iterations_made = 0;  ///< in this frame
 
-  bool is_last() const { return number + 1 == context.substeps; }
+  bool is_last() const { return number + 1 == substeps; }
   bool has_pairs() const { return work.pairs != nullptr; }
 };
 

@@ -37,6 +37,9 @@ Multipliers kept_multipliers(const Settings& settings) {
   return more_passes || settings.measure ? Multipliers::needed : Multipliers::none;
 }
 
+/// A frame takes at most so many times as long for what moves fast, unless Settings::most_substeps allows more.
+constexpr int default_division = 8;
+
 /// So many frames no run takes; counting on from there stays far from the end of the integers.
 constexpr std::int64_t largest_frame = std::int64_t{1} << 60;
 
@@ -127,7 +130,8 @@ struct World::Implementation {
   int substeps_for(double dt, std::vector<std::string>& warnings) const {
     if (pair_model == nullptr) return settings.substeps;
     const double shortest = dt / shortest_substep;
-    const int most = shortest < settings.most_substeps ? static_cast<int>(shortest) : settings.most_substeps;
+    const int wanted = settings.most_substeps > 0 ? settings.most_substeps : default_division * settings.substeps;
+    const int most = shortest < wanted ? static_cast<int>(shortest) : wanted;
     return divided_substeps(model, *pair_model, state, {state.time, dt, settings.substeps, most}, warnings);
   }
 
@@ -154,6 +158,7 @@ struct World::Implementation {
   Lengths lengths;
   float last_h = 1;
   bool stopped = false;
+  const std::atomic<bool>* stop = nullptr;  ///< of stop_when
 };
 
 World::World(const Scene& scene) : World(scene, scene.settings) {}
@@ -182,13 +187,18 @@ Report World::step(float dt) {
     report.nonfinite = NonFinite{"", "the world stopped at an earlier step", report.frame, 0};
     return report;
   }
+  if (self_->stop != nullptr && *self_->stop) {
+    report.stopped = true;
+    return report;
+  }
   report.substeps = self_->substeps_for(dt, report.warnings);
   self_->last_h = static_cast<float>(double(dt) / report.substeps);
   self_->stopped = true;  // unless the step comes to its end: a force field of the user's own may throw
-  pliant::step({self_->model, self_->state, self_->workspace, self_->executor, self_->kernels, report.substeps,
-                self_->settings.iterations, self_->settings.sweep, self_->settings.sweep_options,
-                self_->settings.record_residuals, static_cast<double>(self_->settings.tolerance)},
-               dt, report);
+  pliant::step(
+      {self_->model, self_->state, self_->workspace, self_->executor, self_->kernels, report.substeps,
+       self_->settings.iterations, self_->settings.sweep, self_->settings.sweep_options, self_->settings.record_residuals,
+       self_->stop, self_->settings.separate_phases, static_cast<double>(self_->settings.tolerance)},
+      dt, report);
   self_->stopped = report.nonfinite.has_value();
   if (self_->settings.measure) {
     report.residuals = residuals();
@@ -199,6 +209,8 @@ Report World::step(float dt) {
   }
   return report;
 }
+
+void World::stop_when(const std::atomic<bool>* flag) { self_->stop = flag; }
 
 const State& World::state() const { return self_->state; }
 

@@ -47,8 +47,8 @@ class Checkpoint : public testing::Test {
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   /// Starts `pliant run` with these arguments in the test's folder, where what it says goes to the file "said".
-  pid_t start(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), {"pliant", "run"});
+  pid_t start(std::vector<std::string> arguments, const char* subcommand = "run") const {
+    arguments.insert(arguments.begin(), {"pliant", subcommand});
     std::vector<char*> words;
     for (std::string& argument : arguments) words.push_back(argument.data());
     words.push_back(nullptr);
@@ -130,6 +130,31 @@ TEST_F(Checkpoint, WhatDoesNotFitIsRefusedWithTheReason) {
   refused({"small.json", "--checkpoint", "small.json/a"}, "is no folder");
   fs::resize_file(folder_ / "a", 1000);
   refused({"small.json", "--resume", "a"}, "pliant: a: is incomplete");
+}
+
+/// A frame of 10000 substeps of 1000 iterations takes an hour.
+TEST_F(Checkpoint, ASignalEndsAFrameThatTakesAnHour) {
+  write_scene("slow.json", 60, 30);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const pid_t child = start({"slow.json", "--checkpoint", "c", "--substeps", "10000", "--iterations", "1000"});
+    std::this_thread::sleep_for(1s);
+    kill(child, signal);
+    EXPECT_EQ(wait_for(child), 128 + signal) << said();
+    EXPECT_NE(said().find("pliant: ended by "), std::string::npos) << said();
+    if (fs::exists(folder_ / "c")) {
+      EXPECT_EQ(pliant::load_state(path("c")).frame, 0);
+    }
+  }
+}
+
+/// What never looks at the flag is ended all the same.
+TEST_F(Checkpoint, ASignalEndsWhatLooksAtNoFlag) {
+  const pid_t child = start({"W1-stretching", "--frames", "1000000", "--sizes", "64", "--json", "rows.json"}, "bench");
+  std::this_thread::sleep_for(1s);
+  kill(child, SIGTERM);
+  EXPECT_EQ(wait_for(child), 128 + SIGTERM) << said();
+  EXPECT_NE(said().find("pliant: ended by SIGTERM; no unfinished file is left behind"), std::string::npos) << said();
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2) << "the scene and what was said";
 }
 
 /// PLIANT_KILLS: how many, 30 unless said.

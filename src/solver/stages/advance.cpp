@@ -15,8 +15,10 @@ namespace pliant {
 
 namespace {
 
-/// Whether another stage reads velocities before the next prediction.
-bool velocities_are_read(const Substep& s) { return s.is_last() || s.has_pairs() || has_forces(s.model); }
+/// Whether another stage reads velocities before the next prediction, or the two are to be timed apart.
+bool velocities_are_read(const Substep& s) {
+  return s.is_last() || s.has_pairs() || has_forces(s.model) || s.context.separate_phases;
+}
 
 /// A particle whose place at the substep's end is given.
 void move_to(const Vec3d& target, int particle, const AdvanceArguments& a) {
@@ -93,7 +95,7 @@ bool all_finite(Substep& s, int substep) {
 }  // namespace
 
 bool predict(Substep& s) {
-  for_tiles(s, "solve: tiles", [&](int task) {
+  for_tiles(s, s.update_is_due || s.sweeps_on_entry ? "solve: tiles" : "predict", [&](int task) {
     if (!s.update_is_due) predict_tile(s, task, s.kernels.predict);
     if (s.update_is_due && !advance_tile(s, task)) return;
     if (s.sweeps_on_entry) sweep_tile(s, task, true, Order::forward);
@@ -106,8 +108,10 @@ bool update(Substep& s) {
   for (FrameGravity& gravity : s.work.gravity) gravity.next(s.h);
   s.update_is_due = !velocities_are_read(s);
   if (s.update_is_due) return true;
+  const auto find_non_finite = [&](int task) { s.work.tiles[task].finite = is_finite(s, task); };
+  if (s.context.separate_phases) for_tiles(s, "find non-finite values", find_non_finite);
   for_tiles(s, "update", [&](int task) {
-    s.work.tiles[task].finite = is_finite(s, task);
+    if (!s.context.separate_phases) find_non_finite(task);
     if (s.work.tiles[task].finite) update_tile(s, task, s.is_last());
   });
   return all_finite(s, s.number);

@@ -11,7 +11,7 @@ namespace {
 
 bool may_sweep_on_entry(const StepContext& context) {
   const bool untangles = context.workspace.pairs != nullptr && context.workspace.pairs->untangles();
-  return sweep_method(context.sweep).begins_on_entry && !context.record_residuals &&
+  return sweep_method(context.sweep).begins_on_entry && !context.record_residuals && !context.separate_phases &&
          context.options.acceleration == SweepOptions::Acceleration::none && !untangles;
 }
 
@@ -29,6 +29,7 @@ Substep begin_frame(const StepContext& context, double dt, Report& report) {
             context.executor, context.kernels, report,        context.state.time};
   s.dt = dt;
   s.h = static_cast<float>(dt / context.substeps);
+  s.substeps = context.substeps;
   for (TileScratch& tile : s.work.tiles) tile.finite = true;
   for (std::size_t o = 0; o < s.work.gravity.size(); ++o)
     s.work.gravity[o] = {0, static_cast<double>(s.h), 0, 1 / (1 + s.h * s.model.objects[o].damping)};
@@ -48,7 +49,8 @@ void end_frame(Substep& s) {
                       c.intersecting, c.rebuilds, c.inside,    c.deepest};
     warn_of_pairs(s.model, *s.work.pairs, s.report.warnings);
   }
-  s.state.time = s.frame_start + s.dt;
+  s.report.stopped = s.substeps < s.context.substeps;
+  s.state.time = s.report.stopped ? time_of(s, s.substeps) : s.frame_start + s.dt;
 }
 
 }  // namespace pliant
