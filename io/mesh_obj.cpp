@@ -6,12 +6,16 @@
 //
 // Read: v (further values, a weight or colours, must be numbers and are ignored), f in all its forms (v, v/vt, v//vn,
 // v/vt/vn, negative indices), "\" at a line's end, comments, any line ending. Ignored with a note: points, lines, curves
-// and free-form surfaces. Ignored without: materials, groups, normals, texture coordinates. An unknown keyword is refused,
-// because a damaged "v" that is passed over would shift every vertex after it.
+// and free-form surfaces, and keywords that the format does not have ("seam", "stitch"), which other programs add. Ignored
+// without: materials, groups, normals, texture coordinates. An unknown keyword of one letter, or of anything but letters, is
+// refused: it may be a damaged "v", and every vertex after one that is passed over would be another.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "mesh_polygons.h"
@@ -84,6 +88,7 @@ class ObjParser {
     if (keyword == "f" || keyword == "fo") return face(rest);
     if (note(keyword)) return;
     if (std::find(std::begin(silent_keywords), std::end(silent_keywords), keyword) != std::end(silent_keywords)) return;
+    if (note_unknown(keyword)) return;
     fail(line_, "unknown keyword " + quoted(keyword),
          "this is no OBJ file, or the line is damaged; delete it if it is not needed");
   }
@@ -175,7 +180,35 @@ class ObjParser {
     return false;
   }
 
+  /// What another program may have added: a word that is longer than OBJ's own of one letter.
+  bool note_unknown(std::string_view keyword) {
+    constexpr std::size_t most_letters = 40, most_keywords = 100;
+    const auto is_of_a_word = [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '-';
+    };
+    if (keyword.size() < 2 || keyword.size() > most_letters) return false;
+    if (!std::all_of(keyword.begin(), keyword.end(), is_of_a_word)) return false;
+    PassedOver& of = unknown_[std::string(keyword)];
+    if (of.count++ == 0) of.first_line = line_;
+    return unknown_.size() <= most_keywords;  // more are prose
+  }
+
+  void note_unknown_keywords() {
+    constexpr std::size_t most_named = 8;
+    if (unknown_.empty()) return;
+    std::string words;
+    std::size_t named = 0;
+    for (const auto& [keyword, of] : unknown_) {
+      if (named++ == most_named) break;
+      words += fmt::format("{}'{}' ({} {}, the first {})", words.empty() ? "" : ", ", keyword, of.count,
+                           of.count == 1 ? "line" : "lines", of.first_line);
+    }
+    if (unknown_.size() > most_named) words += fmt::format(" and {} more", unknown_.size() - most_named);
+    mesh_.notes.push_back(fmt::format("ignored unknown {} {}", unknown_.size() == 1 ? "keyword" : "keywords", words));
+  }
+
   void note_what_was_passed_over() {
+    note_unknown_keywords();
     for (std::size_t i = 0; i < std::size(noted_keywords); ++i)
       if (passed_over_[i].count > 0)
         mesh_.notes.push_back("ignored " + std::to_string(passed_over_[i].count) + " " + noted_keywords[i].second +
@@ -203,6 +236,7 @@ class ObjParser {
   int line_ = 0;
   PolygonMesh mesh_;
   std::vector<std::pair<std::int64_t, int>> forward_;  // indices beyond the vertices read so far, with their lines
+  std::map<std::string, PassedOver> unknown_;
   PassedOver passed_over_[std::size(noted_keywords)];
 };
 

@@ -99,6 +99,24 @@ TEST(MeshObj, SaysWhatItPassedOver) {
                        "has 3 vertices but no faces (ignored 1 line, the first on line 4)"));
 }
 
+/// As programs for garments write them.
+TEST(MeshObj, NamesKeywordsThatTheFormatDoesNotHave) {
+  const MeshFile file = parse_mesh(three + "seam 1 2\nstitch 1 3\nseam 2 3\nf 1 2 3\nseam-allowance 0.01\n", "a.obj");
+  EXPECT_EQ(file.mesh.triangles, (Triangles{{0, 1, 2}}));
+  EXPECT_EQ(
+      joined(file.repairs),
+      "ignored unknown keywords 'seam' (2 lines, the first 4), 'seam-allowance' (1 line, the first 8), 'stitch' (1 line, "
+      "the first 5)\n");
+  std::string many;
+  for (char c = 'a'; c <= 'k'; ++c) many += std::string("word") + c + "\n";
+  EXPECT_TRUE(contains(joined(parse_mesh(many + three + "f 1 2 3\n", "a.obj").repairs),
+                       "'wordh' (1 line, the first 8) and 3 more"));
+  std::string prose;
+  for (int i = 0; i < 200; ++i)
+    prose += std::string("so") + static_cast<char>('a' + i / 26) + static_cast<char>('a' + i % 26) + "\n";
+  EXPECT_TRUE(contains(error_of(prose + three + "f 1 2 3\n", "a.obj"), "a.obj:101: unknown keyword"));
+}
+
 TEST(MeshObj, RefusesWhatItDoesNotKnow) {
   EXPECT_TRUE(contains(error_of(three + "w 1 1 1\nf 1 2 3\n", "a.obj"), "a.obj:4: unknown keyword 'w'"));
   EXPECT_TRUE(contains(error_of("\x01\x02\xff", "a.obj"),
