@@ -115,15 +115,85 @@ Tally inside_of(const Surfaces& all, int object, const MeshQuery& query) {
   return inside;
 }
 
-/// Things that nothing crosses may still be where they can't be. What crosses is named already.
-void refuse_inside(Problems& problems, const Scene& scene, const Surfaces& all, const CrossingsOfParts& crossings) {
+/// Things that nothing crosses may still be where they can't be. What crosses is named already. Where it is no error, only
+/// closed colliders are doubted: an object may well be meant to hold another.
+void name_inside(Problems& problems, const Scene& scene, const Surfaces& all, const CrossingsOfParts& crossings,
+                 Intersections what) {
   const int objects = static_cast<int>(scene.objects.size());
   for (const Closed& closed : closed_surfaces(scene, all)) {
     for (int object = 0; object < objects; ++object) {
       if (!meet(all, object, closed) || crossings.count(std::minmax(object, closed.part)) > 0) continue;
+      if (what != Intersections::refuse && closed.part >= 0 && closed.part < objects) continue;
       problems.at(all.parts[static_cast<std::size_t>(object)].name);
-      problems.grave(inside_of(all, object, closed.query), "particle", "is inside of " + closed.name + " at the start",
-                     what_to_do);
+      const Tally inside = inside_of(all, object, closed.query);
+      const std::string problem = "is inside of " + closed.name + " at the start";
+      if (what == Intersections::refuse)
+        problems.grave(inside, "particle", problem, what_to_do);
+      else if (what == Intersections::leave)
+        problems.doubtful(inside, "particle", problem,
+                          "move one of them, or set initial_intersections to untangle, which brings it out");
+      else
+        problems.doubtful(inside, "particle", problem, "it will be brought out at untangling_speed: move one of them");
+    }
+  }
+}
+
+// ---------------------------------------------------------------- touching
+
+float thickness_of(const Scene& scene, int part) {
+  const std::size_t objects = scene.objects.size(), number = static_cast<std::size_t>(part);
+  return number < objects ? scene.objects[number].thickness : scene.mesh_colliders[number - objects].thickness;
+}
+
+/// The distance that two parts keep.
+float kept_between(const Scene& scene, const Surfaces& all, int a, int b) {
+  float kept = thickness_of(scene, a) + thickness_of(scene, b);
+  const std::string &first = all.parts[static_cast<std::size_t>(a)].name,
+                    &second = all.parts[static_cast<std::size_t>(b)].name;
+  for (const PairProperties& pair : scene.pairs) {
+    const bool is_it = (pair.first == first && pair.second == second) || (pair.first == second && pair.second == first);
+    if (is_it && pair.thickness) kept = *pair.thickness;
+  }
+  return kept;
+}
+
+/// Particles of part `a` that are nearer to a surface than `kept`, and the least distance.
+Tally near_to(const Surfaces& all, int a, const MeshQuery& query, float kept, float& least) {
+  Tally near;
+  const int first = all.parts[static_cast<std::size_t>(a)].first;
+  const BoxBounds& box = query.bounds();
+  for (int v = first; v < all.end_of(a); ++v) {
+    const Vec3f &p = all.positions[static_cast<std::size_t>(v)], margin{kept, kept, kept};
+    if (!overlap(BoxBounds{p - margin, p + margin}, box)) continue;
+    const SurfacePoint found = query.closest(p, kept);
+    if (found.triangle < 0) continue;
+    near.add(v - first);
+    least = std::min(least, found.distance);
+  }
+  return near;
+}
+
+/// What starts nearer than it may be is pushed apart at once.
+void doubt_touching(Problems& problems, const Scene& scene, const Surfaces& all, const CrossingsOfParts& crossings) {
+  constexpr float share = 0.9f;  // layers that are laid out just so far apart are meant to be
+  const int objects = static_cast<int>(scene.objects.size()), parts = static_cast<int>(all.parts.size());
+  for (int b = 0; b < parts; ++b) {
+    const std::vector<Triangle> triangles = all.triangles_of(b);
+    if (triangles.empty()) continue;
+    const MeshQuery query(
+        {all.positions.begin() + all.parts[static_cast<std::size_t>(b)].first, all.positions.begin() + all.end_of(b)},
+        triangles);
+    for (int a = 0; a < objects; ++a) {
+      const bool was_told = a > b && b < objects && !all.triangles_of(a).empty();  // as b of a
+      if (a == b || was_told || !all.meet(a, b) || crossings.count(std::minmax(a, b)) > 0) continue;
+      const float kept = kept_between(scene, all, a, b);
+      float least = kept;
+      const Tally near = near_to(all, a, query, share * kept, least);
+      problems.at(all.parts[static_cast<std::size_t>(a)].name);
+      problems.doubtful(near, "particle",
+                        "starts nearer to " + all.name(b) + " than the " + words(kept) +
+                            " m that the two keep, the nearest " + words(least) + " m from it",
+                        "it is pushed away in the first frames: start further apart, or give less thickness");
     }
   }
 }
@@ -134,7 +204,8 @@ void look_at(Problems& problems, const Scene& scene) {
   CrossingsOfParts crossings;
   if (!all.triangles.empty() && any_meet(all)) crossings = find_crossings(all);
   for (const auto& [parts, found] : crossings) name_crossings(problems, all, found, what);
-  if (what == Intersections::refuse) refuse_inside(problems, scene, all, crossings);
+  name_inside(problems, scene, all, crossings, what);
+  if (problems.wants_doubts()) doubt_touching(problems, scene, all, crossings);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -103,6 +104,65 @@ TEST(Thickness, OfRopesMayBeMoreThanTheirLinks) {
   EXPECT_EQ(words_of(scene), "");
   scene.objects[0].thickness = 1.1f;
   EXPECT_TRUE(says(words_of(scene), "thickness: is 1.1 m, more than the shortest edge, 0.1 m")) << words_of(scene);
+}
+
+/// Where a frame's cost is out of proportion, and what to do about it, before it is paid.
+TEST(Cost, OfAThicknessOfManyEdgesIsSaid) {
+  Scene scene;
+  Object cloth = make_cloth(grid_mesh(31, 31, 1, 1));
+  cloth.name = "sheet";
+  cloth.self_collision = true;
+  cloth.thickness = 0.3f / 30;
+  scene.add(cloth);
+  EXPECT_FALSE(says(words_of(scene), "million pairs")) << words_of(scene);
+  scene.objects[0].thickness = 4.5f / 30;  // nine edges kept: 1.33 million pairs were counted at 30 x 30, 1480 a vertex
+  const std::string text = words_of(scene);
+  EXPECT_TRUE(says(text, "thickness: is 0.15 m: about 1.")) << text;
+  EXPECT_TRUE(says(text, "times as many as usual, and a frame takes as many times longer; give at most about 0.02"))
+      << text;
+}
+
+TEST(Cost, OfAMeshThatIsFineInOnePlaceIsSaid) {
+  Scene scene;
+  TriangleMesh mesh = grid_mesh(31, 31, 1, 1);
+  for (Vec3f& p : mesh.positions) {  // nearly all of it within a centimetre
+    p.x *= std::fabs(p.x) < 0.45f ? 0.02f : 1;
+    p.z *= std::fabs(p.z) < 0.45f ? 0.02f : 1;
+  }
+  Object cloth = make_cloth(mesh);
+  cloth.self_collision = true;
+  cloth.thickness = 0.01f;
+  scene.add(cloth);
+  EXPECT_TRUE(says(words_of(scene), "times as many as usual")) << words_of(scene);
+}
+
+TEST(Start, NearerThanTheTwoKeepIsDoubted) {
+  Scene scene;
+  scene.add(sheet("shirt", 1));
+  scene.add(sheet("coat", 1.005f));
+  const std::string text = words_of(scene);
+  EXPECT_TRUE(says(text,
+                   "object 'shirt', particle 0 and 24 more: starts nearer to object 'coat' than the 0.02 m that the two "
+                   "keep, the nearest 0.005"))
+      << text;
+  EXPECT_FALSE(says(text, "object 'coat', particle")) << "told once:\n" << text;
+  scene.pairs.push_back({"coat", "shirt", 0.004f, std::nullopt, std::nullopt, std::nullopt});
+  EXPECT_FALSE(says(words_of(scene), "starts nearer")) << words_of(scene);
+  scene.pairs.clear();
+  scene.objects[1] = sheet("coat", 1.02f);
+  EXPECT_FALSE(says(words_of(scene), "starts nearer")) << "just so far apart:\n" << words_of(scene);
+}
+
+TEST(Start, InsideOfAClosedColliderIsDoubted) {
+  Scene scene = with_mesh(sphere_mesh(2));
+  EXPECT_FALSE(says(words_of(scene), "is inside of")) << words_of(scene);
+  for (Vec3f& p : scene.objects[0].positions) p = p * 0.2f - Vec3f{0, 0.4f, 0};
+  EXPECT_TRUE(says(words_of(scene),
+                   "doubtful: object 'sheet', particle 0 and 24 more: is inside of closed collider 'rock' at the "
+                   "start; move one of them, or set initial_intersections to untangle"))
+      << words_of(scene);
+  scene.settings.initial_intersections = Settings::Intersections::untangle;
+  EXPECT_TRUE(says(words_of(scene), "it will be brought out at untangling_speed")) << words_of(scene);
 }
 
 /// Nothing is said where another object or a mesh collider is met.
