@@ -17,6 +17,7 @@ namespace {
 
 constexpr float frame_time = 1.f / 60;
 constexpr Steps small_steps{10, 1}, bullets_best{1, 10};
+constexpr int frames_of_phases = 20;
 constexpr int smallest = 2, largest = 4096;
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -55,9 +56,13 @@ class Bench {
 
   void run(const std::string& workload, int size) {
     first_ms_ = 0;
-    if (workload == "W1-stretching") run_w1(workload, size, false);
-    if (workload == "W1-bending") run_w1(workload, size, true);
-    if (workload == "W1-1x10") run_1x10(workload, size);
+    const std::string suffix = "-alternating";
+    const bool alternates = workload.size() > suffix.size() && workload.substr(workload.size() - suffix.size()) == suffix;
+    const Diagonals diagonals = alternates ? Diagonals::alternating : Diagonals::uniform;
+    const std::string kind = alternates ? workload.substr(0, workload.size() - suffix.size()) : workload;
+    if (kind == "W1-stretching") run_w1(workload, make_w1(size, false, diagonals), size);
+    if (kind == "W1-bending") run_w1(workload, make_w1(size, true, diagonals), size);
+    if (kind == "W1-1x10") run_1x10(workload, make_w1(size, false, diagonals), size);
     if (workload == "W1-set-up") run_set_up(workload, size);
     for (const QualityWorkload& quality : quality_workloads())
       if (workload == quality.as.name) run_quality(quality, size);
@@ -66,14 +71,12 @@ class Bench {
   std::vector<Row> take_rows() { return std::move(rows_); }
 
  private:
-  void run_w1(const std::string& workload, int size, bool bending) {
-    const Cloth cloth = make_w1(size, bending);
+  void run_w1(const std::string& workload, const Cloth& cloth, int size) {
     measure({workload, size, "plain loop"}, cloth, small_steps, [&] { return make_plain_loop(cloth, small_steps); });
     measure_pliant(workload, cloth, size, small_steps);
   }
 
-  void run_1x10(const std::string& workload, int size) {
-    const Cloth cloth = make_w1(size, false);
+  void run_1x10(const std::string& workload, const Cloth& cloth, int size) {
     if (options_.against_bullet) {
       for (BulletOrder order : {BulletOrder::spread, BulletOrder::shuffled})
         measure({workload, size, order == BulletOrder::spread ? "bullet" : "bullet, links shuffled"}, cloth, bullets_best,
@@ -126,6 +129,7 @@ class Bench {
     }
     row.ms_per_frame = quantile(times, 0.5);
     measure_stretch(cloth, engine->positions(), row);
+    row.phases = engine->phases(frame_time, std::min(options_.frames, frames_of_phases));
     finish(row, static_cast<double>(cloth.edges.size() + cloth.hinges.size()) * steps.substeps * steps.iterations);
   }
 
@@ -164,7 +168,10 @@ const std::vector<Workload>& workloads() {
   static const std::vector<Workload> frames{
       {"W1-stretching", "N x N cloth hung by two corners, edges only, 10 substeps of 1 iteration"},
       {"W1-bending", "the same with a dihedral bending constraint for each inner edge"},
+      {"W1-stretching-alternating", "as W1-stretching, each cell's diagonal the other way than its neighbours'"},
+      {"W1-bending-alternating", "as W1-bending, on the same mesh"},
       {"W1-1x10", "edges only, 1 step of 10 iterations, where Bullet is fastest; last the engine at 10 substeps of 1"},
+      {"W1-1x10-alternating", "the same on alternating diagonals"},
       {"W1-set-up", "making and compiling the cloth with bending (once, not a frame)"},
   };
   static const std::vector<Workload> all = [] {
@@ -188,7 +195,7 @@ std::vector<Row> run(const Options& options) {
 
 std::string to_json(const std::vector<Row>& rows) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const Row& row : rows)
+  for (const Row& row : rows) {
     list.push_back({{"workload", row.workload},
                     {"size", row.size},
                     {"engine", row.engine},
@@ -203,6 +210,8 @@ std::string to_json(const std::vector<Row>& rows) {
                     {"energy_lost", row.energy_lost},
                     {"met", row.met},
                     {"ratio", row.ratio}});
+    for (const PhaseTime& phase : row.phases) list.back()["phases_ms"][phase.name] = phase.milliseconds;
+  }
   return list.dump(2) + "\n";
 }
 

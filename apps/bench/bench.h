@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "pliant/world.h"
+
 namespace pliant::bench {
 
 /// One engine's figures for one workload at one size.
 struct Row {
-  std::string workload;  ///< a name from workload_names()
+  std::string workload;  ///< a name from workloads()
   int size = 0;          ///< N of an N x N cloth
   std::string engine;    ///< "plain loop", "bullet" or "pliant"
   int threads = 1, substeps = 0, iterations = 0;
@@ -19,7 +21,8 @@ struct Row {
   double stretch_mean = 0, stretch_p99 = 0, stretch_max = 0;  ///< length over rest length after the last frame
   double energy_lost = 0;                                     ///< by frame 40 [J]; of W1-quality alone
   bool met = true;                                            ///< of W1-quality: whether the bounds were kept
-  double ratio = 0;  ///< how many times as fast as the first row of the same workload and size
+  std::vector<PhaseTime> phases{};  ///< of "pliant": milliseconds a frame by phase, in a run of its own that times them apart
+  double ratio = 0;               ///< how many times as fast as the first row of the same workload and size
 };
 
 struct Options {

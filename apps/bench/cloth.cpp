@@ -43,12 +43,32 @@ void sort_by_mesh(std::vector<Item>& items, const std::map<std::pair<int, int>, 
 
 }  // namespace
 
-Object make_w1_object(int size, bool with_bending) {
+namespace {
+
+/// Grid cells are two triangles each, in order of rows: every second one gets its other diagonal.
+TriangleMesh w1_mesh(int size, Diagonals diagonals) {
+  TriangleMesh mesh = grid_mesh(size, size, 1, 1);
+  if (diagonals == Diagonals::uniform) return mesh;
+  mesh.triangles.clear();
+  for (int row = 0; row + 1 < size; ++row) {
+    for (int column = 0; column + 1 < size; ++column) {
+      const int a = row * size + column, b = a + 1, c = a + size, d = c + 1;
+      const bool falls = (row + column) % 2 != 0;
+      mesh.triangles.push_back({a, c, falls ? b : d});
+      mesh.triangles.push_back({falls ? b : a, falls ? c : d, falls ? d : b});
+    }
+  }
+  return mesh;
+}
+
+}  // namespace
+
+Object make_w1_object(int size, bool with_bending, Diagonals diagonals) {
   ClothOptions options;
   options.material = fabric("cotton");
   options.stretch = Stiffness::rigid();
   options.bending_model = with_bending ? ClothOptions::Bending::dihedral : ClothOptions::Bending::none;
-  Object object = make_cloth(grid_mesh(size, size, 1, 1), options);
+  Object object = make_cloth(w1_mesh(size, diagonals), options);
   for (int corner : {0, size - 1}) object.pins.push_back({corner, {}});
   return object;
 }
@@ -87,9 +107,9 @@ std::vector<Edge> edges_of(const Object& object) {
   return edges;
 }
 
-Cloth make_w1(int size, bool with_bending) {
+Cloth make_w1(int size, bool with_bending, Diagonals diagonals) {
   Cloth cloth;
-  cloth.object = make_w1_object(size, with_bending);
+  cloth.object = make_w1_object(size, with_bending, diagonals);
   cloth.pins = {0, size - 1};
   cloth.edges = edges_of(cloth.object);
   if (const ConstraintGroup* group = find(cloth.object, "dihedral_bending"))

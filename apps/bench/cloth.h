@@ -9,6 +9,7 @@
 
 #include "pliant/mesh.h"
 #include "pliant/scene.h"
+#include "pliant/world.h"
 
 namespace pliant::bench {
 
@@ -31,9 +32,13 @@ struct Cloth {
   std::array<int, 2> pins{};
 };
 
+/// Which way the cells of the grid are cut: all alike, or each the other way than its neighbours, as other engines' figures have
+/// it.
+enum class Diagonals { uniform, alternating };
+
 /// The object alone, without the lists that other engines need.
-Object make_w1_object(int size, bool with_bending);
-Cloth make_w1(int size, bool with_bending);
+Object make_w1_object(int size, bool with_bending, Diagonals diagonals = Diagonals::uniform);
+Cloth make_w1(int size, bool with_bending, Diagonals diagonals = Diagonals::uniform);
 
 /// The edges that a cloth's distance constraints stand on, in the order in which its triangles first name them.
 std::vector<Edge> edges_of(const Object& object);
@@ -49,6 +54,8 @@ class Engine {
   virtual void step(float dt) = 0;
   virtual std::vector<Vec3f> positions() const = 0;
   virtual int threads() const { return 1; }
+  /// Milliseconds a frame by phase, over so many more frames; nothing where an engine has none to tell.
+  virtual std::vector<PhaseTime> phases(float /*dt*/, int /*frames*/) { return {}; }
 };
 
 struct Steps {

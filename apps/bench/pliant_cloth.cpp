@@ -1,4 +1,6 @@
 // Pliant through its public interface, as any program would use it.
+#include <algorithm>
+
 #include "apps/bench/cloth.h"
 #include "pliant/world.h"
 
@@ -17,12 +19,33 @@ Scene scene_of(const Cloth& cloth, Steps steps, int threads) {
 
 class PliantCloth final : public Engine {
  public:
-  PliantCloth(const Cloth& cloth, Steps steps, int threads) : world_(scene_of(cloth, steps, threads)) {}
+  PliantCloth(const Cloth& cloth, Steps steps, int threads) : scene_(scene_of(cloth, steps, threads)), world_(scene_) {}
   void step(float dt) override { world_.step(dt); }
   std::vector<Vec3f> positions() const override { return world_.positions(0); }
   int threads() const override { return world_.threads(); }
 
+  /// In a World that shows them apart, from where this one is.
+  std::vector<PhaseTime> phases(float dt, int frames) override {
+    Scene scene = scene_;
+    scene.settings.separate_phases = true;
+    World world(scene);
+    world.restore(world_.state());
+    std::vector<PhaseTime> sums;
+    for (int frame = 0; frame < frames; ++frame) {
+      for (const PhaseTime& phase : world.step(dt).phases) {
+        const auto same = [&](const PhaseTime& sum) { return sum.name == phase.name; };
+        const auto sum = std::find_if(sums.begin(), sums.end(), same);
+        if (sum == sums.end())
+          sums.push_back({phase.name, phase.milliseconds / frames});
+        else
+          sum->milliseconds += phase.milliseconds / frames;
+      }
+    }
+    return sums;
+  }
+
  private:
+  Scene scene_;
   World world_;
 };
 

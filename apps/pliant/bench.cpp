@@ -1,4 +1,6 @@
 // pliant bench: the workloads of apps/bench as a table, row by row as they are measured.
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -25,6 +27,10 @@ void print_row(const pliant::bench::Row& row) {
                 row.workload.c_str(), row.size, row.engine.c_str(), row.threads, row.substeps, row.iterations,
                 row.ms_per_frame, row.ns_per_projection, row.stretch_mean, row.stretch_p99, row.stretch_max, row.ratio);
   print(text);
+  std::string phases;
+  for (const PhaseTime& phase : row.phases)
+    phases += fmt::format("{}{} {:.3f}", phases.empty() ? "" : ", ", phase.name, phase.milliseconds);
+  if (!phases.empty()) print("  by phase, ms: " + phases + "\n");
   if (!row.met) print("  the bounds were not kept; more substeps than this were not tried\n");
   if (row.energy_lost != 0) {
     std::snprintf(text, sizeof text, "  energy lost by frame 40: %.3g J\n", row.energy_lost);

@@ -116,6 +116,38 @@ TEST(Bench, ARunYieldsARowForEachEngineAndTheJsonHoldsThem) {
     EXPECT_TRUE(json[1].contains(key)) << key;
 }
 
+TEST(Bench, AlternatingDiagonalsAreCutTheOtherWayInEveryOtherCell) {
+  const Cloth cloth = make_w1(4, false, Diagonals::alternating);
+  const auto has = [&](int a, int b) {
+    return std::any_of(cloth.edges.begin(), cloth.edges.end(),
+                       [&](const Edge& e) { return std::min(e.a, e.b) == a && std::max(e.a, e.b) == b; });
+  };
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      const int a = 4 * row + column;
+      EXPECT_EQ(has(a, a + 5), (row + column) % 2 == 0) << row << " " << column;
+      EXPECT_EQ(has(a + 1, a + 4), (row + column) % 2 == 1) << row << " " << column;
+    }
+  }
+  EXPECT_EQ(cloth.edges.size(), make_w1(4, false).edges.size());
+}
+
+TEST(Bench, PhasesStandApart) {
+  Options options;
+  options.workload = "W1-stretching-alternating";
+  options.sizes = {8};
+  options.warm_up = 1;
+  options.frames = 2;
+  options.threads = 1;
+  const std::vector<Row> rows = run(options);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[1].workload, "W1-stretching-alternating");
+  const nlohmann::json json = nlohmann::json::parse(to_json(rows));
+  for (const char* phase : {"solve: tiles", "predict", "update", "find non-finite values"})
+    EXPECT_TRUE(json[1].at("phases_ms").contains(phase)) << phase;
+  EXPECT_FALSE(json[0].contains("phases_ms"));
+}
+
 TEST(Bench, WhatIsUnknownIsRefused) {
   Options options;
   options.workload = "W9";
