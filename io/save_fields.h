@@ -53,9 +53,9 @@ void fields(A& a, Is<Attachment> auto& of) {
 template <class A>
 void fields(A& a, Is<Object> auto& of) {
   auto& [name, positions, velocities, masses, constraints, triangles, volume, pins, attachments, thickness, self_collision,
-         collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift, damping, colour] = of;
+         collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift, sweep, damping, colour] = of;
   a(name, positions, velocities, masses, constraints, triangles, volume, pins, attachments, thickness, self_collision,
-    collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift, damping);
+    collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift, sweep, damping);
   a.aside(colour);
 }
 template <class A>

@@ -125,6 +125,9 @@ void set_properties(const JsonDocument& document, const JsonValue& at, Object& o
   set(at, "mask", object.mask);
   set_friction(document, at, object.static_friction, object.kinetic_friction);
   set(at, "restitution", object.restitution);
+  std::string sweep;
+  set(at, "sweep", sweep);
+  if (!sweep.empty()) object.sweep = sweep_of(sweep);
   set(at, "drag", object.drag);
   set(at, "lift", object.lift);
   set(at, "damping", object.damping);

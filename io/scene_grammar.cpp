@@ -135,6 +135,12 @@ const Record& attachment_record() {
   return result;
 }
 
+std::vector<std::string> sweep_names() {
+  std::vector<std::string> names{"automatic"};
+  for (const NamedSweep& one : sweeps()) names.push_back(one.name);
+  return names;
+}
+
 const Record& object_record() {
   static const Record result{
       "object",
@@ -161,6 +167,9 @@ const Record& object_record() {
        field("kinetic_friction", number("-", 0, 1000), "the material's, else 0.3, or the static one where that is less",
              "Coefficient of friction in motion; at most the static one."),
        field("restitution", share(), Object{}.restitution, "Share of the speed kept in a bounce."),
+       field("sweep", choice(sweep_names()), "automatic",
+             "By which sweep it is solved. `automatic` is that of the `settings`; where these name none either, the one "
+             "that measured best on objects of its kind."),
        field("drag", number("-", 0, 1000), Object{}.drag, "Drag coefficient of a triangle square to the wind."),
        field("lift", number("-", 0, 1000), Object{}.lift, "Lift coefficient."),
        field("damping", number("1/s", 0, 1e6), Object{}.damping,
@@ -182,12 +191,6 @@ const Record& wind_record() {
        field("gust_period", positive("s", 1e6), Wind{}.gust_period, "Period of the gusts.")},
       {}};
   return result;
-}
-
-std::vector<std::string> sweep_names() {
-  std::vector<std::string> names{"automatic"};
-  for (const NamedSweep& one : sweeps()) names.push_back(one.name);
-  return names;
 }
 
 const Record& sweep_options_record() {
@@ -222,7 +225,7 @@ const Record& settings_record() {
       "settings",
       "How the constraints are solved. `threads`, `isa` and what is measured do not change the result.",
       {field("substeps", integer(0, 10000), Settings{}.substeps,
-             "Substeps a frame; 0: 10 of the multigrid sweep, 20 of any other."),
+             "Substeps a frame; 0: 10 where every object is solved by `multigrid`, else 20."),
        field("iterations", integer(1, 10000), Settings{}.iterations, "Iterations a substep."),
        field(
            "tolerance", number("m", 0, largest_place), Settings{}.tolerance,
@@ -231,13 +234,11 @@ const Record& settings_record() {
        field("threads", integer(0, 1024), Settings{}.threads, "0: as many as the machine has."),
        field(
            "sweep", choice(sweep_names()), "automatic",
-           "In what order constraints are visited (docs/internals/convergence.md). `automatic` is `multigrid` for cloth "
-           "and rope "
-           "of 32 particles or more, "
-           "and "
-           "`tiled` where there are volumes, stiff sheets, PBD stiffness, iterations, or surfaces that can touch others or "
-           "themselves. `sequential` is the slow, "
-           "readable reference with the bits of `tiled`."),
+           "In what order constraints are visited (docs/internals/convergence.md), unless an object names its own. "
+           "`automatic` is chosen for each object: `multigrid` for cloth and rope of 32 particles or more, and `tiled` for "
+           "volumes, stiff sheets, PBD stiffness, iterations, or a surface that can touch others or itself. `sequential` "
+           "is "
+           "the slow, readable reference with the bits of `tiled`."),
        field("sweep_options", record(sweep_options_record()), "the defaults", "What a sweep can be told besides."),
        field("contact_filter", boolean(), Settings{}.contact_filter,
              "Shorten moves so that nothing that collides passes through anything else (docs/guide/contact.md); without it "

@@ -88,8 +88,9 @@ void try_out(const Scene& scene, double seconds, std::vector<Finding>& findings)
 std::string how_it_is_solved(const Scene& scene) {
   std::string reason;
   const Settings settings = chosen_settings(scene, &reason);
-  return "solved by the sweep '" + sweep_name(settings.sweep) + "' with " +
-         counted(static_cast<std::size_t>(std::max(settings.substeps, 0)), "substep") + " a frame" +
+  const std::string substeps = counted(static_cast<std::size_t>(std::max(settings.substeps, 0)), "substep") + " a frame";
+  if (settings.sweep == Sweep::automatic) return "solved with " + substeps + ": " + one_line(reason) + "\n";
+  return "solved by the sweep '" + sweep_name(settings.sweep) + "' with " + substeps +
          (reason.empty() ? "" : ", since the scene leaves the sweep open and has " + one_line(reason)) + "\n";
 }
 

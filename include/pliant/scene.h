@@ -60,6 +60,18 @@ struct Attachment {
   Stiffness stiffness{};
 };
 
+/// How constraints are visited; all give the same bits where they say so.
+enum class Sweep {
+  automatic,  ///< the one that measured best on scenes of the kind: see chosen_settings; the default
+  tiled,      ///< coloured Gauss-Seidel in tiles, sixteen lanes, all threads
+  sequential,  ///< the same order, one constraint at a time in plain scalar code: the readable reference, bit-equal to `tiled`
+  symmetric,  ///< `tiled` there and back: one iteration visits every constraint twice, in one order and in the reverse
+  jacobi,     ///< all constraints at once from the same positions, each particle's corrections then shared out
+  natural,    ///< Gauss-Seidel in the order in which the constraints were given, one at a time: for comparison, slow
+  chains,     ///< rigid and compliant distances laid out as paths, each path solved exactly; the rest as `tiled` has it
+  multigrid,  ///< one correction of all distances at once on a hierarchy of levels, then `tiled` twice: for fine meshes
+};
+
 /// Anything made of particles. Cloth, balloons and ropes are ways to make one.
 struct Object {
   std::string name;
@@ -71,16 +83,17 @@ struct Object {
   std::optional<Volume> volume;               ///< needs a closed surface
   std::vector<Pin> pins;
   std::vector<Attachment> attachments;
-  float thickness = 0.001f;       ///< distance kept from colliders; two surfaces keep the sum of theirs [m]
-  bool self_collision = false;    ///< its surface, or its links where it has none, does not pass through itself
-  bool collides = false;          ///< nor through other objects of which this holds
-  std::uint32_t groups = 1;       ///< bits: what it belongs to. Two things meet where each one's groups
-  std::uint32_t mask = ~0u;       ///< have a bit in the other's mask
-  float static_friction = 0.4f;   ///< [-]
-  float kinetic_friction = 0.3f;  ///< [-], <= static_friction
-  float restitution = 0;          ///< 0..1 [-]
-  float drag = 1.2f;              ///< coefficient of a triangle square to the wind [-]
-  float lift = 0.8f;              ///< [-]
+  float thickness = 0.001f;        ///< distance kept from colliders; two surfaces keep the sum of theirs [m]
+  bool self_collision = false;     ///< its surface, or its links where it has none, does not pass through itself
+  bool collides = false;           ///< nor through other objects of which this holds
+  std::uint32_t groups = 1;        ///< bits: what it belongs to. Two things meet where each one's groups
+  std::uint32_t mask = ~0u;        ///< have a bit in the other's mask
+  float static_friction = 0.4f;    ///< [-]
+  float kinetic_friction = 0.3f;   ///< [-], <= static_friction
+  float restitution = 0;           ///< 0..1 [-]
+  float drag = 1.2f;               ///< coefficient of a triangle square to the wind [-]
+  float lift = 0.8f;               ///< [-]
+  Sweep sweep = Sweep::automatic;  ///< by which it is solved; automatic: see chosen_sweep
   float damping = 0;  ///< of velocity: each substep divides it by 1 + h damping, about exp(-damping) a second [1/s]
   Vec3f colour{0.75f, 0.35f, 0.30f};  ///< linear RGB, 0..1
 };
@@ -207,18 +220,6 @@ using ForceField = std::function<Vec3f(const Vec3f& position, const Vec3f& veloc
 
 // ---------------------------------------------------------------- how it is solved
 
-/// How constraints are visited; all give the same bits where they say so.
-enum class Sweep {
-  automatic,  ///< the one that measured best on scenes of the kind: see chosen_settings; the default
-  tiled,      ///< coloured Gauss-Seidel in tiles, sixteen lanes, all threads
-  sequential,  ///< the same order, one constraint at a time in plain scalar code: the readable reference, bit-equal to `tiled`
-  symmetric,  ///< `tiled` there and back: one iteration visits every constraint twice, in one order and in the reverse
-  jacobi,     ///< all constraints at once from the same positions, each particle's corrections then shared out
-  natural,    ///< Gauss-Seidel in the order in which the constraints were given, one at a time: for comparison, slow
-  chains,     ///< rigid and compliant distances laid out as paths, each path solved exactly; the rest as `tiled` has it
-  multigrid,  ///< one correction of all distances at once on a hierarchy of levels, then `tiled` twice: for fine meshes
-};
-
 /// A sweep and what scenes call it.
 struct NamedSweep {
   std::string name;
@@ -308,11 +309,17 @@ struct Scene {
   void pin(int object, const std::vector<int>& particles, const Motion& motion = {});
 };
 
+/// The sweep by which one object of the scene is solved: its own; where it names none, that of the settings; where these name
+/// none, the one that measured best on objects of its kind. That is `multigrid` for cloth and rope of 32 particles or more, and
+/// `tiled` where that would do harm or no good: a volume, a sheet so stiff that its bending length (B / rho g)^(1/3) is more than
+/// a quarter of its size, PBD stiffness of bending or of all distances, more than one iteration, a surface that can touch others or
+/// itself. Smaller objects go with the others where these are all solved by `multigrid`. `reason` is told in words what decides where both leave it open.
+Sweep chosen_sweep(const Scene& scene, int object, std::string* reason = nullptr);
+
 /// The settings that a World of this scene runs by: its own, with what they leave open decided by what the scene holds.
-/// `Sweep::automatic` becomes `multigrid` for cloth and rope of 32 particles or more, and `tiled` where that would do harm or no
-/// good: an object with a volume, a sheet so stiff that its bending length (B / rho g)^(1/3) is more than a quarter of its size, PBD
-/// stiffness of bending or of all distances, more than one iteration, surfaces that can touch others or themselves. 0 substeps become 10 of `multigrid` and 20 of any
-/// other (docs/internals/convergence.md). `reason` is told what it is that decides, in words, where the sweep was left open.
+/// `Sweep::automatic` becomes the sweep of all objects (see chosen_sweep) where they agree, and stays where they do not. 0 substeps
+/// become 10 where every object is solved by `multigrid`, else 20 (docs/internals/convergence.md). `reason` is told in words what
+/// decides, where the sweep was left open.
 Settings chosen_settings(const Scene& scene, std::string* reason = nullptr);
 
 /// Checks everything that a World would refuse, and says what is doubtful besides.

@@ -16,7 +16,15 @@ namespace pliant {
 
 namespace {
 
-void check_sweep(Problems& problems, const Settings& settings) {
+bool has_natural(const Scene& scene) {
+  const bool by_default = scene.settings.sweep == Sweep::natural;
+  return (by_default && scene.objects.empty()) ||
+         std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+           return object.sweep == Sweep::natural || (by_default && object.sweep == Sweep::automatic);
+         });
+}
+
+void check_sweep(Problems& problems, const Settings& settings, bool uses_natural) {
   const SweepOptions& options = settings.sweep_options;
   if (!(options.relaxation > 0 && options.relaxation < 2))
     problems.grave("settings, sweep_options, relaxation", "is " + words(options.relaxation),
@@ -33,7 +41,7 @@ void check_sweep(Problems& problems, const Settings& settings) {
     problems.grave("settings, sweep_options, plain_iterations",
                    "is 1, and the spectral radius is estimated from two or more",
                    "give 2 or more, or the spectral_radius itself");
-  if (settings.sweep == Sweep::natural)
+  if (uses_natural)
     problems.grave(
         "settings, sweep_options, acceleration",
         "is Chebyshev over Gauss-Seidel in natural order: one sweep carries rounding along the whole order, its matrix "
@@ -51,7 +59,7 @@ void check_settings(Problems& problems, const Scene& scene) {
   if (!(settings.untangling_speed > 0 && settings.untangling_speed <= 1000))
     problems.grave("settings, untangling_speed", "is " + words(settings.untangling_speed) + " m/s",
                    "give one above 0, up to 1000");
-  check_sweep(problems, settings);
+  check_sweep(problems, settings, has_natural(scene));
   require_range(problems, "frames", scene.frames, 0, std::numeric_limits<int>::max());
   if (!(scene.frame_time > 0) || std::isinf(scene.frame_time))
     problems.grave("frame_time", "is " + words(scene.frame_time) + " s", "give a positive, finite time, such as 1/60 s");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ constexpr int fewest_particles = 32;
 constexpr double stiff_share = 0.25;
 /// Where gravity is less, something else bends the sheet [m/s^2].
 constexpr double least_acceleration = 9.81;
+constexpr const char* too_coarse = "nothing so fine that it needs more";
 constexpr int substeps_of_multigrid = 10, substeps_of_others = 20;
 
 /// Zero where there is no such particle: a scene is asked about before it is checked.
@@ -115,39 +117,91 @@ bool is_stiff_sheet(const Object& object, double gravity) {
   return !(rigidity / weight <= allowed * allowed * allowed);
 }
 
-/// Surfaces that meet others or themselves, by name; empty where none do.
-std::string meeting_surface(const Scene& scene) {
-  int colliding = 0;
-  for (const Object& object : scene.objects) {
-    if (object.self_collision) return object.name;
-    if (object.collides && ++colliding > 1) return object.name;
-  }
-  for (const MeshCollider& collider : scene.mesh_colliders)
-    if (collider.as == MeshCollider::As::triangles && !scene.objects.empty()) return collider.name;
-  return {};
+bool may_meet(std::uint32_t groups, std::uint32_t mask, const Object& object) {
+  return (groups & object.mask) != 0 && (object.groups & mask) != 0;
+}
+
+/// Whether its surface can touch itself, another object's or a mesh collider.
+bool can_touch(const Scene& scene, const Object& object) {
+  if (object.self_collision) return true;
+  const auto meets_object = [&](const Object& other) {
+    return &other != &object && other.collides && may_meet(other.groups, other.mask, object);
+  };
+  const auto meets_mesh = [&](const MeshCollider& collider) {
+    return collider.as == MeshCollider::As::triangles && may_meet(collider.groups, collider.mask, object);
+  };
+  return (object.collides && std::any_of(scene.objects.begin(), scene.objects.end(), meets_object)) ||
+         std::any_of(scene.mesh_colliders.begin(), scene.mesh_colliders.end(), meets_mesh);
 }
 
 struct Choice {
-  Sweep sweep;
+  Sweep sweep = Sweep::tiled;
   std::string reason;
 };
 
-Choice choose(const Scene& scene) {
-  if (scene.settings.iterations > 1) return {Sweep::tiled, "more than one iteration"};
+Choice choose(const Scene& scene, const Object& object) {
+  const std::string name = "'" + object.name + "'";
   const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
-  std::size_t largest = 0;
-  for (const Object& object : scene.objects) {
-    const std::size_t springs = springs_of(object);
-    if (springs == 0) continue;
-    if (object.volume) return {Sweep::tiled, "'" + object.name + "', which has a volume"};
-    if (is_stiff_sheet(object, gravity))
-      return {Sweep::tiled, "'" + object.name + "', a sheet whose bending length is more than a quarter of its size"};
-    largest = std::max(largest, std::min(object.positions.size(), springs + 1));  // a path has one particle more
+  const std::size_t springs = springs_of(object);
+  if (scene.settings.iterations > 1) return {Sweep::tiled, "more than one iteration"};
+  if (springs > 0 && object.volume) return {Sweep::tiled, name + ", which has a volume"};
+  if (springs > 0 && is_stiff_sheet(object, gravity))
+    return {Sweep::tiled, name + ", a sheet whose bending length is more than a quarter of its size"};
+  const std::size_t particles = springs == 0 ? 0 : std::min(object.positions.size(), springs + 1);  // a path has one more
+  if (particles < fewest_particles) return {Sweep::tiled, too_coarse};
+  if (can_touch(scene, object)) return {Sweep::tiled, name + ", a surface that others or itself can touch"};
+  return {Sweep::multigrid, "cloth or rope, the largest of " + std::to_string(particles) + " particles"};
+}
+
+/// An object's own sweep, the settings', or the one chosen for it.
+Choice choice_of(const Scene& scene, const Object& object) {
+  if (object.sweep != Sweep::automatic) return {object.sweep, {}};
+  if (scene.settings.sweep != Sweep::automatic) return {scene.settings.sweep, {}};
+  return choose(scene, object);
+}
+
+/// How the objects of a scene are solved. Those too coarse for sweeps to differ are left out: they go with the others.
+struct SweepsInUse {
+  struct Use {
+    std::string first;  ///< name of the first object
+    int objects = 0;
+  };
+  std::map<Sweep, Use> uses;
+  std::string reason = too_coarse;  ///< of the largest object by multigrid, else of the first
+  std::size_t particles = 0;        ///< of that object
+
+  void add(const Object& object, const Choice& choice) {
+    Use& use = uses[choice.sweep];
+    if (use.objects++ == 0) use.first = object.name;
+    const bool is_larger = choice.sweep == Sweep::multigrid && object.positions.size() > particles;
+    if (reason != too_coarse && !is_larger) return;
+    reason = choice.reason;
+    particles = object.positions.size();
   }
-  if (largest < fewest_particles) return {Sweep::tiled, "nothing so fine that it needs more"};
-  if (const std::string meets = meeting_surface(scene); !meets.empty())
-    return {Sweep::tiled, "'" + meets + "', a surface that others or itself can touch"};
-  return {Sweep::multigrid, "cloth or rope, the largest of " + std::to_string(largest) + " particles"};
+
+  /// automatic where they differ.
+  Sweep common(Sweep of_none) const {
+    return uses.empty() ? of_none : uses.size() == 1 ? uses.begin()->first : Sweep::automatic;
+  }
+
+  std::string in_words() const {
+    if (uses.size() < 2) return reason;
+    std::string text;
+    for (const auto& [sweep, use] : uses)
+      text += (text.empty() ? "'" : ", '") + use.first + "'" +
+              (use.objects > 1 ? " and " + std::to_string(use.objects - 1) + " more" : "") + " by '" + sweep_name(sweep) +
+              "'";
+    return text;
+  }
+};
+
+SweepsInUse sweeps_in_use(const Scene& scene) {
+  SweepsInUse used;
+  for (const Object& object : scene.objects) {
+    const Choice choice = choice_of(scene, object);
+    if (choice.reason != too_coarse) used.add(object, choice);
+  }
+  return used;
 }
 
 }  // namespace
@@ -158,15 +212,21 @@ bool has_stiff_sheet(const Scene& scene) {
                      [&](const Object& object) { return springs_of(object) > 0 && is_stiff_sheet(object, gravity); });
 }
 
+Sweep chosen_sweep(const Scene& scene, int object, std::string* reason) {
+  const Choice choice = choice_of(scene, scene.objects[static_cast<std::size_t>(object)]);
+  if (reason != nullptr) *reason = choice.reason;
+  if (choice.reason != too_coarse) return choice.sweep;
+  return sweeps_in_use(scene).common(Sweep::tiled) == Sweep::multigrid ? Sweep::multigrid : Sweep::tiled;
+}
+
 Settings chosen_settings(const Scene& scene, std::string* reason) {
   Settings settings = scene.settings;
-  if (settings.sweep == Sweep::automatic) {
-    const Choice choice = choose(scene);
-    settings.sweep = choice.sweep;
-    if (reason != nullptr) *reason = choice.reason;
-  }
-  if (settings.substeps == 0)
-    settings.substeps = settings.sweep == Sweep::multigrid ? substeps_of_multigrid : substeps_of_others;
+  const SweepsInUse used = sweeps_in_use(scene);
+  const bool is_open = settings.sweep == Sweep::automatic;
+  const Sweep common = used.common(is_open ? Sweep::tiled : settings.sweep);
+  if (is_open) settings.sweep = common;
+  if (is_open && reason != nullptr) *reason = used.in_words();
+  if (settings.substeps == 0) settings.substeps = common == Sweep::multigrid ? substeps_of_multigrid : substeps_of_others;
   return settings;
 }
 

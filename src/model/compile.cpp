@@ -257,22 +257,24 @@ std::vector<std::array<int, 2>> lines_of(const Object& object, const std::vector
 CompiledObject compile(const Object& object, const CompileOptions& options) {
   CompiledObject out;
   out.name = object.name;
+  out.sweep = options.sweep;
   const std::vector<Vec3f> positions = all_positions(object);
   out.particles = static_cast<int>(positions.size());
   out.user_particles = static_cast<int>(object.positions.size());
 
   std::vector<ConstraintList> lists = gather_constraints(object, options.passes);
-  if (options.chains) split_off_chains(lists);
+  const bool in_given_order = options.sweep == Sweep::natural;
+  if (options.sweep == Sweep::chains) split_off_chains(lists);
   std::vector<int> tile;
-  const int largest_tile = options.in_given_order ? std::numeric_limits<int>::max() : options.largest_tile;
+  const int largest_tile = in_given_order ? std::numeric_limits<int>::max() : options.largest_tile;
   number_particles(positions, lists, largest_tile, tile, out);
   fill_particles(object, positions, out);
   fill_kinematics(object, out);
-  schedule(lists, tile, options.in_given_order, out);
+  schedule(lists, tile, in_given_order, out);
   append_chains(lists, options.chain_softness, out);
   fill_surface(object, out);
   if (options.tethers) out.tethers = find_tethers(lists, options.tether_slack, out);
-  if (options.multigrid) out.multigrid = build_multigrid(lists, out.positions, options.gravity);
+  if (options.sweep == Sweep::multigrid) out.multigrid = build_multigrid(lists, out.positions, options.gravity);
   fill_volume(object, options.passes, out);
 
   if (object.triangles.empty()) out.lines = lines_of(object, out.place);

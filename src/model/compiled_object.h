@@ -81,10 +81,11 @@ struct CompiledVolume {
 
 struct CompiledObject {
   std::string name;
-  int particles = 0;       ///< targets of attachments included
-  int user_particles = 0;  ///< as the Object had
-  std::vector<int> order;  ///< order[storage] = user's number
-  std::vector<int> place;  ///< place[user's number] = storage
+  Sweep sweep = Sweep::tiled;  ///< that it is laid out for and solved by; never automatic
+  int particles = 0;           ///< targets of attachments included
+  int user_particles = 0;      ///< as the Object had
+  std::vector<int> order;      ///< order[storage] = user's number
+  std::vector<int> place;      ///< place[user's number] = storage
   std::vector<Record> positions, velocities;
   std::vector<Pool> pools;
   std::vector<Segment> segments;  ///< tile after tile, then the straddlers, then the links of chains
@@ -108,13 +109,14 @@ struct CompiledObject {
 
 /// What the schedule depends on besides the object.
 struct CompileOptions {
-  int passes = 1;               ///< projections of a constraint in a frame: substeps x iterations, for k'
-  int largest_tile = 4096;      ///< particles
-  bool in_given_order = false;  ///< one tile, one constraint after another: type by type, law by law, as they were given
-  bool chains = false, tethers = false;
+  int passes = 1;           ///< projections of a constraint in a frame: substeps x iterations, for k'
+  int largest_tile = 4096;  ///< particles
+  /// `chains` and `multigrid` need data of their own; `natural` is one tile, one constraint after another: type by type, law by
+  /// law, as they were given. All others are laid out alike.
+  Sweep sweep = Sweep::tiled;
+  bool tethers = false;
   float chain_softness = 0.1f;  ///< as in SweepOptions
   float tether_slack = 0;
-  bool multigrid = false;
   float gravity = 0;  ///< its magnitude, from which multigrid tells what an object carries [m/s^2]
 };
 

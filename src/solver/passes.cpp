@@ -17,7 +17,8 @@ constexpr float least_depth = 0.25f;
 
 void sweep_segments(const Substep& s, int object, int first, int last, bool first_pass) {
   const CompiledObject& from = s.model.objects[object];
-  const auto sweep = s.context.options.relaxation == 1 ? s.kernels.sweep : s.kernels.sweep_general;
+  const StepKernels& kernels = from.sweep == Sweep::sequential ? step_kernels_sequential() : s.kernels;
+  const auto sweep = s.context.options.relaxation == 1 ? kernels.sweep : kernels.sweep_general;
   sweep(from.pools.data(), from.segments.data() + first, from.segments.data() + last, arguments(s, object, first_pass));
 }
 
@@ -59,7 +60,7 @@ void sweep_tile(const Substep& s, int task, bool first_pass, Order order) {
 }
 
 void sweep_tiles(Substep& s, bool first_pass, Order order) {
-  for_tiles(s, "solve: tiles", [&](int task) { sweep_tile(s, task, first_pass, order); });
+  for_swept_tiles(s, "solve: tiles", [&](int task) { sweep_tile(s, task, first_pass, order); });
 }
 
 void sweep_inter_tile(Substep& s, bool first_pass, Order order) {
@@ -75,37 +76,40 @@ void for_inter_tile(Substep& s, Order order, FunctionRef<void(int, const Segment
     const StraddlerPhase& phase = s.model.straddlers[order == Order::forward ? p : phases - 1 - p];
     const auto sweep_task = [&](int i) {
       const StraddlerPhase::Task& task = phase.tasks[i];
-      body(task.object, s.model.objects[task.object].segments.data() + task.segment);
+      if (is_swept(s, task.object)) body(task.object, s.model.objects[task.object].segments.data() + task.segment);
     };
     const int tasks = static_cast<int>(phase.tasks.size());
     if (phase.batches >= fewest_batches_to_share) {
-      s.executor.parallel_for("solve: straddlers", tasks, sweep_task);
+      s.context.executor.parallel_for("solve: straddlers", tasks, sweep_task);
     } else {
-      Stopwatch watch(s.executor.timings(), "solve: straddlers");
+      Stopwatch watch(s.context.executor.timings(), "solve: straddlers");
       for (int i = 0; i < tasks; ++i) sweep_task(i);
     }
   }
 }
 
 void sweep_volumes(Substep& s, bool first_pass) {
-  project_volumes(s.model, s.work, s.executor, [&](int object) { return arguments(s, object, first_pass); });
+  const auto of_object = [&](int object) { return arguments(s, object, first_pass); };
+  const auto takes_part = [&](int object) { return s.model.objects[object].has_volume && is_swept(s, object); };
+  project_volumes(s.model, s.work, s.context.executor, of_object, takes_part);
 }
 
 void sweep_contacts(Substep& s) {
   if (s.work.colliders.empty()) return;
-  for_tiles(s, "solve: contacts", [&](int task) {
+  for_swept_tiles(s, "solve: contacts", [&](int task) {
     std::vector<Contact>& contacts = s.work.tiles[task].contacts;
     if (!contacts.empty()) project_contacts(contacts, arguments(s, s.model.tiles[task].object, false));
   });
 }
 
 void sweep_pairs(Substep& s) {
-  if (s.has_pairs()) s.work.contact_solver.project(s.executor, s.work.pairs->contacts(), s.work.displacements.data());
+  if (s.has_pairs())
+    s.work.contact_solver.project(s.context.executor, s.work.pairs->contacts(), s.work.displacements.data());
 }
 
 void find_more_contacts(Substep& s) {
   if (s.work.colliders.empty()) return;
-  for_tiles(s, "solve: contacts", [&](int task) { find_more_in_tile(s, task); });
+  for_swept_tiles(s, "solve: contacts", [&](int task) { find_more_in_tile(s, task); });
 }
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// Passes over the constraints of a model: what sweeps are made of.
+// Passes over the constraints of the objects that are swept (is_swept in substep.h): what sweeps are made of.
 #pragma once
 
 #include "solver/substep.h"

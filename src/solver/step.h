@@ -19,7 +19,6 @@ struct StepContext {
   Executor& executor;
   const Kernels& kernels;
   int substeps = 1, iterations = 1;
-  Sweep sweep = Sweep::tiled;  ///< with any of these, the workspace comes from prepare_sweep too
   SweepOptions options{};
   bool record_residuals = false;
   const std::atomic<bool>* stop = nullptr;  ///< where it is true, the frame ends with the substep under way

@@ -46,11 +46,17 @@ PairParticles all_particles(const Substep& s) {
 }
 
 void for_tiles(Substep& s, const char* name, FunctionRef<void(int)> body) {
-  s.executor.parallel_for(name, static_cast<int>(s.model.tiles.size()), body);
+  s.context.executor.parallel_for(name, static_cast<int>(s.model.tiles.size()), body);
+}
+
+void for_swept_tiles(Substep& s, const char* name, FunctionRef<void(int)> body) {
+  for_tiles(s, name, [&](int task) {
+    if (is_swept(s, s.model.tiles[task].object)) body(task);
+  });
 }
 
 void for_tasks(Substep& s, const char* name, int tasks, FunctionRef<void(int)> body) {
-  s.executor.parallel_for(name, tasks, body);
+  s.context.executor.parallel_for(name, tasks, body);
 }
 
 }  // namespace pliant

@@ -11,7 +11,6 @@ struct Substep {
   const Model& model;
   State& state;
   Workspace& work;
-  Executor& executor;
   const Kernels& kernels;
   Report& report;
   double frame_start = 0, dt = 0;  ///< of the frame [s]
@@ -22,6 +21,8 @@ struct Substep {
   bool sweeps_on_entry = false;  ///< predict makes the first sweep over a tile's constraints while the tile is in the cache
   bool update_is_due = false;    ///< update has left its work to the next predict (stages/advance.cpp)
   std::int64_t iterations_made = 0;  ///< in this frame
+  const SweepGroup* group =
+      nullptr;  ///< whose iteration is under way; null: every object takes part in loops over the swept
 
   bool is_last() const { return number + 1 == substeps; }
   bool has_pairs() const { return work.pairs != nullptr; }
@@ -46,8 +47,15 @@ PairParticles all_particles(const Substep& s);
 inline const CompiledObject& object_of(const Substep& s, int task) { return s.model.objects[s.model.tiles[task].object]; }
 inline const Tile& tile_of(const Substep& s, int task) { return object_of(s, task).tiles[s.model.tiles[task].tile]; }
 
-/// Parallel loops, timed under `name`: over all tiles, and over tasks of the caller's own.
+/// Whether an object is of the group whose iteration is under way.
+inline bool is_swept(const Substep& s, int object) {
+  const CompiledObject& of = s.model.objects[object];
+  return s.group == nullptr || (of.sweep == s.group->sweep && !of.is_collider);
+}
+
+/// Parallel loops, timed under `name`: over all tiles, over those of objects that are swept, and over tasks of the caller's own.
 void for_tiles(Substep& s, const char* name, FunctionRef<void(int)> body);
+void for_swept_tiles(Substep& s, const char* name, FunctionRef<void(int)> body);
 void for_tasks(Substep& s, const char* name, int tasks, FunctionRef<void(int)> body);
 
 }  // namespace pliant

@@ -79,11 +79,11 @@ void apply_tile(const Tile& tile, const SweepArguments& a, const Record* gradien
 }  // namespace
 
 void project_volumes(const Model& model, Workspace& workspace, Executor& executor,
-                     FunctionRef<SweepArguments(int)> arguments) {
+                     FunctionRef<SweepArguments(int)> arguments, FunctionRef<bool(int)> takes_part) {
   if (workspace.volume_gradients.empty()) return;
   const auto gather = [&](int task) {
     const CompiledObject& object = model.objects[model.tiles[task].object];
-    if (!object.has_volume) return;
+    if (!takes_part(model.tiles[task].object)) return;
     Record* gradients = workspace.volume_gradients.data() + model.first[model.tiles[task].object];
     gather_tile(object, object.tiles[model.tiles[task].tile], arguments(model.tiles[task].object), gradients,
                 workspace.tiles[task]);
@@ -103,7 +103,7 @@ void project_volumes(const Model& model, Workspace& workspace, Executor& executo
   }
   for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) {
     const CompiledObject& object = model.objects[o];
-    if (!object.has_volume) continue;
+    if (!takes_part(o)) continue;
     const SweepArguments a = arguments(o);
     if (a.first_pass) multipliers[o] = 0;
     const double six_volumes = sums[o].along / 3, c = six_volumes - object.volume.target;
@@ -113,7 +113,7 @@ void project_volumes(const Model& model, Workspace& workspace, Executor& executo
   }
   const auto apply = [&](int task) {
     const int o = model.tiles[task].object;
-    if (!model.objects[o].has_volume) return;
+    if (!takes_part(o)) return;
     apply_tile(model.objects[o].tiles[model.tiles[task].tile], arguments(o),
                workspace.volume_gradients.data() + model.first[o], sums[o].change);
   };

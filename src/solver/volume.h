@@ -16,9 +16,9 @@
 
 namespace pliant {
 
-/// Projects the volume constraints of all objects once. `arguments(object)` gives the particles of one.
+/// Projects the volume constraints once of those objects that take part. `arguments(object)` gives the particles of one.
 void project_volumes(const Model& model, Workspace& workspace, Executor& executor,
-                     FunctionRef<SweepArguments(int)> arguments);
+                     FunctionRef<SweepArguments(int)> arguments, FunctionRef<bool(int)> takes_part);
 
 /// The gradient of C at one particle [m^2].
 Vec3f volume_gradient(const CompiledObject& object, const Record* positions, int particle);

@@ -11,7 +11,7 @@
 #include "pliant/world.h"
 #include "solver/contact_solver.h"
 #include "solver/residual.h"
-#include "solver/sweeps/scratch.h"
+#include "solver/sweeps/sweep.h"
 
 namespace pliant {
 
@@ -19,7 +19,6 @@ namespace pliant {
 struct alignas(64) TileScratch {
   std::vector<Contact> contacts, more_contacts, all_contacts;  ///< those that count; and for finding more, scratch
   std::vector<std::int32_t> near;                              ///< particles that a collider could touch
-  std::vector<Record> touching;  ///< places of those in contact, while the others are extrapolated
   PointBounds bounds;
   bool finite = true;
   double gradient_squared = 0, position_along = 0, motion_along = 0;  ///< sums of the volume constraint
@@ -46,24 +45,28 @@ struct Workspace {
   std::vector<std::vector<Vec3f>> triangle_forces;  ///< [object], where there is air
   std::vector<TileScratch> tiles;                   ///< one a tile task
   std::vector<MovingCollider> colliders;
-  std::vector<FrameGravity> gravity;                ///< one an object
-  std::vector<AlignedVector<float>> chain_scratch;  ///< one a thread
-  std::vector<Records> anchors;                     ///< [object], position and displacement of each anchor of tethers
-  SweepScratch sweep;
-  std::unique_ptr<SurfaceContact>
-      pairs;                     ///< null where nothing that moves can touch anything else that is made of triangles
-  ContactSolver contact_solver;  ///< of the contacts of `pairs`
-  bool look_for_tangles = true;  ///< at the next frame: the first, or after a State was put back
-  ResidualScratch residual;      ///< where iterations stop at a tolerance
+  std::vector<FrameGravity> gravity;      ///< one an object
+  std::vector<Records> anchors;           ///< [object], position and displacement of each anchor of tethers
+  SweepGroups sweeps;                     ///< of the sweeps that objects are solved by
+  Records predicted;                      ///< displacements as predicted, where residuals are recorded
+  std::unique_ptr<SurfaceContact> pairs;  ///< null where no surface that moves can touch another
+  ContactSolver contact_solver;           ///< of the contacts of `pairs`
+  bool look_for_tangles = true;           ///< at the next frame: the first, or after a State was put back
+  ResidualScratch residual;               ///< where iterations stop at a tolerance
 };
 
 /// Which multipliers are kept: those that a second iteration needs, or all.
 enum class Multipliers { none, needed, all };
 
-/// Makes everything the right size for a model.
+/// Makes everything the right size for a model but for its sweeps.
 void prepare(const Model& model, Multipliers kept, Workspace& workspace);
 
-/// After prepare: what the sweep that the settings name needs besides.
-void prepare_sweep(const Model& model, const Settings& settings, Workspace& workspace);
+/// Makes what belongs to one object the right size, after it was added or compiled anew.
+void prepare(const Model& model, int object, Multipliers kept, Workspace& workspace);
+
+/// After prepare: the groups of the sweeps that objects are compiled for, and what their methods keep. Of the settings, the
+/// options of sweeps and what is recorded count.
+void prepare_sweeps(const Model& model, const Settings& settings, int threads, Workspace& workspace);
+void prepare_sweep(const Model& model, int object, const Settings& settings, int threads, Workspace& workspace);
 
 }  // namespace pliant

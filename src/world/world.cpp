@@ -18,7 +18,6 @@
 #include "solver/kernels.h"
 #include "solver/measure.h"
 #include "solver/step.h"
-#include "solver/sweeps/chains.h"
 #include "solver/sweeps/sweep.h"
 #include "world/advice.h"
 
@@ -31,9 +30,9 @@ const Kernels& kernels_for(const Settings& settings) {
 }
 
 /// Those that are asked for; else those that a second pass needs or that say how much of a length is meant.
-Multipliers kept_multipliers(const Settings& settings) {
+Multipliers kept_multipliers(const Settings& settings, Sweep sweep) {
   if (settings.record_multipliers || settings.record_residuals) return Multipliers::all;
-  const bool more_passes = settings.iterations * sweep_method(settings.sweep).passes > 1;
+  const bool more_passes = settings.iterations * sweep_method(sweep).passes > 1;
   return more_passes || settings.measure ? Multipliers::needed : Multipliers::none;
 }
 
@@ -62,17 +61,15 @@ struct World::Implementation {
     model.forces = scene.forces;
     model.colliders = scene.colliders;
     model.pairs = scene.pairs;
-    for (const Object& object : scene.objects) {
+    for (int o = 0; o < static_cast<int>(scene.objects.size()); ++o) {
       CompileOptions options;
-      options.passes = settings.substeps * settings.iterations * sweep_method(settings.sweep).passes;
-      options.in_given_order = settings.sweep == Sweep::natural;
-      options.chains = settings.sweep == Sweep::chains;
+      options.sweep = chosen_sweep(scene, o);
+      options.passes = settings.substeps * settings.iterations * sweep_method(options.sweep).passes;
       options.chain_softness = settings.sweep_options.chain_softness;
       options.tethers = settings.sweep_options.tethers;
       options.tether_slack = settings.sweep_options.tether_slack;
-      options.multigrid = settings.sweep == Sweep::multigrid;
       options.gravity = length(model.gravity);
-      model.add(compile(object, options));
+      model.add(compile(scene.objects[static_cast<std::size_t>(o)], options));
     }
     model.user_objects = static_cast<int>(model.objects.size());
     for (const MeshCollider& collider : scene.mesh_colliders) add(collider);
@@ -85,10 +82,13 @@ struct World::Implementation {
         pair_model->untangling_speed = settings.untangling_speed;
       workspace.pairs = std::make_unique<SurfaceContact>(*pair_model, kernels.pairs);
     }
-    prepare(model, kept_multipliers(settings), workspace);
-    prepare_sweep(model, settings, workspace);
-    prepare_chains(model, executor.threads(), workspace);
+    for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) prepare(o);
     if (settings.tolerance > 0) prepare_residual(model, workspace.residual);
+  }
+
+  void prepare(int object) {
+    pliant::prepare(model, object, kept_multipliers(settings, model.objects[object].sweep), workspace);
+    prepare_sweep(model, object, settings, executor.threads(), workspace);
   }
 
   void add(const MeshCollider& collider) {
@@ -194,11 +194,10 @@ Report World::step(float dt) {
   report.substeps = self_->substeps_for(dt, report.warnings);
   self_->last_h = static_cast<float>(double(dt) / report.substeps);
   self_->stopped = true;  // unless the step comes to its end: a force field of the user's own may throw
-  pliant::step(
-      {self_->model, self_->state, self_->workspace, self_->executor, self_->kernels, report.substeps,
-       self_->settings.iterations, self_->settings.sweep, self_->settings.sweep_options, self_->settings.record_residuals,
-       self_->stop, self_->settings.separate_phases, static_cast<double>(self_->settings.tolerance)},
-      dt, report);
+  pliant::step({self_->model, self_->state, self_->workspace, self_->executor, self_->kernels, report.substeps,
+                self_->settings.iterations, self_->settings.sweep_options, self_->settings.record_residuals, self_->stop,
+                self_->settings.separate_phases, static_cast<double>(self_->settings.tolerance)},
+               dt, report);
   self_->stopped = report.nonfinite.has_value();
   if (self_->settings.measure) {
     report.residuals = residuals();

@@ -45,7 +45,7 @@ inline Object grid(int columns, int rows, float compliance) {
 
 inline CompileOptions chained(float softness, bool tethers = false) {
   CompileOptions options;
-  options.chains = true;
+  options.sweep = Sweep::chains;
   options.chain_softness = softness;
   options.tethers = tethers;
   return options;

@@ -41,7 +41,7 @@ System dense_system_of(const std::vector<Object>& objects, const Corrected& foun
     }
     joint.b.insert(joint.b.end(), one.b.begin(), one.b.end());
   }
-  for (const PairSpring& s : found.workspace.sweep.pair_springs) {
+  for (const PairSpring& s : found.springs()) {
     const double n[3] = {s.normal.x, s.normal.y, s.normal.z}, slip[3] = {s.slip.x, s.slip.y, s.slip.z};
     const auto row = [&](std::size_t i, std::size_t c) {
       return first[std::size_t(s.object[i])] + 3 * std::size_t(s.particle[i]) + c;
@@ -66,7 +66,7 @@ System dense_system_of(const std::vector<Object>& objects, const Corrected& foun
 TEST(MultigridPairs, AreSolvedWithTheirObjectsAsOne) {
   const std::vector<Object> sheets = two_sheets();
   const Corrected found(sheets, 100);
-  ASSERT_GT(found.workspace.sweep.pair_springs.size(), 20u);
+  ASSERT_GT(found.springs().size(), 20u);
   const System joint = dense_system_of(sheets, found);
   EXPECT_LT(error_of(found.change(), eliminate(joint.a, joint.b)), 1e-3);
 }
@@ -76,7 +76,7 @@ TEST(MultigridPairs, KeepTheirForcesAsPushes) {
   const Corrected found(two_sheets(), 100);
   const std::vector<Contact>& contacts = found.workspace.pairs->contacts();
   double pushed = 0, expected = 0;
-  for (const PairSpring& s : found.workspace.sweep.pair_springs) {
+  for (const PairSpring& s : found.springs()) {
     const Contact& contact = contacts[std::size_t(s.contact)];
     double apart = double(contact.gap), mobility = 0;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -109,7 +109,7 @@ TEST(MultigridPairs, AreSweptBetweenThereAndBack) {
   std::vector<Object> loose = two_sheets();
   for (Object& object : loose) object.constraints.clear();
   const Corrected corrected(loose, 3), iterated(loose, 3, iterate_multigrid);
-  ASSERT_TRUE(corrected.workspace.sweep.pair_springs.empty()) << "or the correction pushes them too";
+  ASSERT_TRUE(corrected.springs().empty()) << "or the correction pushes them too";
   double before = 0, after = 0, pushed = 0;
   for (const Contact& contact : corrected.workspace.pairs->contacts()) before += overlap_of(contact, corrected);
   for (const Contact& contact : iterated.workspace.pairs->contacts()) {
@@ -143,7 +143,7 @@ Object folded_sheet() {
 /// cycles.
 TEST(MultigridPairs, OfAPieceWithItselfKeepItsMomentum) {
   const Corrected found({folded_sheet()}, 1);
-  ASSERT_GT(found.workspace.sweep.pair_springs.size(), 20u);
+  ASSERT_GT(found.springs().size(), 20u);
   const Vector change = found.change();
   double sum[3] = {0, 0, 0}, size = 0;
   for (std::size_t i = 0; i < change.size(); ++i) {

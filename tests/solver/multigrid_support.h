@@ -102,7 +102,11 @@ struct Linearised {
                             0};
     Model model;
     model.objects = {object};
-    prepare_multigrid(model, work);
+    MultigridScratch scratch;
+    const Workspace none;
+    const SweepOptions options;
+    scratch.prepare({model, none, options}, 0);
+    work = std::move(scratch.objects);
     if (touches) touch();
     const LinearisedAt at{positions.data(), displacements.data(), inverse_h2, of().extra.data(), of().has_extra.data()};
     kernels->linearise(level(0), at, values(0), 0, level(0).batches());
@@ -111,7 +115,7 @@ struct Linearised {
   }
   static CompiledObject compile_with_levels(const Object& from) {
     CompileOptions options;
-    options.multigrid = true;
+    options.sweep = Sweep::multigrid;
     options.gravity = 9.81f;
     return compile(from, options);
   }
@@ -218,7 +222,7 @@ struct Corrected {
     SweepRun run = run_of(Sweep::multigrid, 1, 1);
     run.settings.sweep_options.multigrid_cycles = cycles;
     CompileOptions options;
-    options.multigrid = true;
+    options.sweep = Sweep::multigrid;
     options.gravity = 9.81f;
     for (const Object& object : objects) {
       model.add(compile(object, options));
@@ -226,22 +230,25 @@ struct Corrected {
     }
     state = initial_state(model);
     prepare(model, Multipliers::all, workspace);
-    prepare_sweep(model, run.settings, workspace);
+    prepare_sweeps(model, run.settings, 1, workspace);
     pairs = make_pair_model(model, state.positions);
     if (pairs) workspace.pairs = std::make_unique<SurfaceContact>(*pairs);
     Executor executor(1);
     Report report;
-    const StepContext context{
-        model, state, workspace, executor, pick_kernels("generic"), 1, 1, Sweep::multigrid, run.settings.sweep_options,
-        false};
+    const StepContext context{model, state, workspace, executor, pick_kernels("generic"), 1, 1, run.settings.sweep_options,
+                              false};
     executor.enter([&] {
       Substep s = begin_frame(context, 1.0 / 360, report);
       control(s);
       predict(s);
       predicted = workspace.displacements;
       collide(s);
+      s.group = &workspace.sweeps.at(Sweep::multigrid);
       part(s, true);
     });
+  }
+  const std::vector<PairSpring>& springs() const {
+    return static_cast<const MultigridScratch&>(*workspace.sweeps.at(Sweep::multigrid).scratch).springs;
   }
   Vector change() const {
     Vector out;

@@ -76,6 +76,7 @@ State run(const Manner& how) {
   State state = initial_state(model);
   Workspace workspace;
   prepare(model, how.keeps || how.iterations > 1 ? Multipliers::all : Multipliers::none, workspace);
+  prepare_sweeps(model, Settings{}, 1, workspace);
   Executor executor(how.threads);
   for (int frame = 0; frame < 12; ++frame) {
     Report report;
@@ -129,6 +130,7 @@ TEST(Step, TheScheduleOfOneObjectKnowsNothingOfAnother) {
     State state = initial_state(model);
     Workspace workspace;
     prepare(model, Multipliers::none, workspace);
+    prepare_sweeps(model, Settings{}, 1, workspace);
     Executor executor(2);
     for (int frame = 0; frame < 10; ++frame) {
       Report report;
@@ -162,6 +164,7 @@ struct VolumeCase {
     model.add(compile(object, {1, largest_tile}));
     state = initial_state(model);
     prepare(model, Multipliers::none, workspace);
+    prepare_sweeps(model, Settings{}, 1, workspace);
     workspace.displacements.assign(state.positions.size(), Record{});
   }
   /// Of the places with their displacements.
@@ -176,7 +179,7 @@ struct VolumeCase {
   void project(int threads, bool first_pass, float h = 0.01f) {
     Executor executor(threads);
     executor.enter([&] {
-      project_volumes(model, workspace, executor, [&](int) {
+      const auto of_object = [&](int) {
         SweepArguments a;
         a.positions = state.positions.data();
         a.displacements = workspace.displacements.data();
@@ -186,7 +189,8 @@ struct VolumeCase {
         a.inverse_h2 = 1 / h / h;
         a.first_pass = first_pass;
         return a;
-      });
+      };
+      project_volumes(model, workspace, executor, of_object, [](int) { return true; });
     });
   }
 };
@@ -290,6 +294,7 @@ TEST(Volume, MovesTheCentreNowhere) {
 NonFinite failure(const Model& model, State& state, int iterations) {
   Workspace workspace;
   prepare(model, iterations > 1 ? Multipliers::needed : Multipliers::none, workspace);
+  prepare_sweeps(model, Settings{}, 1, workspace);
   Executor executor(2);
   Report report;
   step({model, state, workspace, executor, pick_kernels(""), 4, iterations}, 1.f / 60, report);
@@ -360,6 +365,7 @@ TEST(Measure, CountsAndMeasuresByType) {
   const State state = initial_state(model);
   Workspace workspace;
   prepare(model, Multipliers::none, workspace);
+  prepare_sweeps(model, Settings{}, 1, workspace);
   const std::vector<Residual> residuals = measure_residuals(model, state, workspace, 0.01f);
   ASSERT_EQ(residuals.size(), 4u);
   EXPECT_EQ(residuals[0].type, "distance");

@@ -107,10 +107,8 @@ inline Outcome run_sweep(const std::vector<Object>& objects, const SweepRun& run
     CompileOptions options;
     options.passes = run.settings.substeps * run.settings.iterations * method.passes;
     options.largest_tile = run.largest_tile;
-    options.in_given_order = run.settings.sweep == Sweep::natural;
-    options.chains = run.settings.sweep == Sweep::chains;
+    options.sweep = run.settings.sweep;
     options.chain_softness = run.settings.sweep_options.chain_softness;
-    options.multigrid = run.settings.sweep == Sweep::multigrid;
     options.gravity = gravity;
     options.tethers = run.settings.sweep_options.tethers;
     options.tether_slack = run.settings.sweep_options.tether_slack;
@@ -118,13 +116,12 @@ inline Outcome run_sweep(const std::vector<Object>& objects, const SweepRun& run
   }
   out.state = initial_state(out.model);
   prepare(out.model, Multipliers::all, out.workspace);
-  prepare_sweep(out.model, run.settings, out.workspace);
+  prepare_sweeps(out.model, run.settings, run.threads, out.workspace);
   Executor executor(run.threads);
-  prepare_chains(out.model, run.threads, out.workspace);
   for (int frame = 0; frame < run.frames; ++frame) {
     out.reports.emplace_back();
     step({out.model, out.state, out.workspace, executor, pick_kernels(run.isa), run.settings.substeps,
-          run.settings.iterations, run.settings.sweep, run.settings.sweep_options, run.settings.record_residuals},
+          run.settings.iterations, run.settings.sweep_options, run.settings.record_residuals},
          static_cast<double>(run.dt), out.reports.back());
   }
   return out;

@@ -54,8 +54,8 @@ TEST_P(Sweeps, GoesOnFromAStateThatWasPutBack) {
   const auto go_on = [&](int frames) {
     for (int i = 0; i < frames; ++i) {
       Report report;
-      step({out.model, out.state, out.workspace, executor, pick_kernels("sequential"), 2, 6, run.settings.sweep,
-            run.settings.sweep_options, false},
+      step({out.model, out.state, out.workspace, executor, pick_kernels("sequential"), 2, 6, run.settings.sweep_options,
+            false},
            1.0 / 60, report);
     }
     return out.state;

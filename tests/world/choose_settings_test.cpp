@@ -44,9 +44,27 @@ TEST(ChosenSettings, ArePlainForVolumes) {
   ClothOptions options;
   options.volume = Volume{1, Stiffness::rigid()};
   options.name = "ball";
-  Scene scene = with(sphere_mesh(2), options);
+  expect_chosen(with(sphere_mesh(2), options), Sweep::tiled, 20, "'ball', which has a volume");
+}
+
+TEST(ChosenSettings, AreEachObjectsOwn) {
+  ClothOptions ball, sock;
+  ball.name = "ball";
+  ball.volume = Volume{1, Stiffness::rigid()};
+  sock.name = "sock";
+  Scene scene = with(sphere_mesh(2), ball);
   scene.add_cloth(grid_mesh(20, 20, 1, 1));
-  expect_chosen(scene, Sweep::tiled, 20, "'ball', which has a volume");
+  scene.add_cloth(grid_mesh(20, 20, 1, 1), sock);
+  scene.objects[2].self_collision = true;
+  EXPECT_EQ(chosen_sweep(scene, 0), Sweep::tiled);
+  EXPECT_EQ(chosen_sweep(scene, 1), Sweep::multigrid) << "whatever is beside it";
+  EXPECT_EQ(chosen_sweep(scene, 2), Sweep::tiled);
+  expect_chosen(scene, Sweep::automatic, 20, "'cloth' by 'multigrid'");
+  scene.objects[2].sweep = Sweep::chains;
+  EXPECT_EQ(chosen_sweep(scene, 2), Sweep::chains) << "what it names itself";
+  scene.settings.sweep = Sweep::symmetric;
+  EXPECT_EQ(chosen_sweep(scene, 1), Sweep::symmetric) << "else what the settings name";
+  EXPECT_EQ(chosen_sweep(scene, 2), Sweep::chains);
 }
 
 TEST(ChosenSettings, ArePlainWherePbdStiffnessOrIterationsSaySo) {
@@ -91,7 +109,7 @@ TEST(ChosenSettings, ArePlainWhereSurfacesMeet) {
   other.name = "trousers";
   for (Vec3f& p : other.positions) p.y += 1;
   scene.add(other);
-  expect_chosen(scene, Sweep::tiled, 20, "'trousers', a surface");
+  expect_chosen(scene, Sweep::tiled, 20, "'shirt', a surface");
   scene.objects[1].collides = false;
   expect_chosen(scene, Sweep::multigrid, 10, "particles");
   MeshCollider body;
@@ -102,7 +120,7 @@ TEST(ChosenSettings, ArePlainWhereSurfacesMeet) {
   scene.add(body);
   expect_chosen(scene, Sweep::multigrid, 10, "particles");
   scene.mesh_colliders[0].as = MeshCollider::As::triangles;
-  expect_chosen(scene, Sweep::tiled, 20, "'body', a surface");
+  expect_chosen(scene, Sweep::tiled, 20, "'shirt', a surface");
 }
 
 TEST(ChosenSettings, LeaveWhatIsNamed) {

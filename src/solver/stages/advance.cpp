@@ -98,7 +98,8 @@ bool predict(Substep& s) {
   for_tiles(s, s.update_is_due || s.sweeps_on_entry ? "solve: tiles" : "predict", [&](int task) {
     if (!s.update_is_due) predict_tile(s, task, s.kernels.predict);
     if (s.update_is_due && !advance_tile(s, task)) return;
-    if (s.sweeps_on_entry) sweep_tile(s, task, true, Order::forward);
+    if (s.sweeps_on_entry && sweep_method(object_of(s, task).sweep).begins_on_entry)
+      sweep_tile(s, task, true, Order::forward);
   });
   s.update_is_due = false;
   return all_finite(s, s.number - 1);

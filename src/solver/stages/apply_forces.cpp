@@ -6,7 +6,7 @@ namespace pliant {
 void apply_forces(Substep& s) {
   if (!has_forces(s.model)) return;
   apply_forces(
-      s.model, s.state, s.work, s.executor, time_of(s, s.number), s.h,
+      s.model, s.state, s.work, s.context.executor, time_of(s, s.number), s.h,
       [&](int object) { return gravity_for(s, s.work.gravity[object].settled); }, s.report.warnings);
 }
 

@@ -18,7 +18,7 @@ void filter(Substep& s) {
     sweep_pairs(s);
     sweep_contacts(s);
   }
-  pairs.filter(s.executor, all_particles(s));
+  pairs.filter(s.context.executor, all_particles(s));
   if (s.is_last()) pairs.measure_overlaps(all_particles(s));
 }
 

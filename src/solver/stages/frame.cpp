@@ -3,7 +3,6 @@
 
 #include "solver/pair_words.h"
 #include "solver/stages/stages.h"
-#include "solver/sweeps/sweep.h"
 
 namespace pliant {
 
@@ -11,7 +10,7 @@ namespace {
 
 bool may_sweep_on_entry(const StepContext& context) {
   const bool untangles = context.workspace.pairs != nullptr && context.workspace.pairs->untangles();
-  return sweep_method(context.sweep).begins_on_entry && !context.record_residuals && !context.separate_phases &&
+  return !context.record_residuals && !context.separate_phases &&
          context.options.acceleration == SweepOptions::Acceleration::none && !untangles;
 }
 
@@ -25,8 +24,7 @@ void begin_pairs(const StepContext& context) {
 }  // namespace
 
 Substep begin_frame(const StepContext& context, double dt, Report& report) {
-  Substep s{context,          context.model,   context.state, context.workspace,
-            context.executor, context.kernels, report,        context.state.time};
+  Substep s{context, context.model, context.state, context.workspace, context.kernels, report, context.state.time};
   s.dt = dt;
   s.h = static_cast<float>(dt / context.substeps);
   s.substeps = context.substeps;

@@ -7,7 +7,6 @@
 #include "solver/sweeps/chains.h"
 #include "solver/sweeps/chebyshev.h"
 #include "solver/sweeps/record.h"
-#include "solver/sweeps/sweep.h"
 
 namespace pliant {
 
@@ -19,12 +18,15 @@ bool is_met(Substep& s, int iteration) {
   return context.tolerance > 0 && iteration + 1 < context.iterations && distance_residual(s) < context.tolerance;
 }
 
-/// One iteration: constraints as the sweep has it, acceleration, tethers, contacts.
+/// One iteration: the constraints of each object as its sweep has it, tethers, contacts.
 void iterate(Substep& s, int iteration) {
-  const bool accelerates = s.context.options.acceleration == SweepOptions::Acceleration::chebyshev;
-  if (accelerates) keep_iterate(s, iteration);
-  sweep_method(s.context.sweep).iterate(s, iteration == 0);
-  if (accelerates) accelerate(s, iteration);
+  for (const auto& [sweep, group] : s.work.sweeps) {
+    s.group = &group;
+    if (group.acceleration) keep_iterate(s, iteration);
+    group.method->iterate(s, iteration == 0);
+    if (group.acceleration) accelerate(s, iteration);
+  }
+  s.group = nullptr;
   hold_tethers(s);
   sweep_pairs(s);
   sweep_contacts(s);  // last, so that constraints pull no particle into a collider

@@ -37,20 +37,17 @@ void iterate_chains(Substep& s, bool first) {
   sweep_volumes(s, first);
 }
 
-void prepare_chains(const Model& model, int threads, Workspace& workspace) {
-  int longest = 0;
-  for (const CompiledObject& object : model.objects)
-    for (const ChainBatch& batch : object.chains) longest = std::max(longest, batch.steps);
-  workspace.chain_scratch.resize(longest > 0 ? threads : 0);
-  for (auto& scratch : workspace.chain_scratch) scratch.resize(static_cast<std::size_t>(longest) * chain_scratch_floats);
-  workspace.anchors.resize(model.objects.size());
-  for (std::size_t o = 0; o < model.objects.size(); ++o)
-    workspace.anchors[o].resize(2 * model.objects[o].tethers.anchors.size());
+void ChainScratch::prepare(const SweepSetup& setup, int object) {
+  std::size_t room = 0;
+  for (const ChainBatch& batch : setup.model.objects[object].chains)
+    room = std::max(room, static_cast<std::size_t>(batch.steps) * chain_scratch_floats);
+  of_thread.resize(setup.threads);
+  for (auto& scratch : of_thread) scratch.resize(std::max(scratch.size(), room));
 }
 
 void solve_chains(Substep& s, bool first_pass) {
   const ChainKernels& kernels = s.kernels.chains;
-  std::vector<AlignedVector<float>>& scratch = s.work.chain_scratch;
+  std::vector<AlignedVector<float>>& scratch = static_cast<ChainScratch&>(*s.group->scratch).of_thread;
   for (const ChainPhase& phase : s.model.chains) {
     const int tasks = static_cast<int>(phase.tasks.size());
     const int shares = phase.steps < fewest_steps_to_share ? 1 : std::min(tasks, static_cast<int>(scratch.size()));

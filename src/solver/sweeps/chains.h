@@ -4,16 +4,22 @@
 // meshed. Solving whole rows, columns and diagonals at once carries it from end to end in one.
 #pragma once
 
+#include <vector>
+
 #include "model/model.h"
 #include "solver/substep.h"
 #include "solver/sweeps/chain_kernels.h"
+#include "solver/sweeps/sweep.h"
 
 namespace pliant {
 
-/// Room for the scratch of every thread and for the anchors.
-void prepare_chains(const Model& model, int threads, Workspace& workspace);
+struct ChainScratch : SweepScratch {
+  std::vector<AlignedVector<float>> of_thread;  ///< room for the longest chain each
 
-/// Solves all chains once, colour after colour.
+  void prepare(const SweepSetup& setup, int object) override;
+};
+
+/// Solves all chains of the group once, colour after colour.
 void solve_chains(Substep& s, bool first_pass);
 
 /// Puts every particle back to within its tethers.

@@ -26,6 +26,8 @@ constexpr double least_progress = 0.95;
 constexpr int first_judgement = 8;
 constexpr double largest_polynomial = 1e10;
 
+ChebyshevScratch& chebyshev_of(const Substep& s) { return static_cast<ChebyshevScratch&>(*s.group->acceleration); }
+
 // ---------------------------------------------------------------- rho and the weight
 
 bool is_power_of_two(int n) { return (n & (n - 1)) == 0; }
@@ -104,13 +106,13 @@ void extrapolate(float weight, const Record* older, Record* displacements, int f
 }
 
 /// All particles of a tile but those that touch something.
-void extrapolate_tile(float weight, const Tile& tile, const Record* older, Record* displacements, TileScratch& scratch) {
-  std::vector<Record>& touching = scratch.touching;
+void extrapolate_tile(float weight, const Tile& tile, const Record* older, Record* displacements,
+                      const std::vector<Contact>& contacts, std::vector<Record>& touching) {
   touching.clear();
-  for (const Contact& contact : scratch.contacts) touching.push_back(displacements[contact.point[0]]);
+  for (const Contact& contact : contacts) touching.push_back(displacements[contact.point[0]]);
   extrapolate(weight, older, displacements, tile.first_particle, tile.last_particle);
   for (std::size_t i = 0; i < touching.size(); ++i) {
-    if (scratch.contacts[i].push > 0) displacements[scratch.contacts[i].point[0]] = touching[i];
+    if (contacts[i].push > 0) displacements[contacts[i].point[0]] = touching[i];
   }
 }
 
@@ -118,8 +120,10 @@ void extrapolate_tile(float weight, const Tile& tile, const Record* older, Recor
 
 /// Of every pool whole, whichever way its constraints are scheduled. Like keep_multipliers on one thread: it moves a float
 /// where a sweep does a projection.
-void extrapolate_multipliers(float weight, const LaneValues& older, LaneValues& multipliers) {
+void extrapolate_multipliers(const Substep& s, float weight, const LaneValues& older) {
+  LaneValues& multipliers = s.work.multipliers;
   for (std::size_t o = 0; o < multipliers.size(); ++o) {
+    if (!is_swept(s, static_cast<int>(o))) continue;
     for (std::size_t p = 0; p < multipliers[o].size(); ++p) {
       const float* from = older[o][p].data();
       float* to = multipliers[o][p].data();
@@ -130,21 +134,24 @@ void extrapolate_multipliers(float weight, const LaneValues& older, LaneValues& 
 
 void extrapolate_everything(Substep& s, float weight) {
   const Model& model = s.model;
-  ChebyshevScratch& c = s.work.sweep.chebyshev;
-  for_tiles(s, "solve: chebyshev", [&](int task) {
+  ChebyshevScratch& c = chebyshev_of(s);
+  for_swept_tiles(s, "solve: chebyshev", [&](int task) {
     const int o = model.tiles[task].object;
     extrapolate_tile(weight, model.objects[o].tiles[model.tiles[task].tile], c.older.data() + model.first[o],
-                     arguments(s, o, false).displacements, s.work.tiles[task]);
+                     arguments(s, o, false).displacements, s.work.tiles[task].contacts, c.touching[task]);
   });
-  extrapolate_multipliers(weight, c.multipliers_older, s.work.multipliers);
+  extrapolate_multipliers(s, weight, c.multipliers_older);
   std::vector<double>& volumes = s.work.volume_multipliers;
   for (std::size_t o = 0; o < volumes.size(); ++o)
-    volumes[o] = c.volumes_older[o] + static_cast<double>(weight) * (volumes[o] - c.volumes_older[o]);
+    if (is_swept(s, static_cast<int>(o)))
+      volumes[o] = c.volumes_older[o] + static_cast<double>(weight) * (volumes[o] - c.volumes_older[o]);
 }
 
 /// Multipliers are those of the last substep until the first sweep: an iterate of zeros.
-void keep_multipliers(const Workspace& work, bool first, ChebyshevScratch& c) {
+void keep_multipliers(const Substep& s, bool first, ChebyshevScratch& c) {
+  const Workspace& work = s.work;
   for (std::size_t o = 0; o < work.multipliers.size(); ++o) {
+    if (!is_swept(s, static_cast<int>(o))) continue;
     for (std::size_t p = 0; p < work.multipliers[o].size(); ++p) {
       AlignedVector<float>& kept = c.multipliers_before[o][p];
       if (first) {
@@ -159,8 +166,9 @@ void keep_multipliers(const Workspace& work, bool first, ChebyshevScratch& c) {
 
 double correction_norm(Substep& s) {
   const Model& model = s.model;
-  ChebyshevScratch& c = s.work.sweep.chebyshev;
-  for_tiles(s, "solve: chebyshev", [&](int task) {
+  ChebyshevScratch& c = chebyshev_of(s);
+  std::fill(c.tile_sums.begin(), c.tile_sums.end(), 0.);
+  for_swept_tiles(s, "solve: chebyshev", [&](int task) {
     const int o = model.tiles[task].object;
     const Tile& tile = model.objects[o].tiles[model.tiles[task].tile];
     const SweepArguments a = arguments(s, o, false);
@@ -174,16 +182,21 @@ double correction_norm(Substep& s) {
 
 }  // namespace
 
-void prepare_chebyshev(const Model& model, const Workspace& workspace, ChebyshevScratch& scratch) {
-  scratch.before.assign(model.particles(), {});
-  scratch.older.assign(model.particles(), {});
-  scratch.multipliers_before = scratch.multipliers_older = workspace.multipliers;
-  scratch.volumes_before = scratch.volumes_older = workspace.volume_multipliers;
-  scratch.tile_sums.assign(model.tiles.size(), 0);
+void ChebyshevScratch::prepare(const SweepSetup& setup, int object) {
+  before.resize(setup.model.particles());
+  older.resize(setup.model.particles());
+  for (LaneValues* values : {&multipliers_before, &multipliers_older}) {
+    values->resize(setup.model.objects.size());
+    (*values)[object] = setup.workspace.multipliers[object];
+  }
+  volumes_before.resize(setup.model.objects.size());
+  volumes_older.resize(setup.model.objects.size());
+  tile_sums.resize(setup.model.tiles.size());
+  touching.resize(setup.model.tiles.size());
 }
 
 void keep_iterate(Substep& s, int iteration) {
-  ChebyshevScratch& c = s.work.sweep.chebyshev;
+  ChebyshevScratch& c = chebyshev_of(s);
   const Model& model = s.model;
   if (iteration == 0) {
     c.weight = 1;
@@ -191,18 +204,18 @@ void keep_iterate(Substep& s, int iteration) {
     c.steps = -1;
     c.given_up = false;
   }
-  for_tiles(s, "solve: chebyshev", [&](int task) {
+  for_swept_tiles(s, "solve: chebyshev", [&](int task) {
     const int o = model.tiles[task].object;
     const Tile& tile = model.objects[o].tiles[model.tiles[task].tile];
     const Record* displacements = arguments(s, o, false).displacements;
     std::copy(displacements + tile.first_particle, displacements + tile.last_particle,
               c.before.begin() + model.first[o] + tile.first_particle);
   });
-  keep_multipliers(s.work, iteration == 0, c);
+  keep_multipliers(s, iteration == 0, c);
 }
 
 void accelerate(Substep& s, int iteration) {
-  ChebyshevScratch& c = s.work.sweep.chebyshev;
+  ChebyshevScratch& c = chebyshev_of(s);
   c.weight = next_weight(s.context.options, iteration, correction_norm(s), c);
   if (c.weight != 1) extrapolate_everything(s, static_cast<float>(c.weight));
   std::swap(c.before, c.older);

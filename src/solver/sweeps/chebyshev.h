@@ -16,18 +16,36 @@
 // without bound: World refuses it.
 #pragma once
 
+#include <vector>
+
 #include "model/model.h"
-#include "solver/sweeps/scratch.h"
+#include "solver/sweeps/sweep.h"
 
 namespace pliant {
 
-struct Substep;
-struct Workspace;
+/// One float a lane for each pool, as Workspace::multipliers has them: [object][pool].
+using LaneValues = std::vector<std::vector<AlignedVector<float>>>;
 
-/// Makes room; multipliers as the workspace has them.
-void prepare_chebyshev(const Model& model, const Workspace& workspace, ChebyshevScratch& scratch);
+/// The last two iterates of a group, and where its recurrence stands in this substep.
+struct ChebyshevScratch : SweepScratch {
+  Records before, older;  ///< x_k and x_(k-1), as displacements
+  LaneValues multipliers_before, multipliers_older;
+  std::vector<double> volumes_before, volumes_older;
+  std::vector<double> tile_sums;                 ///< sum of m |correction|^2 by tile
+  std::vector<std::vector<Record>> touching;     ///< by tile: displacements of what touches, while others are extrapolated
+  double spectral_radius = 0;                    ///< rho in use
+  double weight = 1;                             ///< omega of the recurrence
+  double polynomial = 1, polynomial_before = 1;  ///< T_n(1 / rho), the Chebyshev polynomial, n = steps; and T_(n-1)
+  int steps = -1;                                ///< of the recurrence since its start; -1: none yet
+  double plain_norm = 0;                         ///< |G(x) - x| at the substep's start,
+  double first_norm = 0;                         ///< when acceleration began,
+  double start_norm = 0, last_norm = 0;          ///< when the recurrence was started, and last of all
+  bool given_up = false;                         ///< plain for the rest of the substep: diverged, or down at rounding
 
-/// Before an iteration: keeps the iterate.
+  void prepare(const SweepSetup& setup, int object) override;
+};
+
+/// Before an iteration of the group under way: keeps the iterate.
 void keep_iterate(Substep& s, int iteration);
 
 /// After its sweep and before its contacts.

@@ -33,27 +33,25 @@ void gather(const Tile& tile, const JacobiObject& object, Record* displacements)
 
 }  // namespace
 
-void prepare_jacobi(const Model& model, const SweepOptions& options, std::vector<JacobiObject>& objects) {
-  objects.clear();
-  objects.resize(model.objects.size());
-  for (std::size_t o = 0; o < objects.size(); ++o) {
-    const CompiledObject& from = model.objects[o];
-    JacobiObject& to = objects[o];
-    to.incidence = make_incidence(from);
-    to.corrections.resize(to.incidence.pool_begin.back());
-    for (std::size_t p = 0; p < from.pools.size(); ++p)
-      to.correction_pointers.push_back(to.corrections.data() + to.incidence.pool_begin[p]);
-    if (options.sharing == SweepOptions::Sharing::split) {
-      to.positions.resize(from.particles);
-    } else {
-      to.shares = averaging_shares(from, to.incidence);
-      for (const AlignedVector<float>& values : to.shares) to.share_pointers.push_back(values.data());
-    }
+void JacobiScratch::prepare(const SweepSetup& setup, int object) {
+  const CompiledObject& from = setup.model.objects[object];
+  objects.resize(setup.model.objects.size());
+  JacobiObject& to = objects[object];
+  to = {};
+  to.incidence = make_incidence(from);
+  to.corrections.resize(to.incidence.pool_begin.back());
+  for (std::size_t p = 0; p < from.pools.size(); ++p)
+    to.correction_pointers.push_back(to.corrections.data() + to.incidence.pool_begin[p]);
+  if (setup.options.sharing == SweepOptions::Sharing::split) {
+    to.positions.resize(from.particles);
+  } else {
+    to.shares = averaging_shares(from, to.incidence);
+    for (const AlignedVector<float>& values : to.shares) to.share_pointers.push_back(values.data());
   }
 }
 
 void iterate_jacobi(Substep& s, bool first) {
-  std::vector<JacobiObject>& objects = s.work.sweep.jacobi;
+  std::vector<JacobiObject>& objects = static_cast<JacobiScratch&>(*s.group->scratch).objects;
   const Model& model = s.model;
   const auto work_of = [&](int task) -> JacobiObject& { return objects[model.tiles[task].object]; };
   const auto arguments_of = [&](int number) {
@@ -67,12 +65,12 @@ void iterate_jacobi(Substep& s, bool first) {
   const auto displacements = [&](int task) { return arguments(s, model.tiles[task].object, first).displacements; };
 
   if (first) {
-    for_tiles(s, "solve: split", [&](int task) {
+    for_swept_tiles(s, "solve: split", [&](int task) {
       if (work_of(task).positions.empty()) return;
       split_masses(tile_of(s, task), arguments(s, model.tiles[task].object, first).positions, work_of(task));
     });
   }
-  for_tiles(s, "solve: tiles", [&](int task) {
+  for_swept_tiles(s, "solve: tiles", [&](int task) {
     const CompiledObject& object = object_of(s, task);
     s.kernels.sweep_general(object.pools.data(), object.segments.data() + tile_of(s, task).first_segment,
                             object.segments.data() + tile_of(s, task).last_segment, arguments_of(model.tiles[task].object));
@@ -80,7 +78,7 @@ void iterate_jacobi(Substep& s, bool first) {
   for_inter_tile(s, Order::forward, [&](int number, const Segment* segment) {
     s.kernels.sweep_general(model.objects[number].pools.data(), segment, segment + 1, arguments_of(number));
   });
-  for_tiles(s, "solve: gather", [&](int task) { gather(tile_of(s, task), work_of(task), displacements(task)); });
+  for_swept_tiles(s, "solve: gather", [&](int task) { gather(tile_of(s, task), work_of(task), displacements(task)); });
   sweep_volumes(s, first);
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 void move(Substep& s, int o, bool first) {
   const SweepArguments a = arguments(s, o, first);
-  MultigridObject& work = s.work.sweep.multigrid[o];
+  MultigridObject& work = multigrid_of(s).objects[o];
   // What is not sound is left to the sweeps, which may cope with it or name what does not.
   work.is_made = is_multigrid_change_sound(s, o);
   if (!work.is_made) return std::fill(work.change.begin(), work.change.end(), Record{});
@@ -26,27 +26,28 @@ void move(Substep& s, int o, bool first) {
 
 }  // namespace
 
-void prepare_multigrid(const Model& model, std::vector<MultigridObject>& objects) {
-  objects.assign(model.objects.size(), {});
-  for (std::size_t o = 0; o < objects.size(); ++o) {
-    const std::vector<MultigridLevel>& levels = model.objects[o].multigrid.levels;
-    if (levels.empty()) continue;
-    MultigridObject& to = objects[o];
-    const auto blocks = static_cast<std::size_t>(levels[0].batches());
-    for (std::size_t l = 0; l < levels.size(); ++l) {
-      MultigridValues& values = to.levels.emplace_back();
-      const auto batches = static_cast<std::size_t>(levels[l].batches());
-      values.blocks.resize(static_cast<std::size_t>(levels[l].slots()) * (l == 0 ? spring_floats : block_floats));
-      values.diagonal.resize(batches * block_floats);
-      values.inverse.resize(batches * block_floats);
-      for (Records* records : {&values.right, &values.x, &values.y}) records->resize(batches * batch_width + 1);
-    }
-    for (Records* records : {&to.direction, &to.image, &to.change}) records->resize(blocks * batch_width + 1);
-    to.extra.resize(blocks * 9 * batch_width);
-    to.has_extra.resize(blocks);
-    to.sums.resize(blocks / batches_per_task + 1);
-    to.pieces.resize(static_cast<std::size_t>(model.objects[o].multigrid.pieces));
+MultigridScratch& multigrid_of(const Substep& s) { return static_cast<MultigridScratch&>(*s.group->scratch); }
+
+void MultigridScratch::prepare(const SweepSetup& setup, int o) {
+  const Multigrid& model = setup.model.objects[o].multigrid;
+  objects.resize(setup.model.objects.size());
+  MultigridObject& to = objects[o];
+  to = {};
+  if (model.levels.empty()) return;
+  const auto blocks = static_cast<std::size_t>(model.levels[0].batches());
+  for (std::size_t l = 0; l < model.levels.size(); ++l) {
+    MultigridValues& values = to.levels.emplace_back();
+    const auto batches = static_cast<std::size_t>(model.levels[l].batches());
+    values.blocks.resize(static_cast<std::size_t>(model.levels[l].slots()) * (l == 0 ? spring_floats : block_floats));
+    values.diagonal.resize(batches * block_floats);
+    values.inverse.resize(batches * block_floats);
+    for (Records* records : {&values.right, &values.x, &values.y}) records->resize(batches * batch_width + 1);
   }
+  for (Records* records : {&to.direction, &to.image, &to.change}) records->resize(blocks * batch_width + 1);
+  to.extra.resize(blocks * 9 * batch_width);
+  to.has_extra.resize(blocks);
+  to.sums.resize(blocks / batches_per_task + 1);
+  to.pieces.resize(static_cast<std::size_t>(model.pieces));
 }
 
 void correct_multigrid(Substep& s, bool first) {
@@ -55,7 +56,7 @@ void correct_multigrid(Substep& s, bool first) {
     add_multigrid_contacts(s);
     make_multigrid_groups(s);
   }
-  const MultigridGroups& groups = s.work.sweep.multigrid_groups;
+  const MultigridGroups& groups = multigrid_of(s).groups;
   for (int g = 0; g < groups.count; ++g) {
     for (const int o : groups.all[g].objects)
       if (first) MultigridSolve(s, o).linearise(arguments(s, o, true));
@@ -72,7 +73,7 @@ void iterate_multigrid(Substep& s, bool first) {
   if (first) find_more_contacts(s);
   // There and back: distances, first of all types, have the last word, and what bending pulls apart is put right again.
   iterate_tiled(s, false);
-  if (s.has_pairs()) sweep_pairs(s);
+  sweep_pairs(s);
   sweep_contacts(s);
   sweep_inter_tile(s, false, Order::backward);
   sweep_tiles(s, false, Order::backward);

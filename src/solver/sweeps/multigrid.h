@@ -13,6 +13,7 @@
 #include "model/multigrid.h"
 #include "pliant/scene.h"
 #include "solver/sweeps/multigrid_kernels.h"
+#include "solver/sweeps/sweep.h"
 
 namespace pliant {
 
@@ -63,15 +64,21 @@ struct MultigridGroups {
   std::vector<int> root, of_root;  ///< of each object: another that it is joined to; of such a root: its group
 };
 
-struct Substep;
+struct MultigridScratch : SweepScratch {
+  std::vector<MultigridObject> objects;  ///< by object; without levels where it is not of the group
+  std::vector<PairSpring> springs;       ///< of contacts among surfaces
+  MultigridGroups groups;
+
+  void prepare(const SweepSetup& setup, int object) override;
+};
+
+/// That of the group under way.
+MultigridScratch& multigrid_of(const Substep& s);
 
 /// The correction alone, of every object that has levels. The first of a substep is made from the prediction, before any sweep;
 /// after it the multipliers of compliant distances are those of where it leaves them, all others zero. Later ones go on from
 /// what the equations of the first still lacked: sweeps meet constraints and leave that as it is.
 void correct_multigrid(Substep& s, bool first);
-
-/// Makes room for every object that has levels.
-void prepare_multigrid(const Model& model, std::vector<MultigridObject>& objects);
 
 // Of correct_multigrid, in multigrid_contacts.cpp: contacts as springs on their particles' rows, and afterwards the pushes and
 // the friction that these have exerted, for the contacts' own projection to go on from.

@@ -88,7 +88,7 @@ void for_contacts(Substep& s, const Visit& visit) {
 }
 
 void add_point_contacts(Substep& s) {
-  std::vector<MultigridObject>& objects = s.work.sweep.multigrid;
+  std::vector<MultigridObject>& objects = multigrid_of(s).objects;
   for (MultigridObject& object : objects) std::fill(object.has_extra.begin(), object.has_extra.end(), 0);
   for_contacts(s, [&](const Contact& contact, float stiffness, int o) {
     const SweepArguments a = arguments(s, o, false);
@@ -101,7 +101,7 @@ void add_point_contacts(Substep& s) {
 
 void keep_point_pushes(Substep& s) {
   for_contacts(s, [&](Contact& contact, float stiffness, int o) {
-    const MultigridObject& work = s.work.sweep.multigrid[o];
+    const MultigridObject& work = multigrid_of(s).objects[o];
     if (!work.is_made) return;
     const SweepArguments a = arguments(s, o, false);
     const int i = contact.point[0];
@@ -135,8 +135,8 @@ bool place(const Model& model, const Contact& contact, const Record* positions, 
 }
 
 void add_pair_contacts(Substep& s) {
-  SweepScratch& scratch = s.work.sweep;
-  scratch.pair_springs.clear();
+  MultigridScratch& scratch = multigrid_of(s);
+  scratch.springs.clear();
   if (!s.has_pairs()) return;
   const PairParticles all = all_particles(s);
   const std::vector<Contact>& contacts = s.work.pairs->contacts();
@@ -155,22 +155,22 @@ void add_pair_contacts(Substep& s) {
     const Vec3f force = force_of(spring, spring.normal);
     for (int k = 0; k < 4; ++k)
       if (spring.object[k] >= 0)
-        add_to_row(scratch.multigrid[spring.object[k]], spring.particle[k], spring.weight[k], block, force);
-    scratch.pair_springs.push_back(spring);
+        add_to_row(scratch.objects[spring.object[k]], spring.particle[k], spring.weight[k], block, force);
+    scratch.springs.push_back(spring);
   }
 }
 
 void keep_pair_pushes(Substep& s) {
-  SweepScratch& scratch = s.work.sweep;
-  if (scratch.pair_springs.empty()) return;
+  MultigridScratch& scratch = multigrid_of(s);
+  if (scratch.springs.empty()) return;
   const PairParticles all = all_particles(s);
-  const auto is_made = [&](int o) { return o < 0 || scratch.multigrid[o].is_made; };
-  for (const PairSpring& spring : scratch.pair_springs) {
+  const auto is_made = [&](int o) { return o < 0 || scratch.objects[o].is_made; };
+  for (const PairSpring& spring : scratch.springs) {
     if (!std::all_of(spring.object.begin(), spring.object.end(), is_made)) continue;
     Vec3f by{};
     for (int i = 0; i < 4; ++i)
       if (spring.object[i] >= 0)
-        by += vector_of(scratch.multigrid[spring.object[i]].change[spring.particle[i]]) * spring.weight[i];
+        by += vector_of(scratch.objects[spring.object[i]].change[spring.particle[i]]) * spring.weight[i];
     Contact& contact = s.work.pairs->contacts()[spring.contact];
     keep_push(spring, by, inverse_mass_of(contact, all.positions), inverse_h2_of(all), contact);
   }

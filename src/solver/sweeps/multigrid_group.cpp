@@ -12,7 +12,7 @@ namespace {
 double apply(Substep& s, const MultigridGroup& group) {
   double curvature = 0;
   for (const int o : group.objects) curvature += MultigridSolve(s, o).apply();
-  for (const PairSpring* spring : group.springs) curvature += couple_pair(*spring, s.work.sweep.multigrid);
+  for (const PairSpring* spring : group.springs) curvature += couple_pair(*spring, multigrid_of(s).objects);
   return curvature;
 }
 
@@ -65,9 +65,9 @@ int first_of(const PairSpring& s) { return *std::max_element(s.object.begin(), s
 }  // namespace
 
 void make_multigrid_groups(Substep& s) {
-  MultigridGroups& groups = s.work.sweep.multigrid_groups;
+  MultigridGroups& groups = multigrid_of(s).groups;
   const int objects = static_cast<int>(s.model.objects.size());
-  const std::vector<PairSpring>& springs = s.work.sweep.pair_springs;
+  const std::vector<PairSpring>& springs = multigrid_of(s).springs;
   groups.root.resize(static_cast<std::size_t>(objects));
   for (int o = 0; o < objects; ++o) groups.root[o] = o;
   for (const PairSpring& spring : springs) {

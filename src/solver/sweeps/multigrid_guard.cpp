@@ -44,7 +44,7 @@ double stretching(const MultigridLevel& level, const SweepArguments& a, const Re
 
 double stretching(Substep& s, int o, float scale) {
   const MultigridLevel& level = s.model.objects[o].multigrid.levels[0];
-  MultigridObject& work = s.work.sweep.multigrid[o];
+  MultigridObject& work = multigrid_of(s).objects[o];
   const SweepArguments a = arguments(s, o, false);
   const int batches = level.batches(), tasks = (batches + batches_per_task - 1) / batches_per_task;
   for_tasks(s, "solve: multigrid", tasks, [&](int task) {
@@ -60,7 +60,7 @@ double stretching(Substep& s, int o, float scale) {
 
 bool is_multigrid_change_sound(Substep& s, int o) {
   const Multigrid& model = s.model.objects[o].multigrid;
-  const Records& change = s.work.sweep.multigrid[o].change;
+  const Records& change = multigrid_of(s).objects[o].change;
   if (!s.kernels.all_finite(change.data(), 0, model.levels[0].batches() * batch_width)) return false;
   const float most = farthest(change, s.model.objects[o].particles);
   if (most <= model.edge_length * model.edge_length) return true;

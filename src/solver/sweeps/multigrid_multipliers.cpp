@@ -46,15 +46,17 @@ void keep_multigrid_multipliers(Substep& s, int o, bool first) {
   const CompiledObject& object = s.model.objects[o];
   const SweepArguments a = arguments(s, o, first);
   if (!keeps_distance_multipliers(object, a)) return;
-  const Record* change = s.work.sweep.multigrid[o].change.data();
+  const Record* change = multigrid_of(s).objects[o].change.data();
   for_tasks(s, "solve: multigrid", static_cast<int>(object.segments.size()),
             [&](int i) { add_multipliers(object, object.segments[i], a, change); });
 }
 
 void clear_multigrid_multipliers(Substep& s) {
-  for (auto& object : s.work.multipliers)
-    for (auto& values : object) std::fill(values.begin(), values.end(), 0.f);
-  std::fill(s.work.volume_multipliers.begin(), s.work.volume_multipliers.end(), 0);
+  for (std::size_t o = 0; o < s.model.objects.size(); ++o) {
+    if (!is_swept(s, static_cast<int>(o))) continue;
+    for (auto& values : s.work.multipliers[o]) std::fill(values.begin(), values.end(), 0.f);
+    s.work.volume_multipliers[o] = 0;
+  }
 }
 
 }  // namespace pliant

@@ -20,7 +20,7 @@ class MultigridSolve {
       : s_(s),
         object_(object),
         model_(s.model.objects[object].multigrid),
-        work_(s.work.sweep.multigrid[object]),
+        work_(multigrid_of(s).objects[object]),
         kernels_(s.kernels.multigrid) {}
 
   /// The matrices of all levels and the right-hand side, about where `a` has the particles.

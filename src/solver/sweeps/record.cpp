@@ -16,9 +16,9 @@ namespace {
 struct View {
   const CompiledObject& object;
   SweepArguments arguments;
-  const LaneValues::value_type* multipliers;  ///< null: none yet, all are zero
-  std::vector<Vec3d>& explained;              ///< w grad C^T lambda, by particle
-  std::vector<char>& left_out;                ///< particles that something without a multiplier moves
+  const std::vector<AlignedVector<float>>* multipliers;  ///< null: none yet, all are zero
+  std::vector<Vec3d>& explained;                         ///< w grad C^T lambda, by particle
+  std::vector<char>& left_out;                           ///< particles that something without a multiplier moves
 };
 
 /// One constraint, in double: its residual, and what its multiplier moves.
@@ -115,7 +115,7 @@ void record_iteration(Substep& s, int iteration) {
   ErrorSum volumes, dual;
   for (std::size_t o = 0; o < objects; ++o) {
     add_volume(views[o], iteration > 0 ? work.volume_multipliers[o] : 0, volumes);
-    add_unexplained(views[o], work.sweep.predicted.data() + model.first[o], dual);
+    add_unexplained(views[o], work.predicted.data() + model.first[o], dual);
   }
   if (volumes.count > 0) found.primal.push_back(volumes.residual("volume"));
   found.dual_rms = dual.rms();
@@ -124,7 +124,7 @@ void record_iteration(Substep& s, int iteration) {
 }
 
 void record_prediction(Substep& s) {
-  std::copy(s.work.displacements.begin(), s.work.displacements.end(), s.work.sweep.predicted.begin());
+  std::copy(s.work.displacements.begin(), s.work.displacements.end(), s.work.predicted.begin());
   record_iteration(s, 0);
 }
 

@@ -1,10 +1,24 @@
 #include "solver/sweeps/sweep.h"
 
+#include "solver/sweeps/chains.h"
+#include "solver/sweeps/jacobi.h"
+#include "solver/sweeps/multigrid.h"
+
 namespace pliant {
 
+namespace {
+
+template <class Scratch>
+std::unique_ptr<SweepScratch> make() {
+  return std::make_unique<Scratch>();
+}
+
+}  // namespace
+
 const SweepMethod& sweep_method(Sweep sweep) {
-  static constexpr SweepMethod tiled{true, 1, &iterate_tiled}, symmetric{true, 2, &iterate_symmetric},
-      jacobi{false, 1, &iterate_jacobi}, chains{true, 1, &iterate_chains}, multigrid{false, 2, &iterate_multigrid};
+  static constexpr SweepMethod tiled{true, 1, nullptr, &iterate_tiled}, symmetric{true, 2, nullptr, &iterate_symmetric},
+      jacobi{false, 1, &make<JacobiScratch>, &iterate_jacobi}, chains{true, 1, &make<ChainScratch>, &iterate_chains},
+      multigrid{false, 2, &make<MultigridScratch>, &iterate_multigrid};
   switch (sweep) {
     case Sweep::symmetric:
       return symmetric;
