@@ -29,7 +29,7 @@ Stopped run_with_tolerance(const std::vector<Object>& objects, const SweepRun& r
   for (int frame = 0; frame < run.frames; ++frame) {
     stopped.reports.emplace_back();
     step({out.model, out.state, out.workspace, executor, pick_kernels(run.isa), run.settings.substeps,
-          run.settings.iterations, run.settings.sweep_options, run.settings.record_residuals, tolerance},
+          run.settings.iterations, run.settings.sweep_options, run.settings.record_residuals, nullptr, false, tolerance},
          static_cast<double>(run.dt), stopped.reports.back());
   }
   stopped.state = out.state;
