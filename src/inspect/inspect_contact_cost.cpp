@@ -15,9 +15,11 @@ namespace pliant {
 namespace {
 
 constexpr double pairs_of_surface = 6.5, pairs_of_rope = 0.5, bytes_of_pair = 24;
-/// Refused: more pairs a vertex than this, if the object has more in all than `most_pairs`. Ten times what two layers of cloth
-/// need whose thickness is one edge.
-constexpr double most_pairs_of_vertex = 1500, most_pairs = 1e6;
+/// Refused: an object of more pairs a vertex than this, if it has more than `most_pairs` in all. Ten times what cloth needs whose
+/// thickness is half an edge.
+constexpr double most_pairs_of_vertex = 1000, most_pairs = 1e6;
+/// Refused: a scene of more pairs than this, a gigabyte; named is the object of most pairs a vertex, if it has more than `many_pairs`.
+constexpr double most_pairs_of_scene = 4e7, many_pairs = 300;
 /// How many vertices are looked at; each is compared with those near it along x.
 constexpr std::size_t samples = 256;
 /// Near lists reach this share of an edge beyond the thickness.
@@ -92,9 +94,8 @@ class Neighbours {
   double thickest_ = 0;
 };
 
-void check_pairs_of(Problems& problems, const Object& object, double edge, double of_vertex) {
+void refuse_thickness(Problems& problems, const Object& object, double edge, double of_vertex) {
   const double all = of_vertex * static_cast<double>(object.positions.size());
-  if (!(of_vertex > most_pairs_of_vertex && all > most_pairs)) return;
   char text[200];
   std::snprintf(text, sizeof text,
                 " m, and the median edge %.3g m: contact would look at some %.0f pairs a vertex, %.2g million, in %.0f MB",
@@ -116,11 +117,21 @@ void check_contact_cost(Problems& problems, const Scene& scene) {
     sum[static_cast<std::size_t>(object)] += found;
     ++count[static_cast<std::size_t>(object)];
   });
+  double total = 0, most = 0;
+  std::size_t worst = 0;
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    if (count[o] == 0) continue;
     const Object& object = scene.objects[o];
-    const double of_one = object.triangles.empty() ? pairs_of_rope : pairs_of_surface;
-    if (count[o] > 0) check_pairs_of(problems, object, neighbours.edge(o), of_one * sum[o] / count[o]);
+    const double of_vertex = (object.triangles.empty() ? pairs_of_rope : pairs_of_surface) * sum[o] / count[o],
+                 all = of_vertex * static_cast<double>(object.positions.size());
+    if (of_vertex > most_pairs_of_vertex && all > most_pairs)
+      return refuse_thickness(problems, object, neighbours.edge(o), of_vertex);
+    total += all;
+    if (of_vertex > most) worst = o;
+    most = std::max(most, of_vertex);
   }
+  if (total > most_pairs_of_scene && most > many_pairs)
+    refuse_thickness(problems, scene.objects[worst], neighbours.edge(worst), most);
 }
 
 }  // namespace pliant

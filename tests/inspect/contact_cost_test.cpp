@@ -44,9 +44,9 @@ TEST(ContactCost, ThicknessOfNineEdgesIsRefusedByName) {
 
 TEST(ContactCost, ThickLayersCountTogether) {
   Scene scene;
-  scene.objects = {sheet("one", 60, 0.03f, {0, 0, 0})};
+  scene.objects = {sheet("one", 60, 0.025f, {0, 0, 0})};
   EXPECT_EQ(problem_of(scene), "");
-  for (const float y : {0.02f, 0.04f}) scene.objects.push_back(sheet("more", 60, 0.03f, {0, y, 0}));
+  for (const float y : {0.02f, 0.04f}) scene.objects.push_back(sheet("more", 60, 0.025f, {0, y, 0}));
   EXPECT_TRUE(says(problem_of(scene), "thickness")) << problem_of(scene);
 }
 

@@ -203,7 +203,7 @@ std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& po
   make_clusters(*out);
   const float edge = median_edge(*out);
   out->radius = out->largest_thickness + skin_over_edge * edge;
-  out->coarsest = coarsest_roundings(*out, edge);
+  if (edge > 0) out->coarsest = coarsest_roundings(*out, edge);
   return out;
 }
 
