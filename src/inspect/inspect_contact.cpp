@@ -52,7 +52,8 @@ double distance_of(const std::vector<Vec3f>& positions, int a, int b) {
   return std::sqrt(static_cast<double>(length_squared(q - p)));
 }
 
-/// Of the surface, or of the links where there is none; 0 where there are neither.
+}  // namespace
+
 double median_edge(const Object& object) {
   std::vector<double> lengths;
   for (const auto& t : object.triangles)
@@ -67,6 +68,8 @@ double median_edge(const Object& object) {
   std::nth_element(lengths.begin(), middle, lengths.end());
   return *middle;
 }
+
+namespace {
 
 // ------------------------------------------------------------------------------------------------ cost
 

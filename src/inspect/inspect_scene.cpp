@@ -196,6 +196,8 @@ void look_through(Problems& problems, const Scene& scene) {
     if (sound && problems.wants_doubts()) doubt_object(problems, object, scene);
   }
   problems.at("");
+  if (problems.grave_count() == 0) check_contact_cost(problems, scene);
+  problems.at("");
   if (problems.grave_count() == 0) refuse_tangles(problems, scene);
   if (!problems.wants_doubts() || !surroundings_are_sound) return;
   doubt_settings(problems, scene);

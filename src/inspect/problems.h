@@ -79,6 +79,11 @@ void doubt_object(Problems& problems, const Object& object, const Scene& scene);
 void check_mesh_collider(Problems& problems, const MeshCollider& collider);
 /// Everything about the scene's pairs that a World would refuse.
 void check_pairs(Problems& problems, const Scene& scene);
+/// Objects whose contact would take memory and time out of all proportion: too thick for their mesh, or too far from the origin. For a
+/// scene that nothing is grave in.
+void check_contact_cost(Problems& problems, const Scene& scene);
+/// The median edge of the surface, or link where there is none; 0 where there are neither [m].
+double median_edge(const Object& object);
 /// Where things may not pass through one another at the start, that they do, or are shut up in one another: for a scene that
 /// nothing is grave in.
 void refuse_tangles(Problems& problems, const Scene& scene);

@@ -64,6 +64,10 @@ void warn_of_pairs(const Model& model, const SurfaceContact& pairs, std::vector<
   }
   for (const auto& [objects, found] : between)
     warnings.push_back(words_of(model, pairs.triangle(found.first->triangle), *found.first, found.second));
+  for (const int body : pairs.too_far())
+    warnings.push_back(name_of(model, body) +
+                       " is so far from the origin that the rounding of positions is as large as its edges: it has no "
+                       "contact there; move the scene to the origin");
   for (const auto& [objects, found] : pairs.unresolvable()) warnings.push_back(words_of(model, found));
 }
 

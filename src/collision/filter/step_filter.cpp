@@ -25,6 +25,7 @@ struct StepFilter::Round {
 };
 
 void StepFilter::Round::plan_list(NearList& list, Scratch& scratch) const {
+  if (is_too_far(near, list)) return;
   const float margin = filter_margin(near, list);
   collect_near(near, list, margin, scratch.near);
   PairLanes lanes;
@@ -43,7 +44,7 @@ void StepFilter::Round::plan_list(NearList& list, Scratch& scratch) const {
 void StepFilter::Round::plan_group(const StaticGroup& group, Scratch& scratch) const {
   const Odometer& odometer = near.odometer(group);
   const float margin = filter_margin(near, group);
-  if (group.least.after(odometer) > margin) return;
+  if (group.least.after(odometer) > margin || is_too_far(near, group)) return;
   const float spent = group.least.spent(odometer) + odometer.next;
   PairLanes lanes;
   for (int b = group.first_block; b < group.last_block; ++b) {

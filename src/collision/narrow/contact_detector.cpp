@@ -56,6 +56,7 @@ void measure(const Detection& d, const ClusterSides& sides, PairLanes& lanes) {
 }
 
 void detect_list(const Detection& d, NearList& list, std::vector<std::int32_t>& near, std::vector<Contact>& contacts) {
+  if (is_too_far(d.near, list)) return;
   collect_near(d.near, list, cull_slack * d.near.pair_of(list).material.thickness, near);
   const float spent = list.least.spent(d.near.odometer(list));
   PairLanes lanes;
@@ -85,7 +86,7 @@ void detect_block(const Detection& d, const StaticGroup& group, int block, std::
 void detect_group(const Detection& d, StaticGroup& group, std::vector<Contact>& contacts) {
   const ClusterPair& clusters = d.near.pair_of(group);
   const float within = cull_slack * clusters.material.thickness, next = clusters.odometer.next;
-  if (group.least.after(clusters.odometer) > within) return;
+  if (group.least.after(clusters.odometer) > within || is_too_far(d.near, group)) return;
   StaticPairs& pairs = d.near.static_pairs;
   pairs.rebase(group, clusters.odometer);
   const float due = within + (1 + substeps_of_rest) * next;

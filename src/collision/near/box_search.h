@@ -22,6 +22,7 @@ class BoxSearch {
     std::vector<std::int32_t> batches;
     std::vector<BoxHit> hits;
     std::vector<NearPair> found;
+    std::vector<float> value;  ///< of those that are kept [m]
   };
   /// Into scratch.found: pairs whose boxes come within `reach` [m], without those that share a vertex and static pairs. `far`: a box
   /// around the second cluster.

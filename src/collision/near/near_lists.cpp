@@ -199,18 +199,25 @@ bool NearLists::is_clear(NearList& list) const {
 /// a list for one substep; their motion is not limited.
 void NearLists::refresh(NearList& list, BoxSearch::Scratch& scratch, const PairParticles& particles) {
   const Odometer& odometer = near_.odometer(list);
+  if (is_too_far(near_, list)) {  // looked at again in the next substep
+    list.clear(odometer);
+    list.complete = {-1, odometer.total};
+    return;
+  }
   const float activation = activation_distance(near_, list), margin = skin() * bound_slack;
   const bool is_fast = 1.1f * odometer.next > skin();
   list.clear(odometer);
   list.complete = {is_fast ? -1 : skin(), odometer.total};
   const float reach = is_fast ? activation : activation + margin;
   search_.find(list, near_.motions.path_box(list.second).grown(reach), reach, scratch);
-  keep_near(list, activation + max(margin, 1.1f * odometer.next), scratch.found, particles);
+  keep_near(list, activation + max(margin, 1.1f * odometer.next), scratch, particles);
 }
 
 /// Measures what was found and keeps what is nearer than `within`.
-void NearLists::keep_near(NearList& list, float within, const std::vector<NearPair>& found,
-                          const PairParticles& particles) const {
+void NearLists::keep_near(NearList& list, float within, BoxSearch::Scratch& scratch, const PairParticles& particles) const {
+  std::vector<NearPair>& found = scratch.found;
+  scratch.value.clear();
+  std::size_t kept = 0;
   PairLanes lanes;
   const float spent = list.least.spent(near_.odometer(list));
   for (std::size_t i = 0; i < found.size(); i += 16) {
@@ -221,10 +228,13 @@ void NearLists::keep_near(NearList& list, float within, const std::vector<NearPa
       const float value = (lanes.at.at_least[lane] + spent) * sum_slack;
       if (value > within) continue;
       list.least.value = min(list.least.value, value);
-      list.pairs.push_back(found[i + lane]);
-      list.value.push_back(value);
+      found[kept++] = found[i + lane];
+      scratch.value.push_back(value);
     }
   }
+  // Vectors of the size of the list: what they grow by while they are filled would nearly double the memory of contact.
+  list.pairs = std::vector<NearPair>(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept));
+  list.value = std::vector<float>(scratch.value);
 }
 
 }  // namespace pliant

@@ -30,6 +30,7 @@ class NearLists {
   void advance();
 
   Neighbourhood& neighbourhood() { return near_; }
+  const Neighbourhood& neighbourhood() const { return near_; }
   std::int64_t candidates() const { return candidates_; }
   /// How often clusters were paired anew.
   std::int64_t rebuilds() const { return rebuilds_; }
@@ -51,7 +52,7 @@ class NearLists {
   void drop_clear(Executor& executor, const PairParticles& particles);
   bool is_clear(NearList& list) const;
   void refresh(NearList& list, BoxSearch::Scratch& scratch, const PairParticles& particles);
-  void keep_near(NearList& list, float within, const std::vector<NearPair>& found, const PairParticles& particles) const;
+  void keep_near(NearList& list, float within, BoxSearch::Scratch& scratch, const PairParticles& particles) const;
 
   Neighbourhood near_;
   ClearanceSearch clearance_;

@@ -15,6 +15,12 @@ void NearList::clear(const Odometer& odometer) {
   least = {out_of_reach, odometer.total};
 }
 
+bool is_too_far(const Neighbourhood& near, int cluster) {
+  const std::vector<float>& coarsest = near.model.coarsest;
+  return !coarsest.empty() &&
+         least_roundings * one_rounding * near.motions[cluster].extent > coarsest[static_cast<std::size_t>(cluster)];
+}
+
 float filter_margin(const Neighbourhood& near, const ClusterSides& sides) {
   const float extent = max(near.motions[sides.first].extent, near.motions[sides.second].extent);
   return max(least_share * near.pair_of(sides).material.thickness, least_roundings * one_rounding * extent);

@@ -65,6 +65,13 @@ struct PairLanes {
   }
 };
 
+/// Whether a cluster is so far from the origin that the rounding of its positions is as large as its edges. Contact and filter leave it
+/// out: every pair of its edges would be within the filter's margin.
+bool is_too_far(const Neighbourhood& near, int cluster);
+inline bool is_too_far(const Neighbourhood& near, const ClusterSides& sides) {
+  return is_too_far(near, sides.first) || is_too_far(near, sides.second);
+}
+
 /// The distance that the filter keeps between two clusters [m].
 float filter_margin(const Neighbourhood& near, const ClusterSides& sides);
 

@@ -139,6 +139,24 @@ float median_edge(const PairModel& model) {
   return *middle;
 }
 
+/// About the length of a cluster's edges: a cluster of compact shape is some eight edges wide.
+std::vector<float> coarsest_roundings(const PairModel& model, float edge) {
+  std::vector<Vec3f> low(static_cast<std::size_t>(model.clusters), Vec3f{1e30f, 1e30f, 1e30f}), high = low;
+  for (Vec3f& corner : high) corner = -corner;
+  for (const int v : model.elements.vertices) {
+    const Record& r = model.rest[v];
+    const auto c = static_cast<std::size_t>(model.vertex_cluster[v]);
+    low[c] = min(low[c], Vec3f{r.x, r.y, r.z});
+    high[c] = max(high[c], Vec3f{r.x, r.y, r.z});
+  }
+  std::vector<float> coarsest;
+  for (std::size_t c = 0; c < low.size(); ++c) {
+    const Vec3f size = high[c] - low[c];
+    coarsest.push_back(max(edge, max(size.x, max(size.y, size.z)) / 8));
+  }
+  return coarsest;
+}
+
 }  // namespace
 
 namespace {
@@ -183,7 +201,9 @@ std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& po
   if (triangles.empty() && lines.empty() && out->free_points.empty()) return nullptr;
   out->elements = make_contact_elements(triangles, lines, loose, static_cast<int>(positions.size()));
   make_clusters(*out);
-  out->radius = out->largest_thickness + skin_over_edge * median_edge(*out);
+  const float edge = median_edge(*out);
+  out->radius = out->largest_thickness + skin_over_edge * edge;
+  if (edge > 0) out->coarsest = coarsest_roundings(*out, edge);
   return out;
 }
 

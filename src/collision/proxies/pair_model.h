@@ -21,6 +21,8 @@ struct PairModel {
   /// Vertices of one body that lie together, some sixty-four, and the edges and triangles that begin at them.
   int clusters = 0;
   std::vector<int> vertex_cluster, edge_cluster, triangle_cluster, cluster_body;
+  /// Of each cluster: where positions are rounded by more, pairs are left out of contact. Empty: no limit. [m]
+  std::vector<float> coarsest;
   float radius = 0;             ///< within which candidates are looked for [m]
   float largest_thickness = 0;  ///< [m]
   bool filter = true;

@@ -54,6 +54,15 @@ void SurfaceContact::begin_frame(const Record* positions, bool anew) {
   if (anew) lists_.forget();
 }
 
+std::vector<int> SurfaceContact::too_far() const {
+  std::vector<int> bodies;
+  for (int c = 0; c < model_.clusters; ++c)
+    if (is_too_far(lists_.neighbourhood(), c)) bodies.push_back(model_.cluster_body[c]);
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  return bodies;
+}
+
 // ---------------------------------------------------------------- exempt pairs
 
 /// Whether one side of a pair is lost in the body of the other.

@@ -63,6 +63,8 @@ class SurfaceContact {
   /// Edges and triangles that intersect: left out until they are apart.
   const std::vector<Intersection>& intersecting() const { return intersections_.found(); }
   const Triangle& triangle(int number) const { return model_.elements.triangles[number]; }
+  /// Bodies that are partly too far from the origin for contact (is_too_far), ascending.
+  std::vector<int> too_far() const;
   /// Of this frame, by their bodies, the lower one first.
   const std::map<std::pair<int, int>, UnresolvablePairs>& unresolvable() const { return filter_.unresolvable(); }
 
