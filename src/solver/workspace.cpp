@@ -22,7 +22,8 @@ void prepare_multipliers(const Model& model, Multipliers kept, Workspace& worksp
   for (std::size_t o = 0; o < model.objects.size(); ++o) {
     for (const Pool& pool : model.objects[o].pools) {
       const bool keeps = pool.law != Law::pbd && (kept == Multipliers::all || needs_multipliers(pool));
-      workspace.multipliers[o].emplace_back(keeps ? static_cast<std::size_t>(pool.batches) * batch_width : 0, 0.f);
+      workspace.multipliers[o].emplace_back(
+          keeps ? static_cast<std::size_t>(pool.batches) * batch_width * pool.components : 0, 0.f);
     }
     for (AlignedVector<float>& values : workspace.multipliers[o]) {
       workspace.multiplier_pointers[o].push_back(values.empty() ? nullptr : values.data());
@@ -34,6 +35,8 @@ void prepare_multipliers(const Model& model, Multipliers kept, Workspace& worksp
 
 void prepare(const Model& model, Multipliers kept, Workspace& workspace) {
   workspace.displacements.resize(model.particles());
+  workspace.frames.predicted.resize(model.frames());
+  workspace.frames.corrections.resize(model.frames());
   prepare_multipliers(model, kept, workspace);
   workspace.volume_multipliers.assign(model.objects.size(), 0);
   bool some_volume = false;

@@ -4,6 +4,7 @@
 #include "solver/passes.h"
 #include "solver/residual.h"
 #include "solver/stages/stages.h"
+#include "solver/stencil.h"
 #include "solver/sweeps/chains.h"
 #include "solver/sweeps/chebyshev.h"
 #include "solver/sweeps/record.h"
@@ -19,12 +20,13 @@ bool is_met(Substep& s, int iteration) {
   return context.tolerance > 0 && iteration + 1 < context.iterations && distance_residual(s) < context.tolerance;
 }
 
-/// One iteration: constraints as the sweep has it, acceleration, tethers, contacts.
+/// One iteration: constraints as the sweep has it, acceleration, those projected one at a time, tethers, contacts.
 void iterate(Substep& s, int iteration) {
   const bool accelerates = s.context.options.acceleration == SweepOptions::Acceleration::chebyshev;
   if (accelerates) keep_iterate(s, iteration);
   sweep_method(s.context.sweep).iterate(s, iteration == 0);
   if (accelerates) accelerate(s, iteration);
+  project_stencils(s, sweep_method(s.context.sweep).passes, iteration == 0);
   hold_tethers(s);
   sweep_pairs(s);
   sweep_contacts(s);  // last, so that constraints pull no particle into a collider
