@@ -22,58 +22,16 @@ using namespace save_file;
 /// The names of a State's columns in a file.
 constexpr std::string_view time_block = "state.time", frame_block = "state.frame", positions_block = "state.positions",
                            remainders_block = "state.remainders", velocities_block = "state.velocities";
+/// Those that are only there where a State has frames or channels.
+constexpr std::string_view orientations_block = "state.orientations", spins_block = "state.angular_velocities",
+                           inertias_block = "state.inverse_inertias", channels_block = "state.channels";
+const std::vector<std::string_view> state_blocks{time_block,       frame_block,      positions_block,
+                                                 remainders_block, velocities_block, orientations_block,
+                                                 spins_block,      inertias_block,   channels_block};
 constexpr std::string_view fingerprint_blocks[] = {"fingerprint.scene", "fingerprint.settings"};
 constexpr std::string_view scene_block = "scene", settings_block = "settings";
 
 static_assert(sizeof(Record) == 16);
-
-/// Takes the State apart by a structured binding, so that a new column that is not written does not compile.
-std::vector<Block> blocks_of(const State& state) {
-  const auto& [time, frame, positions, remainders, velocities] = state;
-  const auto records = [](std::string_view name, const Records& column) {
-    return Block{name, Type::record, sizeof(Record), column.size(), column.data()};
-  };
-  return {{time_block, Type::float64, sizeof time, 1, &time},
-          {frame_block, Type::int64, sizeof frame, 1, &frame},
-          records(positions_block, positions),
-          records(remainders_block, remainders),
-          records(velocities_block, velocities)};
-}
-
-void read(const Contents& from, std::string_view name, Records& column) {
-  const Block& block = from.block(name, Type::record, sizeof(Record));
-  column.resize(block.count);
-  if (block.count > 0) std::memcpy(column.data(), block.data, block.count * sizeof(Record));
-}
-
-template <class T>
-void read(const Contents& from, std::string_view name, Type type, T& value) {
-  const Block& block = from.block(name, type, sizeof value);
-  if (block.count != 1) from.fail(fmt::format("is malformed: it has {} of '{}'", block.count, name), "use an earlier file");
-  std::memcpy(&value, block.data, sizeof value);
-}
-
-State state_in(const Contents& from) {
-  State state;
-  auto& [time, frame, positions, remainders, velocities] = state;
-  read(from, time_block, Type::float64, time);
-  read(from, frame_block, Type::int64, frame);
-  read(from, positions_block, positions);
-  read(from, remainders_block, remainders);
-  read(from, velocities_block, velocities);
-  if (remainders.size() != positions.size() || velocities.size() != positions.size())
-    from.fail("is malformed: its positions, remainders and velocities differ in number", "use an earlier file");
-  return state;
-}
-
-Contents state_file(const std::string& path) {
-  Contents contents(path, Content::state);
-  contents.refuse_unknown({time_block, frame_block, positions_block, remainders_block, velocities_block,
-                           fingerprint_blocks[0], fingerprint_blocks[1]});
-  return contents;
-}
-
-// ---------------------------------------------------------------- a Scene
 
 template <class T>
 std::string bytes_of(const T& of) {
@@ -91,6 +49,77 @@ T read_bytes(const Contents& from, std::string_view name) {
   if (!in.complete()) from.fail(fmt::format("is malformed: its block '{}' does not read", name), "use an earlier file");
   return of;
 }
+
+/// Takes the State apart by a structured binding, so that a new column that is not written does not compile.
+/// `channel_bytes` holds what the last block points to.
+std::vector<Block> blocks_of(const State& state, std::string& channel_bytes) {
+  const auto& [time, frame, positions, remainders, velocities, frames, channels] = state;
+  const auto& [orientations, angular_velocities, inverse_inertias] = frames;
+  const auto records = [](std::string_view name, const Records& column) {
+    return Block{name, Type::record, sizeof(Record), column.size(), column.data()};
+  };
+  std::vector<Block> blocks{{time_block, Type::float64, sizeof time, 1, &time},
+                            {frame_block, Type::int64, sizeof frame, 1, &frame},
+                            records(positions_block, positions),
+                            records(remainders_block, remainders),
+                            records(velocities_block, velocities)};
+  if (!orientations.empty()) {
+    blocks.push_back(records(orientations_block, orientations));
+    blocks.push_back(records(spins_block, angular_velocities));
+    blocks.push_back(records(inertias_block, inverse_inertias));
+  }
+  if (!channels.empty()) {
+    channel_bytes = bytes_of(channels);
+    blocks.push_back({channels_block, Type::bytes, 1, channel_bytes.size(), channel_bytes.data()});
+  }
+  return blocks;
+}
+
+void read(const Contents& from, std::string_view name, Records& column) {
+  const Block& block = from.block(name, Type::record, sizeof(Record));
+  column.resize(block.count);
+  if (block.count > 0) std::memcpy(column.data(), block.data, block.count * sizeof(Record));
+}
+
+template <class T>
+void read(const Contents& from, std::string_view name, Type type, T& value) {
+  const Block& block = from.block(name, type, sizeof value);
+  if (block.count != 1) from.fail(fmt::format("is malformed: it has {} of '{}'", block.count, name), "use an earlier file");
+  std::memcpy(&value, block.data, sizeof value);
+}
+
+State state_in(const Contents& from) {
+  State state;
+  auto& [time, frame, positions, remainders, velocities, frames, channels] = state;
+  read(from, time_block, Type::float64, time);
+  read(from, frame_block, Type::int64, frame);
+  read(from, positions_block, positions);
+  read(from, remainders_block, remainders);
+  read(from, velocities_block, velocities);
+  if (remainders.size() != positions.size() || velocities.size() != positions.size())
+    from.fail("is malformed: its positions, remainders and velocities differ in number", "use an earlier file");
+  if (from.has(orientations_block)) {
+    read(from, orientations_block, frames.orientations);
+    read(from, spins_block, frames.angular_velocities);
+    read(from, inertias_block, frames.inverse_inertias);
+  }
+  if (from.has(channels_block)) channels = read_bytes<std::vector<Channel>>(from, channels_block);
+  return state;
+}
+
+/// Every block of a State, and those named.
+std::vector<std::string_view> with_state_blocks(std::vector<std::string_view> names) {
+  names.insert(names.end(), state_blocks.begin(), state_blocks.end());
+  return names;
+}
+
+Contents state_file(const std::string& path) {
+  Contents contents(path, Content::state);
+  contents.refuse_unknown(with_state_blocks({fingerprint_blocks[0], fingerprint_blocks[1]}));
+  return contents;
+}
+
+// ---------------------------------------------------------------- a Scene
 
 template <class T, class... More>
 std::string hash_of(const T& of, const More&... more) {
@@ -134,10 +163,14 @@ Fingerprint fingerprint(const Scene& scene) {
   return {hash_of(scene, static_cast<std::uint64_t>(scene.forces.size())), hash_of(settings)};
 }
 
-void save(const std::string& path, const State& state) { write(path, Content::state, blocks_of(state)); }
+void save(const std::string& path, const State& state) {
+  std::string channels;
+  write(path, Content::state, blocks_of(state, channels));
+}
 
 void save(const std::string& path, const State& state, const Fingerprint& of) {
-  std::vector<Block> blocks = blocks_of(state);
+  std::string channels;
+  std::vector<Block> blocks = blocks_of(state, channels);
   blocks.push_back({fingerprint_blocks[0], Type::bytes, 1, of.scene.size(), of.scene.data()});
   blocks.push_back({fingerprint_blocks[1], Type::bytes, 1, of.settings.size(), of.settings.data()});
   write(path, Content::state, blocks);
@@ -164,7 +197,8 @@ void save(const std::string& path, const World& world, const Scene& scene) {
   Settings settings = world.settings();
   settings.isa.clear();  // another machine may not have it, and the bits are the same
   const std::string scene_bytes = bytes_of(scene), settings_bytes = bytes_of(settings);
-  std::vector<Block> blocks = blocks_of(world.state());
+  std::string channels;
+  std::vector<Block> blocks = blocks_of(world.state(), channels);
   blocks.push_back({scene_block, Type::bytes, 1, scene_bytes.size(), scene_bytes.data()});
   blocks.push_back({settings_block, Type::bytes, 1, settings_bytes.size(), settings_bytes.data()});
   write(path, Content::world, blocks);
@@ -172,8 +206,7 @@ void save(const std::string& path, const World& world, const Scene& scene) {
 
 LoadedWorld load_world(const std::string& path) {
   const Contents contents(path, Content::world);
-  contents.refuse_unknown(
-      {time_block, frame_block, positions_block, remainders_block, velocities_block, scene_block, settings_block});
+  contents.refuse_unknown(with_state_blocks({scene_block, settings_block}));
   Scene scene = read_bytes<Scene>(contents, scene_block);
   scene.settings = read_bytes<Settings>(contents, settings_block);
   const State state = state_in(contents);

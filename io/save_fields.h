@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "pliant/scene.h"
+#include "pliant/world.h"
 
 namespace pliant::save_file {
 
@@ -51,11 +52,22 @@ void fields(A& a, Is<Attachment> auto& of) {
   a(particle, target, motion, stiffness);
 }
 template <class A>
+void fields(A& a, Is<ObjectFrame> auto& of) {
+  auto& [orientation, angular_velocity, inertia] = of;
+  a(orientation, angular_velocity, inertia);
+}
+template <class A>
+void fields(A& a, Is<Channel> auto& of) {
+  auto& [name, components, values] = of;
+  a(name, components, values);
+}
+template <class A>
 void fields(A& a, Is<Object> auto& of) {
-  auto& [name, positions, velocities, masses, constraints, triangles, volume, pins, attachments, thickness, self_collision,
-         collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift, sweep, damping, colour] = of;
-  a(name, positions, velocities, masses, constraints, triangles, volume, pins, attachments, thickness, self_collision,
-    collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift, sweep, damping);
+  auto& [name, positions, velocities, masses, frames, constraints, triangles, volume, pins, attachments, thickness,
+         self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift, sweep, damping,
+         colour] = of;
+  a(name, positions, velocities, masses, frames, constraints, triangles, volume, pins, attachments, thickness,
+    self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift, sweep, damping);
   a.aside(colour);
 }
 template <class A>

@@ -80,7 +80,7 @@ std::string expected(const Type& type) {
     case Kind::string:
       return "a string";
     case Kind::choice:
-      return joined(type.choices, " or ");
+      return joined(choices_of(type), " or ");
     case Kind::vector:
       return "an array of three numbers" + unit;
     case Kind::list:
@@ -181,8 +181,9 @@ class Checker {
   }
 
   void choice(const JsonValue& at, const Type& type) const {
-    if (std::find(type.choices.begin(), type.choices.end(), at.text) != type.choices.end()) return;
-    const std::string near = nearest_name(at.text, type.choices);
+    const std::vector<std::string> choices = choices_of(type);
+    if (std::find(choices.begin(), choices.end(), at.text) != choices.end()) return;
+    const std::string near = nearest_name(at.text, choices);
     document_.fail(at, "there is no '" + printable(at.text) + "' here",
                    (near.empty() ? "" : "did you mean '" + near + "'? ") + ("expected " + expected(type)));
   }

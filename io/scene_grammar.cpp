@@ -62,14 +62,27 @@ const Record& constraint_record() {
   static const Record result{"constraints",
                              "Constraints of one type. Any type that the library has can be named; its particles and rest "
                              "data are in constraints.md.",
-                             {needed("type", choice(constraint_names(), "a type of constraints.md"), "Which."),
-                              needed("particles", list(list(particle_index(), 1)), "The particles of each constraint."),
+                             {needed("type", choice(&constraint_names, "a type of constraints.md"), "Which."),
+                              needed("particles", list(list(particle_index(), 1)),
+                                     "The particles of each constraint; of a frame slot, the number of a frame."),
                               field("rest", list(list(number("as the type has it", -largest_quantity))),
                                     "measured from the positions", "The rest data of each constraint."),
                               field("stiffness", stiffness(), "\"rigid\"", "Of all of them."),
                               field("compliances", list(number("as the type has it", 0)), "none",
                                     "One compliance a constraint, instead of the one in `stiffness`.")},
                              {}};
+  return result;
+}
+
+const Record& frame_record() {
+  static const Record result{
+      "frame",
+      "An orientation with inertia, for constraints that have frame slots: a rigid body is a particle and a frame.",
+      {field("orientation", record(rotation_record()), "none", "How its principal axes are turned at the start."),
+       field("angular_velocity", vector("rad/s", largest_velocity), Vec3f{}, "At the start, in world axes."),
+       needed("inertia", any_of({vector("kg m^2", largest_quantity), choice({"fixed"})}),
+              "About its three principal axes, above 0; \"fixed\" for a frame that never turns.")},
+      {}};
   return result;
 }
 
@@ -81,6 +94,7 @@ const Record& particles_record() {
        needed("masses", any_of({positive("kg"), list(any_of({positive("kg"), choice({"fixed"})}), 1)}),
               "One mass for all, or one each; \"fixed\" for a particle that never moves."),
        field("velocities", list(vector("m/s", largest_velocity)), "at rest", "One each."),
+       field("frames", list(record(frame_record())), "none", "Orientations that constraints join to the particles."),
        field("constraints", list(record(constraint_record())), "none", "What holds them together."),
        field("triangles", list(list(particle_index(), 3, 3)), "none",
              "The surface, counter-clockwise seen from outside: for air, volume and pictures."),

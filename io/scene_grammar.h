@@ -20,13 +20,20 @@ struct Type {
   bool above_minimum = false;        ///< the minimum itself is not allowed
   std::string unit;                  ///< of a number or vector; "-" for a ratio
   std::vector<std::string> choices;  ///< of a choice
-  std::string choices_documented;    ///< where these words stand for the list in the reference, which must not grow with it
-  bool single_line = true;           ///< of a string: no control characters
-  std::size_t minimum_items = 0;     ///< of a list
-  std::size_t maximum_items = 0;     ///< of a list; 0: as many as fit
+  std::vector<std::string> (*choices_now)() =
+      nullptr;                     ///< of a choice that can grow while the program runs, instead of `choices`
+  std::string choices_documented;  ///< where these words stand for the list in the reference, which must not grow with it
+  bool single_line = true;         ///< of a string: no control characters
+  std::size_t minimum_items = 0;   ///< of a list
+  std::size_t maximum_items = 0;   ///< of a list; 0: as many as fit
   const Record* record = nullptr;
   std::vector<Type> parts;  ///< the item of a list, or the alternatives of any_of, which differ in their kind of JSON value
 };
+
+/// The words that a choice allows.
+inline std::vector<std::string> choices_of(const Type& type) {
+  return type.choices_now != nullptr ? type.choices_now() : type.choices;
+}
 
 /// A member of a JSON object.
 struct Field {

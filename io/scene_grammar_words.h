@@ -78,6 +78,13 @@ inline Type choice(std::vector<std::string> choices, std::string documented = {}
   return type;
 }
 
+/// Words that can become more while the program runs.
+inline Type choice(std::vector<std::string> (*choices)(), std::string documented) {
+  Type type = choice(std::vector<std::string>{}, std::move(documented));
+  type.choices_now = choices;
+  return type;
+}
+
 inline Type list(Type item, std::size_t minimum = 0, std::size_t maximum = 0) {
   Type type;
   type.kind = Type::Kind::list;

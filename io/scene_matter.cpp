@@ -93,7 +93,24 @@ void check_rows(const JsonDocument& document, const JsonValue& at, std::size_t f
   document.fail(at, std::to_string(found) + " elements for " + std::to_string(wanted) + " constraints", "give one each");
 }
 
-ConstraintGroup constraints_of(const JsonDocument& document, const JsonValue& at, std::size_t particles) {
+int frame_of(const JsonDocument& document, const JsonValue& at, std::size_t frames) {
+  if (at.number < static_cast<double>(frames)) return static_cast<int>(at.number);
+  document.fail(at, "there is no frame " + std::to_string(static_cast<long long>(at.number)),
+                "the object has " + std::to_string(frames) + ", counted from 0");
+}
+
+ObjectFrame object_frame_of(const JsonDocument& document, const JsonValue& at) {
+  ObjectFrame frame;
+  set(document, at, "orientation", frame.orientation);
+  set(at, "angular_velocity", frame.angular_velocity);
+  const JsonValue& inertia = *at.find("inertia");
+  const float fixed = std::numeric_limits<float>::infinity();
+  frame.inertia = inertia.kind == JsonValue::Kind::string ? Vec3f{fixed, fixed, fixed} : vector_of(inertia);
+  return frame;
+}
+
+ConstraintGroup constraints_of(const JsonDocument& document, const JsonValue& at, std::size_t particles,
+                               std::size_t frames) {
   ConstraintGroup group;
   set(at, "type", group.type);
   set(document, at, "stiffness", group.stiffness);
@@ -101,7 +118,11 @@ ConstraintGroup constraints_of(const JsonDocument& document, const JsonValue& at
   const std::vector<JsonValue>& stencils = elements(at, "particles");
   for (const JsonValue& stencil : stencils) {
     check_width(document, stencil, static_cast<std::size_t>(type.stencil_size), "a " + type.name + " constraint");
-    for (const JsonValue& item : stencil.items) group.particles.push_back(particle_of(document, item, particles));
+    for (std::size_t slot = 0; slot < stencil.items.size(); ++slot) {
+      const bool is_frame = type.slots[slot] == SlotKind::frame;
+      group.particles.push_back(is_frame ? frame_of(document, stencil.items[slot], frames)
+                                         : particle_of(document, stencil.items[slot], particles));
+    }
   }
   if (const JsonValue* rest = at.find("rest")) {
     check_rows(document, *rest, rest->items.size(), stencils.size());
@@ -132,8 +153,9 @@ BuiltObject particles_of(const JsonDocument& document, const JsonValue& at, cons
                     "give one each, or the object's velocity");
     for (const JsonValue& item : velocities->items) object.velocities.push_back(vector_of(item));
   }
+  for (const JsonValue& item : elements(at, "frames")) object.frames.push_back(object_frame_of(document, item));
   for (const JsonValue& item : elements(at, "constraints"))
-    object.constraints.push_back(constraints_of(document, item, count));
+    object.constraints.push_back(constraints_of(document, item, count, object.frames.size()));
   for (const JsonValue& item : elements(at, "triangles"))
     object.triangles.push_back({particle_of(document, item.items[0], count), particle_of(document, item.items[1], count),
                                 particle_of(document, item.items[2], count)});

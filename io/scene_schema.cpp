@@ -59,7 +59,7 @@ Json schema_of(const Type& type) {
     case Kind::string:
       break;
     case Kind::choice:
-      return {{"enum", type.choices}};
+      return {{"enum", choices_of(type)}};
     case Kind::vector:
       return {{"type", "array"}, {"items", bounded("number", type)}, {"minItems", 3}, {"maxItems", 3}};
     case Kind::list:
@@ -131,7 +131,7 @@ std::string type_words(const Type& type) {
       return anchor(*type.record);
     case Kind::choice:
       if (!type.choices_documented.empty()) return type.choices_documented;
-      for (const std::string& choice : type.choices) text += (text.empty() ? "`\"" : " or `\"") + choice + "\"`";
+      for (const std::string& choice : choices_of(type)) text += (text.empty() ? "`\"" : " or `\"") + choice + "\"`";
       return text;
     case Kind::any_of:
       break;

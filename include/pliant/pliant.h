@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pliant/advise.h"
+#include "pliant/constraint.h"
 #include "pliant/error.h"
 #include "pliant/io.h"
 #include "pliant/material.h"

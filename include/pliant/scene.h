@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "pliant/formula.h"
 #include "pliant/material.h"
 #include "pliant/mesh.h"
 #include "pliant/motion.h"
@@ -22,21 +23,23 @@ namespace pliant {
 
 /// Constraints of one type among the particles of one object. `type` is a name from constraint_types().
 struct ConstraintGroup {
-  std::string type;                ///< "distance", "dihedral_bending", "isometric_bending", ...
-  std::vector<int> particles;      ///< stencil after stencil: size of the stencil x number of constraints
-  std::vector<float> rest;         ///< rest data, fields x number of constraints; empty: measured from the positions
-  Stiffness stiffness{};           ///< of every constraint in the group
+  std::string type;            ///< "distance", "dihedral_bending", "isometric_bending", ...
+  std::vector<int> particles;  ///< stencil after stencil: slots x number of constraints; of a frame slot, a frame's number
+  std::vector<float> rest;     ///< rest data, fields x number of constraints; empty: measured from the positions
+  Stiffness stiffness{};       ///< of every constraint in the group
   std::vector<float> compliances;  ///< one alpha a constraint instead of stiffness.value; empty: all the same
 };
 
 /// What the library knows about a constraint type.
 struct ConstraintType {
   std::string name;
-  int stencil_size;                      ///< number of particles
+  int stencil_size;                      ///< number of slots
   std::vector<std::string> rest_fields;  ///< names of its rest data, with units in docs/reference/constraints.md
+  std::vector<SlotKind> slots;           ///< what each number of a stencil is: a particle, or one of Object::frames
+  int rows;                              ///< components of C
 };
 
-/// Every constraint type that a ConstraintGroup may name.
+/// Every constraint type that a ConstraintGroup may name: those of the library, then those registered (pliant/constraint.h).
 const std::vector<ConstraintType>& constraint_types();
 
 /// The volume of a closed mesh, held at `pressure` times its rest volume: C = sum (x1 x x2) . x3 - pressure * 6 V0.
@@ -72,12 +75,20 @@ enum class Sweep {
   multigrid,  ///< one correction of all distances at once on a hierarchy of levels, then `tiled` twice: for fine meshes
 };
 
+/// An orientation with inertia, which constraints can join to particles: of a rigid body, whose centre of mass is a particle.
+struct ObjectFrame {
+  Quatf orientation{};       ///< from its principal axes to the world, of unit length
+  Vec3f angular_velocity{};  ///< in world axes [rad/s]
+  Vec3f inertia{1, 1, 1};    ///< about its principal axes, > 0, or infinity: does not turn about that one [kg m^2]
+};
+
 /// Anything made of particles. Cloth, balloons and ropes are ways to make one.
 struct Object {
   std::string name;
-  std::vector<Vec3f> positions;   ///< also the rest shape [m]
-  std::vector<Vec3f> velocities;  ///< empty: at rest [m/s]
-  std::vector<float> masses;      ///< one a particle, > 0, or infinity for a fixed one [kg]
+  std::vector<Vec3f> positions;     ///< also the rest shape [m]
+  std::vector<Vec3f> velocities;    ///< empty: at rest [m/s]
+  std::vector<float> masses;        ///< one a particle, > 0, or infinity for a fixed one [kg]
+  std::vector<ObjectFrame> frames;  ///< for constraints with frame slots
   std::vector<ConstraintGroup> constraints;
   std::vector<std::array<int, 3>> triangles;  ///< the surface, for air, volume and pictures; may be empty
   std::optional<Volume> volume;               ///< needs a closed surface

@@ -34,17 +34,35 @@ struct CacheLineAllocator {
 
 using Records = std::vector<Record, CacheLineAllocator<Record>>;
 
+/// What is known of the orientations of a State, one record a frame.
+struct FrameRecords {
+  Records orientations;        ///< unit quaternion from the frame's principal axes to the world
+  Records angular_velocities;  ///< along the frame's own axes [rad/s], w zero
+  Records inverse_inertias;    ///< about the frame's own axes [1/(kg m^2)], w zero; never changes
+
+  std::size_t size() const { return orientations.size(); }
+};
+
+/// A number or a vector for every particle that a kind of matter owns, such as a temperature.
+struct Channel {
+  std::string name;
+  int components = 1;         ///< of each particle
+  std::vector<float> values;  ///< components x particles, in the order of the State
+};
+
 /// All that changes as time passes, a plain value: copy it, hash it, put it back, and the next step gives the same bits.
 /// Particles stand in the order of the compiled model, not of the user; read places through World.
 struct State {
-  double time = 0;         ///< [s]
-  std::int64_t frame = 0;  ///< steps taken
-  Records positions;       ///< (x, y, z) [m], w the inverse mass [1/kg]
-  Records remainders;      ///< what a float position could not hold of the motion so far [m]
-  Records velocities;      ///< [m/s]
+  double time = 0;                ///< [s]
+  std::int64_t frame = 0;         ///< steps taken
+  Records positions;              ///< (x, y, z) [m], w the inverse mass [1/kg]
+  Records remainders;             ///< what a float position could not hold of the motion so far [m]
+  Records velocities;             ///< [m/s]
+  FrameRecords frames;            ///< object after object, as the particles are; mostly empty
+  std::vector<Channel> channels;  ///< mostly none
 };
 
-/// SHA-256 over every member of a State, as 64 hexadecimal digits.
+/// SHA-256 over every member of a State, as 64 hexadecimal digits. Frames and channels count where there are any.
 std::string hash(const State& state);
 
 /// Milliseconds spent in a named phase of a step.
@@ -178,6 +196,9 @@ class World {
   /// In the object's own numbering.
   std::vector<Vec3f> positions(int object) const;
   std::vector<Vec3f> velocities(int object) const;
+  /// Of the object's frames, in the order of Object::frames.
+  std::vector<Quatf> orientations(int object) const;
+  std::vector<Vec3f> angular_velocities(int object) const;  ///< in world axes [rad/s]
   TriangleMesh mesh(int object) const;
   /// Where a collider is now.
   Vec3f collider_position(int collider) const;
@@ -185,7 +206,7 @@ class World {
   /// Where the vertices of a mesh collider are now, in its own numbering [m]. Throws Error where there is no such collider.
   std::vector<Vec3f> mesh_collider_positions(int collider) const;
 
-  /// Multipliers of the last substep in the order of the object's constraint groups of that type; empty where they were not
+  /// Multipliers of the last substep in the order of the object's constraint groups of that type, row by row; empty where they were not
   /// kept. The force is lambda / h^2 along the gradient (XPBD, eq. 17).
   std::vector<float> multipliers(int object, const std::string& type) const;
 

@@ -1,10 +1,11 @@
-// Every constraint type that acts on a fixed stencil of particles. To add one: write its header, include it here and put it
+// Every constraint type of the library that acts on a fixed stencil. To add one: write its header, include it here and put it
 // in the list; pools, sweeps, files, tests and docs follow from the list (docs/internals/architecture.md, "Adding a constraint").
 #pragma once
 
 #include "constraints/dihedral_bending.h"
 #include "constraints/distance.h"
 #include "constraints/isometric_bending.h"
+#include "constraints/traits.h"
 #include "constraints/type_list.h"
 
 namespace pliant {

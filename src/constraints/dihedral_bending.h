@@ -16,15 +16,15 @@
 #include <utility>
 
 #include "math/functions.h"
-#include "math/scalar.h"
+#include "pliant/formula.h"
 #include "pliant/vec3.h"
 
 namespace pliant {
 
 struct DihedralBending {
   static constexpr const char* name = "dihedral_bending";
-  static constexpr int size = 4;
-  static constexpr bool unit_gradients = false;
+  using slots = Points<4>;
+  static constexpr int rows = 1;
   /// Tips move along tangents, which is no longer a turn beyond a fraction of a radian: a stiff hinge that is thrown wide open would
   /// fling them out, stretch its triangles and feed a small thing's tumbling for ever [rad].
   static constexpr float largest_change = 0.25f;

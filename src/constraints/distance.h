@@ -8,16 +8,19 @@
 #include <array>
 #include <utility>
 
-#include "math/scalar.h"
+#include "pliant/formula.h"
 #include "pliant/vec3.h"
 
 namespace pliant {
 
 struct Distance {
   static constexpr const char* name = "distance";
-  static constexpr int size = 2;
+  using slots = Points<2>;
+  static constexpr int rows = 1;
   /// Both gradients have length one wherever they are not zero, so that the driver need not compute their norms.
   static constexpr bool unit_gradients = true;
+  /// C is the distance of two points less rest field 0: chains, tethers, multigrid and the measures of stretch are for such types.
+  static constexpr bool is_length = true;
 
   template <class R>
   struct Params {

@@ -1,4 +1,4 @@
-// Bending of a sheet whose rest shape is flat and which hardly stretches: a quadratic energy, cheap and steady.
+// Bending of a sheet whose rest shape is flat and which hardly stretches: a quadratic energy, cheap and robust.
 //
 //         2
 //       /   \          C(x) = |k1 (x1 - x0) + k2 (x2 - x0) + k3 (x3 - x0)|
@@ -13,15 +13,15 @@
 
 #include <array>
 
-#include "math/scalar.h"
+#include "pliant/formula.h"
 #include "pliant/vec3.h"
 
 namespace pliant {
 
 struct IsometricBending {
   static constexpr const char* name = "isometric_bending";
-  static constexpr int size = 4;
-  static constexpr bool unit_gradients = false;
+  using slots = Points<4>;
+  static constexpr int rows = 1;
 
   template <class R>
   struct Params {
@@ -60,8 +60,6 @@ struct IsometricBending {
     const R scale = sqrt(R(3) / max(max(area, dot(e, e) * R(1e-6f)), R(1e-20f)));
     return {(at0 + at0_other) * scale, -(at0 + at1) * scale, -(at0_other + at1_other) * scale};
   }
-
-  static void canonical(std::array<int, 4>&, Params<float>&) {}
 };
 
 }  // namespace pliant

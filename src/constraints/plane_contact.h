@@ -9,14 +9,15 @@
 
 #include <array>
 
-#include "math/scalar.h"
+#include "pliant/formula.h"
 #include "pliant/vec3.h"
 
 namespace pliant {
 
 struct PlaneContact {
   static constexpr const char* name = "plane_contact";
-  static constexpr int size = 1;
+  using slots = Points<1>;
+  static constexpr int rows = 1;
   static constexpr bool unit_gradients = true;
   static constexpr bool unilateral = true;
 

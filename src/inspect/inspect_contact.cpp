@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "collision/fields/solid_fields.h"
+#include "constraints/registry.h"
 #include "inspect/problems.h"
 #include "pliant/error.h"
 
@@ -59,7 +60,7 @@ double median_edge(const Object& object) {
   for (const auto& t : object.triangles)
     for (std::size_t k = 0; k < 3; ++k) lengths.push_back(distance_of(object.positions, t[k], t[(k + 1) % 3]));
   const auto links = std::find_if(object.constraints.begin(), object.constraints.end(),
-                                  [](const ConstraintGroup& group) { return group.type == "distance"; });
+                                  [](const ConstraintGroup& group) { return is_length(group.type); });
   if (object.triangles.empty() && links != object.constraints.end())
     for (std::size_t i = 0; i + 1 < links->particles.size(); i += 2)
       lengths.push_back(distance_of(object.positions, links->particles[i], links->particles[i + 1]));

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "collision/fields/collider_pose.h"
-#include "constraints/dihedral_bending.h"
+#include "constraints/registry.h"
 #include "geometry/shapes.h"
 #include "inspect/problems.h"
 #include "topology/boundary.h"
@@ -150,12 +150,12 @@ void doubt_hinges(const Doubts& d, const ConstraintGroup& group) {
     const Vec3d edge = x[1] - x[0];
     if (length_squared(cross(edge, x[2] - x[0])) == 0 || length_squared(cross(edge, x[3] - x[0])) == 0)
       flat.add(static_cast<std::int64_t>(c));
-    else if (std::fabs(DihedralBending::measure(x).rest_angle) > large_angle)
+    else if (std::fabs(fold_angle(x)) > large_angle)
       curved.add(static_cast<std::int64_t>(c));
   }
   const std::string kind = group.type + " constraint";
   d.problems.doubtful(flat, kind, "has a triangle without area", "it can't measure an angle: leave it out");
-  if (group.type == "isometric_bending")
+  if (is_flat_hinge(group.type))
     d.problems.doubtful(curved, kind, "is curved at rest, but this type knows only flat sheets",
                         "it will flatten: use dihedral bending");
 }
@@ -227,8 +227,8 @@ void doubt_object(Problems& problems, const Object& object, const Scene& scene) 
   doubt_references(doubts);
   doubt_places(doubts);
   for (const ConstraintGroup& group : object.constraints) {
-    if (group.type == "distance") doubt_distances(doubts, group);
-    if (group.type == "dihedral_bending" || group.type == "isometric_bending") doubt_hinges(doubts, group);
+    if (is_length(group.type)) doubt_distances(doubts, group);
+    if (is_hinge(group.type)) doubt_hinges(doubts, group);
   }
   doubt_surface(doubts);
   doubt_volume(doubts);

@@ -3,6 +3,7 @@
 #include <limits>
 #include <string>
 
+#include "constraints/registry.h"
 #include "inspect/problems.h"
 #include "pliant/error.h"
 #include "topology/boundary.h"
@@ -62,6 +63,26 @@ void check_masses(Problems& problems, const Object& object) {
                  "give masses in kg, or infinity for a fixed one");
 }
 
+void check_frames(Problems& problems, const Object& object) {
+  Tally crooked, spinning, inertia;
+  for (std::size_t i = 0; i < object.frames.size(); ++i) {
+    const ObjectFrame& frame = object.frames[i];
+    const Quatf& q = frame.orientation;
+    const float length = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+    if (!(length > 0.9f && length < 1.1f)) crooked.add(static_cast<std::int64_t>(i));
+    if (!is_finite(frame.angular_velocity)) spinning.add(static_cast<std::int64_t>(i));
+    const auto is_inertia = [](float value) {
+      return value > 0 && (std::isinf(value) || (value <= largest_quantity && value >= 1 / largest_quantity));
+    };
+    if (!is_inertia(frame.inertia.x) || !is_inertia(frame.inertia.y) || !is_inertia(frame.inertia.z))
+      inertia.add(static_cast<std::int64_t>(i));
+  }
+  problems.grave(crooked, "frame", "has an orientation that is no unit quaternion",
+                 "give x, y, z, w with squares that sum to 1");
+  problems.grave(spinning, "frame", "has an angular velocity that is not finite", "give radians a second");
+  problems.grave(inertia, "frame", "has an inertia outside 1e-20 to 1e20 kg m^2", "give all three above 0, or infinity");
+}
+
 // ------------------------------------------------------------------------------------------------ constraints
 
 const ConstraintType* find_type(const std::string& name) {
@@ -70,26 +91,28 @@ const ConstraintType* find_type(const std::string& name) {
   return nullptr;
 }
 
-std::string type_names() {
-  std::string names;
-  for (const ConstraintType& type : constraint_types()) names += (names.empty() ? "" : ", ") + type.name;
-  return names;
-}
-
-void check_stencils(Problems& problems, const Object& object, const ConstraintGroup& group, std::size_t size,
+void check_stencils(Problems& problems, const Object& object, const ConstraintGroup& group, const ConstraintType& type,
                     const std::string& kind) {
-  Tally outside, repeated;
+  const std::size_t size = type.slots.size();
+  Tally outside, no_frame, repeated;
   for (std::size_t c = 0; c < group.particles.size() / size; ++c) {
     const int* stencil = &group.particles[c * size];
-    bool known = true, distinct = true;
+    bool known = true, framed = true, distinct = true;
     for (std::size_t i = 0; i < size; ++i) {
-      known = known && exists(object, stencil[i]);
-      for (std::size_t j = 0; j < i; ++j) distinct = distinct && stencil[i] != stencil[j];
+      if (type.slots[i] == SlotKind::frame)
+        framed = framed && stencil[i] >= 0 && static_cast<std::size_t>(stencil[i]) < object.frames.size();
+      else
+        known = known && exists(object, stencil[i]);
+      for (std::size_t j = 0; j < i; ++j)
+        distinct = distinct && (type.slots[i] != type.slots[j] || stencil[i] != stencil[j]);
     }
+    if (!framed) no_frame.add(static_cast<std::int64_t>(c));
     if (!known) outside.add(static_cast<std::int64_t>(c));
     if (!distinct) repeated.add(static_cast<std::int64_t>(c));
   }
   problems.grave(outside, kind, "uses a particle that does not exist; there are " + of(object.positions.size()),
+                 "indices count from 0");
+  problems.grave(no_frame, kind, "uses a frame that does not exist; there are " + of(object.frames.size()),
                  "indices count from 0");
   problems.grave(repeated, kind, "uses a particle twice", "give different particles, or leave it out");
 }
@@ -97,7 +120,11 @@ void check_stencils(Problems& problems, const Object& object, const ConstraintGr
 void check_rest(Problems& problems, const ConstraintGroup& group, const ConstraintType& type, std::size_t count,
                 const std::string& kind) {
   const std::size_t fields = type.rest_fields.size();
-  if (group.rest.empty()) return;
+  if (group.rest.empty()) {
+    if (fields > 0 && count > 0 && constraint_type(find_constraint_type(type.name)).measure == nullptr)
+      problems.grave("rest of " + group.type + " constraints", "can't be measured by this type", "give `rest`");
+    return;
+  }
   if (group.rest.size() != count * fields) {
     problems.grave("rest of " + group.type + " constraints",
                    of(group.rest.size()) + " values where " + of(count * fields) + " are needed",
@@ -130,7 +157,7 @@ void check_compliances(Problems& problems, const ConstraintGroup& group, std::si
 void check_group(Problems& problems, const Object& object, const ConstraintGroup& group) {
   const ConstraintType* type = find_type(group.type);
   if (type == nullptr) {
-    problems.grave("constraints", "there is no type '" + group.type + "'", "use one of " + type_names());
+    problems.grave("constraints", "there is no type '" + group.type + "'", "use one of " + constraint_type_names());
     return;
   }
   const auto size = static_cast<std::size_t>(type->stencil_size);
@@ -142,7 +169,7 @@ void check_group(Problems& problems, const Object& object, const ConstraintGroup
   }
   const std::string kind = group.type + " constraint";
   const std::size_t count = group.particles.size() / size;
-  check_stencils(problems, object, group, size, kind);
+  check_stencils(problems, object, group, *type, kind);
   check_rest(problems, group, *type, count, kind);
   check_stiffness(problems, group.type + " constraints", group.stiffness);
   check_compliances(problems, group, count, kind);
@@ -224,6 +251,7 @@ void check_object(Problems& problems, const Object& object) {
   check_positions(problems, object);
   check_velocities(problems, object);
   check_masses(problems, object);
+  check_frames(problems, object);
   for (const ConstraintGroup& group : object.constraints) check_group(problems, object, group);
   const bool sound = check_triangles(problems, object);
   check_volume(problems, object, sound);

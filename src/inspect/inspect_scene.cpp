@@ -1,5 +1,6 @@
 // The whole of a scene looked through: settings, air, colliders, and each object in turn.
 #include "inspect/inspect_scene.h"
+#include "constraints/registry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -149,7 +150,7 @@ bool has_distances(const Scene& scene) {
   return std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& object) {
     return !object.attachments.empty() ||
            std::any_of(object.constraints.begin(), object.constraints.end(),
-                       [](const ConstraintGroup& group) { return group.type == "distance" && !group.particles.empty(); });
+                       [](const ConstraintGroup& group) { return is_length(group.type) && !group.particles.empty(); });
   });
 }
 

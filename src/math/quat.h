@@ -21,27 +21,6 @@ PLIANT_HD R dot(const Quat<R>& a, const Quat<R>& b) {
   return (a.x * b.x + a.y * b.y) + (a.z * b.z + a.w * b.w);
 }
 
-/// The inverse rotation of a unit quaternion.
-template <class R>
-PLIANT_HD Quat<R> conjugate(const Quat<R>& q) {
-  return {-q.x, -q.y, -q.z, q.w};
-}
-
-/// Hamilton's product: the rotation b, then a.
-template <class R>
-PLIANT_HD Quat<R> multiply(const Quat<R>& a, const Quat<R>& b) {
-  return {a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y), a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z),
-          a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x), a.w * b.w - (a.x * b.x + a.y * b.y + a.z * b.z)};
-}
-
-/// v turned by the unit quaternion q: v + 2 u x (u x v + w v), u the imaginary part.
-template <class R>
-PLIANT_HD Vec3<R> rotate(const Quat<R>& q, const Vec3<R>& v) {
-  const Vec3<R> u{q.x, q.y, q.z};
-  const Vec3<R> turned = cross(u, cross(u, v) + q.w * v);
-  return v + (turned + turned);
-}
-
 /// q over its length; the identity where q is zero to the precision of its squares.
 template <class R>
 PLIANT_HD Quat<R> normalise(const Quat<R>& q) {

@@ -1,4 +1,5 @@
 #include "matter/advice_settings.h"
+#include "constraints/registry.h"
 
 #include <algorithm>
 #include <utility>
@@ -10,8 +11,8 @@ namespace {
 bool is_rigid(const Object& object) {
   return std::all_of(object.constraints.begin(), object.constraints.end(), [](const ConstraintGroup& group) {
     const auto is_zero = [](float alpha) { return alpha == 0; };
-    return group.type != "distance" || (group.stiffness.kind == Stiffness::Kind::compliance && group.stiffness.value == 0 &&
-                                        std::all_of(group.compliances.begin(), group.compliances.end(), is_zero));
+    return !is_length(group.type) || (group.stiffness.kind == Stiffness::Kind::compliance && group.stiffness.value == 0 &&
+                                      std::all_of(group.compliances.begin(), group.compliances.end(), is_zero));
   });
 }
 

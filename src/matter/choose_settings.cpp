@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "constraints/registry.h"
 #include "math/vector.h"
 #include "matter/advice_settings.h"
 #include "pliant/scene.h"
@@ -34,8 +35,7 @@ Vec3d position(const Object& object, int particle) {
 std::size_t springs_of(const Object& object) {
   std::size_t count = 0;
   for (const ConstraintGroup& group : object.constraints)
-    if (group.type == "distance" && group.stiffness.kind == Stiffness::Kind::compliance)
-      count += group.particles.size() / 2;
+    if (is_length(group.type) && group.stiffness.kind == Stiffness::Kind::compliance) count += group.particles.size() / 2;
   return count;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "constraints/all.h"
+#include "constraints/registry.h"
 #include "model/fill_pool.h"
 #include "topology/geodesics.h"
 #include "topology/paths.h"
@@ -13,15 +13,6 @@ namespace pliant {
 namespace {
 
 constexpr int most_tethers = 4;
-
-template <class T>
-bool is_of_type(const ConstraintList& list) {
-  bool is = false;
-  for_each_type(AllConstraints{}, [&](auto tag, int type) {
-    is = is || (type == list.type && std::is_same_v<typename decltype(tag)::type, T>);
-  });
-  return is;
-}
 
 bool has_direction(const ConstraintList& list, int i) {
   return list.rest[i] > 0 &&
@@ -43,6 +34,7 @@ ConstraintList empty_like(const ConstraintList& list) {
   empty.law = list.law;
   empty.size = list.size;
   empty.fields = list.fields;
+  empty.components = list.components;
   return empty;
 }
 
@@ -155,7 +147,7 @@ void append_row(const Tether (&lanes)[batch_width], Tethers& out) {
 void split_off_chains(std::vector<ConstraintList>& lists) {
   std::vector<ConstraintList> split;
   for (ConstraintList& list : lists) {
-    if (!is_of_type<Distance>(list) || list.law != Law::compliant) {
+    if (!is_length(list.type) || list.law != Law::compliant) {
       split.push_back(std::move(list));
       continue;
     }
@@ -180,7 +172,7 @@ Tethers find_tethers(const std::vector<ConstraintList>& lists, float slack, cons
   Tethers out;
   Distances mesh{object.particles, {}, {}, object.surface.triangles};
   for (const ConstraintList& list : lists) {
-    if (!is_of_type<Distance>(list)) continue;
+    if (!is_length(list.type)) continue;
     const std::vector<std::array<int, 2>> more = edges_of(list);
     mesh.edges.insert(mesh.edges.end(), more.begin(), more.end());
     mesh.lengths.insert(mesh.lengths.end(), list.rest.begin(), list.rest.end());

@@ -26,10 +26,11 @@ using Links = std::vector<std::array<int, 2>>;
 /// The pairs of particles that some constraint shares; if there are constraints between two, only those: they are the mesh on which the
 /// larger ones stand.
 Links links_of(const std::vector<ConstraintList>& lists) {
-  const bool pairs = std::any_of(lists.begin(), lists.end(), [](const ConstraintList& list) { return list.size == 2; });
+  const bool pairs =
+      std::any_of(lists.begin(), lists.end(), [](const ConstraintList& list) { return list.in_lanes && list.size == 2; });
   Links links;
   for (const ConstraintList& list : lists) {
-    if (pairs && list.size != 2) continue;
+    if (!list.in_lanes || (pairs && list.size != 2)) continue;
     for (std::size_t first = 0; first < list.stencils.size(); first += list.size) {
       for (int a = 0; a < list.size; ++a) {
         for (int b = a + 1; b < list.size; ++b) links.push_back({list.stencils[first + a], list.stencils[first + b]});
@@ -43,6 +44,7 @@ Links links_of(const std::vector<ConstraintList>& lists) {
 std::vector<char> find_links_to_next(const std::vector<ConstraintList>& lists, std::size_t particles) {
   std::vector<char> linked(particles, 0);
   for (const ConstraintList& list : lists) {
+    if (!list.in_lanes) continue;
     for (std::size_t first = 0; first < list.stencils.size(); first += list.size) {
       for (int a = 0; a < list.size; ++a) {
         for (int b = 0; b < list.size; ++b) {

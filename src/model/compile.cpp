@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
-#include "constraints/all.h"
+#include "constraints/registry.h"
+#include "math/quat.h"
 #include "model/chains.h"
 #include "model/choose_order.h"
 #include "model/compiled_object.h"
@@ -17,7 +19,7 @@ namespace pliant {
 
 namespace {
 
-constexpr int batches_per_straddler_task = 32;
+constexpr int batches_per_straddler_task = 32, batches_per_stencil_task = 4;
 
 // ---------------------------------------------------------------- particles
 
@@ -42,6 +44,18 @@ void fill_particles(const Object& object, const std::vector<Vec3f>& positions, C
     if (inverse_mass[user] == 0 || user >= static_cast<int>(object.velocities.size())) continue;
     const Vec3f& v = object.velocities[user];
     out.velocities[storage] = {v.x, v.y, v.z, 0};
+  }
+}
+
+void fill_frames(const Object& object, FrameRecords& out) {
+  const auto inverse = [](float inertia) { return std::isinf(inertia) ? 0.f : 1 / inertia; };
+  for (const ObjectFrame& frame : object.frames) {
+    const Quatf q = normalise(frame.orientation);
+    const Vec3f w = rotate(conjugate(q), frame.angular_velocity), i = frame.inertia;
+    out.orientations.push_back({q.x, q.y, q.z, q.w});
+    const auto free = [](float speed, float inertia) { return std::isinf(inertia) ? 0.f : speed; };
+    out.angular_velocities.push_back({free(w.x, i.x), free(w.y, i.y), free(w.z, i.z), 0});
+    out.inverse_inertias.push_back({inverse(i.x), inverse(i.y), inverse(i.z), 0});
   }
 }
 
@@ -74,21 +88,15 @@ void number_particles(const std::vector<Vec3f>& positions, const std::vector<Con
 
 // ---------------------------------------------------------------- constraints
 
-/// Renames particles to their storage and brings each stencil into the type's canonical order.
+/// Renumbers particles by their storage and brings each stencil into the type's canonical order.
 void renumber(ConstraintList& list, const std::vector<int>& place) {
-  for (int& particle : list.stencils) particle = place[particle];
-  with_type(AllConstraints{}, list.type, [&](auto tag) {
-    using T = typename decltype(tag)::type;
-    for (int i = 0; i < list.count(); ++i) {
-      std::array<int, T::size> stencil;
-      typename T::template Params<float> params;
-      std::copy_n(&list.stencils[static_cast<std::size_t>(i) * T::size], T::size, stencil.begin());
-      std::memcpy(&params, &list.rest[static_cast<std::size_t>(i) * list.fields], sizeof params);
-      T::canonical(stencil, params);
-      std::copy_n(stencil.begin(), T::size, &list.stencils[static_cast<std::size_t>(i) * T::size]);
-      std::memcpy(&list.rest[static_cast<std::size_t>(i) * list.fields], &params, sizeof params);
-    }
-  });
+  const int particles = static_cast<int>(place.size());
+  for (int& number : list.stencils) number = number < particles ? place[number] : number;  // frames keep their order
+  const auto canonical = constraint_type(list.type).canonical;
+  if (canonical == nullptr) return;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(list.count()); ++i)
+    canonical(&list.stencils[i * static_cast<std::size_t>(list.size)],
+              list.rest.data() + i * static_cast<std::size_t>(list.fields));
 }
 
 /// Constraints of a list by the tile that holds all their particles; those of no tile come last, at [tiles].
@@ -174,8 +182,8 @@ void schedule(std::vector<ConstraintList>& lists, const std::vector<int>& tile, 
   std::vector<std::vector<std::vector<int>>> members;
   for (ConstraintList& list : lists) {
     renumber(list, out.place);
-    members.push_back(list.chained ? std::vector<std::vector<int>>(static_cast<std::size_t>(tiles) + 1)
-                                   : split_by_tile(list, tile_of, tiles));
+    members.push_back(list.chained || !list.in_lanes ? std::vector<std::vector<int>>(static_cast<std::size_t>(tiles) + 1)
+                                                     : split_by_tile(list, tile_of, tiles));
     out.pools.push_back(make_pool(list));
   }
   Colouring colouring(out.particles);
@@ -195,6 +203,24 @@ void schedule(std::vector<ConstraintList>& lists, const std::vector<int>& tile, 
     if (t < tiles) {
       out.tiles[t].first_segment = first;
       out.tiles[t].last_segment = static_cast<int>(out.segments.size());
+    }
+  }
+}
+
+/// What is projected one constraint at a time, in colours over the whole object, one list after another. Frames count as particles
+/// behind the others.
+void schedule_stencils(const std::vector<ConstraintList>& lists, bool in_given_order, CompiledObject& out) {
+  Colouring colouring(out.particles + static_cast<int>(out.frames.size()));
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    if (lists[i].in_lanes) continue;
+    std::vector<int> members(static_cast<std::size_t>(lists[i].count()));
+    std::iota(members.begin(), members.end(), 0);
+    const std::vector<Colour> colours =
+        in_given_order ? one_by_one(members) : colouring.colour_singly(lists[i].stencils, lists[i].size, members);
+    for (const Colour& colour : colours) {
+      const int first = static_cast<int>(out.segments.size());
+      append_colour(lists[i], colour, batches_per_stencil_task, static_cast<int>(i), out);
+      out.stencil_colours.push_back({first, static_cast<int>(out.segments.size())});
     }
   }
 }
@@ -243,7 +269,7 @@ void fill_volume(const Object& object, int passes, CompiledObject& out) {
 std::vector<std::array<int, 2>> lines_of(const Object& object, const std::vector<int>& place) {
   std::vector<std::array<int, 2>> lines;
   const auto group = std::find_if(object.constraints.begin(), object.constraints.end(),
-                                  [](const ConstraintGroup& one) { return one.type == "distance"; });
+                                  [](const ConstraintGroup& one) { return is_length(one.type); });
   if (group == object.constraints.end()) return lines;
   for (std::size_t i = 0; i + 1 < group->particles.size(); i += 2) {
     const int a = group->particles[i], b = group->particles[i + 1];
@@ -269,9 +295,11 @@ CompiledObject compile(const Object& object, const CompileOptions& options) {
   const int largest_tile = in_given_order ? std::numeric_limits<int>::max() : options.largest_tile;
   number_particles(positions, lists, largest_tile, tile, out);
   fill_particles(object, positions, out);
+  fill_frames(object, out.frames);
   fill_kinematics(object, out);
   schedule(lists, tile, in_given_order, out);
   append_chains(lists, options.chain_softness, out);
+  schedule_stencils(lists, options.in_given_order, out);
   fill_surface(object, out);
   if (options.tethers) out.tethers = find_tethers(lists, options.tether_slack, out);
   if (options.sweep == Sweep::multigrid) out.multigrid = build_multigrid(lists, out.positions, options.gravity);

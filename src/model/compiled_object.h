@@ -87,10 +87,14 @@ struct CompiledObject {
   std::vector<int> order;      ///< order[storage] = user's number
   std::vector<int> place;      ///< place[user's number] = storage
   std::vector<Record> positions, velocities;
+  FrameRecords frames;  ///< at the start, in the order of Object::frames
   std::vector<Pool> pools;
-  std::vector<Segment> segments;  ///< tile after tile, then the straddlers, then the links of chains
+  std::vector<Segment>
+      segments;  ///< tile after tile, then the straddlers, then the links of chains, then what is not in lanes
   std::vector<Tile> tiles;
   std::vector<StraddlerColour> straddlers;
+  std::vector<StraddlerColour>
+      stencil_colours;  ///< of what is projected one constraint at a time; shares no particle or frame
   std::vector<ChainBatch> chains;
   std::vector<ChainColour> chain_colours;
   AlignedVector<float> chain_softness;  ///< sixteen a chain batch: added to the diagonal [1/kg]

@@ -28,6 +28,9 @@ Pool make_pool(const ConstraintList& list) {
   pool.type = list.type;
   pool.law = list.law;
   pool.stencil = list.size;
+  pool.components = list.components;
+  pool.fields = list.fields;
+  pool.in_lanes = list.in_lanes;
   pool.constraints = list.count();
   for (const Row& row : rows_of(list)) {
     const bool constant = is_constant(row, list.count());

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "constraints/all.h"
+#include "constraints/registry.h"
 #include "model/stiffness.h"
 #include "pliant/error.h"
 
@@ -12,21 +12,22 @@ namespace pliant {
 
 namespace {
 
-Vec3<double> to_double(const Vec3f& v) { return {v.x, v.y, v.z}; }
-
-template <class T>
-constexpr int field_count = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
-
-/// The rest data of one constraint as the positions show it.
-template <class T>
-void measure(const Object& object, const int* stencil, std::vector<float>& rest) {
-  Vec3<double> x[T::size];
-  for (int slot = 0; slot < T::size; ++slot) x[slot] = to_double(object.positions[stencil[slot]]);
-  const auto params = T::template measure<double>(x);
-  double fields[field_count<T>];
-  static_assert(sizeof fields == sizeof params);
-  std::memcpy(fields, &params, sizeof fields);
-  for (double field : fields) rest.push_back(static_cast<float>(field));
+/// The rest data of one constraint as the positions and orientations show it.
+void measure(const ConstraintDefinition& type, const Object& object, const int* stencil, std::vector<float>& rest) {
+  double slots[4 * most_slots], fields[most_rest_fields];
+  for (std::size_t slot = 0; slot < type.slots.size(); ++slot) {
+    double* to = slots + 4 * slot;
+    const auto number = static_cast<std::size_t>(stencil[slot]);
+    if (type.slots[slot] == SlotKind::frame) {
+      const Quatf& q = object.frames[number].orientation;
+      to[0] = double(q.x), to[1] = double(q.y), to[2] = double(q.z), to[3] = double(q.w);
+    } else {
+      const Vec3f& p = object.positions[number];
+      to[0] = double(p.x), to[1] = double(p.y), to[2] = double(p.z), to[3] = 0;
+    }
+  }
+  type.measure(slots, fields);
+  for (std::size_t i = 0; i < type.rest_fields.size(); ++i) rest.push_back(static_cast<float>(fields[i]));
 }
 
 Law law_of(const Stiffness& stiffness) {
@@ -39,25 +40,22 @@ class Gatherer {
   Gatherer(const Object& object, int passes) : object_(object), passes_(passes) {}
 
   void add(const ConstraintGroup& group) {
-    bool known = false;
-    for_each_type(AllConstraints{}, [&](auto tag, int type) {
-      using T = typename decltype(tag)::type;
-      if (group.type != T::name) return;
-      known = true;
-      add_group<T>(group, type);
-    });
-    if (!known)
-      throw Error({.object = object_.name}, "unknown constraint type '" + group.type + "'", "use one of " + names());
+    const int type = find_constraint_type(group.type);
+    if (type < 0)
+      throw Error({.object = object_.name}, "unknown constraint type '" + group.type + "'",
+                  "use one of " + constraint_type_names());
+    add_group(group, type);
   }
 
   void add_attachments() {
+    const int type = length_type();
     for (std::size_t i = 0; i < object_.attachments.size(); ++i) {
       const Attachment& attachment = object_.attachments[i];
-      ConstraintList& list = list_of<Distance>(0, law_of(attachment.stiffness));
+      ConstraintList& list = list_of(type, law_of(attachment.stiffness));
       list.stencils.push_back(attachment.particle);
       list.stencils.push_back(static_cast<int>(object_.positions.size() + i));
       list.rest.push_back(0);
-      push_response(list, attachment.stiffness, attachment.stiffness.value, 0);
+      push_response(list, attachment.stiffness, attachment.stiffness.value, type);
     }
   }
 
@@ -70,20 +68,15 @@ class Gatherer {
   }
 
  private:
-  static std::string names() {
-    std::string text;
-    for_each_type(AllConstraints{},
-                  [&](auto tag, int) { text += (text.empty() ? "" : ", ") + std::string(decltype(tag)::type::name); });
-    return text;
-  }
-
-  template <class T>
   ConstraintList& list_of(int type, Law law) {
+    const ConstraintDefinition& definition = constraint_type(type);
     ConstraintList& list = lists_[{type, law}];
     list.type = type;
     list.law = law;
-    list.size = T::size;
-    list.fields = field_count<T>;
+    list.size = static_cast<int>(definition.slots.size());
+    list.fields = static_cast<int>(definition.rest_fields.size());
+    list.components = definition.rows;
+    list.in_lanes = definition.is_compiled;
     return list;
   }
 
@@ -94,42 +87,46 @@ class Gatherer {
     list.origin.push_back(next_origin_[type]++);
   }
 
-  template <class T>
-  void require_sizes(const ConstraintGroup& group) const {
-    const std::size_t count = group.particles.size() / T::size;
+  void require_sizes(const ConstraintGroup& group, const ConstraintDefinition& type) const {
+    const std::size_t size = type.slots.size(), fields = type.rest_fields.size(), count = group.particles.size() / size;
     const auto refuse = [&](const std::string& problem) {
-      throw Error({.object = object_.name, .element = std::string(T::name) + " constraints"}, problem);
+      throw Error({.object = object_.name, .element = type.name + " constraints"}, problem);
     };
-    if (group.particles.size() % T::size != 0) {
-      refuse(std::to_string(group.particles.size()) + " particles do not make stencils of " + std::to_string(T::size));
-    }
-    if (!group.rest.empty() && group.rest.size() != count * field_count<T>) {
-      refuse(std::to_string(group.rest.size()) + " rest values where " + std::to_string(count * field_count<T>) +
-             " are needed");
-    }
-    if (!group.compliances.empty() && group.compliances.size() != count) {
+    if (group.particles.size() % size != 0)
+      refuse(std::to_string(group.particles.size()) + " particles do not make stencils of " + std::to_string(size));
+    if (!group.rest.empty() && group.rest.size() != count * fields)
+      refuse(std::to_string(group.rest.size()) + " rest values where " + std::to_string(count * fields) + " are needed");
+    if (group.rest.empty() && fields > 0 && type.measure == nullptr && count > 0)
+      refuse("this type can't measure its rest data, and `rest` is empty");
+    if (!group.compliances.empty() && group.compliances.size() != count)
       refuse(std::to_string(group.compliances.size()) + " compliances for " + std::to_string(count) + " constraints");
-    }
-    for (int particle : group.particles) {
-      if (particle < 0 || particle >= static_cast<int>(object_.positions.size())) {
-        refuse("particle " + std::to_string(particle) + " does not exist");
-      }
+    for (std::size_t i = 0; i < group.particles.size(); ++i) {
+      const bool is_frame = type.slots[i % size] == SlotKind::frame;
+      const std::size_t numbers = is_frame ? object_.frames.size() : object_.positions.size();
+      if (group.particles[i] < 0 || group.particles[i] >= static_cast<int>(numbers))
+        refuse((is_frame ? "frame " : "particle ") + std::to_string(group.particles[i]) + " does not exist");
     }
   }
 
-  template <class T>
   void add_group(const ConstraintGroup& group, int type) {
-    require_sizes<T>(group);
-    ConstraintList& list = list_of<T>(type, law_of(group.stiffness));
-    const std::size_t count = group.particles.size() / T::size;
-    list.stencils.insert(list.stencils.end(), group.particles.begin(), group.particles.end());
+    const ConstraintDefinition& definition = constraint_type(type);
+    require_sizes(group, definition);
+    ConstraintList& list = list_of(type, law_of(group.stiffness));
+    const std::size_t size = definition.slots.size(), count = group.particles.size() / size;
+    list.stencils.reserve(list.stencils.size() + group.particles.size());
+    for (std::size_t i = 0; i < group.particles.size(); ++i)
+      list.stencils.push_back(definition.slots[i % size] == SlotKind::frame ? first_frame() + group.particles[i]
+                                                                            : group.particles[i]);
     list.rest.insert(list.rest.end(), group.rest.begin(), group.rest.end());
     list.response.reserve(list.response.size() + count);
     for (std::size_t i = 0; i < count; ++i) {
-      if (group.rest.empty()) measure<T>(object_, &group.particles[i * T::size], list.rest);
+      if (group.rest.empty() && list.fields > 0) measure(definition, object_, &group.particles[i * size], list.rest);
       push_response(list, group.stiffness, group.compliances.empty() ? group.stiffness.value : group.compliances[i], type);
     }
   }
+
+  /// Frames are numbered after all particles, the targets of attachments too.
+  int first_frame() const { return static_cast<int>(object_.positions.size() + object_.attachments.size()); }
 
   const Object& object_;
   int passes_;

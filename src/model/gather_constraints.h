@@ -12,9 +12,10 @@ namespace pliant {
 struct ConstraintList {
   int type = 0;
   Law law = Law::compliant;
-  int size = 0, fields = 0;
+  int size = 0, fields = 0, components = 1;
+  bool in_lanes = true;
   bool chained = false;       ///< solved along paths, not one by one
-  std::vector<int> stencils;  ///< size x constraints
+  std::vector<int> stencils;  ///< size x constraints; frame f of the object is number particles + f
   std::vector<float> rest;    ///< fields x constraints
   std::vector<float> response;
   std::vector<float> damping;
@@ -24,7 +25,7 @@ struct ConstraintList {
 };
 
 /// All constraints of an object, its attachments last as distances of rest length zero to the particles after its own.
-/// Types in the order of AllConstraints, laws within them. Rest data that a group leaves out is measured from the positions
+/// Types in the order of their numbers, laws within them. Rest data that a group leaves out is measured from the positions
 /// in double.
 std::vector<ConstraintList> gather_constraints(const Object& object, int passes);
 

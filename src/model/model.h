@@ -53,14 +53,17 @@ struct Model {
   std::vector<PairProperties> pairs;
   std::vector<CompiledObject> objects;  ///< the user's, then one for each mesh collider
   int user_objects = 0;
-  std::vector<int> first;  ///< first[o] is object o's first particle in a State; one more at the end
+  std::vector<int> first;        ///< first[o] is object o's first particle in a State; one more at the end
+  std::vector<int> first_frame;  ///< likewise of frames
   std::vector<TileTask> tiles;
   std::vector<StraddlerPhase> straddlers;
+  std::vector<StraddlerPhase> stencils;  ///< what is projected one constraint at a time (solver/stencil.h)
   std::vector<ChainPhase> chains;
 
   /// Appends an object and its tasks.
   void add(CompiledObject object);
   int particles() const { return first.empty() ? 0 : first.back(); }
+  int frames() const { return first_frame.empty() ? 0 : first_frame.back(); }
 };
 
 /// The state in which a model's objects begin.

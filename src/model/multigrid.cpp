@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "constraints/all.h"
+#include "constraints/registry.h"
 
 namespace pliant {
 
@@ -28,7 +28,7 @@ struct Spring {
 std::vector<Spring> springs_of(const std::vector<ConstraintList>& lists) {
   std::vector<Spring> springs;
   for (const ConstraintList& list : lists) {
-    if (list.type != index_of<Distance>(AllConstraints{})) continue;
+    if (!is_length(list.type)) continue;
     for (std::size_t i = 0; i < list.response.size(); ++i) {
       const int a = list.stencils[2 * i], b = list.stencils[2 * i + 1];
       const bool shares = list.law == Law::pbd && list.response[i] < 1;  // no spring: a share of the error, sweep by sweep

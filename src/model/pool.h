@@ -15,10 +15,11 @@ namespace pliant {
 template <class T>
 using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
 
-/// How a pool's constraints answer: by compliance, by compliance with damping, or by PBD stiffness.
+/// How a pool's constraints respond: by compliance, by compliance with damping, or by PBD stiffness.
 enum class Law : std::int32_t { compliant, damped, pbd };
 
 inline constexpr int batch_width = 16;
+inline constexpr int most_slots = 8, most_components = 6, most_rest_fields = 32;  ///< of a constraint type
 
 /// Batches of one pool that share no particle and are projected together.
 struct Segment {
@@ -32,9 +33,12 @@ struct Segment {
 };
 
 struct Pool {
-  std::int32_t type = 0;  ///< number in AllConstraints
+  std::int32_t type = 0;  ///< number in constraints/registry.h
   Law law = Law::compliant;
-  std::int32_t stencil = 0;              ///< particles a constraint
+  std::int32_t stencil = 0;              ///< slots a constraint
+  std::int32_t components = 1;           ///< of C
+  std::int32_t fields = 0;               ///< rows of rest data, before that of the response
+  bool in_lanes = true;                  ///< else projected one at a time, in CompiledObject::stencil_colours
   std::int32_t block_floats = 0;         ///< floats a batch in `blocks`
   std::vector<std::int32_t> row_offset;  ///< of each row in a batch's block, or -1: the same for all, in `constants`
   std::int32_t batches = 0;
@@ -52,6 +56,11 @@ struct Pool {
   }
   std::int32_t row_step(int number) const { return row_offset[number] < 0 ? 0 : block_floats; }
 };
+
+/// Where a constraint's multiplier is in its pool's array: sixteen a component of C, batch after batch.
+inline std::int64_t multiplier_index(const Pool& pool, std::int64_t batch, int lane, int component) {
+  return (batch * pool.components + component) * batch_width + lane;
+}
 
 /// Indices of a batch before those of `slot`, where the slots in `runs` are in runs.
 inline constexpr std::int32_t indices_before(std::int32_t runs, int slot) {

@@ -28,6 +28,14 @@ struct SweepArguments {
       nullptr;  ///< one array a pool: what part of a change reaches the multiplier; null: all of it
 };
 
+/// Frames of one object in the substep under way. Pointers are to its first frame.
+struct FrameArguments {
+  Record* orientations = nullptr;
+  const Record* inverse_inertias = nullptr;
+  const Record* predicted = nullptr;  ///< rotation vectors of the prediction, world axes [rad]
+  Record* corrections = nullptr;      ///< and of what constraints have added since [rad]
+};
+
 /// What carrying particles from one substep to the next needs.
 ///
 /// Velocities do not hold the gravity of the frame under way: adding h g in every substep would round it a thousand times.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "constraints/all.h"
+#include "pliant/constraint.h"
 #include "pliant/error.h"
 #include "pliant/reference.h"
 
@@ -23,16 +24,16 @@ class AnyConstraint {
 namespace {
 
 template <class T>
-inline constexpr std::size_t size_of = static_cast<std::size_t>(T::size);
+inline constexpr std::size_t size_of = static_cast<std::size_t>(slot_count<T>);
 
 template <class T>
 using Rest = typename T::template Params<double>;
 
 template <class T>
-inline constexpr std::size_t rest_size = sizeof(Rest<T>) / sizeof(double);
+inline constexpr std::size_t rest_size = T::fields.size();
 
 template <class T>
-using Points = Vec3d[size_of<T>];
+using Places = Vec3d[size_of<T>];
 
 void require(bool holds, const std::string& type, const std::string& problem) {
   if (!holds) throw Error({.element = type + " constraint"}, problem, "see docs/reference/constraints.md");
@@ -48,7 +49,7 @@ Rest<T> rest_of(const std::vector<double>& numbers) {
 }
 
 template <class T>
-void copy_stencil(const std::vector<Vec3d>& from, Points<T>& to) {
+void copy_stencil(const std::vector<Vec3d>& from, Places<T>& to) {
   require(from.size() == size_of<T>, T::name,
           "has " + std::to_string(from.size()) + " particles, not " + std::to_string(size_of<T>));
   for (std::size_t i = 0; i < size_of<T>; ++i) to[i] = from[i];
@@ -59,11 +60,14 @@ template <class Visit>
 void with_name(const std::string& type, const Visit& visit) {
   bool found = false;
   for_each_type(AllConstraints{}, [&](auto tag, int) {
-    if (type != decltype(tag)::type::name) return;
-    found = true;
-    visit(tag);
+    using T = typename decltype(tag)::type;
+    if constexpr (in_lanes<T>) {  // this solver has particles alone, and one row
+      if (type != T::name) return;
+      found = true;
+      visit(tag);
+    }
   });
-  require(found, "'" + type + "'", "is of no known type");
+  require(found, "'" + type + "'", "is of no type that has one row over particles");
 }
 
 template <class T>
@@ -78,13 +82,13 @@ class Constraint final : public AnyConstraint {
   double multiplier() const override { return multiplier_; }
 
   double value(const std::vector<Particle>& particles) const override {
-    Points<T> x, gradient;
+    Places<T> x, gradient;
     gather(particles, x);
     return T::template evaluate<double>(x, rest_, gradient);
   }
 
   void project(std::vector<Particle>& particles, const std::vector<Vec3d>& start, double h, int projections) override {
-    Points<T> x, gradient;
+    Places<T> x, gradient;
     gather(particles, x);
     const double c = T::template evaluate<double>(x, rest_, gradient);
     double weight = 0, motion = 0;
@@ -102,7 +106,7 @@ class Constraint final : public AnyConstraint {
   }
 
  private:
-  void gather(const std::vector<Particle>& particles, Points<T>& x) const {
+  void gather(const std::vector<Particle>& particles, Places<T>& x) const {
     for (std::size_t i = 0; i < size_of<T>; ++i) x[i] = particles[indices_[i]].position;
   }
 
@@ -131,7 +135,7 @@ Evaluation evaluate(const std::string& type, const std::vector<Vec3d>& x, const 
   Evaluation out;
   with_name(type, [&](auto tag) {
     using T = typename decltype(tag)::type;
-    Points<T> places, gradients;
+    Places<T> places, gradients;
     copy_stencil<T>(x, places);
     out.value = T::template evaluate<double>(places, rest_of<T>(rest), gradients);
     out.gradients.assign(gradients, gradients + size_of<T>);
@@ -143,11 +147,13 @@ std::vector<double> measure(const std::string& type, const std::vector<Vec3d>& x
   std::vector<double> out;
   with_name(type, [&](auto tag) {
     using T = typename decltype(tag)::type;
-    Points<T> places;
+    Places<T> places;
     copy_stencil<T>(x, places);
-    const Rest<T> rest = T::template measure<double>(places);
-    out.resize(rest_size<T>);
-    std::memcpy(out.data(), &rest, sizeof rest);
+    if constexpr (detail::measures_points<T>) {
+      const Rest<T> rest = T::template measure<double>(places);
+      out.resize(rest_size<T>);
+      std::memcpy(out.data(), &rest, sizeof rest);
+    }
   });
   return out;
 }

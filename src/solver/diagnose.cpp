@@ -3,31 +3,32 @@
 #include <algorithm>
 #include <optional>
 
-#include "constraints/all.h"
+#include "constraints/registry.h"
 #include "solver/points.h"
+#include "solver/stencil.h"
 
 namespace pliant {
 
 namespace {
 
-std::string type_name(int type) {
-  std::string name;
-  with_type(AllConstraints{}, type, [&](auto tag) { name = decltype(tag)::type::name; });
-  return name;
-}
 
 /// "distance constraint 17 (particles 3, 4)", in the user's numbering.
 std::string describe(const CompiledObject& object, const Pool& pool, const Segment& segment, int batch, int lane) {
   const std::int32_t* index = pool.indices.data() + segment.index_offset + batch * indices_per_batch(pool, segment);
   std::string particles;
   for (int slot = 0; slot < pool.stencil; ++slot) {
-    const int user = object.order[particle_of(segment, index, slot, lane)];
+    const int number = particle_of(segment, index, slot, lane);
+    if (number >= object.particles) {
+      particles += (slot == 0 ? "frame " : ", frame ") + std::to_string(number - object.particles);
+      continue;
+    }
+    const int user = object.order[number];
     particles += (slot == 0 ? "" : ", ") + (user < object.user_particles
                                                 ? std::to_string(user)
                                                 : "target of attachment " + std::to_string(user - object.user_particles));
   }
-  const int number = pool.origin[static_cast<std::size_t>(segment.first_batch + batch) * batch_width + lane];
-  return type_name(pool.type) + " constraint " + std::to_string(number) + " (particles " + particles + ")";
+  const int constraint = pool.origin[static_cast<std::size_t>(segment.first_batch + batch) * batch_width + lane];
+  return constraint_type(pool.type).name + " constraint " + std::to_string(constraint) + " (particles " + particles + ")";
 }
 
 /// The first constraint of a segment with a particle that is not finite.
@@ -38,7 +39,8 @@ std::optional<std::string> find_culprit(const CompiledObject& object, const Segm
     for (int lane = 0; lane < batch_width; ++lane) {
       if (!lane_is_valid(segment, batch, lane)) continue;
       for (int slot = 0; slot < pool.stencil; ++slot) {
-        if (!is_finite(positions[particle_of(segment, index, slot, lane)]))
+        const int particle = particle_of(segment, index, slot, lane);
+        if (particle < object.particles && !is_finite(positions[particle]))
           return describe(object, pool, segment, batch, lane);
       }
     }
@@ -50,6 +52,23 @@ std::optional<std::string> replay(const StepContext& context, const CompiledObje
                                   SweepArguments arguments) {
   for (int s = first; s < last; ++s) {
     context.kernels.sweep(object.pools.data(), &object.segments[s], &object.segments[s] + 1, arguments);
+    if (auto culprit = find_culprit(object, object.segments[s], arguments.displacements)) return culprit;
+  }
+  return std::nullopt;
+}
+
+/// Likewise for what is projected one constraint at a time, from the orientations that the failed substep has left.
+std::optional<std::string> replay_stencils(const StepContext& context, const CompiledObject& object,
+                                           const StraddlerColour& colour, const SweepArguments& arguments) {
+  const auto number = static_cast<std::size_t>(&object - context.model.objects.data());
+  const int first = context.model.first_frame[number], last = context.model.first_frame[number + 1];
+  FrameRecords& all = context.state.frames;
+  Records orientations(all.orientations.begin() + first, all.orientations.begin() + last), none(orientations.size());
+  for (Record& q : orientations) q = is_finite(q) && q.w - q.w == 0 ? q : Record{0, 0, 0, 1};
+  for (int s = colour.first_segment; s < colour.last_segment; ++s) {
+    Records corrections(orientations.size());
+    project_segment(object, object.segments[s], arguments,
+                    {orientations.data(), all.inverse_inertias.data() + first, none.data(), corrections.data()});
     if (auto culprit = find_culprit(object, object.segments[s], arguments.displacements)) return culprit;
   }
   return std::nullopt;
@@ -103,8 +122,26 @@ std::string explain(const Substep& s, const CompiledObject& object, const std::v
       const int last = chain.first_segment + chain.steps;
       if (auto culprit = replay(context, object, chain.first_segment, last, arguments)) return *culprit;
     }
+    for (const StraddlerColour& colour : object.stencil_colours) {
+      if (auto culprit = replay_stencils(context, object, colour, arguments)) return *culprit;
+    }
   }
   return object.has_volume ? "volume constraint (seen at " + particle + ")" : particle;
+}
+
+bool is_finite_orientation(const Record& r) { return is_finite(r) && r.w - r.w == 0; }
+
+/// The first frame that is not finite.
+void name_bad_frame(const StepContext& context, NonFinite& found) {
+  const FrameRecords& frames = context.state.frames;
+  for (std::size_t o = 0; o < context.model.objects.size(); ++o) {
+    for (int i = context.model.first_frame[o]; i < context.model.first_frame[o + 1]; ++i) {
+      if (is_finite_orientation(frames.orientations[i]) && is_finite(frames.angular_velocities[i])) continue;
+      found.object = context.model.objects[o].name;
+      found.element = "frame " + std::to_string(i - context.model.first_frame[o]);
+      return;
+    }
+  }
 }
 
 /// Finite again: no displacement, no velocity where there is no number.
@@ -112,6 +149,8 @@ void make_finite(const StepContext& context) {
   for (Record& d : context.workspace.displacements) d = is_finite(d) ? d : Record{};
   for (Record& v : context.state.velocities) v = is_finite(v) ? v : Record{};
   for (Record& r : context.state.remainders) r = is_finite(r) ? r : Record{};
+  for (Record& q : context.state.frames.orientations) q = is_finite_orientation(q) ? q : Record{0, 0, 0, 1};
+  for (Record& w : context.state.frames.angular_velocities) w = is_finite(w) ? w : Record{};
 }
 
 }  // namespace
@@ -125,6 +164,7 @@ NonFinite diagnose(const Substep& s) {
     found.object = context.model.objects[number].name;
     found.element = explain(s, context.model.objects[number], bad, arguments(s, number, true));
   }
+  if (bad.empty()) name_bad_frame(context, found);
   make_finite(context);
   return found;
 }

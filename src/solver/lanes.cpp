@@ -17,10 +17,10 @@ constexpr std::int32_t any_set = -1;
 
 /// Which slots of a batch are in runs, and where each one's indices are.
 template <int size, std::int32_t fixed>
-struct Slots {
+struct SlotIndices {
   std::int32_t runs;
 
-  PLIANT_HD explicit Slots(std::int32_t in_runs) : runs(fixed == any_set ? in_runs : fixed) {}
+  PLIANT_HD explicit SlotIndices(std::int32_t in_runs) : runs(fixed == any_set ? in_runs : fixed) {}
   PLIANT_HD bool in_runs(int slot) const { return ((fixed == any_set ? runs : fixed) >> slot & 1) != 0; }
   /// Indices before those of a slot.
   PLIANT_HD std::int32_t before(int slot) const { return indices_before(fixed == any_set ? runs : fixed, slot); }
@@ -40,7 +40,7 @@ struct Slots {
 /// x_0 is zero. Differences of neighbours' positions are small and nearly exact, and no constraint among particles knows where the
 /// origin is. Taken between records, before fields are: the first one's fields but w need no transpose.
 template <int size, std::int32_t fixed>
-PLIANT_HD void load_stencil(const SweepArguments& a, const Slots<size, fixed>& slots, const std::int32_t* index,
+PLIANT_HD void load_stencil(const SweepArguments& a, const SlotIndices<size, fixed>& slots, const std::int32_t* index,
                             Registers (&moved)[size], Vec3<Wide> (&x)[size], Wide (&w)[size]) {
   const Registers origin = slots.load(a.positions, index, 0);
   moved[0] = slots.load(a.displacements, index, 0);
@@ -58,11 +58,11 @@ PLIANT_HD void load_stencil(const SweepArguments& a, const Slots<size, fixed>& s
 
 /// Where a pool's rows are for one batch: those that are the same for all constraints stay where they are.
 template <int rows>
-struct Rows {
+struct RowPointers {
   const float* at[rows];
   std::int32_t step[rows];
 
-  PLIANT_HD Rows(const Pool& pool, int batch) {
+  PLIANT_HD RowPointers(const Pool& pool, int batch) {
     PLIANT_UNROLL
     for (int row = 0; row < rows; ++row) {
       at[row] = pool.row(row, batch);
@@ -75,7 +75,7 @@ struct Rows {
   }
 };
 
-/// What a general sweep has for one batch besides.
+/// What a general sweep has besides, for one batch.
 struct Aside {
   Record* corrections = nullptr;  ///< written instead of displacements, sixteen a slot
   const float* share = nullptr;   ///< of a change that reaches the multiplier, one a lane
@@ -106,47 +106,48 @@ PLIANT_HD void store_aside(Record* to, const Vec3<Wide>& correction) {
 /// One batch of sixteen constraints: their numbers in `rows`, their particles at `index`. All are written where it is `whole`, else
 /// `count` fours, or lanes where no slot is in runs.
 template <class T, Law law, bool keeps_multipliers, std::int32_t fixed, bool general, int row_count>
-PLIANT_HD void project_batch(const Rows<row_count>& rows, const Slots<T::size, fixed>& slots, const std::int32_t* index,
-                             float* multiplier, bool whole, int count, const AsideOf<general>& aside,
-                             const SweepArguments& a) {
+PLIANT_HD void project_batch(const RowPointers<row_count>& rows, const SlotIndices<slot_count<T>, fixed>& slots,
+                             const std::int32_t* index, float* multiplier, bool whole, int count,
+                             const AsideOf<general>& aside, const SweepArguments& a) {
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
-  Vec3<Wide> x[T::size];
-  Wide w[T::size];
-  Registers moved[T::size];  // kept: sixteen records cost more to find again than to put by
+  Vec3<Wide> x[slot_count<T>];
+  Wide w[slot_count<T>];
+  Registers moved[slot_count<T>];  // kept: sixteen records cost more to find again than to put by
   load_stencil(a, slots, index, moved, x, w);
   Wide rest[fields];
   PLIANT_UNROLL
   for (int field = 0; field < fields; ++field) rest[field] = load_wide(rows.at[field]);
   typename T::template Params<Wide> params;
   std::memcpy(&params, rest, sizeof params);
-  Answer<Wide> answer{load_wide(rows.at[fields]), Wide(0.f), Wide(0.f)};
+  ConstraintResponse<Wide> response{load_wide(rows.at[fields]), Wide(0.f), Wide(0.f)};
   if constexpr (keeps_multipliers) {
-    if (!a.first_pass) answer.multiplier = load_wide(multiplier);
+    if (!a.first_pass) response.multiplier = load_wide(multiplier);
   }
-  Vec3<Wide> motion[T::size];
+  Vec3<Wide> motion[slot_count<T>];
   if constexpr (law == Law::damped) {
-    answer.damping = load_wide(rows.at[fields + 1]);
+    response.damping = load_wide(rows.at[fields + 1]);
     PLIANT_UNROLL
-    for (int slot = 0; slot < T::size; ++slot)
+    for (int slot = 0; slot < slot_count<T>; ++slot)
       motion[slot] = from_registers(moved[slot] - slots.load(a.remainders, index, slot)).position;
   }
-  Vec3<Wide> correction[T::size];
+  Vec3<Wide> correction[slot_count<T>];
   if constexpr (general) {
-    if (aside.share != nullptr) answer.share = load_wide(aside.share);
+    if (aside.share != nullptr) response.share = load_wide(aside.share);
   }
-  project<T, law, keeps_multipliers, general>(x, w, params, motion, answer, a, correction);
-  if constexpr (keeps_multipliers) store_wide(multiplier, answer.multiplier);
+  project<T, law, keeps_multipliers, general>(x, w, params, motion, response, a, correction);
+  if constexpr (keeps_multipliers) store_wide(multiplier, response.multiplier);
   if constexpr (general) {
     if (aside.corrections != nullptr) {
       PLIANT_UNROLL
-      for (int slot = 0; slot < T::size; ++slot) store_aside(aside.corrections + slot * batch_width, correction[slot]);
+      for (int slot = 0; slot < slot_count<T>; ++slot)
+        store_aside(aside.corrections + slot * batch_width, correction[slot]);
       return;
     }
   } else {
     (void)aside;
   }
   PLIANT_UNROLL
-  for (int slot = 0; slot < T::size; ++slot) {
+  for (int slot = 0; slot < slot_count<T>; ++slot) {
     const Registers after = moved[slot] + to_registers({correction[slot], Wide(0.f)});
     slots.store(a.displacements, index, slot, after, whole, count);
   }
@@ -156,17 +157,17 @@ template <class T, Law law, bool keeps_multipliers, std::int32_t fixed, bool gen
 void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& arguments) {
   const SweepArguments a = arguments;  // a copy that nothing stored can change, so that it stays in registers
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
-  Rows<fields + 1 + (law == Law::damped ? 1 : 0)> rows(pool, segment.first_batch);
-  const Slots<T::size, fixed> slots(segment.runs);
+  RowPointers<fields + 1 + (law == Law::damped ? 1 : 0)> rows(pool, segment.first_batch);
+  const SlotIndices<slot_count<T>, fixed> slots(segment.runs);
   const std::int32_t* index = pool.indices.data() + segment.index_offset;
   float* multiplier =
       keeps_multipliers ? multipliers + static_cast<std::int64_t>(segment.first_batch) * batch_width : nullptr;
-  AsideOf<general> aside(a, segment, T::size);
+  AsideOf<general> aside(a, segment, slot_count<T>);
   const bool whole = segment.last_count == (segment.runs != 0 ? 4 : batch_width);
   for (int left = segment.batches; left > (whole ? 0 : 1); --left) {
     project_batch<T, law, keeps_multipliers, fixed, general>(rows, slots, index, multiplier, true, 0, aside, a);
-    index += slots.before(T::size);
-    aside.next(T::size);
+    index += slots.before(slot_count<T>);
+    aside.next(slot_count<T>);
     rows.next();
     if constexpr (keeps_multipliers) multiplier += batch_width;
   }
@@ -177,19 +178,19 @@ void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers,
 
 template <class T, Law law, bool keeps_multipliers, bool general>
 void sweep_either(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
-  constexpr std::int32_t all = (1 << T::size) - 1;
+  constexpr std::int32_t all = (1 << slot_count<T>)-1;
   const auto with = [&]<std::int32_t fixed>(std::integral_constant<std::int32_t, fixed>) {
     sweep_segment<T, law, keeps_multipliers, fixed, general>(pool, segment, multipliers, a);
   };
   if (segment.runs == all) return with(std::integral_constant<std::int32_t, all>{});
   if constexpr (!general) {
     if (segment.runs == 0) return with(std::integral_constant<std::int32_t, 0>{});
-    if constexpr (T::size == 2) {
+    if constexpr (slot_count<T> == 2) {
       return segment.runs == 1 ? with(std::integral_constant<std::int32_t, 1>{})
                                : with(std::integral_constant<std::int32_t, 2>{});
     }
   }
-  if constexpr (general || T::size != 2) with(std::integral_constant<std::int32_t, any_set>{});
+  if constexpr (general || slot_count<T> != 2) with(std::integral_constant<std::int32_t, any_set>{});
 }
 
 template <class T, bool general>
@@ -207,10 +208,19 @@ void sweep_type(const Pool& pool, const Segment& segment, float* multipliers, co
   }
 }
 
+/// Null for a type that is projected one at a time: its pools are in no segment that comes here.
+template <class T, bool general>
+constexpr auto sweep_of() -> void (*)(const Pool&, const Segment&, float*, const SweepArguments&) {
+  if constexpr (in_lanes<T>)
+    return &sweep_type<T, general>;
+  else
+    return nullptr;
+}
+
 template <bool general, class... Types>
 void sweep_any(TypeList<Types...>, const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
   using Function = void (*)(const Pool&, const Segment&, float*, const SweepArguments&);
-  static constexpr Function table[] = {&sweep_type<Types, general>...};
+  static constexpr Function table[] = {sweep_of<Types, general>()...};
   table[pool.type](pool, segment, multipliers, a);
 }
 

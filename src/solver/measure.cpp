@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "constraints/all.h"
+#include "constraints/registry.h"
 #include "solver/visit.h"
 #include "solver/volume.h"
 
@@ -14,31 +14,48 @@ namespace {
 /// An object's particles and what its constraints pulled with in the last substep.
 struct View {
   const CompiledObject& object;
-  const Record *positions, *velocities;
+  const Record *positions, *velocities, *orientations;
   const std::vector<AlignedVector<float>>& multipliers;  ///< by pool, empty where none is kept
   double h;
 
-  double multiplier(const ConstraintPlace& at) const {
+  double multiplier(const ConstraintPlace& at, int component = 0) const {
     if (at.pool.law == Law::pbd || multipliers.empty() || multipliers[at.pool_number].empty()) return 0;
-    return static_cast<double>(multipliers[at.pool_number][at.lane_in_pool()]);
+    return static_cast<double>(multipliers[at.pool_number][at.multiplier_place(component)]);
   }
 };
 
 View view_of(const Model& model, const State& state, const Workspace& workspace, std::size_t o, float h) {
   const int first = model.first[o];
-  return {model.objects[o], state.positions.data() + first, state.velocities.data() + first, workspace.multipliers[o],
+  return {model.objects[o],
+          state.positions.data() + first,
+          state.velocities.data() + first,
+          state.frames.orientations.data() + model.first_frame[o],
+          workspace.multipliers[o],
           double(h)};
 }
 
 Vec3f place_of(const Record& p) { return {p.x, p.y, p.z}; }
 
-template <class T>
+/// The length of the vector C + alpha~ lambda.
 void add_residuals(const View& view, int type, ErrorSum& sum) {
-  for_constraints<T>(view.object, type, [&](const ConstraintPlace& at, const auto& particle) {
-    Vec3f x[T::size], gradient[T::size];
-    for (int slot = 0; slot < T::size; ++slot) x[slot] = place_of(view.positions[particle[slot]]);
-    const double c = T::evaluate(x, rest_data<T, float>(at), gradient), multiplier = view.multiplier(at);
-    sum.add(multiplier != 0 ? c + softness<T>(at, 1 / (view.h * view.h)) * multiplier : c);
+  const auto evaluate = constraint_type(type).evaluate;
+  StencilArrays<float> arrays;
+  for_constraints(view.object, type, [&](const ConstraintPlace& at, const std::int32_t* particle) {
+    for (int slot = 0; slot < at.pool.stencil; ++slot) {
+      const bool is_frame = particle[slot] >= view.object.particles;
+      const Record& p =
+          is_frame ? view.orientations[particle[slot] - view.object.particles] : view.positions[particle[slot]];
+      arrays.set_slot(slot, p.x, p.y, p.z, p.w);
+    }
+    arrays.load_rest(at);
+    evaluate(arrays.slots, arrays.rest, arrays.c, arrays.gradients);
+    double squared = 0, error = 0;
+    for (int component = 0; component < at.pool.components; ++component) {
+      const double c = static_cast<double>(arrays.c[component]), multiplier = view.multiplier(at, component);
+      error = multiplier != 0 ? c + softness(at, 1 / (view.h * view.h)) * multiplier : c;
+      squared += error * error;
+    }
+    sum.add(at.pool.components == 1 ? error : std::sqrt(squared));
   });
 }
 
@@ -56,20 +73,19 @@ ErrorSum volume_errors(const Model& model, const State& state, const Workspace& 
 }
 
 /// One distance: by how much it is longer than its force makes it. Damping's part is alpha beta times the speed along it.
-double excess_of(const View& view, const ConstraintPlace& at, const std::int32_t (&particle)[2], double length,
-                 double rest) {
-  const double compliance = at.value(rest_fields<Distance>);
-  double explained = softness<Distance>(at, 1 / (view.h * view.h)) * view.multiplier(at);
+double excess_of(const View& view, const ConstraintPlace& at, const std::int32_t* particle, double length, double rest) {
+  const double compliance = at.value(at.pool.fields);
+  double explained = softness(at, 1 / (view.h * view.h)) * view.multiplier(at);
   if (at.pool.law == Law::damped && length > 0) {
     const Vec3f way = place_of(view.positions[particle[1]]) - place_of(view.positions[particle[0]]);
     const Vec3f speed = place_of(view.velocities[particle[1]]) - place_of(view.velocities[particle[0]]);
-    explained += compliance * double(at.value(rest_fields<Distance> + 1)) * double(dot(way, speed)) / length;
+    explained += compliance * double(at.value(at.pool.fields + 1)) * double(dot(way, speed)) / length;
   }
   return (length - rest + explained) / rest;
 }
 
 void add_lengths(const View& view, int number, int type, Lengths& lengths, double& sum) {
-  for_constraints<Distance>(view.object, type, [&](const ConstraintPlace& at, const auto& particle) {
+  for_constraints(view.object, type, [&](const ConstraintPlace& at, const std::int32_t* particle) {
     const float rest = at.value(0);
     if (!(rest > 0)) return;
     const Vec3f way = place_of(view.positions[particle[1]]) - place_of(view.positions[particle[0]]);
@@ -98,13 +114,11 @@ double take_p99(std::vector<float>& values) {
 
 std::vector<Residual> measure_residuals(const Model& model, const State& state, const Workspace& workspace, float h) {
   std::vector<Residual> residuals;
-  for_each_type(AllConstraints{}, [&](auto tag, int type) {
-    using T = typename decltype(tag)::type;
+  for (int type = 0; type < constraint_type_count(); ++type) {
     ErrorSum sum;
-    for (std::size_t o = 0; o < model.objects.size(); ++o)
-      add_residuals<T>(view_of(model, state, workspace, o, h), type, sum);
-    if (sum.count > 0) residuals.push_back(sum.residual(T::name));
-  });
+    for (std::size_t o = 0; o < model.objects.size(); ++o) add_residuals(view_of(model, state, workspace, o, h), type, sum);
+    if (sum.count > 0) residuals.push_back(sum.residual(constraint_type(type).name));
+  }
   const ErrorSum volumes = volume_errors(model, state, workspace, h);
   if (volumes.count > 0) residuals.push_back(volumes.residual("volume"));
   return residuals;
@@ -116,12 +130,10 @@ void measure_lengths(const Model& model, const State& state, const Workspace& wo
   lengths.ratios.clear();
   lengths.excesses.clear();
   double sum = 0;
-  for_each_type(AllConstraints{}, [&](auto tag, int type) {
-    if constexpr (std::is_same_v<typename decltype(tag)::type, Distance>) {
-      for (std::size_t o = 0; o < model.objects.size(); ++o)
-        add_lengths(view_of(model, state, workspace, o, h), static_cast<int>(o), type, lengths, sum);
-    }
-  });
+  for (int type = 0; type < constraint_type_count(); ++type) {
+    for (std::size_t o = 0; is_length(type) && o < model.objects.size(); ++o)
+      add_lengths(view_of(model, state, workspace, o, h), static_cast<int>(o), type, lengths, sum);
+  }
   if (lengths.ratios.empty()) return;
   lengths.stretch.mean = sum / static_cast<double>(lengths.ratios.size());
   lengths.stretch.p99 = take_p99(lengths.ratios);

@@ -1,6 +1,7 @@
 // The projection of one constraint, written once for a float and for sixteen lanes.
 #pragma once
 
+#include "constraints/traits.h"
 #include "math/scalar.h"
 #include "model/pool.h"
 #include "solver/kernels.h"
@@ -10,7 +11,7 @@
 #if defined(__clang__) || defined(__CUDACC__)
 #define PLIANT_UNROLL _Pragma("unroll")
 #else
-#define PLIANT_UNROLL _Pragma("GCC unroll 4")
+#define PLIANT_UNROLL _Pragma("GCC unroll 8")
 #endif
 
 namespace pliant {
@@ -22,20 +23,20 @@ inline constexpr float largest_compliance = 1e30f;
 
 /// How far the stencil has moved along the gradients since the substep's start: grad C . (x - x_start).
 template <class T, class R>
-PLIANT_HD R motion_along(const Vec3<R> (&gradient)[T::size], const Vec3<R> (&motion)[T::size]) {
+PLIANT_HD R motion_along(const Vec3<R> (&gradient)[slot_count<T>], const Vec3<R> (&motion)[slot_count<T>]) {
   R sum = dot(gradient[0], motion[0]);
   PLIANT_UNROLL
-  for (int slot = 1; slot < T::size; ++slot) sum = sum + dot(gradient[slot], motion[slot]);
+  for (int slot = 1; slot < slot_count<T>; ++slot) sum = sum + dot(gradient[slot], motion[slot]);
   return sum;
 }
 
 /// sum_i w_i |grad_i C|^2.
 template <class T, class R>
-PLIANT_HD R generalised_inverse_mass(const Vec3<R> (&gradient)[T::size], const R (&w)[T::size]) {
-  R sum = T::unit_gradients ? w[0] : w[0] * length_squared(gradient[0]);
+PLIANT_HD R generalised_inverse_mass(const Vec3<R> (&gradient)[slot_count<T>], const R (&w)[slot_count<T>]) {
+  R sum = has_unit_gradients<T> ? w[0] : w[0] * length_squared(gradient[0]);
   PLIANT_UNROLL
-  for (int slot = 1; slot < T::size; ++slot) {
-    sum = sum + (T::unit_gradients ? w[slot] : w[slot] * length_squared(gradient[slot]));
+  for (int slot = 1; slot < slot_count<T>; ++slot) {
+    sum = sum + (has_unit_gradients<T> ? w[slot] : w[slot] * length_squared(gradient[slot]));
   }
   return sum;
 }
@@ -51,10 +52,10 @@ PLIANT_HD R within_trust(const R& denominator, const R& numerator, const R& mass
   }
 }
 
-/// What a law needs besides positions.
+/// What a law needs besides positions: compliance, damping, multiplier.
 template <class R>
-struct Answer {
-  R response;        ///< alpha, or k'
+struct ConstraintResponse {
+  R softness;        ///< alpha, or k'
   R damping;         ///< beta
   R multiplier;      ///< lambda so far in this substep; advanced by project
   R share = R(1.f);  ///< of a change that reaches the multiplier, where sweeps are general
@@ -68,31 +69,31 @@ struct Answer {
 ///   correction_i = w_i grad_i C dlambda
 ///   and in a general sweep, dlambda times the relaxation.
 template <class T, Law law, bool keeps_multiplier, bool general = false, class R>
-PLIANT_HD void project(const Vec3<R> (&x)[T::size], const R (&w)[T::size], const typename T::template Params<R>& params,
-                       const Vec3<R> (&motion)[T::size], Answer<R>& answer, const SweepArguments& a,
-                       Vec3<R> (&correction)[T::size]) {
-  Vec3<R> gradient[T::size];
+PLIANT_HD void project(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_count<T>],
+                       const typename T::template Params<R>& params, const Vec3<R> (&motion)[slot_count<T>],
+                       ConstraintResponse<R>& response, const SweepArguments& a, Vec3<R> (&correction)[slot_count<T>]) {
+  Vec3<R> gradient[slot_count<T>];
   const R c = T::evaluate(x, params, gradient);
   const R mass = generalised_inverse_mass<T>(gradient, w);
   R change;
   if constexpr (law == Law::pbd) {
-    const R numerator = -(answer.response * c);
+    const R numerator = -(response.softness * c);
     change = numerator / max(within_trust<T>(mass, numerator, mass), R(smallest_denominator));
   } else {
-    const R compliance = min(answer.response * R(a.inverse_h2), R(largest_compliance));
+    const R compliance = min(response.softness * R(a.inverse_h2), R(largest_compliance));
     R numerator = -c, denominator = mass + compliance;
-    if constexpr (keeps_multiplier) numerator = numerator - compliance * answer.multiplier;
+    if constexpr (keeps_multiplier) numerator = numerator - compliance * response.multiplier;
     if constexpr (law == Law::damped) {
-      const R gamma = min(answer.response * answer.damping * R(a.inverse_h), R(largest_compliance));
+      const R gamma = min(response.softness * response.damping * R(a.inverse_h), R(largest_compliance));
       numerator = numerator - gamma * motion_along<T>(gradient, motion);
       denominator = denominator + gamma * mass;
     }
     change = numerator / max(within_trust<T>(denominator, numerator, mass), R(smallest_denominator));
   }
   if constexpr (general) change = change * R(a.relaxation);
-  if constexpr (keeps_multiplier) answer.multiplier = answer.multiplier + (general ? change * answer.share : change);
+  if constexpr (keeps_multiplier) response.multiplier = response.multiplier + (general ? change * response.share : change);
   PLIANT_UNROLL
-  for (int slot = 0; slot < T::size; ++slot) correction[slot] = gradient[slot] * (w[slot] * change);
+  for (int slot = 0; slot < slot_count<T>; ++slot) correction[slot] = gradient[slot] * (w[slot] * change);
 }
 
 }  // namespace pliant

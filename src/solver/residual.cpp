@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
-#include "constraints/all.h"
+#include "constraints/registry.h"
 #include "solver/project.h"
 #include "solver/substep.h"
 
@@ -19,12 +18,6 @@ constexpr int fewest_batches = 128;
 struct Lanes {
   float at[batch_width];
 };
-
-bool is_distance(const Pool& pool) {
-  bool found = false;
-  with_type(AllConstraints{}, pool.type, [&](auto tag) { found = std::is_same_v<typename decltype(tag)::type, Distance>; });
-  return found;
-}
 
 int count_valid(const Segment& segment) {
   int count = 0;
@@ -89,7 +82,7 @@ void prepare_residual(const Model& model, ResidualScratch& scratch) {
   for (std::size_t o = 0; o < model.objects.size(); ++o) {
     const CompiledObject& object = model.objects[o];
     for (std::size_t s = 0; s < object.segments.size(); ++s) {
-      if (!is_distance(object.pools[object.segments[s].pool])) continue;
+      if (!is_length(object.pools[object.segments[s].pool].type)) continue;
       add_segment(static_cast<std::int32_t>(o), static_cast<std::int32_t>(s), object.segments[s].batches, scratch.tasks);
       scratch.constraints += count_valid(object.segments[s]);
     }
@@ -107,7 +100,7 @@ double distance_residual(Substep& s) {
     for (int i = of.first; i < of.last; ++i) {
       const Segment& segment = object.segments[i];
       const Pool& pool = object.pools[segment.pool];
-      if (is_distance(pool)) sum += sum_of(arguments(s, of.object, false), pool, segment);
+      if (is_length(pool.type)) sum += sum_of(arguments(s, of.object, false), pool, segment);
     }
     scratch.squares[task] = sum;
   });

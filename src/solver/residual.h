@@ -1,6 +1,6 @@
 // How far distance constraints are from met in the midst of a substep: what Settings::tolerance stops iterations by.
 //
-// The answer decides how many iterations are made, so its bits are part of the result: sixteen sums side by side whatever the
+// The result decides how many iterations are made, so its bits are part of the result: sixteen sums side by side whatever the
 // machine has, added segment by segment and task by task. Not a kernel of each instruction set: one pass in what every
 // x86-64 has costs about two plain sweeps, and is made only where a tolerance is set.
 #pragma once

@@ -26,7 +26,7 @@ Record* correction_of(const Pool& pool, const SweepArguments& a, int pool_number
 }
 
 template <class T, Law law, bool keeps_multipliers, bool general>
-void project_lane(const Pool& pool, const Place& at, const std::int32_t (&particle)[T::size], float* multiplier,
+void project_lane(const Pool& pool, const Place& at, const std::int32_t (&particle)[slot_count<T>], float* multiplier,
                   const SweepArguments& a) {
   const std::int64_t batch = at.batch;
   const int lane = at.lane;
@@ -36,10 +36,10 @@ void project_lane(const Pool& pool, const Place& at, const std::int32_t (&partic
   typename T::template Params<float> params;
   std::memcpy(&params, rest, sizeof params);
 
-  Vec3f x[T::size], motion[T::size], correction[T::size];
-  float w[T::size];
+  Vec3f x[slot_count<T>], motion[slot_count<T>], correction[slot_count<T>];
+  float w[slot_count<T>];
   const Record &origin = a.positions[particle[0]], first = a.displacements[particle[0]];
-  for (int slot = 0; slot < T::size; ++slot) {
+  for (int slot = 0; slot < slot_count<T>; ++slot) {
     const Record& p = a.positions[particle[slot]];
     const Record &d = a.displacements[particle[slot]], &r = a.remainders[particle[slot]];
     x[slot] = slot == 0 ? Vec3f{0, 0, 0}
@@ -48,13 +48,14 @@ void project_lane(const Pool& pool, const Place& at, const std::int32_t (&partic
     w[slot] = p.w;
     motion[slot] = {d.x - r.x, d.y - r.y, d.z - r.z};
   }
-  Answer<float> answer{pool.row(fields, batch)[lane], law == Law::damped ? pool.row(fields + 1, batch)[lane] : 0.f,
-                       keeps_multipliers && !a.first_pass ? *multiplier : 0.f};
-  if (general && a.shares != nullptr) answer.share = a.shares[at.pool][batch * batch_width + lane];
-  project<T, law, keeps_multipliers, general>(x, w, params, motion, answer, a, correction);
-  if (keeps_multipliers) *multiplier = answer.multiplier;
+  ConstraintResponse<float> response{pool.row(fields, batch)[lane],
+                                     law == Law::damped ? pool.row(fields + 1, batch)[lane] : 0.f,
+                                     keeps_multipliers && !a.first_pass ? *multiplier : 0.f};
+  if (general && a.shares != nullptr) response.share = a.shares[at.pool][batch * batch_width + lane];
+  project<T, law, keeps_multipliers, general>(x, w, params, motion, response, a, correction);
+  if (keeps_multipliers) *multiplier = response.multiplier;
   Record* aside = general ? correction_of(pool, a, at.pool, batch, lane) : nullptr;
-  for (int slot = 0; slot < T::size; ++slot) {
+  for (int slot = 0; slot < slot_count<T>; ++slot) {
     if (aside != nullptr) {
       aside[slot * batch_width] = {correction[slot].x, correction[slot].y, correction[slot].z, 0};
       continue;
@@ -71,8 +72,8 @@ void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers,
     const std::int64_t number = segment.first_batch + batch;
     for (int lane = 0; lane < batch_width; ++lane) {
       if (!lane_is_valid(segment, batch, lane)) continue;
-      std::int32_t particle[T::size];
-      for (int slot = 0; slot < T::size; ++slot) particle[slot] = particle_of(segment, index, slot, lane);
+      std::int32_t particle[slot_count<T>];
+      for (int slot = 0; slot < slot_count<T>; ++slot) particle[slot] = particle_of(segment, index, slot, lane);
       float* multiplier = keeps_multipliers ? multipliers + number * batch_width + lane : nullptr;
       project_lane<T, law, keeps_multipliers, general>(pool, {segment.pool, number, lane}, particle, multiplier, a);
     }
@@ -99,8 +100,10 @@ void sweep(const Pool* pools, const Segment* first, const Segment* last, const S
   for (const Segment* segment = first; segment != last; ++segment) {
     const Pool& pool = pools[segment->pool];
     float* multipliers = a.multipliers != nullptr ? a.multipliers[segment->pool] : nullptr;
-    with_type(AllConstraints{}, pool.type,
-              [&](auto tag) { sweep_type<typename decltype(tag)::type, general>(pool, *segment, multipliers, a); });
+    with_type(AllConstraints{}, pool.type, [&](auto tag) {
+      using T = typename decltype(tag)::type;
+      if constexpr (in_lanes<T>) sweep_type<T, general>(pool, *segment, multipliers, a);
+    });
   }
 }
 

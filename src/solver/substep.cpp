@@ -21,6 +21,12 @@ SweepArguments arguments(const Substep& s, int object, bool first_pass) {
   return a;
 }
 
+FrameArguments frame_arguments(const Substep& s, int object) {
+  const int first = s.model.first_frame[object];
+  return {s.state.frames.orientations.data() + first, s.state.frames.inverse_inertias.data() + first,
+          s.work.frames.predicted.data() + first, s.work.frames.corrections.data() + first};
+}
+
 AdvanceArguments particles(const Substep& s, int task) {
   const int object = s.model.tiles[task].object, first = s.model.first[object];
   const Tile& tile = tile_of(s, task);

@@ -37,6 +37,9 @@ Vec3f gravity_for(const Substep& s, double seconds);
 /// An object's particles and multipliers, as projections see them.
 SweepArguments arguments(const Substep& s, int object, bool first_pass);
 
+/// An object's frames, as projections see them.
+FrameArguments frame_arguments(const Substep& s, int object);
+
 /// A tile's particles, as prediction and update see them.
 AdvanceArguments particles(const Substep& s, int task);
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <string>
 
 #include "model/compiled_object.h"
@@ -34,46 +33,57 @@ struct ConstraintPlace {
   int lane;
 
   float value(int row) const { return pool.row(row, batch)[lane]; }
-  std::int64_t lane_in_pool() const { return batch * batch_width + lane; }
+  /// Of the multiplier of one component of C.
+  std::int64_t multiplier_place(int component) const { return multiplier_index(pool, batch, lane, component); }
 };
 
-/// Floats of a type's rest data, after which a pool's rows hold the response and the damping.
-template <class T>
-inline constexpr int rest_fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
-
-/// The rest data of a constraint of type T.
-template <class T, class R>
-typename T::template Params<R> rest_data(const ConstraintPlace& at) {
-  R rest[rest_fields<T>];
-  for (int field = 0; field < rest_fields<T>; ++field) rest[field] = static_cast<R>(at.value(field));
-  typename T::template Params<R> params;
-  static_assert(sizeof rest == sizeof params);
-  std::memcpy(&params, rest, sizeof params);
-  return params;
+/// alpha / h^2 of a constraint as a projection has it.
+inline double softness(const ConstraintPlace& at, double inverse_h2) {
+  return std::min(double(at.value(at.pool.fields)) * inverse_h2, double(largest_compliance));
 }
 
-/// alpha / h^2 of a constraint of type T as a projection has it.
-template <class T>
-double softness(const ConstraintPlace& at, double inverse_h2) {
-  return std::min(double(at.value(rest_fields<T>)) * inverse_h2, double(largest_compliance));
-}
+/// What a constraint's functions work on, as plain arrays (pliant/constraint.h), in float or double.
+template <class R>
+struct StencilArrays {
+  R slots[4 * most_slots] = {}, rest[most_rest_fields] = {}, c[most_components] = {};
+  R gradients[3 * most_slots * most_components] = {};
 
-/// Calls visit(place, its particles) for every constraint of type T, number `type`, in the order of the schedule.
-template <class T, class Visit>
-void for_constraints(const CompiledObject& object, int type, const Visit& visit) {
-  for (const Segment& segment : object.segments) {
-    const Pool& pool = object.pools[segment.pool];
-    if (pool.type != type) continue;
-    const std::int32_t* index = pool.indices.data() + segment.index_offset;
-    for (int b = 0; b < segment.batches; ++b, index += indices_per_batch(pool, segment)) {
-      for (int lane = 0; lane < batch_width; ++lane) {
-        if (!lane_is_valid(segment, b, lane)) continue;
-        std::int32_t particle[T::size];
-        for (int slot = 0; slot < T::size; ++slot) particle[slot] = particle_of(segment, index, slot, lane);
-        visit(ConstraintPlace{pool, segment.pool, std::int64_t{segment.first_batch} + b, lane}, particle);
-      }
+  void load_rest(const ConstraintPlace& at) {
+    for (int field = 0; field < at.pool.fields; ++field) rest[field] = static_cast<R>(at.value(field));
+  }
+  void set_slot(int slot, R x, R y, R z, R w) {
+    slots[4 * slot] = x;
+    slots[4 * slot + 1] = y;
+    slots[4 * slot + 2] = z;
+    slots[4 * slot + 3] = w;
+  }
+  Vec3<R> gradient(const Pool& pool, int component, int slot) const {
+    const R* at = gradients + 3 * (component * pool.stencil + slot);
+    return {at[0], at[1], at[2]};
+  }
+};
+
+/// Calls visit(place, its numbers by slot) for every constraint of a segment.
+template <class Visit>
+void for_segment(const CompiledObject& object, const Segment& segment, const Visit& visit) {
+  const Pool& pool = object.pools[segment.pool];
+  const std::int32_t* index = pool.indices.data() + segment.index_offset;
+  for (int b = 0; b < segment.batches; ++b, index += indices_per_batch(pool, segment)) {
+    for (int lane = 0; lane < batch_width; ++lane) {
+      if (!lane_is_valid(segment, b, lane)) continue;
+      std::int32_t number[most_slots];
+      for (int slot = 0; slot < pool.stencil; ++slot) number[slot] = particle_of(segment, index, slot, lane);
+      visit(ConstraintPlace{pool, segment.pool, std::int64_t{segment.first_batch} + b, lane}, number);
     }
   }
+}
+
+/// Calls visit(place, its particles by slot) for every constraint of type number `type`, in the order of the schedule. A number from
+/// object.particles on is a frame's.
+template <class Visit>
+void for_constraints(const CompiledObject& object, int type, const Visit& visit) {
+  for (const Segment& segment : object.segments)
+    if (object.pools[segment.pool].type == type) for_segment(object, segment, visit);
 }
 
 }  // namespace pliant

@@ -20,7 +20,7 @@ void prepare_multipliers(const CompiledObject& object, Multipliers kept, std::ve
   if (kept == Multipliers::none) return;
   for (const Pool& pool : object.pools) {
     const bool keeps = pool.law != Law::pbd && (kept == Multipliers::all || needs_multipliers(pool));
-    multipliers.emplace_back(keeps ? static_cast<std::size_t>(pool.batches) * batch_width : 0, 0.f);
+    multipliers.emplace_back(keeps ? static_cast<std::size_t>(pool.batches) * batch_width * pool.components : 0, 0.f);
   }
   for (AlignedVector<float>& values : multipliers) pointers.push_back(values.empty() ? nullptr : values.data());
 }
@@ -29,6 +29,8 @@ void prepare_multipliers(const CompiledObject& object, Multipliers kept, std::ve
 void resize(const Model& model, Workspace& workspace) {
   const std::size_t objects = model.objects.size();
   workspace.displacements.resize(model.particles());
+  workspace.frames.predicted.resize(model.frames());
+  workspace.frames.corrections.resize(model.frames());
   workspace.multipliers.resize(objects);
   workspace.multiplier_pointers.resize(objects);
   workspace.volume_multipliers.resize(objects);

@@ -36,10 +36,17 @@ struct FrameGravity {
   }
 };
 
+/// Of frames, within a substep (stencil.h).
+struct FrameScratch {
+  Records predicted, corrections;  ///< rotation vectors, world axes [rad]
+  bool finite = true;
+};
+
 struct Workspace {
   Records displacements;                                       ///< since the substep's start [m]
   std::vector<std::vector<AlignedVector<float>>> multipliers;  ///< [object][pool], a float a lane; empty where not kept
   std::vector<std::vector<float*>> multiplier_pointers;
+  FrameScratch frames;
   std::vector<double> volume_multipliers;           ///< one an object
   Records volume_gradients;                         ///< one a particle where some object has a volume constraint
   std::vector<std::vector<Vec3f>> triangle_forces;  ///< [object], where there is air

@@ -14,7 +14,7 @@ namespace pliant {
 namespace {
 
 constexpr int bits = 64;
-constexpr int largest_stencil = 4;
+constexpr int largest_stencil = 4;            // that is put into runs
 constexpr std::size_t batch = 16;             // constraints that are projected at once
 constexpr std::size_t fewest_to_group = 512;  // constraints that are not in runs with all slots
 
@@ -72,7 +72,7 @@ void demote_rest(int runs, Class& members) {
 /// Appends a colour's constraints, those with most slots in runs first. Single ones come by their first particles: those of one batch
 /// then find their particles close together. Inside a colour any order gives the same bits.
 void append_class(const std::vector<int>& stencils, int size, Class& members, std::vector<Colour>& colours) {
-  const int all = (1 << size) - 1;
+  const int all = size > largest_stencil ? 0 : (1 << size) - 1;
   for (int runs = all; runs > 0; --runs) {
     if (runs < all) demote_rest(runs, members);
     if (!members[runs].empty()) colours.push_back({runs, std::move(members[runs])});
@@ -166,7 +166,15 @@ void Colouring::reset(const std::vector<int>& stencils, int size, const std::vec
   }
 }
 
+std::vector<Colour> Colouring::colour_singly(const std::vector<int>& stencils, int size, const std::vector<int>& members) {
+  std::vector<Colour> colours;
+  reset(stencils, size, members);
+  append(stencils, size, {}, members, colours);
+  return colours;
+}
+
 std::vector<Colour> Colouring::colour(const std::vector<int>& stencils, int size, const std::vector<int>& members) {
+  if (size > largest_stencil) return colour_singly(stencils, size, members);
   std::vector<Colour> colours;
   std::vector<Four> fours;
   std::vector<int> rest;

@@ -26,7 +26,11 @@ class Colouring {
   /// Colours the constraints `members` of stencils (`size` particle numbers each, at stencils[size * member]). Fours that are in runs
   /// with all slots are found first and coloured as wholes; then, if much is left, fours that are with some slots; then single ones.
   /// The same input gives the same colours on any machine.
+  /// Stencils of more than four are coloured singly.
   std::vector<Colour> colour(const std::vector<int>& stencils, int size, const std::vector<int>& members);
+
+  /// The same, none in runs: first fit in the order of `members`.
+  std::vector<Colour> colour_singly(const std::vector<int>& stencils, int size, const std::vector<int>& members);
 
  private:
   void append(const std::vector<int>& stencils, int size, const std::vector<Four>& fours, const std::vector<int>& singles,

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "constraints/all.h"
+#include "constraints/registry.h"
 #include "solver/visit.h"
 
 namespace pliant {
@@ -17,13 +17,12 @@ constexpr int near_edges = 3;
 
 std::vector<std::array<int, 2>> edges_of(const CompiledObject& object) {
   std::vector<std::array<int, 2>> edges;
-  for_each_type(AllConstraints{}, [&](auto tag, int type) {
-    if constexpr (std::is_same_v<typename decltype(tag)::type, Distance>) {
-      for_constraints<Distance>(object, type, [&](const ConstraintPlace&, const auto& particle) {
-        edges.push_back({particle[0], particle[1]});
-      });
-    }
-  });
+  for (int type = 0; type < constraint_type_count(); ++type) {
+    if (!is_length(type)) continue;
+    for_constraints(object, type, [&](const ConstraintPlace&, const std::int32_t* particle) {
+      edges.push_back({particle[0], particle[1]});
+    });
+  }
   return edges;
 }
 

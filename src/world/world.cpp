@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "collision/fields/solid_fields.h"
-#include "constraints/all.h"
+#include "constraints/registry.h"
 #include "core/sha256.h"
 #include "inspect/inspect_scene.h"
 #include "math/quat.h"
@@ -213,6 +213,28 @@ void World::stop_when(const std::atomic<bool>* flag) { self_->stop = flag; }
 
 const State& World::state() const { return self_->state; }
 
+namespace {
+
+/// Throws unless `given` are the frames of a state of this world.
+void require_frames_of(const FrameRecords& own, const FrameRecords& given) {
+  const std::size_t frames = own.size();
+  if (given.orientations.size() != frames || given.angular_velocities.size() != frames ||
+      given.inverse_inertias.size() != frames)
+    throw Error({}, "the state has " + std::to_string(given.size()) + " frames, the world " + std::to_string(frames),
+                "restore a state of this world");
+  for (std::size_t i = 0; i < frames; ++i) {
+    const Record &q = given.orientations[i], &w = given.angular_velocities[i];
+    const Record &inertia = given.inverse_inertias[i], &same = own.inverse_inertias[i];
+    const std::string element = "frame " + std::to_string(i);
+    if (inertia.x != same.x || inertia.y != same.y || inertia.z != same.z)
+      throw Error({.element = element}, "its inertia is not this world's", "restore a state of this world");
+    if (!std::isfinite(q.x + q.y + q.z + q.w) || !std::isfinite(w.x + w.y + w.z))
+      throw Error({.element = element}, "its orientation or angular velocity is not finite", "restore an earlier state");
+  }
+}
+
+}  // namespace
+
 void World::restore(const State& state) {
   const std::size_t particles = self_->state.positions.size();
   if (state.positions.size() != particles || state.velocities.size() != particles || state.remainders.size() != particles) {
@@ -236,6 +258,7 @@ void World::restore(const State& state) {
                   "restore an earlier state");
     }
   }
+  require_frames_of(self_->state.frames, state.frames);
   if (!std::isfinite(state.time)) throw Error({}, "the state's time is not finite", "restore an earlier state");
   if (state.frame < 0 || state.frame > largest_frame)
     throw Error({}, "the state's frame is " + std::to_string(state.frame), "restore a state of this world");
@@ -250,11 +273,11 @@ int World::object_count() const { return self_->model.user_objects; }
 ObjectInfo World::info(int object) const {
   const CompiledObject& from = self_->object(object);
   ObjectInfo info{from.name, from.user_particles, {}};
-  for_each_type(AllConstraints{}, [&](auto tag, int type) {
+  for (int type = 0; type < constraint_type_count(); ++type) {
     std::int64_t count = 0;
     for (const Pool& pool : from.pools) count += pool.type == type ? pool.constraints : 0;
-    if (count > 0) info.constraints.emplace_back(decltype(tag)::type::name, count);
-  });
+    if (count > 0) info.constraints.emplace_back(constraint_type(type).name, count);
+  }
   if (from.has_volume) info.constraints.emplace_back("volume", 1);
   return info;
 }
@@ -265,6 +288,25 @@ int World::threads() const { return self_->executor.threads(); }
 
 std::vector<Vec3f> World::positions(int object) const { return self_->in_user_order(object, self_->state.positions); }
 std::vector<Vec3f> World::velocities(int object) const { return self_->in_user_order(object, self_->state.velocities); }
+
+std::vector<Quatf> World::orientations(int object) const {
+  std::vector<Quatf> out;
+  for (std::size_t i = 0; i < self_->object(object).frames.size(); ++i) {
+    const Record& q = self_->state.frames.orientations[self_->model.first_frame[object] + i];
+    out.push_back({q.x, q.y, q.z, q.w});
+  }
+  return out;
+}
+
+std::vector<Vec3f> World::angular_velocities(int object) const {
+  std::vector<Vec3f> out;
+  const std::vector<Quatf> rotation = orientations(object);
+  for (std::size_t i = 0; i < rotation.size(); ++i) {
+    const Record& w = self_->state.frames.angular_velocities[self_->model.first_frame[object] + i];
+    out.push_back(rotate(rotation[i], Vec3f{w.x, w.y, w.z}));
+  }
+  return out;
+}
 
 TriangleMesh World::mesh(int object) const {
   TriangleMesh mesh{positions(object), {}};
@@ -295,8 +337,11 @@ std::vector<float> World::multipliers(int object, const std::string& type) const
     if (type != constraint_types()[pool.type].name || self_->workspace.multipliers[object][p].empty()) continue;
     for (std::size_t lane = 0; lane < pool.origin.size(); ++lane) {
       if (pool.origin[lane] < 0) continue;
-      if (out.size() <= static_cast<std::size_t>(pool.origin[lane])) out.resize(pool.origin[lane] + 1, 0.f);
-      out[pool.origin[lane]] = self_->workspace.multipliers[object][p][lane];
+      const std::size_t first = static_cast<std::size_t>(pool.origin[lane]) * pool.components;
+      if (out.size() < first + pool.components) out.resize(first + pool.components, 0.f);
+      for (int row = 0; row < pool.components; ++row)
+        out[first + row] = self_->workspace.multipliers[object][p][multiplier_index(
+            pool, static_cast<std::int64_t>(lane) / batch_width, static_cast<int>(lane % batch_width), row)];
     }
   }
   return out;
@@ -307,6 +352,12 @@ double World::kinetic_energy() const {
   for (std::size_t i = 0; i < self_->state.positions.size(); ++i) {
     const Record &v = self_->state.velocities[i], &x = self_->state.positions[i];
     if (x.w > 0) energy += 0.5 / x.w * (double(v.x) * v.x + double(v.y) * v.y + double(v.z) * v.z);
+  }
+  const FrameRecords& frames = self_->state.frames;
+  const auto turning = [](float speed, float inverse) { return inverse > 0 ? 0.5 / inverse * speed * speed : 0.0; };
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Record &w = frames.angular_velocities[i], &inverse = frames.inverse_inertias[i];
+    energy += turning(w.x, inverse.x) + turning(w.y, inverse.y) + turning(w.z, inverse.z);
   }
   return energy;
 }
@@ -349,6 +400,18 @@ std::string hash(const State& state) {
   add_records(sha, state.positions);
   add_records(sha, state.remainders);
   add_records(sha, state.velocities);
+  if (state.frames.size() > 0) {
+    add_records(sha, state.frames.orientations);
+    add_records(sha, state.frames.angular_velocities);
+    add_records(sha, state.frames.inverse_inertias);
+  }
+  for (const Channel& channel : state.channels) {
+    const std::uint64_t sizes[] = {channel.name.size(), static_cast<std::uint64_t>(channel.components),
+                                   channel.values.size()};
+    sha.add(sizes, sizeof sizes);
+    sha.add(channel.name.data(), channel.name.size());
+    sha.add(channel.values.data(), channel.values.size() * sizeof(float));
+  }
   return sha.finish();
 }
 

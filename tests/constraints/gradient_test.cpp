@@ -117,7 +117,8 @@ TYPED_TEST(Internal, NoNetForceAndNoNetTorque) {
 /// One projection in double. Returns C before.
 template <class T, Law law, bool keeps>
 double project_once(Stencil<T, double>& at, const std::array<double, size_of<T>>& inverse_mass,
-                    const ParamsOf<T, double>& params, const Stencil<T, double>& moved, Answer<double>& answer) {
+                    const ParamsOf<T, double>& params, const Stencil<T, double>& moved,
+                    ConstraintResponse<double>& response) {
   SweepArguments arguments;
   arguments.h = 0.0078125f;  // powers of two, so that float holds them
   arguments.inverse_h = 128;
@@ -130,7 +131,7 @@ double project_once(Stencil<T, double>& at, const std::array<double, size_of<T>>
     motion[i] = moved[i];
   }
   const double c = evaluate<T, double>(at, params).c;
-  project<T, law, keeps, false, double>(x, w, params, motion, answer, arguments, correction);
+  project<T, law, keeps, false, double>(x, w, params, motion, response, arguments, correction);
   for (std::size_t i = 0; i < size_of<T>; ++i) at[i] = x[i] + correction[i];
   return c;
 }
@@ -146,8 +147,8 @@ void expect_momentum_kept(Random& random) {
       w[i] = uniform(random, 0.01, 100);
       motion[i] = random_point(random, 0.1);
     }
-    Answer<double> answer{law == Law::pbd ? 0.7 : uniform(random, 0, 1e-4), uniform(random, 0, 1), 0};
-    project_once<T, law, true>(after, w, random_params<T>(random), motion, answer);
+    ConstraintResponse<double> response{law == Law::pbd ? 0.7 : uniform(random, 0, 1e-4), uniform(random, 0, 1), 0};
+    project_once<T, law, true>(after, w, random_params<T>(random), motion, response);
     Vec3d momentum{}, angular{};
     double moved = 0;
     for (std::size_t i = 0; i < w.size(); ++i) {
@@ -169,7 +170,7 @@ TYPED_TEST(Internal, ProjectionKeepsMomentum) {
   expect_momentum_kept<TypeParam, Law::pbd>(this->random_);
 }
 
-/// The answer of compliance: after one projection alpha~ lambda balances the error of the linearised constraint, and
+/// The response of compliance: after one projection alpha~ lambda balances the error of the linearised constraint, and
 /// further projections of an unmoved stencil change nothing (Macklin 2016, eq. 18).
 TYPED_TEST(Internal, MultiplierBalancesTheErrorWhateverTheIterations) {
   for (int sample = 0; sample < 20; ++sample) {
@@ -179,10 +180,10 @@ TYPED_TEST(Internal, MultiplierBalancesTheErrorWhateverTheIterations) {
     for (Vec3d& p : x) p += random_point(this->random_, 1e-4);
     std::array<double, size_of<TypeParam>> w;
     w.fill(1);
-    Answer<double> answer{1e-5, 0, 0};
-    for (int i = 0; i < 40; ++i) project_once<TypeParam, Law::compliant, true>(x, w, params, {}, answer);
+    ConstraintResponse<double> response{1e-5, 0, 0};
+    for (int i = 0; i < 40; ++i) project_once<TypeParam, Law::compliant, true>(x, w, params, {}, response);
     const double c = evaluate<TypeParam, double>(x, params).c;
-    EXPECT_NEAR(c + 1e-5 * 16384 * answer.multiplier, 0, 1e-9 * (1e-4 + std::fabs(c))) << "sample " << sample;
+    EXPECT_NEAR(c + 1e-5 * 16384 * response.multiplier, 0, 1e-9 * (1e-4 + std::fabs(c))) << "sample " << sample;
   }
 }
 
@@ -193,8 +194,8 @@ TYPED_TEST(Internal, PbdRemovesItsShareOfASmallError) {
     for (Vec3d& p : x) p += random_point(this->random_, 1e-4);
     std::array<double, size_of<TypeParam>> w;
     w.fill(1);
-    Answer<double> answer{0.25, 0, 0};
-    const double before = project_once<TypeParam, Law::pbd, false>(x, w, params, {}, answer);
+    ConstraintResponse<double> response{0.25, 0, 0};
+    const double before = project_once<TypeParam, Law::pbd, false>(x, w, params, {}, response);
     const double after = evaluate<TypeParam, double>(x, params).c;
     EXPECT_NEAR(after, 0.75 * before, 2e-3 * std::fabs(before) + 1e-8);
   }
@@ -204,7 +205,7 @@ TYPED_TEST(Internal, GradientsSaidToBeUnitAre) {
   for (int sample = 0; sample < samples; ++sample) {
     const auto x = random_stencil<TypeParam>(this->random_);
     for (const Vec3d& gradient : evaluate<TypeParam, double>(x, random_params<TypeParam>(this->random_)).gradient) {
-      EXPECT_TRUE(!TypeParam::unit_gradients || std::fabs(length(gradient) - 1) < 1e-14) << length(gradient);
+      EXPECT_TRUE(!has_unit_gradients<TypeParam> || std::fabs(length(gradient) - 1) < 1e-14) << length(gradient);
     }
   }
 }
@@ -234,7 +235,7 @@ TYPED_TEST(Internal, CanonicalOrderIsTheSameConstraint) {
     };
     const auto before = evaluate<TypeParam, double>(arranged(ids), convert_params<TypeParam, double, float>(params));
     ordered = ids;
-    TypeParam::canonical(ordered, params);
+    canonical_order<TypeParam>(ordered, params);
     const auto after = evaluate<TypeParam, double>(arranged(ordered), convert_params<TypeParam, double, float>(params));
     exchanged += ordered != ids;
     EXPECT_NEAR(std::fabs(before.c), std::fabs(after.c), 1e-12);
@@ -248,7 +249,7 @@ TYPED_TEST(Internal, CanonicalOrderIsTheSameConstraint) {
     }
     auto again = ordered;
     auto params_again = params;
-    TypeParam::canonical(again, params_again);
+    canonical_order<TypeParam>(again, params_again);
     EXPECT_EQ(again, ordered) << "canonical must be settled by one call";
   }
   constexpr bool is_symmetric = std::is_same_v<TypeParam, Distance> || std::is_same_v<TypeParam, DihedralBending>;

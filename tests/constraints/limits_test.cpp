@@ -58,8 +58,8 @@ TYPED_TEST_SUITE(Limits, ConstraintTypes, NameOfType);
 
 /// The stencil after `times` projections of one substep.
 template <class T, Law law>
-Stencil<T, float> projected(const Stencil<T, float>& at, const ParamsOf<T, float>& params, Answer<float> answer,
-                            int times) {
+Stencil<T, float> projected(const Stencil<T, float>& at, const ParamsOf<T, float>& params,
+                            ConstraintResponse<float> response, int times) {
   SweepArguments arguments;
   arguments.h = 1.f / 600;
   arguments.inverse_h = 1 / arguments.h;
@@ -72,12 +72,12 @@ Stencil<T, float> projected(const Stencil<T, float>& at, const ParamsOf<T, float
     motion[i] = {};
   }
   for (int time = 0; time < times; ++time) {
-    project<T, law, true, false, float>(x, w, params, motion, answer, arguments, correction);
+    project<T, law, true, false, float>(x, w, params, motion, response, arguments, correction);
     for (std::size_t i = 0; i < size_of<T>; ++i) x[i] += correction[i];
   }
   Stencil<T, float> out;
   for (std::size_t i = 0; i < size_of<T>; ++i) out[i] = x[i];
-  EXPECT_TRUE(std::isfinite(answer.multiplier));
+  EXPECT_TRUE(std::isfinite(response.multiplier));
   return out;
 }
 
@@ -143,13 +143,13 @@ TYPED_TEST(Limits, NothingMovesWithoutFreeMass) {
     x[i] = convert<float>(at[i]);
     w[i] = 0;
   }
-  Answer<float> answer{0, 0, 0};
+  ConstraintResponse<float> response{0, 0, 0};
   const auto params = convert_params<TypeParam, float, double>(random_params<TypeParam>(random));
   for (int time = 0; time < 1000; ++time) {
-    project<TypeParam, Law::compliant, true, false, float>(x, w, params, motion, answer, arguments, correction);
+    project<TypeParam, Law::compliant, true, false, float>(x, w, params, motion, response, arguments, correction);
     for (const Vec3f& moved : correction) EXPECT_EQ(moved, Vec3f{});
   }
-  EXPECT_TRUE(std::isfinite(answer.multiplier));
+  EXPECT_TRUE(std::isfinite(response.multiplier));
 }
 
 // ------------------------------------------------------------------------------------------------ by type

@@ -108,8 +108,8 @@ void compare_projection(Random& random) {
     motion[i] = wide_vector(in.motion[i]);
     w[i] = load_wide(in.w[i]);
   }
-  Answer<Wide> answer{load_wide(in.response), load_wide(in.damping), load_wide(in.multiplier)};
-  project<T, law, keeps, false, Wide>(x, w, wide_params<T>(in), motion, answer, arguments, correction);
+  ConstraintResponse<Wide> response{load_wide(in.response), load_wide(in.damping), load_wide(in.multiplier)};
+  project<T, law, keeps, false, Wide>(x, w, wide_params<T>(in), motion, response, arguments, correction);
   for (int lane = 0; lane < wide_width; ++lane) {
     Vec3f y[size_of<T>], moved[size_of<T>], alone_correction[size_of<T>];
     float mass[size_of<T>];
@@ -118,11 +118,11 @@ void compare_projection(Random& random) {
       moved[i] = lane_vector(in.motion[i], lane);
       mass[i] = in.w[i][lane];
     }
-    Answer<float> alone{in.response[lane], in.damping[lane], in.multiplier[lane]};
+    ConstraintResponse<float> alone{in.response[lane], in.damping[lane], in.multiplier[lane]};
     project<T, law, keeps, false, float>(y, mass, lane_params<T>(in, lane), moved, alone, arguments, alone_correction);
     for (std::size_t i = 0; i < size_of<T>; ++i)
       ASSERT_NO_FATAL_FAILURE(expect_lane(correction[i], alone_correction[i], lane, "correction"));
-    ASSERT_NO_FATAL_FAILURE(expect_lane(answer.multiplier, alone.multiplier, lane, "multiplier"));
+    ASSERT_NO_FATAL_FAILURE(expect_lane(response.multiplier, alone.multiplier, lane, "multiplier"));
   }
 }
 

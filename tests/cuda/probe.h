@@ -15,22 +15,22 @@ template <class T>
 struct ConstraintProbe {
   using Parameters = typename T::template Params<float>;
   static constexpr int fields = sizeof(Parameters) / sizeof(float);
-  static constexpr bool measures = requires(const Vec3<float> (&x)[T::size]) { T::template measure<float>(x); };
+  static constexpr bool measures = requires(const Vec3<float> (&x)[slot_count<T>]) { T::template measure<float>(x); };
 
   static constexpr const char* name = T::name;
-  static constexpr int inputs = 3 * T::size + fields;
-  static constexpr int outputs = 1 + 3 * T::size + (measures ? fields : 0);
+  static constexpr int inputs = 3 * slot_count<T> + fields;
+  static constexpr int outputs = 1 + 3 * slot_count<T> + (measures ? fields : 0);
 
   PLIANT_HD static void run(const float* in, float* out) {
-    Vec3<float> x[T::size], gradient[T::size];
+    Vec3<float> x[slot_count<T>], gradient[slot_count<T>];
     Parameters parameters;
     memcpy(static_cast<void*>(x), in, sizeof x);
-    memcpy(static_cast<void*>(&parameters), in + 3 * T::size, sizeof parameters);
+    memcpy(static_cast<void*>(&parameters), in + 3 * slot_count<T>, sizeof parameters);
     out[0] = T::evaluate(x, parameters, gradient);
     memcpy(out + 1, gradient, sizeof gradient);
     if constexpr (measures) {
       const Parameters measured = T::measure(x);
-      memcpy(out + 1 + 3 * T::size, &measured, sizeof measured);
+      memcpy(out + 1 + 3 * slot_count<T>, &measured, sizeof measured);
     }
   }
 };

@@ -9,6 +9,7 @@
 #include "constraints/dihedral_bending.h"
 #include "constraints/distance.h"
 #include "constraints/isometric_bending.h"
+#include "constraints/traits.h"
 #include "pliant/error.h"
 #include "pliant/scene.h"
 
@@ -23,10 +24,10 @@ Vec3d in_double(const Vec3f& p) { return {p.x, p.y, p.z}; }
 template <class Type>
 double energy(const Object& object, const ConstraintGroup& group, const std::vector<Vec3d>& moved) {
   double sum = 0;
-  for (std::size_t c = 0; c < group.particles.size() / Type::size; ++c) {
-    Vec3d rest[Type::size], now[Type::size], gradient[Type::size];
-    for (std::size_t i = 0; i < Type::size; ++i) {
-      const auto particle = static_cast<std::size_t>(group.particles[Type::size * c + i]);
+  for (std::size_t c = 0; c < group.particles.size() / slot_count<Type>; ++c) {
+    Vec3d rest[slot_count<Type>], now[slot_count<Type>], gradient[slot_count<Type>];
+    for (std::size_t i = 0; i < slot_count<Type>; ++i) {
+      const auto particle = static_cast<std::size_t>(group.particles[slot_count<Type> * c + i]);
       rest[i] = in_double(object.positions[particle]);
       now[i] = moved[particle];
     }

@@ -153,13 +153,13 @@ TEST_P(Compiled, HasEveryConstraintOnceWithItsParticles) {
   for_each_type(AllConstraints{}, [&](auto tag, int type) {
     using T = typename decltype(tag)::type;
     const int attachments = std::is_same_v<T, Distance> ? static_cast<int>(object_.attachments.size()) : 0;
-    const int count = count_of(object_, T::name, T::size) + attachments;
+    const int count = count_of(object_, T::name, slot_count<T>) + attachments;
     total += static_cast<std::size_t>(count);
     for (int origin = 0; origin < count; ++origin) {
       const auto found = lanes.find({type, origin});
       ASSERT_NE(found, lanes.end()) << T::name << " " << origin;
-      std::vector<int> given = stencil_given(object_, T::name, T::size, origin);
-      std::vector<int> compiled(found->second.particles.begin(), found->second.particles.begin() + T::size);
+      std::vector<int> given = stencil_given(object_, T::name, slot_count<T>, origin);
+      std::vector<int> compiled(found->second.particles.begin(), found->second.particles.begin() + slot_count<T>);
       std::sort(given.begin(), given.end());
       std::sort(compiled.begin(), compiled.end());
       EXPECT_EQ(given, compiled) << T::name << " " << origin;

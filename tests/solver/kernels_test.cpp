@@ -30,7 +30,7 @@ std::vector<const Kernels*> kernels_in_lanes() {
 template <class T>
 Object separate_constraints(int count, Law law, int ladder, Random& random) {
   Object object;
-  std::vector<int> deal(static_cast<std::size_t>(count * T::size));
+  std::vector<int> deal(static_cast<std::size_t>(count * slot_count<T>));
   std::iota(deal.begin(), deal.end(), 0);
   std::vector<int> dealt;
   for (std::size_t i = 0; i < deal.size(); ++i)
@@ -42,7 +42,8 @@ Object separate_constraints(int count, Law law, int ladder, Random& random) {
   object.masses.assign(deal.size(), 1);
   ConstraintGroup group{T::name, {}, {}, {}, {}};
   for (int i = 0; i < count; ++i) {
-    for (int slot = 0; slot < T::size; ++slot) group.particles.push_back(deal[static_cast<std::size_t>(slot * count + i)]);
+    for (int slot = 0; slot < slot_count<T>; ++slot)
+      group.particles.push_back(deal[static_cast<std::size_t>(slot * count + i)]);
   }
   // Different for each, so that none of their rows is kept once for all; damping and k are.
   for (int i = 0; i < count * field_count<T>; ++i) group.rest.push_back(static_cast<float>(i));
@@ -122,7 +123,7 @@ void compare_sweeps(const CompiledObject& object, const Numbers& numbers, bool k
 }
 
 template <class T>
-constexpr int all_slots = (1 << T::size) - 1;
+constexpr int all_slots = (1 << slot_count<T>)-1;
 
 template <class T>
 class Sweeps : public testing::Test {
@@ -157,16 +158,16 @@ TYPED_TEST(Sweeps, GiveTheBitsOfTheReference) {
 /// A batch of every set of slots in runs, side by side: laid out by hand, since no object has all of them.
 template <class T>
 CompiledObject every_set_of_slots(Law law, Random& random) {
-  CompiledObject compiled = compile(separate_constraints<T>(batch_width << T::size, law, 0, random), {10, 4096});
+  CompiledObject compiled = compile(separate_constraints<T>(batch_width << slot_count<T>, law, 0, random), {10, 4096});
   Pool& pool = compiled.pools[0];
   std::vector<int> particles(static_cast<std::size_t>(compiled.particles));
   std::iota(particles.begin(), particles.end(), 0);
   pool.indices.clear();
   compiled.segments.clear();
-  for (int runs = 0; runs < 1 << T::size; ++runs) {
+  for (int runs = 0; runs < 1 << slot_count<T>; ++runs) {
     compiled.segments.push_back({0, runs, runs, 1, runs == 0 ? 16 : 4, static_cast<std::int64_t>(pool.indices.size())});
-    for (int slot = 0; slot < T::size; ++slot) {
-      const auto first = particles.begin() + (runs * T::size + slot) * batch_width;
+    for (int slot = 0; slot < slot_count<T>; ++slot) {
+      const auto first = particles.begin() + (runs * slot_count<T> + slot) * batch_width;
       if ((runs >> slot & 1) == 0) std::shuffle(first, first + batch_width, random);
       for (int i = 0; i < batch_width; i += (runs >> slot & 1) != 0 ? 4 : 1) pool.indices.push_back(first[i]);
     }

@@ -19,17 +19,21 @@
 
 namespace pliant::testing_support {
 
-template <class List>
+template <class Types, class List>
 struct AsTypes;
-template <class... Types>
-struct AsTypes<TypeList<Types...>> {
-  using Alone = ::testing::Types<Types...>;
-  using WithContact = ::testing::Types<Types..., PlaneContact>;
+template <class... Taken>
+struct AsTypes<::testing::Types<Taken...>, TypeList<>> {
+  using Alone = ::testing::Types<Taken...>;
+  using WithContact = ::testing::Types<Taken..., PlaneContact>;
 };
-/// Every type of all.h.
-using ConstraintTypes = AsTypes<AllConstraints>::Alone;
+template <class... Taken, class First, class... More>
+struct AsTypes<::testing::Types<Taken...>, TypeList<First, More...>>
+    : AsTypes<std::conditional_t<in_lanes<First>, ::testing::Types<Taken..., First>, ::testing::Types<Taken...>>,
+              TypeList<More...>> {};
+/// Every type of all.h that has one row over points; tests/stencils has all.
+using ConstraintTypes = AsTypes<::testing::Types<>, AllConstraints>::Alone;
 /// The same with contacts, for what holds for them too.
-using ConstraintAndContactTypes = AsTypes<AllConstraints>::WithContact;
+using ConstraintAndContactTypes = AsTypes<::testing::Types<>, AllConstraints>::WithContact;
 
 struct NameOfType {
   template <class T>
@@ -39,7 +43,7 @@ struct NameOfType {
 };
 
 template <class T>
-inline constexpr std::size_t size_of = static_cast<std::size_t>(T::size);
+inline constexpr std::size_t size_of = static_cast<std::size_t>(slot_count<T>);
 template <class T, class R>
 using Stencil = std::array<Vec3<R>, size_of<T>>;
 template <class T, class R>
@@ -87,6 +91,12 @@ ParamsOf<T, R> measure(const Stencil<T, R>& at) {
   Vec3<R> x[size_of<T>];
   for (std::size_t i = 0; i < size_of<T>; ++i) x[i] = at[i];
   return T::template measure<R>(x);
+}
+
+/// T::canonical, where T has it.
+template <class T>
+void canonical_order(std::array<int, size_of<T>>& order, ParamsOf<T, float>& params) {
+  if constexpr (requires { T::canonical(order, params); }) T::canonical(order, params);
 }
 
 using Random = std::mt19937;

@@ -9,6 +9,7 @@
 #include "solver/diagnose.h"
 #include "solver/forces.h"
 #include "solver/passes.h"
+#include "solver/rotation.h"
 #include "solver/stages/stages.h"
 
 namespace pliant {
@@ -82,10 +83,11 @@ bool advance_tile(const Substep& s, int task) {
   return true;
 }
 
-/// True where every tile is finite; else the report names what is not, in substep number `substep`.
+/// True where every tile and every frame is finite; else the report names what is not, in substep number `substep`.
 bool all_finite(Substep& s, int substep) {
   const std::vector<TileScratch>& tiles = s.work.tiles;
-  if (std::all_of(tiles.begin(), tiles.end(), [](const TileScratch& tile) { return tile.finite; })) return true;
+  const bool particles = std::all_of(tiles.begin(), tiles.end(), [](const TileScratch& tile) { return tile.finite; });
+  if (particles && s.work.frames.finite) return true;
   s.report.nonfinite = diagnose(s);
   s.report.nonfinite->frame = s.state.frame;
   s.report.nonfinite->substep = substep;
@@ -95,6 +97,7 @@ bool all_finite(Substep& s, int substep) {
 }  // namespace
 
 bool predict(Substep& s) {
+  predict_frames(s);
   for_tiles(s, s.update_is_due || s.sweeps_on_entry ? "solve: tiles" : "predict", [&](int task) {
     if (!s.update_is_due) predict_tile(s, task, s.kernels.predict);
     if (s.update_is_due && !advance_tile(s, task)) return;
@@ -106,6 +109,7 @@ bool predict(Substep& s) {
 }
 
 bool update(Substep& s) {
+  update_frames(s);
   for (FrameGravity& gravity : s.work.gravity) gravity.next(s.h);
   s.update_is_due = !velocities_are_read(s);
   if (s.update_is_due) return true;

@@ -29,6 +29,7 @@ Substep begin_frame(const StepContext& context, double dt, Report& report) {
   s.h = static_cast<float>(dt / context.substeps);
   s.substeps = context.substeps;
   for (TileScratch& tile : s.work.tiles) tile.finite = true;
+  s.work.frames.finite = true;
   for (std::size_t o = 0; o < s.work.gravity.size(); ++o)
     s.work.gravity[o] = {0, static_cast<double>(s.h), 0, 1 / (1 + s.h * s.model.objects[o].damping)};
   begin_pairs(context);

@@ -4,6 +4,7 @@
 #include "solver/passes.h"
 #include "solver/residual.h"
 #include "solver/stages/stages.h"
+#include "solver/stencil.h"
 #include "solver/sweeps/chains.h"
 #include "solver/sweeps/chebyshev.h"
 #include "solver/sweeps/record.h"
@@ -18,7 +19,7 @@ bool is_met(Substep& s, int iteration) {
   return context.tolerance > 0 && iteration + 1 < context.iterations && distance_residual(s) < context.tolerance;
 }
 
-/// One iteration: the constraints of each object as its sweep has it, tethers, contacts.
+/// One iteration: the constraints of each object as its sweep has it, those projected one at a time, tethers, contacts.
 void iterate(Substep& s, int iteration) {
   for (const auto& [sweep, group] : s.work.sweeps) {
     s.group = &group;
@@ -27,6 +28,7 @@ void iterate(Substep& s, int iteration) {
     if (group.acceleration) accelerate(s, iteration);
   }
   s.group = nullptr;
+  project_stencils(s, iteration == 0);
   hold_tethers(s);
   sweep_pairs(s);
   sweep_contacts(s);  // last, so that constraints pull no particle into a collider

@@ -15,6 +15,7 @@ template <class Visit>
 void for_constraints(const CompiledObject& object, const Visit& visit) {
   for (const Segment& segment : object.segments) {
     const Pool& pool = object.pools[segment.pool];
+    if (!pool.in_lanes) continue;
     const std::int32_t* index = pool.indices.data() + segment.index_offset;
     for (int batch = 0; batch < segment.batches; ++batch, index += indices_per_batch(pool, segment)) {
       for (int lane = 0; lane < batch_width; ++lane) {

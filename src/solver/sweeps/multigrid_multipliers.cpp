@@ -1,5 +1,5 @@
 // After the multigrid correction: the multipliers of compliant distances, so that the sweeps go on from what it has done.
-#include "constraints/all.h"
+#include "constraints/registry.h"
 #include "solver/substep.h"
 #include "solver/sweeps/multigrid.h"
 
@@ -13,7 +13,7 @@ namespace {
 void add_multipliers(const CompiledObject& object, const Segment& segment, const SweepArguments& a, const Record* change) {
   const Pool& pool = object.pools[segment.pool];
   float* multipliers = a.multipliers != nullptr ? a.multipliers[segment.pool] : nullptr;
-  if (multipliers == nullptr || pool.law == Law::pbd || pool.type != index_of<Distance>(AllConstraints{})) return;
+  if (multipliers == nullptr || pool.law == Law::pbd || !is_length(pool.type)) return;
   const std::int32_t* index = pool.indices.data() + segment.index_offset;
   for (int b = 0; b < segment.batches; ++b, index += indices_per_batch(pool, segment)) {
     const std::int64_t batch = segment.first_batch + b;
@@ -36,7 +36,7 @@ void add_multipliers(const CompiledObject& object, const Segment& segment, const
 bool keeps_distance_multipliers(const CompiledObject& object, const SweepArguments& a) {
   if (a.multipliers == nullptr) return false;
   for (std::size_t p = 0; p < object.pools.size(); ++p)
-    if (a.multipliers[p] != nullptr && object.pools[p].type == index_of<Distance>(AllConstraints{})) return true;
+    if (a.multipliers[p] != nullptr && is_length(object.pools[p].type)) return true;
   return false;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "constraints/all.h"
+#include "constraints/registry.h"
 #include "solver/substep.h"
 #include "solver/visit.h"
 #include "solver/volume.h"
@@ -16,37 +16,58 @@ namespace {
 struct View {
   const CompiledObject& object;
   SweepArguments arguments;
+  const Record* orientations;                 ///< of the object's frames
   const std::vector<AlignedVector<float>>* multipliers;  ///< null: none yet, all are zero
-  std::vector<Vec3d>& explained;                         ///< w grad C^T lambda, by particle
-  std::vector<char>& left_out;                           ///< particles that something without a multiplier moves
+  std::vector<Vec3d>& explained;              ///< w grad C^T lambda, by particle
+  std::vector<char>& left_out;                ///< particles that something without a multiplier moves
 };
 
-/// One constraint, in double: its residual, and what its multiplier moves.
-template <class T>
-double look_at(const View& view, const ConstraintPlace& at, const std::int32_t (&particle)[T::size], double multiplier) {
-  Vec3d x[T::size], gradient[T::size];
-  const Record& origin = view.arguments.positions[particle[0]];
-  for (int slot = 0; slot < T::size; ++slot) {
+/// Where the slots of a constraint are, points relative to its first one, in double.
+void load_slots(const View& view, const Pool& pool, const std::int32_t* particle, StencilArrays<double>& arrays) {
+  const Record* origin = nullptr;
+  for (int slot = 0; slot < pool.stencil; ++slot) {
+    if (particle[slot] >= view.object.particles) {
+      const Record& q = view.orientations[particle[slot] - view.object.particles];
+      arrays.set_slot(slot, double(q.x), double(q.y), double(q.z), double(q.w));
+      continue;
+    }
     const Record &p = view.arguments.positions[particle[slot]], &d = view.arguments.displacements[particle[slot]];
-    x[slot] = {double(p.x) - double(origin.x) + double(d.x), double(p.y) - double(origin.y) + double(d.y),
-               double(p.z) - double(origin.z) + double(d.z)};
+    if (origin == nullptr) origin = &p;
+    arrays.set_slot(slot, double(p.x) - double(origin->x) + double(d.x), double(p.y) - double(origin->y) + double(d.y),
+                    double(p.z) - double(origin->z) + double(d.z), 0);
   }
-  const double c = T::template evaluate<double>(x, rest_data<T, double>(at), gradient);
-  for (int slot = 0; slot < T::size; ++slot) {
-    const double w = static_cast<double>(view.arguments.positions[particle[slot]].w);
-    view.explained[particle[slot]] += gradient[slot] * (w * multiplier);
-    if (at.pool.law == Law::pbd) view.left_out[particle[slot]] = 1;
-  }
-  return at.pool.law == Law::pbd ? c : c + softness<T>(at, double(view.arguments.inverse_h2)) * multiplier;
 }
 
-template <class T>
+/// One component of C: its residual, and what its multiplier moves.
+double look_at(const View& view, const ConstraintPlace& at, const std::int32_t* particle,
+               const StencilArrays<double>& arrays, int component) {
+  const bool has =
+      view.multipliers != nullptr && !view.multipliers->empty() && !(*view.multipliers)[at.pool_number].empty();
+  const double multiplier =
+      has ? static_cast<double>((*view.multipliers)[at.pool_number][at.multiplier_place(component)]) : 0;
+  for (int slot = 0; slot < at.pool.stencil; ++slot) {
+    if (particle[slot] >= view.object.particles) continue;
+    const double w = static_cast<double>(view.arguments.positions[particle[slot]].w);
+    view.explained[particle[slot]] += arrays.gradient(at.pool, component, slot) * (w * multiplier);
+    if (at.pool.law == Law::pbd) view.left_out[particle[slot]] = 1;
+  }
+  const double c = arrays.c[component];
+  return at.pool.law == Law::pbd ? c : c + softness(at, double(view.arguments.inverse_h2)) * multiplier;
+}
+
 void add_constraints(const View& view, int type, ErrorSum& sum) {
-  for_constraints<T>(view.object, type, [&](const ConstraintPlace& at, const auto& particle) {
-    const bool has =
-        view.multipliers != nullptr && !view.multipliers->empty() && !(*view.multipliers)[at.pool_number].empty();
-    const double multiplier = has ? static_cast<double>((*view.multipliers)[at.pool_number][at.lane_in_pool()]) : 0;
-    sum.add(look_at<T>(view, at, particle, multiplier));
+  const auto evaluate = constraint_type(type).evaluate_double;
+  StencilArrays<double> arrays;
+  for_constraints(view.object, type, [&](const ConstraintPlace& at, const std::int32_t* particle) {
+    load_slots(view, at.pool, particle, arrays);
+    arrays.load_rest(at);
+    evaluate(arrays.slots, arrays.rest, arrays.c, arrays.gradients);
+    double squared = 0, error = 0;
+    for (int component = 0; component < at.pool.components; ++component) {
+      error = look_at(view, at, particle, arrays, component);
+      squared += error * error;
+    }
+    sum.add(at.pool.components == 1 ? error : std::sqrt(squared));
   });
 }
 
@@ -102,16 +123,16 @@ void record_iteration(Substep& s, int iteration) {
   leave_out_contacts(s, left_out);
   for (std::size_t o = 0; o < objects; ++o) {
     views.push_back({model.objects[o], arguments(s, static_cast<int>(o), false),
+                     s.state.frames.orientations.data() + model.first_frame[o],
                      iteration > 0 ? &work.multipliers[o] : nullptr, explained[o], left_out[o]});
   }
   IterationResidual found;
   found.iteration = iteration;
-  for_each_type(AllConstraints{}, [&](auto tag, int type) {
-    using T = typename decltype(tag)::type;
+  for (int type = 0; type < constraint_type_count(); ++type) {
     ErrorSum sum;
-    for (const View& view : views) add_constraints<T>(view, type, sum);
-    if (sum.count > 0) found.primal.push_back(sum.residual(T::name));
-  });
+    for (const View& view : views) add_constraints(view, type, sum);
+    if (sum.count > 0) found.primal.push_back(sum.residual(constraint_type(type).name));
+  }
   ErrorSum volumes, dual;
   for (std::size_t o = 0; o < objects; ++o) {
     add_volume(views[o], iteration > 0 ? work.volume_multipliers[o] : 0, volumes);

@@ -1,0 +1,182 @@
+// A constraint type of your own, in your own header, known to the library without rebuilding it.
+//
+//   struct RightAngle {                                       // three points; the angle at the first one is 90 degrees
+//     static constexpr const char* name = "right_angle";      // what ConstraintGroup::type and scene files call it
+//     using slots = pliant::Points<3>;
+//     static constexpr int rows = 1;
+//     template <class R> struct Params {};                    // rest data: members of type R alone
+//     static constexpr std::array<const char*, 0> fields{};   // their names
+//     template <class R>
+//     static void evaluate(const pliant::SlotValues<slots, R>& at, const Params<R>& p, pliant::Rows<slots, rows, R>& out);
+//   };
+//   pliant::register_constraint<RightAngle>();
+//
+// Compliance in the inverse unit of the energy C^2 / 2, PBD stiffness, damping, multipliers, the Report and scene files work as for the
+// types of the library. Its constraints are projected one at a time, in colours that all threads share.
+//
+// For the same bits everywhere: use the functions of pliant/formula.h, no others of the C or C++ library, and compile
+// with -ffp-contract=off and without -ffast-math.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "pliant/formula.h"
+#include "pliant/scene.h"
+
+namespace pliant {
+
+/// What the library keeps of a constraint type: its description, and its functions over plain arrays. A slot is four numbers: the
+/// place and a zero, or the quaternion. Gradients stand by row, then slot, three numbers each.
+struct ConstraintDefinition {
+  std::string name;
+  std::vector<SlotKind> slots;
+  int rows = 1;
+  std::vector<std::string> rest_fields;
+  bool is_length = false;    ///< C is the distance of two points less the one rest field
+  bool is_compiled = false;  ///< a one-row type on points of the library itself: projected sixteen at a time
+  float largest_change = 0;  ///< by which one projection may change C; 0: any
+  void (*evaluate)(const float* slots, const float* rest, float* c, float* gradients) = nullptr;
+  void (*evaluate_double)(const double* slots, const double* rest, double* c, double* gradients) = nullptr;
+  void (*measure)(const double* slots, double* rest) = nullptr;  ///< rest data of a rest shape; null: it must be given
+  void (*canonical)(int* stencil, float* rest) = nullptr;        ///< null: every order of the stencil stays as it is
+};
+
+/// Makes a type known by its name. A World made afterwards can use it. The same type twice is fine. Throws Error where another type
+/// has that name, or where the definition is not complete. Call it before other threads use the library.
+void register_constraint(const ConstraintDefinition& definition);
+
+namespace detail {
+
+template <class T>
+inline constexpr int field_count = static_cast<int>(T::fields.size());
+
+/// Whether T has the short form: one row over points, with evaluate(x, params, gradient) that returns C.
+template <class T, class R>
+inline constexpr bool is_short = requires(const Vec3<R> (&x)[static_cast<std::size_t>(T::slots::count)],
+                                          const typename T::template Params<R>& params,
+                                          Vec3<R> (&gradient)[static_cast<std::size_t>(T::slots::count)]) {
+  { T::evaluate(x, params, gradient) } -> std::same_as<R>;
+};
+
+template <class T, class R>
+typename T::template Params<R> params_of(const R* rest) {
+  typename T::template Params<R> params{};
+  if constexpr (field_count < T >> 0) {
+    static_assert(sizeof params == static_cast<std::size_t>(field_count<T>) * sizeof(R),
+                  "`fields` names every member of Params");
+    std::memcpy(static_cast<void*>(&params), rest, sizeof params);
+  }
+  return params;
+}
+
+template <class S, class R>
+SlotValues<S, R> values_of(const R* slots) {
+  SlotValues<S, R> at;
+  for (int slot = 0; slot < S::count; ++slot, slots += 4) {
+    if (S::kinds[static_cast<std::size_t>(slot)] == SlotKind::point)
+      at.point[slot] = {slots[0], slots[1], slots[2]};
+    else
+      at.frame[slot] = {slots[0], slots[1], slots[2], slots[3]};
+  }
+  return at;
+}
+
+/// C and gradients of a type in either form.
+template <class T, class R>
+void evaluate_rows(const SlotValues<typename T::slots, R>& at, const typename T::template Params<R>& params,
+                   Rows<typename T::slots, T::rows, R>& out) {
+  if constexpr (is_short<T, R>) {
+    static_assert(T::rows == 1 && T::slots::frames == 0, "the short form has one row over points");
+    out.c[0] = T::evaluate(at.point, params, out.gradient[0]);
+  } else {
+    T::evaluate(at, params, out);
+  }
+}
+
+template <class T, class R>
+void evaluate(const R* slots, const R* rest, R* c, R* gradients) {
+  Rows<typename T::slots, T::rows, R> out;
+  evaluate_rows<T, R>(values_of<typename T::slots, R>(slots), params_of<T, R>(rest), out);
+  for (int row = 0; row < T::rows; ++row) {
+    c[row] = out.c[row];
+    for (int slot = 0; slot < T::slots::count; ++slot, gradients += 3) {
+      gradients[0] = out.gradient[row][slot].x;
+      gradients[1] = out.gradient[row][slot].y;
+      gradients[2] = out.gradient[row][slot].z;
+    }
+  }
+}
+
+template <class T>
+inline constexpr bool measures_points = requires(const Vec3<double> (&x)[static_cast<std::size_t>(T::slots::count)]) {
+  T::template measure<double>(x);
+};
+template <class T>
+inline constexpr bool measures_slots = requires(const SlotValues<typename T::slots, double>& at) {
+  T::template measure<double>(at);
+};
+
+template <class T>
+void measure(const double* slots, double* rest) {
+  const auto at = values_of<typename T::slots, double>(slots);
+  typename T::template Params<double> params{};
+  if constexpr (measures_points<T>)
+    params = T::template measure<double>(at.point);
+  else
+    params = T::template measure<double>(at);
+  if constexpr (field_count < T >> 0) std::memcpy(rest, &params, sizeof params);
+}
+
+template <class T>
+inline constexpr bool has_canonical = requires(std::array<int, static_cast<std::size_t>(T::slots::count)>& stencil,
+                                               typename T::template Params<float>& params) {
+  T::canonical(stencil, params);
+};
+
+template <class T>
+void canonical(int* stencil, float* rest) {
+  std::array<int, static_cast<std::size_t>(T::slots::count)> order;
+  typename T::template Params<float> params = params_of<T, float>(rest);
+  std::memcpy(order.data(), stencil, sizeof order);
+  T::canonical(order, params);
+  std::memcpy(stencil, order.data(), sizeof order);
+  if constexpr (field_count < T >> 0) std::memcpy(rest, &params, sizeof params);
+}
+
+template <class T>
+ConstraintDefinition definition_of() {
+  static_assert(T::rows >= 1 && T::rows <= 6, "a type has one to six rows");
+  ConstraintDefinition made;
+  made.name = T::name;
+  made.slots.assign(T::slots::kinds.begin(), T::slots::kinds.end());
+  made.rows = T::rows;
+  made.rest_fields.assign(T::fields.begin(), T::fields.end());
+  if constexpr (requires { T::is_length; }) made.is_length = T::is_length;
+  if constexpr (requires { T::largest_change; }) made.largest_change = T::largest_change;
+  made.evaluate = &evaluate<T, float>;
+  made.evaluate_double = &evaluate<T, double>;
+  if constexpr (measures_points<T> || measures_slots<T> || field_count<T> == 0) {
+    if constexpr (measures_points<T> || measures_slots<T>)
+      made.measure = &measure<T>;
+    else
+      made.measure = [](const double*, double*) {};
+  }
+  if constexpr (has_canonical<T>) made.canonical = &canonical<T>;
+  return made;
+}
+
+}  // namespace detail
+
+/// Makes the constraint type T known by its name, T::name. See the head of this file.
+template <class T>
+void register_constraint() {
+  register_constraint(detail::definition_of<T>());
+}
+
+}  // namespace pliant

@@ -1,0 +1,132 @@
+// What the formula of a constraint is written with: scalars, rotations, slots and rows.
+//
+// A formula is a template over its scalar type: float runs one constraint, Wide runs sixteen, double is the tests' oracle. The functions
+// here exist under the same names for all of them (argument-dependent lookup finds those of Wide), so one text gives the same bits
+// everywhere. For that reason min and max are the one comparison that SSE's minps and maxps make: where a is NaN, or both are
+// zero, they return the second argument.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include "pliant/vec3.h"
+
+namespace pliant {
+
+// ---------------------------------------------------------------- scalars
+
+/// `a` where the mask holds, else `b`.
+PLIANT_HD float select(bool mask, float a, float b) { return mask ? a : b; }
+PLIANT_HD double select(bool mask, double a, double b) { return mask ? a : b; }
+
+/// The smaller; b where they compare unordered or equal.
+PLIANT_HD float min(float a, float b) { return a < b ? a : b; }
+PLIANT_HD double min(double a, double b) { return a < b ? a : b; }
+
+/// The larger; b where they compare unordered or equal.
+PLIANT_HD float max(float a, float b) { return a > b ? a : b; }
+PLIANT_HD double max(double a, double b) { return a > b ? a : b; }
+
+/// The magnitude: clears the sign bit, also of zero and NaN.
+PLIANT_HD float abs(float a) { return __builtin_fabsf(a); }
+PLIANT_HD double abs(double a) { return __builtin_fabs(a); }
+
+/// The square root, correctly rounded on every machine that follows IEEE 754; NaN below zero.
+PLIANT_HD float sqrt(float a) {
+#if defined(__CUDA_ARCH__)
+  return __fsqrt_rn(a);
+#else
+  return __builtin_sqrtf(a);
+#endif
+}
+PLIANT_HD double sqrt(double a) {
+#if defined(__CUDA_ARCH__)
+  return __dsqrt_rn(a);
+#else
+  return __builtin_sqrt(a);
+#endif
+}
+
+/// `a` between `low` and `high`; `high` wins where they cross.
+template <class R>
+PLIANT_HD R clamp(const R& a, const R& low, const R& high) {
+  return min(max(a, low), high);
+}
+
+// ---------------------------------------------------------------- rotations
+
+/// The inverse rotation of a unit quaternion.
+template <class R>
+PLIANT_HD Quat<R> conjugate(const Quat<R>& q) {
+  return {-q.x, -q.y, -q.z, q.w};
+}
+
+/// Hamilton's product: the rotation b, then a.
+template <class R>
+PLIANT_HD Quat<R> multiply(const Quat<R>& a, const Quat<R>& b) {
+  return {a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y), a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z),
+          a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x), a.w * b.w - (a.x * b.x + a.y * b.y + a.z * b.z)};
+}
+
+/// v rotated by the unit quaternion q: v + 2 u x (u x v + w v), u the imaginary part.
+template <class R>
+PLIANT_HD Vec3<R> rotate(const Quat<R>& q, const Vec3<R>& v) {
+  const Vec3<R> u{q.x, q.y, q.z};
+  const Vec3<R> turned = cross(u, cross(u, v) + q.w * v);
+  return v + (turned + turned);
+}
+
+// ---------------------------------------------------------------- slots and rows
+
+/// Names of the two kinds of slot.
+class Point;  ///< a particle: its place
+class Frame;  ///< an orientation: a unit quaternion from the frame's principal axes to the world
+
+enum class SlotKind : std::uint8_t { point, frame };
+
+/// What a constraint acts on, in the order of its stencil: Slots<Point, Frame, Point, Frame>. One to eight.
+template <class... Kinds>
+struct Slots {
+  static_assert(sizeof...(Kinds) >= 1 && sizeof...(Kinds) <= 8, "a stencil has one to eight slots");
+  static_assert(((std::is_same_v<Kinds, Point> || std::is_same_v<Kinds, Frame>)&&...), "a slot is a Point or a Frame");
+  static constexpr int count = static_cast<int>(sizeof...(Kinds));
+  static constexpr int frames = (0 + ... + (std::is_same_v<Kinds, Frame> ? 1 : 0));
+  static constexpr std::array<SlotKind, sizeof...(Kinds)> kinds{
+      (std::is_same_v<Kinds, Frame> ? SlotKind::frame : SlotKind::point)...};
+};
+
+namespace detail {
+template <class Indices>
+struct PointSlots;
+template <std::size_t... index>
+struct PointSlots<std::index_sequence<index...>> {
+  template <std::size_t>
+  using One = Point;
+  using Type = Slots<One<index>...>;
+};
+}  // namespace detail
+
+/// n points.
+template <int n>
+using Points = typename detail::PointSlots<std::make_index_sequence<static_cast<std::size_t>(n)>>::Type;
+
+/// What the slots hold now. Points are as the first point sees them, which is at zero: no constraint knows where the origin is.
+template <class S, class R>
+struct SlotValues {
+  Vec3<R> point[static_cast<std::size_t>(S::count)];  ///< by slot; not used where the slot is a frame [m]
+  Quat<R> frame[static_cast<std::size_t>(S::count)];  ///< by slot; not used where the slot is a point
+};
+
+/// C and its gradients, one row for each component of C.
+template <class S, int rows, class R>
+struct Rows {
+  R c[static_cast<std::size_t>(rows)];
+  /// By row and slot. Of a point: dC/dx. Of a frame: dC/dtheta, where the frame turns by the small rotation vector theta in
+  /// world axes. A point r of the frame then moves by theta x r, so that a gradient g at r gives r x g.
+  Vec3<R> gradient[static_cast<std::size_t>(rows)][static_cast<std::size_t>(S::count)];
+};
+
+}  // namespace pliant

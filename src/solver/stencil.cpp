@@ -1,0 +1,213 @@
+#include "solver/stencil.h"
+
+#include "constraints/registry.h"
+#include "math/quat.h"
+#include "solver/project.h"
+#include "solver/visit.h"
+
+namespace pliant {
+
+namespace {
+
+/// Below this many batches a colour is done sooner than other threads can be told of it.
+constexpr int fewest_batches_to_share = 8;
+
+/// A pivot that elimination leaves less of than this is rounding: its row says what others have said.
+constexpr float least_pivot = 1e-6f;
+
+Vec3f xyz(const Record& r) { return {r.x, r.y, r.z}; }
+Quatf quaternion(const Record& r) { return {r.x, r.y, r.z, r.w}; }
+
+/// W of one slot: what turns a gradient into a displacement or a rotation.
+struct SlotMass {
+  bool is_frame = false;
+  float inverse_mass = 0;
+  Quatf orientation{};
+  Vec3f inverse_inertia{};
+
+  Vec3f times(const Vec3f& g) const {
+    if (!is_frame) return g * inverse_mass;
+    const Vec3f local = rotate(conjugate(orientation), g);
+    return rotate(orientation,
+                  Vec3f{local.x * inverse_inertia.x, local.y * inverse_inertia.y, local.z * inverse_inertia.z});
+  }
+};
+
+/// One constraint under way.
+struct Work {
+  StencilArrays<float> arrays;
+  SlotMass mass[most_slots];
+  Vec3f motion[most_slots];                        ///< since the substep's start [m] or [rad]
+  float matrix[most_components][most_components];  ///< A, then its factors: D on the diagonal, L below it
+  float change[most_components];                   ///< right-hand side, then dlambda
+};
+
+void load(const CompiledObject& object, const SweepArguments& a, const FrameArguments& f, const Pool& pool,
+          const std::int32_t* number, Work& work) {
+  int origin = -1;
+  for (int slot = 0; slot < pool.stencil; ++slot) {
+    const std::int32_t n = number[slot];
+    SlotMass& mass = work.mass[slot];
+    mass.is_frame = n >= object.particles;
+    if (mass.is_frame) {
+      const std::int32_t frame = n - object.particles;
+      const Record& q = f.orientations[frame];
+      work.arrays.set_slot(slot, q.x, q.y, q.z, q.w);
+      mass.orientation = quaternion(q);
+      mass.inverse_inertia = xyz(f.inverse_inertias[frame]);
+      work.motion[slot] = xyz(f.predicted[frame]) + xyz(f.corrections[frame]);
+      continue;
+    }
+    if (origin < 0) origin = n;
+    const Record &p = a.positions[n], &d = a.displacements[n], &r = a.remainders[n];
+    const Record &o = a.positions[origin], &first = a.displacements[origin];
+    if (n == origin)
+      work.arrays.set_slot(slot, 0, 0, 0, 0);
+    else
+      work.arrays.set_slot(slot, ((p.x - o.x) + d.x) - first.x, ((p.y - o.y) + d.y) - first.y,
+                           ((p.z - o.z) + d.z) - first.z, 0);
+    mass.inverse_mass = p.w;
+    work.motion[slot] = {d.x - r.x, d.y - r.y, d.z - r.z};
+  }
+}
+
+/// A of rows i and j.
+float coupling(const Pool& pool, const Work& work, int i, int j) {
+  float sum = 0;
+  for (int slot = 0; slot < pool.stencil; ++slot) {
+    const Vec3f g = work.arrays.gradient(pool, i, slot), other = work.arrays.gradient(pool, j, slot);
+    const SlotMass& mass = work.mass[slot];
+    const float term = mass.is_frame ? dot(g, mass.times(other)) : mass.inverse_mass * dot(g, other);
+    sum = slot == 0 ? term : sum + term;
+  }
+  return sum;
+}
+
+float motion_along(const Pool& pool, const Work& work, int row) {
+  float sum = dot(work.arrays.gradient(pool, row, 0), work.motion[0]);
+  for (int slot = 1; slot < pool.stencil; ++slot) sum = sum + dot(work.arrays.gradient(pool, row, slot), work.motion[slot]);
+  return sum;
+}
+
+/// The matrix and the right-hand side of the law.
+void assemble(const ConstraintPlace& at, const float* multipliers, const SweepArguments& a, Work& work) {
+  const Pool& pool = at.pool;
+  const float softness = at.value(pool.fields);
+  const float compliance = pool.law == Law::pbd ? 0 : min(softness * a.inverse_h2, largest_compliance);
+  const float gamma =
+      pool.law == Law::damped ? min(softness * at.value(pool.fields + 1) * a.inverse_h, largest_compliance) : 0;
+  for (int i = 0; i < pool.components; ++i) {
+    float& rhs = work.change[i];
+    rhs = pool.law == Law::pbd ? -(softness * work.arrays.c[i]) : -work.arrays.c[i];
+    if (multipliers != nullptr && !a.first_pass) rhs = rhs - compliance * multipliers[i * batch_width];
+    if (pool.law == Law::damped) rhs = rhs - gamma * motion_along(pool, work, i);
+    for (int j = 0; j <= i; ++j) {
+      const float mass = coupling(pool, work, i, j);
+      work.matrix[i][j] = i == j ? mass + compliance : mass;
+      if (pool.law == Law::damped) work.matrix[i][j] = work.matrix[i][j] + gamma * mass;
+    }
+  }
+}
+
+/// Solves L D L^T x = b in place, row by row in order.
+void solve(int rows, float (&m)[most_components][most_components], float (&x)[most_components]) {
+  bool lost[most_components] = {};
+  for (int i = 0; i < rows; ++i) {
+    const float whole = m[i][i];
+    for (int j = 0; j <= i; ++j) {
+      float left = m[i][j];
+      for (int k = 0; k < j; ++k) left = left - m[i][k] * m[k][k] * m[j][k];
+      m[i][j] = i == j ? left : lost[j] ? 0 : left / max(m[j][j], smallest_denominator);
+    }
+    lost[i] = m[i][i] < least_pivot * whole;
+    for (int j = 0; j < i; ++j) x[i] = x[i] - m[i][j] * x[j];
+  }
+  for (int i = 0; i < rows; ++i) x[i] = lost[i] ? 0 : x[i] / max(m[i][i], smallest_denominator);
+  for (int i = rows; i-- > 0;)
+    for (int j = i + 1; j < rows; ++j) x[i] = x[i] - m[j][i] * x[j];
+}
+
+/// Where one row would change C by more than its linearisation is good for, the diagonal grows (`largest_change`).
+void hold_to_trust(const ConstraintDefinition& type, const Pool& pool, Work& work) {
+  if (!(type.largest_change > 0) || pool.components != 1) return;
+  const float mass = coupling(pool, work, 0, 0), numerator = work.change[0];
+  work.matrix[0][0] = max(work.matrix[0][0], max(numerator, -numerator) * mass * (1 / type.largest_change));
+}
+
+void turn(const Vec3f& theta, Record& orientation, Record& corrections) {
+  const Quatf q = quaternion(orientation), spin = multiply(Quatf{theta.x, theta.y, theta.z, 0}, q);
+  const Quatf now = normalise(Quatf{q.x + 0.5f * spin.x, q.y + 0.5f * spin.y, q.z + 0.5f * spin.z, q.w + 0.5f * spin.w});
+  orientation = {now.x, now.y, now.z, now.w};
+  corrections = {corrections.x + theta.x, corrections.y + theta.y, corrections.z + theta.z, 0};
+}
+
+void apply(const CompiledObject& object, const SweepArguments& a, const FrameArguments& f, const Pool& pool,
+           const std::int32_t* number, const Work& work) {
+  for (int slot = 0; slot < pool.stencil; ++slot) {
+    const SlotMass& mass = work.mass[slot];
+    if (mass.is_frame) {
+      Vec3f torque{};
+      for (int row = 0; row < pool.components; ++row) torque += work.arrays.gradient(pool, row, slot) * work.change[row];
+      const std::int32_t frame = number[slot] - object.particles;
+      turn(mass.times(torque), f.orientations[frame], f.corrections[frame]);
+      continue;
+    }
+    Record& d = a.displacements[number[slot]];
+    for (int row = 0; row < pool.components; ++row) {
+      const Vec3f move = work.arrays.gradient(pool, row, slot) * (mass.inverse_mass * work.change[row]);
+      d = {d.x + move.x, d.y + move.y, d.z + move.z, 0};
+    }
+  }
+}
+
+}  // namespace
+
+void project_segment(const CompiledObject& object, const Segment& segment, const SweepArguments& points,
+                     const FrameArguments& frames) {
+  const Pool& pool = object.pools[segment.pool];
+  const ConstraintDefinition& type = constraint_type(pool.type);
+  float* all = points.multipliers != nullptr && pool.law != Law::pbd ? points.multipliers[segment.pool] : nullptr;
+  Work work;
+  for_segment(object, segment, [&](const ConstraintPlace& at, const std::int32_t* number) {
+    float* multipliers = all == nullptr ? nullptr : all + at.multiplier_place(0);
+    load(object, points, frames, pool, number, work);
+    work.arrays.load_rest(at);
+    type.evaluate(work.arrays.slots, work.arrays.rest, work.arrays.c, work.arrays.gradients);
+    assemble(at, multipliers, points, work);
+    hold_to_trust(type, pool, work);
+    solve(pool.components, work.matrix, work.change);
+    for (int row = 0; row < pool.components; ++row) {
+      work.change[row] = work.change[row] * points.relaxation;
+      if (multipliers == nullptr) continue;
+      float& multiplier = multipliers[row * batch_width];
+      multiplier = (points.first_pass ? 0.f : multiplier) + work.change[row];
+    }
+    apply(object, points, frames, pool, number, work);
+  });
+}
+
+void project_stencils(Substep& s, bool first_pass) {
+  if (s.model.stencils.empty()) return;
+  int most = 0;
+  for (const auto& [sweep, group] : s.work.sweeps) most = std::max(most, group.method->passes);
+  for (int pass = 0; pass < most; ++pass) {
+    for (const StraddlerPhase& phase : s.model.stencils) {
+      const int tasks = static_cast<int>(phase.tasks.size());
+      const auto project_task = [&](int i) {
+        const auto& [number, segment] = phase.tasks[i];
+        const CompiledObject& object = s.model.objects[number];
+        if (pass >= sweep_method(object.sweep).passes) return;
+        project_segment(object, object.segments[segment], arguments(s, number, first_pass && pass == 0),
+                        frame_arguments(s, number));
+      };
+      if (phase.batches >= fewest_batches_to_share) {
+        for_tasks(s, "solve: stencils", tasks, project_task);
+      } else {
+        Stopwatch watch(s.executor.timings(), "solve: stencils");
+        for (int i = 0; i < tasks; ++i) project_task(i);
+      }
+    }
+  }
+}
+
+}  // namespace pliant

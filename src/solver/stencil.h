@@ -1,0 +1,22 @@
+// The stencil driver for every constraint type that is not in lanes: types with frame slots, with several rows, and those that users
+// register. One constraint at a time through its function over plain arrays, in colours that all threads share; scalar code
+// alone, so that any machine gives the same bits.
+//
+//   A = sum over slots of G W G^T             G the gradients by row, W the inverse mass, or the inverse inertia in world axes
+//   PBD:   A dlambda = -k' C
+//   XPBD:  ((1 + g) A + a) dlambda = -C - a lambda - g G (motion since the substep's start)       a, g as in project.h
+//   point: x += w G^T dlambda      frame: theta = W G^T dlambda,  q += theta q / 2, normalised
+#pragma once
+
+#include "solver/substep.h"
+
+namespace pliant {
+
+/// Projects the constraints of one segment.
+void project_segment(const CompiledObject& object, const Segment& segment, const SweepArguments& points,
+                     const FrameArguments& frames);
+
+/// Projects every such constraint, phase after phase, as often as the sweep of its object projects any other.
+void project_stencils(Substep& s, bool first_pass);
+
+}  // namespace pliant
