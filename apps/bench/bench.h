@@ -21,8 +21,9 @@ struct Row {
   double stretch_mean = 0, stretch_p99 = 0, stretch_max = 0;  ///< length over rest length after the last frame
   double energy_lost = 0;                                     ///< by frame 40 [J]; of W1-quality alone
   bool met = true;                                            ///< of W1-quality: whether the bounds were kept
-  std::vector<PhaseTime> phases{};  ///< of "pliant": milliseconds a frame by phase, in a run of its own that times them apart
-  double ratio = 0;               ///< how many times as fast as the first row of the same workload and size
+  std::vector<PhaseTime>
+      phases{};      ///< of "pliant": milliseconds a frame by phase, in a run of its own that times them apart
+  double ratio = 0;  ///< how many times as fast as the first row of the same workload and size
 };
 
 struct Options {

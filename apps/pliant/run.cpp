@@ -27,8 +27,8 @@ std::string summary(const RunOptions& options, const World& world, const RunRepo
   const std::string times = compare::figure(report.median_milliseconds(), 3) +
                             " ms a frame (95%: " + compare::figure(report.p95_milliseconds(), 3) + "), ";
   return one_line(options.scene) + ": " + counted(static_cast<std::size_t>(frames), "frame") + ", " +
-         (report.frames() > 0 ? times : "") + counted(static_cast<std::size_t>(world.threads()), "thread") + ", " + world.isa() +
-         "\nstate " + world.state_hash() + "\n";
+         (report.frames() > 0 ? times : "") + counted(static_cast<std::size_t>(world.threads()), "thread") + ", " +
+         world.isa() + "\nstate " + world.state_hash() + "\n";
 }
 
 /// All files are refused that cannot be written or would take one another's place.

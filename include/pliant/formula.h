@@ -104,8 +104,10 @@ struct PointSlots;
 template <std::size_t... index>
 struct PointSlots<std::index_sequence<index...>> {
   template <std::size_t>
-  using One = Point;
-  using Type = Slots<One<index>...>;
+  struct One {
+    using Type = Point;
+  };
+  using Type = Slots<typename One<index>::Type...>;
 };
 }  // namespace detail
 

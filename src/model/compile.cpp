@@ -299,7 +299,7 @@ CompiledObject compile(const Object& object, const CompileOptions& options) {
   fill_kinematics(object, out);
   schedule(lists, tile, in_given_order, out);
   append_chains(lists, options.chain_softness, out);
-  schedule_stencils(lists, options.in_given_order, out);
+  schedule_stencils(lists, in_given_order, out);
   fill_surface(object, out);
   if (options.tethers) out.tethers = find_tethers(lists, options.tether_slack, out);
   if (options.sweep == Sweep::multigrid) out.multigrid = build_multigrid(lists, out.positions, options.gravity);

@@ -11,7 +11,6 @@ namespace pliant {
 
 namespace {
 
-
 /// "distance constraint 17 (particles 3, 4)", in the user's numbering.
 std::string describe(const CompiledObject& object, const Pool& pool, const Segment& segment, int batch, int lane) {
   const std::int32_t* index = pool.indices.data() + segment.index_offset + batch * indices_per_batch(pool, segment);

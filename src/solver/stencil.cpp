@@ -203,7 +203,7 @@ void project_stencils(Substep& s, bool first_pass) {
       if (phase.batches >= fewest_batches_to_share) {
         for_tasks(s, "solve: stencils", tasks, project_task);
       } else {
-        Stopwatch watch(s.executor.timings(), "solve: stencils");
+        Stopwatch watch(s.context.executor.timings(), "solve: stencils");
         for (int i = 0; i < tasks; ++i) project_task(i);
       }
     }

@@ -16,10 +16,10 @@ namespace {
 struct View {
   const CompiledObject& object;
   SweepArguments arguments;
-  const Record* orientations;                 ///< of the object's frames
+  const Record* orientations;                            ///< of the object's frames
   const std::vector<AlignedVector<float>>* multipliers;  ///< null: none yet, all are zero
-  std::vector<Vec3d>& explained;              ///< w grad C^T lambda, by particle
-  std::vector<char>& left_out;                ///< particles that something without a multiplier moves
+  std::vector<Vec3d>& explained;                         ///< w grad C^T lambda, by particle
+  std::vector<char>& left_out;                           ///< particles that something without a multiplier moves
 };
 
 /// Where the slots of a constraint are, points relative to its first one, in double.
