@@ -111,7 +111,7 @@ Scene ball_scene(int side) {
   constexpr float edge = 0.01f;
   Scene scene = scene_of(5);
   scene.settings.most_substeps = 2000;  // at 10 m/s it takes more than eight times the substeps
-  scene.frame_time = 1.f / 240;  // so that no frame begins on one side of the sheet and ends on the other
+  scene.frame_time = 1.f / 240;         // so that no frame begins on one side of the sheet and ends on the other
   TriangleMesh mesh = square(side, edge);
   const float width = edge * static_cast<float>(side - 1);
   for (Vec3f& p : mesh.positions) p = {0, p.x, p.z};
