@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <memory>
 #include <new>
@@ -13,6 +14,24 @@
 #include "pliant/scene.h"
 
 namespace pliant {
+
+/// Names one thing of a World for as long as it exists. A slot is used again after its thing was removed, with the next
+/// generation: an id of what was removed is refused with an Error and never names what came after it.
+/// What a Scene was compiled with has generation 0, so the index that Scene::add returned is its id.
+template <class Kind>
+struct Id {
+  int slot = -1;
+  int generation = 0;
+
+  Id() = default;
+  Id(int slot_number, int slot_generation = 0)  // NOLINT(google-explicit-constructor): an index of a Scene is an id
+      : slot(slot_number), generation(slot_generation) {}
+  friend bool operator==(const Id&, const Id&) = default;
+  friend auto operator<=>(const Id&, const Id&) = default;
+};
+using ObjectId = Id<Object>;
+using ColliderId = Id<Collider>;
+using MeshColliderId = Id<MeshCollider>;
 
 /// Four floats in one 16-byte record, moved by whole loads.
 struct alignas(16) Record {
@@ -33,17 +52,27 @@ struct CacheLineAllocator {
 
 using Records = std::vector<Record, CacheLineAllocator<Record>>;
 
-/// All that changes as time passes, a plain value: copy it, hash it, put it back, and the next step gives the same bits.
-/// Particles stand in the order of the compiled model, not of the user; read places through World.
-struct State {
-  double time = 0;         ///< [s]
-  std::int64_t frame = 0;  ///< steps taken
-  Records positions;       ///< (x, y, z) [m], w the inverse mass [1/kg]
-  Records remainders;      ///< what a float position could not hold of the motion so far [m]
-  Records velocities;      ///< [m/s]
+/// Where the particles of an object or mesh collider stand in a State.
+struct Block {
+  int first = 0, particles = 0;  ///< no particles: it was removed
+  int generation = 0;            ///< grows whenever the World compiles something new in its place
+  friend bool operator==(const Block&, const Block&) = default;
 };
 
-/// SHA-256 over every member of a State, as 64 hexadecimal digits.
+/// All that changes as time passes, a plain value: copy it, hash it, put it back, and the next step gives the same bits.
+/// Each object has a block of particles, in the order of the compiled model and not of the user: World::block and
+/// World::storage_order tell which is which. Between blocks there are zeros where objects were removed.
+struct State {
+  double time = 0;            ///< [s]
+  std::int64_t frame = 0;     ///< steps taken
+  std::vector<Block> blocks;  ///< one an object or mesh collider, in the order in which they were added
+  Records positions;          ///< (x, y, z) [m], w the inverse mass [1/kg]
+  Records remainders;         ///< what a float position could not hold of the motion so far [m]
+  Records velocities;         ///< [m/s]
+};
+
+/// SHA-256 over every member of a State, as 64 hexadecimal digits. Blocks count where something was removed or edited; those
+/// that simply follow one another are told by the particles alone.
 std::string hash(const State& state);
 
 /// Milliseconds spent in a named phase of a step.
@@ -81,7 +110,7 @@ struct Stretch {
 /// multiplier, is left out.
 struct Overstretch {
   double p99 = 0, largest = 0;             ///< shares of the rest length; below 0 where all are too short [-]
-  int object = -1;                         ///< with the largest; -1: there are no such constraints
+  int object = -1;                         ///< slot of the one with the largest; -1: there are no such constraints
   std::array<int, 2> particles{{-1, -1}};  ///< between which it is, in the object's own numbering
 };
 
@@ -162,25 +191,50 @@ class World {
   void restore(const State& state);
   std::string state_hash() const { return hash(state()); }
 
+  // ---- Objects come and go, between steps. A call that throws Error leaves the World as it was.
+
+  /// Adds an object as it is now: the first frame of its keyframes is the one that follows. Costs what this object costs to
+  /// compile; where it can touch other surfaces, contact is prepared anew before the next step. The World's sweep and
+  /// substeps stay as chosen when it was made. Throws Error naming the element where it can't be simulated.
+  ObjectId add(const Object& object);
+  ColliderId add(const Collider& collider);
+  MeshColliderId add(const MeshCollider& collider);
+
+  /// Takes it out. Other ids stay as they are. Throws Error where there is no such thing any more.
+  void remove(ObjectId object);
+  void remove(ColliderId collider);
+  void remove(MeshColliderId collider);
+
+  /// Whether the id still names something.
+  bool has(ObjectId object) const;
+  bool has(ColliderId collider) const;
+  bool has(MeshColliderId collider) const;
+
+  /// Those that exist, by slot.
+  std::vector<ObjectId> objects() const;
+  std::vector<ColliderId> colliders() const;
+  std::vector<MeshColliderId> mesh_colliders() const;
+
+  /// How many objects there are. Unless one was removed, their indices from 0 on are their ids.
   int object_count() const;
-  ObjectInfo info(int object) const;
+  ObjectInfo info(ObjectId object) const;
   const Settings& settings() const;
   std::string isa() const;  ///< the code path in use: "x86-64-v2", "-v3", "-v4" or "generic"
   int threads() const;
 
   /// In the object's own numbering.
-  std::vector<Vec3f> positions(int object) const;
-  std::vector<Vec3f> velocities(int object) const;
-  TriangleMesh mesh(int object) const;
+  std::vector<Vec3f> positions(ObjectId object) const;
+  std::vector<Vec3f> velocities(ObjectId object) const;
+  TriangleMesh mesh(ObjectId object) const;
   /// Where a collider is now.
-  Vec3f collider_position(int collider) const;
-  Quatf collider_rotation(int collider) const;
+  Vec3f collider_position(ColliderId collider) const;
+  Quatf collider_rotation(ColliderId collider) const;
   /// Where the vertices of a mesh collider are now, in its own numbering [m]. Throws Error where there is no such collider.
-  std::vector<Vec3f> mesh_collider_positions(int collider) const;
+  std::vector<Vec3f> mesh_collider_positions(MeshColliderId collider) const;
 
   /// Multipliers of the last substep in the order of the object's constraint groups of that type; empty where they were not
   /// kept. The force is lambda / h^2 along the gradient (XPBD, eq. 17).
-  std::vector<float> multipliers(int object, const std::string& type) const;
+  std::vector<float> multipliers(ObjectId object, const std::string& type) const;
 
   /// Kinetic and gravitational energy of all free particles [J]; heights from the origin.
   double kinetic_energy() const;
@@ -194,7 +248,7 @@ class World {
   /// Where the solve fell short in the step of a Report with Settings::measure, by how much, and what to do; empty where
   /// it did not, by no more than `tolerated_overstretch`. `advise` tries what helps.
   std::string advice(const Report& report) const;
-  double enclosed_volume(int object) const;  ///< of its triangles [m^3]
+  double enclosed_volume(ObjectId object) const;  ///< of its triangles [m^3]
 
  private:
   struct Implementation;

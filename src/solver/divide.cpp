@@ -41,7 +41,7 @@ Swept swept(const Carrier& carrier, const PlannedFrame& frame) {
 CarrierBox foreseen(const Model& model, const State& state, int object, double dt) {
   CarrierBox box{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
   const Vec3d fall = convert<double>(model.gravity) * (dt * dt);
-  for (int i = model.first[object]; i < model.first[object + 1]; ++i) {
+  for (int i = model.first[object]; i < model.end_of(object); ++i) {
     const Record &x = state.positions[static_cast<std::size_t>(i)], &v = state.velocities[static_cast<std::size_t>(i)];
     const Vec3d from{x.x, x.y, x.z}, to = from + Vec3d{v.x, v.y, v.z} * dt + (x.w > 0 ? fall : Vec3d{});
     box = joined(box, {min(from, to), max(from, to)});
@@ -64,12 +64,13 @@ int divided_substeps(const Model& model, const PairModel& pairs, const State& st
                      std::vector<std::string>& warnings) {
   const int most = std::max(frame.substeps, frame.most_substeps);
   int substeps = frame.substeps;
-  for (int c = model.user_objects; c < static_cast<int>(model.objects.size()); ++c) {
+  const int objects = static_cast<int>(model.objects.size());
+  for (int c = 0; c < objects; ++c) {
     const CompiledObject& collider = model.objects[c];
-    if (!collider.carrier.moves()) continue;
+    if (!collider.is_collider || !collider.carrier.moves()) continue;
     const Swept sweep = swept(collider.carrier, frame);
-    for (int o = 0; o < model.user_objects; ++o) {
-      if (!pairs.rules.meet(c, o)) continue;
+    for (int o = 0; o < objects; ++o) {
+      if (model.objects[o].is_collider || !pairs.rules.meet(c, o)) continue;
       const double thickness = pairs.rules.material(c, o).thickness, allowed = share_of_thickness * thickness;
       if (!(allowed > 0) || !(sweep.largest > allowed)) continue;
       const double margin = thickness + sweep.largest * frame.substeps * 0.1;

@@ -63,7 +63,11 @@ enum class Multipliers { none, needed, all };
 /// Makes everything the right size for a model.
 void prepare(const Model& model, Multipliers kept, Workspace& workspace);
 
-/// After prepare: what the sweep that the settings name needs besides.
+/// Makes what belongs to one object the right size, after it was added, edited or removed.
+void prepare(const Model& model, int object, Multipliers kept, Workspace& workspace);
+
+/// After prepare: what the sweep that the settings name needs besides, for all objects or for one.
 void prepare_sweep(const Model& model, const Settings& settings, Workspace& workspace);
+void prepare_sweep(const Model& model, int object, const Settings& settings, Workspace& workspace);
 
 }  // namespace pliant

@@ -38,14 +38,19 @@ void iterate_chains(Substep& s, bool first) {
 }
 
 void prepare_chains(const Model& model, int threads, Workspace& workspace) {
-  int longest = 0;
-  for (const CompiledObject& object : model.objects)
-    for (const ChainBatch& batch : object.chains) longest = std::max(longest, batch.steps);
-  workspace.chain_scratch.resize(longest > 0 ? threads : 0);
-  for (auto& scratch : workspace.chain_scratch) scratch.resize(static_cast<std::size_t>(longest) * chain_scratch_floats);
+  for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) prepare_chains(model, o, threads, workspace);
+}
+
+void prepare_chains(const Model& model, int object, int threads, Workspace& workspace) {
+  const CompiledObject& from = model.objects[object];
   workspace.anchors.resize(model.objects.size());
-  for (std::size_t o = 0; o < model.objects.size(); ++o)
-    workspace.anchors[o].resize(2 * model.objects[o].tethers.anchors.size());
+  workspace.anchors[object].resize(2 * from.tethers.anchors.size());
+  if (from.chains.empty()) return;
+  std::size_t room = 0;
+  for (const ChainBatch& batch : from.chains)
+    room = std::max(room, static_cast<std::size_t>(batch.steps) * chain_scratch_floats);
+  workspace.chain_scratch.resize(threads);
+  for (auto& scratch : workspace.chain_scratch) scratch.resize(std::max(scratch.size(), room));
 }
 
 void solve_chains(Substep& s, bool first_pass) {

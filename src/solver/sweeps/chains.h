@@ -12,6 +12,8 @@ namespace pliant {
 
 /// Room for the scratch of every thread and for the anchors.
 void prepare_chains(const Model& model, int threads, Workspace& workspace);
+/// The same for one object alone.
+void prepare_chains(const Model& model, int object, int threads, Workspace& workspace);
 
 /// Solves all chains once, colour after colour.
 void solve_chains(Substep& s, bool first_pass);

@@ -174,12 +174,16 @@ double correction_norm(Substep& s) {
 
 }  // namespace
 
-void prepare_chebyshev(const Model& model, const Workspace& workspace, ChebyshevScratch& scratch) {
-  scratch.before.assign(model.particles(), {});
-  scratch.older.assign(model.particles(), {});
-  scratch.multipliers_before = scratch.multipliers_older = workspace.multipliers;
-  scratch.volumes_before = scratch.volumes_older = workspace.volume_multipliers;
-  scratch.tile_sums.assign(model.tiles.size(), 0);
+void prepare_chebyshev(const Model& model, int object, const Workspace& workspace, ChebyshevScratch& scratch) {
+  scratch.before.resize(model.particles());
+  scratch.older.resize(model.particles());
+  for (LaneValues* values : {&scratch.multipliers_before, &scratch.multipliers_older}) {
+    values->resize(model.objects.size());
+    (*values)[object] = workspace.multipliers[object];
+  }
+  scratch.volumes_before.resize(model.objects.size());
+  scratch.volumes_older.resize(model.objects.size());
+  scratch.tile_sums.resize(model.tiles.size());
 }
 
 void keep_iterate(Substep& s, int iteration) {

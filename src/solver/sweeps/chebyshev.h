@@ -24,8 +24,8 @@ namespace pliant {
 struct Substep;
 struct Workspace;
 
-/// Makes room; multipliers as the workspace has them.
-void prepare_chebyshev(const Model& model, const Workspace& workspace, ChebyshevScratch& scratch);
+/// Makes room for an object; multipliers as the workspace has them.
+void prepare_chebyshev(const Model& model, int object, const Workspace& workspace, ChebyshevScratch& scratch);
 
 /// Before an iteration: keeps the iterate.
 void keep_iterate(Substep& s, int iteration);

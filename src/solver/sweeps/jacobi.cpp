@@ -33,22 +33,20 @@ void gather(const Tile& tile, const JacobiObject& object, Record* displacements)
 
 }  // namespace
 
-void prepare_jacobi(const Model& model, const SweepOptions& options, std::vector<JacobiObject>& objects) {
-  objects.clear();
+void prepare_jacobi(const Model& model, int object, const SweepOptions& options, std::vector<JacobiObject>& objects) {
   objects.resize(model.objects.size());
-  for (std::size_t o = 0; o < objects.size(); ++o) {
-    const CompiledObject& from = model.objects[o];
-    JacobiObject& to = objects[o];
-    to.incidence = make_incidence(from);
-    to.corrections.resize(to.incidence.pool_begin.back());
-    for (std::size_t p = 0; p < from.pools.size(); ++p)
-      to.correction_pointers.push_back(to.corrections.data() + to.incidence.pool_begin[p]);
-    if (options.sharing == SweepOptions::Sharing::split) {
-      to.positions.resize(from.particles);
-    } else {
-      to.shares = averaging_shares(from, to.incidence);
-      for (const AlignedVector<float>& values : to.shares) to.share_pointers.push_back(values.data());
-    }
+  const CompiledObject& from = model.objects[object];
+  JacobiObject& to = objects[object];
+  to = {};
+  to.incidence = make_incidence(from);
+  to.corrections.resize(to.incidence.pool_begin.back());
+  for (std::size_t p = 0; p < from.pools.size(); ++p)
+    to.correction_pointers.push_back(to.corrections.data() + to.incidence.pool_begin[p]);
+  if (options.sharing == SweepOptions::Sharing::split) {
+    to.positions.resize(from.particles);
+  } else {
+    to.shares = averaging_shares(from, to.incidence);
+    for (const AlignedVector<float>& values : to.shares) to.share_pointers.push_back(values.data());
   }
 }
 

@@ -12,7 +12,7 @@
 
 namespace pliant {
 
-/// Makes the lists and buffers of every object.
-void prepare_jacobi(const Model& model, const SweepOptions& options, std::vector<JacobiObject>& objects);
+/// Makes the lists and buffers of an object.
+void prepare_jacobi(const Model& model, int object, const SweepOptions& options, std::vector<JacobiObject>& objects);
 
 }  // namespace pliant

@@ -27,26 +27,29 @@ void move(Substep& s, int o, bool first) {
 }  // namespace
 
 void prepare_multigrid(const Model& model, std::vector<MultigridObject>& objects) {
-  objects.assign(model.objects.size(), {});
-  for (std::size_t o = 0; o < objects.size(); ++o) {
-    const std::vector<MultigridLevel>& levels = model.objects[o].multigrid.levels;
-    if (levels.empty()) continue;
-    MultigridObject& to = objects[o];
-    const auto blocks = static_cast<std::size_t>(levels[0].batches());
-    for (std::size_t l = 0; l < levels.size(); ++l) {
-      MultigridValues& values = to.levels.emplace_back();
-      const auto batches = static_cast<std::size_t>(levels[l].batches());
-      values.blocks.resize(static_cast<std::size_t>(levels[l].slots()) * (l == 0 ? spring_floats : block_floats));
-      values.diagonal.resize(batches * block_floats);
-      values.inverse.resize(batches * block_floats);
-      for (Records* records : {&values.right, &values.x, &values.y}) records->resize(batches * batch_width + 1);
-    }
-    for (Records* records : {&to.direction, &to.image, &to.change}) records->resize(blocks * batch_width + 1);
-    to.extra.resize(blocks * 9 * batch_width);
-    to.has_extra.resize(blocks);
-    to.sums.resize(blocks / batches_per_task + 1);
-    to.pieces.resize(static_cast<std::size_t>(model.objects[o].multigrid.pieces));
+  for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) prepare_multigrid(model, o, objects);
+}
+
+void prepare_multigrid(const Model& model, int o, std::vector<MultigridObject>& objects) {
+  objects.resize(model.objects.size());
+  objects[o] = {};
+  const std::vector<MultigridLevel>& levels = model.objects[o].multigrid.levels;
+  if (levels.empty()) return;
+  MultigridObject& to = objects[o];
+  const auto blocks = static_cast<std::size_t>(levels[0].batches());
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    MultigridValues& values = to.levels.emplace_back();
+    const auto batches = static_cast<std::size_t>(levels[l].batches());
+    values.blocks.resize(static_cast<std::size_t>(levels[l].slots()) * (l == 0 ? spring_floats : block_floats));
+    values.diagonal.resize(batches * block_floats);
+    values.inverse.resize(batches * block_floats);
+    for (Records* records : {&values.right, &values.x, &values.y}) records->resize(batches * batch_width + 1);
   }
+  for (Records* records : {&to.direction, &to.image, &to.change}) records->resize(blocks * batch_width + 1);
+  to.extra.resize(blocks * 9 * batch_width);
+  to.has_extra.resize(blocks);
+  to.sums.resize(blocks / batches_per_task + 1);
+  to.pieces.resize(static_cast<std::size_t>(model.objects[o].multigrid.pieces));
 }
 
 void correct_multigrid(Substep& s, bool first) {

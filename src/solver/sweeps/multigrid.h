@@ -72,6 +72,8 @@ void correct_multigrid(Substep& s, bool first);
 
 /// Makes room for every object that has levels.
 void prepare_multigrid(const Model& model, std::vector<MultigridObject>& objects);
+/// The same for one object alone.
+void prepare_multigrid(const Model& model, int object, std::vector<MultigridObject>& objects);
 
 // Of correct_multigrid, in multigrid_contacts.cpp: contacts as springs on their particles' rows, and afterwards the pushes and
 // the friction that these have exerted, for the contacts' own projection to go on from.

@@ -1,0 +1,73 @@
+// What a World holds. Its parts are in files by concern: objects.cpp (add and remove), state.cpp, read.cpp, world.cpp (step).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/model.h"
+#include "parallel/executor.h"
+#include "pliant/world.h"
+#include "solver/kernels.h"
+#include "solver/measure.h"
+#include "solver/workspace.h"
+#include "world/slots.h"
+
+namespace pliant {
+
+// More than fifteen members: it is the one place where what a World consists of comes together.
+struct World::Implementation {
+  Implementation(const Scene& scene, const Settings& with);
+
+  // ---- objects.cpp
+  /// What the schedule of an object that is compiled now depends on besides the object.
+  CompileOptions compile_options() const;
+  /// Adds a mesh collider to the model; its number there.
+  int add_to_model(const MeshCollider& collider);
+  /// Gives an object of the model, just added, a place in the State and in the workspace.
+  void put(int number);
+  /// Takes it out of model, State and workspace.
+  void remove(int number);
+  /// Room in the workspace for an object that came, went or was compiled anew.
+  void prepare(int number);
+  /// Whether an object has a surface that could touch something; then contact is prepared anew.
+  void note_surfaces(int number);
+  void prepare_pairs();
+  /// Before a step: what only needs to be done once for all that came and went since the last.
+  void bring_up_to_date();
+
+  /// Numbers in the model. Throw Error where the id names nothing.
+  int number(ObjectId id) const { return object_ids.number(id); }
+  const CompiledObject& object(ObjectId id) const { return model.objects[number(id)]; }
+  const Collider& collider(ColliderId id) const { return model.colliders[collider_ids.number(id)]; }
+
+  // ---- state.cpp
+  /// Throws Error where a State's blocks are not those of this World.
+  void require_blocks(const State& given) const;
+
+  // ---- read.cpp
+  const Record* positions_of(ObjectId id) const { return state.positions.data() + model.first[number(id)]; }
+  /// In the numbering of the user, of an object or a mesh collider.
+  std::vector<Vec3f> in_given_order(int number, const Records& records) const;
+  void measure(Lengths& measured) const;
+
+  /// Into how many substeps the next frame is divided.
+  int substeps_for(double dt, std::vector<std::string>& warnings) const;
+
+  Settings settings, suggested;  ///< as they are, and as measured best on scenes of this kind
+  Executor executor;
+  const Kernels& kernels;
+  Model model;
+  Slots<Object> object_ids{"object"};                      ///< numbers in model.objects
+  Slots<Collider> collider_ids{"collider"};                ///< numbers in model.colliders
+  Slots<MeshCollider> mesh_collider_ids{"mesh collider"};  ///< numbers in model.objects
+  std::unique_ptr<PairModel> pair_model;
+  State state;
+  Workspace workspace;
+  Lengths lengths;
+  float last_h = 1;
+  bool stopped = false;
+  bool surfaces_changed = false, objects_changed = false;  ///< since the last step
+};
+
+}  // namespace pliant
