@@ -2,12 +2,15 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -201,9 +204,25 @@ struct Wind {
   float air_density = 0;  ///< 0: no air at all; 1.2 at sea level [kg/m^3]
 };
 
-/// A force on a particle [N] from its position [m], velocity [m/s], mass [kg] and the time [s]. Called from one thread at a
-/// time in the particles' order. Use no libm in it if the run must give the same bits elsewhere.
-using ForceField = std::function<Vec3f(const Vec3f& position, const Vec3f& velocity, float mass, float time)>;
+/// A force on a particle [N] from its position [m], velocity [m/s], mass [kg] and the time [s]. Use no libm in it if the run must
+/// give the same bits elsewhere.
+struct ForceField {
+  using Function = std::function<Vec3f(const Vec3f& position, const Vec3f& velocity, float mass, float time)>;
+  Function function;
+  /// Whether it may be called from several threads at once, in any order: it must depend on its arguments alone. Where all
+  /// fields of a scene say so they run on all threads, with the same bits; else on one thread, in the particles' order.
+  bool on_all_threads = false;
+
+  ForceField() = default;
+  template <class F>
+  requires(!std::same_as<std::remove_cvref_t<F>, ForceField> && std::constructible_from<Function, F>)
+      ForceField(F&& f, bool may_run_on_all_threads = false)  // NOLINT(google-explicit-constructor): any callable is one
+      : function(std::forward<F>(f)), on_all_threads(may_run_on_all_threads) {}
+  explicit operator bool() const { return static_cast<bool>(function); }
+  Vec3f operator()(const Vec3f& position, const Vec3f& velocity, float mass, float time) const {
+    return function(position, velocity, mass, time);
+  }
+};
 
 // ---------------------------------------------------------------- how it is solved
 
@@ -278,7 +297,8 @@ struct Settings {
   bool measure = false;  ///< fill Report::residuals, stretch and overstretch each frame (costs about one more iteration)
   bool record_residuals = false;    ///< fill Report::convergence (slow: every iteration of the last substep is measured)
   bool record_multipliers = false;  ///< keep multipliers readable even where not needed (one iteration, or rigid)
-  std::string isa;  ///< "", or "x86-64-v2", "-v3", "-v4", "generic", "sequential" to force a code path (same bits, other speed)
+  std::string
+      isa;  ///< "", or "x86-64-v2", "-v3", "-v4", "generic", "sequential" to force a code path (same bits, other speed)
 };
 
 /// Everything that a World is made from.

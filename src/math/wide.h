@@ -15,7 +15,7 @@
 
 #include "math/scalar.h"
 #include "pliant/vec3.h"
-#include "pliant/world.h"
+#include "pliant/state.h"
 
 // PLIANT_X86_BITS: the widest registers of x86 that this unit may name, or 0.
 #if defined(PLIANT_LEVEL_IS_generic) || !defined(__x86_64__)

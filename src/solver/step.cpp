@@ -31,6 +31,7 @@ void run(const StepContext& context, double dt, Report& report) {
     collide(s);
     solve(s);
     filter(s);
+    if (s.work.contact_log != nullptr) log_contacts(s, *s.work.contact_log);
     if (!update(s)) return;
     respond(s);
   }

@@ -7,8 +7,10 @@
 
 #include "collision/narrow/contact.h"
 #include "collision/surfaces/surface_contact.h"
+#include "model/control.h"
 #include "model/model.h"
-#include "pliant/world.h"
+#include "pliant/state.h"
+#include "solver/contact_log.h"
 #include "solver/contact_solver.h"
 #include "solver/residual.h"
 #include "solver/sweeps/scratch.h"
@@ -46,6 +48,8 @@ struct Workspace {
   std::vector<std::vector<Vec3f>> triangle_forces;  ///< [object], where there is air
   std::vector<TileScratch> tiles;                   ///< one a tile task
   std::vector<MovingCollider> colliders;
+  std::unique_ptr<ContactLog> contact_log;          ///< of the frame under way; null where nobody asks
+  Control control;                                  ///< of the frame under way
   std::vector<FrameGravity> gravity;                ///< one an object
   std::vector<AlignedVector<float>> chain_scratch;  ///< one a thread
   std::vector<Records> anchors;                     ///< [object], position and displacement of each anchor of tethers

@@ -1,4 +1,5 @@
-// What a World holds. Its parts are in files by concern: objects.cpp (add and remove), state.cpp, read.cpp, world.cpp (step).
+// What a World holds. Its parts are in files by concern: objects.cpp (add, remove, edit), control.cpp, events.cpp, state.cpp,
+// read.cpp, world.cpp (step).
 #pragma once
 
 #include <memory>
@@ -26,6 +27,11 @@ struct World::Implementation {
   int add_to_model(const MeshCollider& collider);
   /// Gives an object of the model, just added, a place in the State and in the workspace.
   void put(int number);
+  /// Throws Error where the origins of an edit's particles do not fit.
+  void require_origins(int number, const Edit& edit) const;
+  /// Puts another in its place; `from` as in Edit.
+  void replace(int number, CompiledObject by, const std::vector<int>& from);
+  void forget_pose(bool is_mesh, int slot);
   /// Takes it out of model, State and workspace.
   void remove(int number);
   /// Room in the workspace for an object that came, went or was compiled anew.
@@ -44,6 +50,23 @@ struct World::Implementation {
   // ---- state.cpp
   /// Throws Error where a State's blocks are not those of this World.
   void require_blocks(const State& given) const;
+  void require_held_poses(const State& given) const;
+
+  // ---- control.cpp
+  const HeldPose* held(bool is_mesh, int slot) const;
+  Posed pose_now(ColliderId id) const;
+  Posed pose_now(MeshColliderId id) const;
+  /// Before and after a step: times of what is driven, and poses that are held.
+  void begin_control(double dt);
+  void stop_fixed();
+  void end_control();
+  /// What was given for an object or collider that goes.
+  void forget_control(int number);
+
+  // ---- events.cpp
+  Thing thing_of(int body) const;
+  void make_events();
+  void forget_touching(const Thing& thing);
 
   // ---- read.cpp
   const Record* positions_of(ObjectId id) const { return state.positions.data() + model.first[number(id)]; }
@@ -65,8 +88,11 @@ struct World::Implementation {
   State state;
   Workspace workspace;
   Lengths lengths;
+  std::vector<std::pair<Thing, Thing>> touching;  ///< in the last step, ascending
+  std::vector<ContactEvent> events;
   float last_h = 1;
   bool stopped = false;
+  bool may_drift = false;  ///< fixed particles may have a velocity from a frame in which the user moved them
   bool surfaces_changed = false, objects_changed = false;  ///< since the last step
 };
 

@@ -1,7 +1,9 @@
 // Objects come and go. Each has a number in the model, a block in the State and its own part of the workspace, so that adding or
 // removing one costs what that one costs. Contact among surfaces is prepared anew, once, before the next step.
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <map>
 
 #include "collision/fields/solid_fields.h"
 #include "inspect/inspect_scene.h"
@@ -82,10 +84,16 @@ void World::Implementation::remove(int number) {
   for (Records* records : {&state.positions, &state.remainders, &state.velocities, &workspace.displacements})
     std::fill_n(records->begin() + static_cast<std::ptrdiff_t>(first), particles, Record{});
   model.remove(number);
+  forget_control(number);
   std::erase_if(model.fields, [&](const FieldCollider& field) { return field.object == number; });
   state.blocks[number] = {0, 0, model.generation[number]};
   for (Records* records : {&state.positions, &state.remainders, &state.velocities}) records->resize(model.particles());
   prepare(number);
+}
+
+void World::Implementation::forget_control(int number) {
+  workspace.control.objects.erase(number);
+  workspace.control.meshes.erase(number);
 }
 
 void World::Implementation::prepare(int number) {
@@ -97,7 +105,61 @@ void World::Implementation::prepare(int number) {
 
 void World::Implementation::note_surfaces(int number) {
   const CompiledObject& object = model.objects[number];
-  surfaces_changed = surfaces_changed || pair_model != nullptr || object.self_collision || object.collides;
+  const auto is_mesh = [](const CompiledObject& one) { return one.is_collider && one.groups != 0; };
+  surfaces_changed = surfaces_changed || pair_model != nullptr || object.self_collision ||
+                     (object.collides && object.groups != 0) ||
+                     std::any_of(model.objects.begin(), model.objects.end(), is_mesh);
+}
+
+void World::Implementation::require_origins(int number, const Edit& edit) const {
+  const CompiledObject& old = model.objects[number];
+  const auto refuse = [&](const std::string& element, const std::string& problem) {
+    throw Error({.object = edit.object.name, .element = element}, problem, "give for each particle the one it was, or -1");
+  };
+  if (edit.from.size() != edit.object.positions.size())
+    refuse("", "has " + std::to_string(edit.object.positions.size()) + " particles and " +
+                   std::to_string(edit.from.size()) + " origins");
+  for (std::size_t i = 0; i < edit.from.size(); ++i)
+    if (edit.from[i] < -1 || edit.from[i] >= old.user_particles)
+      refuse("particle " + std::to_string(i),
+             "comes from particle " + std::to_string(edit.from[i]) + ", which does not exist");
+  require_room(model, edit.object.positions.size() + edit.object.attachments.size(), edit.object.name);
+}
+
+void World::Implementation::replace(int number, CompiledObject by, const std::vector<int>& from) {
+  note_surfaces(number);
+  const CompiledObject& old = model.objects[number];
+  const int first = model.first[number], particles = old.particles;
+  // Targets of attachments follow the particles, and are the same as far as there were as many.
+  const auto origin = [&](int user) {
+    const int at = user < by.user_particles ? from[user] : user - by.user_particles + old.user_particles;
+    return at < 0 || at >= particles ? -1 : first + old.place[at];
+  };
+  std::vector<std::array<Record, 3>> kept(by.order.size());
+  std::vector<char> is_kept(by.order.size(), 0);
+  for (std::size_t i = 0; i < by.order.size(); ++i) {
+    const int at = origin(by.order[i]);
+    if (at < 0) continue;
+    is_kept[i] = 1;
+    kept[i] = {state.positions[at], state.remainders[at], state.velocities[at]};
+  }
+  for (Records* records : {&state.positions, &state.remainders, &state.velocities, &workspace.displacements})
+    std::fill_n(records->begin() + first, particles, Record{});
+  forget_control(number);
+  model.replace(number, std::move(by));
+  put(number);
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (is_kept[i] == 0) continue;
+    const auto at = static_cast<std::size_t>(model.first[number]) + i;
+    Record& x = state.positions[at];
+    x = {kept[i][0].x, kept[i][0].y, kept[i][0].z, x.w};
+    state.remainders[at] = kept[i][1];
+    state.velocities[at] = x.w > 0 ? kept[i][2] : Record{};
+  }
+}
+
+void World::Implementation::forget_pose(bool is_mesh, int slot) {
+  std::erase_if(state.held_poses, [&](const HeldPose& pose) { return pose.is_mesh == is_mesh && pose.slot == slot; });
 }
 
 void World::Implementation::prepare_pairs() {
@@ -144,20 +206,41 @@ MeshColliderId World::add(const MeshCollider& collider) {
   return self_->mesh_collider_ids.add(number);
 }
 
+std::vector<int> World::edit(ObjectId object, const Edit& edit) {
+  const int number = self_->number(object);
+  refuse_grave(edit.object);
+  self_->require_origins(number, edit);
+  const CompiledObject& old = self_->model.objects[number];
+  std::vector<int> news(old.user_particles, -1);
+  for (int i = static_cast<int>(edit.from.size()); i-- > 0;)
+    if (edit.from[i] >= 0) news[edit.from[i]] = i;
+  self_->replace(number, compile(edit.object, self_->compile_options()), edit.from);
+  return news;
+}
+
 void World::remove(ObjectId object) {
   self_->remove(self_->number(object));
+  self_->forget_touching(object);
   self_->object_ids.remove(object);
 }
 
 void World::remove(ColliderId collider) {
   const int number = self_->collider_ids.number(collider);
+  self_->forget_pose(false, collider.slot);
+  self_->forget_touching(collider);
   self_->collider_ids.remove(collider);
   self_->collider_ids.close_gap(number);
   self_->model.colliders.erase(self_->model.colliders.begin() + number);
+  std::map<int, PoseDrive> drives;  // of those above it the numbers are one less
+  for (const auto& [other, drive] : self_->workspace.control.colliders)
+    if (other != number) drives.emplace(other > number ? other - 1 : other, drive);
+  self_->workspace.control.colliders = std::move(drives);
 }
 
 void World::remove(MeshColliderId collider) {
   self_->remove(self_->mesh_collider_ids.number(collider));
+  self_->forget_pose(true, collider.slot);
+  self_->forget_touching(collider);
   self_->mesh_collider_ids.remove(collider);
 }
 

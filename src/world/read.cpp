@@ -1,9 +1,9 @@
 // What a World says of itself between steps.
 #include <algorithm>
 
-#include "collision/fields/collider_pose.h"
 #include "constraints/all.h"
 #include "matter/advice_settings.h"
+#include "pliant/error.h"
 #include "world/advice.h"
 #include "world/implementation.h"
 
@@ -43,6 +43,43 @@ std::vector<Vec3f> World::velocities(ObjectId object) const {
   return self_->in_given_order(self_->number(object), self_->state.velocities);
 }
 
+namespace {
+
+void read(const CompiledObject& from, const Record* records, std::span<Vec3f> into) {
+  if (into.size() != static_cast<std::size_t>(from.user_particles)) {
+    throw Error({.object = from.name},
+                "has " + std::to_string(from.user_particles) + " particles, the span that is read into " +
+                    std::to_string(into.size()),
+                "give one of the same size");
+  }
+  for (int user = 0; user < from.user_particles; ++user) {
+    const Record& r = records[from.place[user]];
+    into[user] = {r.x, r.y, r.z};
+  }
+}
+
+}  // namespace
+
+void World::read_positions(ObjectId object, std::span<Vec3f> into) const {
+  read(self_->object(object), self_->positions_of(object), into);
+}
+void World::read_velocities(ObjectId object, std::span<Vec3f> into) const {
+  read(self_->object(object), self_->state.velocities.data() + self_->model.first[self_->number(object)], into);
+}
+void World::read_mesh_collider_positions(MeshColliderId collider, std::span<Vec3f> into) const {
+  const int number = self_->mesh_collider_ids.number(collider);
+  read(self_->model.objects[number], self_->state.positions.data() + self_->model.first[number], into);
+}
+
+std::span<const Record> World::positions_in_storage_order(ObjectId object) const {
+  return {self_->positions_of(object), static_cast<std::size_t>(self_->object(object).particles)};
+}
+std::span<const Record> World::velocities_in_storage_order(ObjectId object) const {
+  return {self_->state.velocities.data() + self_->model.first[self_->number(object)],
+          static_cast<std::size_t>(self_->object(object).particles)};
+}
+std::span<const int> World::storage_order(ObjectId object) const { return self_->object(object).order; }
+
 TriangleMesh World::mesh(ObjectId object) const {
   TriangleMesh mesh{positions(object), {}};
   const CompiledObject& from = self_->object(object);
@@ -51,12 +88,8 @@ TriangleMesh World::mesh(ObjectId object) const {
   return mesh;
 }
 
-Vec3f World::collider_position(ColliderId collider) const {
-  return convert<float>(collider_pose(self_->collider(collider), self_->state.time)).position;
-}
-Quatf World::collider_rotation(ColliderId collider) const {
-  return convert<float>(collider_pose(self_->collider(collider), self_->state.time)).rotation;
-}
+Vec3f World::collider_position(ColliderId collider) const { return convert<float>(self_->pose_now(collider)).position; }
+Quatf World::collider_rotation(ColliderId collider) const { return convert<float>(self_->pose_now(collider)).rotation; }
 
 std::vector<Vec3f> World::mesh_collider_positions(MeshColliderId collider) const {
   return self_->in_given_order(self_->mesh_collider_ids.number(collider), self_->state.positions);

@@ -45,8 +45,8 @@ class Slots {
     if (has(id)) return slots_[id.slot].number;
     const bool existed =
         id.slot >= 0 && id.slot < static_cast<int>(slots_.size()) && id.generation < slots_[id.slot].generation;
-    throw Error({}, (existed ? "there is no longer a " : "there is no ") + kind_ + " " + words(id),
-                existed ? "it was removed: keep the id that add returned last" : "use an id that this World returned");
+    throw Error({}, "there is no " + kind_ + " " + words(id) + (existed ? " any more" : ""),
+                existed ? "it was removed; use the id of one that exists" : "use an id that this World returned");
   }
 
   /// The id of what is in a slot now; one that names nothing where it is empty.

@@ -23,9 +23,9 @@ void forget_multipliers(Workspace& workspace) {
 void add_records(Sha256& sha, const Records& records) { sha.add(records.data(), records.size() * sizeof(Record)); }
 
 /// Whether blocks are as in a World of which nothing was removed or edited.
-bool follow_one_another(const std::vector<Block>& blocks) {
+bool follow_one_another(const std::vector<StateBlock>& blocks) {
   int first = 0;
-  for (const Block& block : blocks) {
+  for (const StateBlock& block : blocks) {
     if (block.first != first || block.generation != 0) return false;
     first += block.particles;
   }
@@ -34,8 +34,21 @@ bool follow_one_another(const std::vector<Block>& blocks) {
 
 }  // namespace
 
+void World::Implementation::require_held_poses(const State& given) const {
+  for (const HeldPose& pose : given.held_poses) {
+    const bool exists =
+        pose.is_mesh ? mesh_collider_ids.has({pose.slot, pose.generation}) : collider_ids.has({pose.slot, pose.generation});
+    if (!exists)
+      throw Error({}, "the state holds a pose of a collider that this World does not have",
+                  "restore a state of this world");
+    const Quatf& q = pose.rotation;
+    const float size = length_squared(pose.position) + q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+    if (!std::isfinite(size)) throw Error({}, "the state holds a pose that is not finite", "restore an earlier state");
+  }
+}
+
 void World::Implementation::require_blocks(const State& given) const {
-  const std::vector<Block>& own = state.blocks;
+  const std::vector<StateBlock>& own = state.blocks;
   if (given.blocks == own) return;
   const auto other = std::mismatch(given.blocks.begin(), given.blocks.end(), own.begin(), own.end()).second;
   const std::string name = other != own.end() ? model.objects[static_cast<std::size_t>(other - own.begin())].name : "";
@@ -46,6 +59,7 @@ void World::Implementation::require_blocks(const State& given) const {
 
 void World::restore(const State& state) {
   self_->require_blocks(state);
+  self_->require_held_poses(state);
   const std::size_t particles = self_->state.positions.size();
   if (state.positions.size() != particles || state.velocities.size() != particles || state.remainders.size() != particles) {
     throw Error(
@@ -75,16 +89,26 @@ void World::restore(const State& state) {
   forget_multipliers(self_->workspace);
   self_->workspace.look_for_tangles = true;
   self_->stopped = false;
+  self_->may_drift = true;
+  self_->workspace.control = {};
+  self_->touching.clear();
+  self_->events.clear();
 }
 
 std::string hash(const State& state) {
   Sha256 sha;
   sha.add(&state.time, sizeof state.time);
   sha.add(&state.frame, sizeof state.frame);
-  if (!follow_one_another(state.blocks)) sha.add(state.blocks.data(), state.blocks.size() * sizeof(Block));
+  if (!follow_one_another(state.blocks)) sha.add(state.blocks.data(), state.blocks.size() * sizeof(StateBlock));
   add_records(sha, state.positions);
   add_records(sha, state.remainders);
   add_records(sha, state.velocities);
+  for (const HeldPose& pose : state.held_poses) {
+    const int thing[] = {pose.is_mesh ? 1 : 0, pose.slot, pose.generation};
+    sha.add(thing, sizeof thing);
+    sha.add(&pose.position, sizeof pose.position);
+    sha.add(&pose.rotation, sizeof pose.rotation);
+  }
   return sha.finish();
 }
 

@@ -40,7 +40,8 @@ int World::Implementation::substeps_for(double dt, std::vector<std::string>& war
   if (pair_model == nullptr) return settings.substeps;
   const double shortest = dt / shortest_substep;
   const int most = shortest < settings.most_substeps ? static_cast<int>(shortest) : settings.most_substeps;
-  return divided_substeps(model, *pair_model, state, {state.time, dt, settings.substeps, most}, warnings);
+  return divided_substeps(model, workspace.control, *pair_model, state, {state.time, dt, settings.substeps, most},
+                          warnings);
 }
 
 World::World(const Scene& scene) : World(scene, scene.settings) {}
@@ -70,6 +71,7 @@ Report World::step(float dt) {
     return report;
   }
   self_->bring_up_to_date();
+  self_->begin_control(dt);
   report.substeps = self_->substeps_for(dt, report.warnings);
   self_->last_h = static_cast<float>(double(dt) / report.substeps);
   self_->stopped = true;  // unless the step comes to its end: a force field of the user's own may throw
@@ -78,6 +80,8 @@ Report World::step(float dt) {
                 self_->settings.record_residuals, static_cast<double>(self_->settings.tolerance)},
                dt, report);
   self_->stopped = report.nonfinite.has_value();
+  self_->end_control();
+  if (self_->workspace.contact_log != nullptr) self_->make_events();
   if (self_->settings.measure) {
     report.residuals = residuals();
     self_->measure(self_->lengths);

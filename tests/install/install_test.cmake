@@ -15,6 +15,7 @@ must(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -G ${GENERATOR}
   -D CMAKE_CXX_COMPILER=${COMPILER} -D "CMAKE_CXX_FLAGS=${FLAGS}")
 must(${CMAKE_COMMAND} --build ${WORK}/build --config ${CONFIGURATION})
 must(${CMAKE_COMMAND} -E chdir ${WORK}/build ./hello_cloth)
+must(${CMAKE_COMMAND} -E chdir ${WORK}/build ./run_time)
 
 file(READ ${WORK}/build/draped.ply draped)
 if(NOT draped MATCHES "element vertex 1600")

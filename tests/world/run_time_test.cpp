@@ -6,7 +6,7 @@
 #include <string>
 
 #include "pliant/error.h"
-#include "world/world_support.h"
+#include "world/run_time_support.h"
 
 namespace pliant {
 namespace {
@@ -38,7 +38,7 @@ Collider ball() {
 MeshCollider table() {
   MeshCollider collider;
   collider.name = "table";
-  collider.mesh = box_mesh({2, 0.1f, 2});
+  collider.mesh = box_mesh({4, 0.2f, 4});
   for (Vec3f& p : collider.mesh.positions) p.y -= 0.8f;
   return collider;
 }
@@ -135,7 +135,7 @@ TEST(RunTime, AStaleIdIsRefusedAndNeverAnotherObject) {
     world.mesh(first);
     FAIL();
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("no longer"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("any more"), std::string::npos) << error.what();
   }
   const ColliderId there = world.add(ball());
   world.remove(there);
