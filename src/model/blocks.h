@@ -4,6 +4,7 @@
 // object costs what that object costs, and memory stays flat where objects come and go. Holes next to one another are one.
 #pragma once
 
+#include <iterator>
 #include <map>
 
 namespace pliant {
@@ -17,8 +18,11 @@ class BlockAllocator {
 
   /// One past the last particle of the last block.
   int end() const { return end_; }
-  /// Owner of the block that holds a particle, which must be in one.
-  int owner_of(int particle) const { return (--owners_.upper_bound(particle))->second; }
+  /// Owner of the block that holds a particle; of one in a hole, some owner or -1.
+  int owner_of(int particle) const {
+    const auto after = owners_.upper_bound(particle);
+    return after == owners_.begin() ? -1 : std::prev(after)->second;
+  }
 
  private:
   int end_ = 0;

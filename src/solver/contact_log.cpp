@@ -24,65 +24,60 @@ void add(const Push& push, ContactLog& log) {
   sum.moment += push.at * push.impulse;
 }
 
-/// Normal impulse over inverse mass, as a speed: of the push, and of the restitution that the end of the substep makes of the speed
-/// at which it leaves the two.
-double speed_of(float push, float leaving, float approach, float restitution, float slow, float inverse_h) {
-  const float wanted = -approach > slow ? -restitution * approach : 0.f;
-  return std::max(0., double(push) * inverse_h + (double(wanted) - leaving));
-}
-
-Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
-
 Vec3d place_of(const Record& position, const Record& displacement) {
   return {double(position.x) + displacement.x, double(position.y) + displacement.y, double(position.z) + displacement.z};
 }
 
-void log_tile(const Substep& s, int task, ContactLog& log) {
-  const int object = s.model.tiles[task].object, colliders = static_cast<int>(s.model.colliders.size());
-  const AdvanceArguments a = particles(s, task);
-  for (const Contact& contact : s.work.tiles[task].contacts) {
-    const Record& x = a.positions[contact.particle];
-    if (!(contact.push > 0) || !(x.w > 0)) continue;
-    const bool is_field = contact.collider >= colliders;
-    const int by = is_field ? s.model.fields[contact.collider - colliders].object : body_of_collider(contact.collider);
-    const Record& d = a.displacements[contact.particle];
-    const Vec3f motion = vector_of(d) - vector_of(a.remainders[contact.particle]) - contact.surface_motion;
-    const float leaving = dot(contact.normal, motion) * a.inverse_h;
-    const double speed =
-        speed_of(contact.push, leaving, contact.approach, contact.restitution, 2 * length(a.gravity_step), a.inverse_h);
-    add({object, by, speed / x.w, contact.normal, place_of(x, d)}, log);
-  }
+/// Particles as a contact's points number them.
+struct Points {
+  const Record *positions, *displacements;
+  float h;
+  int object;  ///< whose particles they are, or -1: those of all objects
+};
+
+/// What is in the way of a particle: a primitive collider, or a mesh collider that it meets as a solid.
+int body_of(const Substep& s, std::int32_t collider) {
+  const auto colliders = static_cast<std::int32_t>(s.model.colliders.size());
+  return collider < colliders ? body_of_collider(collider) : s.model.fields[collider - colliders].object;
 }
 
-/// Without restitution the end of a substep only takes away the speed at which a push makes the two separate.
-void log_pair(const Substep& s, const PairContact& contact, ContactLog& log) {
-  if (!(contact.push > 0)) return;
-  int on = 0, by = 0;
-  double mobility = 0;  // inverse mass of the relative place
-  Vec3d at{};
-  Vec3f motion{};
+/// The push, and the restitution that the end of the substep adds, change the relative velocity by so much along the normal [m/s].
+double change_of(const Contact& contact, const Points& of, float slow) {
+  const Vec3f motion = relative(contact, of.displacements) - contact.carried - contact.surface_motion;
+  const float separating = dot(contact.normal, motion) / of.h;
+  const float wanted = separation_after(separating, contact.approach, contact.restitution, slow, contact.collider >= 0);
+  return std::max(0., double(contact.push) / of.h + (double(wanted) - separating));
+}
+
+void log_contact(const Substep& s, const Contact& contact, const Points& of, float slow, ContactLog& log) {
+  const double mobility = inverse_mass_of(contact, of.positions);
+  if (!(contact.push > 0) || !(mobility > 0)) return;
+  Push push;
+  push.by = contact.collider >= 0 ? body_of(s, contact.collider) : 0;
+  push.impulse = change_of(contact, of, slow) / mobility;
+  push.normal = contact.normal;
   for (int i = 0; i < 4; ++i) {
-    const int v = contact.vertex[i];
-    const double weight = contact.weight[i];
-    mobility += s.state.positions[v].w * weight * weight;
-    (weight > 0 ? on : by) = s.model.object_of(v);
-    motion += (vector_of(s.work.displacements[v]) - vector_of(s.state.remainders[v])) * contact.weight[i];
-    if (weight > 0) at += place_of(s.state.positions[v], s.work.displacements[v]) * weight;
+    const int point = contact.point[i];
+    const float weight = contact.weight[i];
+    if (weight == 0) continue;
+    (weight > 0 ? push.on : push.by) = of.object >= 0 ? of.object : s.model.object_of(point);
+    if (weight > 0) push.at += place_of(of.positions[point], of.displacements[point]) * double(weight);
   }
-  if (!(mobility > 0)) return;
-  const float leaving = dot(contact.normal, motion) / s.h, slow = 2 * length(s.model.gravity) * s.h;
-  const bool bounces = contact.restitution > 0 && -contact.approach > slow;
-  const double speed = speed_of(contact.push, bounces ? leaving : std::max(leaving, 0.f), contact.approach,
-                                contact.restitution, slow, 1 / s.h);
-  add({on, by, speed / mobility, contact.normal, at}, log);
+  add(push, log);
 }
 
 }  // namespace
 
 void log_contacts(const Substep& s, ContactLog& log) {
-  for (int task = 0; task < static_cast<int>(s.model.tiles.size()); ++task) log_tile(s, task, log);
+  const float slow = 2 * length(s.model.gravity) * s.h;
+  for (std::size_t task = 0; task < s.model.tiles.size(); ++task) {
+    const int object = s.model.tiles[task].object, first = s.model.first[object];
+    const Points of{s.state.positions.data() + first, s.work.displacements.data() + first, s.h, object};
+    for (const Contact& contact : s.work.tiles[task].contacts) log_contact(s, contact, of, slow, log);
+  }
+  const Points all{s.state.positions.data(), s.work.displacements.data(), s.h, -1};
   if (s.has_pairs())
-    for (const PairContact& contact : s.work.pairs->contacts()) log_pair(s, contact, log);
+    for (const Contact& contact : s.work.pairs->contacts()) log_contact(s, contact, all, slow, log);
   for (auto& [bodies, sum] : log) {
     sum.contacts = std::max(sum.contacts, sum.in_substep);
     sum.in_substep = 0;
