@@ -22,6 +22,12 @@ float approach_of(const Contact& c, const Record* displacements, float h) {
   return dot(c.normal, relative(c, displacements) - c.carried) / h;
 }
 
+void stop_approach(const Contact& c, Record* velocities, const Vec3f& missing) {
+  if (!(c.push > 0)) return;
+  const float separating = dot(c.normal, relative(c, velocities) + missing);
+  if (separating < 0) move_sides(c, c.normal * -separating, velocities);
+}
+
 void respond_to_contact(const Contact& c, Record* velocities, const PairResponse& response) {
   if (!(c.push > 0)) return;
   const float separating = dot(c.normal, relative(c, velocities) + response.missing);

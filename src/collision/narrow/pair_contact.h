@@ -25,6 +25,9 @@ struct PairResponse {
   float slow = 0;   ///< approach no faster than this is rest [m/s]
 };
 
+/// Removes the approach velocity of a contact that pushed. `missing`: what the relative velocity lacks [m/s].
+void stop_approach(const Contact& contact, Record* velocities, const Vec3f& missing);
+
 /// Gives a contact that pushed the relative velocity along its normal that restitution leaves (separation_after).
 void respond_to_contact(const Contact& contact, Record* velocities, const PairResponse& response = {});
 

@@ -47,7 +47,11 @@ class SurfaceContact {
   void filter(Executor& executor, const PairParticles& particles);
   /// After a frame's last substep: how much of their thickness contacts lack.
   void measure_overlaps(const PairParticles& particles);
-  /// After a substep, to one of contacts(). `gravity` is what velocities of a body's free particles lack: within a frame, that of the
+  /// After a substep, to each of contacts() before any responds: removes what is left of the approach. The next substep would stop it
+  /// along the normals of cloth that has crumpled by then.
+  void end_impact(const Contact& contact, const Record* positions, Record* velocities,
+                  FunctionRef<Vec3f(int body)> gravity) const;
+  /// Then, to one of contacts(). `gravity` is what velocities of a body's free particles lack: within a frame, that of the
   /// frame [m/s]. Approaches no faster than `slow` are rest [m/s].
   void respond(const Contact& contact, const Record* positions, Record* velocities, float slow,
                FunctionRef<Vec3f(int body)> gravity) const;
@@ -67,6 +71,7 @@ class SurfaceContact {
   const std::map<std::pair<int, int>, UnresolvablePairs>& unresolvable() const { return filter_.unresolvable(); }
 
  private:
+  Vec3f missing_of(const Contact& contact, const Record* positions, FunctionRef<Vec3f(int body)> gravity) const;
   bool is_lost(const PairStencil& pair) const;
   bool is_exempt(const PairStencil& pair) const { return is_lost(pair) || intersections_.hold(pair); }
 
