@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -258,6 +259,70 @@ TEST(Untangle, RefusesWhatIsShutUpInClosedClothAndNotWhatIsInAnOpenOne) {
   EXPECT_EQ(refusal_of(open), "");
   for (Vec3f& p : scene.objects[0].positions) p.x += 1.2f;
   EXPECT_EQ(refusal_of(scene), "") << "beside it";
+}
+
+/// A skirt whose folds deepen downwards, 0.3 m wide at the hip.
+TriangleMesh skirt(float radius, float folds, float phase) {
+  constexpr int around = 64, rows = 16;
+  TriangleMesh mesh;
+  for (int row = 0; row < rows; ++row)
+    for (int k = 0; k < around; ++k) {
+      const float down = static_cast<float>(row) / (rows - 1), angle = 2 * 3.14159265f * static_cast<float>(k) / around;
+      const float r = radius + 0.1f * down + 0.04f * down * std::cos(folds * angle + phase);
+      mesh.positions.push_back({r * std::cos(angle), -0.5f * down, r * std::sin(angle)});
+    }
+  for (int row = 0; row + 1 < rows; ++row)
+    for (int k = 0; k < around; ++k) {
+      const int a = row * around + k, b = row * around + (k + 1) % around;
+      mesh.triangles.push_back({a, b, a + around});
+      mesh.triangles.push_back({b, b + around, a + around});
+    }
+  return mesh;
+}
+
+TriangleMesh both(const TriangleMesh& first, const TriangleMesh& second) {
+  TriangleMesh mesh = first;
+  const int vertices = static_cast<int>(first.positions.size());
+  mesh.positions.insert(mesh.positions.end(), second.positions.begin(), second.positions.end());
+  for (const auto& t : second.triangles) mesh.triangles.push_back({vertices + t[0], vertices + t[1], vertices + t[2]});
+  return mesh;
+}
+
+/// Two skirts pinned at the hip whose folds pass through one another, as one object or as two.
+Scene nested_skirts(bool as_one) {
+  const TriangleMesh inner = skirt(0.15f, 6, 0), outer = skirt(0.158f, 5, 1);
+  Scene scene;
+  scene.settings = settings_of(10);
+  scene.settings.initial_intersections = Intersections::untangle;
+  std::vector<int> hip;
+  for (int k = 0; k < 64; ++k) hip.push_back(k);
+  if (as_one) {
+    scene.pin(scene.add(cloth(both(inner, outer), "skirts")), hip);
+    for (int& k : hip) k += static_cast<int>(inner.positions.size());
+    scene.pin(0, hip);
+  } else {
+    scene.pin(scene.add(cloth(inner, "inner")), hip);
+    scene.pin(scene.add(cloth(outer, "outer")), hip);
+  }
+  return scene;
+}
+
+/// Components of one mesh are parts of their own: they come apart as two objects do.
+TEST(Untangle, DrawsComponentsOfOneMeshApart) {
+  for (const bool as_one : {false, true}) {
+    SCOPED_TRACE(as_one ? "one object" : "two objects");
+    const Scene scene = nested_skirts(as_one);
+    World world(scene);
+    std::size_t before = crossings(world, scene);
+    EXPECT_GT(before, 200U);
+    for (int frame = 0; frame < 60; ++frame) {
+      world.step(dt);
+      const std::size_t now = crossings(world, scene);
+      EXPECT_LE(now, before) << "frame " << frame;
+      before = now;
+    }
+    EXPECT_EQ(before, 0U);
+  }
 }
 
 }  // namespace

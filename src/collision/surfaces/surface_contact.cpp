@@ -59,17 +59,6 @@ void SurfaceContact::begin_frame(const Record* positions, bool anew) {
   if (anew) lists_.forget();
 }
 
-// ---------------------------------------------------------------- exempt pairs
-
-/// Whether one side of a pair is lost in the body of the other.
-bool SurfaceContact::is_lost(const PairStencil& pair) const {
-  if (!untangler_ || !untangler_->is_busy()) return false;
-  const int first = model_.vertex_body[pair.vertex[0]], second = model_.vertex_body[pair.vertex[pair.first_side]];
-  bool lost = false;
-  for (int i = 0; i < 4; ++i) lost = lost || untangler_->is_lost(pair.vertex[i], i < pair.first_side ? second : first);
-  return lost;
-}
-
 // ---------------------------------------------------------------- contacts
 
 void SurfaceContact::detect(Executor& executor, const PairParticles& particles) {

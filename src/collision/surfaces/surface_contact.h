@@ -61,6 +61,9 @@ class SurfaceContact {
   /// Whether initially intersecting surfaces are led apart in this frame: contacts are then to be found before constraints are projected.
   bool untangles() const { return untangler_ && untangler_->calms(); }
 
+  /// Whether what intersects should be led apart and is not: it cuts nothing off, or that would make more intersections.
+  bool gives_up(const Intersection& found) const { return untangler_ && !untangler_->draws(found); }
+
   PairCounts counts() const;
   const std::vector<Contact>& contacts() const { return contacts_; }
   std::vector<Contact>& contacts() { return contacts_; }
@@ -72,8 +75,9 @@ class SurfaceContact {
 
  private:
   Vec3f missing_of(const Contact& contact, const Record* positions, FunctionRef<Vec3f(int body)> gravity) const;
-  bool is_lost(const PairStencil& pair) const;
-  bool is_exempt(const PairStencil& pair) const { return is_lost(pair) || intersections_.hold(pair); }
+  bool is_exempt(const PairStencil& pair) const {
+    return (untangler_ && untangler_->is_lost(pair)) || intersections_.hold(pair);
+  }
 
   const PairModel& model_;
   NearLists lists_;

@@ -35,47 +35,94 @@ std::vector<Vec3f> places_of(const Record* positions, int first, int count) {
 
 }  // namespace
 
-Untangler::Untangler(const PairModel& model) : model_(model) {
+Untangler::Untangler(const PairModel& model)
+    : model_(model), finder_(model.elements.triangles, model.elements.vertex_count) {
+  find_parts();
   for (int body = 0; body < model.rules.bodies(); ++body) {
     std::vector<Triangle> triangles;
     int first = 0, count = 0;
     if (!model.rules.is_immovable(body) || !closed_surface(model, body, triangles, first, count)) continue;
-    closed_.push_back({body, first, std::make_unique<MeshQuery>(places_of(model.rest.data(), first, count), triangles)});
+    closed_.push_back(
+        {body, part_of(first), first, std::make_unique<MeshQuery>(places_of(model.rest.data(), first, count), triangles)});
   }
   if (!closed_.empty()) around_ = triangles_around(model.elements);
+}
+
+/// Surfaces of movable bodies are cut into connected components; an immovable body is one part.
+void Untangler::find_parts() {
+  const auto vertices = static_cast<int>(model_.rest.size());
+  std::vector<int> root(model_.rest.size());
+  for (int v = 0; v < vertices; ++v) root[static_cast<std::size_t>(v)] = v;
+  const auto root_of = [&](int v) {
+    while (root[static_cast<std::size_t>(v)] != v)
+      v = root[static_cast<std::size_t>(v)] = root[static_cast<std::size_t>(root[static_cast<std::size_t>(v)])];
+    return v;
+  };
+  const auto join = [&](int a, int b) {
+    const int from = root_of(a), to = root_of(b);
+    root[static_cast<std::size_t>(std::max(from, to))] = std::min(from, to);
+  };
+  for (const auto& [a, b] : model_.elements.edges) join(a, b);
+  for (int v = 1; v < vertices; ++v)
+    if (body_of(v) == body_of(v - 1) && model_.rules.is_immovable(body_of(v))) join(v - 1, v);
+  part_.resize(model_.rest.size());
+  for (int v = 0; v < vertices; ++v) part_[static_cast<std::size_t>(v)] = root_of(v) == v ? parts_++ : part_of(root_of(v));
+}
+
+Untangler::PartPair Untangler::parts_of(const Intersection& tangle) const {
+  return std::minmax(part_of(tangle.a), part_of(model_.elements.triangles[static_cast<std::size_t>(tangle.triangle)][0]));
 }
 
 void Untangler::begin_frame(const Record* positions, const std::vector<Intersection>& tangles) {
   pushes_.clear();
   lost_in_.clear();
+  piece_.clear();
   drawn_.clear();
   speeds_.clear();
   inside_ = 0;
   find_inside(positions);
   find_pieces(positions, tangles);
   for (const int v : model_.elements.vertices)
-    if (positions[v].w > 0 && is_drawn(model_.vertex_body[static_cast<std::size_t>(v)])) speeds_.emplace_back(v, 0.f);
+    if (positions[v].w > 0 && is_drawn(part_of(v))) speeds_.emplace_back(v, 0.f);
 }
 
-bool Untangler::draws(int body, int out_of) const {
-  return std::any_of(pushes_.begin(), pushes_.end(), [&](const Push& push) {
-    const auto v = static_cast<std::size_t>(push.vertex);
-    return model_.vertex_body[v] == body && lost_in_[v] == out_of;
-  });
+bool Untangler::draws(const Intersection& tangle) const {
+  const auto [a, b] = parts_of(tangle);
+  return is_closed(a) || is_closed(b) ||
+         std::any_of(pushes_.begin(), pushes_.end(), [&, one = a, other = b](const Push& push) {
+           const auto v = static_cast<std::size_t>(push.vertex);
+           return PartPair(std::minmax(part_[v], lost_in_[v])) == PartPair(one, other);
+         });
 }
 
-void Untangler::add(int vertex, int body, const Push& push) {
-  if (lost_in_.empty()) lost_in_.assign(model_.rest.size(), -1);
-  int& lost = lost_in_[static_cast<std::size_t>(vertex)];
+bool Untangler::is_lost(const PairStencil& pair) const {
+  if (lost_in_.empty()) return false;
+  const int first = part_of(pair.vertex[0]), second = part_of(pair.vertex[static_cast<std::size_t>(pair.first_side)]);
+  bool lost = false, same_piece = true;
+  for (int i = 0; i < 4; ++i) {
+    const auto v = static_cast<std::size_t>(pair.vertex[static_cast<std::size_t>(i)]);
+    lost = lost || lost_in_[v] == (i < pair.first_side ? second : first);
+    same_piece = same_piece && piece_[v] >= 0 && piece_[v] == piece_[static_cast<std::size_t>(pair.vertex[0])];
+  }
+  return lost && !(first == second && same_piece);
+}
+
+void Untangler::add(int part, int piece, const Push& push) {
+  if (lost_in_.empty()) {
+    lost_in_.assign(model_.rest.size(), -1);
+    piece_.assign(model_.rest.size(), -1);
+  }
+  int& lost = lost_in_[static_cast<std::size_t>(push.vertex)];
   if (lost >= 0) return;
-  lost = body;
-  mark_drawn(vertex);
+  lost = part;
+  piece_[static_cast<std::size_t>(push.vertex)] = piece;
+  mark_drawn(push.vertex);
   pushes_.push_back(push);
 }
 
 void Untangler::mark_drawn(int vertex) {
-  if (drawn_.empty()) drawn_.assign(static_cast<std::size_t>(model_.rules.bodies()), 0);
-  drawn_[static_cast<std::size_t>(model_.vertex_body[static_cast<std::size_t>(vertex)])] = 1;
+  if (drawn_.empty()) drawn_.assign(static_cast<std::size_t>(parts_), 0);
+  drawn_[static_cast<std::size_t>(part_of(vertex))] = 1;
 }
 
 // ---------------------------------------------------------------- inside closed bodies
@@ -190,7 +237,7 @@ void Untangler::lead_out(const Patch& patch, const Closed& closed, const Record*
     const Depth& depth = depths[i];
     const bool together = length_squared(common) > 0;
     const float way = together ? way_out(query, depth.from, common, 1e30f) : depth.way;
-    add(v, closed.body, {v, together ? common : depth.out, way + thickness_of(v, closed.body)});
+    add(closed.part, closed.part, {v, together ? common : depth.out, way + thickness_of(v, closed.body)});
   }
 }
 
@@ -200,27 +247,51 @@ float Untangler::thickness_of(int vertex, int body) const {
 
 // ---------------------------------------------------------------- pieces
 
-bool Untangler::is_closed(int body) const {
-  return std::any_of(closed_.begin(), closed_.end(), [&](const Closed& closed) { return closed.body == body; });
+bool Untangler::is_closed(int part) const {
+  return std::any_of(closed_.begin(), closed_.end(), [&](const Closed& closed) { return closed.part == part; });
 }
 
 void Untangler::find_pieces(const Record* positions, const std::vector<Intersection>& tangles) {
-  std::map<std::pair<int, int>, std::vector<Intersection>> cuts;  // by bodies of edge and triangle
+  std::map<std::pair<int, int>, std::vector<Intersection>> cuts;  // by parts of edge and triangle
   for (const Intersection& tangle : tangles) {
-    const int a = model_.vertex_body[static_cast<std::size_t>(tangle.a)],
-              b = model_.vertex_body[static_cast<std::size_t>(model_.elements.triangles[tangle.triangle][0])];
+    const int a = part_of(tangle.a), b = part_of(model_.elements.triangles[static_cast<std::size_t>(tangle.triangle)][0]);
     // What a closed body cuts off is inside of it, or outside: that is told already, and not by which piece is smaller.
-    if (!model_.rules.is_immovable(a) && !is_closed(b)) cuts[{a, b}].push_back(tangle);
+    if (!model_.rules.is_immovable(body_of(tangle.a)) && !is_closed(b)) cuts[{a, b}].push_back(tangle);
     // Its vertices may be out already: it is calmed until its edges are, too.
     if (is_closed(b)) mark_drawn(tangle.a);
     if (is_closed(a)) mark_drawn(model_.elements.triangles[tangle.triangle][0]);
   }
-  for (const auto& [bodies, of_pair] : cuts) draw_back(positions, of_pair, bodies.first, bodies.second);
+  candidates_.clear();
+  for (const auto& [parts, of_pair] : cuts) draw_back(positions, of_pair, parts.first, parts.second);
+  const std::vector<PartPair> worse = made_worse(positions, tangles);
+  for (const Candidate& candidate : candidates_)
+    if (!std::binary_search(worse.begin(), worse.end(),
+                            PartPair(std::minmax(part_of(candidate.push.vertex), candidate.through))))
+      add(candidate.through, candidate.piece, candidate.push);
+}
+
+/// Pairs of parts between which there are more intersections once all candidates have gone as far as they go in a sixtieth of a
+/// second; ascending. A trial of positions alone, so that a State put back gives the same bits.
+std::vector<Untangler::PartPair> Untangler::made_worse(const Record* positions, const std::vector<Intersection>& tangles) {
+  if (candidates_.empty()) return {};
+  std::vector<Vec3f> places = places_of(positions, 0, static_cast<int>(model_.rest.size()));
+  for (const Candidate& candidate : candidates_)
+    places[static_cast<std::size_t>(candidate.push.vertex)] += candidate.push.direction * (model_.untangling_speed / 60);
+  std::map<PartPair, int> more;
+  for (const Intersection& tangle : tangles) --more[parts_of(tangle)];
+  for (const Intersection& found : finder_.find(places)) {
+    const int other = model_.elements.triangles[static_cast<std::size_t>(found.triangle)][0];
+    if (model_.rules.meet(body_of(found.a), body_of(other))) ++more[parts_of(found)];
+  }
+  std::vector<PartPair> worse;
+  for (const auto& [parts, by] : more)
+    if (by > 0) worse.push_back(parts);
+  return worse;
 }
 
 namespace {
 
-/// The connected pieces of a body's vertices once edges are cut: the number of each vertex's, and how many it has.
+/// The connected pieces of a part's vertices once edges are cut: the number of each vertex's, and how many it has.
 struct Pieces {
   std::vector<int> of, size;
 
@@ -230,7 +301,7 @@ struct Pieces {
   }
 };
 
-Pieces pieces_of(const PairModel& model, const std::vector<Intersection>& cuts, int body) {
+Pieces pieces_of(const PairModel& model, const std::vector<Intersection>& cuts, const std::vector<int>& part_of, int part) {
   std::vector<std::pair<int, int>> cut;
   cut.reserve(cuts.size());
   for (const Intersection& one : cuts) cut.push_back(std::minmax(one.a, one.b));
@@ -239,24 +310,23 @@ Pieces pieces_of(const PairModel& model, const std::vector<Intersection>& cuts, 
   for (int i = 0; i < static_cast<int>(model.rest.size()); ++i) pieces.of.push_back(i);
   pieces.size.assign(model.rest.size(), 0);
   for (const auto& [a, b] : model.elements.edges) {
-    if (model.vertex_body[static_cast<std::size_t>(a)] != body ||
-        std::binary_search(cut.begin(), cut.end(), std::pair{a, b}))
+    if (part_of[static_cast<std::size_t>(a)] != part || std::binary_search(cut.begin(), cut.end(), std::pair{a, b}))
       continue;
     const int from = pieces.root(a), to = pieces.root(b);
     pieces.of[static_cast<std::size_t>(std::max(from, to))] = std::min(from, to);
   }
   for (const int v : model.elements.vertices) {
     const int root = pieces.of[static_cast<std::size_t>(v)] = pieces.root(v);
-    if (model.vertex_body[static_cast<std::size_t>(v)] == body) ++pieces.size[static_cast<std::size_t>(root)];
+    if (part_of[static_cast<std::size_t>(v)] == part) ++pieces.size[static_cast<std::size_t>(root)];
   }
   return pieces;
 }
 
 }  // namespace
 
-/// Every piece but the largest of a body goes back through what cuts it.
-void Untangler::draw_back(const Record* positions, const std::vector<Intersection>& cuts, int body, int through) {
-  const Pieces pieces = pieces_of(model_, cuts, body);
+/// Every piece but the largest of a part may go back through what cuts it.
+void Untangler::draw_back(const Record* positions, const std::vector<Intersection>& cuts, int part, int through) {
+  const Pieces pieces = pieces_of(model_, cuts, part_, part);
   const int largest_piece =
       static_cast<int>(std::max_element(pieces.size.begin(), pieces.size.end()) - pieces.size.begin());
   std::map<int, Vec3f> ways;
@@ -274,7 +344,7 @@ void Untangler::draw_back(const Record* positions, const std::vector<Intersectio
   for (const int v : model_.elements.vertices) {
     const auto way = ways.find(pieces.of[static_cast<std::size_t>(v)]);
     if (way == ways.end() || !(positions[v].w > 0)) continue;
-    add(v, through, {v, unit_or(way->second, Vec3f{0, 1, 0}), 1e30f});
+    candidates_.push_back({{v, unit_or(way->second, Vec3f{0, 1, 0}), 1e30f}, through, way->first});
   }
 }
 
