@@ -1,6 +1,7 @@
 // The elements of each cluster, laid out for sixteen lanes. Made once for a model.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -15,14 +16,15 @@ enum ElementKind { vertex_kind, edge_kind, triangle_kind };
 struct ClusterElements {
   int corners = 0;
   std::vector<int> start, count;  ///< of each cluster; `start` has one more
-  std::vector<std::int32_t> item, corner[3];
+  std::vector<std::int32_t> item;
+  std::array<std::vector<std::int32_t>, 3> corner;
   /// Of each row of a comparison: columns to leave out, because they share a vertex with it or are static neighbours.
   std::vector<std::int32_t> left_out_start;
   std::vector<LeftOut> left_out;
 };
 
 struct ClusterLayout {
-  ClusterElements elements[3];  ///< by ElementKind
+  std::array<ClusterElements, 3> elements;  ///< by ElementKind
   /// Of each cluster its vertices and the corners of all elements that begin at them, padded to multiples of sixteen.
   std::vector<std::int32_t> vertices;
   std::vector<int> vertex_start;
