@@ -162,6 +162,7 @@ struct ObjectInfo {
 /// A solve is called good where no distance is longer than its force explains by more than this [-].
 inline constexpr double tolerated_overstretch = 0.01;
 
+/// More than thirty members: it is the one object that a user steps and reads.
 class World {
  public:
   /// Compiles a scene. Throws Error naming the object, the element and what to do where it can't be simulated.

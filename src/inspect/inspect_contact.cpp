@@ -92,12 +92,13 @@ double estimated_pairs(const Object& object, double kept) {
       ++triangles[static_cast<std::size_t>(corner)];
     }
   }
+  constexpr double pi = 3.14159265358979323846;
   double pairs = 0;
   const double all = static_cast<double>(object.triangles.size());
   for (std::size_t i = 0; i < areas.size(); ++i) {
     if (!(areas[i] > 0)) continue;
     const double area = areas[i] / triangles[i], reach = kept + std::sqrt(2 * area);
-    pairs += 3 * std::min(all, std::acos(-1.) * reach * reach / area);
+    pairs += 3 * std::min(all, pi * reach * reach / area);
   }
   return pairs;
 }

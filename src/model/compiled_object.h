@@ -79,6 +79,7 @@ struct CompiledVolume {
   float damping = 0;
 };
 
+/// A record of what compile() makes of one object, more than thirty members because each stage of a step reads a few of them.
 struct CompiledObject {
   std::string name;
   Sweep sweep = Sweep::tiled;  ///< that it is laid out for and solved by; never automatic
