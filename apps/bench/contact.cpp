@@ -69,7 +69,7 @@ ContactRow measure(int size, int frames) {
     times[0].push_back(milliseconds(without, report));
     times[1].push_back(milliseconds(with, report));
     candidates.push_back(static_cast<double>(report.pairs.candidates) / row.particles);
-    row.lists += static_cast<double>(report.pairs.lists) / frames;
+    row.lists += static_cast<double>(report.pairs.rebuilds) / frames;
   }
   row.without_ms = median(times[0]);
   row.with_ms = median(times[1]);

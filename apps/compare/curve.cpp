@@ -81,7 +81,7 @@ Run run_of(const Scene& scene, World& start, const Method& method, int iteration
 /// Of the substep just made, or of the next one where this one did what only the first after a restore does. That one may not be
 /// finite where a sweep diverges: then the first has to do.
 double milliseconds_of(const Report& report, Run& run, const Scene& scene, const Options& options) {
-  if (report.pairs.lists == 0) return report.milliseconds;
+  if (report.pairs.rebuilds == 0) return report.milliseconds;
   run.sample.of_next = true;
   const Report next = run.world.step(static_cast<float>(substep_of(scene, options)));
   return next.ok() ? next.milliseconds : report.milliseconds;

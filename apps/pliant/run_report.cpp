@@ -34,21 +34,26 @@ Json residuals_json(const World& world) {
 }
 
 Json pairs_json(const PairReport& pairs) {
-  return {{"candidates", pairs.candidates}, {"contacts", pairs.contacts}, {"tangled", pairs.tangled},
-          {"shortened", pairs.shortened},   {"hopeless", pairs.hopeless}, {"lists", pairs.lists},
-          {"inside", pairs.inside},         {"deepest", pairs.deepest}};
+  return {{"candidates", pairs.candidates},
+          {"contacts", pairs.contacts},
+          {"initially_intersecting", pairs.initially_intersecting},
+          {"truncated", pairs.truncated},
+          {"unresolvable", pairs.unresolvable},
+          {"rebuilds", pairs.rebuilds},
+          {"inside", pairs.inside},
+          {"deepest", pairs.deepest}};
 }
 
 /// What belongs to a moment is the last frame's, what is counted is counted over the run.
 void add_pairs(PairReport& sum, const PairReport& frame) {
   sum.candidates = frame.candidates;
   sum.contacts = frame.contacts;
-  sum.tangled = frame.tangled;
+  sum.initially_intersecting = frame.initially_intersecting;
   sum.inside = frame.inside;
   sum.deepest = frame.deepest;
-  sum.shortened += frame.shortened;
-  sum.hopeless += frame.hopeless;
-  sum.lists += frame.lists;
+  sum.truncated += frame.truncated;
+  sum.unresolvable += frame.unresolvable;
+  sum.rebuilds += frame.rebuilds;
 }
 
 std::string without_numbers(std::string text) {

@@ -129,7 +129,7 @@ Audit audit_surfaces(const Scene& scene, int frames) {
     const Report report = stopwatch.step(world, scene.frame_time);
     stopwatch.lap(audit);
     audit.ok = report.ok();
-    audit.hopeless += report.pairs.hopeless;
+    audit.unresolvable += report.pairs.unresolvable;
     const TriangleMesh& mesh = surfaces.at(world);
     note(audit, finder.find(mesh.positions, true).size(), frame);
     if (frame % frames_between_distances == 0)
@@ -153,7 +153,7 @@ Audit audit_rope(const Scene& scene, int frames) {
     for (int substep = 0; substep < substeps; ++substep) {
       const Report report = stopwatch.step(world, scene.frame_time / static_cast<float>(substeps));
       audit.ok = audit.ok && report.ok();
-      audit.hopeless += report.pairs.hopeless;
+      audit.unresolvable += report.pairs.unresolvable;
       met += links.advance(world.positions(0));
       audit.least_distance = std::min(audit.least_distance, links.least());
     }

@@ -15,7 +15,7 @@ struct Audit {
   int vertices = 0;      ///< of all surfaces, mesh colliders included
   std::size_t most = 0;  ///< in any one frame: edges that pass through a triangle or touch one without sharing a vertex
   int first = -1;        ///< the first frame of such; -1: none
-  std::int64_t hopeless = 0;      ///< summed over all frames
+  std::int64_t unresolvable = 0;  ///< summed over all frames
   double least_distance = 0;      ///< in the frames measured [m]
   double ms = 0, slowest_ms = 0;  ///< processor time of a frame: the mean, the largest
   bool ok = true;                 ///< nothing stopped being finite

@@ -231,7 +231,8 @@ void long_contact_rows(Result& result) {
     const double bad = audit.ok ? static_cast<double>(audit.most) : std::numeric_limits<double>::quiet_NaN();
     result.rows.push_back(at_most(group + what + (rope ? ", links that meet" : ", edges that meet triangles"), 0, bad, "",
                                   in_words(audit, rope ? "paths of every substep" : "exact signs")));
-    result.rows.push_back(at_most(group + what + ", hopeless pairs", 0, static_cast<double>(audit.hopeless), "", ""));
+    result.rows.push_back(
+        at_most(group + what + ", unresolvable pairs", 0, static_cast<double>(audit.unresolvable), "", ""));
   }
 }
 

@@ -119,15 +119,14 @@ struct IterationCount {
 
 /// What surfaces did among one another and with mesh colliders.
 struct PairReport {
-  std::int64_t candidates = 0;  ///< pairs in lists: vertex-triangle and edge-edge, near in the mesh or found near
-  std::int64_t contacts = 0;    ///< that pushed in the last substep
-  std::int64_t shortened = 0;   ///< moves that the filter shortened so that nothing crossed, over all substeps
-  std::int64_t hopeless =
-      0;                     ///< pairs that no shortening keeps apart: two things that nothing pushes pinch what is between
-  std::int64_t tangled = 0;  ///< edges that cross a triangle since the beginning: exempt until they are apart
-  std::int64_t lists = 0;    ///< times it was found out anew which clusters are near
-  std::int64_t inside = 0;   ///< vertices inside a closed mesh collider, where they are being brought out
-  double deepest = 0;        ///< what the last substep left of a contact's overlap: thickness less distance, or 0 [m]
+  std::int64_t candidates = 0;    ///< pairs in lists: vertex-triangle and edge-edge, near in the mesh or found near
+  std::int64_t contacts = 0;      ///< that pushed in the last substep
+  std::int64_t truncated = 0;     ///< steps that the filter truncated so that nothing crossed, over all substeps
+  std::int64_t unresolvable = 0;  ///< pairs that no step limit keeps apart: static or kinematic surfaces pinch the cloth
+  std::int64_t initially_intersecting = 0;  ///< edges through a triangle since the start: no contact until they part
+  std::int64_t rebuilds = 0;                ///< broad-phase rebuilds
+  std::int64_t inside = 0;                  ///< vertices inside a closed mesh collider, on their way out
+  double deepest = 0;  ///< what the last substep left of a contact's overlap: thickness less distance, or 0 [m]
 };
 
 /// What a step has to say. A step never throws, but lets through what a force field of the user's throws.

@@ -17,7 +17,8 @@ namespace {
 
 using Intersections = Settings::Intersections;
 
-constexpr const char* what_to_do = "move one of them or mend the mesh, or have initial_intersections untangled or left";
+constexpr const char* what_to_do =
+    "move one of them or mend the mesh, or set initial_intersections to \"untangle\" or \"leave\"";
 
 /// What crosses between two parts: the first, and how many.
 struct Crossings {

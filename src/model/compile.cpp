@@ -19,7 +19,7 @@ namespace pliant {
 
 namespace {
 
-constexpr int batches_per_straddler_task = 32, batches_per_stencil_task = 4;
+constexpr int batches_per_inter_tile_task = 32, batches_per_stencil_task = 4;
 
 // ---------------------------------------------------------------- particles
 
@@ -157,7 +157,7 @@ Segment append_segment(const ConstraintList& list, const Colour& colour, int fir
   return segment;
 }
 
-/// Appends a colour in segments of at most `largest` batches: threads share out the segments of what straddles tiles.
+/// Appends a colour in segments of at most `largest` batches: threads share the segments of inter-tile constraints.
 void append_colour(const ConstraintList& list, const Colour& colour, int largest, int pool_number, CompiledObject& out) {
   const int batches = (static_cast<int>(colour.members.size()) + batch_width - 1) / batch_width;
   for (int first = 0; first < batches;) {
@@ -188,13 +188,13 @@ void schedule(std::vector<ConstraintList>& lists, const std::vector<int>& tile, 
   }
   Colouring colouring(out.particles);
   const auto append = [&](std::size_t i, int t) {
-    const bool straddles = t == tiles;
+    const bool inter_tile = t == tiles;
     const std::vector<Colour> colours =
         in_given_order ? one_by_one(members[i][t]) : colouring.colour(lists[i].stencils, lists[i].size, members[i][t]);
     for (const Colour& colour : colours) {
       const int first = static_cast<int>(out.segments.size());
-      append_colour(lists[i], colour, straddles ? batches_per_straddler_task : 1 << 30, static_cast<int>(i), out);
-      if (straddles) out.straddlers.push_back({first, static_cast<int>(out.segments.size())});
+      append_colour(lists[i], colour, inter_tile ? batches_per_inter_tile_task : 1 << 30, static_cast<int>(i), out);
+      if (inter_tile) out.inter_tile.push_back({first, static_cast<int>(out.segments.size())});
     }
   };
   for (int t = 0; t <= tiles; ++t) {

@@ -21,8 +21,8 @@ struct Tile {
   int first_segment = 0, last_segment = 0;
 };
 
-/// A stretch of segments that share no particle: those of one colour that straddle tiles.
-struct StraddlerColour {
+/// A stretch of segments that share no particle: the inter-tile constraints of one colour.
+struct InterTileColour {
   int first_segment = 0, last_segment = 0;
 };
 
@@ -91,10 +91,10 @@ struct CompiledObject {
   FrameRecords frames;  ///< at the start, in the order of Object::frames
   std::vector<Pool> pools;
   std::vector<Segment>
-      segments;  ///< tile after tile, then the straddlers, then the links of chains, then what is not in lanes
+      segments;  ///< tile after tile, then the inter-tile constraints, then the links of chains, then what is not in lanes
   std::vector<Tile> tiles;
-  std::vector<StraddlerColour> straddlers;
-  std::vector<StraddlerColour>
+  std::vector<InterTileColour> inter_tile;
+  std::vector<InterTileColour>
       stencil_colours;  ///< of what is projected one constraint at a time; shares no particle or frame
   std::vector<ChainBatch> chains;
   std::vector<ChainColour> chain_colours;

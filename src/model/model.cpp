@@ -6,11 +6,11 @@ namespace pliant {
 
 namespace {
 
-void append_colours(const CompiledObject& object, int number, const std::vector<StraddlerColour>& colours,
-                    std::vector<StraddlerPhase>& phases) {
+void append_colours(const CompiledObject& object, int number, const std::vector<InterTileColour>& colours,
+                    std::vector<InterTilePhase>& phases) {
   for (std::size_t colour = 0; colour < colours.size(); ++colour) {
     if (phases.size() <= colour) phases.emplace_back();
-    StraddlerPhase& phase = phases[colour];
+    InterTilePhase& phase = phases[colour];
     for (int s = colours[colour].first_segment; s < colours[colour].last_segment; ++s) {
       phase.tasks.push_back({number, s});
       phase.batches += object.segments[s].batches;
@@ -29,7 +29,7 @@ void Model::add(CompiledObject object) {
   first.push_back(first.back() + object.particles);
   first_frame.push_back(first_frame.back() + static_cast<int>(object.frames.size()));
   for (int tile = 0; tile < static_cast<int>(object.tiles.size()); ++tile) tiles.push_back({number, tile});
-  append_colours(object, number, object.straddlers, straddlers);
+  append_colours(object, number, object.inter_tile, inter_tile);
   append_colours(object, number, object.stencil_colours, stencils);
   for (std::size_t colour = 0; colour < object.chain_colours.size(); ++colour) {
     if (chains.size() <= colour) chains.emplace_back();

@@ -16,8 +16,8 @@ struct TileTask {
   int object = 0, tile = 0;
 };
 
-/// Segments of straddling constraints that share no particle, over all objects.
-struct StraddlerPhase {
+/// Segments of inter-tile constraints that share no particle, over all objects.
+struct InterTilePhase {
   struct Task {
     int object = 0, segment = 0;
   };
@@ -56,8 +56,8 @@ struct Model {
   std::vector<int> first;        ///< first[o] is object o's first particle in a State; one more at the end
   std::vector<int> first_frame;  ///< likewise of frames
   std::vector<TileTask> tiles;
-  std::vector<StraddlerPhase> straddlers;
-  std::vector<StraddlerPhase> stencils;  ///< what is projected one constraint at a time (solver/stencil.h)
+  std::vector<InterTilePhase> inter_tile;
+  std::vector<InterTilePhase> stencils;  ///< what is projected one constraint at a time (solver/stencil.h)
   std::vector<ChainPhase> chains;
 
   /// Appends an object and its tasks.

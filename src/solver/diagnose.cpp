@@ -58,7 +58,7 @@ std::optional<std::string> replay(const StepContext& context, const CompiledObje
 
 /// Likewise for what is projected one constraint at a time, from the orientations that the failed substep has left.
 std::optional<std::string> replay_stencils(const StepContext& context, const CompiledObject& object,
-                                           const StraddlerColour& colour, const SweepArguments& arguments) {
+                                           const InterTileColour& colour, const SweepArguments& arguments) {
   const auto number = static_cast<std::size_t>(&object - context.model.objects.data());
   const int first = context.model.first_frame[number], last = context.model.first_frame[number + 1];
   FrameRecords& all = context.state.frames;
@@ -114,14 +114,14 @@ std::string explain(const Substep& s, const CompiledObject& object, const std::v
       const Tile& tile = tile_of(s, task);
       if (auto culprit = replay(context, object, tile.first_segment, tile.last_segment, arguments)) return *culprit;
     }
-    for (const StraddlerColour& colour : object.straddlers) {
+    for (const InterTileColour& colour : object.inter_tile) {
       if (auto culprit = replay(context, object, colour.first_segment, colour.last_segment, arguments)) return *culprit;
     }
     for (const ChainBatch& chain : object.chains) {
       const int last = chain.first_segment + chain.steps;
       if (auto culprit = replay(context, object, chain.first_segment, last, arguments)) return *culprit;
     }
-    for (const StraddlerColour& colour : object.stencil_colours) {
+    for (const InterTileColour& colour : object.stencil_colours) {
       if (auto culprit = replay_stencils(context, object, colour, arguments)) return *culprit;
     }
   }

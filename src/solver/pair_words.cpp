@@ -32,7 +32,7 @@ std::string words_of(const Model& model, const Triangle& triangle, const Interse
   std::string text = name_of(model, a) + ": edge " + number_of(model, found.a) + "-" + number_of(model, found.b) +
                      " passes through triangle (" + corners + ") of " + (a == b ? "the same" : name_of(model, b));
   if (count > 1) text += " and " + std::to_string(count - 1) + " more";
-  return text + ": tangled, and left out of contact until they are apart";
+  return text + ": they intersect since the start and have no contact until they are apart";
 }
 
 /// A pair in the numbers of its objects: "vertex 4 and triangle (1, 2, 3)".
@@ -48,9 +48,9 @@ std::string words_of(const Model& model, const UnresolvablePairs& pairs) {
   const std::string of = a == b ? " and itself: " : " and " + name_of(model, b) + ": ";
   return name_of(model, a) + of + words_of(model, pairs.first) +
          (pairs.count > 1 ? " and " + std::to_string(pairs.count - 1) + " more pairs were" : " were") +
-         " hopeless: they touched, or were pinched by what nothing pushes, and may pass through one another; give them "
-         "more room, "
-         "a greater thickness, or more substeps";
+         " unresolvable: they touched, or static or kinematic surfaces pinched them, and may pass through one another; "
+         "give "
+         "them more room, a greater thickness, or more substeps";
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 namespace pliant {
 
-/// Appends a line for each two objects that are tangled and one for each two that are pinched, which names the first edge and triangle,
-/// or pair, in the user's numbers. As many lines as there are pairs of objects at most.
+/// Appends a line for each two objects that intersect since the start, and one for each two with unresolvable pairs. A line
+/// names the first edge and triangle, or the first pair, in the user's numbers.
 void warn_of_pairs(const Model& model, const SurfaceContact& pairs, std::vector<std::string>& warnings);
 
 }  // namespace pliant

@@ -71,18 +71,18 @@ void sweep_inter_tile(Substep& s, bool first_pass, Order order) {
 }
 
 void for_inter_tile(Substep& s, Order order, FunctionRef<void(int, const Segment*)> body) {
-  const std::size_t phases = s.model.straddlers.size();
+  const std::size_t phases = s.model.inter_tile.size();
   for (std::size_t p = 0; p < phases; ++p) {
-    const StraddlerPhase& phase = s.model.straddlers[order == Order::forward ? p : phases - 1 - p];
+    const InterTilePhase& phase = s.model.inter_tile[order == Order::forward ? p : phases - 1 - p];
     const auto sweep_task = [&](int i) {
-      const StraddlerPhase::Task& task = phase.tasks[i];
+      const InterTilePhase::Task& task = phase.tasks[i];
       if (is_swept(s, task.object)) body(task.object, s.model.objects[task.object].segments.data() + task.segment);
     };
     const int tasks = static_cast<int>(phase.tasks.size());
     if (phase.batches >= fewest_batches_to_share) {
-      s.context.executor.parallel_for("solve: straddlers", tasks, sweep_task);
+      s.context.executor.parallel_for("solve: inter-tile constraints", tasks, sweep_task);
     } else {
-      Stopwatch watch(s.context.executor.timings(), "solve: straddlers");
+      Stopwatch watch(s.context.executor.timings(), "solve: inter-tile constraints");
       for (int i = 0; i < tasks; ++i) sweep_task(i);
     }
   }

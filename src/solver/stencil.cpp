@@ -191,7 +191,7 @@ void project_stencils(Substep& s, bool first_pass) {
   int most = 0;
   for (const auto& [sweep, group] : s.work.sweeps) most = std::max(most, group.method->passes);
   for (int pass = 0; pass < most; ++pass) {
-    for (const StraddlerPhase& phase : s.model.stencils) {
+    for (const InterTilePhase& phase : s.model.stencils) {
       const int tasks = static_cast<int>(phase.tasks.size());
       const auto project_task = [&](int i) {
         const auto& [number, segment] = phase.tasks[i];

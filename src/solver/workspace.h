@@ -68,7 +68,7 @@ enum class Multipliers { none, needed, all };
 /// Makes everything the right size for a model but for its sweeps.
 void prepare(const Model& model, Multipliers kept, Workspace& workspace);
 
-/// Makes what belongs to one object the right size, after it was added or compiled anew.
+/// Makes what belongs to one object the right size, after it was added or compiled again.
 void prepare(const Model& model, int object, Multipliers kept, Workspace& workspace);
 
 /// After prepare: the groups of the sweeps that objects are compiled for, and what their methods keep. Of the settings, the

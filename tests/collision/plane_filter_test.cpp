@@ -138,7 +138,7 @@ TEST(PlaneFilter, KeepsPairsApartAtTheEndAndOnTheWay) {
     const double distance = pair_distance(c.pair, c.positions).distance;
     std::array<float, 4> shares{};
     const Separation found = filter(c, shares);
-    if (found == Separation::hopeless || distance < 1e-5 * c.size) continue;
+    if (found == Separation::unresolvable || distance < 1e-5 * c.size) continue;
     (found == Separation::free ? free : planned) += 1;
     ASSERT_GE(distance_at(c, 1), promised(c, distance)) << i;
     ASSERT_GE(pair_distance(c.pair, c.positions).distance, 0.);
@@ -169,7 +169,7 @@ TEST(PlaneFilter, LeavesNoExactCrossingOfATriangleThatStandsStill) {
     };
     const bool crosses = way() != EdgeTriangle::apart;
     std::array<float, 4> shares{};
-    if (filter(c, shares) == Separation::hopeless) {
+    if (filter(c, shares) == Separation::unresolvable) {
       ASSERT_LT(pair_distance(c.pair, c.positions).distance, 1e-6 * c.size) << i;
       continue;
     }
@@ -181,7 +181,7 @@ TEST(PlaneFilter, LeavesNoExactCrossingOfATriangleThatStandsStill) {
 
 TEST(PlaneFilter, LeavesWhatCannotBeShortened) {
   Random random(83);
-  int moved_and_kept = 0, hopeless = 0;
+  int moved_and_kept = 0, unresolvable = 0;
   for (int i = 0; i < 30000; ++i) {
     Case c = random_case(random);
     for (int k = 0; k < c.pair.first_side; ++k) c.positions[k].w = 0;
@@ -202,15 +202,15 @@ TEST(PlaneFilter, LeavesWhatCannotBeShortened) {
         ASSERT_TRUE(end.x == c.positions[k].x && end.y == c.positions[k].y && end.z == c.positions[k].z) << i;
       }
     }
-    if (found == Separation::hopeless) {
-      ++hopeless;
+    if (found == Separation::unresolvable) {
+      ++unresolvable;
     } else if (distance > 1e-5 * c.size) {
       moved_and_kept += found == Separation::planned ? 1 : 0;
       ASSERT_GE(distance_at(c, 1), promised(c, distance)) << i;
     }
   }
   EXPECT_GT(moved_and_kept, 500);
-  EXPECT_GT(hopeless, 500) << "what is overrun is said to be";
+  EXPECT_GT(unresolvable, 500) << "what is overrun is said to be";
 }
 
 TEST(PlaneFilter, ShortensNoMoreThanItMust) {

@@ -207,7 +207,7 @@ TEST_P(Compiled, TilesPartitionParticlesAndSegments) {
     segment = tile.last_segment;
   }
   EXPECT_EQ(particle, compiled_.particles);
-  for (const StraddlerColour& colour : compiled_.straddlers) {
+  for (const InterTileColour& colour : compiled_.inter_tile) {
     EXPECT_EQ(colour.first_segment, segment);
     segment = colour.last_segment;
   }
@@ -249,8 +249,8 @@ TEST_P(Compiled, TilesTouchTheirOwnParticlesAlone) {
   }
 }
 
-TEST_P(Compiled, SegmentsOfAStraddlingColourShareNothing) {
-  for (const StraddlerColour& colour : compiled_.straddlers) {
+TEST_P(Compiled, SegmentsOfAnInterTileColourShareNothing) {
+  for (const InterTileColour& colour : compiled_.inter_tile) {
     std::set<int> met;
     for (int s = colour.first_segment; s < colour.last_segment; ++s) {
       for (int particle : particles_of(compiled_, compiled_.segments[static_cast<std::size_t>(s)])) {
@@ -414,9 +414,9 @@ TEST(Model, JoinsObjectsEndToEnd) {
   EXPECT_EQ(state.remainders.size(), 47u);
   // A phase runs over the objects, whose particles are apart anyway.
   std::size_t tasks = 0, segments = 0;
-  for (const StraddlerPhase& phase : model.straddlers) tasks += phase.tasks.size();
+  for (const InterTilePhase& phase : model.inter_tile) tasks += phase.tasks.size();
   for (const CompiledObject& object : model.objects) {
-    for (const StraddlerColour& colour : object.straddlers)
+    for (const InterTileColour& colour : object.inter_tile)
       segments += static_cast<std::size_t>(colour.last_segment - colour.first_segment);
   }
   EXPECT_GT(tasks, 0u);

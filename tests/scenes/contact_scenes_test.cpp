@@ -90,7 +90,7 @@ TEST_P(ContactScene, CrossesNothingThatItDoesNotSay) {
     const Report report = world.step(scene.frame_time);
     ASSERT_TRUE(report.ok()) << report.explain();
     if (!expected.crosses_at_start) {
-      EXPECT_EQ(report.pairs.hopeless, 0) << "frame " << frame;
+      EXPECT_EQ(report.pairs.unresolvable, 0) << "frame " << frame;
     }
     last = find_crossings(surfaces.at(world)).size();
     most = std::max(most, last);

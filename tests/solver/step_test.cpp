@@ -1,4 +1,4 @@
-// A whole step on small tiles, so that schedules with many tiles and straddlers run on small scenes: the same bits on any
+// A whole step on small tiles, so that schedules with many tiles and inter-tile constraints run on small scenes: the same bits on any
 // number of threads and in any lanes; volumes; and the naming of what went wrong.
 #include "solver/step.h"
 

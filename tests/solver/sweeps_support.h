@@ -1,4 +1,4 @@
-// Scenes and runs that the tests of the sweeps share: compiled with small tiles, so that much straddles them.
+// Scenes and runs that the tests of the sweeps share: compiled with small tiles, so that there are many inter-tile constraints.
 #pragma once
 
 #include <cmath>

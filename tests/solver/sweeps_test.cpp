@@ -128,7 +128,7 @@ TEST_P(Sweeps, MeetsVolumesToo) {
   EXPECT_LT(last.dual_largest, 1e-4) << "multipliers explain the motion, but for the turning of gradients";
 }
 
-/// Of a sheet in small tiles, so that what straddles them must be met too.
+/// Of a sheet in small tiles, so that there are inter-tile constraints.
 TEST_P(Sweeps, MeetsEveryTypeInAndBetweenTiles) {
   SweepRun run = run_of(GetParam().sweep, 1, 500, GetParam().options);
   run.settings.record_residuals = true;
@@ -136,7 +136,7 @@ TEST_P(Sweeps, MeetsEveryTypeInAndBetweenTiles) {
   sheet.constraints.pop_back();                // PBD, of which there is always something left
   sheet.constraints[2].stiffness.damping = 0;  // as there is of what is damped
   const Outcome out = run_sweep({sheet}, run, 0);
-  EXPECT_TRUE(GetParam().sweep == Sweep::natural || !out.model.straddlers.empty());
+  EXPECT_TRUE(GetParam().sweep == Sweep::natural || !out.model.inter_tile.empty());
   const IterationResidual &first = out.reports[0].convergence.front(), &last = out.reports[0].convergence.back();
   ASSERT_EQ(first.primal.size(), 2U);
   const double left = GetParam().lacks == Lacks::turns ? 0.05 : 0.02;
@@ -322,7 +322,7 @@ std::vector<double> left_after_one(const std::vector<double>& moved, Sweep sweep
   SweepRun run = run_of(sweep, 1, 1);
   run.largest_tile = 6;
   const Outcome out = run_sweep({braced_line(moved)}, run, 0);
-  EXPECT_GT(out.model.straddlers.size(), 1U) << "straddlers of one colour have no order";
+  EXPECT_GT(out.model.inter_tile.size(), 1U) << "inter_tile of one colour have no order";
   std::vector<double> left;
   for (std::size_t i = 0; i < moved.size(); ++i)
     left.push_back(double(out.state.positions[out.model.objects[0].place[i]].x) - 0.1 * static_cast<double>(i));

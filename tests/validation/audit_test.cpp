@@ -20,7 +20,7 @@ TEST(Audit, FindsNothingWhereTheEngineKeepsItsPromise) {
     EXPECT_TRUE(audit.ok);
     EXPECT_EQ(audit.most, 0U);
     EXPECT_EQ(audit.first, -1);
-    EXPECT_EQ(audit.hopeless, 0);
+    EXPECT_EQ(audit.unresolvable, 0);
     EXPECT_EQ(audit.frames, 40);
     EXPECT_GT(audit.least_distance, 0);
   }
@@ -48,7 +48,7 @@ TEST(Audit, SeesSurfacesThatPassThroughOneAnother) {
   const Audit audit = audit_surfaces(scene, 40);
   EXPECT_GT(audit.most, 20U);
   EXPECT_GT(audit.first, 0);
-  EXPECT_EQ(audit.hopeless, 0);
+  EXPECT_EQ(audit.unresolvable, 0);
 }
 
 TEST(Audit, SeesABallThatPassesThroughASheet) {

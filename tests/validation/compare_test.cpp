@@ -153,7 +153,7 @@ TEST(Compare, TimesTheSubstepAfterWhereARestoredOneListsPairs) {
   for (const Sample& sample : result.curves[0].samples) {
     scene.settings.iterations = sample.iterations;
     World world(scene);
-    ASSERT_GT(world.step(scene.frame_time / 3).pairs.lists, 0) << "or this shows nothing";
+    ASSERT_GT(world.step(scene.frame_time / 3).pairs.rebuilds, 0) << "or this shows nothing";
     EXPECT_EQ(world.stretch().largest, sample.stretch.largest) << "of the substep itself, with " << sample.iterations;
   }
 

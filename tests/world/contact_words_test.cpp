@@ -235,11 +235,11 @@ TEST(Tangles, AreNamedInTheReport) {
   scene.settings.threads = 1;
   World world(scene);
   const Report report = world.step(1.f / 600);
-  EXPECT_GT(report.pairs.tangled, 0);
+  EXPECT_GT(report.pairs.initially_intersecting, 0);
   ASSERT_EQ(report.warnings.size(), 1U);
   const std::string& text = report.warnings[0];
   EXPECT_TRUE(says(text, "object 'table': edge ") || says(text, "object 'wall': edge ")) << text;
-  EXPECT_TRUE(says(text, "tangled, and left out of contact until they are apart")) << text;
+  EXPECT_TRUE(says(text, "intersect since the start and have no contact until they are apart")) << text;
   int a = 0, b = 0, c = 0, d = 0, e = 0;
   const std::size_t at = text.find("edge ");
   ASSERT_EQ(std::sscanf(text.c_str() + at, "edge %d-%d passes through triangle (%d, %d, %d)", &a, &b, &c, &d, &e), 5)
@@ -273,12 +273,12 @@ TEST(Tangles, OfWhatDoesNotMeetAreNone) {
   scene.objects[0].self_collision = true;
   World world(scene);
   const Report report = world.step(1.f / 600);
-  EXPECT_EQ(report.pairs.tangled, 0);
+  EXPECT_EQ(report.pairs.initially_intersecting, 0);
   EXPECT_TRUE(report.warnings.empty());
 }
 
 /// Two walls close on a sheet until there is no room for it.
-TEST(Hopeless, PinchesAreSaid) {
+TEST(Unresolvable, PinchesAreSaid) {
   Scene scene;
   scene.gravity = {};
   scene.add(sheet("sheet", 0));
@@ -295,12 +295,12 @@ TEST(Hopeless, PinchesAreSaid) {
   for (int frame = 0; frame < 15; ++frame) {
     const Report report = world.step(1.f / 60);
     ASSERT_TRUE(report.ok()) << report.explain();
-    EXPECT_EQ(report.pairs.hopeless > 0, says(report.explain(), "hopeless"));
+    EXPECT_EQ(report.pairs.unresolvable > 0, says(report.explain(), "unresolvable"));
     words += report.explain();
   }
   EXPECT_TRUE(says(words, "object 'sheet' and collider 'floor': ") || says(words, "collider 'floor' and object 'sheet': "))
       << words;
-  EXPECT_TRUE(says(words, "hopeless: they touched")) << words;
+  EXPECT_TRUE(says(words, "unresolvable: they touched")) << words;
   EXPECT_TRUE(says(words, "may pass through one another; give them more room")) << words;
 }
 
@@ -321,8 +321,8 @@ TEST(Ropes, DoNotTouchTheirOwnBending) {
   for (int frame = 0; frame < 10; ++frame) {
     const Report report = world.step(1.f / 60);
     EXPECT_EQ(report.pairs.contacts, 0);
-    EXPECT_EQ(report.pairs.shortened, 0);
-    EXPECT_EQ(report.pairs.hopeless, 0);
+    EXPECT_EQ(report.pairs.truncated, 0);
+    EXPECT_EQ(report.pairs.unresolvable, 0);
   }
 }
 

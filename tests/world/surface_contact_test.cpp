@@ -93,7 +93,7 @@ TEST_P(Surfaces, CrossNothing) {
   for (int frame = 0; frame < GetParam().frames; ++frame) {
     const Report report = world.step(dt);
     ASSERT_TRUE(report.ok()) << report.explain();
-    ASSERT_EQ(report.pairs.hopeless, 0) << "frame " << frame;
+    ASSERT_EQ(report.pairs.unresolvable, 0) << "frame " << frame;
     ASSERT_EQ(watch.crossings(world), 0u) << "frame " << frame;
     contacts = std::max(contacts, report.pairs.contacts);
   }

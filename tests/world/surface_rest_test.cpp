@@ -70,14 +70,14 @@ TEST(Layers, ComeToRestAtTheirThickness) {
   for (int i = 0; i < 3; ++i) scene.add(cloth(sheet(8, 0.2f, 0.004f + 0.005f * static_cast<float>(i)), 0.002f));
   scene.add(floor_at(0));
   World world(scene);
-  std::int64_t shortened = 0;
+  std::int64_t truncated = 0;
   for (int frame = 0; frame < 120; ++frame) {
     const Report report = world.step(dt);
     if (frame < 60) continue;
-    shortened += report.pairs.shortened;
+    truncated += report.pairs.truncated;
     ASSERT_LT(world.kinetic_energy(), 1e-6) << "frame " << frame;
   }
-  EXPECT_LT(shortened, 60 * 10 * 192 / 100) << "moves at rest are not shortened";
+  EXPECT_LT(truncated, 60 * 10 * 192 / 100) << "steps at rest are not truncated";
   for (int i = 0; i < 3; ++i)
     for (const Vec3f& p : world.positions(i))
       EXPECT_NEAR(p.y, 0.002f + 0.004f * static_cast<float>(i), 2e-4f) << "layer " << i;
@@ -132,7 +132,7 @@ TEST(Tangle, IsCountedDoesNotExplodeAndIsForgottenOnceApart) {
   Watch watch(world, scene);
   ASSERT_GT(watch.crossings(world), 5u);
   Report report = world.step(dt);
-  EXPECT_GT(report.pairs.tangled, 5);
+  EXPECT_GT(report.pairs.initially_intersecting, 5);
   for (int frame = 0; frame < 40; ++frame) {
     report = world.step(dt);
     ASSERT_TRUE(report.ok()) << report.explain();
@@ -140,7 +140,7 @@ TEST(Tangle, IsCountedDoesNotExplodeAndIsForgottenOnceApart) {
       for (const Vec3f& v : world.velocities(o)) ASSERT_LT(length(v), 3.f) << "frame " << frame;
   }
   EXPECT_EQ(watch.crossings(world), 0u);
-  EXPECT_EQ(report.pairs.tangled, 0);
+  EXPECT_EQ(report.pairs.initially_intersecting, 0);
 }
 
 }  // namespace

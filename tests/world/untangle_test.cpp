@@ -141,7 +141,7 @@ Fastest watch_speeds(World& world, int frames) {
     const PairReport pairs = world.step(dt).pairs;
     for (int o = 0; o < world.object_count(); ++o)
       for (const Vec3f& v : world.velocities(o)) fastest.ever = std::max(fastest.ever, length(v));
-    if (pairs.inside > 0 || pairs.tangled > 0) fastest.while_tangled = fastest.ever;
+    if (pairs.inside > 0 || pairs.initially_intersecting > 0) fastest.while_tangled = fastest.ever;
   }
   return fastest;
 }

@@ -22,7 +22,7 @@ class Tree {
  public:
   static constexpr int most_levels = 33;
 
-  /// Orders the leaves anew and fits all nodes. Leaf i keeps its number i in everything below.
+  /// Sorts the leaves and fits all nodes. Leaf i keeps its number i in everything below.
   void build(const std::vector<B>& leaves) {
     centres_.resize(leaves.size());
     for (std::size_t i = 0; i < leaves.size(); ++i) centres_[i] = leaves[i].middle();

@@ -27,7 +27,7 @@ struct Heights {
   double lowest_first = 1e300, highest_second = -1e300;  // at the start
   double lowest_first_ever = 1e300, highest_second_ever = -1e300;
   double first_sinks = 0, second_rises = 0;                    // by how much, at most
-  bool first_moves = false, second_moves = false;              // can be shortened
+  bool first_moves = false, second_moves = false;              // the filter can limit their steps
   double first_fixed_low = 1e300, second_fixed_high = -1e300;  // ends of what can't
 };
 
@@ -59,22 +59,22 @@ Separation plan_separation(const PairStencil& pair, const PairDistance& at, cons
                            const Record* displacements, double least, SeparatingSlab& slab, std::array<float, 4>& shares) {
   const Heights h = heights_of(pair, at.normal, positions, displacements);
   const double gap = h.lowest_first - h.highest_second;
-  if (!(gap > 0)) return Separation::hopeless;
+  if (!(gap > 0)) return Separation::unresolvable;
   const double thickness = std::min(least, largest_slab * gap), half = 0.5 * thickness;
-  // Up to rounding, so that moves shortened to a slab are free of another.
+  // Up to rounding, so that steps truncated to one plane's margin meet no other.
   if (h.lowest_first_ever - h.highest_second_ever >= thickness * (1 - 1e-9)) return Separation::free;
   // The plane lies where both sides' moves meet, but leaves half a slab to either.
   const double moves = h.first_sinks + h.second_rises;
   double share = std::clamp(moves > 0 ? h.second_rises / moves : 0.5, nearest_to_a_side, 1 - nearest_to_a_side);
   share = std::clamp(share, half / gap, 1 - half / gap);
   double middle = h.highest_second + share * gap;
-  // What can't be shortened has its way.
+  // The filter cannot limit these vertices.
   middle = std::min(middle, h.first_fixed_low - half);
   middle = std::max(middle, h.second_fixed_high + half);
   slab = {pair, at.normal, middle + half, middle - half};
   // What lies on its limit but for the rounding of sums lies within it.
   const double slop = 1e-14 * (std::abs(middle) + std::abs(h.lowest_first) + std::abs(h.highest_second) + half);
-  bool hopeless = false;
+  bool unresolvable = false;
   for (int i = 0; i < 4; ++i) {
     const bool first = i < pair.first_side;
     const double limit = first ? slab.above : slab.below, start = h.start[i], end = h.end[i];
@@ -83,12 +83,12 @@ Separation plan_separation(const PairStencil& pair, const PairDistance& at, cons
     const bool fixed = !(positions[pair.vertex[i]].w > 0);
     const double beyond = first ? limit - (fixed ? end : start) : (fixed ? end : start) - limit;
     const bool inside = beyond <= slop;
-    hopeless = hopeless || !inside;
+    unresolvable = unresolvable || !inside;
     if (fixed) continue;
     // Rounded down, and a little more: the product is rounded again when it is made.
     shares[i] = inside ? std::max(0.f, static_cast<float>((start - limit) / (start - end) * (1 - 1e-6)) - 1e-7f) : 0.f;
   }
-  return hopeless ? Separation::hopeless : Separation::planned;
+  return unresolvable ? Separation::unresolvable : Separation::planned;
 }
 
 bool ends_beyond(const SeparatingSlab& slab, int which, const Record* positions, const Record* displacements, float share) {

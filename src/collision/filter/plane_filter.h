@@ -19,9 +19,9 @@ struct SeparatingSlab {
 
 /// What is made of a pair.
 enum class Separation {
-  free,     ///< no move enters the slab
-  planned,  ///< `slab` holds, `shares` say how much of each move may be made
-  hopeless  ///< no plane: they touch at the start, or something that can't be shortened moves too far
+  free,         ///< no move enters the slab
+  planned,      ///< `slab` holds, `shares` say how much of each move may be made
+  unresolvable  ///< no plane: they touch at the start, or a vertex that the filter cannot limit moves too far
 };
 
 /// The slab for a pair at distance `at`, thick min(least, 0.98 gap), and the share of each particle's move that keeps it on its

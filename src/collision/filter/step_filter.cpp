@@ -68,7 +68,7 @@ void StepFilter::Round::plan_pair(const ClusterSides& sides, const PairLanes& la
   const Separation found =
       plan_separation(pair, at, particles.positions, particles.displacements, double(margin), slab, shares);
   if (found == Separation::free) return;
-  if (found == Separation::hopeless) scratch.unresolvable.push_back(pair);
+  if (found == Separation::unresolvable) scratch.unresolvable.push_back(pair);
   if (found == Separation::planned) scratch.slabs.push_back(slab);
   for (int i = 0; i < 4; ++i)
     if (shares[i] < 1) scratch.shares.emplace_back(pair.vertex[i], shares[i]);

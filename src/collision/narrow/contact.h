@@ -1,4 +1,4 @@
-// Contacts between particles and colliders: found anew each substep, projected with the constraints, and answered with
+// Contacts between particles and colliders: found in each substep, projected with the constraints, and answered with
 // friction and restitution.
 //
 // A contact with something that nothing pushes touches one particle alone, so contacts are independent of one another and

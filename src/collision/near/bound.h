@@ -9,8 +9,8 @@
 //
 //   a pair         is measured again  when after() <= thickness (contacts) or <= the filter's margin
 //   a near list    is skipped whole   while the least bound of its pairs stays above that
-//   a near list    is made anew       when the odometer has used up the margin it was made with: pairs farther away were left out
-//   clusters       are paired anew    when one has travelled as far as its box was grown (ClusterMotions)
+//   a near list    is rebuilt         when the odometer has used up the margin it was made with: pairs farther away were left out
+//   clusters       are paired again   when one has travelled as far as its box was grown (ClusterMotions)
 //
 // The odometer counts what is left of the motion once the rigid motion of the clusters is removed. Points p and q that go to
 // p + m + w x p and q + m + w x q come no nearer: p - q + w x (p - q) is no shorter than p - q. So cloth that falls, swings or

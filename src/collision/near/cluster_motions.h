@@ -24,7 +24,7 @@ class ClusterMotions {
   const Vec3f& mean() const { return mean_; }
   /// A box around the paths of all of a cluster, as that observer sees them.
   BoxBounds path_box(int cluster) const;
-  /// The largest coordinate of a cluster when all was last looked at anew [m].
+  /// The largest coordinate of a cluster at the last broad-phase rebuild [m].
   float extent(int cluster) const { return extent_[static_cast<std::size_t>(cluster)]; }
 
   /// Whether no cluster travels farther than `room` [m] against the mean of all, since begin_travel().

@@ -32,7 +32,7 @@ class ClusterPairs {
   /// After the substep: it has been made.
   void advance();
 
-  /// How far a cluster may travel before pairs are to be found anew [m].
+  /// How far a cluster may travel before the next broad-phase rebuild [m].
   float travel() const;
   const std::vector<ClusterPair>& pairs() const { return pairs_; }
   const ClusterPair& operator[](int number) const { return pairs_[static_cast<std::size_t>(number)]; }

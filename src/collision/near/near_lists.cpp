@@ -109,7 +109,7 @@ void NearLists::pair_clusters() {
   ++rebuilds_;
 }
 
-/// Static groups keep their bounds, less what odometers have counted, unless all is to be looked at anew.
+/// Static groups keep their bounds, less what odometers have counted, unless forget() was called.
 void NearLists::carry_groups(const std::vector<ClusterPair>& old) {
   for (StaticGroup& group : near_.static_pairs.groups) {
     if (is_listed_) group.least.since -= old[group.pair].odometer.total;
@@ -119,7 +119,7 @@ void NearLists::carry_groups(const std::vector<ClusterPair>& old) {
   if (!is_listed_) std::fill(near_.static_pairs.value.begin(), near_.static_pairs.value.end(), not_measured);
 }
 
-/// Lists that were there stay as they are, unless all is to be looked at anew.
+/// Lists of pairs that stay near are kept, unless forget() was called.
 void NearLists::make_lists(const std::vector<ClusterPair>& old) {
   std::vector<NearList> before = std::move(near_.lists);
   near_.lists.clear();

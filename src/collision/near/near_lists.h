@@ -19,7 +19,7 @@ class NearLists {
   NearLists(const NearLists&) = delete;
   NearLists& operator=(const NearLists&) = delete;
 
-  /// All is to be looked at anew: positions were changed by something other than the steps measured here.
+  /// Forces a broad-phase rebuild: positions were changed by something other than the measured steps.
   void forget() { is_listed_ = false; }
   /// Measures the substep's motion. Returns whether every position at its end is finite and below 1e14 m; if not, nothing else may be
   /// asked for in this substep.
@@ -32,7 +32,7 @@ class NearLists {
   Neighbourhood& neighbourhood() { return near_; }
   const Neighbourhood& neighbourhood() const { return near_; }
   std::int64_t candidates() const { return candidates_; }
-  /// How often clusters were paired anew.
+  /// The number of broad-phase rebuilds.
   std::int64_t rebuilds() const { return rebuilds_; }
 
  private:

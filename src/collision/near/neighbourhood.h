@@ -76,7 +76,7 @@ inline bool is_too_far(const Neighbourhood& near, const ClusterSides& sides) {
 float filter_margin(const Neighbourhood& near, const ClusterSides& sides);
 
 /// Pairs nearer than this are of interest to contacts or the filter. It allows for rounding as long as no cluster has gone far
-/// (ClusterMotions::has_gone_far): for twice its extent when all was last looked at anew.
+/// (ClusterMotions::has_gone_far): for twice its extent at the last broad-phase rebuild.
 float activation_distance(const Neighbourhood& near, const ClusterSides& sides);
 
 /// By how much the distances of sixteen pairs fall at most in this substep, and how far apart their paths are.

@@ -40,7 +40,7 @@ PairCounts SurfaceContact::counts() const {
   return counts;
 }
 
-void SurfaceContact::begin_frame(const Record* positions, bool anew) {
+void SurfaceContact::begin_frame(const Record* positions, bool rebuild) {
   // Pairs that the filter kept apart stay apart; without it, what has crossed is exempt, as it would be in a State that is put back.
   const bool kept_apart = model_.filter && filter_.unresolvable_count() == 0;
   const bool untangles = untangler_ && untangler_->is_busy();
@@ -48,10 +48,10 @@ void SurfaceContact::begin_frame(const Record* positions, bool anew) {
   pushing_ = 0;
   deepest_ = 0;
   rebuilds_before_ = lists_.rebuilds();
-  if (!anew && intersections_.found().empty() && kept_apart && !untangles) return;
+  if (!rebuild && intersections_.found().empty() && kept_apart && !untangles) return;
   intersections_.find(positions);
   if (untangler_) untangler_->begin_frame(positions, intersections_.found());
-  if (anew) lists_.forget();
+  if (rebuild) lists_.forget();
 }
 
 std::vector<int> SurfaceContact::too_far() const {

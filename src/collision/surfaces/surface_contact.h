@@ -34,9 +34,9 @@ class SurfaceContact {
   /// `kernels` are those of an instruction set that this machine has; all give the same bits.
   explicit SurfaceContact(const PairModel& model, const PairKernels& kernels = pair_kernels_generic());
 
-  /// At a frame's start: forgets counts, and finds which initially intersecting pairs are apart by now. `anew` looks at all pairs: due
+  /// At a frame's start: forgets counts, and finds which initially intersecting pairs are apart by now. `rebuild` tests all pairs: due
   /// at the first frame and after a State was put back.
-  void begin_frame(const Record* positions, bool anew);
+  void begin_frame(const Record* positions, bool rebuild);
 
   /// Contacts of the substep from predicted displacements.
   void detect(Executor& executor, const PairParticles& particles);

@@ -5,7 +5,7 @@
 // G is one iteration of the sweep, rho its spectral radius; x_(k+1) stands for displacements and multipliers alike, since
 // the relation between the two is linear and must go on holding. The first iterations of a substep are plain.
 //
-// rho is estimated anew in each substep, so that nothing is carried that a State would have to hold. The ratio of the last
+// rho is estimated in each substep, so that nothing is carried that a State would have to hold. The ratio of the last
 // two plain corrections |G(x) - x| (in the norm of the masses) is below rho, as it should be: too large a rho costs far
 // more than too small a one. n steps should then bring corrections down by T_n(1 / rho). Where they are e times larger than
 // that, some eigenvalue lambda lies above rho, with T_n(lambda / rho) >= e: the recurrence starts over with that lambda
