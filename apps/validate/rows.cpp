@@ -15,6 +15,7 @@ Row make(std::string name, double expected, double measured, double tolerance, C
   if (how == Comparison::relative) row.pass = away <= tolerance * std::abs(expected);
   if (how == Comparison::absolute) row.pass = away <= tolerance;
   if (how == Comparison::at_most) row.pass = measured <= expected;
+  if (how == Comparison::at_least) row.pass = std::isfinite(measured) && measured >= expected;
   return row;
 }
 
@@ -30,6 +31,10 @@ Row absolute(std::string name, double expected, double measured, double toleranc
 
 Row at_most(std::string name, double bound, double measured, std::string unit, std::string note) {
   return make(std::move(name), bound, measured, 0, Comparison::at_most, std::move(unit), std::move(note));
+}
+
+Row at_least(std::string name, double bound, double measured, std::string unit, std::string note) {
+  return make(std::move(name), bound, measured, 0, Comparison::at_least, std::move(unit), std::move(note));
 }
 
 std::string brief(double value) {

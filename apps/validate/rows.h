@@ -37,6 +37,7 @@ void query_set_rows(Result& result, const std::string& folder);
 Row relative(std::string name, double expected, double measured, double tolerance, std::string unit, std::string note = {});
 Row absolute(std::string name, double expected, double measured, double tolerance, std::string unit, std::string note = {});
 Row at_most(std::string name, double bound, double measured, std::string unit, std::string note = {});
+Row at_least(std::string name, double bound, double measured, std::string unit, std::string note = {});
 
 /// "1e-08", "50", "0.0166667": as few digits as tell it.
 std::string brief(double value);

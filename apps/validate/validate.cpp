@@ -23,6 +23,8 @@ const char* word(Comparison comparison) {
       return "relative";
     case Comparison::absolute:
       return "absolute";
+    case Comparison::at_least:
+      return "at least";
     default:
       return "at most";
   }
@@ -82,9 +84,10 @@ std::string to_table(const std::vector<Row>& rows) {
   const std::vector<std::string> heads{"what", "expected", "measured", "tolerance", "unit", "verdict", "how"};
   std::vector<std::vector<std::string>> lines{heads};
   for (const Row& row : rows) {
-    const char* before = row.comparison == Comparison::at_most ? "<= " : "";
+    const bool is_bound = row.comparison == Comparison::at_most || row.comparison == Comparison::at_least;
+    const char* before = !is_bound ? "" : row.comparison == Comparison::at_most ? "<= " : ">= ";
     std::string tolerance = number(row.tolerance) + (row.comparison == Comparison::relative ? " x" : "");
-    if (row.comparison == Comparison::at_most) tolerance = "-";
+    if (is_bound) tolerance = "-";
     lines.push_back({row.name, before + number(row.expected), number(row.measured), tolerance,
                      row.unit.empty() ? "-" : row.unit, row.pass ? "pass" : "FAIL", row.note});
   }

@@ -17,6 +17,7 @@ enum class Comparison {
   relative,  ///< |measured - expected| <= tolerance |expected|
   absolute,  ///< |measured - expected| <= tolerance
   at_most,   ///< measured <= expected; the tolerance is 0
+  at_least,  ///< measured >= expected; the tolerance is 0
 };
 
 /// One known answer.

@@ -96,8 +96,6 @@ TEST(Compare, EverySweepSolvesTheSameSubstep) {
       EXPECT_EQ(sample.residual, curve.residuals.at(static_cast<std::size_t>(sample.iterations)));
     }
     EXPECT_EQ(sampled, (std::vector<int>{1, 2, 3, 5, 7, 10, 12}));
-    for (std::size_t i = 1; i < curve.samples.size(); ++i)
-      EXPECT_GE(curve.samples[i].milliseconds, curve.samples[i - 1].milliseconds) << curve.name << ", sample " << i;
     EXPECT_GT(curve.samples[0].milliseconds, 0) << curve.name;
   }
 }

@@ -27,6 +27,8 @@ TEST(Rows, AbsoluteToleranceIsNot) {
 TEST(Rows, BoundsHaveNoTolerance) {
   EXPECT_TRUE(at_most("", 20, 20, "").pass);
   EXPECT_FALSE(at_most("", 20, std::nextafter(20, 21), "").pass);
+  EXPECT_TRUE(at_least("", 20, 20, "").pass);
+  EXPECT_FALSE(at_least("", 20, std::nextafter(20, 19), "").pass);
 }
 
 TEST(Rows, WhatIsNotFiniteFails) {
@@ -34,6 +36,7 @@ TEST(Rows, WhatIsNotFiniteFails) {
     EXPECT_FALSE(relative("", 1, value, 0.5, "").pass);
     EXPECT_FALSE(absolute("", 1, value, 0.5, "").pass);
     EXPECT_FALSE(at_most("", 1, value, "").pass);
+    EXPECT_FALSE(at_least("", 1, value, "").pass);
   }
 }
 
