@@ -25,14 +25,28 @@ std::string name_of(const Model& model, int object) {
   return (of.is_collider ? "collider '" : "object '") + of.name + "'";
 }
 
-std::string words_of(const Model& model, const Triangle& triangle, const Intersection& found, std::int64_t count) {
+/// What intersects between two objects.
+struct Between {
+  const Intersection* first = nullptr;
+  std::int64_t count = 0, given_up = 0;
+  bool stalls = false;
+};
+
+std::string words_of(const Model& model, const Triangle& triangle, const Between& between) {
+  const Intersection& found = *between.first;
+  const std::int64_t count = between.count;
   const int a = object_of(model, found.a), b = object_of(model, triangle[0]);
   const std::string corners =
       number_of(model, triangle[0]) + ", " + number_of(model, triangle[1]) + ", " + number_of(model, triangle[2]);
   std::string text = name_of(model, a) + ": edge " + number_of(model, found.a) + "-" + number_of(model, found.b) +
                      " passes through triangle (" + corners + ") of " + (a == b ? "the same" : name_of(model, b));
   if (count > 1) text += " and " + std::to_string(count - 1) + " more";
-  return text + ": they intersect since the start and have no contact until they are apart";
+  text += ": they intersect since the start and have no contact until they are apart";
+  if (between.stalls) text += "; untangling made them no fewer in the frame before";
+  if (between.given_up > 0)
+    text += "; " + std::to_string(between.given_up) +
+            " of them are not led apart in this frame, since they cut nothing off or moving would make more";
+  return text + (between.stalls || between.given_up > 0 ? ": move the two apart in the scene" : "");
 }
 
 /// A pair in the numbers of its objects: "vertex 4 and triangle (1, 2, 3)".
@@ -56,14 +70,15 @@ std::string words_of(const Model& model, const UnresolvablePairs& pairs) {
 }  // namespace
 
 void warn_of_pairs(const Model& model, const SurfaceContact& pairs, std::vector<std::string>& warnings) {
-  std::map<std::pair<int, int>, std::pair<const Intersection*, std::int64_t>> between;
+  std::map<std::pair<int, int>, Between> between;
   for (const Intersection& found : pairs.intersecting()) {
     const int a = object_of(model, found.a), b = object_of(model, pairs.triangle(found.triangle)[0]);
-    auto& [first, count] = between[std::minmax(a, b)];
-    if (count++ == 0) first = &found;
+    Between& of = between[std::minmax(a, b)];
+    if (of.count++ == 0) of.first = &found;
+    of.given_up += pairs.gives_up(found) ? 1 : 0;
+    of.stalls = pairs.stalls(std::minmax(a, b));
   }
-  for (const auto& [objects, found] : between)
-    warnings.push_back(words_of(model, pairs.triangle(found.first->triangle), *found.first, found.second));
+  for (const auto& [objects, of] : between) warnings.push_back(words_of(model, pairs.triangle(of.first->triangle), of));
   for (const int body : pairs.too_far())
     warnings.push_back(name_of(model, body) +
                        " is so far from the origin that the rounding of positions is as large as its edges: it has no "

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -258,6 +259,93 @@ TEST(Untangle, RefusesWhatIsShutUpInClosedClothAndNotWhatIsInAnOpenOne) {
   EXPECT_EQ(refusal_of(open), "");
   for (Vec3f& p : scene.objects[0].positions) p.x += 1.2f;
   EXPECT_EQ(refusal_of(scene), "") << "beside it";
+}
+
+/// A skirt whose folds deepen downwards, 0.3 m wide at the hip.
+TriangleMesh skirt(float radius, float folds, float phase) {
+  constexpr int around = 64, rows = 16;
+  TriangleMesh mesh;
+  for (int row = 0; row < rows; ++row)
+    for (int k = 0; k < around; ++k) {
+      const float down = static_cast<float>(row) / (rows - 1), angle = 2 * 3.14159265f * static_cast<float>(k) / around;
+      const float r = radius + 0.1f * down + 0.04f * down * std::cos(folds * angle + phase);
+      mesh.positions.push_back({r * std::cos(angle), -0.5f * down, r * std::sin(angle)});
+    }
+  for (int row = 0; row + 1 < rows; ++row)
+    for (int k = 0; k < around; ++k) {
+      const int a = row * around + k, b = row * around + (k + 1) % around;
+      mesh.triangles.push_back({a, b, a + around});
+      mesh.triangles.push_back({b, b + around, a + around});
+    }
+  return mesh;
+}
+
+TriangleMesh both(const TriangleMesh& first, const TriangleMesh& second) {
+  TriangleMesh mesh = first;
+  const int vertices = static_cast<int>(first.positions.size());
+  mesh.positions.insert(mesh.positions.end(), second.positions.begin(), second.positions.end());
+  for (const auto& t : second.triangles) mesh.triangles.push_back({vertices + t[0], vertices + t[1], vertices + t[2]});
+  return mesh;
+}
+
+/// Two skirts pinned at the hip whose folds pass through one another, as one object or as two.
+Scene nested_skirts(bool as_one) {
+  const TriangleMesh inner = skirt(0.15f, 6, 0);
+  TriangleMesh outer = skirt(0.158f, 5, 1);
+  // Turned and raised a little, so that no edges meet exactly: such pairs cross only once something has moved.
+  for (Vec3f& p : outer.positions) p = {p.x * 0.9999f + p.z * 0.013f, p.y + 0.0031f, p.z * 0.9999f - p.x * 0.013f};
+  Scene scene;
+  scene.settings = settings_of(10);
+  scene.settings.initial_intersections = Intersections::untangle;
+  std::vector<int> hip;
+  for (int k = 0; k < 64; ++k) hip.push_back(k);
+  if (as_one) {
+    scene.pin(scene.add(cloth(both(inner, outer), "skirts")), hip);
+    for (int& k : hip) k += static_cast<int>(inner.positions.size());
+    scene.pin(0, hip);
+  } else {
+    scene.pin(scene.add(cloth(inner, "inner")), hip);
+    scene.pin(scene.add(cloth(outer, "outer")), hip);
+  }
+  return scene;
+}
+
+/// The crossings that are left after each of some frames.
+std::vector<std::size_t> crossings_of_frames(const Scene& scene, int frames) {
+  World world(scene);
+  std::vector<std::size_t> counts{crossings(world, scene)};
+  for (int frame = 0; frame < frames; ++frame) {
+    world.step(dt);
+    counts.push_back(crossings(world, scene));
+  }
+  return counts;
+}
+
+/// Components of one mesh are parts of their own: they come apart as two objects do, and crossings never rise.
+TEST(Untangle, LeadsComponentsOfOneMeshApart) {
+  for (const bool as_one : {false, true}) {
+    const std::vector<std::size_t> counts = crossings_of_frames(nested_skirts(as_one), 20);
+    EXPECT_GT(counts.front(), 500U);
+    EXPECT_EQ(counts.back(), 0U) << (as_one ? "one object" : "two objects");
+    for (std::size_t frame = 1; frame < counts.size(); ++frame)
+      EXPECT_LE(counts[frame], counts[frame - 1]) << (as_one ? "one object" : "two objects") << ", frame " << frame;
+  }
+}
+
+/// Two sheets that are slotted into one another halfway: neither is cut in pieces.
+TEST(Untangle, SaysWhatItDoesNotLeadApart) {
+  Scene scene = crossed(Intersections::untangle);
+  for (Vec3f& p : scene.objects[1].positions) p.x += 0.11f;
+  World world(scene);
+  std::string said = world.step(dt).explain();
+  EXPECT_NE(said.find("are not led apart in this frame, since they cut nothing off"), std::string::npos) << said;
+  EXPECT_EQ(said.find("no fewer"), std::string::npos) << said;
+  said = world.step(dt).explain();
+  EXPECT_NE(said.find("untangling made them no fewer in the frame before"), std::string::npos) << said;
+  World leaves(crossed(Intersections::leave));
+  said = leaves.step(dt).explain() + leaves.step(dt).explain();
+  EXPECT_EQ(said.find("led apart"), std::string::npos) << said;
+  EXPECT_EQ(said.find("no fewer"), std::string::npos) << said;
 }
 
 }  // namespace

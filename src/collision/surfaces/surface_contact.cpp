@@ -49,7 +49,7 @@ void SurfaceContact::begin_frame(const Record* positions, bool rebuild) {
   deepest_ = 0;
   rebuilds_before_ = lists_.rebuilds();
   if (!rebuild && intersections_.found().empty() && kept_apart && !untangles) return;
-  intersections_.find(positions);
+  intersections_.find(positions, rebuild);
   if (untangler_) untangler_->begin_frame(positions, intersections_.found());
   if (rebuild) lists_.forget();
 }
@@ -61,17 +61,6 @@ std::vector<int> SurfaceContact::too_far() const {
   std::sort(bodies.begin(), bodies.end());
   bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
   return bodies;
-}
-
-// ---------------------------------------------------------------- exempt pairs
-
-/// Whether one side of a pair is lost in the body of the other.
-bool SurfaceContact::is_lost(const PairStencil& pair) const {
-  if (!untangler_ || !untangler_->is_busy()) return false;
-  const int first = model_.vertex_body[pair.vertex[0]], second = model_.vertex_body[pair.vertex[pair.first_side]];
-  bool lost = false;
-  for (int i = 0; i < 4; ++i) lost = lost || untangler_->is_lost(pair.vertex[i], i < pair.first_side ? second : first);
-  return lost;
 }
 
 // ---------------------------------------------------------------- contacts
@@ -114,7 +103,7 @@ void SurfaceContact::respond(const Contact& contact, const Record* positions, Re
 }
 
 void SurfaceContact::limit_untangling(Record* velocities, FunctionRef<Vec3f(int body)> gravity) const {
-  if (untangler_) untangler_->calm(model_.untangling_speed, velocities, gravity);
+  if (untangler_) untangler_->limit_speeds(model_.untangling_speed, velocities, gravity);
 }
 
 // ---------------------------------------------------------------- filter

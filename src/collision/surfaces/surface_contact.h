@@ -55,7 +55,12 @@ class SurfaceContact {
   void limit_untangling(Record* velocities, FunctionRef<Vec3f(int body)> gravity) const;
 
   /// Whether initially intersecting surfaces are led apart in this frame: contacts are then to be found before constraints are projected.
-  bool untangles() const { return untangler_ && untangler_->calms(); }
+  bool untangles() const { return untangler_ && untangler_->limits_speeds(); }
+
+  /// Whether untangling leaves this one as it is: it cuts nothing off, or moving would make more intersections.
+  bool gives_up(const Intersection& found) const { return untangler_ && !untangler_->leads_apart(found); }
+  /// Whether untangling was active in the frame before and made the intersections of two bodies no fewer.
+  bool stalls(std::pair<int, int> bodies) const { return untangler_ && intersections_.are_no_fewer(bodies); }
 
   PairCounts counts() const;
   const std::vector<Contact>& contacts() const { return contacts_; }
@@ -69,8 +74,9 @@ class SurfaceContact {
   const std::map<std::pair<int, int>, UnresolvablePairs>& unresolvable() const { return filter_.unresolvable(); }
 
  private:
-  bool is_lost(const PairStencil& pair) const;
-  bool is_exempt(const PairStencil& pair) const { return is_lost(pair) || intersections_.hold(pair); }
+  bool is_exempt(const PairStencil& pair) const {
+    return (untangler_ && untangler_->is_exempt(pair)) || intersections_.hold(pair);
+  }
 
   const PairModel& model_;
   NearLists lists_;

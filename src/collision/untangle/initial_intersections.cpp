@@ -9,18 +9,28 @@ namespace pliant {
 InitialIntersections::InitialIntersections(const PairModel& model)
     : model_(model), finder_(model.elements.triangles, model.elements.vertex_count) {}
 
-void InitialIntersections::find(const Record* positions) {
+void InitialIntersections::find(const Record* positions, bool forget) {
+  counts_before_.clear();
+  if (!forget) counts_before_.swap(counts_);
+  counts_.clear();
   std::vector<Vec3f> places(model_.rest.size());
   for (std::size_t i = 0; i < places.size(); ++i) places[i] = {positions[i].x, positions[i].y, positions[i].z};
   found_.clear();
   for (const Intersection& found : finder_.find(places)) {
     const int a = model_.vertex_body[found.a], b = model_.vertex_body[model_.elements.triangles[found.triangle][0]];
-    if (model_.rules.meet(a, b)) found_.push_back(found);
+    if (!model_.rules.meet(a, b)) continue;
+    found_.push_back(found);
+    ++counts_[std::minmax(a, b)];
   }
   exempt_.clear();
   const IntLists triangles_at = found_.empty() ? IntLists{} : triangles_around(model_.elements);
   for (const Intersection& found : found_) exempt(found, triangles_at);
   std::sort(exempt_.begin(), exempt_.end());
+}
+
+bool InitialIntersections::are_no_fewer(std::pair<int, int> bodies) const {
+  const auto before = counts_before_.find(bodies), now = counts_.find(bodies);
+  return before != counts_before_.end() && now != counts_.end() && now->second >= before->second;
 }
 
 /// All stencils that the edge and the triangle are made of.

@@ -33,49 +33,125 @@ std::vector<Vec3f> places_of(const Record* positions, int first, int count) {
   return places;
 }
 
+/// Vertices inside one closed body that are joined by edges.
+using Patch = std::vector<int>;
+
+/// Vertices, ascending, in lists of those that edges join; by their first ones.
+std::vector<Patch> patches_of(const PairModel& model, const std::vector<int>& vertices) {
+  std::vector<int> parent(vertices.size());
+  for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = static_cast<int>(i);
+  const auto root = [&](int i) {
+    while (parent[static_cast<std::size_t>(i)] != i) i = parent[static_cast<std::size_t>(i)];
+    return i;
+  };
+  const auto number = [&](int v) {
+    const auto at = std::lower_bound(vertices.begin(), vertices.end(), v);
+    return at != vertices.end() && *at == v ? static_cast<int>(at - vertices.begin()) : -1;
+  };
+  for (const auto& [a, b] : model.elements.edges) {
+    const int i = vertices.empty() ? -1 : number(a), j = i < 0 ? -1 : number(b);
+    if (j < 0) continue;
+    const int from = root(i), to = root(j);
+    parent[static_cast<std::size_t>(std::max(from, to))] = std::min(from, to);
+  }
+  std::map<int, Patch> patches;
+  for (std::size_t i = 0; i < vertices.size(); ++i) patches[root(static_cast<int>(i))].push_back(vertices[i]);
+  std::vector<Patch> out;
+  out.reserve(patches.size());
+  for (auto& [first, patch] : patches) out.push_back(std::move(patch));
+  return out;
+}
+
+/// The mean normal of the triangles that have a corner in a patch; zero where they face too many ways to speak of one.
+Vec3f mean_normal(const PairModel& model, const IntLists& around, const Patch& patch, const Record* positions) {
+  std::vector<int> at_patch;
+  for (const int v : patch) at_patch.insert(at_patch.end(), around.begin(v), around.end(v));
+  std::sort(at_patch.begin(), at_patch.end());
+  at_patch.erase(std::unique(at_patch.begin(), at_patch.end()), at_patch.end());
+  Vec3f sum{};
+  float all = 0;
+  for (const int number : at_patch) {
+    const Triangle& t = model.elements.triangles[static_cast<std::size_t>(number)];
+    const Vec3f normal =
+        cross(place(positions[t[1]]) - place(positions[t[0]]), place(positions[t[2]]) - place(positions[t[0]]));
+    sum += normal;
+    all += length(normal);
+  }
+  return length(sum) > 0.8f * all ? unit_or(sum, Vec3f{}) : Vec3f{};
+}
+
+float thickness_of(const PairModel& model, int vertex, int body) {
+  return model.rules.material(model.vertex_body[static_cast<std::size_t>(vertex)], body).thickness;
+}
+
 }  // namespace
 
-Untangler::Untangler(const PairModel& model) : model_(model) {
+Untangler::Untangler(const PairModel& model)
+    : model_(model), finder_(model.elements.triangles, model.elements.vertex_count), parts_(find_parts(model)) {
   for (int body = 0; body < model.rules.bodies(); ++body) {
     std::vector<Triangle> triangles;
     int first = 0, count = 0;
     if (!model.rules.is_immovable(body) || !closed_surface(model, body, triangles, first, count)) continue;
-    closed_.push_back({body, first, std::make_unique<MeshQuery>(places_of(model.rest.data(), first, count), triangles)});
+    closed_.push_back(
+        {body, part_of(first), first, std::make_unique<MeshQuery>(places_of(model.rest.data(), first, count), triangles)});
   }
   if (!closed_.empty()) around_ = triangles_around(model.elements);
 }
 
-void Untangler::begin_frame(const Record* positions, const std::vector<Intersection>& tangles) {
+Untangler::PartPair Untangler::parts_of(const Intersection& found) const {
+  return std::minmax(part_of(found.a), part_of(model_.elements.triangles[static_cast<std::size_t>(found.triangle)][0]));
+}
+
+void Untangler::begin_frame(const Record* positions, const std::vector<Intersection>& found) {
   pushes_.clear();
-  lost_in_.clear();
-  drawn_.clear();
+  wrong_side_of_.clear();
+  piece_.clear();
+  led_.clear();
   speeds_.clear();
   inside_ = 0;
   find_inside(positions);
-  find_pieces(positions, tangles);
+  find_pieces(positions, found);
   for (const int v : model_.elements.vertices)
-    if (positions[v].w > 0 && is_drawn(model_.vertex_body[static_cast<std::size_t>(v)])) speeds_.emplace_back(v, 0.f);
+    if (positions[v].w > 0 && is_led(part_of(v))) speeds_.emplace_back(v, 0.f);
 }
 
-bool Untangler::draws(int body, int out_of) const {
-  return std::any_of(pushes_.begin(), pushes_.end(), [&](const Push& push) {
-    const auto v = static_cast<std::size_t>(push.vertex);
-    return model_.vertex_body[v] == body && lost_in_[v] == out_of;
-  });
+bool Untangler::leads_apart(const Intersection& found) const {
+  const auto [a, b] = parts_of(found);
+  return is_closed(a) || is_closed(b) ||
+         std::any_of(pushes_.begin(), pushes_.end(), [&, one = a, other = b](const Push& push) {
+           const auto v = static_cast<std::size_t>(push.vertex);
+           return PartPair(std::minmax(parts_.of[v], wrong_side_of_[v])) == PartPair(one, other);
+         });
 }
 
-void Untangler::add(int vertex, int body, const Push& push) {
-  if (lost_in_.empty()) lost_in_.assign(model_.rest.size(), -1);
-  int& lost = lost_in_[static_cast<std::size_t>(vertex)];
-  if (lost >= 0) return;
-  lost = body;
-  mark_drawn(vertex);
+bool Untangler::is_exempt(const PairStencil& pair) const {
+  if (wrong_side_of_.empty()) return false;
+  const int first = part_of(pair.vertex[0]), second = part_of(pair.vertex[static_cast<std::size_t>(pair.first_side)]);
+  bool wrong = false, same_piece = true;
+  for (int i = 0; i < 4; ++i) {
+    const auto v = static_cast<std::size_t>(pair.vertex[static_cast<std::size_t>(i)]);
+    wrong = wrong || wrong_side_of_[v] == (i < pair.first_side ? second : first);
+    same_piece = same_piece && piece_[v] >= 0 && piece_[v] == piece_[static_cast<std::size_t>(pair.vertex[0])];
+  }
+  return wrong && !(first == second && same_piece);
+}
+
+void Untangler::add(int part, int piece, const Push& push) {
+  if (wrong_side_of_.empty()) {
+    wrong_side_of_.assign(model_.rest.size(), -1);
+    piece_.assign(model_.rest.size(), -1);
+  }
+  int& wrong_side_of = wrong_side_of_[static_cast<std::size_t>(push.vertex)];
+  if (wrong_side_of >= 0) return;
+  wrong_side_of = part;
+  piece_[static_cast<std::size_t>(push.vertex)] = piece;
+  mark_led(push.vertex);
   pushes_.push_back(push);
 }
 
-void Untangler::mark_drawn(int vertex) {
-  if (drawn_.empty()) drawn_.assign(static_cast<std::size_t>(model_.rules.bodies()), 0);
-  drawn_[static_cast<std::size_t>(model_.vertex_body[static_cast<std::size_t>(vertex)])] = 1;
+void Untangler::mark_led(int vertex) {
+  if (led_.empty()) led_.assign(static_cast<std::size_t>(parts_.count), 0);
+  led_[static_cast<std::size_t>(part_of(vertex))] = 1;
 }
 
 // ---------------------------------------------------------------- inside closed bodies
@@ -91,34 +167,8 @@ void Untangler::find_inside(const Record* positions) {
       if (positions[v].w > 0 && meets && query.is_inside(place(positions[v]))) inside.push_back(v);
     }
     inside_ += static_cast<std::int64_t>(inside.size());
-    for (const Patch& patch : patches_of(inside)) lead_out(patch, closed, positions);
+    for (const Patch& patch : patches_of(model_, inside)) lead_out(patch, closed, positions);
   }
-}
-
-/// Vertices, ascending, in lists of those that edges join; by their first ones.
-std::vector<Untangler::Patch> Untangler::patches_of(const std::vector<int>& vertices) const {
-  std::vector<int> parent(vertices.size());
-  for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = static_cast<int>(i);
-  const auto root = [&](int i) {
-    while (parent[static_cast<std::size_t>(i)] != i) i = parent[static_cast<std::size_t>(i)];
-    return i;
-  };
-  const auto number = [&](int v) {
-    const auto at = std::lower_bound(vertices.begin(), vertices.end(), v);
-    return at != vertices.end() && *at == v ? static_cast<int>(at - vertices.begin()) : -1;
-  };
-  for (const auto& [a, b] : model_.elements.edges) {
-    const int i = vertices.empty() ? -1 : number(a), j = i < 0 ? -1 : number(b);
-    if (j < 0) continue;
-    const int from = root(i), to = root(j);
-    parent[static_cast<std::size_t>(std::max(from, to))] = std::min(from, to);
-  }
-  std::map<int, Patch> patches;
-  for (std::size_t i = 0; i < vertices.size(); ++i) patches[root(static_cast<int>(i))].push_back(vertices[i]);
-  std::vector<Patch> out;
-  out.reserve(patches.size());
-  for (auto& [first, patch] : patches) out.push_back(std::move(patch));
-  return out;
 }
 
 namespace {
@@ -153,29 +203,11 @@ Vec3f common_way(const MeshQuery& query, const std::vector<Depth>& patch, const 
 
 }  // namespace
 
-/// The mean normal of the triangles that have a corner in a patch; zero where they face too many ways to speak of one.
-Vec3f Untangler::mean_normal(const Patch& patch, const Record* positions) const {
-  std::vector<int> at_patch;
-  for (const int v : patch) at_patch.insert(at_patch.end(), around_.begin(v), around_.end(v));
-  std::sort(at_patch.begin(), at_patch.end());
-  at_patch.erase(std::unique(at_patch.begin(), at_patch.end()), at_patch.end());
-  Vec3f sum{};
-  float all = 0;
-  for (const int number : at_patch) {
-    const Triangle& t = model_.elements.triangles[static_cast<std::size_t>(number)];
-    const Vec3f normal =
-        cross(place(positions[t[1]]) - place(positions[t[0]]), place(positions[t[2]]) - place(positions[t[0]]));
-    sum += normal;
-    all += length(normal);
-  }
-  return length(sum) > 0.8f * all ? unit_or(sum, Vec3f{}) : Vec3f{};
-}
-
 void Untangler::lead_out(const Patch& patch, const Closed& closed, const Record* positions) {
   const MeshQuery& query = *closed.query;
   std::vector<Depth> depths;
   float across = 0, all = 0;
-  const Vec3f normal = mean_normal(patch, positions);
+  const Vec3f normal = mean_normal(model_, around_, patch, positions);
   for (const int v : patch) {
     const Vec3f from = place(positions[v]);
     const SurfacePoint near = query.closest(from);
@@ -190,37 +222,58 @@ void Untangler::lead_out(const Patch& patch, const Closed& closed, const Record*
     const Depth& depth = depths[i];
     const bool together = length_squared(common) > 0;
     const float way = together ? way_out(query, depth.from, common, 1e30f) : depth.way;
-    add(v, closed.body, {v, together ? common : depth.out, way + thickness_of(v, closed.body)});
+    add(closed.part, closed.part, {v, together ? common : depth.out, way + thickness_of(model_, v, closed.body)});
   }
-}
-
-float Untangler::thickness_of(int vertex, int body) const {
-  return model_.rules.material(model_.vertex_body[static_cast<std::size_t>(vertex)], body).thickness;
 }
 
 // ---------------------------------------------------------------- pieces
 
-bool Untangler::is_closed(int body) const {
-  return std::any_of(closed_.begin(), closed_.end(), [&](const Closed& closed) { return closed.body == body; });
+bool Untangler::is_closed(int part) const {
+  return std::any_of(closed_.begin(), closed_.end(), [&](const Closed& closed) { return closed.part == part; });
 }
 
-void Untangler::find_pieces(const Record* positions, const std::vector<Intersection>& tangles) {
-  std::map<std::pair<int, int>, std::vector<Intersection>> cuts;  // by bodies of edge and triangle
-  for (const Intersection& tangle : tangles) {
-    const int a = model_.vertex_body[static_cast<std::size_t>(tangle.a)],
-              b = model_.vertex_body[static_cast<std::size_t>(model_.elements.triangles[tangle.triangle][0])];
+void Untangler::find_pieces(const Record* positions, const std::vector<Intersection>& found) {
+  std::map<std::pair<int, int>, std::vector<Intersection>> cuts;  // by parts of edge and triangle
+  for (const Intersection& one : found) {
+    const int a = part_of(one.a), b = part_of(model_.elements.triangles[static_cast<std::size_t>(one.triangle)][0]);
     // What a closed body cuts off is inside of it, or outside: that is told already, and not by which piece is smaller.
-    if (!model_.rules.is_immovable(a) && !is_closed(b)) cuts[{a, b}].push_back(tangle);
-    // Its vertices may be out already: it is calmed until its edges are, too.
-    if (is_closed(b)) mark_drawn(tangle.a);
-    if (is_closed(a)) mark_drawn(model_.elements.triangles[tangle.triangle][0]);
+    if (!model_.rules.is_immovable(body_of(one.a)) && !is_closed(b)) cuts[{a, b}].push_back(one);
+    // Its vertices may be out already: its speed is limited until its edges are, too.
+    if (is_closed(b)) mark_led(one.a);
+    if (is_closed(a)) mark_led(model_.elements.triangles[one.triangle][0]);
   }
-  for (const auto& [bodies, of_pair] : cuts) draw_back(positions, of_pair, bodies.first, bodies.second);
+  std::vector<Candidate> candidates;
+  for (const auto& [parts, of_pair] : cuts) lead_back(positions, of_pair, parts, candidates);
+  const std::vector<PartPair> worse = made_worse(positions, found, candidates);
+  for (const Candidate& candidate : candidates)
+    if (!std::binary_search(worse.begin(), worse.end(),
+                            PartPair(std::minmax(part_of(candidate.push.vertex), candidate.through))))
+      add(candidate.through, candidate.piece, candidate.push);
+}
+
+/// Pairs of parts between which there are more intersections once all candidates have gone as far as they go in a sixtieth of a
+/// second; ascending. A trial of positions alone, so that a State put back gives the same bits.
+std::vector<Untangler::PartPair> Untangler::made_worse(const Record* positions, const std::vector<Intersection>& found,
+                                                       const std::vector<Candidate>& candidates) {
+  if (candidates.empty()) return {};
+  std::vector<Vec3f> places = places_of(positions, 0, static_cast<int>(model_.rest.size()));
+  for (const Candidate& candidate : candidates)
+    places[static_cast<std::size_t>(candidate.push.vertex)] += candidate.push.direction * (model_.untangling_speed / 60);
+  std::map<PartPair, int> more;
+  for (const Intersection& one : found) --more[parts_of(one)];
+  for (const Intersection& then : finder_.find(places)) {
+    const int other = model_.elements.triangles[static_cast<std::size_t>(then.triangle)][0];
+    if (model_.rules.meet(body_of(then.a), body_of(other))) ++more[parts_of(then)];
+  }
+  std::vector<PartPair> worse;
+  for (const auto& [parts, by] : more)
+    if (by > 0) worse.push_back(parts);
+  return worse;
 }
 
 namespace {
 
-/// The connected pieces of a body's vertices once edges are cut: the number of each vertex's, and how many it has.
+/// The connected pieces of a part's vertices once edges are cut: the number of each vertex's, and how many it has.
 struct Pieces {
   std::vector<int> of, size;
 
@@ -230,7 +283,7 @@ struct Pieces {
   }
 };
 
-Pieces pieces_of(const PairModel& model, const std::vector<Intersection>& cuts, int body) {
+Pieces pieces_of(const PairModel& model, const std::vector<Intersection>& cuts, const std::vector<int>& part_of, int part) {
   std::vector<std::pair<int, int>> cut;
   cut.reserve(cuts.size());
   for (const Intersection& one : cuts) cut.push_back(std::minmax(one.a, one.b));
@@ -239,24 +292,25 @@ Pieces pieces_of(const PairModel& model, const std::vector<Intersection>& cuts, 
   for (int i = 0; i < static_cast<int>(model.rest.size()); ++i) pieces.of.push_back(i);
   pieces.size.assign(model.rest.size(), 0);
   for (const auto& [a, b] : model.elements.edges) {
-    if (model.vertex_body[static_cast<std::size_t>(a)] != body ||
-        std::binary_search(cut.begin(), cut.end(), std::pair{a, b}))
+    if (part_of[static_cast<std::size_t>(a)] != part || std::binary_search(cut.begin(), cut.end(), std::pair{a, b}))
       continue;
     const int from = pieces.root(a), to = pieces.root(b);
     pieces.of[static_cast<std::size_t>(std::max(from, to))] = std::min(from, to);
   }
   for (const int v : model.elements.vertices) {
     const int root = pieces.of[static_cast<std::size_t>(v)] = pieces.root(v);
-    if (model.vertex_body[static_cast<std::size_t>(v)] == body) ++pieces.size[static_cast<std::size_t>(root)];
+    if (part_of[static_cast<std::size_t>(v)] == part) ++pieces.size[static_cast<std::size_t>(root)];
   }
   return pieces;
 }
 
 }  // namespace
 
-/// Every piece but the largest of a body goes back through what cuts it.
-void Untangler::draw_back(const Record* positions, const std::vector<Intersection>& cuts, int body, int through) {
-  const Pieces pieces = pieces_of(model_, cuts, body);
+/// Every piece but the largest of a part may go back through what cuts it.
+void Untangler::lead_back(const Record* positions, const std::vector<Intersection>& cuts, PartPair parts,
+                          std::vector<Candidate>& out) const {
+  const auto [part, through] = parts;
+  const Pieces pieces = pieces_of(model_, cuts, parts_.of, part);
   const int largest_piece =
       static_cast<int>(std::max_element(pieces.size.begin(), pieces.size.end()) - pieces.size.begin());
   std::map<int, Vec3f> ways;
@@ -274,7 +328,7 @@ void Untangler::draw_back(const Record* positions, const std::vector<Intersectio
   for (const int v : model_.elements.vertices) {
     const auto way = ways.find(pieces.of[static_cast<std::size_t>(v)]);
     if (way == ways.end() || !(positions[v].w > 0)) continue;
-    add(v, through, {v, unit_or(way->second, Vec3f{0, 1, 0}), 1e30f});
+    out.push_back({{v, unit_or(way->second, Vec3f{0, 1, 0}), 1e30f}, through, way->first});
   }
 }
 
@@ -283,8 +337,8 @@ void Untangler::draw_back(const Record* positions, const std::vector<Intersectio
 void Untangler::push(float distance, float h, Record* displacements, Record* remainders) {
   for (auto& [v, speed] : speeds_) {
     const Record &d = displacements[v], &r = remainders[v];
-    const bool is_lost = !lost_in_.empty() && lost_in_[static_cast<std::size_t>(v)] >= 0;
-    speed = is_lost ? 0 : length(Vec3f{d.x - r.x, d.y - r.y, d.z - r.z}) / h;
+    const bool is_wrong = !wrong_side_of_.empty() && wrong_side_of_[static_cast<std::size_t>(v)] >= 0;
+    speed = is_wrong ? 0 : length(Vec3f{d.x - r.x, d.y - r.y, d.z - r.z}) / h;
   }
   for (Push& push : pushes_) {
     const Record& d = displacements[push.vertex];
@@ -297,12 +351,12 @@ void Untangler::push(float distance, float h, Record* displacements, Record* rem
   }
 }
 
-void Untangler::calm(float cap, Record* velocities, FunctionRef<Vec3f(int body)> missing) const {
+void Untangler::limit_speeds(float limit, Record* velocities, FunctionRef<Vec3f(int body)> missing) const {
   for (const auto& [v, speed] : speeds_) {
     const Vec3f lacks = missing(model_.vertex_body[static_cast<std::size_t>(v)]);
     Record& r = velocities[v];
     const Vec3f velocity = Vec3f{r.x, r.y, r.z} + lacks;
-    const float is = length(velocity), most = max(speed, cap);
+    const float is = length(velocity), most = max(speed, limit);
     if (!(is > most)) continue;
     const Vec3f kept = velocity * (most / is) - lacks;
     r = {kept.x, kept.y, kept.z, r.w};
