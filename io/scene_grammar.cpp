@@ -129,20 +129,19 @@ constexpr const char* selection_meaning =
     "Which: indices, a selection, or \"all\", \"corners\" (the four of a grid) or \"ends\" (the first and the last).";
 
 const Record& pin_record() {
-  static const Record result{
-      "pin",
-      "Particles that stay where they are or follow a motion, whatever pulls at them.",
-      {needed("particles", selection(), selection_meaning),
-       field("motion", record(motion_record()), "none", "How they move, from their places at rest.")},
-      {}};
+  static const Record result{"pin",
+                             "Kinematic particles: they stay where they are or follow a motion.",
+                             {needed("particles", selection(), selection_meaning),
+                              field("motion", record(motion_record()), "none", "Their motion, from their rest positions.")},
+                             {}};
   return result;
 }
 
 const Record& attachment_record() {
   static const Record result{"attachment",
-                             "Particles drawn to targets that may move.",
+                             "Ties particles to targets by distance constraints of rest length 0; targets may move.",
                              {needed("particles", selection(), selection_meaning),
-                              field("target", place(), "each particle's own place", "Where they are drawn to at time 0."),
+                              field("target", place(), "each particle's own place", "The target at time 0."),
                               field("motion", record(motion_record()), "none", "How the targets move."),
                               field("stiffness", stiffness(), "\"rigid\"", "Of the bond.")},
                              {}};
@@ -165,26 +164,25 @@ const Record& object_record() {
        either("rope", record(rope_record()), "A rope."),
        either("particles", record(particles_record()), "Particles with constraints."),
        field("velocity", vector("m/s", largest_velocity), Vec3f{}, "Velocity of all its particles at the start."),
-       field("pins", list(record(pin_record())), "none", "Particles whose place is given."),
-       field("attachments", list(record(attachment_record())), "none", "Particles drawn to targets."),
+       field("pins", list(record(pin_record())), "none", "Kinematic particles."),
+       field("attachments", list(record(attachment_record())), "none", "Particles tied to targets."),
        field("thickness", number("m", 0, largest_place), "the material's; 0.005 for a rope, else 0.001",
-             "Distance kept from colliders; two surfaces keep the sum of theirs."),
+             "Distance kept from colliders; two surfaces keep the sum of both."),
        field("self_collision", boolean(), Object{}.self_collision,
-             "Its surface, or its links where it has none, does not pass through itself (docs/guide/contact.md)."),
+             "Its surface does not pass through itself; without triangles, its links do not (docs/guide/contact.md)."),
        field("collides", boolean(), Object{}.collides,
-             "Nor through other objects of which this holds. Mesh colliders are met in any case."),
-       field(
-           "groups", bits(), "[0]",
-           "What it belongs to, numbers from 0 to 31. Two things meet where each one's `mask` has a group of the other's."),
-       field("mask", bits(), "all", "The groups that it meets; [] for none."),
+             "It does not pass through other objects with `collides`. Mesh colliders always collide."),
+       field("groups", bits(), "[0]",
+             "Numbers of its groups, 0 to 31. Two objects collide if the `mask` of each has a group of the other."),
+       field("mask", bits(), "all", "The groups that it collides with; [] for none."),
        field("static_friction", number("-", 0, 1000), "the material's, else 0.4", "Coefficient of friction at rest."),
        field("kinetic_friction", number("-", 0, 1000), "the material's, else 0.3, or the static one where that is less",
              "Coefficient of friction in motion; at most the static one."),
        field("restitution", share(), Object{}.restitution, "Share of the speed kept in a bounce."),
        field("sweep", choice(sweep_names()), "automatic",
-             "By which sweep it is solved. `automatic` is that of the `settings`; where these name none either, the one "
+             "The sweep of its constraints. `automatic`: that of the `settings`; if these name none, the one "
              "that measured best on objects of its kind."),
-       field("drag", number("-", 0, 1000), Object{}.drag, "Drag coefficient of a triangle square to the wind."),
+       field("drag", number("-", 0, 1000), Object{}.drag, "Drag coefficient of a triangle perpendicular to the wind."),
        field("lift", number("-", 0, 1000), Object{}.lift, "Lift coefficient."),
        field("damping", number("1/s", 0, 1e6), Object{}.damping,
              "The share of velocity lost in a second is 1 - exp(-damping)."),
@@ -201,7 +199,7 @@ const Record& wind_record() {
       "Moving air that pushes triangles by drag and lift.",
       {needed("velocity", vector("m/s", largest_velocity), "Mean velocity."),
        needed("air_density", number("kg/m^3", 0, 1e5), "Density of the air: 1.2 at sea level; 0 means no air at all."),
-       field("gust", share(), Wind{}.gust, "Share by which the wind's strength swings."),
+       field("gust", share(), Wind{}.gust, "Amplitude of the gust as a share of the wind."),
        field("gust_period", positive("s", 1e6), Wind{}.gust_period, "Period of the gusts.")},
       {}};
   return result;
@@ -210,9 +208,9 @@ const Record& wind_record() {
 const Record& sweep_options_record() {
   static const Record result{
       "sweep_options",
-      "What a sweep can be told besides; docs/internals/convergence.md says what each is good for.",
+      "Options of sweeps; docs/internals/convergence.md says when each helps.",
       {field("relaxation", positive("-", 2), SweepOptions{}.relaxation,
-             "Every correction is multiplied by it; below 2. Above 1 over-relaxes."),
+             "Factor of every correction, below 2; above 1 over-relaxes."),
        field("sharing", choice({"split", "average"}), "split",
              "Of `jacobi`: `split` gives each of a particle's constraints a part of its mass and keeps momentum, `average` "
              "does not."),
@@ -223,7 +221,7 @@ const Record& sweep_options_record() {
        field("spectral_radius", number("-", 0, 1), SweepOptions{}.spectral_radius,
              "Of the sweep, below 1; 0: estimated in every substep."),
        field("tethers", boolean(), SweepOptions{}.tethers,
-             "Hold every particle within its distance along the mesh to the pins (long-range attachments)."),
+             "Limit every particle's distance from the pins to that along the mesh (long-range attachments)."),
        field("tether_slack", number("-", 0, 1000), SweepOptions{}.tether_slack,
              "Share by which that distance may be exceeded, for cloth that is meant to stretch."),
        field("chain_softness", number("-", 0, 1000), SweepOptions{}.chain_softness,
@@ -248,23 +246,22 @@ const Record& settings_record() {
        field("threads", integer(0, 1024), Settings{}.threads, "0: as many as the machine has."),
        field(
            "sweep", choice(sweep_names()), "automatic",
-           "In what order constraints are visited (docs/internals/convergence.md), unless an object names its own. "
+           "The method that projects constraints (docs/internals/convergence.md), unless an object names its own. "
            "`automatic` is chosen for each object: `multigrid` for cloth and rope of 32 particles or more, and `tiled` for "
            "volumes, stiff sheets, PBD stiffness, iterations, or a surface that can touch others or itself. `sequential` "
            "is "
            "the slow, readable reference with the bits of `tiled`."),
-       field("sweep_options", record(sweep_options_record()), "the defaults", "What a sweep can be told besides."),
+       field("sweep_options", record(sweep_options_record()), "the defaults", "Options of sweeps."),
        field("contact_filter", boolean(), Settings{}.contact_filter,
-             "Shorten moves so that nothing that collides passes through anything else (docs/guide/contact.md); without it "
+             "Truncate steps so that colliding surfaces never cross (docs/guide/contact.md); without it "
              "contacts "
              "alone must do."),
        field("most_substeps", integer(0, 10000), "eight times `substeps`",
              "Into how many substeps a frame may be divided where a mesh collider moves fast (docs/guide/contact.md)."),
        field("initial_intersections", choice({"leave", "untangle", "refuse"}), "leave",
-             "What is done about surfaces that pass through one another at the start: nothing, drawing them apart, or "
+             "What to do about surfaces that intersect at the start: nothing, moving them apart, or "
              "refusing the scene."),
-       field("untangling_speed", positive("m/s", 1000), Settings{}.untangling_speed,
-             "At which they are drawn apart, at most."),
+       field("untangling_speed", positive("m/s", 1000), Settings{}.untangling_speed, "Speed limit of depenetration."),
        field("measure", boolean(), Settings{}.measure, "Measure residuals and stretch each frame."),
        field("record_residuals", boolean(), Settings{}.record_residuals,
              "Measure both residuals after every iteration of each frame's last substep; slow."),
@@ -310,7 +307,7 @@ const Record& scene_record() {
        field("settings", record(settings_record()), "the defaults", "How it is solved."),
        needed("objects", list(record(object_record())), "What moves."),
        field("colliders", list(record(collider_record())), "none", "What it meets."),
-       field("pairs", list(record(pair_record())), "none", "What certain two are to one another.")},
+       field("pairs", list(record(pair_record())), "none", "Contact properties of single pairs.")},
       {}};
   return result;
 }

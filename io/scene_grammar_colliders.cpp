@@ -38,14 +38,15 @@ const Record& box_record() {
 }
 
 constexpr const char* mesh_meaning =
-    "A surface that nothing pushes, closed or open, met from both sides. `position` and `rotation` apply to the mesh as "
+    "A static or kinematic surface, closed or open, that collides on both sides. `position` and `rotation` apply to the "
+    "mesh as "
     "placed.";
 
 const Record& mesh_frame_record() {
   static const Record result{
       "mesh_frame",
-      "Where the vertices of a mesh are at a moment.",
-      {needed("time", number("s", 0, 1e9), "When; increasing along the frames."),
+      "The vertices of a mesh at one time.",
+      {needed("time", number("s", 0, 1e9), "Increases along the frames."),
        either("file", string(), "A mesh file with as many vertices, in the same order; placed as `mesh` is."),
        either("positions", list(place(), 1), "The vertices' positions before `mesh` places them.")},
       {"file", "positions"}};
@@ -57,7 +58,7 @@ const Record& mesh_frame_record() {
 const Record& pair_record() {
   static const Record result{
       "pair",
-      "What two things are to one another where it is not what their own numbers make it.",
+      "Overrides contact properties of one pair.",
       {needed("between", list(string(), 2, 2),
               "Names of two objects, or of an object and a mesh collider; one name twice: an object with itself."),
        field("thickness", number("m", 0, largest_place), "the sum of both", "Distance kept between them."),
@@ -72,7 +73,7 @@ const Record& pair_record() {
 const Record& collider_record() {
   static const Record result{
       "collider",
-      "A solid that nothing pushes. It stands still or follows keyframes.",
+      "A static solid, or a kinematic one that follows keyframes.",
       {field("name", string(), "the shape, and a number where that is taken", "A name of its own."),
        either("plane", record(plane_record()), "A half-space."),
        either("sphere", record(sphere_record()), "A ball."),
@@ -85,7 +86,7 @@ const Record& collider_record() {
        field("thickness", number("m", 0, largest_place), Collider{}.thickness,
              "Added to the thickness of what touches it."),
        field("static_friction", number("-", 0, 1000), Collider{}.static_friction,
-             "Coefficient of friction at rest; a pair has the geometric mean of both sides'."),
+             "Coefficient of friction at rest; a pair has the geometric mean of both."),
        field("kinetic_friction", number("-", 0, 1000), "0.3, or the static one where that is less",
              "Coefficient of friction in motion; at most the static one."),
        field("restitution", share(), Collider{}.restitution,
@@ -94,13 +95,14 @@ const Record& collider_record() {
              "Of a mesh alone: how it deforms, linear between frames, before `motion` moves it."),
        field("repeat_frames", boolean(), MeshCollider{}.repeat_frames,
              "Of a mesh alone: start again after the last frame."),
-       field("as", choice({"triangles", "distance_grid", "heightfield"}), "triangles",
-             "Of a mesh alone: what stands for it. The latter two are cheap, solid, and met by particles alone "
-             "(docs/guide/contact.md)."),
+       field(
+           "as", choice({"triangles", "distance_grid", "heightfield"}), "triangles",
+           "Of a mesh alone: its collision geometry. The latter two are cheap and solid, and collide with particles alone "
+           "(docs/guide/contact.md)."),
        field("grid_spacing", positive("m", largest_place), "a 48th of the longest side",
              "Of a distance grid alone: between its nodes."),
-       field("groups", bits(), "[0]", "Of a mesh alone: what it belongs to, numbers from 0 to 31."),
-       field("mask", bits(), "all", "Of a mesh alone: the groups that it meets."),
+       field("groups", bits(), "[0]", "Of a mesh alone: numbers of its groups, 0 to 31."),
+       field("mask", bits(), "all", "Of a mesh alone: the groups that it collides with."),
        field("colour", colour(), Collider{}.colour, "Linear red, green and blue.")},
       {"plane", "sphere", "capsule", "box", "mesh"}};
   return result;

@@ -46,7 +46,7 @@ namespace {
 const Record& keyframe_record() {
   static const Record result{"keyframe",
                              "A rigid pose at a moment.",
-                             {needed("time", number("s", 0, 1e9), "When; increasing along the motion."),
+                             {needed("time", number("s", 0, 1e9), "Increases along the motion."),
                               field("position", place(), Keyframe{}.position, "Translation away from where it is at rest."),
                               field("rotation", record(rotation_record()), "none", "Rotation about the motion's `pivot`.")},
                              {}};
@@ -95,8 +95,8 @@ const Record& grid_record() {
 
 const Record& sphere_mesh_record() {
   static const Record result{"sphere mesh",
-                             "A closed sphere about the origin: an icosahedron split again and again.",
-                             {needed("subdivisions", integer(0, 7), "How often each triangle is split in four."),
+                             "A closed sphere about the origin: a subdivided icosahedron.",
+                             {needed("subdivisions", integer(0, 7), "How often each triangle is divided into four."),
                               field("radius", positive("m", largest_place), 1.f, "Radius.")},
                              {}};
   return result;

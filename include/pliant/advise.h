@@ -1,4 +1,4 @@
-// Trying a scene out: does its solve keep up, and if not, what is the cheapest setting that does?
+// Trial runs of a scene: is its solve accurate, and which is the cheapest setting that makes it so?
 #pragma once
 
 #include <cstdint>
@@ -11,38 +11,38 @@
 
 namespace pliant {
 
-/// What to try and how long.
+/// Limits of the trials.
 struct AdviseOptions {
-  double seconds = 3;             ///< of computing, about: the frame under way is finished [s]
-  int frames = 120;               ///< tried at most, and never more than the scene has
-  std::function<bool()> stops{};  ///< asked after every frame: true ends it as if its time were out
+  double seconds = 3;             ///< computing time, approximate: a frame that was begun is completed [s]
+  int frames = 120;               ///< frames of a trial at most; never more than the scene has
+  std::function<bool()> stops{};  ///< called after every frame; true ends the trials as if time were up
 };
 
-/// A setting, and what a run with it from the scene's start gave.
+/// Settings, and the result of a run with them from the scene's start.
 struct Trial {
   Settings settings;
-  int frames = 0;           ///< that it was run for
-  bool complete = false;    ///< all frames that were to be tried; false where it was given up as worse, or for lack of time
-  bool worse = false;       ///< than the best before it, whether it was given up for that or got to its end
-  double milliseconds = 0;  ///< a frame, the mean
+  int frames = 0;           ///< frames completed
+  bool complete = false;    ///< false if it was stopped as worse, or for lack of time
+  bool worse = false;       ///< worse than the best trial before it
+  double milliseconds = 0;  ///< mean of a frame
   Overstretch worst;        ///< p99 and largest of any frame, and where the largest was
   std::int64_t frame = 0;   ///< in which the largest was, from 1
 };
 
-/// What came of it.
+/// The result of all trials.
 struct Advice {
-  Trial own;                  ///< the scene as it is
-  int frames = 0;             ///< that were to be tried; where `own` has fewer, all is about those alone
-  std::vector<Trial> others;  ///< in the order of trying, where `own` is not good enough
-  /// Of `others`: the cheapest that is good, else the nearest to it whose largest is clearly below that of `own` and whose p99 is
-  /// not above; -1: there is none.
+  Trial own;                  ///< the scene with its own settings
+  int frames = 0;             ///< frames planned; if `own` completed fewer, the advice covers only those
+  std::vector<Trial> others;  ///< further trials in order, if `own` is not good
+  /// Index in `others` of the cheapest good trial; else of the one nearest to good whose largest overstretch is clearly below
+  /// that of `own` and whose p99 is not above it; -1: none.
   int best = -1;
   bool cut_short = false;  ///< time ran out
-  std::string words;  ///< the finding in a sentence; empty where nothing was found in `own.frames` frames: see cut_short
-  std::string what_to_do;  ///< the advice that belongs to it
+  std::string words;       ///< the finding in one sentence; empty if there is none in `own.frames` frames
+  std::string what_to_do;  ///< the advice for that finding
 };
 
-/// Whether no distance was longer than its force explains by more than tolerated_overstretch.
+/// Whether no overstretch exceeded tolerated_overstretch.
 bool is_good(const Trial& trial);
 
 /// Runs the scene, and where it is not good (see is_good) runs it again from the start with more substeps, tethers and the

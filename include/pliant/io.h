@@ -13,34 +13,34 @@
 
 namespace pliant {
 
-/// A mesh as read, with every repair that was made to it, in words.
+/// A mesh as read, and its repairs in words.
 struct MeshFile {
   TriangleMesh mesh;
   std::vector<std::string> repairs;
 };
 
-/// What read_mesh mends.
+/// The repairs that read_mesh makes.
 struct MeshReadOptions {
-  bool merge_duplicates = true;  ///< vertices in exactly one place become one (STL needs it)
+  bool merge_duplicates = true;  ///< merge vertices with equal positions (STL needs it)
   bool drop_degenerate = true;   ///< triangles that use a vertex twice or have no area
   bool drop_isolated = true;     ///< vertices of no triangle
 };
 
 /// Reads .obj, .ply (ASCII or binary, either byte order) or .stl (ASCII or binary), told apart by suffix and content;
-/// polygons are triangulated. Throws Error with file and line (or byte) where it can't be read, is empty, claims more than
-/// it holds, or has non-finite coordinates or indices out of range.
+/// polygons are triangulated. Throws Error with file and line (or byte) if the file can't be read, is empty or truncated, or
+/// has non-finite coordinates or indices out of range.
 MeshFile read_mesh_file(const std::string& path, const MeshReadOptions& options = {});
 
 /// The mesh of read_mesh_file alone.
 TriangleMesh read_mesh(const std::string& path);
 
-/// Writes .obj or .ply. The file is whole or, where writing fails, as it was before; Error names the path.
+/// Writes .obj or .ply. If writing fails, the old file stays as it was and the Error names the path.
 void write_mesh(const std::string& path, const TriangleMesh& mesh);
 
-/// A scene as read, with every repair that was made to its meshes, in words.
+/// A scene as read, and the repairs of its meshes in words.
 struct SceneFile {
   Scene scene;
-  std::string description;  ///< what the file says about itself; may be empty
+  std::string description;  ///< the file's "description"; may be empty
   std::vector<std::string> repairs;
 };
 
@@ -48,40 +48,40 @@ struct SceneFile {
 /// relative to the scene's own folder and may not leave it, by links neither, unless `allow_outside`.
 SceneFile read_scene_file(const std::string& path, bool allow_outside = true);
 
-/// What reading a scene can be told besides.
+/// Options of read_scene_file.
 struct SceneReadOptions {
   bool allow_outside = true;
-  /// By name of object or mesh collider: a mesh file, from the current folder, that takes the place of what its "mesh" names.
+  /// Mesh files that replace those of the scene, by name of object or mesh collider; relative to the current folder.
   std::map<std::string, std::string> meshes;
 };
 
-/// The same. Throws Error too where a mesh is given to a name that nothing with a mesh has.
+/// The same. Throws Error too if `meshes` names no object or mesh collider with a mesh.
 SceneFile read_scene_file(const std::string& path, const SceneReadOptions& options);
 
 /// The scene of read_scene_file alone.
 Scene read_scene(const std::string& path, bool allow_outside = true);
 
-/// The same from text; `name` stands for the file in errors, `folder` is where meshes are looked for.
+/// The same from text. Errors call the file `name`; mesh paths are relative to `folder`.
 Scene parse_scene(const std::string& text, const std::string& name, const std::string& folder, bool allow_outside = true);
 
 /// The JSON Schema (2020-12) of the scene format, as text.
 std::string scene_schema();
 
-/// The distances of measure_distances, from `folder` if they are kept there, else measured and kept. The folder is made if need be; a
-/// file is known by the mesh and the spacing, and one that is damaged is made anew. Throws as measure_distances does, and Error with the
-/// path where the folder can't be made, read or written.
+/// measure_distances with a cache: reads the field from `folder`, or measures it and writes it there. Creates the folder. The key
+/// is a hash of mesh and spacing; a damaged file is replaced. Throws as measure_distances does, and Error with the path if the
+/// folder can't be created, read or written.
 std::shared_ptr<const DistanceField> cached_distances(const TriangleMesh& mesh, float spacing, const std::string& folder);
 
-/// Gives each of the scene's distance grids that has no field yet that of cached_distances.
+/// Sets the field of each distance grid of the scene that has none, by cached_distances.
 void use_cached_distances(Scene& scene, const std::string& folder);
 
-/// A file that is whole and in its place.
+/// A file that was written completely.
 struct WrittenFile {
   std::string path;
   std::uint64_t bytes = 0;
 };
 
-/// Takes the frames of a run one by one. The file is complete after finish().
+/// Writes the frames of a run one by one. The file is complete after finish().
 class FrameWriter {
  public:
   virtual ~FrameWriter() = default;

@@ -1,4 +1,4 @@
-// How stiff things are, in the two languages of the field, and fabrics in SI units.
+// Stiffness as XPBD compliance or PBD k, and fabrics in SI units.
 #pragma once
 
 #include <string>
@@ -25,7 +25,7 @@ struct Stiffness {
   static Stiffness pbd(float k) { return {Kind::pbd, k, 0}; }
 };
 
-/// What a conversion between k and compliance must know.
+/// What a conversion between k and compliance depends on.
 struct ConversionContext {
   float
       inverse_mass;  ///< generalised: sum over the particles of w_i |grad_i C|^2; 2/m for a distance between equal masses [1/kg]
@@ -42,7 +42,7 @@ float compliance_from_stiffness(float k, const ConversionContext& context);
 /// The inverse of compliance_from_stiffness. Throws Error where alpha < 0.
 float stiffness_from_compliance(float alpha, const ConversionContext& context);
 
-/// A fabric as measured in the world, independent of any mesh.
+/// Measured properties of a fabric, independent of any mesh.
 struct Fabric {
   std::string name;
   float area_density = 0.15f;       ///< [kg/m^2]
@@ -52,7 +52,7 @@ struct Fabric {
   float bending_damping = 0;        ///< fraction of critical damping of bending, 0..1 [-]
   float static_friction = 0.4f;     ///< [-]
   float kinetic_friction = 0.3f;    ///< [-]
-  std::string source;               ///< where the numbers come from
+  std::string source;               ///< source of the numbers
 };
 
 /// One of the built-in fabrics: "cotton", "silk", "denim", "wool", "leather", "rubber sheet". Throws Error for another name,

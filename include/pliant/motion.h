@@ -1,4 +1,4 @@
-// Motions by keyframes: how an animator moves pins, attachment targets and colliders.
+// Motion by keyframes, of pins, attachment targets and colliders.
 #pragma once
 
 #include <vector>

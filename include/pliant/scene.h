@@ -30,7 +30,7 @@ struct ConstraintGroup {
   std::vector<float> compliances;  ///< one alpha a constraint instead of stiffness.value; empty: all the same
 };
 
-/// What the library knows about a constraint type.
+/// The description of a constraint type.
 struct ConstraintType {
   std::string name;
   int stencil_size;                      ///< number of slots
@@ -49,13 +49,13 @@ struct Volume {
   Stiffness stiffness{};  ///< compliance in m^5/N for C as written, which is six volumes
 };
 
-/// A particle whose place is given: it has no free mass and follows `motion` from its rest place.
+/// A kinematic particle: it has infinite mass and follows `motion` from its rest position.
 struct Pin {
   int particle = 0;
   Motion motion{};
 };
 
-/// A particle drawn to a target that moves: a distance constraint of rest length 0.
+/// Ties a particle to a moving target by a distance constraint of rest length 0.
 struct Attachment {
   int particle = 0;
   Vec3f target{};  ///< at time 0 [m]
@@ -63,26 +63,26 @@ struct Attachment {
   Stiffness stiffness{};
 };
 
-/// How constraints are visited; all give the same bits where they say so.
+/// The method that projects constraints: the order in which it visits them, and what it solves at once.
 enum class Sweep {
-  automatic,  ///< the one that measured best on scenes of the kind: see chosen_settings; the default
-  tiled,      ///< coloured Gauss-Seidel in tiles, sixteen lanes, all threads
-  sequential,  ///< the same order, one constraint at a time in plain scalar code: the readable reference, bit-equal to `tiled`
-  symmetric,  ///< `tiled` there and back: one iteration visits every constraint twice, in one order and in the reverse
-  jacobi,     ///< all constraints at once from the same positions, each particle's corrections then shared out
-  natural,    ///< Gauss-Seidel in the order in which the constraints were given, one at a time: for comparison, slow
-  chains,     ///< rigid and compliant distances laid out as paths, each path solved exactly; the rest as `tiled` has it
-  multigrid,  ///< one correction of all distances at once on a hierarchy of levels, then `tiled` twice: for fine meshes
+  automatic,   ///< the default: the sweep that measured best on scenes of this kind, see chosen_sweep
+  tiled,       ///< coloured Gauss-Seidel in tiles, sixteen constraints at a time, on all threads
+  sequential,  ///< the scalar reference of `tiled`: one constraint at a time in the same order, with the same bits
+  symmetric,   ///< `tiled` forward, then backward: one iteration projects every constraint twice
+  jacobi,      ///< all constraints from the same positions; the corrections of each particle are then combined
+  natural,     ///< Gauss-Seidel in the user's order, one constraint at a time: slow, for comparison
+  chains,      ///< direct solves along paths of distance constraints; all other constraints as in `tiled`
+  multigrid,   ///< a multigrid correction of all distances, then `tiled` twice: for fine meshes
 };
 
-/// An orientation with inertia, which constraints can join to particles: of a rigid body, whose centre of mass is a particle.
+/// An orientation with inertia. A particle and a frame make a rigid body; constraints join frames by their frame slots.
 struct ObjectFrame {
   Quatf orientation{};       ///< from its principal axes to the world, of unit length
   Vec3f angular_velocity{};  ///< in world axes [rad/s]
-  Vec3f inertia{1, 1, 1};    ///< about its principal axes, > 0, or infinity: does not turn about that one [kg m^2]
+  Vec3f inertia{1, 1, 1};    ///< moments about its principal axes, > 0; infinity locks that axis [kg m^2]
 };
 
-/// Anything made of particles. Cloth, balloons and ropes are ways to make one.
+/// Particles with their constraints. make_cloth and make_rope build objects from meshes and lines.
 struct Object {
   std::string name;
   std::vector<Vec3f> positions;     ///< also the rest shape [m]
@@ -94,22 +94,22 @@ struct Object {
   std::optional<Volume> volume;               ///< needs a closed surface
   std::vector<Pin> pins;
   std::vector<Attachment> attachments;
-  float thickness = 0.001f;        ///< distance kept from colliders; two surfaces keep the sum of theirs [m]
-  bool self_collision = false;     ///< its surface, or its links where it has none, does not pass through itself
-  bool collides = false;           ///< nor through other objects of which this holds
-  std::uint32_t groups = 1;        ///< bits: what it belongs to. Two things meet where each one's groups
-  std::uint32_t mask = ~0u;        ///< have a bit in the other's mask
+  float thickness = 0.001f;        ///< distance kept from colliders; two surfaces keep the sum of both [m]
+  bool self_collision = false;     ///< its surface does not pass through itself; without triangles, its links do not
+  bool collides = false;           ///< it does not pass through other objects with `collides`
+  std::uint32_t groups = 1;        ///< bits of the groups that it belongs to. Two objects meet if the groups of each
+  std::uint32_t mask = ~0u;        ///< share a bit with the other's mask
   float static_friction = 0.4f;    ///< [-]
   float kinetic_friction = 0.3f;   ///< [-], <= static_friction
   float restitution = 0;           ///< 0..1 [-]
-  float drag = 1.2f;               ///< coefficient of a triangle square to the wind [-]
+  float drag = 1.2f;               ///< drag coefficient of a triangle perpendicular to the wind [-]
   float lift = 0.8f;               ///< [-]
-  Sweep sweep = Sweep::automatic;  ///< by which it is solved; automatic: see chosen_sweep
-  float damping = 0;  ///< of velocity: each substep divides it by 1 + h damping, about exp(-damping) a second [1/s]
+  Sweep sweep = Sweep::automatic;  ///< the sweep of its constraints; automatic: see chosen_sweep
+  float damping = 0;               ///< each substep divides velocities by 1 + h damping, about exp(-damping) a second [1/s]
   Vec3f colour{0.75f, 0.35f, 0.30f};  ///< linear RGB, 0..1
 };
 
-/// How a mesh becomes cloth.
+/// Options of make_cloth.
 struct ClothOptions {
   std::string name = "cloth";
   Fabric material{};
@@ -126,7 +126,7 @@ struct ClothOptions {
 /// 3/B, so that stiffness does not depend on the mesh. Throws Error naming the triangle or edge that can't be cloth.
 Object make_cloth(const TriangleMesh& mesh, const ClothOptions& options = {});
 
-/// How a line of points becomes a rope.
+/// Options of make_rope.
 struct RopeOptions {
   std::string name = "rope";
   float linear_density = 0.05f;  ///< [kg/m]
@@ -153,7 +153,7 @@ struct Box {
 };  ///< [m]
 using Shape = std::variant<Plane, Sphere, Capsule, Box>;
 
-/// A solid that nothing pushes: it stands still or follows keyframes.
+/// A static solid, or a kinematic one that follows keyframes.
 struct Collider {
   std::string name = "collider";
   Shape shape = Plane{};
@@ -161,13 +161,13 @@ struct Collider {
   Quatf rotation{};
   Motion motion{};               ///< applied after position and rotation
   float thickness = 0;           ///< added to the particle's [m]
-  float static_friction = 0.4f;  ///< a pair has the geometric mean of both sides'
+  float static_friction = 0.4f;  ///< a pair has the geometric mean of both
   float kinetic_friction = 0.3f;
-  float restitution = 0;  ///< a pair has the larger of both sides'
+  float restitution = 0;  ///< a pair has the larger of both
   Vec3f colour{0.45f, 0.48f, 0.52f};
 };
 
-/// Where the vertices of a mesh that deforms are at a moment.
+/// The vertices of a deforming mesh at one time.
 struct MeshFrame {
   float time = 0;                ///< [s], increasing along a list of frames
   std::vector<Vec3f> positions;  ///< one a vertex of the mesh [m]
@@ -182,26 +182,26 @@ struct DistanceField {
   std::vector<float> distances;  ///< of node (x, y, z) at (z nodes[1] + y) nodes[0] + x [m]
 };
 
-/// A triangle mesh that nothing pushes, closed or open. As triangles it is met from both sides by every object whose groups and
-/// mask allow: its vertices, edges and triangles all take part.
+/// A static or kinematic triangle mesh, closed or open. As triangles it collides on both sides with every object that its groups
+/// and mask allow, by its vertices, edges and triangles.
 struct MeshCollider {
-  /// What stands for it. `triangles`: itself. `distance_grid`: a DistanceField of it, which must be closed; `heightfield`: its
-  /// heights over a regular grid in x and z, solid below. Those two are met by particles alone, as primitive colliders
-  /// are, by all objects, at a cost that does not depend on the mesh, and do not deform.
+  /// The collision geometry. `triangles`: the mesh itself. `distance_grid`: a DistanceField of the mesh, which must be closed.
+  /// `heightfield`: its heights over a regular grid in x and z, solid below. Distance grids and heightfields collide with the
+  /// particles of all objects, at a cost that does not depend on the mesh, and cannot deform.
   enum class As { triangles, distance_grid, heightfield };
 
   std::string name = "mesh";
   TriangleMesh mesh;              ///< [m]
   Motion motion{};                ///< of the whole mesh
-  std::vector<MeshFrame> frames;  ///< deforms, linear between frames, held before the first and after the last; then moves
+  std::vector<MeshFrame> frames;  ///< deformation, linear between frames, constant outside; `motion` comes after it
   bool repeat_frames = false;     ///< start again after the last frame
   As as = As::triangles;
   float grid_spacing = 0;                        ///< of a distance grid; 0: a 48th of the longest side [m]
-  std::shared_ptr<const DistanceField> field{};  ///< of a distance grid, as measure_distances makes it; none: it is made
+  std::shared_ptr<const DistanceField> field{};  ///< of a distance grid, from measure_distances; null: measured at compile
   float thickness = 0;                           ///< added to the object's [m]
-  float static_friction = 0.4f;                  ///< a pair has the geometric mean of both sides'
+  float static_friction = 0.4f;                  ///< a pair has the geometric mean of both
   float kinetic_friction = 0.3f;
-  float restitution = 0;                 ///< a pair has the larger of both sides'
+  float restitution = 0;                 ///< a pair has the larger of both
   std::uint32_t groups = 1, mask = ~0u;  ///< as of Object
   Vec3f colour{0.45f, 0.48f, 0.52f};
 };
@@ -210,17 +210,17 @@ struct MeshCollider {
 /// Throws Error where an edge has not two triangles or there would be more than 2^27 nodes.
 std::shared_ptr<const DistanceField> measure_distances(const TriangleMesh& mesh, float spacing = 0);
 
-/// What two things, objects or mesh colliders as triangles, are to one another where it is not what their own numbers make it.
+/// Overrides contact properties of one pair of objects or mesh colliders (as triangles).
 struct PairProperties {
-  std::string first, second;                                            ///< names; both the same: of an object with itself
-  std::optional<float> thickness;                                       ///< distance kept between the two [m]
+  std::string first, second;       ///< names; the same name twice: self-collision of that object
+  std::optional<float> thickness;  ///< distance kept between the two [m]
   std::optional<float> static_friction, kinetic_friction, restitution;  ///< [-]
 };
 
 /// Moving air: a uniform wind with a gust of given period along it.
 struct Wind {
   Vec3f velocity{};       ///< [m/s]
-  float gust = 0;         ///< 0..1: the wind's strength swings by this share [-]
+  float gust = 0;         ///< 0..1: amplitude of the gust as a share of the wind [-]
   float gust_period = 2;  ///< [s]
   float air_density = 0;  ///< 0: no air at all; 1.2 at sea level [kg/m^3]
 };
@@ -231,36 +231,36 @@ using ForceField = std::function<Vec3f(const Vec3f& position, const Vec3f& veloc
 
 // ---------------------------------------------------------------- how it is solved
 
-/// A sweep and what scenes call it.
+/// A sweep and its name in scene files.
 struct NamedSweep {
   std::string name;
   Sweep sweep;
 };
 
-/// Every sweep there is, but for the choice among them: the one list that scene files, `pliant compare` and tests go by.
+/// All sweeps but `automatic`.
 const std::vector<NamedSweep>& sweeps();
 
-/// What scenes call it; "automatic" too.
+/// The name in scene files; of `automatic` too.
 std::string sweep_name(Sweep sweep);
 
-/// What the sweeps can be told besides.
+/// Options of sweeps.
 struct SweepOptions {
-  /// How `jacobi` shares a particle among its n constraints. `split`: each has an n-th of its mass (Tonge et al. 2012), which
-  /// keeps momentum. `average`: each sees all of it and the n corrections are averaged (Macklin et al. 2014), which does not.
+  /// How `jacobi` combines the n corrections of a particle. `split`: each constraint gets an n-th of its mass (Tonge et al.
+  /// 2012), which conserves momentum. `average`: the mean of the n corrections (Macklin et al. 2014), which does not.
   enum class Sharing { split, average };
-  /// Chebyshev semi-iteration over any sweep but `natural` (Wang 2015), off while a particle touches something.
+  /// Chebyshev semi-iteration over any sweep but `natural` (Wang 2015); off for particles in contact.
   enum class Acceleration { none, chebyshev };
 
-  float relaxation = 1;  ///< omega: every change of a multiplier is multiplied by it, above 0, below 2 [-]
+  float relaxation = 1;  ///< omega in (0, 2): factor of every multiplier change [-]
   Sharing sharing = Sharing::split;
   Acceleration acceleration = Acceleration::none;
   int plain_iterations = 10;  ///< of each substep before Chebyshev begins, 1..10000; 2 or more where rho is estimated
   float spectral_radius = 0;  ///< rho of the sweep in (0, 1), or 0: estimated in each substep from the plain iterations [-]
-  bool tethers = false;  ///< hold every particle within its distance along the mesh to the pins (long-range attachments)
+  bool tethers = false;  ///< limit every particle's distance from the pins to that along the mesh (long-range attachments)
   float tether_slack =
       0;  ///< share by which that distance may be exceeded, for cloth that is meant to stretch, 0..1000 [-]
-  /// Of `chains`, 0..1000: times the inverse mass of a path, what keeps a straight row between two pins from being singular; a
-  /// link stretches by about this times g h^2 [-].
+  /// Of `chains`, 0..1000: regularises the solve of a straight path between two pins, as a share of its inverse mass; a link
+  /// stretches by about this times g h^2 [-].
   float chain_softness = 0.1f;
   int multigrid_cycles = 2;  ///< of `multigrid`: W-cycles a substep, each a step of conjugate gradients, 1..100
 };
@@ -268,31 +268,31 @@ struct SweepOptions {
 struct Settings {
   int substeps = 0;    ///< 1..10000 a frame; 0: as many as the sweep needs, see chosen_settings
   int iterations = 1;  ///< 1..10000 a substep
-  /// Root mean square of |C + alpha~ lambda| over the distance constraints, the attachments among them, below which a substep
-  /// makes no more iterations, so that `iterations` is only the most that it may make; 0 or more, 0: always all of them [m].
-  /// Nothing else is judged, and a scene without distance constraints makes all. PBD stiffness is shared out as if all were made.
+  /// A substep ends its iterations early when the root mean square of |C + alpha~ lambda| over the distance constraints and
+  /// attachments falls below this [m]; 0: never. No other type counts, and a scene without distance constraints makes all
+  /// iterations. PBD stiffness is converted for the full number of iterations.
   float tolerance = 0;
   int threads = 0;  ///< 0: as many as the machine has
   Sweep sweep = Sweep::automatic;
   SweepOptions sweep_options{};
-  bool contact_filter = true;  ///< shorten moves so that nothing that collides passes through anything else
+  bool contact_filter = true;  ///< truncate steps so that colliding surfaces never cross
   /// A frame in which a mesh collider comes near an object is divided into more substeps, up to so many, until the collider moves
   /// at most half the pair's thickness in one: the filter cannot limit kinematic colliders. Such a frame is that much dearer,
   /// and the Report warns of it. 1..10000, or 0: eight times `substeps`. At most `substeps`: never.
   int most_substeps = 0;
-  /// What is done about surfaces that pass through one another before anything has moved.
+  /// What to do about surfaces that intersect in the scene as given.
   enum class Intersections {
-    leave,     ///< they may stay; contact leaves them out until they happen to be apart
-    untangle,  ///< they are drawn apart, and vertices inside a closed mesh collider out of it, at `untangling_speed`
-    refuse,    ///< making a World throws Error naming the first
+    leave,     ///< they stay, without contact between them until they are apart
+    untangle,  ///< they are moved apart, and vertices out of closed mesh colliders, at `untangling_speed`
+    refuse,    ///< making a World throws Error that names the first
   } initial_intersections = Intersections::leave;
-  float untangling_speed = 0.5f;  ///< at most [m/s]
-  /// Report::phases has update, predict and the search for non-finite values apart from the sweeps, with which they share a
-  /// visit to each tile otherwise. The same bits, slower.
+  float untangling_speed = 0.5f;  ///< speed limit of depenetration [m/s]
+  /// Times update, predict and the search for non-finite values separately in Report::phases. Otherwise they are fused with
+  /// the sweeps, tile by tile. Same bits, slower.
   bool separate_phases = false;
   bool measure = false;  ///< fill Report::residuals, stretch and overstretch each frame (costs about one more iteration)
   bool record_residuals = false;    ///< fill Report::convergence (slow: every iteration of the last substep is measured)
-  bool record_multipliers = false;  ///< keep multipliers readable even where not needed (one iteration, or rigid)
+  bool record_multipliers = false;  ///< store multipliers for World::multipliers even where the solve does not need them
   std::string
       isa;  ///< "", or "x86-64-v2", "-v3", "-v4", "generic", "sequential" to force a code path (same bits, other speed)
 };
@@ -327,13 +327,13 @@ struct Scene {
 /// itself. Smaller objects go with the others where these are all solved by `multigrid`. `reason` is told in words what decides where both leave it open.
 Sweep chosen_sweep(const Scene& scene, int object, std::string* reason = nullptr);
 
-/// The settings that a World of this scene runs by: its own, with what they leave open decided by what the scene holds.
+/// The settings of a World of this scene: its own, with defaults chosen by what the scene holds.
 /// `Sweep::automatic` becomes the sweep of all objects (see chosen_sweep) where they agree, and stays where they do not. 0 substeps
 /// become 10 where every object is solved by `multigrid`, else 20 (docs/internals/convergence.md). `reason` is told in words what
 /// decides, where the sweep was left open.
 Settings chosen_settings(const Scene& scene, std::string* reason = nullptr);
 
-/// Checks everything that a World would refuse, and says what is doubtful besides.
+/// All reasons for which a World would refuse the scene (grave findings), and doubtful things.
 std::vector<Finding> inspect(const Scene& scene);
 
 }  // namespace pliant
