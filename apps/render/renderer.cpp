@@ -114,6 +114,20 @@ float grid_spacing(float radius) {
 
 }  // namespace
 
+struct Programs {
+  Program depth{depth_vertex, depth_fragment};
+  Program occlusion{screen_vertex, occlusion_fragment};
+  Program blur{screen_vertex, blur_fragment};
+  Program sky{screen_vertex, std::string(light_functions) + sky_fragment};
+  Program surface{surface_vertex, std::string(light_functions) + surface_fragment};
+};
+
+/// A texture and the framebuffer that draws into it.
+struct Target {
+  Texture texture;
+  Framebuffer framebuffer;
+};
+
 struct Renderer::Implementation {
   Implementation(int w, int h);
   std::vector<std::uint8_t> draw(const RenderScene& scene);
@@ -130,16 +144,11 @@ struct Renderer::Implementation {
 
   int width, height, half_width, half_height;
   Context context;
-  Program depth_program{depth_vertex, depth_fragment};
-  Program occlusion_program{screen_vertex, occlusion_fragment};
-  Program blur_program{screen_vertex, blur_fragment};
-  Program sky_program{screen_vertex, std::string(light_functions) + sky_fragment};
-  Program surface_program{surface_vertex, std::string(light_functions) + surface_fragment};
+  Programs programs;
   VertexArray array, nothing;
   Sampler plain_sampler;  // reads the shadow map's depth itself
   Buffer vertices, indices;
-  Texture shadow_map, depth, raw_occlusion, occlusion, picture;
-  Framebuffer shadow_target, depth_target, raw_target, occlusion_target, picture_target;
+  Target shadow, depth, raw_occlusion, occlusion, picture;
   SampledTarget sampled;
   std::vector<Range> ranges;
 };
@@ -160,7 +169,8 @@ Renderer::Implementation::Implementation(int w, int h)
     glEnableVertexAttribArray(i);
     glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), reinterpret_cast<const void*>(i * sizeof(Vec3f)));
   }
-  shadow_map = make_texture(GL_DEPTH_COMPONENT24, shadow_size, shadow_size, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_LINEAR);
+  shadow.texture =
+      make_texture(GL_DEPTH_COMPONENT24, shadow_size, shadow_size, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   GLuint sampler = 0;
   glGenSamplers(1, &sampler);
@@ -168,15 +178,15 @@ Renderer::Implementation::Implementation(int w, int h)
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
     glSamplerParameteri(sampler, filter, GL_NEAREST);
   glSamplerParameteri(sampler, GL_TEXTURE_COMPARE_MODE, GL_NONE);
-  shadow_target = make_framebuffer(0, shadow_map.get());
-  depth = make_texture(GL_DEPTH_COMPONENT24, width, height, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_NEAREST);
-  depth_target = make_framebuffer(0, depth.get());
-  raw_occlusion = make_texture(GL_R8, half_width, half_height, GL_RED, GL_UNSIGNED_BYTE, GL_NEAREST);
-  raw_target = make_framebuffer(raw_occlusion.get(), 0);
-  occlusion = make_texture(GL_R8, half_width, half_height, GL_RED, GL_UNSIGNED_BYTE, GL_LINEAR);
-  occlusion_target = make_framebuffer(occlusion.get(), 0);
-  picture = make_texture(GL_RGBA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE, GL_NEAREST);
-  picture_target = make_framebuffer(picture.get(), 0);
+  shadow.framebuffer = make_framebuffer(0, shadow.texture.get());
+  depth.texture = make_texture(GL_DEPTH_COMPONENT24, width, height, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_NEAREST);
+  depth.framebuffer = make_framebuffer(0, depth.texture.get());
+  raw_occlusion.texture = make_texture(GL_R8, half_width, half_height, GL_RED, GL_UNSIGNED_BYTE, GL_NEAREST);
+  raw_occlusion.framebuffer = make_framebuffer(raw_occlusion.texture.get(), 0);
+  occlusion.texture = make_texture(GL_R8, half_width, half_height, GL_RED, GL_UNSIGNED_BYTE, GL_LINEAR);
+  occlusion.framebuffer = make_framebuffer(occlusion.texture.get(), 0);
+  picture.texture = make_texture(GL_RGBA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE, GL_NEAREST);
+  picture.framebuffer = make_framebuffer(picture.texture.get(), 0);
 }
 
 void Renderer::Implementation::upload(const std::vector<Geometry>& geometries) {
@@ -206,23 +216,23 @@ void Renderer::Implementation::draw_ranges(bool ground) const {
 }
 
 void Renderer::Implementation::draw_shadows(const Matrix& clip) const {
-  glBindFramebuffer(GL_FRAMEBUFFER, shadow_target.get());
+  glBindFramebuffer(GL_FRAMEBUFFER, shadow.framebuffer.get());
   glViewport(0, 0, shadow_size, shadow_size);
   glClear(GL_DEPTH_BUFFER_BIT);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.5f, 2.f);
-  depth_program.use();
-  depth_program.set("view_projection", clip);
+  programs.depth.use();
+  programs.depth.set("view_projection", clip);
   draw_ranges(false);
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
 void Renderer::Implementation::draw_depth(const Eye& eye) const {
-  glBindFramebuffer(GL_FRAMEBUFFER, depth_target.get());
+  glBindFramebuffer(GL_FRAMEBUFFER, depth.framebuffer.get());
   glViewport(0, 0, width, height);
   glClear(GL_DEPTH_BUFFER_BIT);
-  depth_program.use();
-  depth_program.set("view_projection", eye.view_projection);
+  programs.depth.use();
+  programs.depth.set("view_projection", eye.view_projection);
   draw_ranges(true);
 }
 
@@ -232,34 +242,34 @@ void Renderer::Implementation::draw_occlusion(const Eye& eye, float reach) const
   glDisable(GL_DEPTH_TEST);
   glViewport(0, 0, half_width, half_height);
   glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, depth.get());
-  glBindFramebuffer(GL_FRAMEBUFFER, raw_target.get());
-  occlusion_program.use();
-  occlusion_program.set("depth", 0);
-  occlusion_program.set("slope", eye.half_width, eye.half_height);
-  occlusion_program.set("near_far", eye.near, eye.far);
-  occlusion_program.set("texel", texel_x, texel_y);
-  occlusion_program.set("reach", reach);
+  glBindTexture(GL_TEXTURE_2D, depth.texture.get());
+  glBindFramebuffer(GL_FRAMEBUFFER, raw_occlusion.framebuffer.get());
+  programs.occlusion.use();
+  programs.occlusion.set("depth", 0);
+  programs.occlusion.set("slope", eye.half_width, eye.half_height);
+  programs.occlusion.set("near_far", eye.near, eye.far);
+  programs.occlusion.set("texel", texel_x, texel_y);
+  programs.occlusion.set("reach", reach);
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  glBindFramebuffer(GL_FRAMEBUFFER, occlusion_target.get());
+  glBindFramebuffer(GL_FRAMEBUFFER, occlusion.framebuffer.get());
   glActiveTexture(GL_TEXTURE1);
-  glBindTexture(GL_TEXTURE_2D, raw_occlusion.get());
-  blur_program.use();
-  blur_program.set("depth", 0);
-  blur_program.set("occlusion", 1);
-  blur_program.set("texel", texel_x, texel_y);
-  blur_program.set("near_far", eye.near, eye.far);
+  glBindTexture(GL_TEXTURE_2D, raw_occlusion.texture.get());
+  programs.blur.use();
+  programs.blur.set("depth", 0);
+  programs.blur.set("occlusion", 1);
+  programs.blur.set("texel", texel_x, texel_y);
+  programs.blur.set("near_far", eye.near, eye.far);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 void Renderer::Implementation::draw_sky(const Eye& eye) const {
   glBindVertexArray(nothing.get());
   glDisable(GL_DEPTH_TEST);
-  sky_program.use();
-  sky_program.set("right", eye.frame.right);
-  sky_program.set("up", eye.frame.up);
-  sky_program.set("forward", -eye.frame.back);
-  sky_program.set("slope", eye.half_width, eye.half_height);
+  programs.sky.use();
+  programs.sky.set("right", eye.frame.right);
+  programs.sky.set("up", eye.frame.up);
+  programs.sky.set("forward", -eye.frame.back);
+  programs.sky.set("slope", eye.half_width, eye.half_height);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -267,13 +277,13 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   glBindVertexArray(array.get());
   glEnable(GL_DEPTH_TEST);
   glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, shadow_map.get());
+  glBindTexture(GL_TEXTURE_2D, shadow.texture.get());
   glActiveTexture(GL_TEXTURE1);
-  glBindTexture(GL_TEXTURE_2D, occlusion.get());
+  glBindTexture(GL_TEXTURE_2D, occlusion.texture.get());
   glActiveTexture(GL_TEXTURE2);
-  glBindTexture(GL_TEXTURE_2D, shadow_map.get());
+  glBindTexture(GL_TEXTURE_2D, shadow.texture.get());
   glBindSampler(2, plain_sampler.get());
-  const Program& program = surface_program;
+  const Program& program = programs.surface;
   const float size = content.radius();
   program.use();
   program.set("shadow", 0);
@@ -319,9 +329,9 @@ void Renderer::Implementation::draw_both_sides(const Range& range) const {
 
 std::vector<std::uint8_t> Renderer::Implementation::read_back() const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, sampled.framebuffer.get());
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, picture_target.get());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, picture.framebuffer.get());
   glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_target.get());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, picture.framebuffer.get());
   const std::size_t row = static_cast<std::size_t>(width) * 3, rows = static_cast<std::size_t>(height);
   std::vector<std::uint8_t> upside_down(row * rows), result(row * rows);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);

@@ -82,7 +82,7 @@ struct ObjectFrame {
   Vec3f inertia{1, 1, 1};    ///< moments about its principal axes, > 0; infinity locks that axis [kg m^2]
 };
 
-/// Particles with their constraints. make_cloth and make_rope build objects from meshes and lines.
+/// Particles with their constraints; over fifteen members, all of them what a user can say of one. See make_cloth, make_rope.
 struct Object {
   std::string name;
   std::vector<Vec3f> positions;     ///< also the rest shape [m]

@@ -5,7 +5,7 @@
 
 namespace pliant {
 
-/// Views of what a step works with, and the numbers of one substep. Plain data: the stages are free functions.
+/// Views of what a step works with and the numbers of one substep: sixteen, since each stage needs some. Stages are free functions.
 struct Substep {
   const StepContext& context;
   const Model& model;

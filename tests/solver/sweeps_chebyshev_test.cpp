@@ -126,7 +126,7 @@ TEST(Chebyshev, RhoIsThatOfTheChain) {
   // Split masses halve the step of Jacobi: its slowest mode keeps (1 + cos) / 2, a little more for the ends' whole masses.
   const Outcome out = run_sweep({stretched_chain(links, stretch, Stiffness::rigid())}, run, 0);
   const auto& scratch = static_cast<const ChebyshevScratch&>(*out.workspace.sweeps.at(Sweep::jacobi).acceleration);
-  const double rho = scratch.spectral_radius, expected = (1 + std::cos(pi / (links + 1))) / 2;
+  const double rho = scratch.recurrence.spectral_radius, expected = (1 + std::cos(pi / (links + 1))) / 2;
   EXPECT_LT(rho, expected + 0.1 * (1 - expected));
   EXPECT_GT(rho, expected - 3 * (1 - expected));
 }

@@ -32,7 +32,7 @@ ChebyshevScratch& chebyshev_of(const Substep& s) { return static_cast<ChebyshevS
 
 bool is_power_of_two(int n) { return (n & (n - 1)) == 0; }
 
-void start(double radius, double norm, ChebyshevScratch& c) {
+void start(double radius, double norm, ChebyshevRecurrence& c) {
   c.spectral_radius = radius;
   c.start_norm = norm;
   c.steps = 0;
@@ -41,14 +41,14 @@ void start(double radius, double norm, ChebyshevScratch& c) {
 }
 
 /// The lambda for which T_n(lambda / rho) = excess, n = steps a power of two: rho cosh(acosh(excess) / n).
-double judged_radius(const ChebyshevScratch& c, double excess) {
+double judged_radius(const ChebyshevRecurrence& c, double excess) {
   double root = excess + std::sqrt(excess * excess - 1);
   for (int i = 1; i < c.steps; i *= 2) root = std::sqrt(root);
   return min(c.spectral_radius * (root + 1 / root) / 2, largest_radius);
 }
 
 /// Whether a larger rho explains how slowly corrections came down, and is worth starting over for.
-bool raise_radius(double norm, ChebyshevScratch& c) {
+bool raise_radius(double norm, ChebyshevRecurrence& c) {
   if (c.steps < first_judgement || !is_power_of_two(c.steps) || c.polynomial > largest_polynomial) return false;
   const double excess = norm / c.start_norm * c.polynomial;
   if (!(excess * excess * excess * excess > c.polynomial)) return false;
@@ -59,7 +59,7 @@ bool raise_radius(double norm, ChebyshevScratch& c) {
 }
 
 /// The weight of the iterate whose plain correction, that of the sweep just made, has this norm.
-double next_weight(const SweepOptions& options, int iteration, double norm, ChebyshevScratch& c) {
+double next_weight(const SweepOptions& options, int iteration, double norm, ChebyshevRecurrence& c) {
   const bool estimates = options.spectral_radius == 0;
   const double ratio = iteration > 0 && c.last_norm > 0 ? norm / c.last_norm : 1;
   c.last_norm = norm;
@@ -137,14 +137,14 @@ void extrapolate_everything(Substep& s, float weight) {
   ChebyshevScratch& c = chebyshev_of(s);
   for_swept_tiles(s, "solve: chebyshev", [&](int task) {
     const int o = model.tiles[task].object;
-    extrapolate_tile(weight, model.objects[o].tiles[model.tiles[task].tile], c.older.data() + model.first[o],
+    extrapolate_tile(weight, model.objects[o].tiles[model.tiles[task].tile], c.older.displacements.data() + model.first[o],
                      arguments(s, o, false).displacements, s.work.tiles[task].contacts, c.touching[task]);
   });
-  extrapolate_multipliers(s, weight, c.multipliers_older);
+  extrapolate_multipliers(s, weight, c.older.multipliers);
   std::vector<double>& volumes = s.work.volume_multipliers;
   for (std::size_t o = 0; o < volumes.size(); ++o)
     if (is_swept(s, static_cast<int>(o)))
-      volumes[o] = c.volumes_older[o] + static_cast<double>(weight) * (volumes[o] - c.volumes_older[o]);
+      volumes[o] = c.older.volumes[o] + static_cast<double>(weight) * (volumes[o] - c.older.volumes[o]);
 }
 
 /// Multipliers are those of the last substep until the first sweep: an iterate of zeros.
@@ -153,14 +153,14 @@ void keep_multipliers(const Substep& s, bool first, ChebyshevScratch& c) {
   for (std::size_t o = 0; o < work.multipliers.size(); ++o) {
     if (!is_swept(s, static_cast<int>(o))) continue;
     for (std::size_t p = 0; p < work.multipliers[o].size(); ++p) {
-      AlignedVector<float>& kept = c.multipliers_before[o][p];
+      AlignedVector<float>& kept = c.before.multipliers[o][p];
       if (first) {
         std::fill(kept.begin(), kept.end(), 0.f);
       } else {
         std::copy(work.multipliers[o][p].begin(), work.multipliers[o][p].end(), kept.begin());
       }
     }
-    c.volumes_before[o] = first ? 0 : work.volume_multipliers[o];
+    c.before.volumes[o] = first ? 0 : work.volume_multipliers[o];
   }
 }
 
@@ -172,8 +172,9 @@ double correction_norm(Substep& s) {
     const int o = model.tiles[task].object;
     const Tile& tile = model.objects[o].tiles[model.tiles[task].tile];
     const SweepArguments a = arguments(s, o, false);
-    c.tile_sums[task] = correction_norm_squared(a.positions, a.displacements, c.before.data() + model.first[o],
-                                                tile.first_particle, tile.last_particle);
+    c.tile_sums[task] =
+        correction_norm_squared(a.positions, a.displacements, c.before.displacements.data() + model.first[o],
+                                tile.first_particle, tile.last_particle);
   });
   double sum = 0;
   for (double tile : c.tile_sums) sum += tile;  // in the tiles' order, whichever thread had them
@@ -183,14 +184,12 @@ double correction_norm(Substep& s) {
 }  // namespace
 
 void ChebyshevScratch::prepare(const SweepSetup& setup, int object) {
-  before.resize(setup.model.particles());
-  older.resize(setup.model.particles());
-  for (LaneValues* values : {&multipliers_before, &multipliers_older}) {
-    values->resize(setup.model.objects.size());
-    (*values)[object] = setup.workspace.multipliers[object];
+  for (ChebyshevIterate* iterate : {&before, &older}) {
+    iterate->displacements.resize(setup.model.particles());
+    iterate->multipliers.resize(setup.model.objects.size());
+    iterate->multipliers[object] = setup.workspace.multipliers[object];
+    iterate->volumes.resize(setup.model.objects.size());
   }
-  volumes_before.resize(setup.model.objects.size());
-  volumes_older.resize(setup.model.objects.size());
   tile_sums.resize(setup.model.tiles.size());
   touching.resize(setup.model.tiles.size());
 }
@@ -199,28 +198,26 @@ void keep_iterate(Substep& s, int iteration) {
   ChebyshevScratch& c = chebyshev_of(s);
   const Model& model = s.model;
   if (iteration == 0) {
-    c.weight = 1;
-    c.last_norm = 0;
-    c.steps = -1;
-    c.given_up = false;
+    c.recurrence.weight = 1;
+    c.recurrence.last_norm = 0;
+    c.recurrence.steps = -1;
+    c.recurrence.given_up = false;
   }
   for_swept_tiles(s, "solve: chebyshev", [&](int task) {
     const int o = model.tiles[task].object;
     const Tile& tile = model.objects[o].tiles[model.tiles[task].tile];
     const Record* displacements = arguments(s, o, false).displacements;
     std::copy(displacements + tile.first_particle, displacements + tile.last_particle,
-              c.before.begin() + model.first[o] + tile.first_particle);
+              c.before.displacements.begin() + model.first[o] + tile.first_particle);
   });
   keep_multipliers(s, iteration == 0, c);
 }
 
 void accelerate(Substep& s, int iteration) {
   ChebyshevScratch& c = chebyshev_of(s);
-  c.weight = next_weight(s.context.options, iteration, correction_norm(s), c);
-  if (c.weight != 1) extrapolate_everything(s, static_cast<float>(c.weight));
+  c.recurrence.weight = next_weight(s.context.options, iteration, correction_norm(s), c.recurrence);
+  if (c.recurrence.weight != 1) extrapolate_everything(s, static_cast<float>(c.recurrence.weight));
   std::swap(c.before, c.older);
-  std::swap(c.multipliers_before, c.multipliers_older);
-  std::swap(c.volumes_before, c.volumes_older);
 }
 
 }  // namespace pliant

@@ -26,21 +26,32 @@ namespace pliant {
 /// One float a lane for each pool, as Workspace::multipliers has them: [object][pool].
 using LaneValues = std::vector<std::vector<AlignedVector<float>>>;
 
-/// The last two iterates of a group, and where its recurrence stands in this substep.
-struct ChebyshevScratch : SweepScratch {
-  Records before, older;  ///< x_k and x_(k-1), as displacements
-  LaneValues multipliers_before, multipliers_older;
-  std::vector<double> volumes_before, volumes_older;
-  std::vector<double> tile_sums;                 ///< sum of m |correction|^2 by tile
-  std::vector<std::vector<Record>> touching;     ///< by tile: displacements of what touches, while others are extrapolated
+/// x_k as displacements, with its multipliers.
+struct ChebyshevIterate {
+  Records displacements;
+  LaneValues multipliers;
+  std::vector<double> volumes;
+};
+
+/// Where the recurrence stands in this substep. Norms are those of plain corrections, |G(x) - x|.
+struct ChebyshevRecurrence {
   double spectral_radius = 0;                    ///< rho in use
-  double weight = 1;                             ///< omega of the recurrence
+  double weight = 1;                             ///< omega
   double polynomial = 1, polynomial_before = 1;  ///< T_n(1 / rho), the Chebyshev polynomial, n = steps; and T_(n-1)
-  int steps = -1;                                ///< of the recurrence since its start; -1: none yet
-  double plain_norm = 0;                         ///< |G(x) - x| at the substep's start,
+  int steps = -1;                                ///< since its start; -1: it has not started
+  double plain_norm = 0;                         ///< at the substep's start,
   double first_norm = 0;                         ///< when acceleration began,
-  double start_norm = 0, last_norm = 0;          ///< when the recurrence was started, and last of all
+  double start_norm = 0, last_norm = 0;          ///< when the recurrence was started, and last
   bool given_up = false;                         ///< plain for the rest of the substep: diverged, or down at rounding
+};
+
+/// The last two iterates of a group and its recurrence.
+struct ChebyshevScratch : SweepScratch {
+  ChebyshevIterate before, older;  ///< x_k and x_(k-1)
+  ChebyshevRecurrence recurrence;
+  std::vector<double> tile_sums;  ///< sum of m |correction|^2 by tile
+  std::vector<std::vector<Record>>
+      touching;  ///< by tile: displacements of particles in contact, while others are extrapolated
 
   void prepare(const SweepSetup& setup, int object) override;
 };
