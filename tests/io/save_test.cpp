@@ -101,6 +101,39 @@ TEST(Save, AStateIsTheSameBitByBit) {
   EXPECT_EQ(hash(load_state(folder / "none")), hash(State{}));
 }
 
+TEST(Save, OrientationsGoOnInTheSameBits) {
+  const Folder folder;
+  Scene scene = full_scene();
+  const float half = 0.70710678f;
+  scene.objects[2].frames = {{{}, {1, 2, 3}, {1, 2, 4}}, {{half, 0, 0, half}, {0, -5, 0.1f}, {3, 1, 2}}};
+  World world(scene);
+  for (int frame = 0; frame < 3; ++frame) world.step(dt);
+  const std::vector<Quatf> before = world.orientations(2);
+  save(folder / "world", world, scene);
+  LoadedWorld loaded = load_world(folder / "world");
+  ASSERT_EQ(loaded.world.orientations(2).size(), 2U);
+  for (int frame = 0; frame < 3; ++frame) {
+    world.step(dt);
+    loaded.world.step(dt);
+  }
+  EXPECT_EQ(loaded.world.state_hash(), world.state_hash());
+  EXPECT_NE(world.orientations(2)[0].x, before[0].x) << "they turn";
+}
+
+TEST(Save, ChannelsAreKept) {
+  const Folder folder;
+  State state;
+  state.channels = {{"temperature", 1, {20.5f, -0.f, 1e-40f}}, {"vorticity", 3, {1, 2, 3, 4, 5, 6, 7, 8, 9}}};
+  save(folder / "state", state);
+  const State loaded = load_state(folder / "state");
+  EXPECT_EQ(hash(loaded), hash(state));
+  EXPECT_NE(hash(loaded), hash(State{}));
+  ASSERT_EQ(loaded.channels.size(), 2U);
+  EXPECT_EQ(loaded.channels[1].name, "vorticity");
+  EXPECT_EQ(loaded.channels[1].components, 3);
+  EXPECT_EQ(loaded.channels[1].values[8], 9);
+}
+
 TEST(Save, AStateGoesOnInANewWorld) {
   const Folder folder;
   const Scene scene = full_scene();
