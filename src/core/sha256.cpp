@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <cstring>
 
+#if defined(__x86_64__)
+#include <cpuid.h>
+#include <immintrin.h>
+#endif
+
 namespace pliant {
 
 namespace {
@@ -30,12 +35,12 @@ void expand(const unsigned char* block, std::uint32_t (&w)[64]) {
   }
 }
 
-}  // namespace
+using State = std::array<std::uint32_t, 8>;
 
-void Sha256::process(const unsigned char* block) {
+void process_block(State& state, const unsigned char* block) {
   std::uint32_t w[64];
   expand(block, w);
-  auto [a, b, c, d, e, f, g, h] = state_;
+  auto [a, b, c, d, e, f, g, h] = state;
   for (int i = 0; i < 64; ++i) {
     const std::uint32_t s1 = rotated(e, 6) ^ rotated(e, 11) ^ rotated(e, 25);
     const std::uint32_t t1 = h + s1 + ((e & f) ^ (~e & g)) + round_constants[i] + w[i];
@@ -51,20 +56,85 @@ void Sha256::process(const unsigned char* block) {
     a = t1 + t2;
   }
   const std::uint32_t change[8] = {a, b, c, d, e, f, g, h};
-  for (int i = 0; i < 8; ++i) state_[i] += change[i];
+  for (std::size_t i = 0; i < 8; ++i) state[i] += change[i];
+}
+
+void process_portable(State& state, const unsigned char* blocks, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) process_block(state, blocks + 64 * i);
+}
+
+#if defined(__x86_64__)
+
+/// The SHA instructions, and the byte shuffles (SSSE3) and blends (SSE4.1) that go with them.
+bool has_sha_instructions() {
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  if (__get_cpuid(1, &a, &b, &c, &d) == 0 || (c & (1U << 9)) == 0 || (c & (1U << 19)) == 0) return false;
+  return __get_cpuid_count(7, 0, &a, &b, &c, &d) != 0 && (b & (1U << 29)) != 0;
+}
+
+/// Two instructions make four rounds; the registers hold the words (a, b, e, f) and (c, d, g, h), highest first.
+__attribute__((target("sha,sse4.1,ssse3"))) void process_x86(State& state, const unsigned char* blocks, std::size_t count) {
+  const auto word = [&](std::size_t i) { return static_cast<int>(state[i]); };
+  const __m128i big_endian = _mm_set_epi8(12, 13, 14, 15, 8, 9, 10, 11, 4, 5, 6, 7, 0, 1, 2, 3);
+  __m128i abef = _mm_set_epi32(word(0), word(1), word(4), word(5)),
+          cdgh = _mm_set_epi32(word(2), word(3), word(6), word(7));
+  for (; count > 0; --count, blocks += 64) {
+    const __m128i abef_before = abef, cdgh_before = cdgh;
+    __m128i w[4];
+    for (int i = 0; i < 16; ++i) {
+      __m128i& now = w[i % 4];
+      if (i < 4) {
+        now = _mm_shuffle_epi8(_mm_loadu_si128(reinterpret_cast<const __m128i*>(blocks) + i), big_endian);
+      } else {
+        const __m128i last = w[(i + 3) % 4];
+        now = _mm_add_epi32(_mm_sha256msg1_epu32(now, w[(i + 1) % 4]), _mm_alignr_epi8(last, w[(i + 2) % 4], 4));
+        now = _mm_sha256msg2_epu32(now, last);
+      }
+      const __m128i constants = _mm_loadu_si128(reinterpret_cast<const __m128i*>(round_constants) + i);
+      const __m128i sum = _mm_add_epi32(now, constants);
+      cdgh = _mm_sha256rnds2_epu32(cdgh, abef, sum);
+      abef = _mm_sha256rnds2_epu32(abef, cdgh, _mm_shuffle_epi32(sum, 0x0e));
+    }
+    abef = _mm_add_epi32(abef, abef_before);
+    cdgh = _mm_add_epi32(cdgh, cdgh_before);
+  }
+  alignas(16) std::uint32_t out[8];
+  _mm_store_si128(reinterpret_cast<__m128i*>(out), abef);
+  _mm_store_si128(reinterpret_cast<__m128i*>(out + 4), cdgh);
+  state = {out[3], out[2], out[7], out[6], out[1], out[0], out[5], out[4]};
+}
+
+#endif
+
+}  // namespace
+
+Sha256::Sha256(Sha256Code code) : process_(&process_portable) {
+#if defined(__x86_64__)
+  static const bool has_instructions = has_sha_instructions();
+  if (code == Sha256Code::fastest && has_instructions) process_ = &process_x86;
+#else
+  (void)code;
+#endif
 }
 
 void Sha256::add(const void* data, std::size_t size) {
   const auto* bytes = static_cast<const unsigned char*>(data);
   size_ += size;
   while (size > 0) {
+    if (buffered_ == 0 && size >= buffer_.size()) {
+      const std::size_t blocks = size / buffer_.size();
+      process_(state_, bytes, blocks);
+      bytes += blocks * buffer_.size();
+      size -= blocks * buffer_.size();
+      continue;
+    }
     const std::size_t taken = std::min(size, buffer_.size() - buffered_);
     std::memcpy(buffer_.data() + buffered_, bytes, taken);
     buffered_ += taken;
     bytes += taken;
     size -= taken;
     if (buffered_ < buffer_.size()) continue;
-    process(buffer_.data());
+    process_(state_, buffer_.data(), 1);
     buffered_ = 0;
   }
 }

@@ -35,5 +35,21 @@ TEST(Sha256, TakesPiecesOfAnySize) {
   }
 }
 
+TEST(Sha256, IsTheSameByAnyCode) {
+  std::string text;
+  for (int i = 0; i < 1000; ++i) text.push_back(static_cast<char>(i * i + 3 * i));
+  for (std::size_t length = 0; length <= text.size(); length += 13) {
+    Sha256 portable(Sha256Code::portable);
+    portable.add(text.data(), length);
+    EXPECT_EQ(portable.finish(), sha256(text.substr(0, length))) << length << " bytes";
+  }
+}
+
+TEST(Sha256, OfThePublishedExamplesInPortableCode) {
+  Sha256 portable(Sha256Code::portable);
+  portable.add("abc", 3);
+  EXPECT_EQ(portable.finish(), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
 }  // namespace
 }  // namespace pliant
