@@ -8,8 +8,10 @@
 #include "apps/bench/bench.h"
 #include "apps/bench/contact.h"
 #include "apps/bench/landing.h"
+#include "apps/bench/memory.h"
 #include "atomic_file.h"
 #include "command.h"
+#include "give_back.h"
 #include "interrupt.h"
 #include "output.h"
 
@@ -54,6 +56,19 @@ std::string bench_contact(const BenchOptions& options) {
   return to_json(pliant::bench::measure_contact(wanted));
 }
 
+std::string bench_memory(const BenchOptions& options) {
+  const GiveBackMemory as_run_does;
+  pliant::bench::MemoryOptions wanted;
+  if (!options.sizes.empty()) wanted.sizes = options.sizes;
+  print("size  sweep      bytes a particle: peak  scene  scene peak   world\n");
+  wanted.on_row = [](const pliant::bench::MemoryRow& row) {
+    throw_if_interrupted();
+    print(fmt::format("{:4}  {:<10} {:22.0f} {:6.0f} {:11.0f} {:7.0f}\n", row.size, sweep_name(row.sweep), row.peak,
+                      row.scene, row.scene_peak, row.world));
+  };
+  return to_json(pliant::bench::measure_memory(wanted));
+}
+
 std::string bench_landings(const BenchOptions& options) {
   pliant::bench::LandingOptions wanted;
   if (options.workload != "W3") wanted.on = {options.workload.substr(std::string("W3-").size())};
@@ -79,6 +94,7 @@ std::string bench_landings(const BenchOptions& options) {
 /// Of a workload that is measured by name alone: its rows as JSON; nothing where it is none of them.
 std::optional<std::string> bench_by_name(const BenchOptions& options) {
   if (options.workload == "contact") return bench_contact(options);
+  if (options.workload == "memory") return bench_memory(options);
   if (options.workload == "W3" || options.workload == "W3-ball" || options.workload == "W3-cloth")
     return bench_landings(options);
   return std::nullopt;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "apps/compare/compare.h"
+#include "give_back.h"
 #include "interrupt.h"
 #include "output.h"
 #include "pliant/error.h"
@@ -48,6 +49,7 @@ SceneReadOptions options_of(const std::vector<std::string>& meshes) {
 }  // namespace
 
 Scene read_scene_with(const std::string& path, const Overrides& overrides, bool quiet) {
+  const GiveBackMemory during;
   SceneFile file = read_scene_file(path, options_of(overrides.meshes));
   if (!quiet) print_repairs(file.repairs);
   Scene scene = std::move(file.scene);
@@ -71,6 +73,7 @@ Error of_file(const Error& error, const std::string& path) {
 }
 
 World make_world(const Scene& scene, const std::string& path) {
+  const GiveBackMemory during;
   try {
     return World(scene);
   } catch (const Error& error) {

@@ -53,8 +53,10 @@ std::vector<Sweep> better_sweeps(const Scene& scene) {
   return better;
 }
 
-Settings suggest(const Scene& scene) {
-  Settings wanted = scene.settings;
+Settings suggest(const Scene& scene) { return suggest(scene, scene.settings); }
+
+Settings suggest(const Scene& scene, const Settings& settings) {
+  Settings wanted = settings;
   if (wanted.sweep == Sweep::multigrid || has_volume(scene)) return wanted;
   if (!has_pins(scene) || movers_may_touch(scene)) {
     if (!has_stiff_sheet(scene)) wanted.sweep = Sweep::multigrid;

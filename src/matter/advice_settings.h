@@ -19,6 +19,10 @@ std::vector<Sweep> better_sweeps(const Scene& scene);
 /// The scene's settings with the sweep, and tethers, that measured best on scenes of its kind (docs/internals/convergence.md); its own
 /// where that is none but the default.
 Settings suggest(const Scene& scene);
+/// The same with other settings than the scene's own.
+Settings suggest(const Scene& scene, const Settings& settings);
+/// As chosen_sweep in pliant/scene.h, with other settings than the scene's own.
+Sweep chosen_sweep(const Scene& scene, const Settings& settings, int object, std::string* reason = nullptr);
 
 /// Whether a sheet holds itself up, so that multigrid, which knows no bending, would make it rattle.
 bool has_stiff_sheet(const Scene& scene);

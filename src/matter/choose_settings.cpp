@@ -79,6 +79,9 @@ struct Bending {
 /// PBD stiffness above none counts as rigid: it is as stiff as mesh and step make it.
 Bending bending_of(const Object& object) {
   Bending bending;
+  std::size_t hinges = 0;
+  for (const ConstraintGroup& group : object.constraints) hinges += group.particles.size() / 4;
+  bending.rigidities.reserve(hinges);
   for (const ConstraintGroup& group : object.constraints) {
     const bool isometric = group.type == "isometric_bending", is_pbd = group.stiffness.kind == Stiffness::Kind::pbd;
     if (!isometric && group.type != "dihedral_bending") continue;
@@ -139,11 +142,11 @@ struct Choice {
   std::string reason;
 };
 
-Choice choose(const Scene& scene, const Object& object) {
+Choice choose(const Scene& scene, const Settings& settings, const Object& object) {
   const std::string name = "'" + object.name + "'";
   const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
   const std::size_t springs = springs_of(object);
-  if (scene.settings.iterations > 1) return {Sweep::tiled, "more than one iteration"};
+  if (settings.iterations > 1) return {Sweep::tiled, "more than one iteration"};
   if (springs > 0 && object.volume) return {Sweep::tiled, name + ", which has a volume"};
   if (springs > 0 && is_stiff_sheet(object, gravity))
     return {Sweep::tiled, name + ", a sheet whose bending length is more than a quarter of its size"};
@@ -154,10 +157,10 @@ Choice choose(const Scene& scene, const Object& object) {
 }
 
 /// An object's own sweep, the settings', or the one chosen for it.
-Choice choice_of(const Scene& scene, const Object& object) {
+Choice choice_of(const Scene& scene, const Settings& settings, const Object& object) {
   if (object.sweep != Sweep::automatic) return {object.sweep, {}};
-  if (scene.settings.sweep != Sweep::automatic) return {scene.settings.sweep, {}};
-  return choose(scene, object);
+  if (settings.sweep != Sweep::automatic) return {settings.sweep, {}};
+  return choose(scene, settings, object);
 }
 
 /// How the objects of a scene are solved. Those too coarse for sweeps to differ are left out: they go with the others.
@@ -195,10 +198,10 @@ struct SweepsInUse {
   }
 };
 
-SweepsInUse sweeps_in_use(const Scene& scene) {
+SweepsInUse sweeps_in_use(const Scene& scene, const Settings& settings) {
   SweepsInUse used;
   for (const Object& object : scene.objects) {
-    const Choice choice = choice_of(scene, object);
+    const Choice choice = choice_of(scene, settings, object);
     if (choice.reason != too_coarse) used.add(object, choice);
   }
   return used;
@@ -213,15 +216,19 @@ bool has_stiff_sheet(const Scene& scene) {
 }
 
 Sweep chosen_sweep(const Scene& scene, int object, std::string* reason) {
-  const Choice choice = choice_of(scene, scene.objects[static_cast<std::size_t>(object)]);
+  return chosen_sweep(scene, scene.settings, object, reason);
+}
+
+Sweep chosen_sweep(const Scene& scene, const Settings& settings, int object, std::string* reason) {
+  const Choice choice = choice_of(scene, settings, scene.objects[static_cast<std::size_t>(object)]);
   if (reason != nullptr) *reason = choice.reason;
   if (choice.reason != too_coarse) return choice.sweep;
-  return sweeps_in_use(scene).common(Sweep::tiled) == Sweep::multigrid ? Sweep::multigrid : Sweep::tiled;
+  return sweeps_in_use(scene, settings).common(Sweep::tiled) == Sweep::multigrid ? Sweep::multigrid : Sweep::tiled;
 }
 
 Settings chosen_settings(const Scene& scene, std::string* reason) {
   Settings settings = scene.settings;
-  const SweepsInUse used = sweeps_in_use(scene);
+  const SweepsInUse used = sweeps_in_use(scene, settings);
   const bool is_open = settings.sweep == Sweep::automatic;
   const Sweep common = used.common(is_open ? Sweep::tiled : settings.sweep);
   if (is_open) settings.sweep = common;

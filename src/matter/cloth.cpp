@@ -246,10 +246,12 @@ ConstraintGroup bending_group(const Piece& piece) {
   const bool isometric = piece.options.bending_model == ClothOptions::Bending::isometric;
   ConstraintGroup group;
   group.type = isometric ? "isometric_bending" : "dihedral_bending";
-  const std::vector<Hinge> hinges = find_hinges(piece.edges);
-  group.particles.reserve(4 * hinges.size());
-  for (const Hinge& h : hinges)
+  group.particles.reserve(4 * piece.edges.size());
+  for (const Edge& edge : piece.edges) {
+    if (!edge.is_inner()) continue;
+    const Hinge h = hinge_of(edge);
     for (int v : {h.v0, h.v1, h.v2, h.v3}) group.particles.push_back(v);
+  }
   if (piece.options.bending)
     group.stiffness = *piece.options.bending;
   else if (std::isfinite(piece.options.material.bending_stiffness))
@@ -262,17 +264,17 @@ bool bends(const ClothOptions& options) {
          (options.bending || options.material.bending_stiffness > 0);
 }
 
-Object assemble(const Piece& piece) {
+Object assemble(Piece& piece) {
   const ClothOptions& options = piece.options;
   Object cloth;
   cloth.name = options.name;
   cloth.positions = piece.mesh.positions;
-  cloth.triangles = piece.triangles;
   cloth.masses.assign(piece.masses.begin(), piece.masses.end());
   if (!(options.velocity == Vec3f{})) cloth.velocities.assign(cloth.positions.size(), options.velocity);
   cloth.constraints.push_back(stretch_group(piece));
   if (bends(options)) cloth.constraints.push_back(bending_group(piece));
   if (cloth.constraints.back().particles.empty()) cloth.constraints.pop_back();
+  cloth.triangles = std::move(piece.triangles);
   cloth.volume = options.volume;
   cloth.thickness = options.material.thickness;
   cloth.static_friction = options.material.static_friction;

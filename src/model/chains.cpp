@@ -20,22 +20,11 @@ bool has_direction(const ConstraintList& list, int i) {
 }
 
 void move_constraint(const ConstraintList& from, int i, ConstraintList& to) {
-  to.stencils.insert(to.stencils.end(), &from.stencils[2 * static_cast<std::size_t>(i)],
-                     &from.stencils[2 * static_cast<std::size_t>(i)] + 2);
+  for (std::size_t slot = 0; slot < 2; ++slot) to.stencils.push_back(from.stencils[2 * static_cast<std::size_t>(i) + slot]);
   to.rest.push_back(from.rest[i]);
   to.response.push_back(from.response[i]);
   to.damping.push_back(from.damping[i]);
   to.origin.push_back(from.origin[i]);
-}
-
-ConstraintList empty_like(const ConstraintList& list) {
-  ConstraintList empty;
-  empty.type = list.type;
-  empty.law = list.law;
-  empty.size = list.size;
-  empty.fields = list.fields;
-  empty.components = list.components;
-  return empty;
 }
 
 std::vector<std::array<int, 2>> edges_of(const ConstraintList& list) {
@@ -151,7 +140,7 @@ void split_off_chains(std::vector<ConstraintList>& lists) {
       split.push_back(std::move(list));
       continue;
     }
-    ConstraintList chained = empty_like(list), rest = empty_like(list);
+    ConstraintList chained = list.empty(), rest = list.empty();
     chained.chained = true;
     for (int i = 0; i < list.count(); ++i) move_constraint(list, i, has_direction(list, i) ? chained : rest);
     if (chained.count() > 0) split.push_back(std::move(chained));
@@ -175,7 +164,7 @@ Tethers find_tethers(const std::vector<ConstraintList>& lists, float slack, cons
     if (!is_length(list.type)) continue;
     const std::vector<std::array<int, 2>> more = edges_of(list);
     mesh.edges.insert(mesh.edges.end(), more.begin(), more.end());
-    mesh.lengths.insert(mesh.lengths.end(), list.rest.begin(), list.rest.end());
+    for (std::size_t i = 0; i < list.rest.size(); ++i) mesh.lengths.push_back(list.rest[i]);
   }
   for (int i = 0; i < object.particles; ++i)
     if (object.positions[i].w == 0) out.anchors.push_back(i);

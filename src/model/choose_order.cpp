@@ -31,6 +31,7 @@ Links links_of(const std::vector<ConstraintList>& lists) {
   Links links;
   for (const ConstraintList& list : lists) {
     if (!list.in_lanes || (pairs && list.size != 2)) continue;
+    links.reserve(links.size() + list.stencils.size() / 2 * (list.size - 1));
     for (std::size_t first = 0; first < list.stencils.size(); first += list.size) {
       for (int a = 0; a < list.size; ++a) {
         for (int b = a + 1; b < list.size; ++b) links.push_back({list.stencils[first + a], list.stencils[first + b]});

@@ -36,7 +36,7 @@ void fill_particles(const Object& object, const std::vector<Vec3f>& positions, C
   }
   for (const Pin& pin : object.pins) inverse_mass[pin.particle] = 0;
   out.positions.resize(positions.size());
-  out.velocities.resize(positions.size());
+  if (!object.velocities.empty()) out.velocities.resize(positions.size());
   for (std::size_t storage = 0; storage < positions.size(); ++storage) {
     const int user = out.order[storage];
     const Vec3f& p = positions[user];
@@ -91,26 +91,45 @@ void number_particles(const std::vector<Vec3f>& positions, const std::vector<Con
 /// Renumbers particles by their storage and brings each stencil into the type's canonical order.
 void renumber(ConstraintList& list, const std::vector<int>& place) {
   const int particles = static_cast<int>(place.size());
-  for (int& number : list.stencils) number = number < particles ? place[number] : number;  // frames keep their order
+  std::vector<int>& stencils = list.stencils.own();
+  for (int& number : stencils) number = number < particles ? place[number] : number;  // frames keep their order
   const auto canonical = constraint_type(list.type).canonical;
   if (canonical == nullptr) return;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(list.count()); ++i)
-    canonical(&list.stencils[i * static_cast<std::size_t>(list.size)],
-              list.rest.data() + i * static_cast<std::size_t>(list.fields));
+  std::array<float, most_rest_fields> rest{};
+  const auto fields = static_cast<std::size_t>(list.fields);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(list.count()); ++i) {
+    for (std::size_t field = 0; field < fields; ++field) rest[field] = list.rest[i * fields + field];
+    canonical(&stencils[i * static_cast<std::size_t>(list.size)], rest.data());
+    for (std::size_t field = 0; field < fields; ++field) list.rest.set(i * fields + field, rest[field]);
+  }
 }
 
-/// Constraints of a list by the tile that holds all their particles; those of no tile come last, at [tiles].
-std::vector<std::vector<int>> split_by_tile(const ConstraintList& list, const std::vector<int>& tile_of, int tiles) {
-  std::vector<std::vector<int>> members(static_cast<std::size_t>(tiles) + 1);
-  for (int i = 0; i < list.count(); ++i) {
-    const int* stencil = &list.stencils[static_cast<std::size_t>(i) * list.size];
+/// Constraints of a list by the tile that holds all their particles; those of no tile come last.
+struct ByTile {
+  std::vector<int> begin;  ///< of each tile and of those of no tile; one more at the end
+  std::vector<int> members;
+
+  std::vector<int> of(int tile) const { return {members.begin() + begin[tile], members.begin() + begin[tile + 1]}; }
+};
+
+ByTile split_by_tile(ConstraintList& list, const std::vector<int>& tile_of, int tiles) {
+  const std::vector<int>& stencils = list.stencils.own();
+  const auto tile_at = [&](int i) {
+    const int* stencil = &stencils[static_cast<std::size_t>(i) * list.size];
     int tile = tile_of[stencil[0]];
     for (int slot = 1; slot < list.size; ++slot) {
       if (tile_of[stencil[slot]] != tile) tile = tiles;
     }
-    members[tile].push_back(i);
-  }
-  return members;
+    return tile;
+  };
+  ByTile split;
+  split.begin.assign(static_cast<std::size_t>(tiles) + 2, 0);
+  for (int i = 0; i < list.count(); ++i) ++split.begin[tile_at(i) + 1];
+  std::partial_sum(split.begin.begin(), split.begin.end(), split.begin.begin());
+  split.members.resize(static_cast<std::size_t>(list.count()));
+  std::vector<int> next(split.begin.begin(), split.begin.end() - 1);
+  for (int i = 0; i < list.count(); ++i) split.members[next[tile_at(i)]++] = i;
+  return split;
 }
 
 /// The constraint in a lane of a batch: fours interleave, lane 4 l + j being member l of four j (math/wide.h says why). Lanes
@@ -158,11 +177,12 @@ Segment append_segment(const ConstraintList& list, const Colour& colour, int fir
 }
 
 /// Appends a colour in segments of at most `largest` batches: threads share the segments of inter-tile constraints.
-void append_colour(const ConstraintList& list, const Colour& colour, int largest, int pool_number, CompiledObject& out) {
+void append_colour(const ConstraintList& list, const Colour& colour, int largest, int pool_number, Pool& pool,
+                   std::vector<Segment>& segments) {
   const int batches = (static_cast<int>(colour.members.size()) + batch_width - 1) / batch_width;
   for (int first = 0; first < batches;) {
     const int last = first + std::min(batches - first, largest);
-    out.segments.push_back(append_segment(list, colour, first, last, pool_number, out.pools[pool_number]));
+    segments.push_back(append_segment(list, colour, first, last, pool_number, pool));
     first = last;
   }
 }
@@ -175,51 +195,101 @@ std::vector<Colour> one_by_one(const std::vector<int>& members) {
   return colours;
 }
 
-void schedule(std::vector<ConstraintList>& lists, const std::vector<int>& tile, bool in_given_order, CompiledObject& out) {
-  std::vector<int> tile_of(tile.size());  // by storage
-  for (std::size_t storage = 0; storage < tile.size(); ++storage) tile_of[storage] = tile[out.order[storage]];
-  const int tiles = static_cast<int>(out.tiles.size());
-  std::vector<std::vector<std::vector<int>>> members;
-  for (ConstraintList& list : lists) {
-    renumber(list, out.place);
-    members.push_back(list.chained || !list.in_lanes ? std::vector<std::vector<int>>(static_cast<std::size_t>(tiles) + 1)
-                                                     : split_by_tile(list, tile_of, tiles));
-    out.pools.push_back(make_pool(list));
-  }
-  Colouring colouring(out.particles);
-  const auto append = [&](std::size_t i, int t) {
-    const bool inter_tile = t == tiles;
-    const std::vector<Colour> colours =
-        in_given_order ? one_by_one(members[i][t]) : colouring.colour(lists[i].stencils, lists[i].size, members[i][t]);
-    for (const Colour& colour : colours) {
-      const int first = static_cast<int>(out.segments.size());
-      append_colour(lists[i], colour, inter_tile ? batches_per_inter_tile_task : 1 << 30, static_cast<int>(i), out);
-      if (inter_tile) out.inter_tile.push_back({first, static_cast<int>(out.segments.size())});
-    }
-  };
+/// The segments of one list by tiles, and of what lies in no tile by colours.
+struct ListSchedule {
+  std::vector<Segment> segments;
+  std::vector<int> tile_end, colour_end;  ///< in `segments`
+};
+
+/// Memory that is reserved and never written costs nothing; growing an array holds it twice.
+void reserve(const ConstraintList& list, Pool& pool) {
+  const std::size_t lanes = static_cast<std::size_t>(list.count()) * 5 / 4 + batch_width;
+  pool.indices.reserve(lanes * static_cast<std::size_t>(list.size));
+  pool.blocks.reserve(lanes / batch_width * static_cast<std::size_t>(pool.block_floats));
+  pool.origin.reserve(lanes);
+}
+
+ListSchedule schedule_list(ConstraintList& list, const std::vector<int>& tile_of, int tiles, bool in_given_order,
+                           int number, Colouring& colouring, Pool& pool) {
+  ListSchedule out;
+  const ByTile split = split_by_tile(list, tile_of, tiles);
+  reserve(list, pool);
   for (int t = 0; t <= tiles; ++t) {
-    const int first = static_cast<int>(out.segments.size());
-    for (std::size_t i = 0; i < lists.size(); ++i) append(i, t);
-    if (t < tiles) {
-      out.tiles[t].first_segment = first;
-      out.tiles[t].last_segment = static_cast<int>(out.segments.size());
+    const bool inter_tile = t == tiles;
+    const std::vector<int> members = split.of(t);
+    const std::vector<Colour> colours =
+        in_given_order ? one_by_one(members) : colouring.colour(list.stencils.own(), list.size, members);
+    for (const Colour& colour : colours) {
+      append_colour(list, colour, inter_tile ? batches_per_inter_tile_task : 1 << 30, number, pool, out.segments);
+      if (inter_tile) out.colour_end.push_back(static_cast<int>(out.segments.size()));
+    }
+    if (!inter_tile) out.tile_end.push_back(static_cast<int>(out.segments.size()));
+  }
+  if (pool.indices.capacity() > 2 * pool.indices.size()) pool.indices.shrink_to_fit();  // in runs it has a quarter
+  return out;
+}
+
+/// One sequence of segments from those of all lists: tile after tile, then inter-tile colours, in each the lists in turn.
+void merge(const std::vector<ListSchedule>& schedules, CompiledObject& out) {
+  std::vector<int> next(schedules.size(), 0);
+  const auto append_to = [&](std::size_t i, int end) {
+    const auto first = schedules[i].segments.begin();
+    out.segments.insert(out.segments.end(), first + next[i], first + end);
+    next[i] = end;
+  };
+  for (std::size_t t = 0; t < out.tiles.size(); ++t) {
+    out.tiles[t].first_segment = static_cast<int>(out.segments.size());
+    for (std::size_t i = 0; i < schedules.size(); ++i)
+      if (!schedules[i].tile_end.empty()) append_to(i, schedules[i].tile_end[t]);
+    out.tiles[t].last_segment = static_cast<int>(out.segments.size());
+  }
+  for (std::size_t i = 0; i < schedules.size(); ++i) {
+    for (const int end : schedules[i].colour_end) {
+      const int first = static_cast<int>(out.segments.size());
+      append_to(i, end);
+      out.inter_tile.push_back({first, static_cast<int>(out.segments.size())});
     }
   }
 }
 
+/// Whether what is made after the sweeps' schedule still asks for the constraints themselves.
+bool is_needed_later(const ConstraintList& list, const CompileOptions& options) {
+  return list.chained || !list.in_lanes || (is_length(list.type) && (options.tethers || options.sweep == Sweep::multigrid));
+}
+
+/// One list after the other, so that only one is held in storage order besides what it becomes.
+void schedule(std::vector<ConstraintList>& lists, const std::vector<int>& tile, const CompileOptions& options,
+              CompiledObject& out) {
+  std::vector<int> tile_of(tile.size());  // by storage
+  for (std::size_t storage = 0; storage < tile.size(); ++storage) tile_of[storage] = tile[out.order[storage]];
+  const bool in_given_order = options.sweep == Sweep::natural;
+  std::vector<ListSchedule> schedules(lists.size());
+  Colouring colouring(out.particles);
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    ConstraintList& list = lists[i];
+    renumber(list, out.place);
+    out.pools.push_back(make_pool(list));
+    if (!list.chained && list.in_lanes)
+      schedules[i] = schedule_list(list, tile_of, static_cast<int>(out.tiles.size()), in_given_order, static_cast<int>(i),
+                                   colouring, out.pools[i]);
+    if (!is_needed_later(list, options)) list = list.empty();
+  }
+  merge(schedules, out);
+}
+
 /// What is projected one constraint at a time, in colours over the whole object, one list after another. Frames count as particles
 /// behind the others.
-void schedule_stencils(const std::vector<ConstraintList>& lists, bool in_given_order, CompiledObject& out) {
+void schedule_stencils(std::vector<ConstraintList>& lists, bool in_given_order, CompiledObject& out) {
   Colouring colouring(out.particles + static_cast<int>(out.frames.size()));
   for (std::size_t i = 0; i < lists.size(); ++i) {
     if (lists[i].in_lanes) continue;
     std::vector<int> members(static_cast<std::size_t>(lists[i].count()));
     std::iota(members.begin(), members.end(), 0);
     const std::vector<Colour> colours =
-        in_given_order ? one_by_one(members) : colouring.colour_singly(lists[i].stencils, lists[i].size, members);
+        in_given_order ? one_by_one(members) : colouring.colour_singly(lists[i].stencils.own(), lists[i].size, members);
     for (const Colour& colour : colours) {
       const int first = static_cast<int>(out.segments.size());
-      append_colour(lists[i], colour, batches_per_stencil_task, static_cast<int>(i), out);
+      append_colour(lists[i], colour, batches_per_stencil_task, static_cast<int>(i), out.pools[i], out.segments);
       out.stencil_colours.push_back({first, static_cast<int>(out.segments.size())});
     }
   }
@@ -227,13 +297,17 @@ void schedule_stencils(const std::vector<ConstraintList>& lists, bool in_given_o
 
 // ---------------------------------------------------------------- surface and volume
 
-void fill_surface(const Object& object, CompiledObject& out) {
+void fill_triangles(const Object& object, CompiledObject& out) {
+  out.surface.triangles.reserve(object.triangles.size());
+  for (const auto& triangle : object.triangles)
+    out.surface.triangles.push_back({out.place[triangle[0]], out.place[triangle[1]], out.place[triangle[2]]});
+}
+
+void fill_corners(CompiledObject& out) {
   Surface& surface = out.surface;
   surface.corner_begin.assign(static_cast<std::size_t>(out.particles) + 1, 0);
-  for (const auto& triangle : object.triangles) {
-    surface.triangles.push_back({out.place[triangle[0]], out.place[triangle[1]], out.place[triangle[2]]});
-    for (int corner : surface.triangles.back()) ++surface.corner_begin[corner + 1];
-  }
+  for (const auto& triangle : surface.triangles)
+    for (int corner : triangle) ++surface.corner_begin[corner + 1];
   for (int p = 0; p < out.particles; ++p) surface.corner_begin[p + 1] += surface.corner_begin[p];
   surface.corners.resize(3 * surface.triangles.size());
   std::vector<int> next(surface.corner_begin.begin(), surface.corner_begin.end() - 1);
@@ -284,7 +358,8 @@ CompiledObject compile(const Object& object, const CompileOptions& options) {
   CompiledObject out;
   out.name = object.name;
   out.sweep = options.sweep;
-  const std::vector<Vec3f> positions = all_positions(object);
+  const std::vector<Vec3f> with_targets = object.attachments.empty() ? std::vector<Vec3f>{} : all_positions(object);
+  const std::vector<Vec3f>& positions = object.attachments.empty() ? object.positions : with_targets;
   out.particles = static_cast<int>(positions.size());
   out.user_particles = static_cast<int>(object.positions.size());
 
@@ -294,13 +369,14 @@ CompiledObject compile(const Object& object, const CompileOptions& options) {
   std::vector<int> tile;
   const int largest_tile = in_given_order ? std::numeric_limits<int>::max() : options.largest_tile;
   number_particles(positions, lists, largest_tile, tile, out);
-  fill_particles(object, positions, out);
   fill_frames(object, out.frames);
   fill_kinematics(object, out);
-  schedule(lists, tile, in_given_order, out);
+  schedule(lists, tile, options, out);
+  fill_particles(object, positions, out);
   append_chains(lists, options.chain_softness, out);
   schedule_stencils(lists, in_given_order, out);
-  fill_surface(object, out);
+  fill_triangles(object, out);
+  if (options.air || object.volume) fill_corners(out);
   if (options.tethers) out.tethers = find_tethers(lists, options.tether_slack, out);
   if (options.sweep == Sweep::multigrid) out.multigrid = build_multigrid(lists, out.positions, options.gravity);
   fill_volume(object, options.passes, out);

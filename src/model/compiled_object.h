@@ -66,8 +66,9 @@ struct Kinematic {
 /// The triangles of an object in storage order, and for each particle the triangles around it: what volume and air need.
 struct Surface {
   std::vector<std::array<int, 3>> triangles;
-  std::vector<int> corner_begin;  ///< particle p has corners corner_begin[p] .. corner_begin[p + 1]
-  std::vector<int> corners;       ///< 3 * triangle + which corner, ascending
+  std::vector<int>
+      corner_begin;  ///< particle p has corners corner_begin[p] .. corner_begin[p + 1]; empty without air and volume
+  std::vector<int> corners;  ///< 3 * triangle + which corner, ascending
 };
 
 /// The global volume constraint of one object.
@@ -82,13 +83,13 @@ struct CompiledVolume {
 /// A record of what compile() makes of one object, more than thirty members because each stage of a step reads a few of them.
 struct CompiledObject {
   std::string name;
-  Sweep sweep = Sweep::tiled;  ///< that it is laid out for and solved by; never automatic
-  int particles = 0;           ///< targets of attachments included
-  int user_particles = 0;      ///< as the Object had
-  std::vector<int> order;      ///< order[storage] = user's number
-  std::vector<int> place;      ///< place[user's number] = storage
-  std::vector<Record> positions, velocities;
-  FrameRecords frames;  ///< at the start, in the order of Object::frames
+  Sweep sweep = Sweep::tiled;                 ///< that it is laid out for and solved by; never automatic
+  int particles = 0;                          ///< targets of attachments included
+  int user_particles = 0;                     ///< as the Object had
+  std::vector<int> order;                     ///< order[storage] = user's number
+  std::vector<int> place;                     ///< place[user's number] = storage
+  std::vector<Record> positions, velocities;  ///< at the start; no velocities where all are at rest
+  FrameRecords frames;                        ///< at the start, in the order of Object::frames
   std::vector<Pool> pools;
   std::vector<Segment>
       segments;  ///< tile after tile, then the inter-tile constraints, then the links of chains, then what is not in lanes
@@ -122,6 +123,7 @@ struct CompileOptions {
   bool tethers = false;
   float chain_softness = 0.1f;  ///< as in SweepOptions
   float tether_slack = 0;
+  bool air = true;    ///< what forces of air need is made
   float gravity = 0;  ///< its magnitude, from which multigrid tells what an object carries [m/s^2]
 };
 

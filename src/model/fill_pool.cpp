@@ -5,9 +5,9 @@ namespace pliant {
 std::vector<Row> rows_of(const ConstraintList& list) {
   std::vector<Row> rows;
   rows.reserve(static_cast<std::size_t>(list.fields) + 2);
-  for (int field = 0; field < list.fields; ++field) rows.push_back({list.rest.data() + field, list.fields});
-  rows.push_back({list.response.data(), 1});
-  if (list.law == Law::damped) rows.push_back({list.damping.data(), 1});
+  for (int field = 0; field < list.fields; ++field) rows.push_back(list.rest.row(field, list.fields));
+  rows.push_back(list.response.row(0, 1));
+  if (list.law == Law::damped) rows.push_back(list.damping.row(0, 1));
   return rows;
 }
 

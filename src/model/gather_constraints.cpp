@@ -1,5 +1,6 @@
 #include "model/gather_constraints.h"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
@@ -13,7 +14,7 @@ namespace pliant {
 namespace {
 
 /// The rest data of one constraint as the positions and orientations show it.
-void measure(const ConstraintDefinition& type, const Object& object, const int* stencil, std::vector<float>& rest) {
+void measure(const ConstraintDefinition& type, const Object& object, const int* stencil, Column<float>& rest) {
   double slots[4 * most_slots], fields[most_rest_fields];
   for (std::size_t slot = 0; slot < type.slots.size(); ++slot) {
     double* to = slots + 4 * slot;
@@ -55,7 +56,9 @@ class Gatherer {
       list.stencils.push_back(attachment.particle);
       list.stencils.push_back(static_cast<int>(object_.positions.size() + i));
       list.rest.push_back(0);
-      push_response(list, attachment.stiffness, attachment.stiffness.value, type);
+      list.response.push_back(response(attachment.stiffness, attachment.stiffness.value));
+      list.damping.push_back(attachment.stiffness.damping);
+      list.origin.push_back(next_origin_[type]++);
     }
   }
 
@@ -80,11 +83,18 @@ class Gatherer {
     return list;
   }
 
-  void push_response(ConstraintList& list, const Stiffness& stiffness, float value, int type) {
+  float response(const Stiffness& stiffness, float value) const {
     const bool pbd = stiffness.kind == Stiffness::Kind::pbd;
-    list.response.push_back(pbd ? static_cast<float>(stiffness_per_projection(value, passes_)) : value);
-    list.damping.push_back(stiffness.damping);
-    list.origin.push_back(next_origin_[type]++);
+    return pbd ? static_cast<float>(stiffness_per_projection(value, passes_)) : value;
+  }
+
+  void append_stencils(const ConstraintGroup& group, const ConstraintDefinition& type, ConstraintList& list) const {
+    const std::vector<SlotKind>& slots = type.slots;
+    if (std::find(slots.begin(), slots.end(), SlotKind::frame) == slots.end()) return list.stencils.append(group.particles);
+    for (std::size_t i = 0; i < group.particles.size(); ++i) {
+      const bool is_frame = slots[i % slots.size()] == SlotKind::frame;
+      list.stencils.push_back(is_frame ? first_frame() + group.particles[i] : group.particles[i]);
+    }
   }
 
   void require_sizes(const ConstraintGroup& group, const ConstraintDefinition& type) const {
@@ -113,15 +123,17 @@ class Gatherer {
     require_sizes(group, definition);
     ConstraintList& list = list_of(type, law_of(group.stiffness));
     const std::size_t size = definition.slots.size(), count = group.particles.size() / size;
-    list.stencils.reserve(list.stencils.size() + group.particles.size());
-    for (std::size_t i = 0; i < group.particles.size(); ++i)
-      list.stencils.push_back(definition.slots[i % size] == SlotKind::frame ? first_frame() + group.particles[i]
-                                                                            : group.particles[i]);
-    list.rest.insert(list.rest.end(), group.rest.begin(), group.rest.end());
-    list.response.reserve(list.response.size() + count);
+    append_stencils(group, definition, list);
+    list.rest.append(group.rest);
+    const bool has_own = !group.compliances.empty();
+    const bool as_given = has_own && group.stiffness.kind == Stiffness::Kind::compliance;
+    if (as_given) list.response.append(group.compliances);
     for (std::size_t i = 0; i < count; ++i) {
       if (group.rest.empty() && list.fields > 0) measure(definition, object_, &group.particles[i * size], list.rest);
-      push_response(list, group.stiffness, group.compliances.empty() ? group.stiffness.value : group.compliances[i], type);
+      if (!as_given)
+        list.response.push_back(response(group.stiffness, has_own ? group.compliances[i] : group.stiffness.value));
+      list.damping.push_back(group.stiffness.damping);
+      list.origin.push_back(next_origin_[type]++);
     }
   }
 
@@ -135,6 +147,18 @@ class Gatherer {
 };
 
 }  // namespace
+
+ConstraintList ConstraintList::empty() const {
+  ConstraintList without;
+  without.type = type;
+  without.law = law;
+  without.size = size;
+  without.fields = fields;
+  without.components = components;
+  without.in_lanes = in_lanes;
+  without.chained = chained;
+  return without;
+}
 
 std::vector<ConstraintList> gather_constraints(const Object& object, int passes) {
   Gatherer gatherer(object, passes);

@@ -47,6 +47,7 @@ State initial_state(const Model& model) {
   for (const CompiledObject& object : model.objects) {
     state.positions.insert(state.positions.end(), object.positions.begin(), object.positions.end());
     state.velocities.insert(state.velocities.end(), object.velocities.begin(), object.velocities.end());
+    state.velocities.resize(state.positions.size());
     append(object.frames.orientations, state.frames.orientations);
     append(object.frames.angular_velocities, state.frames.angular_velocities);
     append(object.frames.inverse_inertias, state.frames.inverse_inertias);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "constraints/registry.h"
 
@@ -27,6 +28,9 @@ struct Spring {
 
 std::vector<Spring> springs_of(const std::vector<ConstraintList>& lists) {
   std::vector<Spring> springs;
+  std::size_t most = 0;
+  for (const ConstraintList& list : lists) most += is_length(list.type) ? list.response.size() : 0;
+  springs.reserve(most);
   for (const ConstraintList& list : lists) {
     if (!is_length(list.type)) continue;
     for (std::size_t i = 0; i < list.response.size(); ++i) {
@@ -55,6 +59,8 @@ Graph graph_of(int nodes, std::vector<Link>& links) {
   std::sort(links.begin(), links.end());
   Graph graph;
   graph.begin.assign(static_cast<std::size_t>(nodes) + 1, 0);
+  graph.to.reserve(links.size());
+  graph.weight.reserve(links.size());
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (i > 0 && links[i].from == links[i - 1].from && links[i].to == links[i - 1].to) {
       graph.weight.back() += links[i].weight;
@@ -97,13 +103,22 @@ std::vector<int> match(const Graph& graph, const std::vector<char>& fixed, int& 
   return group;
 }
 
-Graph merge(const Graph& graph, const std::vector<int>& group, int groups) {
-  std::vector<Link> links;
+/// Calls body(from, to, weight) for every link between two groups.
+template <class Body>
+void for_links_between(const Graph& graph, const std::vector<int>& group, const Body& body) {
   for (int i = 0; i < graph.size(); ++i)
     for (int k = graph.begin[i]; k < graph.begin[i + 1]; ++k) {
       const int a = group[i], b = group[graph.to[k]];
-      if (a >= 0 && b >= 0 && a != b) links.push_back({a, b, graph.weight[k]});
+      if (a >= 0 && b >= 0 && a != b) body(a, b, graph.weight[k]);
     }
+}
+
+Graph merge(const Graph& graph, const std::vector<int>& group, int groups) {
+  std::vector<Link> links;
+  std::size_t count = 0;
+  for_links_between(graph, group, [&](int, int, int) { ++count; });
+  links.reserve(count);
+  for_links_between(graph, group, [&](int a, int b, int weight) { links.push_back({a, b, weight}); });
   return graph_of(groups, links);
 }
 
@@ -163,6 +178,7 @@ void fill_families(const std::vector<int>& group, MultigridLevel& fine, Multigri
 void fill_sources(const Graph& fine_graph, const std::vector<std::int32_t>& fine_place, const std::vector<int>& group,
                   const Graph& graph, const std::vector<std::int32_t>& place, MultigridLevel& coarse) {
   std::vector<std::array<std::int32_t, 2>> sources, anchors;
+  sources.reserve(fine_place.size());
   for (int i = 0; i < fine_graph.size(); ++i) {
     const int from = group[i];
     if (from < 0) continue;
@@ -178,10 +194,8 @@ void fill_sources(const Graph& fine_graph, const std::vector<std::int32_t>& fine
   bucket(coarse.batches() * batch_width, anchors, coarse.anchor_begin, coarse.anchors);
 }
 
-void add_coarser(const Graph& finest, const std::vector<std::int32_t>& finest_place, std::vector<char> fixed,
+void add_coarser(Graph graph, std::vector<std::int32_t> place, std::vector<char> fixed,
                  std::vector<MultigridLevel>& levels) {
-  Graph graph = finest;
-  std::vector<std::int32_t> place = finest_place;
   while (levels.back().rows > coarsest_rows) {
     int pairs = 0, groups = 0;
     const std::vector<int> paired = match(graph, fixed, pairs);
@@ -189,21 +203,21 @@ void add_coarser(const Graph& finest, const std::vector<std::int32_t>& finest_pl
     std::vector<int> group(paired.size(), -1);
     for (std::size_t i = 0; i < paired.size(); ++i) group[i] = paired[i] < 0 ? -1 : grouped[paired[i]];
     if (groups == 0 || groups > largest_share * graph.size()) return;
-    const Graph coarse_graph = merge(graph, group, groups);
+    Graph coarse_graph = merge(graph, group, groups);
     MultigridLevel coarse;
-    const std::vector<std::int32_t> coarse_place = lay_out(coarse_graph, coarse);
+    std::vector<std::int32_t> coarse_place = lay_out(coarse_graph, coarse);
     fill_families(group, levels.back(), coarse);
     fill_sources(graph, place, group, coarse_graph, coarse_place, coarse);
     levels.push_back(std::move(coarse));
-    graph = coarse_graph;
-    place = coarse_place;
+    graph = std::move(coarse_graph);
+    place = std::move(coarse_place);
     fixed.clear();
   }
 }
 
 // ---------------------------------------------------------------- pieces
 
-/// What hangs together without what is fixed, and which piece each row of the last level is of.
+/// What hangs together without what is fixed.
 void find_pieces(const Graph& graph, const std::vector<char>& fixed, Multigrid& out) {
   out.piece.assign(fixed.size(), -1);
   std::vector<int> stack;
@@ -223,6 +237,10 @@ void find_pieces(const Graph& graph, const std::vector<char>& fixed, Multigrid& 
     }
     ++out.pieces;
   }
+}
+
+/// Which piece each row of the last level is of.
+void find_coarsest_pieces(Multigrid& out) {
   out.coarsest_piece = out.piece;
   for (std::size_t l = 0; l + 1 < out.levels.size(); ++l) {
     std::vector<std::int32_t> coarser(out.levels[l + 1].rows, -1);
@@ -287,45 +305,67 @@ std::vector<float> stiffness_limits(const std::vector<Spring>& springs, const Gr
   return limits;
 }
 
-}  // namespace
+// ---------------------------------------------------------------- the finest level
 
-Multigrid build_multigrid(const std::vector<ConstraintList>& lists, const std::vector<Record>& positions, float gravity) {
-  Multigrid out;
-  const std::vector<Spring> springs = springs_of(lists);
-  const int particles = static_cast<int>(positions.size());
-  std::vector<char> fixed(positions.size());
-  for (int i = 0; i < particles; ++i) fixed[i] = positions[i].w > 0 ? 0 : 1;
-  if (springs.empty() || std::count(fixed.begin(), fixed.end(), 0) == 0) return out;
+/// The links of all springs, both ways, sorted; the weight is the spring's number: two springs between the same particles stay two
+/// links.
+std::vector<Link> links_of(const std::vector<Spring>& springs) {
   std::vector<Link> links;
+  links.reserve(2 * springs.size());
   for (std::size_t i = 0; i < springs.size(); ++i) {
-    const int number = static_cast<int>(i);  // two springs between the same particles stay two links
-    links.push_back({springs[i].a, springs[i].b, number});
-    links.push_back({springs[i].b, springs[i].a, number});
+    links.push_back({springs[i].a, springs[i].b, static_cast<int>(i)});
+    links.push_back({springs[i].b, springs[i].a, static_cast<int>(i)});
   }
-  std::stable_sort(links.begin(), links.end());
+  std::sort(links.begin(), links.end(),
+            [](const Link& a, const Link& b) { return a < b || (!(b < a) && a.weight < b.weight); });
+  return links;
+}
+
+Graph graph_of_springs(const std::vector<Link>& links, int particles) {
   Graph graph;
   graph.begin.assign(static_cast<std::size_t>(particles) + 1, 0);
+  graph.to.reserve(links.size());
   for (const Link& link : links) {
     ++graph.begin[link.from + 1];
     graph.to.push_back(link.to);
   }
   std::partial_sum(graph.begin.begin(), graph.begin.end(), graph.begin.begin());
-  graph.weight.assign(links.size(), 1);
-  out.levels.emplace_back();
-  MultigridLevel& level = out.levels.back();
-  const std::vector<std::int32_t> place = lay_out(graph, level);
-  out.edge_length = static_cast<float>(measure(springs, positions).spacing);
-  out.stiffness_limit = stiffness_limits(springs, graph, positions, fixed, gravity);
+  return graph;
+}
+
+void fill_springs(const std::vector<Spring>& springs, const std::vector<Link>& links,
+                  const std::vector<std::int32_t>& place, const std::vector<float>& limit, MultigridLevel& level) {
   level.stiffness.assign(level.column.size(), 0.f);
   level.rest_length.assign(level.column.size(), 1.f);
   for (std::size_t k = 0; k < links.size(); ++k) {
     const Spring& spring = springs[links[k].weight];
-    level.stiffness[place[k]] =
-        spring_stiffness(spring.compliance, std::max(out.stiffness_limit[spring.a], out.stiffness_limit[spring.b]));
+    level.stiffness[place[k]] = spring_stiffness(spring.compliance, std::max(limit[spring.a], limit[spring.b]));
     level.rest_length[place[k]] = spring.rest;
   }
-  add_coarser(graph, place, fixed, out.levels);
+}
+
+}  // namespace
+
+Multigrid build_multigrid(const std::vector<ConstraintList>& lists, const std::vector<Record>& positions, float gravity) {
+  Multigrid out;
+  std::vector<Spring> springs = springs_of(lists);
+  const int particles = static_cast<int>(positions.size());
+  std::vector<char> fixed(positions.size());
+  for (int i = 0; i < particles; ++i) fixed[i] = positions[i].w > 0 ? 0 : 1;
+  if (springs.empty() || std::count(fixed.begin(), fixed.end(), 0) == 0) return out;
+  std::vector<Link> links = links_of(springs);
+  Graph graph = graph_of_springs(links, particles);
+  out.levels.emplace_back();
+  std::vector<std::int32_t> place = lay_out(graph, out.levels.back());
+  out.edge_length = static_cast<float>(measure(springs, positions).spacing);
+  out.stiffness_limit = stiffness_limits(springs, graph, positions, fixed, gravity);
+  fill_springs(springs, links, place, out.stiffness_limit, out.levels.back());
+  springs = {};  // room for what coarser levels are made from
+  links = {};
+  graph.weight.assign(graph.to.size(), 1);
   find_pieces(graph, fixed, out);
+  add_coarser(std::move(graph), std::move(place), std::move(fixed), out.levels);
+  find_coarsest_pieces(out);
   return out;
 }
 

@@ -55,7 +55,7 @@ void add_records(Sha256& sha, const Records& records) { sha.add(records.data(), 
 
 struct World::Implementation {
   Implementation(const Scene& scene, const Settings& with)
-      : settings(with), suggested(suggest(scene)), executor(with.threads), kernels(kernels_for(with)) {
+      : settings(with), suggested(suggest(scene, with)), executor(with.threads), kernels(kernels_for(with)) {
     model.gravity = scene.gravity;
     model.wind = scene.wind;
     model.forces = scene.forces;
@@ -63,11 +63,12 @@ struct World::Implementation {
     model.pairs = scene.pairs;
     for (int o = 0; o < static_cast<int>(scene.objects.size()); ++o) {
       CompileOptions options;
-      options.sweep = chosen_sweep(scene, o);
+      options.sweep = chosen_sweep(scene, with, o);
       options.passes = settings.substeps * settings.iterations * sweep_method(options.sweep).passes;
       options.chain_softness = settings.sweep_options.chain_softness;
       options.tethers = settings.sweep_options.tethers;
       options.tether_slack = settings.sweep_options.tether_slack;
+      options.air = scene.wind.air_density > 0;
       options.gravity = length(model.gravity);
       model.add(compile(scene.objects[static_cast<std::size_t>(o)], options));
     }
@@ -161,14 +162,19 @@ struct World::Implementation {
   const std::atomic<bool>* stop = nullptr;  ///< of stop_when
 };
 
-World::World(const Scene& scene) : World(scene, scene.settings) {}
+World::World(const Scene& scene) {
+  refuse_grave(scene);
+  self_ = std::make_unique<Implementation>(scene, chosen_settings(scene));
+}
 
 World::World(const Scene& scene, const Settings& settings) {
-  Scene checked = scene;
-  checked.settings = settings;
-  refuse_grave(checked);
-  checked.settings = chosen_settings(checked);
-  self_ = std::make_unique<Implementation>(checked, checked.settings);
+  const auto checked_settings = [&] {
+    Scene checked = scene;  // gone again before anything is compiled
+    checked.settings = settings;
+    refuse_grave(checked);
+    return chosen_settings(checked);
+  };
+  self_ = std::make_unique<Implementation>(scene, checked_settings());
 }
 
 World::~World() = default;

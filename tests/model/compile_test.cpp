@@ -388,9 +388,10 @@ TEST(Gather, GivesEachConstraintItsOwnCompliance) {
   object.constraints = {{"distance", {0, 1, 1, 2}, {}, Stiffness::compliance(7), {0.5f, 0.25f}}};
   const auto lists = gather_constraints(object, 1);
   ASSERT_EQ(lists.size(), 1u);
-  EXPECT_EQ(lists[0].response, (std::vector<float>{0.5f, 0.25f}));
-  EXPECT_EQ(lists[0].rest, (std::vector<float>{1, 2}));
-  EXPECT_EQ(lists[0].origin, (std::vector<int>{0, 1}));
+  EXPECT_EQ(lists[0].response, (Column<float>{0.5f, 0.25f}));
+  EXPECT_EQ(lists[0].rest, (Column<float>{1, 2}));
+  ASSERT_EQ(lists[0].origin.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(lists[0].origin[i], static_cast<int>(i));
 }
 
 TEST(StiffnessPerProjection, LeavesTheShareThatWasAskedFor) {

@@ -182,6 +182,7 @@ std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& po
   out->rules = make_rules(model);
   out->largest_thickness = out->rules.largest_thickness();
   const std::vector<char> meets_some = out->rules.meeting();
+  if (std::find(meets_some.begin(), meets_some.end(), 1) == meets_some.end()) return nullptr;
   out->rest.assign(positions.begin(), positions.end());
   out->vertex_body.assign(positions.size(), 0);
   std::vector<Triangle> triangles;

@@ -43,8 +43,7 @@ void MultigridScratch::prepare(const SweepSetup& setup, int o) {
     values.inverse.resize(batches * block_floats);
     for (Records* records : {&values.right, &values.x, &values.y}) records->resize(batches * batch_width + 1);
   }
-  for (Records* records : {&to.direction, &to.image, &to.change}) records->resize(blocks * batch_width + 1);
-  to.extra.resize(blocks * 9 * batch_width);
+  for (Records* records : {&to.direction, &to.change}) records->resize(blocks * batch_width + 1);
   to.has_extra.resize(blocks);
   to.sums.resize(blocks / batches_per_task + 1);
   to.pieces.resize(static_cast<std::size_t>(model.pieces));

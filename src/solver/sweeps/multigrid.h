@@ -20,15 +20,17 @@ namespace pliant {
 /// Of one object.
 struct MultigridObject {
   std::vector<MultigridValues> levels;
-  Records direction, image, change;  ///< of conjugate gradients: p, A p, x
-  AlignedVector<float> extra;        ///< of contacts: nine rows of sixteen a batch
-  std::vector<char> has_extra;       ///< by batch
-  std::vector<double> sums;          ///< by task
+  Records direction, change;    ///< of conjugate gradients: p, x
+  AlignedVector<float> extra;   ///< of contacts: nine rows of sixteen a batch; empty before the first contact
+  std::vector<char> has_extra;  ///< by batch
+  std::vector<double> sums;     ///< by task
   /// Of a piece: what holds it to the world (xx yy zz xy xz yz), and what force it is still owed.
   struct Piece {
     double held[6], force[3];
   };
   std::vector<Piece> pieces;
+  /// A p, in what is scratch while preconditioning alone.
+  Records& image() { return levels[0].y; }
   bool is_made = true;  ///< whether the change was: what was not has done nothing, and leaves no multipliers and no pushes
 };
 

@@ -54,6 +54,7 @@ Vec3f force_of(const ContactSpring& s, const Vec3f& n) { return n * (-s.along * 
 /// Adds a particle's part of a spring to its row: the block that holds it where the other side is held, and the force.
 void add_to_row(MultigridObject& work, int particle, float weight, const std::array<float, 6>& block, const Vec3f& force) {
   const int at = lane_place(particle), batch = at / batch_width;
+  if (work.extra.empty()) work.extra.resize(work.has_extra.size() * 9 * batch_width);
   float* extra = work.extra.data() + static_cast<std::ptrdiff_t>(batch) * 9 * batch_width;
   if (work.has_extra[batch] == 0) std::fill(extra, extra + 9 * batch_width, 0.f);
   work.has_extra[batch] = 1;
@@ -196,7 +197,7 @@ double couple_pair(const PairSpring& s, std::vector<MultigridObject>& objects) {
     if (s.object[i] < 0) continue;
     const float side = s.weight[i] < 0 ? -1.f : 1.f;
     const Vec3f y = spring_force(s, between * side - x[i]) * abs(s.weight[i]);
-    Record& r = objects[s.object[i]].image[s.particle[i]];
+    Record& r = objects[s.object[i]].image()[s.particle[i]];
     r = {r.x + y.x, r.y + y.y, r.z + y.z, 0};
     curvature += static_cast<double>(dot(y, x[i]));
   }

@@ -64,13 +64,14 @@ void MultigridSolve::turn(float beta) {
 
 double MultigridSolve::apply() {
   return sum(0, [&](int f, int t) {
-    return kernels_.apply(level(0), values(0), true, work_.direction.data(), work_.image.data(), f, t);
+    return kernels_.apply(level(0), values(0), true, work_.direction.data(), work_.image().data(), f, t);
   });
 }
 
 void MultigridSolve::advance(float alpha) {
   for_batches(0, [&](int f, int t) {
-    kernels_.advance(alpha, work_.direction.data(), work_.image.data(), work_.change.data(), values(0).right.data(), f, t);
+    kernels_.advance(alpha, work_.direction.data(), work_.image().data(), work_.change.data(), values(0).right.data(), f,
+                     t);
   });
 }
 

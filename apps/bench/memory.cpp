@@ -1,0 +1,107 @@
+#include "apps/bench/memory.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "apps/bench/cloth.h"
+#include "pliant/error.h"
+#include "pliant/world.h"
+
+namespace pliant::bench {
+
+namespace {
+
+/// A line of /proc/self/status such as "VmHWM:   123 kB", in bytes; 0 where there is none.
+double resident(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  std::string key;
+  for (double kilobytes = 0; status >> key; status.ignore(1 << 20, '\n'))
+    if (key == name + ":" && status >> kilobytes) return kilobytes * 1024;
+  return 0;
+}
+
+Scene scene_of(int size, Sweep sweep) {
+  ClothOptions cotton;
+  cotton.material = fabric("cotton");
+  Scene scene;
+  scene.settings.sweep = sweep;
+  scene.settings.threads = 1;
+  scene.add(make_cloth(grid_mesh(size, size, 1, 1), cotton));
+  scene.pin(0, {0, size - 1});
+  return scene;
+}
+
+void step_twice(World& world) {
+  for (int frame = 0; frame < 2; ++frame) world.step(1.f / 60);
+}
+
+MemoryRow measure_here(int size, Sweep sweep) {
+  World small(scene_of(4, sweep));
+  step_twice(small);  // brings in the code and the threads, which are no part of a cloth
+  const double before = resident("VmRSS"), particles = static_cast<double>(size) * size;
+  const auto now = [&](const std::string& name) { return (resident(name) - before) / particles; };
+  MemoryRow row{size, sweep};
+  const Scene scene = scene_of(size, sweep);
+  row.scene = now("VmRSS");
+  row.scene_peak = now("VmHWM");
+  World world(scene);
+  step_twice(world);
+  row.world = now("VmRSS") - row.scene;
+  row.peak = now("VmHWM");
+  return row;
+}
+
+/// In a process of its own, whose high-water mark is of this row alone.
+MemoryRow measure(int size, Sweep sweep) {
+  int ends[2];
+  if (pipe(ends) != 0) throw Error({}, "no process can be started to measure memory in");
+  const pid_t child = fork();
+  if (child == 0) {
+    const MemoryRow row = measure_here(size, sweep);
+    const bool is_written = write(ends[1], &row, sizeof row) == static_cast<ssize_t>(sizeof row);
+    _exit(is_written ? 0 : 1);
+  }
+  close(ends[1]);
+  MemoryRow row;
+  const bool is_read = child > 0 && read(ends[0], &row, sizeof row) == static_cast<ssize_t>(sizeof row);
+  close(ends[0]);
+  int status = 0;
+  if (child > 0) waitpid(child, &status, 0);
+  if (!is_read) throw Error({}, "the process that memory is measured in came to no end", "try a smaller size");
+  return row;
+}
+
+}  // namespace
+
+std::vector<MemoryRow> measure_memory(const MemoryOptions& options) {
+  if (resident("VmHWM") == 0)
+    throw Error({}, "this system does not say how much memory a process takes", "measure on Linux");
+  std::vector<MemoryRow> rows;
+  for (const int size : options.sizes) {
+    if (size < 2 || size > 4096)
+      throw Error({}, "a cloth of " + std::to_string(size) + " vertices a side can't be measured",
+                  "choose a size in 2..4096");
+    for (const Sweep sweep : options.sweeps) {
+      rows.push_back(measure(size, sweep));
+      if (options.on_row) options.on_row(rows.back());
+    }
+  }
+  return rows;
+}
+
+std::string to_json(const std::vector<MemoryRow>& rows) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const MemoryRow& row : rows)
+    list.push_back({{"size", row.size},
+                    {"sweep", sweep_name(row.sweep)},
+                    {"scene", row.scene},
+                    {"scene_peak", row.scene_peak},
+                    {"peak", row.peak},
+                    {"world", row.world}});
+  return list.dump(2) + "\n";
+}
+
+}  // namespace pliant::bench
