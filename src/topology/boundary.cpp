@@ -1,4 +1,4 @@
-// Walks over edges: along borders, and across inner edges from triangle to triangle.
+// Traverses edges: borders vertex by vertex, and connected components triangle by triangle.
 #include "topology/boundary.h"
 
 #include <algorithm>
@@ -8,13 +8,13 @@ namespace pliant {
 
 namespace {
 
-/// For each item 0..count - 1, the edges that touch it, ascending; one flat list with starts.
+/// The edges incident to each item 0..count - 1, ascending, in compressed rows: item i owns [starts[i], starts[i + 1]).
 struct Incidence {
   std::vector<std::size_t> starts;
   std::vector<int> edges;
 };
 
-/// `ends(edge)` gives the two items of an edge, or {-1, -1} to leave it out.
+/// `ends(edge)` gives the two items of an edge, or {-1, -1} to leave the edge out.
 template <class Ends>
 Incidence incidence(const std::vector<Edge>& edges, int count, Ends ends) {
   Incidence result;
@@ -30,7 +30,7 @@ Incidence incidence(const std::vector<Edge>& edges, int count, Ends ends) {
   return result;
 }
 
-/// Walks borders, taking a loop off the path whenever the path comes back to a vertex that it holds.
+/// Walks borders. When the path returns to a vertex that it holds, the loop between the two visits is split off.
 class BorderWalk {
  public:
   BorderWalk(const std::vector<Edge>& edges, int vertex_count)
@@ -84,14 +84,14 @@ class BorderWalk {
 
   const std::vector<Edge>& edges_;
   Incidence at_vertex_;
-  std::vector<std::size_t> next_;  ///< where to look on in each vertex's list, so that every edge is looked at once
+  std::vector<std::size_t> next_;  ///< resume position in each vertex's list, so that each edge is visited once
   std::vector<bool> used_;
-  std::vector<int> place_;  ///< of each vertex on the path, or -1
+  std::vector<int> place_;  ///< index of each vertex on the path, or -1
   std::vector<int> path_;
   std::vector<std::vector<int>> loops_;
 };
 
-/// One flood fill: which side each triangle of a piece lies on, relative to its first triangle.
+/// A flood fill: the winding of each triangle relative to the first triangle of its connected component.
 class Flood {
  public:
   Flood(const std::vector<Edge>& edges, int triangle_count)
@@ -128,7 +128,7 @@ class Flood {
   }
 
  private:
-  /// Visits the triangle beyond an edge; false where it was seen wound the other way.
+  /// Visits the triangle across an edge. Returns false if it was reached before with the other winding.
   bool cross(int triangle, int edge_index) {
     const Edge& edge = edges_[static_cast<std::size_t>(edge_index)];
     const int other = edge.triangles[0] == triangle ? edge.triangles[1] : edge.triangles[0];

@@ -1,4 +1,4 @@
-// What a surface is as a whole: closed or open, a manifold or not, of how many pieces, wound which way.
+// Global properties of a surface: closed or open, manifold or not, connected components, winding.
 #pragma once
 
 #include <vector>
@@ -7,32 +7,32 @@
 
 namespace pliant {
 
-/// Whether every edge joins exactly two triangles, and there is one at all.
+/// True if every edge has exactly two triangles. An empty mesh is not closed.
 bool is_closed(const std::vector<Edge>& edges);
 
-/// Whether no edge has more than two triangles.
+/// True if no edge has more than two triangles.
 bool is_edge_manifold(const std::vector<Edge>& edges);
 
-/// Whether neighbouring triangles are wound alike everywhere.
+/// True if every two neighbouring triangles have the same winding.
 bool is_wound_consistently(const std::vector<Edge>& edges);
 
-/// The border as closed chains of vertices without repetition, in the order of their smallest first edge; two loops that
-/// touch in a vertex are told apart. Where edges of three or more triangles end a border, the chain that is left over is
-/// open.
+/// The border as closed vertex chains without repetition, ordered by their smallest
+/// first edge. Two loops that touch at a vertex are separate. A non-manifold edge
+/// (three or more triangles) can end a border; the remaining chain is then open.
 std::vector<std::vector<int>> boundary_loops(const std::vector<Edge>& edges, int vertex_count);
 
-/// Pieces of a surface, joined by edges of two triangles, and how to wind each of them alike.
+/// The connected components of a surface (joined across edges of two triangles), and the flips that make each consistent.
 struct Pieces {
   int count = 0;
-  std::vector<int> of_triangle;      ///< the piece of each triangle, numbered in the order of first triangles
-  std::vector<int> flipped;          ///< triangles to turn so that each piece is wound alike: the fewer of its two sides
-  std::vector<int> one_sided_edges;  ///< one edge (index) for each piece that has but one side, like a Moebius band
+  std::vector<int> of_triangle;      ///< component of each triangle, numbered in the order of their first triangles
+  std::vector<int> flipped;          ///< triangles to flip for consistent winding: the smaller side of each component
+  std::vector<int> one_sided_edges;  ///< one edge index for each non-orientable component, such as a Moebius band
 };
 
-/// Finds the pieces by flood fill over edges of exactly two triangles. Pieces with but one side have nothing in `flipped`.
+/// Finds connected components by flood fill across edges of two triangles. Non-orientable ones add nothing to `flipped`.
 Pieces find_pieces(const std::vector<Edge>& edges, int triangle_count);
 
-/// Turns the triangles named: (a, b, c) becomes (a, c, b).
+/// Reverses the winding of the given triangles: (a, b, c) becomes (a, c, b).
 void flip(std::vector<Triangle>& triangles, const std::vector<int>& which);
 
 }  // namespace pliant

@@ -1,8 +1,8 @@
-// Greedy colouring, fours first.
+// Greedy colouring, contiguous groups of four first.
 //
-// Constraints are sorted by the shape of their stencil (the differences between slots), then by its place. Neighbours in that order
-// with places a, a + 1, a + 2, a + 3 are a run: one load fetches a slot of all four. Greedy first-fit in that order colours a
-// grid's families of edges with as few colours as particles have edges.
+// Constraints are sorted by the shape of their stencil (the differences between slots), then by their first particle. Four
+// successive ones with first particles a, a + 1, a + 2, a + 3 form a contiguous group: one load fetches a slot of all four.
+// On a grid, greedy first-fit in this order needs only as many colours as a particle has edges.
 #include "topology/colouring.h"
 
 #include <algorithm>
@@ -14,12 +14,12 @@ namespace pliant {
 namespace {
 
 constexpr int bits = 64;
-constexpr int largest_stencil = 4;            // that is put into runs
-constexpr std::size_t batch = 16;             // constraints that are projected at once
-constexpr std::size_t fewest_to_group = 512;  // constraints that are not in runs with all slots
+constexpr int largest_stencil = 4;            // largest stencil that is grouped
+constexpr std::size_t batch = 16;             // constraints that are projected together
+constexpr std::size_t fewest_to_group = 512;  // below this many ungrouped constraints, partial grouping does not pay
 
 struct Key {
-  std::array<int, largest_stencil> shape;  // differences to slot 0, then slot 0 itself last
+  std::array<int, largest_stencil> shape;  // differences to slot 0; slot 0 itself is last
   int member;
   friend bool operator<(const Key& a, const Key& b) { return a.shape != b.shape ? a.shape < b.shape : a.member < b.member; }
 };
@@ -38,7 +38,7 @@ std::vector<Key> sorted_by_shape(const std::vector<int>& stencils, int size, con
   return keys;
 }
 
-/// Whether the four constraints from key on are a run, and no particle is in two of them.
+/// True if the four constraints from `key` on form a contiguous group in which no particle occurs twice.
 bool is_run(const Key* key, int size) {
   for (int l = 1; l < 4; ++l) {
     Key expected = key[0];
@@ -54,10 +54,10 @@ bool is_run(const Key* key, int size) {
   return true;
 }
 
-/// The constraints of one colour by which slots are in runs.
+/// The constraints of one colour, indexed by the bit set of their contiguous slots.
 using Class = std::array<std::vector<int>, 1 << largest_stencil>;
 
-/// Fours beyond whole batches go on as if fewer of their slots were in runs: to others that are so, or to the single ones.
+/// Groups beyond whole batches are treated as contiguous in fewer slots: they join such a class, or the single constraints.
 void demote_rest(int runs, Class& members) {
   const std::size_t whole = members[runs].size() / batch * batch;
   int to = 0;
@@ -69,8 +69,8 @@ void demote_rest(int runs, Class& members) {
   members[runs].resize(whole);
 }
 
-/// Appends a colour's constraints, those with most slots in runs first. Single ones come by their first particles: those of one batch
-/// then find their particles close together. Inside a colour any order gives the same bits.
+/// Appends the constraints of a colour, those with most contiguous slots first. Singles are sorted by their first particle,
+/// so that the particles of a batch are close in memory. The order inside a colour does not change any bits.
 void append_class(const std::vector<int>& stencils, int size, Class& members, std::vector<Colour>& colours) {
   const int all = size > largest_stencil ? 0 : (1 << size) - 1;
   for (int runs = all; runs > 0; --runs) {
@@ -82,7 +82,7 @@ void append_class(const std::vector<int>& stencils, int size, Class& members, st
   if (!members[0].empty()) colours.push_back({0, std::move(members[0])});
 }
 
-/// Calls run(key) for the first of every four that are a run and single(key) for what is in none, in order.
+/// Calls run(key) for the first member of each contiguous group and single(key) for each ungrouped constraint, in order.
 template <class Run, class Single>
 void for_runs(const std::vector<Key>& keys, int size, const Run& run, const Single& single) {
   for (std::size_t i = 0; i < keys.size();) {
@@ -92,7 +92,7 @@ void for_runs(const std::vector<Key>& keys, int size, const Run& run, const Sing
   }
 }
 
-/// None where few would be in fours: they would not fill batches for every set of slots.
+/// Returns none if few constraints can be grouped: the groups would not fill batches for each set of slots.
 std::vector<Four> take_fours_if_many(const std::vector<int>& stencils, int size, std::vector<int>& members) {
   if (members.size() < fewest_to_group) return {};
   std::vector<int> rest = members;
@@ -129,7 +129,7 @@ int Colouring::first_free(const int* particles, int count) {
   return colour;
 }
 
-/// First fit, fours as wholes; colours are new ones.
+/// First fit; a group of four is coloured as a whole. Opens new colours only.
 void Colouring::append(const std::vector<int>& stencils, int size, const std::vector<Four>& fours,
                        const std::vector<int>& singles, std::vector<Colour>& colours) {
   std::vector<Class> classes;
@@ -188,7 +188,7 @@ std::vector<Colour> Colouring::colour(const std::vector<int>& stencils, int size
   reset(stencils, size, members);
   append(stencils, size, fours, {}, colours);
 
-  // What is left, in colours of its own.
+  // The remaining constraints get colours of their own.
   fours.clear();
   if (rest.size() > members.size() / 4) fours = take_fours_if_many(stencils, size, rest);
   reset(stencils, size, members);

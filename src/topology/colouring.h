@@ -8,28 +8,28 @@
 
 namespace pliant {
 
-/// Constraints that share no particle. Where slots are in runs, members come in fours whose particles there follow one another:
-/// stencil[4 q + l][slot] = stencil[4 q][slot] + l for every such slot; where only some are, in four times four.
+/// Constraints that share no particle. If bit s of `runs` is set, members come in contiguous groups of four in slot s:
+/// stencil[4 q + l][slot] = stencil[4 q][slot] + l. If only some slots are contiguous, they come in four times four.
 struct Colour {
-  int runs = 0;              ///< bit s: slot s is in runs
-  std::vector<int> members;  ///< numbers of constraints
+  int runs = 0;              ///< bit s: slot s is contiguous in groups of four
+  std::vector<int> members;  ///< constraint indices
 };
 
-/// The share, 0..1, of constraints (`size` particle numbers each) that are in runs of four; 1 where there are none.
+/// The share, 0..1, of constraints (`size` particles each) in contiguous groups of four; 1 if there are no constraints.
 double share_in_runs(const std::vector<int>& stencils, int size);
 
-/// Keeps which colours a particle has met already. Made once for an object and used for all of its tiles.
+/// Remembers which colours each particle has. Made once for an object and used for all of its tiles.
 class Colouring {
  public:
   explicit Colouring(int particles) : used_(particles, 0), next_(particles, 0) {}
 
-  /// Colours the constraints `members` of stencils (`size` particle numbers each, at stencils[size * member]). Fours that are in runs
-  /// with all slots are found first and coloured as wholes; then, if much is left, fours that are with some slots; then single ones.
-  /// The same input gives the same colours on any machine.
-  /// Stencils of more than four are coloured singly.
+  /// Colours the constraints `members` of stencils (`size` particles each, at stencils[size * member]). Groups of four that
+  /// are contiguous in all slots come first, each coloured as a whole; if many remain, groups contiguous in some slots;
+  /// then single constraints. Stencils of more than four particles are coloured singly. The result depends on the input
+  /// alone.
   std::vector<Colour> colour(const std::vector<int>& stencils, int size, const std::vector<int>& members);
 
-  /// The same, none in runs: first fit in the order of `members`.
+  /// The same without groups: first fit in the order of `members`.
   std::vector<Colour> colour_singly(const std::vector<int>& stencils, int size, const std::vector<int>& members);
 
  private:
@@ -39,7 +39,7 @@ class Colouring {
   void reset(const std::vector<int>& stencils, int size, const std::vector<int>& members);
 
   std::vector<std::uint64_t> used_;  // bit c: the particle has a constraint of colour c
-  std::vector<int> next_;            // beyond 64 colours: the next colour that the particle may take
+  std::vector<int> next_;            // beyond 64 colours: the next colour available to the particle
 };
 
 }  // namespace pliant

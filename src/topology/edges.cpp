@@ -1,6 +1,6 @@
-// Edges by a counting sort: half-edges are dealt into one bucket for each smaller end, and the few in a bucket are sorted
-// by their larger end. A vertex has about six edges, so this is linear where one big comparison sort is not, and its memory
-// is walked in order.
+// Edges by a counting sort: half-edges go into one bucket for each smaller end, and each bucket is sorted by the larger
+// end. A vertex has about six edges, so the time is linear, unlike a comparison sort of all edges. Memory is accessed in
+// order.
 #include "topology/edges.h"
 
 #include <algorithm>
@@ -12,10 +12,10 @@ namespace pliant {
 
 namespace {
 
-/// A side of a triangle, put into the bucket of its smaller end.
+/// A side of a triangle, stored in the bucket of its smaller end.
 struct HalfEdge {
   int larger;
-  std::uint32_t side;  ///< 3 x triangle + corner where it starts
+  std::uint32_t side;  ///< 3 x triangle + the corner at which it starts
 };
 
 bool before(const HalfEdge& left, const HalfEdge& right) {
@@ -39,7 +39,7 @@ struct Buckets {
 Buckets deal(const std::vector<Triangle>& triangles, int vertex_count) {
   Buckets buckets;
   buckets.starts.assign(static_cast<std::size_t>(vertex_count) + 2, 0);
-  // Counted one place further on, so that dealing turns each bucket's start into the next one's.
+  // Counts are stored one place further on, so that filling the buckets advances each start to the next one.
   for (const Triangle& triangle : triangles)
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const Side side = side_of(triangle, corner);
@@ -104,7 +104,7 @@ std::vector<Edge> find_edges(const std::vector<Triangle>& triangles, int vertex_
 }
 
 Hinge hinge_of(const Edge& edge) {
-  // Where both triangles run the same way along the edge, the first one decides which way is forward.
+  // If both triangles traverse the edge in the same direction, the first triangle defines forward.
   const std::size_t front = edge.forward[0] || !edge.forward[1] ? 0 : 1;
   const std::size_t back = 1 - front;
   if (edge.forward[front]) return {edge.a, edge.b, edge.opposites[front], edge.opposites[back]};

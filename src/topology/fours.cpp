@@ -1,5 +1,5 @@
-// For each set of slots, constraints are sorted by where those slots' particles lie up to the lane (particle mod 4) of the first; what is equal
-// but for lanes 0, 1, 2 and 3 makes a four.
+// For each set of slots, constraints are sorted by their particles in those slots, relative to the lane (particle mod 4) of
+// slot 0. Constraints that are equal except for lanes 0, 1, 2 and 3 form a group of four.
 #include "topology/fours.h"
 
 #include <algorithm>
@@ -11,10 +11,10 @@ namespace pliant {
 namespace {
 
 constexpr int largest_stencil = 4;
-constexpr int most_failures = 16;  // at one place, so that hubs of many constraints stay cheap
+constexpr int most_failures = 16;  // per sort position, which bounds the cost of hubs with many constraints
 
 struct Candidate {
-  std::array<int, largest_stencil> base;  // of slots in runs: the particle less the lane; 0 elsewhere
+  std::array<int, largest_stencil> base;  // for contiguous slots: the particle minus the lane; otherwise 0
   int lane, member;
   friend bool operator<(const Candidate& a, const Candidate& b) {
     return std::tie(a.base, a.lane, a.member) < std::tie(b.base, b.lane, b.member);
@@ -48,7 +48,7 @@ class FourFinder {
  private:
   const int* stencil(int member) const { return &stencils_[static_cast<std::size_t>(size_) * member]; }
 
-  /// By bases, lanes and members. Counted into place by the first base, which is nearly all of the order, and sorted there.
+  /// Sorted by bases, lanes and members: a counting sort by the first base, which gives most of the order, then buckets.
   std::vector<Candidate> sorted(int runs, const std::vector<int>& members) const {
     int first = 0;
     while ((runs >> first & 1) == 0) ++first;
@@ -81,7 +81,7 @@ class FourFinder {
     });
   }
 
-  /// Joins one candidate of each lane as long as there are four that share nothing.
+  /// Joins one candidate of each lane while four candidates remain that share no particle.
   void match(int runs, const Candidate* first, const Candidate* last, std::vector<Four>& fours, std::vector<int>& taken) {
     std::array<std::vector<int>, 4> left;
     for (const Candidate* candidate = first; candidate != last; ++candidate)
@@ -98,7 +98,7 @@ class FourFinder {
     }
   }
 
-  /// Takes the first of lanes 1, 2 and 3 that shares no particle with those before; false, and nothing taken, where a lane has none.
+  /// Takes the first candidates of lanes 1, 2 and 3 that share no particle with earlier ones; false if a lane has none.
   bool join(Four& four, std::array<std::vector<int>, 4>& left) const {
     std::array<std::vector<int>::iterator, 4> at;
     for (int lane = 1; lane < 4; ++lane) {

@@ -1,5 +1,5 @@
-// Meshes from nothing: the grid and the sphere of the scenes, tests and benchmarks. They use no libm function but the
-// correctly rounded square root, and compute in double before rounding once, so that they are the same bits everywhere.
+// Procedural meshes: the grid and the sphere of scenes, tests and benchmarks. Of libm only the correctly rounded square
+// root is used; values are computed in double and rounded once. So they have the same bits on every machine.
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -33,7 +33,7 @@ struct SphereInDouble {
   std::vector<Triangle> triangles;
 };
 
-/// The regular icosahedron from three golden rectangles.
+/// The regular icosahedron, from three golden rectangles.
 SphereInDouble icosahedron() {
   const double golden = (1 + std::sqrt(5.0)) / 2;
   SphereInDouble sphere;
@@ -47,13 +47,13 @@ SphereInDouble icosahedron() {
   return sphere;
 }
 
-/// Splits every triangle in four; new vertices are the edges' middles, in the edges' order, pushed out to the sphere.
+/// Splits every triangle into four. New vertices are the edge midpoints, in edge order, projected onto the sphere.
 SphereInDouble subdivided(const SphereInDouble& coarse) {
   SphereInDouble fine;
   fine.positions = coarse.positions;
   const int old_count = static_cast<int>(coarse.positions.size());
   const std::vector<Edge> edges = find_edges(coarse.triangles, old_count);
-  std::vector<Triangle> middles(coarse.triangles.size());  // the middle of the side opposite to each corner
+  std::vector<Triangle> middles(coarse.triangles.size());  // the midpoint of the side opposite each corner
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const Edge& edge = edges[e];
     fine.positions.push_back(normalised(coarse.positions[static_cast<std::size_t>(edge.a)] +

@@ -15,15 +15,15 @@ struct Neighbour {
   double length;
 };
 
-/// A triangle seen from one of its corners.
+/// A triangle as seen from one of its corners.
 struct Corner {
-  int next, last;                   ///< the other two
+  int next, last;                   ///< the other two corners
   double to_next, to_last, across;  ///< lengths: from the corner to each of them, and between them
 };
 
-/// The distance from the source to a triangle's third corner, laid flat: the source is `da` and `db` away from the ends of
-/// a side of length `side`, on its other side; the third corner is `ca` and `cb` away from them. Infinity where the line
-/// does not cross the side.
+/// The distance from the source to a triangle's third corner in the plane of the unfolded triangle. The source is `da` and
+/// `db` away from the ends of a side of length `side`. The third corner is `ca` and `cb` away from them, on the other side.
+/// Returns infinity if the straight line misses the side.
 double unfolded(double da, double db, double side, double ca, double cb) {
   const double none = HUGE_VAL;
   if (!(side > 0)) return none;
@@ -86,7 +86,7 @@ class Search {
     }
   }
 
-  /// Numbers the groups: sources that edges join.
+  /// Numbers the groups: source vertices connected by edges.
   void group(const std::vector<int>& sources) {
     std::vector<char> is_source(neighbours_.size(), 0);
     for (int source : sources) is_source[source] = 1;
@@ -126,10 +126,10 @@ class Search {
   }
 
   struct Sides {
-    double to_other, to_target, across;  ///< from the vertex to each, and between them
+    double to_other, to_target, across;  ///< distances from the vertex to each, and between them
   };
 
-  /// From a vertex at `distance` and `other`, where it has been reached from the same source, across to `target`.
+  /// Extends distances to `target`: from a vertex at `distance` and from `other`, reached from the same source, across.
   void cross_to(int target, int other, double distance, int source, const Sides& sides,
                 const std::vector<std::vector<NearSource>>& found, int most) {
     for (const NearSource& reached : found[other]) {

@@ -1,10 +1,10 @@
-// Four patches that grow like one.
+// Lockstep numbering: four patches of a tile are numbered in the same order of growth.
 //
-// Call four particles, one of each patch, with the same place in its patch a rank, and two ranks linked where all four pairs are. A new
-// rank beside two linked ranks a and b takes the corner opposite the edge (a, b) in every patch: two links for one rank, out of
-// the three edges that a surface has for a vertex. So the linked pairs of ranks wait in a queue, those that promise most links
-// first, then the oldest, which closes the fans around old ranks before it goes far. Where no pair is open in all four patches a rank
-// goes on with one link, and where nothing is, with the first particles left.
+// A rank is four particles, one of each patch, at the same index in their patches. Two ranks are linked if all four pairs
+// of their particles are. A new rank beside linked ranks a and b takes the corner opposite the edge (a, b) in every patch,
+// which gives two links of the three edges per vertex. A queue holds the linked pairs of ranks: those that yield most links
+// first, then the oldest, to close fans around old ranks. If no pair can grow in all patches, a rank grows by one link; if
+// none can, growth restarts from the first particles left.
 #include "topology/lockstep.h"
 
 #include <algorithm>
@@ -19,13 +19,13 @@ namespace pliant {
 namespace {
 
 constexpr int patches = 4;
-constexpr int most_corners = 2;  // opposite an edge that are looked at, in each patch
-// Hubs of very many links stay cheap: of a rank's links the last ones are weighed again, of a particle's neighbours the first ones
-// are looked at.
+constexpr int most_corners = 2;  // opposite an edge that are considered, in each patch
+// These limits bound the cost of hubs with very many links: only the last links of a rank are evaluated again, and only the
+// first neighbours of a particle are considered.
 constexpr int most_links_seen = 16, most_neighbours_seen = 32;
 using Rank = std::array<int, patches>;
 
-/// Whom each particle is linked to, ascending, among those of its own patch.
+/// The particles linked to each particle within its patch, ascending.
 class Neighbours {
  public:
   Neighbours(const std::vector<int>& patch, const std::vector<std::array<int, 2>>& links) : begin_(patch.size() + 1, 0) {
@@ -55,7 +55,7 @@ class Neighbours {
   std::vector<int> begin_, to_;
 };
 
-/// Two linked ranks, and how many links the rank beside them would have when last asked.
+/// Two linked ranks, and the number of links that a rank beside them had at the last evaluation.
 struct Open {
   int links, older, younger;
   friend bool operator<(const Open& a, const Open& b) {  // the best is the largest
@@ -68,7 +68,7 @@ struct Proposal {
   Rank rank{};
 };
 
-/// One tile: `members` hold the particles of each patch, ascending.
+/// Grows one tile. `members` hold the particles of each patch, ascending.
 class Growth {
  public:
   Growth(const Neighbours& neighbours, const std::array<std::vector<int>, patches>& members, std::vector<int>& rank_of,
@@ -82,7 +82,7 @@ class Growth {
     std::vector<int> rest;
     for (const std::vector<int>& patch : members_)
       std::copy_if(patch.begin(), patch.end(), std::back_inserter(rest), [&](int p) { return is_left(p); });
-    // Some of the rest go first where ranks would else lie across cache lines: four records fill one.
+    // Some of the remaining particles go first, so that no rank straddles a cache line: four records fill one line.
     const std::size_t before = (patches - order.size() % patches) % patches;
     if (rest.size() < before && !ranks_.empty()) {
       rest.insert(rest.end(), ranks_.back().begin(), ranks_.back().end());
@@ -114,7 +114,7 @@ class Growth {
     return links;
   }
 
-  /// Particles left that are linked to both.
+  /// Finds unnumbered particles that are linked to both a and b.
   int corners(int a, int b, std::array<int, most_corners>& found) const {
     int count = 0;
     if (neighbours_.count(a) > neighbours_.count(b)) std::swap(a, b);
@@ -124,7 +124,7 @@ class Growth {
     return count;
   }
 
-  /// The rank with most links among those beside two linked ranks; none where a patch has no corner there.
+  /// The rank with most links beside two linked ranks, or none if a patch has no corner there.
   Proposal propose(int a, int b) const {
     std::array<std::array<int, most_corners>, patches> found;
     Rank count{};
@@ -167,8 +167,8 @@ class Growth {
     return next_without_links();
   }
 
-  /// Of a particle's neighbours left (the first ones of a hub's) the one with most numbered ones around it, so that no holes stay
-  /// behind; -1 where none is left.
+  /// Of a particle's unnumbered neighbours (the first ones at a hub) returns the one with most numbered neighbours, so that
+  /// no holes remain; -1 if there is none.
   int most_enclosed(int particle) {
     int& passed = passed_[particle];
     const int *first = neighbours_.begin(particle), *last = neighbours_.end(particle);
@@ -219,12 +219,12 @@ class Growth {
 
   const Neighbours& neighbours_;
   const std::array<std::vector<int>, patches>& members_;
-  std::vector<int>& rank_of_;  // of every particle, -1 where it is left
-  std::vector<int>& passed_;   // how many of every particle's first neighbours are known to be numbered
+  std::vector<int>& rank_of_;  // of every particle; -1 if it is not numbered yet
+  std::vector<int>& passed_;   // how many leading neighbours of each particle are known to be numbered
   std::vector<Rank> ranks_;
-  std::vector<std::vector<int>> links_;  // of each rank
+  std::vector<std::vector<int>> links_;  // the linked ranks of each rank
   std::priority_queue<Open> open_;
-  int oldest_ = 0;  // no older rank can be gone on from
+  int oldest_ = 0;  // all older ranks are exhausted
   std::array<std::size_t, patches> first_left_{};
 };
 
@@ -238,7 +238,7 @@ std::vector<std::vector<int>> members_of(const std::vector<int>& tile) {
   return members;
 }
 
-/// Cuts a tile in four of nearly equal size, compact ones.
+/// Cuts a tile into four compact patches of nearly equal size.
 std::array<std::vector<int>, patches> cut_in_four(const std::vector<Vec3f>& positions, const std::vector<int>& members) {
   std::vector<Vec3f> places;
   places.reserve(members.size());

@@ -11,13 +11,13 @@ namespace {
 
 using EdgeList = std::vector<std::array<int, 2>>;
 
-/// A hub with more edges than this is a spider, not a surface: no line goes through it.
+/// A vertex with more edges than this is a hub, not part of a surface: no path passes through it.
 constexpr int largest_degree = 64;
 
-/// After so many colours chosen with care the rest, which can only be pathological, is coloured in one go.
+/// After this many greedily optimised colours only pathological paths remain; they are coloured in one pass.
 constexpr int most_careful_colours = 48;
 
-/// An edge goes on into another only where the turn is less than this: 45 degrees.
+/// An edge continues into another only if the angle between them is below 45 degrees: cos 45.
 constexpr double least_cosine = 0.70710678118654752;
 
 Vec3d between(const std::vector<Vec3f>& x, int from, int to) {
@@ -29,7 +29,7 @@ double cosine(const Vec3d& a, const Vec3d& b) {
   return lengths > 0 ? dot(a, b) / lengths : 0;
 }
 
-/// The edges at each vertex, ascending.
+/// The edges incident to each vertex, ascending.
 struct Incidence {
   std::vector<int> begin, edges;
 
@@ -43,17 +43,17 @@ struct Incidence {
   }
 };
 
-/// Which edge an edge goes on into at each of its ends, or -1.
+/// The edge that continues each edge at each of its ends, or -1.
 using Continuations = std::vector<std::array<int, 2>>;
 
 int other_end(const std::array<int, 2>& edge, int end) { return edge[0] == end ? edge[1] : edge[0]; }
 int slot_of(const std::array<int, 2>& edge, int end) { return edge[0] == end ? 0 : 1; }
 
-/// Joins the edges at each vertex in pairs, the straightest pair first.
+/// Pairs the edges at each vertex, the straightest pair first.
 Continuations join_straightest(const std::vector<Vec3f>& x, const EdgeList& edges) {
   const Incidence at(x.size(), edges);
   Continuations next(edges.size(), {-1, -1});
-  std::vector<std::tuple<double, int, int>> pairs;  // minus the cosine of the turn, then the edges
+  std::vector<std::tuple<double, int, int>> pairs;  // negative cosine of the angle, then the two edges
   for (int v = 0; v < static_cast<int>(x.size()); ++v) {
     pairs.clear();
     if (at.begin[v + 1] - at.begin[v] > largest_degree) continue;
@@ -75,18 +75,18 @@ Continuations join_straightest(const std::vector<Vec3f>& x, const EdgeList& edge
   return next;
 }
 
-/// Walks trails of joined edges and cuts them where they come back to a vertex that they have visited.
+/// Follows trails of joined edges and cuts them where they revisit a vertex.
 class Walker {
  public:
   Walker(const EdgeList& edges, const Continuations& next, std::size_t vertices)
       : edges_(edges), next_(next), used_(edges.size(), 0), visited_by_(vertices, -1) {}
 
   std::vector<Path> walk_all() {
-    for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {  // from the ends of open trails
+    for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {  // start from the ends of open trails
       for (int slot = 0; slot < 2; ++slot)
         if (!used_[e] && next_[e][slot] < 0) walk(e, edges_[e][slot]);
     }
-    for (int e = 0; e < static_cast<int>(edges_.size()); ++e)  // what is left goes round
+    for (int e = 0; e < static_cast<int>(edges_.size()); ++e)  // the rest are closed trails
       if (!used_[e]) walk(e, edges_[e][0]);
     return std::move(paths_);
   }
@@ -115,7 +115,7 @@ class Walker {
   const EdgeList& edges_;
   const Continuations& next_;
   std::vector<char> used_;
-  std::vector<int> visited_by_;  // one more than the number of the last path that came by
+  std::vector<int> visited_by_;  // one more than the number of the last path through each vertex
   std::vector<Path> paths_;
 };
 
@@ -124,15 +124,15 @@ void reverse(Path& path) {
   std::reverse(path.vertices.begin(), path.vertices.end());
 }
 
-/// Takes colours off a set of paths: the longest path left, and with it all that share no vertex with it or with one
-/// another, those that run most nearly the same way first.
+/// Extracts colours greedily from a set of paths. Each colour starts with the longest path left; paths that share no vertex
+/// with the colour join it, the most nearly parallel first.
 class PathColouring {
  public:
   PathColouring(const std::vector<Vec3f>& x, std::vector<Path> paths) : paths_(std::move(paths)), taken_by_(x.size(), 0) {
     for (const Path& path : paths_) along_.push_back(between(x, path.vertices.front(), path.vertices.back()));
     left_.resize(paths_.size());
     for (std::size_t i = 0; i < left_.size(); ++i) left_[i] = static_cast<int>(i);
-    // Of two as long in edges the shorter in space leads, which is a row before a diagonal.
+    // Of two paths with as many edges, the geometrically shorter leads: a row before a diagonal.
     std::sort(left_.begin(), left_.end(), [&](int a, int b) {
       if (paths_[a].edges.size() != paths_[b].edges.size()) return paths_[a].edges.size() > paths_[b].edges.size();
       const double la = length_squared(along_[a]), lb = length_squared(along_[b]);
@@ -155,7 +155,7 @@ class PathColouring {
   PathColour take() {
     ++colour_;
     const Vec3d along = along_[left_.front()];
-    std::vector<std::pair<double, int>> order;  // how far from the leader's direction, then the place among those left
+    std::vector<std::pair<double, int>> order;  // deviation from the leader's direction, then the index in left_
     for (std::size_t i = 0; i < left_.size(); ++i)
       order.emplace_back(i == 0 ? -2 : -std::abs(cosine(along, along_[left_[i]])), static_cast<int>(i));
     std::sort(order.begin(), order.end());
@@ -188,7 +188,7 @@ class PathColouring {
     return colour;
   }
 
-  /// Each path left gets the first colour after those that its vertices have had.
+  /// Each remaining path gets the first colour after those of its vertices.
   void take_rest(std::vector<PathColour>& colours) {
     const std::size_t before = colours.size();
     std::vector<std::size_t> next(left_.empty() ? 0 : taken_by_.size(), 0);
@@ -203,8 +203,8 @@ class PathColouring {
   }
 
   std::vector<Path> paths_;
-  std::vector<Vec3d> along_;  // from end to end
-  std::vector<int> left_;     // the longest first
+  std::vector<Vec3d> along_;  // from the first to the last vertex
+  std::vector<int> left_;     // longest first
   std::vector<int> taken_by_;
   int colour_ = 0;
 };

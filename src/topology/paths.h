@@ -1,8 +1,8 @@
-// Paths laid along the edges of any mesh: what a solver that is exact along a line works on.
+// Decomposition of a mesh's edges into paths, for solvers that are exact along a line.
 //
-// The longer and straighter the paths, the farther one exact solve carries a pull. On a grid they are its rows, its columns
-// and its diagonals, whole; on other meshes every edge goes on into the one that leaves its end most nearly straight ahead.
-// Everything is decided by comparisons with total orders, so that the same mesh gives the same paths on any machine.
+// Longer and straighter paths let one exact solve carry a force farther. On a grid the paths are whole rows, columns and
+// diagonals. On other meshes each edge continues into the straightest edge at its end. All choices compare in total orders,
+// so the same mesh gives the same paths on any machine.
 #pragma once
 
 #include <array>
@@ -12,21 +12,21 @@
 
 namespace pliant {
 
-/// A line of edges that visits no vertex twice.
+/// A path of edges that visits no vertex twice.
 struct Path {
   std::vector<int> edges;     ///< in order, at least one
   std::vector<int> vertices;  ///< one more than edges; edge k joins vertices k and k + 1
 };
 
-/// Paths that share no vertex and may be solved together.
+/// Paths that share no vertex and can be solved concurrently.
 struct PathColour {
   std::vector<Path> paths;  ///< longest first
 };
 
-/// Lays paths so that every edge is in exactly one. `edges` hold two vertices each; edges from a vertex to itself must not
-/// be among them, the same pair twice may. Colours come in the order in which they are to be visited, the one with the most
-/// edges last: on a grid the diagonals, then rows and columns. Paths of one colour all run the same way as far as they can,
-/// so that the solver's lanes pass through memory side by side.
+/// Decomposes the edges so that each is in exactly one path. `edges` hold two distinct
+/// vertices each; duplicates are allowed. Colours come in visiting order, the one with
+/// most edges last: on a grid the diagonals, then rows and columns. Paths of one
+/// colour are as parallel as possible, so that SIMD lanes access neighbouring memory.
 std::vector<PathColour> lay_paths(const std::vector<Vec3f>& positions, const std::vector<std::array<int, 2>>& edges);
 
 }  // namespace pliant

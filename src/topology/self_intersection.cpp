@@ -1,5 +1,5 @@
-// A sweep along the longest axis of the whole: triangles sorted by where they begin, and for each edge those that can reach
-// it. No tree and no grid, because it runs once, on meshes of some ten thousand triangles, and has nothing to tune.
+// Sweep along the longest axis of the mesh: triangles sorted by their lower bound, and for each edge the overlapping ones.
+// It runs once, on meshes of some ten thousand triangles, so a BVH or grid would not pay and would need tuning.
 #include "topology/self_intersection.h"
 
 #include <algorithm>
@@ -38,8 +38,8 @@ bool overlap(const Box& a, const Box& b) {
 
 Vec3d exact(const Vec3f& p) { return {p.x, p.y, p.z}; }
 
-/// The sign of the volume of the tetrahedron a, b, c, d; 0 where rounding could have made it. The differences are exact for
-/// coordinates of like size; what remains is the error of three products and their sum.
+/// The sign of the volume of the tetrahedron a, b, c, d; 0 if below the rounding error. Differences are exact for
+/// coordinates of similar size, so the error bound covers the three products and their sum.
 int side(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
   const Vec3d u = b - a, v = c - a, w = d - a;
   const double volume = dot(cross(u, v), w);
@@ -49,8 +49,8 @@ int side(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
   return volume > doubt ? 1 : volume < -doubt ? -1 : 0;
 }
 
-/// Whether the open segment p-q crosses the inside of the triangle: its ends lie on different sides of the plane, and all
-/// three sides of the triangle turn the same way about it.
+/// True if the open segment p-q crosses the interior of the triangle: its ends lie on different sides of the plane, and the
+/// segment passes all three sides of the triangle with the same orientation.
 bool pierces(const Vec3d& p, const Vec3d& q, const Vec3d (&t)[3]) {
   const int below = side(t[0], t[1], t[2], p);
   if (below == 0 || side(t[0], t[1], t[2], q) != -below) return false;
@@ -75,12 +75,12 @@ bool share_vertex(const Edge& edge, const Triangle& triangle) {
   return std::any_of(triangle.begin(), triangle.end(), [&](int corner) { return corner == edge.a || corner == edge.b; });
 }
 
-/// The triangles in the order in which the sweep meets them.
+/// The triangles in sweep order.
 struct Sweep {
   std::size_t axis = 0;
   std::vector<Box> boxes;      ///< sorted by low[axis]
-  std::vector<int> triangles;  ///< of the boxes
-  float longest = 0;           ///< along the axis
+  std::vector<int> triangles;  ///< triangle of each box
+  float longest = 0;           ///< longest box extent along the axis
 };
 
 Sweep sort_triangles(const std::vector<Vec3f>& positions, const std::vector<Triangle>& triangles) {
@@ -112,7 +112,7 @@ SelfIntersections find_self_intersections(const std::vector<Vec3f>& positions, c
   std::uint64_t pairs = 0;
   for (const Edge& edge : edges) {
     const Box box = box_of(positions, std::array<int, 2>{edge.a, edge.b});
-    // Subtraction rounds; a triangle that it would miss by a rounding is touched at most.
+    // The subtraction rounds. A triangle missed by one rounding error at most touches.
     const float from = box.low[sweep.axis] - sweep.longest;
     auto i =
         static_cast<std::size_t>(std::lower_bound(sweep.boxes.begin(), sweep.boxes.end(), from,

@@ -1,4 +1,4 @@
-// Where a surface passes through itself: edges that pierce triangles.
+// Self-intersections of a surface: edges that pierce triangles.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 namespace pliant {
 
 struct SelfIntersections {
-  bool complete = false;   ///< false where the search was given up because it would have taken too long
-  std::size_t count = 0;   ///< edge-triangle pairs that share no vertex and properly cross
-  int edge[2] = {-1, -1};  ///< the first pair's edge
-  int triangle = -1;       ///< and triangle
+  bool complete = false;   ///< false if the search was aborted because of its cost
+  std::size_t count = 0;   ///< edge-triangle pairs that share no vertex and cross transversally
+  int edge[2] = {-1, -1};  ///< edge of the first pair
+  int triangle = -1;       ///< triangle of the first pair
 };
 
-/// Counts the pairs in which an edge crosses a triangle's inside with its own inside. Touching, lying in one plane and what
-/// cannot be told from it in double precision do not count. Gives up after `most_pairs` comparisons of boxes (a second's
-/// worth). `edges` as find_edges gives them; all positions finite.
+/// Counts the pairs in which the interior of an edge crosses the interior of a triangle. Touching and coplanar pairs, and
+/// those within double rounding of them, do not count. Aborts after `most_pairs` box tests (about a second). `edges` must
+/// come from find_edges; all positions must be finite.
 SelfIntersections find_self_intersections(const std::vector<Vec3f>& positions, const std::vector<Triangle>& triangles,
                                           const std::vector<Edge>& edges, std::uint64_t most_pairs = 300'000'000);
 

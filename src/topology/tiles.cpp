@@ -1,5 +1,5 @@
-// Recursive bisection. Halving by count gives powers of two, which cut the rows of a grid into equal pieces; equal pieces are what
-// lets four constraints in a row use particles in a row (numbering.h).
+// Recursive bisection. Halving by count cuts the rows of a grid into equal pieces, which contiguous groups of four need
+// (numbering.h).
 #include "topology/tiles.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ int longest_axis(const std::vector<Vec3f>& positions, const int* first, const in
 
 void bisect(const std::vector<Vec3f>& positions, int* first, int* last, int levels, int& next_tile,
             std::vector<int>& tile) {
-  if (first == last) return;  // more halvings than particles: a tile that holds none gets no number
+  if (first == last) return;  // more halvings than particles: an empty tile gets no number
   if (levels == 0) {
     for (int* i = first; i != last; ++i) tile[*i] = next_tile;
     ++next_tile;

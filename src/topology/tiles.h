@@ -1,4 +1,4 @@
-// Cutting an object into tiles: sets of particles close to one another, each small enough for a core's own cache.
+// Cutting an object into tiles: compact sets of particles, each small enough for one core's cache.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace pliant {
 
-/// The tile of every particle, tiles numbered 0, 1, ... along the cuts. Halves the particles along the longest side of their
-/// box, ties by index, until no tile holds more than `largest` (>= 1): depends on the positions alone.
+/// Returns the tile of every particle, tiles numbered 0, 1, ... along the cuts. Bisects along the longest side of the
+/// bounding box, ties by index, until no tile holds more than `largest` (>= 1). Depends on the positions alone.
 std::vector<int> cut_into_tiles(const std::vector<Vec3f>& positions, int largest);
 
 }  // namespace pliant
