@@ -1,9 +1,9 @@
-// The axis-aligned box, and what a hierarchy needs of any volume (reference/volumes.h has spheres, oriented boxes and k-DOPs).
+// The axis-aligned box, and the interface of bounding volumes (reference/volumes.h: spheres, oriented boxes and k-DOPs).
 //
-// A hierarchy asks four things of a volume, whatever it is: to hold some points, to hold other volumes, to grow by a margin, and
-// whether two of them overlap; and for nearest points a bound on the distance to a point. What holds must hold in spite of
-// rounding: numbers are rounded outward, or made in double and widened, so that where two volumes overlap so do any that hold
-// them, and a hierarchy gives exactly the pairs whose own volumes overlap. All numbers in metres; points finite and below 1e15.
+// A BVH needs five operations of a volume: enclose points, merge volumes, grow by a margin, test overlap, bound a distance.
+// Enclosure is conservative under rounding: numbers are rounded outward, or computed in double and widened. If two volumes
+// overlap, so do all that enclose them; a BVH thus reports exactly the leaf pairs whose volumes overlap. All numbers are in
+// metres; points must be finite and below 1e15.
 #pragma once
 
 #include <concepts>
@@ -14,7 +14,7 @@ namespace pliant {
 
 namespace detail {
 
-/// Below a number by one to two units in its last place: what rounding to nearest may have added is taken off again.
+/// Lowers a number by one to two units in the last place, which undoes the error of rounding to nearest.
 inline float rounded_down(float x) { return x - __builtin_fabsf(x) * 1.1920929e-7f; }
 inline float rounded_up(float x) { return x + __builtin_fabsf(x) * 1.1920929e-7f; }
 inline float float_below(double x) { return rounded_down(static_cast<float>(x)); }
@@ -22,9 +22,9 @@ inline float float_above(double x) { return rounded_up(static_cast<float>(x)); }
 
 }  // namespace detail
 
-/// What a hierarchy needs of a volume B: B::of(points, count >= 1) and B::merged(volumes, count >= 1) hold what they are given;
-/// grown(m >= 0) holds all within m of it; overlap(a, b) is symmetric; distance_bound(p) is never more than the distance of p
-/// to anything in it; middle() is a point in or near it.
+/// Requirements on a volume B. B::of(points, count >= 1) and B::merged(volumes, count >= 1) enclose their arguments.
+/// grown(m >= 0) encloses all within m of it; overlap(a, b) is symmetric; middle() is a point in or near the volume.
+/// distance_bound(p) never exceeds the distance from p to anything inside.
 template <class B>
 concept Bounds = requires(const B& b, const Vec3f* points, const B* volumes, int count, float margin, const Vec3f& p) {
   { B::of(points, count) } -> std::same_as<B>;
@@ -47,7 +47,7 @@ struct BoxBounds {
 };
 
 inline bool overlap(const BoxBounds& a, const BoxBounds& b) {
-  // No branches: the answer is as good as random, and six comparisons are cheaper than one wrong guess.
+  // Branch-free: the outcome is unpredictable, and six comparisons cost less than one misprediction.
   return (a.low.x <= b.high.x) & (b.low.x <= a.high.x) & (a.low.y <= b.high.y) & (b.low.y <= a.high.y) &
          (a.low.z <= b.high.z) & (b.low.z <= a.high.z);
 }

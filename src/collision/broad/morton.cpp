@@ -1,4 +1,4 @@
-// Codes by spreading bits, order by a radix sort: stable, so that equal codes keep their numbers' order.
+// Morton codes by bit interleaving, ordered by a radix sort, which is stable: equal codes stay in index order.
 #include "collision/broad/morton.h"
 
 #include <array>
@@ -13,7 +13,7 @@ namespace {
 constexpr int bits = 21;
 constexpr double largest_cell = (1 << bits) - 1;
 
-/// The low 21 bits of x, two zeros after each.
+/// Spreads the low 21 bits of x, with two zeros after each.
 std::uint64_t spread(std::uint64_t x) {
   x = (x | x << 32) & 0x001f00000000ffffU;
   x = (x | x << 16) & 0x001f0000ff0000ffU;
@@ -24,7 +24,7 @@ std::uint64_t spread(std::uint64_t x) {
 
 std::uint64_t cell(float x, double low, double scale) {
   const double place = (static_cast<double>(x) - low) * scale;
-  // A comparison that NaN fails.
+  // This comparison is false for NaN.
   return place > 0 ? static_cast<std::uint64_t>(place < largest_cell ? place : largest_cell) : 0;
 }
 

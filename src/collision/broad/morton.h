@@ -1,4 +1,4 @@
-// An order of points along a curve that keeps what is near together: bits of the coordinates interleaved (Morton 1966).
+// Sorts points along a Morton curve (Morton 1966): interleaved coordinate bits keep near points close in order.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace pliant {
 
-/// Puts into `order` the numbers 0..n-1 of the points, ascending by code, points of one code by number: a total order. Codes
-/// have 21 bits an axis over the points' own box. What is not finite counts as the lowest corner. O(n).
+/// Fills `order` with the point indices 0..n-1, ascending by code and then by index, a total order. Codes have 21 bits per
+/// axis over the points' bounding box. Points that are not finite count as the lowest corner. O(n).
 class MortonSorter {
  public:
   void sort(const std::vector<Vec3f>& points, std::vector<int>& order);

@@ -1,22 +1,22 @@
-// Volumes side by side, tested against one at once: what a hierarchy keeps for the children of a node.
+// A pack of bounding volumes, tested against one volume at once: the children of a BVH node.
 //
-// Axis-aligned boxes lie coordinate by coordinate, so that four of them are compared by one instruction; others one after the
-// other. The answer is a number whose bits say which overlap, the same whichever way it was found.
+// Axis-aligned boxes are stored by coordinate, so one instruction compares four of them; other volumes are tested in
+// sequence. Both give the same bit mask of overlaps.
 #pragma once
 
 #include "collision/broad/bounds.h"
 
 namespace pliant {
 
-/// N volumes of any kind.
+/// N volumes of any type.
 template <Bounds B, int N>
 class Pack {
  public:
   B get(int lane) const { return volumes_[lane]; }
   void set(int lane, const B& volume) { volumes_[lane] = volume; }
-  /// Holds the first `count`.
+  /// Encloses the first `count`.
   B merged(int count) const { return B::merged(volumes_, count); }
-  /// Bit i: whether volume i < count overlaps.
+  /// Bit i: volume i < count overlaps.
   unsigned overlaps(const B& other, int count) const {
     unsigned bits = 0;
     for (int i = 0; i < count; ++i) bits |= static_cast<unsigned>(overlap(volumes_[i], other)) << i;
@@ -27,7 +27,7 @@ class Pack {
   B volumes_[N];
 };
 
-/// Boxes in fours.
+/// Boxes in groups of four.
 template <int N>
 requires(N % 4 == 0) class Pack<BoxBounds, N> {
  public:

@@ -1,10 +1,10 @@
-// A bounding volume hierarchy over anything that a Bounds holds: triangles, edges, points, their paths.
+// A bounding volume hierarchy over primitives with a Bounds: triangles, edges, points, their swept paths.
 //
-// Built by order instead of by cost: leaves are sorted along a Morton curve, and node i of a level holds the nodes 8 i to 8 i + 7
-// of the level below. So there are no pointers, building is a sort, refitting is a flat loop a level, children lie side by
-// side, and the same leaves give the same tree on any machine. Eight children a node make few levels, short stacks and, for
-// axis-aligned boxes, one comparison of eight (collision/pack.h). Leaves that moved are refitted in the old order: correct
-// whatever they did, slower the more they mix; then build again.
+// Built by sorting instead of by a cost heuristic: leaves lie along a Morton curve, and node i of a level
+// has the children 8 i to 8 i + 7 below. So there are no pointers, building is a sort, refitting is one
+// loop per level, siblings are contiguous, and the same leaves give the same tree on any machine. Eight
+// children per node mean few levels, short stacks and, for boxes, one comparison of eight (pack.h). A
+// refit keeps the old order: always correct, but queries slow down as leaves mix. Rebuild then.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ class Tree {
  public:
   static constexpr int most_levels = 33;
 
-  /// Sorts the leaves and fits all nodes. Leaf i keeps its number i in everything below.
+  /// Sorts the leaves and fits all nodes. Leaf i keeps its index i in all functions below.
   void build(const std::vector<B>& leaves) {
     centres_.resize(leaves.size());
     for (std::size_t i = 0; i < leaves.size(); ++i) centres_[i] = leaves[i].middle();
@@ -31,7 +31,7 @@ class Tree {
     refit(leaves);
   }
 
-  /// Fits all nodes to leaves that have moved, as many as there were. Allocates nothing.
+  /// Refits all nodes to the same number of moved leaves. Allocates nothing.
   void refit(const std::vector<B>& leaves) {
     for (int i = 0; i < leaf_count(); ++i) set_node(0, i, leaves[static_cast<std::size_t>(leaf_at(i))]);
     for (int level = 1; level < level_count_; ++level)
@@ -40,23 +40,23 @@ class Tree {
 
   int leaf_count() const { return static_cast<int>(order_.size()); }
 
-  /// visit(leaf) for every leaf that overlaps `bounds`; in an order that depends on the tree alone.
+  /// Calls visit(leaf) for every leaf that overlaps `bounds`, in an order that depends on the tree alone.
   template <class Visit>
   void query(const B& bounds, const Visit& visit) const {
     descend(0, bounds, [&](int slot) { visit(leaf_at(slot)); });
   }
 
-  /// The tree in packets of leaves that lie together: units of work for threads.
+  /// The tree in packets of neighbouring leaves: the units of work for threads.
   int packet_count() const { return level_count_ == 0 ? 0 : sizes_[packet_level()]; }
 
-  /// For each leaf a of a packet: visit(a, hits), which are all leaves of `other` that overlap a, in that tree's order; with
-  /// this tree as the other, a itself among them. The two vectors are the caller's memory to work in.
+  /// Calls visit(a, hits) for each leaf a of a packet. `hits` are all leaves of `other` that overlap a, in that tree's
+  /// order; if `other` is this tree, they include a itself. The two vectors are scratch memory.
   template <class Visit>
   void packet_overlaps(int packet, const Tree& other, std::vector<int>& packs, std::vector<int>& hits,
                        const Visit& visit) const {
     packs.clear();
     const int level = packet_level();
-    // Once down the other tree for all leaves of the packet, then leaf against packs of leaves.
+    // Traverses the other tree once for all leaves of the packet, then tests each leaf against packs of leaves.
     other.descend_to_packs(node_at(level, packet), [&](int pack) { packs.push_back(pack); });
     const int first = level == 0 ? packet : packet * fanout, count = level == 0 ? 1 : child_count(1, packet);
     for (int a = first; a < first + count; ++a) {
@@ -67,7 +67,7 @@ class Tree {
     }
   }
 
-  /// visit(a, b), a < b, once for each pair of leaves that overlap.
+  /// Calls visit(a, b), a < b, once for each pair of overlapping leaves.
   template <class Visit>
   void self_pairs(const Visit& visit) const {
     std::vector<int> packs, hits;
@@ -78,7 +78,7 @@ class Tree {
       });
   }
 
-  /// visit(a, b) once for each leaf a of this tree and b of another that overlap.
+  /// Calls visit(a, b) once for each overlapping leaf a of this tree and b of `other`.
   template <class Visit>
   void pairs(const Tree& other, const Visit& visit) const {
     if (level_count_ == 0 || other.level_count_ == 0) return;
@@ -86,8 +86,8 @@ class Tree {
     if (overlap(node_at(top.level, 0), other.node_at(others_top.level, 0))) descend_both(other, top, others_top, visit);
   }
 
-  /// The leaf for which distance(leaf) is least, the first of equal ones, among those nearer than `limit`; -1 where there is
-  /// none. distance(leaf) must not be less than the leaf's distance_bound(p); times a rounding is allowed for.
+  /// Returns the leaf of least distance(leaf) below `limit`, the first if equal; index -1 if there is none. distance(leaf)
+  /// must be at least the leaf's distance_bound(p), up to one rounding.
   template <class Distance>
   std::pair<int, float> closest(const Vec3f& p, float limit, const Distance& distance) const {
     std::pair<int, float> best{-1, limit};
@@ -124,7 +124,7 @@ class Tree {
   }
   int leaf_at(int slot) const { return order_[static_cast<std::size_t>(slot)]; }
 
-  /// visit(index) for each node of the level `bottom` that, with all above it, overlaps.
+  /// Calls visit(index) for each node of the level `bottom` that overlaps together with all of its ancestors.
   template <class Visit>
   void descend(int bottom, const B& bounds, const Visit& visit) const {
     if (level_count_ == 0 || !overlap(node_at(level_count_ - 1, 0), bounds)) return;
@@ -148,7 +148,7 @@ class Tree {
     for (; bits != 0; bits &= bits - 1) visit(__builtin_ctz(bits));
   }
 
-  /// visit(pack) for each pack of leaves whose node overlaps.
+  /// Calls visit(pack) for each pack of leaves whose node overlaps.
   template <class Visit>
   void descend_to_packs(const B& bounds, const Visit& visit) const {
     if (level_count_ == 1) visit(0);
@@ -199,10 +199,10 @@ class Tree {
     }
   }
 
-  std::vector<Pack<B, fanout>> packs_;  ///< all levels, leaves first; the children of one node are one pack
+  std::vector<Pack<B, fanout>> packs_;  ///< all levels, leaves first; one pack holds the children of one node
   std::vector<int> order_;
   std::size_t first_pack_[most_levels] = {};
-  int sizes_[most_levels] = {};  ///< nodes of each level
+  int sizes_[most_levels] = {};  ///< number of nodes of each level
   int level_count_ = 0;
   std::vector<Vec3f> centres_;
   MortonSorter sorter_;

@@ -1,4 +1,4 @@
-// The only place where collision looks at the Scene's own types.
+// The only unit of collision that uses the Scene's own types.
 #include "collision/fields/collider_pose.h"
 
 #include <variant>

@@ -1,4 +1,4 @@
-// A scene's colliders in the form that contacts use: a plain shape in its own frame, and where that frame is at a time.
+// Converts a scene's colliders for contact: a plain shape in its local frame, and the pose of that frame at a time.
 #pragma once
 
 #include "geometry/shapes.h"
@@ -7,10 +7,10 @@
 
 namespace pliant {
 
-/// The shape as a kind and three numbers. Sizes below zero, which a World refuses, count as 0.
+/// The shape as a kind and three numbers. Negative sizes, which a World rejects, count as 0.
 LocalShape local_shape(const Shape& shape);
 
-/// Where the collider's frame is at `time` [s]: its position and rotation, then its motion.
+/// The pose of the collider's frame at `time` [s]: position, rotation and velocities.
 Posed collider_pose(const Collider& collider, double time);
 
 }  // namespace pliant

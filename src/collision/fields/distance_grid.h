@@ -1,8 +1,8 @@
-// Signed distances to a closed mesh, kept at the nodes of a grid: how deep, and which way out, at a cost that does not depend on
-// the mesh.
+// Signed distance field of a closed mesh, sampled on a grid:
+// penetration depth and direction at a cost independent of the mesh.
 //
-// A grid rounds off what is finer than its spacing, and points alone miss features of what is tested against it; it serves for
-// culling, for signs and for bringing back what is deep inside. It is made once and may be kept.
+// The grid smooths features finer than its spacing, and point queries miss features of the other surface. Use it for
+// culling, signs and recovery from deep penetration. It is built once and can be cached.
 #pragma once
 
 #include <memory>
@@ -17,16 +17,16 @@ namespace pliant {
 
 class DistanceGrid {
  public:
-  /// Measures a mesh, which must be closed, at nodes `spacing` [m] apart over its box grown by `padding` [m]. Throws Error where an
-  /// edge has not two triangles, a size is not positive and finite, or there would be more than 2^27 nodes.
+  /// Samples a closed mesh at nodes `spacing` [m] apart over its box grown by `padding` [m]. Throws an Error if an edge has
+  /// not two triangles, a size is not positive and finite, or more than 2^27 nodes would result.
   DistanceGrid(const MeshQuery& mesh, float spacing, float padding, Executor& executor);
 
-  /// As measured before. Throws Error where it has not two nodes or more along each axis, one number each, all finite.
+  /// Takes a given field. Throws an Error unless it has two nodes or more per axis and one finite number for each.
   explicit DistanceGrid(std::shared_ptr<const DistanceField> field);
 
-  /// The distance at p, negative inside [m], and the direction in which it grows; trilinear between nodes, so continuous, and
-  /// off by less than half a cell's diagonal. Beyond the grid: its value at the nearest point of the grid plus the way there, which
-  /// is at least the true distance less that error. The direction is of unit length; +y where the grid shows none.
+  /// The signed distance at p, negative inside [m], and its gradient direction. Trilinear between nodes, thus continuous;
+  /// the error is below half a cell's diagonal. Outside the grid: the value at the nearest grid point plus the distance to
+  /// that point. The direction has unit length; +y if the gradient vanishes.
   SurfaceDistance<float> sample(const Vec3f& p) const;
 
   const BoxBounds& bounds() const { return bounds_; }
@@ -39,7 +39,7 @@ class DistanceGrid {
   BoxBounds bounds_;
 };
 
-/// Throws Error where an edge of the mesh has not two triangles, or it has none.
+/// Throws an Error if the mesh is empty or an edge has not two triangles.
 void require_closed(const std::vector<Triangle>& triangles, int vertices);
 
 }  // namespace pliant

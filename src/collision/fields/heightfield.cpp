@@ -1,4 +1,4 @@
-// Cells by division, one to each side more than that says, so that rounding leaves none out; triangles decide by their boxes.
+// The cell range by division, grown by one cell per side against rounding; triangles are then tested by their boxes.
 #include "collision/fields/heightfield.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Ground given by heights over a regular grid: its triangles are found by their place, without a hierarchy.
+// Terrain as heights on a regular grid: triangles are found by index arithmetic, without a BVH.
 #pragma once
 
 #include <vector>
@@ -9,39 +9,39 @@
 
 namespace pliant {
 
-/// The ground's closest point.
+/// The closest point of the terrain.
 struct GroundPoint {
   bool found = false;
-  int triangle = -1;  ///< 2 (r (columns - 1) + c) and the one after are those of cell (r, c)
+  int triangle = -1;  ///< 2 (r (columns - 1) + c) and the next belong to cell (r, c)
   Vec3f point{};
   Vec3f normal{};      ///< of the triangle, unit, upward
-  float distance = 0;  ///< [m]; never negative
-  bool above = true;   ///< whether the query is on the normal's side
+  float distance = 0;  ///< [m], >= 0
+  bool above = true;   ///< true if the query point is on the normal's side
 };
 
 class Heightfield {
  public:
-  /// Vertex (row r, column c) stands at origin + (c cell_width, heights[r columns + c], r cell_depth), metres. Throws Error unless
-  /// columns, rows >= 2, there are columns x rows finite heights, and the cells' sizes are positive and finite.
+  /// Vertex (row r, column c) lies at origin + (c cell_width, heights[r columns + c], r cell_depth), in metres. Throws an
+  /// Error unless columns, rows >= 2, columns x rows heights are given and finite, and cell sizes are positive and finite.
   Heightfield(int columns, int rows, float cell_width, float cell_depth, const Vec3f& origin, std::vector<float> heights);
 
-  /// visit(triangle) for each triangle whose box overlaps `box`, ascending.
+  /// Calls visit(triangle) for each triangle whose box overlaps `box`, ascending.
   template <class Visit>
   void query(const BoxBounds& box, const Visit& visit) const;
 
-  /// The corners of a triangle, counter-clockwise seen from above; each cell's diagonal runs from (r, c) to (r + 1, c + 1).
+  /// The corners of a triangle, counter-clockwise from above; each cell's diagonal runs from (r, c) to (r + 1, c + 1).
   void corners(int triangle, Vec3f (&to)[3]) const;
 
-  /// The closest point nearer than `limit` [m]; of equally near ones that of the first triangle. Looks at all cells within.
+  /// The closest point nearer than `limit` [m], the first triangle's if equal. Tests all cells within the limit.
   GroundPoint closest(const Vec3f& p, float limit) const;
 
-  /// The triangle above or below p: whether there is one, a corner of it and its upward normal.
+  /// Finds the triangle vertically above or below p: one of its corners and its upward normal; false if there is none.
   bool column(const Vec3f& p, Vec3f& corner, Vec3f& normal) const;
 
   const BoxBounds& bounds() const { return bounds_; }
   float smaller_cell() const { return width_ < depth_ ? width_ : depth_; }
   int triangle_count() const { return 2 * (columns_ - 1) * (rows_ - 1); }
-  /// The same ground as a mesh.
+  /// The same terrain as a mesh.
   TriangleMesh mesh() const;
 
  private:
@@ -58,8 +58,8 @@ class Heightfield {
   BoxBounds bounds_;
 };
 
-/// The ground that a mesh numbered like grid_mesh's is: rows along z, evenly spaced columns along x. Throws Error naming the vertex that
-/// is not in its place.
+/// The heightfield of a mesh in grid_mesh's numbering: rows along z, evenly
+/// spaced columns along x. Throws an Error that names the first misplaced vertex.
 Heightfield heightfield_of(const TriangleMesh& mesh);
 
 template <class Visit>

@@ -1,4 +1,4 @@
-// Closest points by the hierarchy, inside by exact crossings of a segment that ends outside the mesh's box.
+// Closest points by a BVH; inside tests by exact crossings of a segment that ends outside the mesh's box.
 #include "collision/fields/mesh_query.h"
 
 #include "geometry/exact.h"
@@ -41,7 +41,7 @@ SurfacePoint MeshQuery::closest(const Vec3f& p, float limit) const {
 
 namespace {
 
-/// The end of the ray of the given attempt: beyond the box, in directions that meshes have no reason to be aligned with.
+/// The ray's end for the given attempt: outside the box, in directions that meshes are unlikely to be aligned with.
 Vec3f ray_end(const Vec3f& p, const BoxBounds& box, int attempt) {
   const Vec3f size = box.high - box.low;
   const float reach = size.x + size.y + size.z + 1e-30f, turn = static_cast<float>(attempt);
@@ -69,7 +69,7 @@ int MeshQuery::winding_number(const Vec3f& p) const {
     });
     if (clean) return winding;
   }
-  return 0;  // on the surface, where every ray touches
+  return 0;  // on the surface, where every ray is degenerate
 }
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// What lies where about a triangle mesh: the closest point of its surface, and whether a point is inside.
+// Point queries on a triangle mesh: the closest surface point, and the winding number.
 #pragma once
 
 #include <vector>
@@ -17,21 +17,21 @@ struct SurfacePoint {
   float distance = 0;  ///< [m]
 };
 
-/// A triangle mesh with a hierarchy over it. Holds a copy of the mesh; queries may run on many threads at once.
+/// A triangle mesh with a BVH. Holds a copy of the mesh; queries are thread-safe.
 class MeshQuery {
  public:
-  /// Positions finite and below 1e15 m; indices in range (require_indices).
+  /// Positions must be finite and below 1e15 m, indices in range (require_indices).
   MeshQuery(std::vector<Vec3f> positions, std::vector<Triangle> triangles);
 
-  /// Moves the vertices, as many as there were, and refits.
+  /// Moves the vertices (the same number) and refits.
   void move(const std::vector<Vec3f>& positions);
 
-  /// The surface point closest to p among those nearer than `limit`.
+  /// The surface point closest to p within `limit`.
   SurfacePoint closest(const Vec3f& p, float limit = 3e38f) const;
 
-  /// How many times the surface winds about p: the sum of the signs in which a ray from p leaves through it. Exact: rays that
-  /// graze an edge or a corner are given up for others. 0 outside, 1 inside a closed mesh wound outward, -1 inward; 2 in
-  /// two at once. On the surface itself, 0. Open meshes have no inside: there the answer depends on the ray.
+  /// The winding number of the surface about p: the signed crossings of a ray from p. Exact: rays that graze an edge or a
+  /// corner are replaced. 0 outside; 1 inside a closed mesh wound outward, -1 inward; 2 inside two at once; 0 on the
+  /// surface. For open meshes the result depends on the ray.
   int winding_number(const Vec3f& p) const;
 
   bool is_inside(const Vec3f& p) const { return winding_number(p) != 0; }
@@ -47,7 +47,7 @@ class MeshQuery {
   std::vector<Triangle> triangles_;
   std::vector<BoxBounds> boxes_;
   Tree<BoxBounds> tree_;
-  BoxBounds bounds_;  ///< of all
+  BoxBounds bounds_;  ///< of all triangles
 };
 
 }  // namespace pliant

@@ -5,7 +5,7 @@ namespace pliant {
 namespace {
 
 constexpr float far_away = 1e15f;
-/// A trilinear distance grows along no axis faster than one, so along no direction faster than the root of three.
+/// A trilinear distance grows by at most one along each axis, so by at most sqrt(3) in any direction; 0.57 < 1 / sqrt(3).
 constexpr float safe_share = 0.57f;
 constexpr int most_strides = 4096;
 
@@ -50,7 +50,7 @@ FirstHit<float> SolidField::first_hit(const Vec3f& a, const Vec3f& b, float marg
         (distance(at(middle)).distance <= margin ? inside : outside) = middle;
       }
       there = distance(at(outside));
-      if (!(there.distance < far_away)) return {};  // in through a side, which is open
+      if (!(there.distance < far_away)) return {};  // entered through an open side
       return {true, outside, at(outside), there.normal, there.distance};
     }
     here = there;

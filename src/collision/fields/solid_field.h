@@ -1,8 +1,8 @@
-// Solids that particles meet through a distance alone: grids measured from a closed mesh, and ground given by heights. What they
-// cost does not depend on the mesh that they stand for.
+// Solids that particles meet through a distance function: signed distance grids
+// and heightfields. The cost is independent of the mesh that they represent.
 //
-// Unlike the primitive shapes they are not convex, so a path is looked at in steps: a grid's as long as its distance allows, since
-// that grows along no axis faster than one; ground in strides of half a cell.
+// These solids are not convex, so a path is sampled in strides. A grid's strides follow its distance, which grows by at
+// most one along each axis (conservative advancement). Terrain uses strides of half a cell.
 #pragma once
 
 #include <optional>
@@ -17,18 +17,18 @@ class SolidField {
   explicit SolidField(DistanceGrid grid) : grid_(std::move(grid)) {}
   explicit SolidField(Heightfield heights);
 
-  /// Negative inside. Of ground: to the plane of the triangle above or below, or to its underside, whichever is closer to a p between
-  /// the two; far away where there is no triangle.
+  /// Signed distance, negative inside. For terrain: to the plane of the triangle above or below, or to the underside if p
+  /// lies between and that is closer; far_away outside the terrain.
   SurfaceDistance<float> distance(const Vec3f& p) const;
 
-  /// Where the straight way from a to b first comes within `margin`, within a thousandth of a stride; what is thinner than a
-  /// stride may be missed.
+  /// The first point of the segment a-b within `margin`, to a thousandth
+  /// of a stride. Features thinner than a stride can be missed.
   FirstHit<float> first_hit(const Vec3f& a, const Vec3f& b, float margin) const;
 
   bool is_ground() const { return heights_.has_value(); }
 
-  /// Holds what is solid. Ground is as deep below its lowest point as it is wide, with a level underside: what is solid must not
-  /// depend on who asks, and these are the bounds by which whole tiles are left out.
+  /// Encloses the solid. Terrain extends below its lowest point by its width, with a level underside. The depth is fixed
+  /// because these bounds cull whole tiles, so the solid must not depend on the query.
   BoxBounds bounds() const;
 
  private:
@@ -37,7 +37,7 @@ class SolidField {
 
   std::optional<DistanceGrid> grid_;
   std::optional<Heightfield> heights_;
-  float underside_ = 0;  ///< of the ground, along y [m]
+  float underside_ = 0;  ///< underside of the terrain along y [m]
 };
 
 }  // namespace pliant

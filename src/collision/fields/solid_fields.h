@@ -1,4 +1,4 @@
-// Mesh colliders that particles meet as solids: grids measured where none is given, and ground.
+// Mesh colliders as solids for particles: heightfields, and distance grids, which are measured unless given.
 #pragma once
 
 #include <memory>
@@ -7,10 +7,10 @@
 
 namespace pliant {
 
-/// Of a collider `as` a distance grid or a heightfield. Throws Error naming what the mesh lacks.
+/// The solid of a collider that is a distance grid or a heightfield. Throws an Error that names what the mesh lacks.
 std::shared_ptr<const SolidField> solid_field_of(const MeshCollider& collider);
 
-/// Throws Error where solid_field_of would, without measuring anything.
+/// Throws if solid_field_of would, without measuring anything.
 void require_solid(const MeshCollider& collider);
 
 }  // namespace pliant

@@ -46,7 +46,7 @@ void BoxSearch::fit_cluster(int kind, int cluster, const Vec3f& drift, const Pai
     for (int k = i + 1; k < i + 16; ++k) all = {min(all.low, boxes.at(k).low), max(all.high, boxes.at(k).high)};
     boxes.batch[i / 16] = all;
   }
-  for (int k = 0; k < 6; ++k)  // padding overlaps nothing
+  for (int k = 0; k < 6; ++k)  // padding boxes overlap nothing
     std::fill(boxes.side[k].begin() + first + of.count[cluster], boxes.side[k].begin() + last, k < 3 ? 3e38f : -3e38f);
 }
 
@@ -76,7 +76,7 @@ void BoxSearch::find(const ClusterSides& sides, const BoxBounds& far, float reac
   }
 }
 
-/// Unless the two share a vertex.
+/// Skips pairs with a common vertex.
 void BoxSearch::add_pair(bool of_vertices, std::int32_t a, std::int32_t b, std::vector<NearPair>& found) const {
   const ContactElements& all = model_.elements;
   if (of_vertices) {

@@ -1,4 +1,4 @@
-// Finds the pairs of two clusters whose boxes around the substep's paths come near, sixteen boxes against one.
+// Finds pairs of primitives of two clusters whose swept boxes overlap, sixteen boxes against one.
 #pragma once
 
 #include <cstdint>
@@ -12,27 +12,27 @@ class BoxSearch {
  public:
   BoxSearch(const PairModel& model, const PairKernels& kernels, const ClusterLayout& layout);
 
-  /// Boxes of what these sides compare are to be fitted.
+  /// Requests boxes for the primitives of these two sides.
   void want(const ClusterSides& sides);
-  /// Fits all wanted boxes.
+  /// Fits all requested boxes.
   void fit(Executor& executor, const ClusterMotions& motions, const PairParticles& particles);
 
-  /// Memory of one thread.
+  /// Scratch memory of one thread.
   struct Scratch {
     std::vector<std::int32_t> batches;
     std::vector<BoxHit> hits;
     std::vector<NearPair> found;
-    std::vector<float> value;  ///< of those that are kept [m]
+    std::vector<float> value;  ///< bounds of the pairs kept [m]
   };
-  /// Into scratch.found: pairs whose boxes come within `reach` [m], without those that share a vertex and static pairs. `far`: a box
-  /// around the second cluster.
+  /// Finds pairs whose boxes come within `reach` [m], except static pairs and pairs with a common vertex. Result in
+  /// scratch.found. `far`: a box around the second cluster.
   void find(const ClusterSides& sides, const BoxBounds& far, float reach, Scratch& scratch);
 
  private:
   struct Boxes {
-    std::vector<float> side[6];    ///< low x, y, z, high x, y, z of each element
-    std::vector<BoxBounds> batch;  ///< of sixteen
-    std::vector<char> wanted;      ///< clusters
+    std::vector<float> side[6];    ///< low x, y, z, high x, y, z of each primitive
+    std::vector<BoxBounds> batch;  ///< union of sixteen boxes
+    std::vector<char> wanted;      ///< of each cluster
     BoxBounds at(int i) const;
     BoxRows rows();
   };

@@ -10,7 +10,7 @@ namespace pliant {
 
 namespace {
 
-/// A squared distance of floats is rounded by less than this share of it.
+/// Upper bound of the relative rounding error of a squared float distance.
 constexpr float squared_slack = 1e-5f;
 
 PlaceRows rows_of(std::array<std::vector<float>, 3>& place) {
@@ -22,7 +22,7 @@ void fill_up(std::vector<T>& list) {
   while (list.size() % 16 != 0) list.push_back(list.back());
 }
 
-/// The rank of each vertex along a curve.
+/// The rank of each vertex along a Morton curve.
 std::vector<int> ranks(const std::vector<Record>& rest) {
   std::vector<Vec3f> places;
   places.reserve(rest.size());

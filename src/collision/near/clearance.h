@@ -1,14 +1,14 @@
-// How far two pieces of one surface are apart at least, what is near in the mesh left aside, from the distances of vertices alone.
+// Lower bound of the distance of two pieces of a surface from vertex distances alone; mesh neighbours are excluded.
 //
-// Between a point p of one primitive and q of another, with weights a over corners x and b over corners y,
+// For a point p of one primitive and q of another, with weights a over corners x and b over corners y,
 //
 //   |p - q|^2  =  sum a_i b_j |x_i - y_j|^2  -  sum_{i<k} a_i a_k |x_i - x_k|^2  -  sum_{j<k} b_j b_k |y_j - y_k|^2.
 //
-// The first sum is no less than the least squared distance of two corners, and the others are at most a quarter of an edge's square
-// for an edge and a third of its longest side's for a triangle. Two primitives that share no vertex and have no edge between two
-// corners have only corners that are no neighbours; in cloth that lies flat the nearest such are the two that an edge has on its
-// sides. So where cloth neither bends sharply nor lies on itself, a few vertices say that nothing is near: a thirteenth as many as
-// there are boxes of primitives to be compared, and distances ask for no paths.
+// The first sum is at least the least squared distance of two corners. Each other sum is at most a
+// quarter of an edge's squared length, or a third of a triangle's longest squared side. Primitives
+// without a common vertex or a connecting edge have no adjacent corners; in flat cloth the nearest
+// such vertices are the two opposite an edge. So unless cloth bends sharply or touches itself, few
+// vertex distances prove that nothing is near: a thirteenth of the box tests, and without paths.
 #pragma once
 
 #include <array>
@@ -22,33 +22,33 @@ namespace pliant {
 class Clearance {
  public:
   using Line = std::array<std::int32_t, 2>;
-  /// What a piece consists of: the corners of all its primitives, and their edges and sides, if it has any.
+  /// A piece: the corners of all its primitives, and their edges and sides, if any.
   struct Piece {
     std::vector<std::int32_t> vertices;  ///< at least one
     std::vector<Line> lines;
   };
 
   Clearance() = default;
-  /// `joined`: vertices that are neighbours, both ways about: pairs of primitives with such corners are left aside.
+  /// `joined`: adjacent vertices, in both directions. Primitive pairs with adjacent corners are excluded.
   Clearance(const std::vector<Piece>& pieces, const std::vector<Record>& rest, const std::vector<Line>& joined);
 
-  /// Takes up where a piece is; different pieces at once if need be.
+  /// Stores the positions of a piece; different pieces may be stored concurrently.
   void place(const PairKernels& kernels, int piece, const Record* positions);
-  /// No two primitives, one of each piece or both of one, are nearer, those left aside: or `wanted`, if that is less [m]. Both have
-  /// been placed. `scratch` is for the asking thread alone.
+  /// Lower bound of the distance of any two primitives, one of each piece, except excluded pairs; at most `wanted` [m].
+  /// Both pieces must be stored. `scratch` belongs to the calling thread.
   float between(const PairKernels& kernels, int a, int b, float wanted, std::vector<std::int32_t>& scratch);
 
  private:
   void leave_out(const std::vector<Line>& joined, std::size_t vertices);
 
-  // Piece by piece, along a curve and filled up to sixteens by repeating.
+  // By piece, along a Morton curve, padded to a multiple of sixteen by repetition.
   std::vector<int> start_, line_start_;
   std::vector<std::int32_t> vertex_;
-  std::array<std::vector<std::int32_t>, 2> line_;  ///< one end and the other
-  std::array<std::vector<float>, 3> place_;        ///< coordinate by coordinate [m]
-  std::vector<BoxBounds> batch_box_;               ///< of sixteen vertices
-  std::vector<float> longest_;                     ///< of each piece's lines, squared [m^2]
-  // Of each place, that vertex itself and its neighbours.
+  std::array<std::vector<std::int32_t>, 2> line_;  ///< first and second ends
+  std::array<std::vector<float>, 3> place_;        ///< stored by coordinate [m]
+  std::vector<BoxBounds> batch_box_;               ///< boxes of sixteen vertices
+  std::vector<float> longest_;                     ///< largest squared line length of each piece [m^2]
+  // For each stored vertex: itself and its neighbours.
   std::vector<std::int32_t> left_out_start_;
   std::vector<LeftOut> left_out_;
 };

@@ -1,4 +1,4 @@
-// Asks for the clearance of many pairs of clusters at once, on all threads.
+// Computes lower bounds of the distance for many cluster pairs at once, on all threads.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@ class ClearanceSearch {
   ClearanceSearch(Clearance clearance, int clusters)
       : clearance_(std::move(clearance)), is_placed_(static_cast<std::size_t>(clusters)) {}
 
-  /// Forgets all questions; there are so many pairs of clusters now.
+  /// Clears all queries and sets the number of cluster pairs.
   void begin(std::size_t pairs);
-  /// Asks for the clearance of two clusters up to `wanted` [m], unless it was asked for already.
+  /// Queries the lower bound of two clusters up to `wanted` [m], once for each pair.
   void ask(const ClusterSides& sides, float wanted);
   void answer(Executor& executor, const PairKernels& kernels, const Record* positions);
-  /// No two primitives of the two clusters are nearer, static pairs and common vertices left aside [m]; below 0: was not asked.
+  /// Lower bound of the distance of two primitives, except static pairs and common vertices [m]; < 0 if not queried.
   float of(const ClusterSides& sides) const { return answers_[static_cast<std::size_t>(sides.pair)]; }
 
  private:
@@ -29,10 +29,10 @@ class ClearanceSearch {
   };
 
   Clearance clearance_;
-  std::vector<char> is_placed_;  ///< clusters
+  std::vector<char> is_placed_;  ///< of each cluster
   std::vector<Question> questions_;
-  std::vector<float> answers_;                      ///< of each pair of clusters
-  std::vector<std::vector<std::int32_t>> scratch_;  ///< of each task
+  std::vector<float> answers_;                      ///< one for each cluster pair
+  std::vector<std::vector<std::int32_t>> scratch_;  ///< one for each task
 };
 
 }  // namespace pliant

@@ -9,7 +9,7 @@ namespace pliant {
 
 namespace {
 
-/// Pads to a multiple of sixteen by repeating the last.
+/// Pads to a multiple of sixteen by repeating the last entry.
 void pad(std::vector<std::int32_t>& list) {
   while (list.size() % 16 != 0) list.push_back(list.back());
 }

@@ -7,7 +7,7 @@ namespace pliant {
 namespace {
 
 constexpr int clusters_in_a_task = 16;
-/// A position as the observer sees it, who moves along with the mean, is rounded this often at most.
+/// Upper bound of the number of roundings of a position in the frame that moves with the mean.
 constexpr float place_roundings = 16;
 
 }  // namespace
@@ -48,7 +48,7 @@ BoxBounds ClusterMotions::path_box(int cluster) const {
   return {min(m.low[0], m.low[1] - mean_), max(m.high[0], m.high[1] - mean_)};
 }
 
-/// How far anything in a cluster goes in this substep, against the mean of all.
+/// Upper bound of the displacement of any vertex of the cluster in this substep, relative to the mean of all.
 float ClusterMotions::travel_next(int cluster) const {
   const ClusterMotion& motion = motions_[static_cast<std::size_t>(cluster)];
   return (length(motion.mean - mean_) + length(motion.spin) * motion.radius) * bound_slack + motion.largest;

@@ -1,4 +1,4 @@
-// How clusters move: a rigid motion each, and how far its vertices depart from it.
+// The motion of clusters: a rigid motion each, and the residual motion of its vertices.
 #pragma once
 
 #include <vector>
@@ -14,22 +14,22 @@ class ClusterMotions {
  public:
   ClusterMotions(const PairKernels& kernels, int clusters);
 
-  /// Measures the substep's motion of all clusters. Returns whether every position at its end is finite and below 1e14 m.
+  /// Measures the motion of all clusters in this substep. Returns true if all end positions are finite and below 1e14 m.
   bool measure(Executor& executor, const ClusterLayout& layout, const PairParticles& particles);
-  /// After the substep: it has been made.
+  /// Adds the measured motion to the distance travelled; call it after the substep.
   void advance();
 
   const ClusterMotion& operator[](int cluster) const { return motions_[static_cast<std::size_t>(cluster)]; }
-  /// The mean displacement of what can be pushed [m]. Boxes are fitted as an observer sees them who moves along with it.
+  /// The mean displacement of dynamic vertices [m]. Boxes are fitted in a frame that moves with it.
   const Vec3f& mean() const { return mean_; }
-  /// A box around the paths of all of a cluster, as that observer sees them.
+  /// The swept box of a cluster in that frame.
   BoxBounds path_box(int cluster) const;
-  /// The largest coordinate of a cluster at the last broad-phase rebuild [m].
+  /// The largest absolute coordinate of a cluster at the last broad-phase rebuild [m].
   float extent(int cluster) const { return extent_[static_cast<std::size_t>(cluster)]; }
 
-  /// Whether no cluster travels farther than `room` [m] against the mean of all, since begin_travel().
+  /// True if no cluster has travelled more than `room` [m] relative to the mean since begin_travel().
   bool stay_within(float room) const;
-  /// Whether a cluster is so much farther from the origin that its rounding outgrows what bounds allow for.
+  /// True if a cluster is now so far from the origin that rounding exceeds the allowance of its bounds.
   bool has_gone_far() const;
   void begin_travel();
   void keep_extents();
@@ -39,7 +39,7 @@ class ClusterMotions {
 
   const PairKernels& kernels_;
   std::vector<ClusterMotion> motions_;
-  std::vector<float> travel_;  ///< against the mean of all, since begin_travel() [m]
+  std::vector<float> travel_;  ///< relative to the mean, since begin_travel() [m]
   std::vector<float> extent_;
   Vec3f mean_{};
 };

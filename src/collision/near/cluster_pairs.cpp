@@ -7,14 +7,14 @@ namespace pliant {
 
 namespace {
 
-/// How far clusters may travel, as a multiple of the radius: fewer near lists against fewer searches.
+/// How far clusters may travel between rebuilds, over the radius: trades near lists against searches.
 constexpr float travel_over_radius = 2;
 
 bool is_before(const ClusterPair& x, const ClusterPair& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); }
 
 }  // namespace
 
-/// As seen from halfway between the two: an observer with the mean of both rigid motions.
+/// Measured in the frame midway between both, which moves with the mean of their rigid motions.
 void ClusterPair::measure(const ClusterMotions& motions) {
   const ClusterMotion &p = motions[a], &q = motions[b];
   rigid = 0;

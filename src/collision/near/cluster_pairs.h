@@ -1,4 +1,4 @@
-// Which clusters are near one another, and by how much distances between two of them can have fallen.
+// Pairs of near clusters, and upper bounds of how much distances between them can decrease.
 #pragma once
 
 #include <vector>
@@ -10,13 +10,13 @@
 
 namespace pliant {
 
-/// Two clusters that are near one another, or one and itself.
+/// Two near clusters, or one with itself.
 struct ClusterPair {
   int a, b;  ///< a <= b
   PairMaterial material{};
-  float rigid = 0;  ///< by how much the rigid motions of both let a distance fall in this substep [m]
+  float rigid = 0;  ///< how much the rigid motions of both can reduce a distance in this substep [m]
   Odometer odometer{};
-  bool is_joined = false;  ///< of one surface: a cluster and itself, or two with static pairs between them
+  bool is_joined = false;  ///< on one surface: a cluster with itself, or two with static pairs
 
   /// Measures `rigid` and the odometer's next.
   void measure(const ClusterMotions& motions);
@@ -26,17 +26,17 @@ class ClusterPairs {
  public:
   explicit ClusterPairs(const PairModel& model) : model_(model), boxes_(static_cast<std::size_t>(model.clusters)) {}
 
-  /// Finds all pairs that may come within the model's radius while no cluster travels farther than travel(), and all of static groups.
+  /// Finds pairs that can come within the radius before a cluster travels travel(), and those of all static groups.
   void find(const ClusterMotions& motions, const std::vector<StaticGroup>& groups);
   void measure(const ClusterMotions& motions);
-  /// After the substep: it has been made.
+  /// Advances the odometers; call it after the substep.
   void advance();
 
   /// How far a cluster may travel before the next broad-phase rebuild [m].
   float travel() const;
   const std::vector<ClusterPair>& pairs() const { return pairs_; }
   const ClusterPair& operator[](int number) const { return pairs_[static_cast<std::size_t>(number)]; }
-  /// The number of a pair that there is, in any order.
+  /// The index of an existing pair, in either order.
   int number_of(int a, int b) const;
 
  private:

@@ -9,12 +9,12 @@ namespace pliant {
 namespace {
 
 constexpr int lists_in_a_task = 64;
-/// The margin of a list, as a share of what the model's radius leaves beyond the thickness: longer lists against fewer searches.
+/// The skin of a list, over the radius minus the thickness: trades longer lists against fewer searches.
 constexpr float skin_share = 1.5f;
-/// Clearance is looked for up to so many skins beyond the activation distance, and is of use from so many on.
+/// Clearances are queried up to most_skins beyond the activation distance, and pay from fewest_skins on.
 constexpr float most_skins = 1.25f, fewest_skins = 0.2f;
 
-/// The distance of two boxes along the axis where it is greatest.
+/// The largest separation of two boxes along any axis.
 float distance_between(const BoxBounds& a, const BoxBounds& b) {
   const Vec3f apart = max(a.low - b.high, b.low - a.high);
   return max(max(apart.x, apart.y), apart.z);
@@ -27,7 +27,7 @@ Neighbourhood make_neighbourhood(const PairModel& model, const PairKernels& kern
   return near;
 }
 
-/// Near lists in the order of kind and clusters: one more or less changes no order of contacts.
+/// The order of near lists: kind, then clusters. An added or removed list does not change the order of contacts.
 auto key_of(const ClusterSides& sides) { return std::make_tuple(!sides.of_vertices, sides.first, sides.second); }
 
 /// The sides of all near lists, ascending by key_of.
@@ -109,7 +109,7 @@ void NearLists::pair_clusters() {
   ++rebuilds_;
 }
 
-/// Static groups keep their bounds, less what odometers have counted, unless forget() was called.
+/// Static groups keep their bounds, less the odometers' counts, unless forget() was called.
 void NearLists::carry_groups(const std::vector<ClusterPair>& old) {
   for (StaticGroup& group : near_.static_pairs.groups) {
     if (is_listed_) group.least.since -= old[group.pair].odometer.total;
@@ -119,7 +119,7 @@ void NearLists::carry_groups(const std::vector<ClusterPair>& old) {
   if (!is_listed_) std::fill(near_.static_pairs.value.begin(), near_.static_pairs.value.end(), not_measured);
 }
 
-/// Lists of pairs that stay near are kept, unless forget() was called.
+/// Keeps the lists of pairs that stay near, unless forget() was called.
 void NearLists::make_lists(const std::vector<ClusterPair>& old) {
   std::vector<NearList> before = std::move(near_.lists);
   near_.lists.clear();
@@ -163,7 +163,7 @@ void NearLists::find_stale() {
   }
 }
 
-/// Takes from the stale lists those in which nothing can be near for a while: they are empty until then.
+/// Drops stale lists whose clearance exceeds the activation distance; they stay empty until it is exhausted.
 void NearLists::drop_clear(Executor& executor, const PairParticles& particles) {
   clearance_.begin(near_.pairs.pairs().size());
   for (const Scratch& scratch : scratch_)
@@ -177,7 +177,7 @@ void NearLists::drop_clear(Executor& executor, const PairParticles& particles) {
   }
 }
 
-/// By the distances of vertices within one surface, of boxes around paths elsewhere.
+/// Uses vertex distances within a surface, and swept boxes otherwise.
 bool NearLists::is_clear(NearList& list) const {
   const ClusterPair& pair = near_.pair_of(list);
   const float clearance = clearance_.of(list);
@@ -195,11 +195,11 @@ bool NearLists::is_clear(NearList& list) const {
 
 // ---------------------------------------------------------------- how lists are made
 
-/// Lists the pairs whose paths in this substep come near, and all that can until the odometer has counted the margin. Fast pairs get
-/// a list for one substep; their motion is not limited.
+/// Lists pairs whose paths come near in this substep or can before the odometer has counted the skin. Fast pairs get a list
+/// for one substep; their motion is not limited.
 void NearLists::refresh(NearList& list, BoxSearch::Scratch& scratch, const PairParticles& particles) {
   const Odometer& odometer = near_.odometer(list);
-  if (is_too_far(near_, list)) {  // looked at again in the next substep
+  if (is_too_far(near_, list)) {  // rechecked in the next substep
     list.clear(odometer);
     list.complete = {-1, odometer.total};
     return;
@@ -213,7 +213,7 @@ void NearLists::refresh(NearList& list, BoxSearch::Scratch& scratch, const PairP
   keep_near(list, activation + max(margin, 1.1f * odometer.next), scratch, particles);
 }
 
-/// Measures what was found and keeps what is nearer than `within`.
+/// Measures the pairs found and keeps those nearer than `within`.
 void NearLists::keep_near(NearList& list, float within, BoxSearch::Scratch& scratch, const PairParticles& particles) const {
   std::vector<NearPair>& found = scratch.found;
   scratch.value.clear();
@@ -232,7 +232,7 @@ void NearLists::keep_near(NearList& list, float within, BoxSearch::Scratch& scra
       scratch.value.push_back(value);
     }
   }
-  // Vectors of the size of the list: what they grow by while they are filled would nearly double the memory of contact.
+  // Exact-size copies: the growth capacity of vectors would nearly double the memory of contact.
   list.pairs = std::vector<NearPair>(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept));
   list.value = std::vector<float>(scratch.value);
 }

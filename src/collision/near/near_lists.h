@@ -1,7 +1,7 @@
-// Keeps near lists up to date: which pairs of primitives are near one another.
+// Keeps near lists (neighbour lists of primitives) up to date.
 //
-// A list is made where it is used, when the odometer of its two clusters has used up its margin. Where clearance or the clusters' boxes
-// show that nothing can be near, the list stays empty and no primitive is looked at.
+// A list is rebuilt on use, when the odometer of its two clusters has exhausted its skin. If the clearance or the cluster
+// boxes prove that nothing is near, the list stays empty and no primitive is tested.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,14 @@ class NearLists {
   NearLists(const NearLists&) = delete;
   NearLists& operator=(const NearLists&) = delete;
 
-  /// Forces a broad-phase rebuild: positions were changed by something other than the measured steps.
+  /// Forces a broad-phase rebuild; needed after positions change other than by the measured motion.
   void forget() { is_listed_ = false; }
-  /// Measures the substep's motion. Returns whether every position at its end is finite and below 1e14 m; if not, nothing else may be
-  /// asked for in this substep.
+  /// Measures the substep's motion. Returns true if every end position is finite
+  /// and below 1e14 m. Otherwise nothing else may be called in this substep.
   bool measure(Executor& executor, const PairParticles& particles);
-  /// After measure(): sees to it that all pairs that can matter in this substep are listed.
+  /// Lists all pairs that can matter in this substep. Call it after measure().
   void update(Executor& executor, const PairParticles& particles);
-  /// After the substep: the motion that was measured last has been made.
+  /// Advances the odometers by the measured motion; call it after the substep.
   void advance();
 
   Neighbourhood& neighbourhood() { return near_; }
@@ -36,7 +36,7 @@ class NearLists {
   std::int64_t rebuilds() const { return rebuilds_; }
 
  private:
-  /// What one thread works with.
+  /// Scratch memory of one thread.
   struct Scratch {
     std::vector<std::int32_t> stale;
     BoxSearch::Scratch search;

@@ -4,7 +4,7 @@ namespace pliant {
 
 namespace {
 
-/// The filter keeps this share of the thickness, and at least so many roundings of the clusters' positions.
+/// The filter's margin: this share of the thickness, and at least this many roundings of the positions.
 constexpr float least_share = 0.05f, least_roundings = 32;
 
 }  // namespace

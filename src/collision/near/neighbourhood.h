@@ -1,6 +1,6 @@
-// What is near what, as kept over substeps: clusters, pairs of clusters, near lists and static pairs.
+// Proximity data kept over substeps: clusters, cluster pairs, near lists and static pairs.
 //
-// Plain data: NearLists keeps it up to date, the stages after it (contacts, filter) read it and lower or renew its bounds.
+// Plain data: NearLists updates it; later stages (contacts, filter) read it and lower or renew its bounds.
 #pragma once
 
 #include <array>
@@ -14,18 +14,18 @@
 
 namespace pliant {
 
-/// A pair of a near list.
+/// A pair in a near list.
 struct NearPair {
-  std::array<std::int32_t, 4> vertex{};  ///< of a vertex and a triangle, or of two edges, that of the lower number first
-  float kept = -1;                       ///< what its distance at rest allows it to keep [m]; below 0: not measured
+  std::array<std::int32_t, 4> vertex{};  ///< of a vertex and a triangle, or of two edges, lower index first
+  float kept = -1;                       ///< minimum distance permitted by the distance at rest [m]; < 0: not measured
 };
 
-/// The pairs of two clusters that were near when the list was made. They are all that can be until `complete` is spent.
+/// The near pairs of two clusters. The list is complete until the bound `complete` is exhausted.
 struct NearList : ClusterSides {
   Bound complete{-1, 0};
-  Bound least{0, 0};  ///< of all pairs
+  Bound least{0, 0};  ///< least bound of all pairs
   std::vector<NearPair> pairs{};
-  std::vector<float> value{};  ///< of each pair, a Bound's, since `least` was [m]
+  std::vector<float> value{};  ///< the bound of each pair, relative to `least`'s since [m]
 
   void clear(const Odometer& odometer);
 };
@@ -50,7 +50,7 @@ struct Neighbourhood {
   const Odometer& odometer(const ClusterSides& sides) const { return pair_of(sides).odometer; }
 };
 
-/// Sixteen pairs that may become contacts, or be limited.
+/// Sixteen pairs that may become contacts or need step limits.
 struct PairLanes {
   PairStencils stencils;
   PairBatch at;
@@ -65,25 +65,25 @@ struct PairLanes {
   }
 };
 
-/// Whether a cluster is so far from the origin that the rounding of its positions is as large as its edges. Contact and filter leave it
-/// out: every pair of its edges would be within the filter's margin.
+/// True if the cluster is so far from the origin that position rounding reaches its edge length. Contact and filter skip
+/// it, because every pair of its edges would be within the filter's margin.
 bool is_too_far(const Neighbourhood& near, int cluster);
 inline bool is_too_far(const Neighbourhood& near, const ClusterSides& sides) {
   return is_too_far(near, sides.first) || is_too_far(near, sides.second);
 }
 
-/// The distance that the filter keeps between two clusters [m].
+/// The distance that the filter maintains between two clusters [m].
 float filter_margin(const Neighbourhood& near, const ClusterSides& sides);
 
-/// Pairs nearer than this are of interest to contacts or the filter. It allows for rounding as long as no cluster has gone far
-/// (ClusterMotions::has_gone_far): for twice its extent at the last broad-phase rebuild.
+/// Contacts or the filter process pairs nearer than this. It allows for rounding until a cluster is twice as far from the
+/// origin as at the last broad-phase rebuild (ClusterMotions::has_gone_far).
 float activation_distance(const Neighbourhood& near, const ClusterSides& sides);
 
-/// By how much the distances of sixteen pairs fall at most in this substep, and how far apart their paths are.
+/// Upper bounds of the distance decrease of sixteen pairs in this substep, and the separation of their swept boxes.
 void find_paths(const Neighbourhood& near, const ClusterSides& sides, const PairParticles& particles, PairLanes& lanes);
 
-/// Collects the numbers of the list's pairs that can be nearer than `within` at the substep's end, ascending; `least` becomes that of
-/// all others, or stays.
+/// Collects the ascending indices of pairs that can be nearer than `within`
+/// at the substep's end; lowers `least` to the least bound of all others.
 void collect_near(const Neighbourhood& near, NearList& list, float within, std::vector<std::int32_t>& found);
 
 }  // namespace pliant

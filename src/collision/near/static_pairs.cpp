@@ -9,12 +9,12 @@ namespace pliant {
 
 namespace {
 
-/// Vertices with more neighbours than this have no static pairs: pairs near them are searched for like all others.
+/// Vertices with more neighbours have no static pairs; pairs near them are found by search.
 constexpr int most_neighbours = 24;
 
 using Numbers = std::array<std::int32_t, 2>;
 
-/// For each vertex the elements at it, ascending.
+/// The elements incident to each vertex, ascending.
 template <class ListOfCorners>
 IntLists elements_around(const ListOfCorners& elements, int vertex_count) {
   IntLists out;
@@ -31,7 +31,7 @@ IntLists elements_around(const ListOfCorners& elements, int vertex_count) {
 
 int count_of(const IntLists& lists, int i) { return static_cast<int>(lists.end(i) - lists.begin(i)); }
 
-/// As one number, which compares faster; neither is negative.
+/// Packed into one integer, which compares faster; both numbers are >= 0.
 std::uint64_t key(const Numbers& pair) {
   return (static_cast<std::uint64_t>(pair[0]) << 32) | static_cast<std::uint64_t>(pair[1]);
 }
@@ -45,14 +45,14 @@ bool share_vertex(const std::array<int, 2>& e, const std::array<int, 2>& f) {
   return e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1];
 }
 
-/// Pairs by kind: a vertex and a triangle, and two edges.
+/// Pairs by kind: vertex-triangle and edge-edge.
 struct MeshPairs {
-  std::vector<Numbers> near[2];     ///< with an edge between them
+  std::vector<Numbers> near[2];     ///< connected by one edge
   std::vector<Numbers> sharing[2];  ///< with a common vertex
-  std::vector<Numbers> joined;      ///< vertices
+  std::vector<Numbers> joined;      ///< adjacent vertices
 };
 
-/// The elements at the vertices of one mesh.
+/// The elements incident to the vertices of one mesh.
 struct Mesh {
   const ContactElements& all;
   IntLists edges_at = elements_around(all.edges, all.vertex_count),
@@ -62,7 +62,7 @@ struct Mesh {
   int other_end(int edge, int v) const { return all.edges[edge][0] == v ? all.edges[edge][1] : all.edges[edge][0]; }
 };
 
-/// Pairs of an element at v and one at u, which an edge joins.
+/// Adds the pairs of an element at v and one at u, where v-u is an edge.
 void add_near(const Mesh& mesh, int v, int u, MeshPairs& out) {
   const ContactElements& all = mesh.all;
   out.joined.push_back({v, u});
@@ -89,7 +89,7 @@ MeshPairs find_mesh_pairs(const PairModel& model) {
   return out;
 }
 
-/// The row or column of each element of a kind in its layout; -1 where it has none.
+/// The row or column of each primitive in its layout; -1 if it has none.
 std::vector<std::int32_t> places_of(const ClusterElements& of, std::size_t items) {
   std::vector<std::int32_t> at(items, -1);
   for (std::size_t c = 0; c < of.count.size(); ++c)
@@ -97,7 +97,7 @@ std::vector<std::int32_t> places_of(const ClusterElements& of, std::size_t items
   return at;
 }
 
-/// Each row's columns to leave out, sixteen to a word.
+/// The columns that each row excludes, sixteen per word.
 void leave_out(ClusterLayout& layout, const PairModel& model, bool of_vertices, std::vector<Numbers>& pairs) {
   ClusterElements &rows = layout.elements[row_kind(of_vertices)], &columns = layout.elements[column_kind(of_vertices)];
   const std::vector<std::int32_t> row_at = places_of(rows, of_vertices ? model.rest.size() : rows.item.size()),
@@ -117,7 +117,7 @@ void leave_out(ClusterLayout& layout, const PairModel& model, bool of_vertices, 
   }
 }
 
-/// Appends a group's pairs in blocks of sixteen, the nearest at rest first: those that are measured often lie together.
+/// Appends a group's pairs in blocks of sixteen, nearest at rest first, so that often measured pairs share blocks.
 void add_group(StaticGroup group, const std::vector<PairStencil>& pairs, const PairModel& model, StaticPairs& to) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < pairs.size(); ++i) order.emplace_back(pair_distance(pairs[i], model.rest.data()).distance, i);

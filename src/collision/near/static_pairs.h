@@ -1,7 +1,7 @@
-// Static neighbour pairs: pairs with one edge of the mesh between them.
+// Static neighbour pairs: pairs of primitives connected by one mesh edge.
 //
-// Most of what is near a piece of cloth is the cloth around it. These pairs never change, so they are listed once, in blocks of sixteen;
-// the search for other pairs leaves them out.
+// Most primitives near a piece of cloth are its mesh neighbours. These pairs never change, so they are listed once, in
+// blocks of sixteen, and the search excludes them.
 #pragma once
 
 #include <cstdint>
@@ -14,38 +14,38 @@
 
 namespace pliant {
 
-/// Two clusters and the kind of pairs between them: a vertex of the first and a triangle of the second, or two edges.
+/// Two clusters and the kind of their pairs: vertices of the first against triangles of the second, or edges.
 struct ClusterSides {
   int first = 0, second = 0;
   bool of_vertices = false;
-  int pair = -1;  ///< number of the two clusters' ClusterPair
+  int pair = -1;  ///< index of their ClusterPair
 };
 
 /// The static pairs of two clusters.
 struct StaticGroup : ClusterSides {
   int first_block = 0, last_block = 0, pairs = 0;
-  Bound least;  ///< of all blocks
+  Bound least;  ///< least bound of all blocks
 };
 
 struct StaticPairs {
   std::vector<StaticGroup> groups;
   std::vector<PairStencils, CacheLineAllocator<PairStencils>> blocks;
-  std::vector<float> value;  ///< of each block, a Bound's, since its group's `least` was [m]
+  std::vector<float> value;  ///< the bound of each block, relative to the since of its group's `least` [m]
   std::int64_t count = 0;
 
-  /// Takes the odometer's total as the new beginning of all bounds of a group.
+  /// Rebases all bounds of a group to the odometer's current total.
   void rebase(StaticGroup& group, const Odometer& odometer);
-  /// How many pairs of a block count; the rest repeats the last.
+  /// The number of valid pairs in a block; the remaining lanes repeat the last.
   static int pairs_in(const StaticGroup& group, int block) {
     const int left = group.pairs - 16 * (block - group.first_block);
     return left < 16 ? left : 16;
   }
 };
 
-/// Also tells the layout what to leave out, and gives the vertices that are joined by an edge, both ways about, for Clearance.
+/// Also fills the layout's exclusions, and `joined` with adjacent vertices in both directions, for Clearance.
 StaticPairs find_static_pairs(const PairModel& model, ClusterLayout& layout, std::vector<Clearance::Line>& joined);
 
-/// The clusters as Clearance needs them.
+/// The clusters as pieces for Clearance.
 std::vector<Clearance::Piece> clearance_pieces(const PairModel& model, const ClusterLayout& layout);
 
 /// The stencil of a vertex and a triangle, or of two edges.

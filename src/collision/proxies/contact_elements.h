@@ -1,4 +1,4 @@
-// Surfaces and lines as what may touch: vertices, edges and triangles.
+// The contact primitives of surfaces and lines: vertices, edges and triangles.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace pliant {
 
-/// Lists of ints, one for each owner: those of i are items[start[i]] to items[start[i + 1] - 1].
+/// One list of ints for each owner, in compressed rows: owner i has items[start[i]] to items[start[i + 1] - 1].
 struct IntLists {
   std::vector<int> start, items;
 
@@ -16,16 +16,16 @@ struct IntLists {
   const int* end(int i) const { return items.data() + start[static_cast<std::size_t>(i) + 1]; }
 };
 
-/// The elements of surfaces and lines that contact is found between.
+/// The primitives of surfaces and lines between which contacts are found.
 struct ContactElements {
   std::vector<Triangle> triangles;
-  std::vector<std::array<int, 2>> edges;  ///< of the triangles and loose ones: a < b, ascending, each once
-  std::vector<int> vertices;              ///< of all these and loose ones, ascending, each once
-  int vertex_count = 0;                   ///< of all there are
+  std::vector<std::array<int, 2>> edges;  ///< triangle edges and loose edges: a < b, ascending, unique
+  std::vector<int> vertices;              ///< vertices of all primitives and loose vertices, ascending, unique
+  int vertex_count = 0;                   ///< total, including vertices without contact
 };
 
-/// What may touch: triangles, edges of no triangle (ropes), and vertices of neither (grains). Throws Error where an index is outside
-/// 0..vertex_count - 1.
+/// Collects primitives: triangles, loose edges (ropes) and loose vertices (free
+/// particles). Throws an Error if an index is outside 0..vertex_count - 1.
 ContactElements make_contact_elements(const std::vector<Triangle>& triangles,
                                       const std::vector<std::array<int, 2>>& loose_edges,
                                       const std::vector<int>& loose_vertices, int vertex_count);

@@ -23,7 +23,7 @@ PairMaterial ContactRules::material(int a, int b) const {
           std::sqrt(p.kinetic_friction * q.kinetic_friction), max(p.restitution, q.restitution)};
 }
 
-/// The class of each body.
+/// The equivalence class of each body: bodies of a class have the same contact rules.
 std::vector<int> ContactRules::find_classes(std::vector<Class>& classes) const {
   std::vector<int> alone(bodies_.size(), -1);
   for (const auto& [pair, material] : exceptions_)

@@ -1,5 +1,5 @@
-// The kernels of surface contact in sixteen lanes, compiled once for each instruction set under the rules of solver/lanes.cpp:
-// everything is inlined or in an inline namespace, and only the table leaves this unit.
+// The kernels of surface contact in sixteen SIMD lanes, compiled per instruction set level under the rules of
+// solver/lanes.cpp: everything is inlined or in an inline namespace, and only the table has external linkage.
 #include "collision/proxies/pair_kernels.h"
 #include "geometry/triangle.h"
 #include "math/wide.h"
@@ -8,17 +8,17 @@ namespace pliant {
 inline namespace PLIANT_ISA {
 namespace {
 
-/// What a distance in float may be too long by, over the largest coordinate of the pair relative to its first particle. The worst
-/// that climbing uphill found, of edges along (1, 1, 1) that cross at some 10^-4 rad: 6e-4; of triangles 1e-4; at random 1.5e-4.
+/// Upper bound of the error of a float distance, over the largest coordinate relative to the pair's first particle. Worst
+/// cases found by hill climbing: edges along (1, 1, 1) that cross at some 10^-4 rad 6e-4, triangles 1e-4, random 1.5e-4.
 constexpr float error_over_size = 1e-3f;
-/// Beyond it nothing is looked for [m].
+/// Positions beyond it take no part in contact [m].
 constexpr float largest_place = 1e14f;
 
 PLIANT_HD Vec3<Wide> places(const Record* records, const std::int32_t* index) {
   return from_registers(load_indexed(records, index)).position;
 }
 
-/// Sixteen lanes to four, lane i from those at i + 4 k, by `join` of two vectors at a time: the upper half onto the lower.
+/// Reduces sixteen lanes to four: lane i joins lanes i + 4 k by `join`, folding the upper half onto the lower.
 template <class Join>
 PLIANT_HD Quad to_four(const Wide& a, Join join) {
 #if PLIANT_PART_WIDTH == 16
@@ -38,7 +38,7 @@ PLIANT_HD float least_lane(const Wide& a) {
 
 // ---------------------------------------------------------------- distances
 
-/// Places relative to the first.
+/// Positions relative to the first particle.
 struct Corners {
   Vec3<Wide> x[4];
 };
@@ -85,7 +85,7 @@ void distances(const PairStencils& pairs, int first_side, const Record* position
   store_wide(out.normal[2], apart.z * scale);
 }
 
-/// Of the origin to the segment from `a` along `along`; `over_length` is 1 over its squared length.
+/// Squared distance from the origin to the segment from `a` along `along`; `over_length` is 1 / |along|^2.
 PLIANT_HD Wide squared_to_segment(const Vec3<Wide>& a, const Vec3<Wide>& along, const Wide& over_length) {
   const Wide share = min(max(-dot(a, along) * over_length, Wide(0.f)), Wide(1.f));
   const Vec3<Wide> point = a + along * share;
@@ -98,8 +98,8 @@ PLIANT_HD Wide squared_to_plane(const Vec3<Wide>& point, const Vec3<Wide>& norma
   return along * along * over(dot(normal, normal));
 }
 
-/// Of the origin to a triangle: to its sides, or to its plane where the foot is inside. What is taken for inside and is not is
-/// a bound all the same.
+/// Squared distance from the origin to a triangle: to its sides, or to its plane if the foot is inside. A foot wrongly
+/// classified as inside still gives a lower bound.
 PLIANT_HD Wide least_squared_to_triangle(const Vec3<Wide>& a, const Vec3<Wide>& b, const Vec3<Wide>& c) {
   const Vec3<Wide> ab = b - a, bc = c - b, ca = a - c, normal = cross(ab, bc);
   const Wide sides = min(squared_to_segment(a, ab, over(dot(ab, ab))),
@@ -108,10 +108,10 @@ PLIANT_HD Wide least_squared_to_triangle(const Vec3<Wide>& a, const Vec3<Wide>& 
   return select(least > Wide(0.f), min(squared_to_plane(a, normal), sides), sides);
 }
 
-/// Lines at less than this angle are taken for parallel [rad].
+/// Lines at a smaller angle count as parallel [rad].
 constexpr float least_angle = 5e-4f;
 
-/// Of the segments from the origin to `u` and from `a` to `b`: of ends to the other, or of the lines where they are closest within.
+/// Squared distance of the segments 0-u and a-b: from an end to the other segment, or between the lines if closest within.
 PLIANT_HD Wide least_squared_of_segments(const Vec3<Wide>& u, const Vec3<Wide>& a, const Vec3<Wide>& b) {
   const Vec3<Wide> v = b - a, normal = cross(u, v);
   const Wide uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), ua = dot(u, a), va = dot(v, a), over_u = over(uu),
@@ -144,9 +144,9 @@ PLIANT_HD float sum_lanes(const Wide& a) {
 PLIANT_HD Vec3f sum_lanes(const Vec3<Wide>& a) { return {sum_lanes(a.x), sum_lanes(a.y), sum_lanes(a.z)}; }
 PLIANT_HD Vec3<Wide> everywhere(const Vec3f& a) { return {Wide(a.x), Wide(a.y), Wide(a.z)}; }
 
-/// Sums over places x and moves d of a cluster, both relative to those of one of its vertices.
+/// Sums over positions x and displacements d of a cluster, both relative to one of its vertices.
 struct Moments {
-  Vec3<Wide> x, d, xx, xy, turning;  ///< xx: squares; xy: yz, zx, xy; turning: x cross d
+  Vec3<Wide> x, d, xx, xy, turning;  ///< xx: squares; xy: products yz, zx, xy; turning: x cross d
 };
 
 PLIANT_HD void add(Moments& to, const Vec3<Wide>& x, const Vec3<Wide>& d) {
@@ -157,8 +157,8 @@ PLIANT_HD void add(Moments& to, const Vec3<Wide>& x, const Vec3<Wide>& d) {
   to.turning += cross(x, d);
 }
 
-/// The rotation that comes closest to the moves, by least squares: inertia spin = angular momentum. What it is only decides
-/// how good bounds are; where it is not determined it is small.
+/// The least-squares rotation of the displacements: inertia spin = angular momentum.
+/// It only affects how tight bounds are; if it is undetermined, it is small.
 PLIANT_HD Vec3f spin_of(const Moments& moments, float count, const Vec3f& x, const Vec3f& d) {
   const Vec3f squares = sum_lanes(moments.xx) - Vec3f{x.x * x.x, x.y * x.y, x.z * x.z} * count,
               products = sum_lanes(moments.xy) - Vec3f{x.y * x.z, x.z * x.x, x.x * x.y} * count,
@@ -192,7 +192,7 @@ void measure_cluster(const std::int32_t* vertices, int count, const PairParticle
     const WideMask free = at.w > zero;
     sum += Vec3<Wide>{select(free, move.x, zero), select(free, move.y, zero), select(free, move.z, zero)};
     movable += select(free, one, zero);
-    // What is not a number is not below the limit.
+    // NaN fails this comparison.
     beyond = select(abs(end.x) < Wide(largest_place), beyond, one);
     beyond = select(abs(end.y) < Wide(largest_place), beyond, one);
     beyond = select(abs(end.z) < Wide(largest_place), beyond, one);
@@ -224,12 +224,12 @@ void measure_cluster(const std::int32_t* vertices, int count, const PairParticle
     plain = max(dot(move, move), plain);
   }
   out.radius = pliant::sqrt(largest_lane(distance)) * bound_slack;
-  // Rounding: of a share of what was taken off.
+  // Rounding error, relative to the displacement that was subtracted.
   out.largest = pliant::sqrt(largest_lane(squared)) * bound_slack +
                 2e-6f * (pliant::sqrt(largest_lane(plain)) + length(out.spin) * out.radius) + 1e-12f;
 }
 
-/// The lanes whose bits are set.
+/// A mask of the lanes whose bits are set.
 PLIANT_HD WideMask lanes_of(unsigned bits) {
   constexpr std::int32_t bit_of_lane[wide_width] = {1,      1 << 1, 1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
                                                     1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
@@ -241,7 +241,7 @@ PLIANT_HD WideMask lanes_of(unsigned bits) {
   return mask;
 }
 
-/// A cluster's motion in every lane.
+/// The motion of a cluster, broadcast to all lanes.
 struct Motions {
   Vec3<Wide> mean, centre, spin;
 };
@@ -255,7 +255,7 @@ PLIANT_HD Motions select(const WideMask& mask, const Motions& a, const Motions& 
   return {select(mask, a.mean, b.mean), select(mask, a.centre, b.centre), select(mask, a.spin, b.spin)};
 }
 
-/// By how much a vertex departs from its cluster's motion, at most.
+/// Upper bound of a vertex's residual motion relative to its cluster.
 PLIANT_HD Wide departure_of(const Vec3<Wide>& start, const Vec3<Wide>& end, const Motions& of) {
   const Vec3<Wide> move = (end - start) - of.mean, turn = cross(of.spin, start - of.centre);
   return length(move - turn) * Wide(bound_slack) + Wide(2e-6f) * (length(move) + length(turn)) + Wide(1e-12f);
@@ -306,7 +306,7 @@ void fit_boxes(const ElementCorners& elements, int first, int last, const PairPa
   }
 }
 
-/// Bit i: whether box i of sixteen overlaps.
+/// Bit i: box i of sixteen overlaps.
 PLIANT_HD unsigned overlaps(const float* box, const BoxRows& boxes, int at) {
 #if PLIANT_X86_BITS == 512
   const auto from = [&](int row) { return _mm512_loadu_ps(boxes.row[row] + at); };
@@ -361,7 +361,7 @@ int find_overlaps(const BoxComparison& of, BoxHit* hits) {
 
 // ---------------------------------------------------------------- reaches
 
-/// Bit i: whether lane i of the mask is set.
+/// Bit i: lane i of the mask is set.
 PLIANT_HD unsigned bits_of(const WideMask& mask) {
 #if PLIANT_X86_BITS == 512
   return _mm512_movepi32_mask((__m512i)mask.part[0]);

@@ -1,4 +1,4 @@
-// Two primitives as four particles: a vertex and a triangle, or two edges; how far they are apart.
+// Pairs of primitives as stencils of four particles, vertex-triangle or edge-edge, and their distance.
 #pragma once
 
 #include <array>
@@ -9,41 +9,41 @@
 
 namespace pliant {
 
-/// Four particles, the first `first_side` of them one primitive, the others the other.
+/// Four particles: the first `first_side` form one primitive, the rest the other.
 struct PairStencil {
   std::array<std::int32_t, 4> vertex{};
-  int first_side = 1;  ///< 1: a vertex and a triangle; 2: two edges
+  int first_side = 1;  ///< 1: vertex-triangle; 2: edge-edge
 };
 
-/// Where two primitives are closest.
+/// The closest points of two primitives.
 struct PairDistance {
-  std::array<double, 4> weight{};  ///< of each particle: adding up to 1 on the first side, to -1 on the other
-  Vec3d normal{};                  ///< unit, from the second to the first; zero where they touch
+  std::array<double, 4> weight{};  ///< of each particle: sum 1 on the first side, -1 on the other
+  Vec3d normal{};                  ///< unit, from the second to the first; zero if they touch
   double distance = 0;             ///< [m]
 };
 
-/// In double, from float positions; each primitive may be degenerate.
+/// Computed in double from float positions; either primitive may be degenerate.
 PairDistance pair_distance(const PairStencil& pair, const Record* positions);
 
-/// Sixteen pairs of one kind, corner by corner; all sixteen name particles, those that are not asked for any.
+/// Sixteen pairs of one kind, stored by corner; unused lanes hold any valid particles.
 struct alignas(64) PairStencils {
   std::int32_t vertex[4][16];
 };
 
-/// Sixteen pairs of one kind at once, in float. Places are relative to each pair's first particle, so that rounding is that of the
-/// pair's own size. Where edges are nearly parallel or a triangle is a sliver, the closest points of a float are others:
-/// `distance` may be longer than the true one, `at_least` is not.
+/// The distances of sixteen pairs of one kind, in float. Positions are relative to each pair's first particle, so rounding
+/// errors scale with the pair's size. For nearly parallel edges and sliver triangles the closest points in float can be
+/// wrong: `distance` may then exceed the true distance, `at_least` never does.
 struct PairBatch {
   alignas(64) float distance[16];
-  alignas(64) float at_least[16];  ///< a lower bound of the true distance, 0 or more [m]
+  alignas(64) float at_least[16];  ///< lower bound of the true distance, >= 0 [m]
   alignas(64) float weight[4][16];
   alignas(64) float normal[3][16];
 };
 void pair_distances(const PairStencil* pairs, int count, const Record* positions, PairBatch& out);
 
-/// What two surfaces are to one another.
+/// The contact parameters of two surfaces.
 struct PairMaterial {
-  float thickness = 0;  ///< distance kept [m]
+  float thickness = 0;  ///< minimum distance [m]
   float static_friction = 0, kinetic_friction = 0;
   float restitution = 0;  ///< 0..1 [-]
 };

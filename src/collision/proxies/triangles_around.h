@@ -1,11 +1,11 @@
-// Which triangles stand at a vertex: for tangles, whose neighbourhood is asked for.
+// Vertex-triangle incidence, which untangling uses to find neighbourhoods.
 #pragma once
 
 #include "collision/proxies/contact_elements.h"
 
 namespace pliant {
 
-/// For each vertex the triangles at it, ascending.
+/// The triangles incident to each vertex, ascending.
 IntLists triangles_around(const ContactElements& elements);
 
 }  // namespace pliant
