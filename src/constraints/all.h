@@ -1,5 +1,5 @@
-// Every constraint type of the library that acts on a fixed stencil. To add one: write its header, include it here and put it
-// in the list; pools, sweeps, files, tests and docs follow from the list (docs/internals/architecture.md, "Adding a constraint").
+// All constraint types of the library with a fixed stencil. To add one: write its header, include it here and add it to the
+// list. Pools, sweeps, files, tests and docs follow from the list (docs/internals/architecture.md, "Adding a constraint").
 #pragma once
 
 #include "constraints/dihedral_bending.h"

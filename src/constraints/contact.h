@@ -1,14 +1,14 @@
-// Contact: the two sides of a contact stay apart.
+// Contact: a unilateral constraint that keeps two sides apart.
 //
 //     C(x) = gap + normal . r >= 0        r = sum_i weight_i d_i - surface_motion, the relative displacement
 //
-// One record, one friction rule and one restitution rule serve every pair of kinds. Weights add up to 1 over the points of the first
-// side and to -1 over those of the second. A second side that is static or kinematic geometry has no points: its motion is
-// `surface_motion`, and weights add up to 1. Only sums over the points know how many there are, so a side that is a point carried by a
-// frame needs nothing here but its own weight and generalised inverse mass.
+// All pairs of kinds share one record, one friction rule and one restitution rule. Weights sum to 1 over the points of the
+// first side and to -1 over those of the second. A static or kinematic second side has no points: its motion is
+// `surface_motion`, and the weights sum to 1. Only sums depend on the number of points, so a point carried by a frame needs
+// only its own weight and generalised inverse mass.
 //
-// Unilateral constraints: Mueller et al. 2007, section 3.4. Friction: a Coulomb cone on the sum of a contact's normal corrections within
-// the substep. Inside the static cone the sides keep together; outside they slide with the kinetic coefficient.
+// Unilateral constraints: Mueller et al. 2007, section 3.4. Friction: a Coulomb cone on the sum of a contact's normal
+// corrections in the substep. Inside the static cone the contact sticks; outside it slides with the kinetic coefficient.
 #pragma once
 
 #include <array>
@@ -22,23 +22,23 @@ namespace pliant {
 /// One contact of a substep: eight quads of floats, two cache lines.
 struct alignas(64) Contact {
   Vec3f normal{};   ///< unit, from the second side to the first
-  float gap = 0;    ///< distance at the substep's start, less the distance to keep: C where nothing has moved [m]
-  Vec3f carried{};  ///< the relative displacement that is no motion: remainders of the points [m]
+  float gap = 0;    ///< distance at the substep's start minus `thickness`: C before any motion [m]
+  Vec3f carried{};  ///< the part of the relative displacement that is no motion: the points' rounding residues [m]
   float approach =
-      0;             ///< relative velocity along the normal before the substep; negative where the sides come closer [m/s]
-  Vec3f friction{};  ///< sum of the tangential corrections of this substep [m]
-  float push = 0;    ///< sum of the normal corrections [m]
+      0;             ///< relative velocity along the normal before the substep; negative if approaching [m/s]
+  Vec3f friction{};  ///< sum of this substep's tangential corrections [m]
+  float push = 0;    ///< sum of this substep's normal corrections [m]
   float static_friction = 0, kinetic_friction = 0, restitution = 0;
-  float thickness = 0;                  ///< distance to keep [m]
-  std::array<std::int32_t, 4> point{};  ///< of the arrays that the contact's owner works on
-  std::array<float, 4> weight{};        ///< of each point; 0 where the stencil has fewer
-  std::array<float, 4> share{};         ///< what a point moves by when r changes by 1: weight_i w_i / sum_j w_j weight_j^2
+  float thickness = 0;                  ///< distance to maintain [m]
+  std::array<std::int32_t, 4> point{};  ///< indices into the arrays of the contact's owner
+  std::array<float, 4> weight{};        ///< of each point; 0 in unused slots
+  std::array<float, 4> share{};         ///< displacement of a point per change of r: weight_i w_i / sum_j w_j weight_j^2
   Vec3f surface_motion{};               ///< of the static or kinematic side during the substep [m]
-  std::int32_t collider = -1;           ///< that side, or -1 where the second side has points
+  std::int32_t collider = -1;           ///< index of that side; -1 if the second side has points
 };
 static_assert(sizeof(Contact) == 128 && alignof(Contact) == 64);
 
-/// The numbers of a contact that its projection reads, for one contact or for one a lane.
+/// The parameters of a contact that its projection reads; R holds one contact or one per lane.
 template <class R>
 struct ContactValues {
   Vec3<R> normal;
@@ -47,26 +47,26 @@ struct ContactValues {
   R static_friction, kinetic_friction;
 };
 
-/// The corrections that a contact has made in this substep.
+/// The accumulated corrections of a contact in this substep.
 template <class R>
 struct ContactSums {
   Vec3<R> friction;
   R push;
 };
 
-/// What one projection changes the relative displacement by: along the normal, then across it.
+/// The change of the relative displacement by one projection: along the normal, and tangential.
 template <class R>
 struct ContactCorrection {
   Vec3<R> along, across;
 };
 
-/// Projects one contact whose points have moved by `moved` = sum weight_i d_i. Where sums.push is 0 afterwards nothing is to be moved.
+/// Projects a contact whose points have moved by `moved` = sum weight_i d_i. If sums.push stays 0, no point moves.
 template <class R>
 PLIANT_HD ContactCorrection<R> project_contact(const ContactValues<R>& c, const Vec3<R>& moved, ContactSums<R>& sums) {
   const R zero = R(0.f), depth = max(-(c.gap + dot(c.normal, moved)), zero);
   const Vec3<R> along = c.normal * depth, none{zero, zero, zero};
   sums.push = sums.push + depth;
-  // The sum of tangential corrections that would keep the sides together, cut to the cone.
+  // The tangential correction that would make the contact stick, clamped to the Coulomb cone.
   const Vec3<R> motion = moved + along - c.carried - c.surface_motion;
   const Vec3<R> slip = motion - c.normal * dot(c.normal, motion);
   const Vec3<R> sticking = sums.friction - slip;
@@ -79,10 +79,10 @@ PLIANT_HD ContactCorrection<R> project_contact(const ContactValues<R>& c, const 
   return {along, across};
 }
 
-/// The relative velocity along the normal that a contact which pushed is left with [m/s]. It is -e times that of the approach where that
-/// was faster than `slow`, the speed that gravity alone makes; else 0 where the sides separate, since a push is no throw. An approach is
-/// stopped too where the normal is `exact`, as that of a primitive is. Among surfaces the normal of two edges beside one another is
-/// tilted, and stopping what approaches along it would slow what slides: it is left to the next projection.
+/// The relative normal velocity after an active contact [m/s]. It is -e times the approach velocity if that exceeded
+/// `slow`, the speed gained by gravity alone. Otherwise it is 0 if the sides separate, so that depenetration adds no
+/// velocity. An approach is stopped too if the normal is `exact`, as that of a primitive shape is. Normals of nearly
+/// parallel edges are tilted; stopping along them would slow sliding, so the next projection resolves it.
 template <class R, class Mask>
 PLIANT_HD R separation_after(const R& separating, const R& approach, const R& restitution, const R& slow,
                              const Mask& exact) {
@@ -90,7 +90,7 @@ PLIANT_HD R separation_after(const R& separating, const R& approach, const R& re
   return select(restitution > zero, select(-approach > slow, -restitution * approach, stopped), stopped);
 }
 
-/// sum_i weight_i of[point_i], over the first `points` points.
+/// sum_i weight_i of[point_i] over the first `points` points.
 template <int points = 4, class Records>
 PLIANT_HD Vec3f relative(const Contact& c, const Records* of) {
   if constexpr (points == 1) {
@@ -106,7 +106,7 @@ PLIANT_HD Vec3f relative(const Contact& c, const Records* of) {
   }
 }
 
-/// Generalised inverse mass of r: sum w_i weight_i^2 [1/kg]. Positions hold w.
+/// Generalised inverse mass of r: sum w_i weight_i^2 [1/kg]. The w of `positions` are inverse masses.
 template <class Records>
 PLIANT_HD float inverse_mass_of(const Contact& c, const Records* positions) {
   float sum = 0;
@@ -114,7 +114,7 @@ PLIANT_HD float inverse_mass_of(const Contact& c, const Records* positions) {
   return sum;
 }
 
-/// Fills in what follows from points and weights: shares, and the remainders that they carry.
+/// Computes the fields derived from points and weights: shares, and the relative rounding residue.
 template <class Records>
 PLIANT_HD void complete_contact(Contact& c, const Records* positions, const Records* remainders) {
   const float sum = inverse_mass_of(c, positions);
@@ -122,7 +122,7 @@ PLIANT_HD void complete_contact(Contact& c, const Records* positions, const Reco
   c.carried = relative(c, remainders);
 }
 
-/// By how much the sides lack their distance after `displacements` [m]; below 0 where they keep it.
+/// The violation of the distance after `displacements` [m]; negative if it is met.
 template <class Records>
 PLIANT_HD float overlap_of(const Contact& c, const Records* displacements) {
   return -(c.gap + dot(c.normal, relative(c, displacements)));
@@ -131,7 +131,7 @@ PLIANT_HD float overlap_of(const Contact& c, const Records* displacements) {
 /// Moves the points so that r changes by `change`.
 template <class Records>
 PLIANT_HD void move_sides(const Contact& c, const Vec3f& change, Records* of) {
-  for (int i = 3; i >= 0; --i) {  // unused points stand for the first one, which is written last
+  for (int i = 3; i >= 0; --i) {  // unused points repeat the first one, which is written last
     if (c.share[i] == 0) continue;
     auto& r = of[c.point[i]];
     r.x += change.x * c.share[i];
@@ -140,12 +140,12 @@ PLIANT_HD void move_sides(const Contact& c, const Vec3f& change, Records* of) {
   }
 }
 
-/// The numbers of one contact.
+/// The parameters of one contact.
 PLIANT_HD ContactValues<float> values_of(const Contact& c) {
   return {c.normal, c.gap, c.carried, c.surface_motion, c.static_friction, c.kinetic_friction};
 }
 
-/// Projects a contact once: the scalar twin of solver/contact_lanes.cpp.
+/// Projects a contact once: the scalar reference of solver/contact_lanes.cpp.
 template <class Records>
 PLIANT_HD void project_contact(Contact& c, Records* displacements) {
   ContactSums<float> sums{c.friction, c.push};
@@ -156,7 +156,7 @@ PLIANT_HD void project_contact(Contact& c, Records* displacements) {
   move_sides(c, along + across, displacements);
 }
 
-/// The same for a contact of a single point, which takes all of the correction.
+/// The same for a contact with a single point, which takes the whole correction.
 template <class Records>
 PLIANT_HD void project_point_contact(Contact& c, Records* displacements) {
   ContactSums<float> sums{c.friction, c.push};

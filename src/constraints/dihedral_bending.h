@@ -1,15 +1,15 @@
-// Bending: two triangles that share an edge keep their angle.
+// Bending: two triangles that share an edge keep their dihedral angle.
 //
 //         2            n1 = e x (x2 - x0),  n2 = (x3 - x0) x e,  e = x1 - x0
 //       /   \          C(x) = theta - theta0,  theta = atan2((n1 x n2) . e / |e|, n1 . n2)
 //      0 --- 1
-//       \   /          theta is 0 for a flat hinge and changes sign with the side to which it folds.
+//       /          theta is 0 for a flat hinge; its sign tells to which side the hinge folds.
 //         3
 //
-// Mueller et al. 2007, section 4.4.1 and appendix A, write C = acos(n1 . n2) - phi0 with one normal the other way round. An acos
-// loses the fold's sign and has no derivative at the flat hinge, where cloth spends its life; atan2 has both. The gradients are
-// those of the angle itself (Bridson et al. 2003): |e| n / |n|^2 at either tip, and at the edge's ends what keeps force and
-// torque zero. (n1 x n2) . e/|e| is -|e| n1 . (x3 - x0), which saves a cross product. Compliance in 1/(N m) (rad^2/J).
+// Mueller et al. 2007, section 4.4.1 and appendix A, use C = acos(n1 . n2) - phi0 with one normal reversed. acos loses the
+// sign of the fold and has no derivative at the flat hinge, the usual state of cloth; atan2 has both. The gradients are
+// those of the angle (Bridson et al. 2003): |e| n / |n|^2 at each tip, and at the edge's ends what makes force and torque
+// vanish. (n1 x n2) . e/|e| equals -|e| n1 . (x3 - x0), which saves a cross product. Compliance in 1/(N m) (rad^2/J).
 #pragma once
 
 #include <array>
@@ -25,8 +25,8 @@ struct DihedralBending {
   static constexpr const char* name = "dihedral_bending";
   using slots = Points<4>;
   static constexpr int rows = 1;
-  /// Tips move along tangents, which is no longer a turn beyond a fraction of a radian: a stiff hinge that is thrown wide open would
-  /// fling them out, stretch its triangles and feed a small thing's tumbling for ever [rad].
+  /// Largest angle change per projection [rad]. Tips move along tangents, so a larger change flings out the tips of an
+  /// overfolded stiff hinge, stretches its triangles and keeps a small object tumbling.
   static constexpr float largest_change = 0.25f;
 
   template <class R>
@@ -35,7 +35,7 @@ struct DihedralBending {
   };
   static constexpr std::array<const char*, 1> fields{"rest_angle"};
 
-  /// A face without area has a zero gradient at its tip; an edge without length has none anywhere.
+  /// A degenerate face has a zero gradient at its tip; a degenerate edge has no gradient at all.
   template <class R>
   PLIANT_HD static R evaluate(const Vec3<R> (&x)[4], const Params<R>& p, Vec3<R> (&gradient)[4]) {
     const Vec3<R> e = x[1] - x[0], a = x[2] - x[0], b = x[3] - x[0];
@@ -47,13 +47,13 @@ struct DihedralBending {
     const R s1 = edge / max(dot(n1, n1), R(1e-24f));
     const R s2 = edge / max(dot(n2, n2), R(1e-24f));
     const R per_e2 = R(1) / max(e2, R(1e-24f));
-    const R t1 = dot(a, e) * per_e2, t2 = dot(b, e) * per_e2;  // where the tips project on the edge
+    const R t1 = dot(a, e) * per_e2, t2 = dot(b, e) * per_e2;  // projections of the tips onto the edge
     gradient[2] = n1 * (-s1);
     gradient[3] = n2 * (-s2);
     gradient[1] = -(gradient[2] * t1 + gradient[3] * t2);
     gradient[0] = -(gradient[1] + gradient[2] + gradient[3]);
 
-    // The shorter way round: a hinge folded past pi comes out at the other end of the range.
+    // The difference is taken modulo 2 pi: a hinge folded past pi wraps around.
     const R pi = constant<R>(3.14159265358979324), turn = constant<R>(6.28318530717958648);
     const R c = angle - p.rest_angle;
     return select(c > pi, c - turn, select(c < -pi, c + turn, c));
@@ -65,7 +65,7 @@ struct DihedralBending {
     return {evaluate(x, Params<R>{R(0)}, gradient)};
   }
 
-  /// Exchanging the ends of the edge, or the tips, turns the angle's sign and nothing else.
+  /// Exchanging the edge's ends, or the tips, only changes the angle's sign.
   static void canonical(std::array<int, 4>& particle, Params<float>& p) {
     for (int first : {0, 2}) {
       if (particle[first] < particle[first + 1]) continue;

@@ -1,4 +1,4 @@
-// Bending of a sheet whose rest shape is flat and which hardly stretches: a quadratic energy, cheap and robust.
+// Bending of a sheet with a flat rest shape that hardly stretches: a quadratic energy, cheap and robust.
 //
 //         2
 //       /   \          C(x) = |k1 (x1 - x0) + k2 (x2 - x0) + k3 (x3 - x0)|
@@ -6,9 +6,9 @@
 //       \   /          k from the cotangents of the rest angles, times sqrt(3 / (A1 + A2))
 //         3
 //
-// Bergou et al. 2006, "A quadratic bending model for inextensible surfaces", eq. 4: the energy C^2 / 2 alpha is theirs with
-// alpha = 1 / B; a sheet that can only roll up needs alpha = 3 / B to have the flexural rigidity B (world/cloth.cpp). The vector under the norm is the discrete mean curvature normal: it vanishes
-// for any flat hinge, whatever its rest shape, so this type can't hold a fold. Compliance in 1/(N m).
+// Bergou et al. 2006, "A quadratic bending model for inextensible surfaces", eq. 4, with alpha = 1 / B. A developable sheet
+// has flexural rigidity B for alpha = 3 / B (matter/cloth.cpp). The norm is over the discrete mean curvature normal, which
+// vanishes for any flat hinge; so this type cannot hold a fold. Compliance in 1/(N m).
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ struct IsometricBending {
   };
   static constexpr std::array<const char*, 3> fields{"k1", "k2", "k3"};
 
-  /// A flat hinge has no direction to push in and is left alone.
+  /// A flat hinge has a zero gradient, so nothing moves.
   template <class R>
   PLIANT_HD static R evaluate(const Vec3<R> (&x)[4], const Params<R>& p, Vec3<R> (&gradient)[4]) {
     const Vec3<R> sum = (x[1] - x[0]) * p.k1 + (x[2] - x[0]) * p.k2 + (x[3] - x[0]) * p.k3;
@@ -42,7 +42,7 @@ struct IsometricBending {
     return c;
   }
 
-  /// Up to a million: beyond, a triangle is a line, and the float that holds its weight would not square.
+  /// Clamped to a million: a triangle beyond is a line, and the square of its weight would overflow a float.
   template <class R>
   PLIANT_HD static R cotangent(const Vec3<R>& u, const Vec3<R>& v) {
     const Vec3<R> n = cross(u, v);

@@ -12,8 +12,8 @@ namespace pliant {
 namespace {
 
 struct Registry {
-  std::deque<ConstraintDefinition> definitions;  // references stay valid as it grows
-  std::vector<ConstraintType> types;             // the same for users
+  std::deque<ConstraintDefinition> definitions;  // a deque keeps references valid while it grows
+  std::vector<ConstraintType> types;             // the public descriptions
   std::mutex growing;
 
   Registry() {
@@ -63,7 +63,7 @@ void register_constraint(const ConstraintDefinition& definition) {
     refuse(definition, "is there already, and is another", "give yours a name of its own");
   }
   all.add(definition);
-  all.definitions.back().is_compiled = all.definitions.back().is_length = false;  // those are the library's own kernels
+  all.definitions.back().is_compiled = all.definitions.back().is_length = false;  // only built-in types have kernels
 }
 
 int constraint_type_count() { return static_cast<int>(registry().definitions.size()); }

@@ -1,4 +1,4 @@
-// Every constraint type by its number: those of all.h in their order, then those that users have registered.
+// Constraint types by number: first those of all.h in order, then those that users register.
 #pragma once
 
 #include <string>
@@ -18,18 +18,18 @@ int find_constraint_type(const std::string& name);
 /// "distance, dihedral_bending, ...".
 std::string constraint_type_names();
 
-/// The first type that is a length: what attachments are made of.
+/// The first type with is_length; attachments use it.
 int length_type();
 
-/// Whether C of a type is the distance of its two points less rest field 0.
+/// True if C of the type is the distance of its two points minus rest field 0.
 inline bool is_length(int type) { return constraint_type(type).is_length; }
 bool is_length(const std::string& name);
 
-/// Whether a type bends two triangles about their common edge (points: the edge's ends, then the tips).
+/// True if the type bends two triangles about their shared edge (points: the edge's ends, then the tips).
 bool is_hinge(const std::string& name);
-/// Whether such a type has a flat rest shape whatever the rest data are.
+/// True if such a type has a flat rest shape regardless of its rest data.
 bool is_flat_hinge(const std::string& name);
-/// The angle between two such triangles, 0 where they are flat [rad].
+/// The dihedral angle of two such triangles, 0 if flat [rad].
 double fold_angle(const Vec3d (&x)[4]);
 
 }  // namespace pliant

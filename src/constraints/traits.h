@@ -1,4 +1,4 @@
-// What the library may ask of a constraint type, instead of which type it is.
+// Properties that the library queries of a constraint type, instead of its identity.
 #pragma once
 
 #include "pliant/formula.h"
@@ -8,15 +8,15 @@ namespace pliant {
 template <class T>
 inline constexpr int slot_count = T::slots::count;
 
-/// Numbers of rest data, after which a pool's rows hold the response and the damping.
+/// The number of rest fields; in a pool's rows the response and the damping follow them.
 template <class T>
 inline constexpr int rest_fields = static_cast<int>(T::fields.size());
 
-/// Whether a type is projected sixteen at a time: one row over points. Every other goes one by one (solver/stencil.cpp).
+/// True if sixteen are projected together: one row, points only. Others are projected singly (solver/stencil.cpp).
 template <class T>
 inline constexpr bool in_lanes = T::slots::frames == 0 && T::rows == 1;
 
-/// Whether every gradient has length one wherever it is not zero, so that the driver need not compute its norm.
+/// True if every gradient has length one unless it vanishes, so the driver skips its norm.
 template <class T>
 inline constexpr bool has_unit_gradients = [] {
   if constexpr (requires { T::unit_gradients; })

@@ -1,4 +1,4 @@
-// A list of types, and a loop over it.
+// A compile-time list of types, and loops over it.
 #pragma once
 
 #include <type_traits>
@@ -23,7 +23,7 @@ constexpr void for_each_type(TypeList<Types...>, Visit&& visit) {
   (visit(TypeTag<Types>{}, index++), ...);
 }
 
-/// The number of T in the list.
+/// The index of T in the list.
 template <class T, class... Types>
 constexpr int index_of(TypeList<Types...> list) {
   int found = -1;

@@ -1,11 +1,11 @@
-// Continuous tests in double, decided: double precision dismisses nearly all pairs, proves most contacts, and leaves to twice its
-// precision what touches, what passes by a hair, and nothing else.
+// Continuous collision tests with a certified answer. Double precision rejects nearly all pairs and proves most contacts.
+// Only touching and grazing pairs are repeated in double-double precision.
 //
-// The proof is one of signs. As two primitives cross, the volume of their four corners changes its sign; and seen along some
-// direction, from before that until after it, the vertex stays within the triangle, or the edges across one another. By
-// continuity the volume is zero in between, all four lie in a plane then, and in that plane they meet. Nothing else is asked for,
-// so the bounds of rounding may be generous: what they leave open is decided by more digits. As in Shewchuk 1997, "Adaptive
-// precision floating-point arithmetic and fast robust geometric predicates", but with a time in it.
+// The proof is by signs. As two primitives cross, the signed volume of their four corners changes sign. Seen along some
+// direction, from before the crossing until after it, the vertex projects inside the triangle, or the edges cross. By
+// continuity the volume vanishes in between; the corners are then coplanar and the primitives meet. The error bounds may be
+// generous, because what they leave open is decided with more digits. After Shewchuk 1997, "Adaptive precision
+// floating-point arithmetic and fast robust geometric predicates", extended by time.
 #include "geometry/continuous.h"
 
 #include <initializer_list>
@@ -20,12 +20,12 @@ using detail::Corners, detail::Paths, detail::corners_at;
 
 using Sharp = DoubleDouble;
 
-/// Roundings of the extent by which a corner may be from where it is meant to be: differences, motion, place. Counted: 6.
+/// Upper bound of a corner's position error, in roundings of the extent: differences, motion, position. Counted: 6.
 constexpr double place_roundings = 16;
 
-/// Bounds of what rounding does to a volume and to an area, of corners that are no farther than `extent` from the first. Each is a
-/// sum of products of differences, which are below 2 extents and right to 2 places: 6 x 3 x (2 extents)^2 x 2 places and 2 x 6 x ...,
-/// and what the products and sums round is below that again.
+/// Error bounds of a volume and an area of corners at most `extent` from the first. Each is a sum of products of
+/// differences, which are below 2 extents and have an error of 2 places: 6 x 3 x (2 extents)^2 x 2 places, and 2 x 6 x ...
+/// The rounding of the products and sums is smaller than that.
 struct Bounds {
   double volume, area;
 };
@@ -38,8 +38,8 @@ Bounds bounds_of(const Paths<double>& paths) {
 
 double volume(const Corners<double>& x) { return dot(cross(x.at[1] - x.at[0], x.at[2] - x.at[0]), x.at[3] - x.at[0]); }
 
-/// The sign that the area of corners p, q, r keeps along a direction, from `first` until `last`, as all move straight; 0 where that
-/// isn't sure. It is a quadratic in time, so its three Bernstein coefficients bound it.
+/// The sign that the area p, q, r keeps along a direction, from `first` to `last`, under linear motion; 0 if it is
+/// uncertain. The area is quadratic in time, so its three Bernstein coefficients bound it.
 int kept_turn(const Corners<double>& first, const Corners<double>& last, const Vec3d& direction, int p, int q, int r,
               double bound) {
   const Vec3d u[2] = {first.at[q] - first.at[p], last.at[q] - last.at[p]};
@@ -50,7 +50,7 @@ int kept_turn(const Corners<double>& first, const Corners<double>& last, const V
   return least > bound ? 1 : most < -bound ? -1 : 0;
 }
 
-/// Whether, seen along a direction, the vertex is inside the triangle, or the edges cross, all the time.
+/// True if, along the direction, the vertex stays inside the triangle, or the edges stay crossed, at all times.
 template <int A>
 bool overlap_all_the_time(const Corners<double>& first, const Corners<double>& last, const Vec3d& direction, double bound) {
   const auto turn = [&](int p, int q, int r) { return kept_turn(first, last, direction, p, q, r, bound); };
@@ -62,7 +62,7 @@ bool overlap_all_the_time(const Corners<double>& first, const Corners<double>& l
   }
 }
 
-/// Whether they certainly cross from one side to the other about a time: within a tenth, a thousandth, or less of the motion.
+/// True if a crossing about `time` is certain: within a tenth, a thousandth, or less of the motion.
 template <int A>
 bool crosses_about(const Paths<double>& paths, double time) {
   const Bounds bounds = bounds_of(paths);
@@ -73,19 +73,19 @@ bool crosses_about(const Paths<double>& paths, double time) {
     const Corners<double> first = corners_at(paths.start, paths.motion, max(0.0, time - within));
     const Corners<double> last = corners_at(paths.start, paths.motion, min(1.0, time + within));
     const double before = volume(first), after = volume(last);
-    if (!(min(abs(before), abs(after)) > bounds.volume)) return false;  // and no less so within a shorter time
+    if (!(min(abs(before), abs(after)) > bounds.volume)) return false;  // shorter intervals fail as well
     if ((before > 0) != (after > 0) && overlap_all_the_time<A>(first, last, direction, bounds.area)) return true;
   }
   return false;
 }
 
-/// The distance of two points of the primitives, so no less than theirs.
+/// The distance of one point of each primitive, an upper bound of their distance.
 template <int A>
 double distance_of(const Corners<double>& x) {
   return length(detail::closest_direction<A>(x));
 }
 
-/// Whether they are certainly within a thickness at some time soon after another.
+/// True if the primitives are certainly within a thickness shortly after `time`.
 template <int A>
 bool is_within_soon(const Paths<double>& paths, double thickness, double time) {
   const double rounding =
@@ -98,7 +98,7 @@ bool is_within_soon(const Paths<double>& paths, double thickness, double time) {
   return false;
 }
 
-/// What began in double goes on in twice its precision, from when double precision last knew them to be apart.
+/// Repeats a test in double-double precision, from the last time at which double precision proves separation.
 template <int A>
 Impact<double> decided(const Vec3d (&from)[4], const Vec3d (&to)[4], double thickness) {
   const Impact<double> impact = detail::first_impact<A>(from, to, thickness);

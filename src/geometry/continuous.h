@@ -1,12 +1,12 @@
-// When moving primitives first come within a thickness of one another: vertex against triangle, edge against edge, every
-// corner moving along a straight line.
+// The first time at which moving primitives come within a thickness:
+// vertex-triangle and edge-edge, with linear motion of all corners.
 //
-// No polynomial is solved. At a time t where the two are apart, the direction between their closest points gives a plane
-// between them; along that direction each pair of corners closes its gap linearly, so the time until the first pair closes
-// it is certainly free of contact. Advance to it, take a new direction, repeat: conservative advancement (Mirtich 1996) with a
-// plane for a bound instead of a speed, which makes two flat things that slide past one another a single step. The gap is
-// always measured along the direction in hand, never taken from the closest points: a poor direction costs steps, or in
-// the end a contact that is none by a rounding, but it cannot miss one.
+// Conservative advancement (Mirtich 1996), with a separating plane as the bound instead of a speed; no
+// polynomial is solved. At a time t of separation, the direction between the closest points gives a
+// separating plane. Along it each pair of corners closes its gap linearly, so no contact occurs before
+// the first pair closes it. Advance to that time, take a new direction, repeat. Sliding flat primitives
+// need a single step. The gap is measured along the current direction, never from the closest points: a
+// poor direction costs steps, or reports a contact that rounding makes, but never misses one.
 //
 //        A   o-----o                   n.A >= n.b + gap for all of A,
 //              a                       n.B <= n.b           for all of B
@@ -23,15 +23,15 @@ namespace pliant {
 template <class R>
 struct Impact {
   bool hit = false;
-  R time{};           ///< share of the motion, 0..1: never after the true time; 0 where they begin within the thickness
-  Vec3<R> normal{};   ///< unit, from the second primitive to the first then; zero where they begin with a point in common
-  R gap{};            ///< along the normal then [m]; about the thickness, or less where they begin within it
-  bool front = true;  ///< vertex and triangle: whether the vertex is on the side that the triangle's normal faces
+  R time{};           ///< share of the motion, 0..1: at or before the true time; 0 if they start within the thickness
+  Vec3<R> normal{};   ///< unit, from the second primitive to the first at `time`; zero if they start with a common point
+  R gap{};            ///< distance along the normal at `time` [m]: about the thickness, or less if they start within it
+  bool front = true;  ///< vertex-triangle: true if the vertex is on the side of the triangle's normal
 };
 
 namespace detail {
 
-/// Four corners, the first `A` of which are one primitive and the others the second: vertex-triangle A = 1, edges A = 2.
+/// Four corners: the first `A` form one primitive, the rest the other. Vertex-triangle A = 1, edge-edge A = 2.
 template <class R>
 struct Corners {
   Vec3<R> at[4];
@@ -40,7 +40,7 @@ struct Corners {
 template <class R>
 struct Slab {
   Vec3<R> normal;  ///< unit, or zero
-  R gap;           ///< least distance of the two primitives along it
+  R gap;           ///< least distance of the two primitives along the normal
 };
 
 template <int A, class R>
@@ -74,7 +74,7 @@ PLIANT_HD Vec3<R> without_component_along(const Vec3<R>& v, const Vec3<R>& edge)
   return v - edge * (dot(v, edge) / max(length_squared(edge), least_divisor<R>()));
 }
 
-/// From the closest point of the second primitive to that of the first.
+/// The direction from the closest point of the second primitive to that of the first.
 template <int A, class R>
 PLIANT_HD Vec3<R> closest_direction(const Corners<R>& x) {
   if constexpr (A == 1) {
@@ -85,8 +85,8 @@ PLIANT_HD Vec3<R> closest_direction(const Corners<R>& x) {
   }
 }
 
-/// The widest slab found between the two. Where they nearly touch, rounding turns the direction between the closest points by
-/// more than the gap allows; then what it must be perpendicular to decides: the triangle or both edges, or one edge.
+/// The widest separating slab found. If the primitives nearly touch, rounding rotates the direction between the closest
+/// points by more than the gap allows. The normals of the triangle, of both edges, or of one edge then serve.
 template <int A, class R>
 PLIANT_HD Slab<R> widest_slab(const Corners<R>& x) {
   const Vec3<R> direction = closest_direction<A>(x);
@@ -108,8 +108,8 @@ PLIANT_HD Corners<R> corners_at(const Corners<R>& start, const Corners<R>& motio
   return x;
 }
 
-/// The least t > 0 at which a + b t + c t^2, a > 0, is zero; 2 where there is none before. The formula without cancellation:
-/// what it gives is exact for coefficients that differ by a few roundings.
+/// The least t > 0 with a + b t + c t^2 = 0, for a > 0; 2 if there is none before. The formula avoids cancellation: its
+/// result is exact for coefficients changed by a few roundings.
 template <class R>
 PLIANT_HD R first_root(const R& a, const R& b, const R& c) {
   const R discriminant = b * b - R(4) * a * c;
@@ -119,9 +119,9 @@ PLIANT_HD R first_root(const R& a, const R& b, const R& c) {
   return c < R(0) ? min(R(2), (b + root) / (R(-2) * c)) : R(2);
 }
 
-/// The share of the whole motion for which all pairs of corners stay further apart than `least` along a normal that begins as a
-/// unit vector and turns by `turn` a unit of time, so that each pair's distance is a quadratic; 2 where it is longer than all.
-/// Holds for as long as the turning normal is no longer than 1.
+/// The share of the motion during which all pairs of corners stay farther apart than `least` along a rotating normal; 2 if
+/// that exceeds it. The normal starts as a unit vector and changes by `turn` per unit of time, so each pair's distance is
+/// quadratic. Valid while the normal is not longer than 1.
 template <int A, class R>
 PLIANT_HD R free_share(const Corners<R>& x, const Corners<R>& motion, const Vec3<R>& normal, const Vec3<R>& turn,
                        const R& least) {
@@ -135,7 +135,7 @@ PLIANT_HD R free_share(const Corners<R>& x, const Corners<R>& motion, const Vec3
   return share;
 }
 
-/// Size of everything there is, the scale of rounding.
+/// The largest coordinate range, which scales rounding errors.
 template <class R>
 PLIANT_HD R extent(const Corners<R>& start, const Corners<R>& motion) {
   R size = R(0);
@@ -143,17 +143,17 @@ PLIANT_HD R extent(const Corners<R>& start, const Corners<R>& motion) {
   return size;
 }
 
-/// At least half a unit in the last place of 1. Other types of number overload it.
+/// At least half a unit in the last place of 1. Other number types overload it.
 PLIANT_HD float unit_roundoff(float) { return 6e-8f; }
 PLIANT_HD double unit_roundoff(double) { return 1.2e-16; }
 
-constexpr int most_advances = 400;    // a handful in all but constructed cases
-constexpr int plain_advances = 4;     // before the plane is let turn
-constexpr float longest_attempt = 4;  // times as far as the last advance
+constexpr int most_advances = 400;    // a handful except in constructed cases
+constexpr int plain_advances = 4;     // before the plane may rotate
+constexpr float longest_attempt = 4;  // in units of the last advance
 
-/// Where edges lie close along one another and turn, a fixed plane serves for moments only: the far ends run into it. One that
-/// turns towards where it will be needed serves for longer, by a root of the gap instead of the gap itself. On its way from one unit
-/// vector to another it is never longer than 1.
+/// For nearly parallel edges that rotate, a fixed plane is valid only briefly: the far ends run into it. A plane that
+/// rotates towards its later orientation stays valid longer, by the root of the gap instead of the gap. Its normal
+/// interpolates two unit vectors, so it is never longer than 1.
 template <int A, class R>
 PLIANT_HD R turning_share(const Corners<R>& start, const Corners<R>& motion, const Corners<R>& x, const Vec3<R>& normal,
                           const R& t, const R& attempt, const R& least) {
@@ -162,7 +162,7 @@ PLIANT_HD R turning_share(const Corners<R>& start, const Corners<R>& motion, con
   return length_squared(then - normal) < R(1) ? min(attempt, free_share<A>(x, motion, normal, turn, least)) : R(0);
 }
 
-/// Whether an interval of two numbers lies above another by more than `least`, a comparison that no rounding changes for 0.
+/// True if one coordinate interval lies above the other by more than `least`; exact under rounding for 0.
 template <int A, class R, class Coordinate>
 PLIANT_HD bool apart_along(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], const R& least, const Coordinate& coordinate) {
   R low[2], high[2];
@@ -176,7 +176,7 @@ PLIANT_HD bool apart_along(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], con
   return low[0] - high[1] > least || low[1] - high[0] > least;
 }
 
-/// Whether the boxes of the two motions are further apart than the thickness along an axis.
+/// True if the boxes of the two motions are farther apart than the thickness along an axis.
 template <int A, class R>
 PLIANT_HD bool boxes_apart(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], const R& thickness) {
   const R least = thickness + R(4) * unit_roundoff(R(0)) * thickness;
@@ -185,8 +185,8 @@ PLIANT_HD bool boxes_apart(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], con
          apart_along<A>(from, to, least, [](const Vec3<R>& p) { return p.z; });
 }
 
-/// The corners' motions relative to where the last one begins: far from the origin differences are small and exact,
-/// products of coordinates are neither.
+/// The corners' paths relative to the start of the last corner: far from the
+/// origin, differences are small and exact, unlike products of coordinates.
 template <class R>
 struct Paths {
   Corners<R> start, motion;
@@ -202,7 +202,7 @@ PLIANT_HD Paths<R> relative_paths(const Vec3<R> (&from)[4], const Vec3<R> (&to)[
   return paths;
 }
 
-/// `since`: until when they are known to be apart.
+/// `since`: the time until which separation is known.
 template <int A, class R>
 PLIANT_HD Impact<R> first_impact(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], const R& thickness,
                                  const R& since = R(0)) {
@@ -237,10 +237,10 @@ PLIANT_HD bool faces_front(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], con
 
 }  // namespace detail
 
-/// When a vertex, (0) of the arrays, first comes within `thickness` (>= 0) [m] of a triangle, (1, 2, 3), as all move straight
-/// from `from` to `to`. Never misses a contact, nor finds it too late; finds one where the two pass each other at up to some
-/// 100 roundings of the motion's extent beyond the thickness, or turn by far more than a radian a thousandth of their size apart.
-/// R is float, or another type of number that rounds; coordinates finite and below 1e15.
+/// The first time at which a vertex, (0) of the arrays, comes within `thickness` (>= 0) [m] of a triangle, (1, 2, 3), under
+/// linear motion from `from` to `to`. Conservative: never misses a contact or reports it late. It may report pairs that
+/// pass within about 100 roundings of the extent, or that rotate by over a radian a thousandth of their size apart. R is
+/// float or another rounding number type; coordinates finite and below 1e15.
 template <class R>
 PLIANT_HD Impact<R> vertex_triangle_impact(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], const R& thickness) {
   Impact<R> impact = detail::first_impact<1>(from, to, thickness);
@@ -248,17 +248,17 @@ PLIANT_HD Impact<R> vertex_triangle_impact(const Vec3<R> (&from)[4], const Vec3<
   return impact;
 }
 
-/// The same for the edges (0, 1) and (2, 3).
+/// The same for edges (0, 1) and (2, 3).
 template <class R>
 PLIANT_HD Impact<R> edge_edge_impact(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], const R& thickness) {
   return detail::first_impact<2>(from, to, thickness);
 }
 
-/// The same in double, and decided: what double precision takes for a contact and can't prove to be one is looked at
-/// again in twice the precision, so that what passes by at more than 1e-29 of the extent is no contact. For hosts.
+/// The certified test in double. Contacts that double precision cannot prove are repeated in double-double precision, so
+/// pairs farther apart than 1e-29 of the extent are no contact. Host only.
 Impact<double> vertex_triangle_impact(const Vec3d (&from)[4], const Vec3d (&to)[4], double thickness);
 
-/// The same for the edges (0, 1) and (2, 3).
+/// The same for edges (0, 1) and (2, 3).
 Impact<double> edge_edge_impact(const Vec3d (&from)[4], const Vec3d (&to)[4], double thickness);
 
 }  // namespace pliant

@@ -1,9 +1,9 @@
-// A number of twice double's precision: the unevaluated sum of two doubles, about 32 digits.
+// Double-double arithmetic: the unevaluated sum of two doubles, about 32 digits.
 //
-// For the rare decision that double precision leaves open, as a scalar type of the same formulas. Dekker 1971, "A
-// floating-point technique for extending the available precision"; no fused multiply-add, so the bits are the same everywhere.
-// For hosts, and not inlined by force: every operation is twenty, and formulas of hundreds of them took minutes to compile
-// under the sanitizers.
+// A scalar type for the rare decisions that double precision leaves open. Dekker 1971, "A
+// floating-point technique for extending the available precision". No fused multiply-add,
+// so the bits are the same everywhere. Host only and not force-inlined: each operation is
+// twenty, and long formulas took minutes to compile under the sanitizers.
 #pragma once
 
 #include "math/scalar.h"
@@ -14,14 +14,14 @@ struct DoubleDouble {
   double high = 0, low = 0;  ///< |low| at most half a unit in the last place of `high`
 
   DoubleDouble() = default;
-  DoubleDouble(double value) : high(value) {}  // NOLINT(google-explicit-constructor): as float to double
+  DoubleDouble(double value) : high(value) {}  // implicit, as float to double is
   DoubleDouble(double h, double l) : high(h), low(l) {}
   explicit operator double() const { return high; }
 };
 
 namespace detail {
 
-/// a + b where |a| >= |b| or a = 0, exactly.
+/// a + b exactly, if |a| >= |b| or a = 0.
 inline DoubleDouble fast_two_sum(double a, double b) {
   const double sum = a + b;
   return {sum, b - (sum - a)};
@@ -32,7 +32,7 @@ inline DoubleDouble two_sum(double a, double b) {
   return {sum, (a - (sum - part)) + (b - part)};
 }
 
-/// a b exactly, where nothing over- or underflows.
+/// a b exactly, without overflow or underflow.
 inline DoubleDouble two_product(double a, double b) {
   constexpr double splitter = 134217729;  // 2^27 + 1
   const double product = a * b, a_scaled = splitter * a, b_scaled = splitter * b;
@@ -76,7 +76,7 @@ inline DoubleDouble min(const DoubleDouble& a, const DoubleDouble& b) { return a
 inline DoubleDouble max(const DoubleDouble& a, const DoubleDouble& b) { return a > b ? a : b; }
 inline DoubleDouble abs(const DoubleDouble& a) { return a.high < 0 ? -a : a; }
 
-/// One step of Newton's method from the root in double; NaN below zero.
+/// One Newton step from the double root; NaN below zero.
 inline DoubleDouble sqrt(const DoubleDouble& a) {
   if (a.high == 0) return {};
   const double root = sqrt(a.high);
@@ -84,7 +84,7 @@ inline DoubleDouble sqrt(const DoubleDouble& a) {
   return detail::fast_two_sum(root, rest.high / (2 * root));
 }
 
-/// Of a few operations together: 2^-102.
+/// The error of a few operations together: 2^-102.
 inline DoubleDouble unit_roundoff(const DoubleDouble&) { return {2e-31}; }
 
 }  // namespace pliant

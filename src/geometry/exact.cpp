@@ -1,5 +1,5 @@
-// Exact signs by floating-point expansions: a product of two floats is exact in a double, one of three is the sum of two
-// doubles, and a sum of doubles is kept as the list of what each addition rounds away.
+// Exact signs by floating-point expansions. A product of two floats is exact in a double, and one of three is the sum of
+// two doubles. A sum of doubles is stored with the rounding error of each addition.
 #include "geometry/exact.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace pliant {
 
 namespace {
 
-/// A sum of doubles without rounding: parts that do not overlap, in ascending magnitude (Shewchuk 1997, grow-expansion).
+/// An exact sum of doubles: non-overlapping parts in ascending magnitude (Shewchuk 1997, grow-expansion).
 class ExactSum {
  public:
   void add(double value) {
@@ -26,7 +26,7 @@ class ExactSum {
     count_ = kept;
   }
 
-  /// Adds a b c with a sign, exactly: the 48 bits of a b are split into two halves of at most 26.
+  /// Adds a b c exactly: the 48 bits of a b are split into two halves of at most 26 bits.
   void add_product(double a, double b, double c) {
     constexpr double splitter = 134217729;  // 2^27 + 1
     const double ab = a * b, scaled = splitter * ab, high = scaled - (scaled - ab);
@@ -60,7 +60,7 @@ int exact_volume_sign(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3
   return sum.sign();
 }
 
-/// Whether four points lie in a plane across an axis, as those of flat cloth do: exact sums of as many zeros are slow.
+/// True if four points share a coordinate, as in axis-aligned flat cloth: exact sums of many zeros are slow.
 bool in_plane_across_axis(const Vec3d (&p)[4]) {
   bool x = true, y = true, z = true;
   for (const Vec3d& q : p) {
@@ -71,7 +71,7 @@ bool in_plane_across_axis(const Vec3d (&p)[4]) {
   return x || y || z;
 }
 
-/// A point in one of the three coordinate planes.
+/// A point projected onto a coordinate plane.
 struct Point2 {
   double x, y;
 };
@@ -81,7 +81,7 @@ Point2 project(const Vec3f& p, int axis) {
   return axis == 1 ? Point2{p.z, p.x} : Point2{p.x, p.y};
 }
 
-/// The exact sign of the area of a, b, c: positive where they run counter-clockwise.
+/// The exact sign of the area of a, b, c: positive if counter-clockwise.
 int area_sign(const Point2& a, const Point2& b, const Point2& c) {
   const double left = (b.x - a.x) * (c.y - a.y), right = (b.y - a.y) * (c.x - a.x), area = left - right,
                bound = 4e-16 * (abs(left) + abs(right));  // (3 + 16 e) e of the magnitudes, e = 2^-53 (Shewchuk 1997)
@@ -100,7 +100,7 @@ bool boxes_meet(const Vec3f (&p)[2], const Vec3f (&q)[2]) {
          intervals_meet(p[0].z, p[1].z, q[0].z, q[1].z);
 }
 
-/// Whether two closed segments of one plane meet. Along an axis onto which that plane falls as an area; on one line boxes say all.
+/// True if two closed coplanar segments meet. Tested in a projection with area; collinear ones are decided by their boxes.
 bool segments_meet(const Vec3f (&p)[2], const Vec3f (&q)[2]) {
   if (!boxes_meet(p, q)) return false;
   for (int axis = 0; axis < 3; ++axis) {
@@ -119,12 +119,12 @@ bool inside_in_plane(const Vec3f& p, const Vec3f (&t)[3]) {
     if (turn == 0) continue;
     return area_sign(a, b, x) * turn >= 0 && area_sign(b, c, x) * turn >= 0 && area_sign(c, a, x) * turn >= 0;
   }
-  return false;  // without area it has no inside; its edges are looked at by themselves
+  return false;  // a triangle without area has no interior; its edges are tested separately
 }
 
 bool coplanar(const Vec3f (&p)[2], const Vec3f (&q)[2]) { return volume_sign(p[0], p[1], q[0], q[1]) == 0; }
 
-/// An edge in the plane of a triangle, or any edge where the triangle has no plane.
+/// An edge in the plane of a triangle, or any edge if the triangle is degenerate.
 EdgeTriangle meet_in_plane(const Vec3f (&edge)[2], const Vec3f (&t)[3]) {
   if (inside_in_plane(edge[0], t)) return EdgeTriangle::touching;
   for (int k = 0; k < 3; ++k) {

@@ -1,12 +1,12 @@
-// The primitive solids of colliders: how far a point is from one, and when a moving point first meets one.
+// The primitive shapes of colliders: signed distance, and the first hit of a moving point.
 //
-// Every shape here is convex. That makes one short algorithm serve them all in continuous collision: along a straight
-// path the signed distance to a convex set is a convex function of time, so Newton's method started outside approaches the
-// first contact from before it and can never step over it, however fast the point and however thin the shape. A new convex
-// shape therefore needs only its signed distance.
+// Every shape is convex, so one short algorithm handles continuous collision. Along a
+// straight path the signed distance to a convex set is a convex function of time. Newton's
+// method from outside thus approaches the first contact from before it and never steps
+// over it, at any speed and thickness. A new convex shape needs only a signed distance.
 //
-// A shape is a kind and three numbers rather than a std::variant, since the same text runs on devices. Everything is in the
-// shape's own frame (metres), where its scene.h definition puts it. Coordinates may be as large as 1e18 in float.
+// A shape is a kind and three numbers, not a std::variant, because the same code runs on devices. Coordinates are in the
+// shape's local frame [m], as scene.h defines it, and up to 1e18 in float.
 #pragma once
 
 #include "math/quat.h"
@@ -16,18 +16,18 @@ namespace pliant {
 
 enum class ShapeKind : int { plane, sphere, capsule, box };
 
-/// A solid in its own frame: plane (the half-space y <= 0): nothing; sphere: a = radius; capsule along y: a = radius, b =
-/// half of the axis; box: a, b, c = half extents along x, y, z. All >= 0 [m].
+/// A solid in its local frame. Plane (the half-space y <= 0): none; sphere: a = radius; capsule along y: a = radius, b =
+/// half axis length; box: a, b, c = half extents along x, y, z. All >= 0 [m].
 struct LocalShape {
   ShapeKind kind = ShapeKind::plane;
   float a = 0, b = 0, c = 0;
 };
 
-/// How far a point is from a surface, and which way is out.
+/// The signed distance of a point to a surface, and the outward normal.
 template <class R>
 struct SurfaceDistance {
   R distance;      ///< negative inside [m]
-  Vec3<R> normal;  ///< the distance's gradient: of unit length, defined everywhere
+  Vec3<R> normal;  ///< gradient of the distance: unit length, defined everywhere
 };
 
 /// |p| - radius; the normal at the centre is +y.
@@ -36,15 +36,15 @@ PLIANT_HD SurfaceDistance<R> sphere_distance(const R& radius, const Vec3<R>& p) 
   return {length(p) - radius, unit_or(p, Vec3<R>{R(0), R(1), R(0)})};
 }
 
-/// The distance to the axis's nearest point, less radius; the normal on the axis is +x.
+/// The distance to the nearest axis point minus the radius; the normal on the axis is +x.
 template <class R>
 PLIANT_HD SurfaceDistance<R> capsule_distance(const R& radius, const R& half_length, const Vec3<R>& p) {
   const Vec3<R> q{p.x, p.y - clamp(p.y, -half_length, half_length), p.z};
   return {length(q) - radius, unit_or(q, Vec3<R>{R(1), R(0), R(0)})};
 }
 
-/// Outside: to the nearest point of the box, so that edges and corners are round; inside: to the nearest face, the earlier
-/// axis where two are equally near.
+/// Outside: to the nearest point of the box, so edges and corners are
+/// rounded. Inside: to the nearest face, the earlier axis if equal.
 template <class R>
 PLIANT_HD SurfaceDistance<R> box_distance(const Vec3<R>& half_extents, const Vec3<R>& p) {
   const R zero = R(0), one = R(1);
@@ -62,7 +62,7 @@ PLIANT_HD SurfaceDistance<R> box_distance(const Vec3<R>& half_extents, const Vec
   return {select(outside, beyond, deepest), select(outside, away, face)};
 }
 
-/// The signed distance of `point` to `shape` and the outward normal there.
+/// The signed distance from `point` to `shape` and the outward normal at it.
 template <class R>
 PLIANT_HD SurfaceDistance<R> signed_distance(const LocalShape& shape, const Vec3<R>& point) {
   switch (shape.kind) {
@@ -78,21 +78,21 @@ PLIANT_HD SurfaceDistance<R> signed_distance(const LocalShape& shape, const Vec3
   return {point.y, Vec3<R>{R(0), R(1), R(0)}};
 }
 
-/// Where a moving point first comes within `margin` of a shape.
+/// The first point of a path within `margin` of a shape.
 template <class R>
 struct FirstHit {
   bool hit = false;
-  R t{};             ///< share of the path, 0..1; 0 where it begins inside
-  Vec3<R> point{};   ///< place of the moving point then, more exact than a + t (b - a) where the path is long [m]
-  Vec3<R> normal{};  ///< outward, unit, facing the side that the point came from unless it begins inside
-  R distance{};      ///< signed distance of `point`: margin within rounding, or less where the path begins inside [m]
+  R t{};             ///< share of the path, 0..1; 0 if it starts inside
+  Vec3<R> point{};   ///< position at t, more exact than a + t (b - a) on long paths [m]
+  Vec3<R> normal{};  ///< outward, unit; towards the side that the point came from, unless it starts inside
+  R distance{};      ///< signed distance of `point`: margin within rounding, or less if the path starts inside [m]
 };
 
 /// The first t in [0, 1] at which a + t (b - a) is within `margin` (>= 0) of the shape, to a few roundings of the
-/// coordinates there: a path that misses by less than that counts as touching. R is float or double.
+/// coordinates: a path that misses by less counts as touching. R is float or double.
 ///
-/// For a shape that moves, take a in its frame at the start and b in its frame at the end of the step.
-/// Coordinates that are not finite give no hit, and none is promised beyond 1e18.
+/// For a moving shape, pass a in its frame at the start and b in its frame at the end of the step. Non-finite coordinates
+/// give no hit; no hit is guaranteed beyond 1e18.
 template <class R>
 PLIANT_HD FirstHit<R> first_hit(const LocalShape& shape, const Vec3<R>& a, const Vec3<R>& b, const R& margin) {
   const R rounding = sizeof(R) == sizeof(float) ? R(2.4e-7f) : R(4.5e-16);  // two units in the last place of 1
@@ -101,43 +101,43 @@ PLIANT_HD FirstHit<R> first_hit(const LocalShape& shape, const Vec3<R>& a, const
   if (!(path_size + abs(a.x) + abs(a.y) + abs(a.z) < R(1e38f))) return {};
   FirstHit<R> at{false, R(0), a, {}, R(0)};
   R travelled = R(0);  // of the last step
-  // Quadratic where the path crosses the surface; where it grazes, the gap shrinks fourfold a step: 64 are enough from
-  // 1e38.
+  // Convergence is quadratic if the path crosses the surface. If it
+  // grazes, the gap shrinks fourfold per step: 64 steps suffice from 1e38.
   for (int step = 0; step < 96; ++step) {
     const SurfaceDistance<R> surface = signed_distance(shape, at.point);
     const R gap = surface.distance - margin, slope = dot(surface.normal, path);
     const R exact = rounding * (abs(at.point.x) + abs(at.point.y) + abs(at.point.z));
     const bool leaving = !(slope < R(0));
     at.distance = surface.distance;
-    // A step's own rounding may carry the point past a thin shape's middle: it still came from the side seen before.
+    // Rounding may carry the point past the middle of a thin shape; the normal of the previous side still holds.
     if (step == 0 || !leaving) at.normal = surface.normal;
     at.hit = gap <= exact || (leaving && gap <= rounding * travelled);
     if (at.hit) return at;
-    if (leaving || !(at.t < R(1))) return {};  // convex: what moves away now never comes back
+    if (leaving || !(at.t < R(1))) return {};  // convex: a receding point never returns
     const R advance = -gap / slope;
     const bool last = !(at.t + advance < R(1));
     travelled = last ? (R(1) - at.t) * path_size : advance * path_size;
-    // The point is advanced by ever smaller steps, so that its rounding is that of where it is, not of the whole path.
+    // Incremental advances round relative to the current position, not to the whole path.
     at.point = last ? b : at.point + advance * path;
     at.t = last ? R(1) : at.t + advance;
   }
   return {};
 }
 
-/// A ball that holds a shape; the radius is infinite for a plane.
+/// A bounding sphere of a shape; the radius is infinite for a plane.
 template <class R>
 struct BoundingSphere {
   Vec3<R> centre;
   R radius;
 };
 
-/// An axis-aligned box that holds a shape; infinite on every side for a plane.
+/// An axis-aligned bounding box of a shape; infinite on all sides for a plane.
 template <class R>
 struct BoundingBox {
   Vec3<R> low, high;
 };
 
-/// Half the sides of the shape's own axis-aligned box; infinite for a plane.
+/// Half extents of the shape's local bounding box; infinite for a plane.
 template <class R>
 PLIANT_HD Vec3<R> half_sides(const LocalShape& shape) {
   switch (shape.kind) {
@@ -153,7 +153,7 @@ PLIANT_HD Vec3<R> half_sides(const LocalShape& shape) {
   return {R(__builtin_inff()), R(__builtin_inff()), R(__builtin_inff())};
 }
 
-/// The ball about the pose's position that holds the shape grown by `margin`, rounded outward.
+/// The bounding sphere, centred at the pose's position, of the shape grown by `margin`; rounded outward.
 template <class R>
 PLIANT_HD BoundingSphere<R> bounding_sphere(const LocalShape& shape, const Pose<R>& pose, const R& margin) {
   const R rounding = sizeof(R) == sizeof(float) ? R(1e-6f) : R(2e-15);
@@ -162,7 +162,7 @@ PLIANT_HD BoundingSphere<R> bounding_sphere(const LocalShape& shape, const Pose<
   return {pose.position, (reach + margin) * (R(1) + rounding) + largest(pose.position) * rounding};
 }
 
-/// The axis-aligned box that holds the posed shape grown by `margin`, rounded outward: exact for a box but for rounding.
+/// The axis-aligned bounding box of the posed shape grown by `margin`, rounded outward; tight for a box.
 template <class R>
 PLIANT_HD BoundingBox<R> bounding_box(const LocalShape& shape, const Pose<R>& pose, const R& margin) {
   const R rounding = sizeof(R) == sizeof(float) ? R(1e-6f) : R(2e-15);

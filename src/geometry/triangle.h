@@ -1,13 +1,13 @@
-// Closest points of triangles, segments and points, and a triangle's area, normal and volume.
+// Closest points of triangles, segments and points; a triangle's area, normal and volume.
 //
-// Written for degenerate input first: the usual case distinctions divide by areas and determinants that are zero for
-// slivers and parallel edges, exactly where cloth makes contact. Here every candidate (the inside, each edge, each end) is
-// turned into a point that lies on the primitive whatever the rounding, and the nearest one wins; a candidate spoilt by a
-// tiny determinant merely loses. No branches, so R may be float, double or Wide. Ties go to the candidate named first.
+// Robust for degenerate input: the usual case distinctions divide by areas and determinants, which vanish for slivers and
+// parallel edges, exactly where cloth makes contact. Here each candidate (interior, each edge, each end) gives a point on
+// the primitive despite rounding, and the nearest wins. A tiny determinant only spoils its own candidate. Branch-free, so R
+// may be float, double or Wide. Ties go to the candidate named first.
 //
-// What that costs: distances are right to rounding, places only to its square root, since near a minimum the distance is
-// flat. In float the direction between closest points may be off by a thousandth of a radian where two candidates nearly
-// tie.
+// The cost: distances are accurate to rounding, but positions only to its square
+// root, because a distance is flat near its minimum. In float the direction between
+// closest points may err by a thousandth of a radian where two candidates nearly tie.
 #pragma once
 
 #include "math/vector.h"
@@ -16,7 +16,7 @@ namespace pliant {
 
 namespace detail {
 
-/// Divisors are held above this, the least normal float; with a zero above them the quotient is 0.
+/// Lower bound of divisors, the least normal float; 0 divided by it is 0.
 template <class R>
 PLIANT_HD R least_divisor() {
   return R(1.17549435e-38f);
@@ -29,14 +29,14 @@ PLIANT_HD R to_unit_interval(const R& t) {
 
 }  // namespace detail
 
-/// The share t in [0, 1] at which a + t (b - a) is closest to p; 0 where a and b are one point.
+/// The share t in [0, 1] at which a + t (b - a) is closest to p; 0 if a = b.
 template <class R>
 PLIANT_HD R closest_on_segment(const Vec3<R>& p, const Vec3<R>& a, const Vec3<R>& b) {
   const Vec3<R> edge = b - a;
   return detail::to_unit_interval(dot(p - a, edge) / max(length_squared(edge), detail::least_divisor<R>()));
 }
 
-/// The point of a triangle that is closest to another point.
+/// The point of a triangle closest to a given point.
 template <class R>
 struct ClosestOnTriangle {
   Vec3<R> point;       ///< weights.x a + weights.y b + weights.z c [m]
@@ -49,7 +49,7 @@ namespace detail {
 template <class R>
 PLIANT_HD ClosestOnTriangle<R> triangle_candidate(const Vec3<R>& p, const Vec3<R>& a, const Vec3<R>& b, const Vec3<R>& c,
                                                   const Vec3<R>& weights) {
-  // Relative to a, so that a small triangle far from the origin keeps its digits.
+  // Relative to a, so that a small triangle far from the origin keeps its precision.
   const Vec3<R> offset = weights.y * (b - a) + weights.z * (c - a);
   return {a + offset, weights, length_squared((p - a) - offset)};
 }
@@ -61,7 +61,7 @@ PLIANT_HD ClosestOnTriangle<R> nearer(const ClosestOnTriangle<R>& first, const C
           select(better, second.distance_squared, first.distance_squared)};
 }
 
-/// Barycentric weights of the foot of p's perpendicular, pulled into the triangle: exact where the foot lies in it.
+/// Barycentric weights of the foot of p's perpendicular, clamped to the triangle; exact if the foot lies inside.
 template <class R>
 PLIANT_HD Vec3<R> weights_of_foot(const Vec3<R>& p, const Vec3<R>& a, const Vec3<R>& b, const Vec3<R>& c) {
   const Vec3<R> normal = cross(b - a, c - a);
@@ -77,7 +77,7 @@ PLIANT_HD Vec3<R> weights_of_foot(const Vec3<R>& p, const Vec3<R>& a, const Vec3
 
 }  // namespace detail
 
-/// The point of triangle (a, b, c) closest to p. A triangle without area is the segment or the point that it covers.
+/// The point of triangle (a, b, c) closest to p. A degenerate triangle acts as a segment or a point.
 template <class R>
 PLIANT_HD ClosestOnTriangle<R> closest_on_triangle(const Vec3<R>& p, const Vec3<R>& a, const Vec3<R>& b, const Vec3<R>& c) {
   using detail::nearer, detail::triangle_candidate;
@@ -113,19 +113,19 @@ PLIANT_HD ClosestOnSegments<R> nearer(const ClosestOnSegments<R>& first, const C
           select(better, second.second, first.second), select(better, second.distance_squared, first.distance_squared)};
 }
 
-/// Where the lines are closest, s pulled into [0, 1] and t made best for it: the answer where both feet lie within.
+/// The closest points of the lines, s clamped to [0, 1] and t optimal for it: the solution if both feet lie within.
 template <class R>
 PLIANT_HD ClosestOnSegments<R> closest_inside(const Vec3<R> (&p)[2], const Vec3<R> (&q)[2]) {
   const Vec3<R> u = p[1] - p[0], v = q[1] - q[0], w = p[0] - q[0];
   const R vv = length_squared(v), uv = dot(u, v), uw = dot(u, w), vw = dot(v, w);
-  const R determinant = length_squared(cross(u, v));  // |u|^2 |v|^2 - (u . v)^2 without the cancellation
+  const R determinant = length_squared(cross(u, v));  // |u|^2 |v|^2 - (u . v)^2 without its cancellation
   const R s = to_unit_interval((uv * vw - vv * uw) / max(determinant, least_divisor<R>()));
   return segments_candidate(p, q, s, to_unit_interval((uv * s + vw) / max(vv, least_divisor<R>())));
 }
 
 }  // namespace detail
 
-/// The closest points of the segments p[0] p[1] and q[0] q[1]; of parallel ones some closest pair. Ends may coincide.
+/// The closest points of the segments p[0] p[1] and q[0] q[1]; any closest pair if parallel. Degenerate segments are valid.
 template <class R>
 PLIANT_HD ClosestOnSegments<R> closest_on_segments(const Vec3<R> (&p)[2], const Vec3<R> (&q)[2]) {
   using detail::nearer, detail::segments_candidate;
@@ -144,8 +144,8 @@ PLIANT_HD R triangle_area(const Vec3<R>& a, const Vec3<R>& b, const Vec3<R>& c) 
   return R(0.5f) * length(cross(b - a, c - a));
 }
 
-/// The unit normal of a triangle, on the side from which a, b, c run counter-clockwise; zero where it has no area to the
-/// precision of R. Any size of triangle will do: its edges are scaled first.
+/// The unit normal of a triangle, on the side from which a, b, c run counter-clockwise; zero if the triangle is degenerate
+/// in R. Edges are scaled first, so any size works.
 template <class R>
 PLIANT_HD Vec3<R> triangle_normal(const Vec3<R>& a, const Vec3<R>& b, const Vec3<R>& c) {
   const Vec3<R> ab = b - a, ac = c - a;
@@ -154,14 +154,14 @@ PLIANT_HD Vec3<R> triangle_normal(const Vec3<R>& a, const Vec3<R>& b, const Vec3
   return unit_or(cross(scaled_ab, scaled_ac), Vec3<R>{R(0), R(0), R(0)});
 }
 
-/// Six times the signed volume between the origin and a triangle; summed over a closed surface that faces outward, six
-/// times the volume inside [m^3].
+/// Six times the signed volume of the tetrahedron of the origin and a triangle. Its sum over a closed surface that faces
+/// outward is six times the enclosed volume [m^3].
 template <class R>
 PLIANT_HD R six_volumes(const Vec3<R>& a, const Vec3<R>& b, const Vec3<R>& c) {
   return dot(cross(a, b), c);
 }
 
-/// The signed volume of a tetrahedron: positive where d is on the side that the normal of (a, b, c) faces [m^3].
+/// The signed volume of a tetrahedron: positive if d is on the side of the normal of (a, b, c) [m^3].
 template <class R>
 PLIANT_HD R tetrahedron_volume(const Vec3<R>& a, const Vec3<R>& b, const Vec3<R>& c, const Vec3<R>& d) {
   return six_volumes(b - a, c - a, d - a) / R(6);

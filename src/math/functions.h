@@ -1,19 +1,19 @@
-// Inverse and direct trigonometric functions, exponentials and logarithms of our own.
+// Trigonometric functions and their inverses, exponentials and logarithms with the same bits on every machine.
 //
-// Every libm rounds these its own way, and one differing bit in a hinge's angle grows into another drape. Here they are
-// made of additions, multiplications, divisions and square roots alone, each of which IEEE 754 rounds correctly, so that
-// every compiler and machine gives the same bits. What runs in the sweeps (atan2, acos) is a template for float, double and
-// Wide, without branches and with Estrin's scheme, because wide batches wait on latency; what runs a few times a step or
-// while a scene is built (sin, cos, exp, log, pow) computes in double, and its float form rounds that once.
+// Each libm rounds these differently, and one differing bit in a hinge angle changes the whole
+// drape. Here they use only additions, multiplications, divisions and square roots, which IEEE 754
+// rounds correctly. Functions of the sweeps (atan2, acos) are branch-free templates for float,
+// double and Wide, with Estrin's scheme, because wide batches are latency-bound. Functions called
+// rarely (sin, cos, exp, log, pow) compute in double; their float form rounds the result once.
 //
-// The tests state and hold every error bound given here.
+// Tests verify every error bound given here.
 #pragma once
 
 #include "math/scalar.h"
 
 namespace pliant {
 
-/// The number `value` in the precision of R.
+/// `value` converted to R.
 template <class R>
 PLIANT_HD R constant(double value) {
   return R(static_cast<float>(value));
@@ -25,8 +25,8 @@ PLIANT_HD double constant<double>(double value) {
 
 namespace detail {
 
-/// (atan(t) / t - 1) / t^2 as a polynomial in z = t^2 for z in [0, 1/4], fitted for the least largest error of atan(t):
-/// relative 5.3e-9 (float) and 2.1e-19 (double) before rounding.
+/// (atan(t) / t - 1) / t^2 as a minimax polynomial in z = t^2 on [0, 1/4];
+/// relative error of atan(t) 5.3e-9 (float) and 2.1e-19 (double) before rounding.
 template <class R>
 PLIANT_HD R atan_tail(const R& z) {
   const R z2 = z * z;
@@ -46,7 +46,7 @@ PLIANT_HD double atan_tail<double>(const double& z) {
   return (a + b * z4) + (c + -0.0083509505947674623387 * z4) * z8;
 }
 
-/// The least positive number of R, which keeps 0 / 0 from being formed and changes nothing else.
+/// The least positive number of R, added to avoid 0 / 0; it changes no other quotient.
 template <class R>
 PLIANT_HD R least_positive() {
   return R(1.4012984643e-45f);
@@ -56,7 +56,7 @@ PLIANT_HD double least_positive<double>() {
   return 4.9406564584124654e-324;
 }
 
-/// Below this atan(t) rounds to t, so the tail may be taken here instead: its powers would be subnormal, which is slow.
+/// Below this atan(t) rounds to t. The tail is evaluated here instead, because its subnormal powers would be slow.
 template <class R>
 PLIANT_HD R atan_floor() {
   return R(1e-4f);
@@ -70,15 +70,15 @@ PLIANT_HD double atan_floor<double>() {
 
 /// The angle of the point (x, y) from the positive x-axis, in [-pi, pi] [rad].
 ///
-/// Within 4 units in the last place (float and Wide; measured 2.2) or 3 (double) where |x|, |y| are at most half the
-/// largest number; above that finite, in the right octant, and within 0.33 rad. atan2(0, 0) = 0. The sign of a zero is not
-/// looked at: on the negative x-axis the angle is +pi. NaN where an argument is NaN or both are infinite.
+/// Error within 4 units in the last place (float and Wide; measured 2.2) or 3 (double) while |x|, |y| are at most half the
+/// largest number. Above that: finite, in the right octant, and within 0.33 rad. atan2(0, 0) = 0. The sign of zero is
+/// ignored: +pi on the negative x-axis. NaN if an argument is NaN or both are infinite.
 template <class R>
 PLIANT_HD R atan2(const R& y, const R& x) {
   const R ax = abs(x), ay = abs(y);
   const auto steep = ay > ax;
-  const R a = select(steep, ax, ay), b = select(steep, ay, ax);  // by select, since min and max would lose a NaN
-  // atan(a / b) = pi/4 + atan((a - b) / (a + b)) above a / b = 1/2 leaves |t| <= 1/2 for the polynomial, at one division.
+  const R a = select(steep, ax, ay), b = select(steep, ay, ax);  // by select, because min and max would drop a NaN
+  // For a / b > 1/2: atan(a / b) = pi/4 + atan((a - b) / (a + b)), which keeps |t| <= 1/2 at the cost of one division.
   const auto upper = a + a > b;
   const R numerator = select(upper, a - b, a), denominator = select(upper, a + b, b);
   const R t = numerator / max(detail::least_positive<R>(), denominator);
@@ -91,23 +91,23 @@ PLIANT_HD R atan2(const R& y, const R& x) {
   return select(y < R(0), -half, half);
 }
 
-/// The angle in [0, pi] [rad] whose cosine is x; x beyond [-1, 1] counts as the nearer end. Within 4 units in the last
-/// place.
+/// The angle in [0, pi] [rad] whose cosine is x, which is
+/// clamped to [-1, 1]. Within 4 units in the last place.
 template <class R>
 PLIANT_HD R acos(const R& x) {
-  // Beyond the ends only the sign of x matters below: the height is 0 there. A NaN passes through x itself.
+  // Outside [-1, 1] the height is 0, so only the sign of x matters. A NaN passes through x.
   const R height = sqrt(max((R(1) - x) * (R(1) + x), R(0)));
   return atan2(height, x);
 }
 
-/// A sine and a cosine of one angle.
+/// The sine and cosine of one angle.
 struct SineCosine {
   double sine, cosine;
 };
 
 namespace detail {
 
-/// Of r radians, |r| <= 0.8, by Taylor's series: the first terms left out, r^19/19! and r^18/18!, are below 1e-17.
+/// For |r| <= 0.8 rad, by Taylor series: the first omitted terms, r^19/19! and r^18/18!, are below 1e-17.
 PLIANT_HD SineCosine sine_cosine_near_zero(double r) {
   const double z = r * r, z2 = z * z, z4 = z2 * z2;
   const double s =
@@ -118,7 +118,7 @@ PLIANT_HD SineCosine sine_cosine_near_zero(double r) {
   return {r + r * (z * s), (1 - 0.5 * z) + z2 * c};
 }
 
-/// The sine and cosine of an angle larger by `quarters` right angles (a whole number).
+/// The sine and cosine of an angle increased by `quarters` right angles (a whole number).
 PLIANT_HD SineCosine turned(const SineCosine& of, double quarters) {
   const double quadrant = quarters - 4 * __builtin_floor(quarters * 0.25);
   const bool swapped = quadrant == 1 || quadrant == 3;
@@ -128,18 +128,18 @@ PLIANT_HD SineCosine turned(const SineCosine& of, double quarters) {
 
 }  // namespace detail
 
-/// Both at once, x in radians: within 3 units in the last place up to |x| = 1.6e6, then as if x were off by 2^-51 |x|,
-/// always in
-/// [-1, 1]; NaN where x is not finite.
+/// Sine and cosine of x [rad]: within 3 units in the
+/// last place up to |x| = 1.6e6, beyond as if x erred by
+/// 2^-51 |x|. Always in [-1, 1]; NaN if x is not finite.
 PLIANT_HD SineCosine sine_cosine(double x) {
   // x = k pi/2 + r, |r| <= pi/4. The first two parts of pi/2 have 33 bits, so that k times them is exact (Cody and Waite).
   const double k = __builtin_floor(x * 0.6366197723675814 + 0.5);
   const double r = ((x - k * 0x1.921fb544p+0) - k * 0x1.0b4611a6p-34) - k * 0x1.3198a2e037073p-69;
-  // The 0 is reached only where k is too large for the parts to help.
+  // The 0 applies only if k is too large for the split of pi/2.
   return detail::turned(detail::sine_cosine_near_zero(select(abs(r) > 0.8, 0.0, r)), k);
 }
 
-/// The same of an angle in degrees: exact at whole right angles.
+/// The same for an angle in degrees; exact at multiples of 90.
 PLIANT_HD SineCosine sine_cosine_of_degrees(double degrees) {
   const double k = __builtin_floor(degrees * (1.0 / 90) + 0.5);
   return detail::turned(detail::sine_cosine_near_zero((degrees - 90 * k) * 0.017453292519943295), k);
@@ -152,7 +152,7 @@ PLIANT_HD float cos(float x) { return static_cast<float>(sine_cosine(x).cosine);
 
 namespace detail {
 
-/// (e^r - 1 - r) / r^2 for |r| <= 0.35: Taylor's series up to r^13 / 13!.
+/// (e^r - 1 - r) / r^2 for |r| <= 0.35: Taylor series up to r^13 / 13!.
 PLIANT_HD double exp_tail(double r) {
   const double r2 = r * r, r4 = r2 * r2;
   const double a = (1.0 / 2 + r * (1.0 / 6)) + r2 * (1.0 / 24 + r * (1.0 / 120));
@@ -182,12 +182,12 @@ PLIANT_HD double exp(double x) {
   const double k = __builtin_floor(bounded * 1.4426950408889634 + 0.5);
   const double r = (bounded - k * 0x1.62e42fee00000p-1) - k * 0x1.a39ef35793c76p-33;  // the first part has 32 bits: exact
   const double fraction = 1 + (r + (r * r) * detail::exp_tail(r));
-  const std::int64_t n = static_cast<std::int64_t>(k), half = n / 2;  // two factors, since 2^n alone may not be a number
+  const std::int64_t n = static_cast<std::int64_t>(k), half = n / 2;  // two factors, because 2^n alone may overflow
   return select(x == x, (fraction * detail::power_of_two(half)) * detail::power_of_two(n - half), x);
 }
 PLIANT_HD float exp(float x) { return static_cast<float>(exp(static_cast<double>(x))); }
 
-/// e^x - 1 without the loss of digits near 0: within 4 units in the last place.
+/// e^x - 1 without cancellation near 0: within 4 units in the last place.
 PLIANT_HD double expm1(double x) { return abs(x) < 0.34 ? x + (x * x) * detail::exp_tail(x) : exp(x) - 1; }
 
 /// The natural logarithm, within 2 units in the last place; -infinity of 0, NaN below.
@@ -206,13 +206,13 @@ PLIANT_HD double log(double x) {
 }
 PLIANT_HD float log(float x) { return static_cast<float>(log(static_cast<double>(x))); }
 
-/// log(1 + x) without the loss of digits near 0: within 4 units in the last place.
+/// log(1 + x) without cancellation near 0: within 4 units in the last place.
 PLIANT_HD double log1p(double x) { return abs(x) < 0.29 ? detail::log_of_ratio(x / (2 + x)) : log(1 + x); }
 
 /// x^y for x >= 0 as e^(y log x): relative error at most 4e-16 (1 + |y log x|). x^0 = 1 even for 0; NaN for x < 0.
 ///
-/// For a stiffness shared out over n projections, 1 - (1 - k)^(1/n), prefer -expm1(log1p(-k) / n), which keeps its digits
-/// where k is small or n large.
+/// To distribute a stiffness over n projections, 1 - (1 - k)^(1/n), use
+/// -expm1(log1p(-k) / n), which stays accurate for small k and large n.
 PLIANT_HD double pow(double x, double y) { return y == 0 ? 1 : exp(y * log(x)); }
 
 }  // namespace pliant

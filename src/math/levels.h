@@ -1,10 +1,10 @@
-// The instruction sets that the units in lanes are compiled for, widest first: X(suffix of its functions, its name, ...).
+// The instruction set levels of the SIMD units, widest first: X(suffix of its functions, its name, ...).
 //
-// cmake/PliantLanes.cmake has the same list with the compiler's flags: a level is a line in each, and a test of its machine in
-// solver/pick_kernels.cpp. `generic` uses no instruction set by name, so it compiles on any CPU. All give the same bits.
+// cmake/PliantLanes.cmake lists the same levels with compiler flags. A new level needs a line in each, and a CPU test in
+// solver/pick_kernels.cpp. `generic` names no instruction set, so it compiles on any CPU. All levels give the same bits.
 #pragma once
 
-// clang-format off: a level a line.
+// clang-format off: one level per line.
 #if defined(__x86_64__)
 #define PLIANT_FOR_EACH_LEVEL(X, ...) \
   X(v4, "x86-64-v4", __VA_ARGS__)     \
@@ -16,11 +16,11 @@
 #endif
 // clang-format on
 
-/// Declares `const type& name_v4();` and so on for every level.
+/// Declares `const type& name_v4();` and the like for every level.
 #define PLIANT_DECLARE_LEVEL(suffix, isa, type, name) const type& name##_##suffix();
 #define PLIANT_DECLARE_LEVELS(type, name) PLIANT_FOR_EACH_LEVEL(PLIANT_DECLARE_LEVEL, type, name)
 
-/// In a unit in lanes: `name_v4` where that is the level it is compiled for.
+/// In a SIMD unit: the name for the level that is being compiled, such as `name_v4`.
 #define PLIANT_OF_LEVEL(name) PLIANT_JOIN_LEVEL(name, PLIANT_LEVEL)
 #define PLIANT_JOIN_LEVEL(name, level) PLIANT_JOIN_LEVEL_NAMES(name, level)
 #define PLIANT_JOIN_LEVEL_NAMES(name, level) name##_##level

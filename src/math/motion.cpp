@@ -1,5 +1,5 @@
-// Keyframes searched and interpolated, and the public way to write a rotation. In .cpp since no device evaluates a motion:
-// the few poses of a substep are made once and handed on.
+// Keyframe lookup and interpolation, and the conversion of public rotations. In a .cpp because no device evaluates a
+// motion: the few poses of a substep are computed once on the host.
 #include "math/motion.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace pliant {
 namespace {
 
-/// The time from `first` to `last` that stands for `time`.
+/// Maps `time` into the keyframes' range if the motion repeats.
 double time_in_cycle(double first, double last, bool repeat, double time) {
   const double period = last - first;
   if (!repeat || !(period > 0) || !(time > last)) return time;
@@ -19,7 +19,7 @@ double time_in_cycle(double first, double last, bool repeat, double time) {
 
 Quatd rotation_of(const Keyframe& key) { return normalise(convert<double>(key.rotation)); }
 
-/// The pose without the pivot: translation and rotation of the two keyframes about `time`.
+/// The interpolated pose of the keyframes before and after `time`, without the pivot.
 Posed interpolated(const std::vector<Keyframe>& keys, double time) {
   const auto after =
       std::upper_bound(keys.begin(), keys.end(), time, [](double t, const Keyframe& key) { return t < key.time; });

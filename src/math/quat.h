@@ -1,7 +1,7 @@
-// Rotations as unit quaternions, and rigid poses made of one and a translation.
+// Rotations as unit quaternions, and rigid poses of a rotation and a translation.
 //
-// Interpolation goes along the shorter arc: q and -q are the same rotation, and a mesh must not turn the long way round
-// because an animator's tool wrote the other one.
+// Interpolation follows the shorter arc: q and -q are the same rotation, and
+// a mesh must not take the long way because a tool exported the other sign.
 #pragma once
 
 #include "math/functions.h"
@@ -21,7 +21,7 @@ PLIANT_HD R dot(const Quat<R>& a, const Quat<R>& b) {
   return (a.x * b.x + a.y * b.y) + (a.z * b.z + a.w * b.w);
 }
 
-/// q over its length; the identity where q is zero to the precision of its squares.
+/// q over its length; the identity if |q|^2 is below the least normal float.
 template <class R>
 PLIANT_HD Quat<R> normalise(const Quat<R>& q) {
   const R squared = dot(q, q), least = R(1.17549435e-38f);
@@ -31,7 +31,7 @@ PLIANT_HD Quat<R> normalise(const Quat<R>& q) {
           select(zero, R(1), q.w * scale)};
 }
 
-/// (1 - share) a + share b along the shorter arc, normalised: between two near rotations nearly even, and cheap.
+/// (1 - share) a + share b along the shorter arc, normalised: cheap, and nearly uniform between close rotations.
 template <class R>
 PLIANT_HD Quat<R> nlerp(const Quat<R>& a, const Quat<R>& b, const R& share) {
   const R first = R(1) - share, second = select(dot(a, b) < R(0), -share, share);
@@ -39,13 +39,13 @@ PLIANT_HD Quat<R> nlerp(const Quat<R>& a, const Quat<R>& b, const R& share) {
                            first * a.w + second * b.w});
 }
 
-/// The rotation at `share` of the shorter arc from a to b (unit quaternions) at even angular speed.
-/// Between opposite rotations (half a turn apart in either sense) the sense is that of the signs as given.
+/// The rotation at `share` of the shorter arc from a to b (unit quaternions), at constant angular speed. For rotations half
+/// a turn apart, the signs as given decide the direction.
 PLIANT_HD Quatd slerp(const Quatd& a, const Quatd& b, double share) {
   const Quatd near = dot(a, b) < 0 ? Quatd{-b.x, -b.y, -b.z, -b.w} : b;
   const Quatd difference{near.x - a.x, near.y - a.y, near.z - a.z, near.w - a.w};
   const Quatd sum{near.x + a.x, near.y + a.y, near.z + a.z, near.w + a.w};
-  // By atan2, since acos of a dot product near 1 has lost half of its digits.
+  // By atan2, because acos of a dot product near 1 loses half of its digits.
   const double angle = 2 * atan2(sqrt(dot(difference, difference)), sqrt(dot(sum, sum)));
   if (angle < 1e-6) return nlerp(a, near, share);
   const double scale = 1 / sin(angle), first = sin((1 - share) * angle) * scale, second = sin(share * angle) * scale;
@@ -67,19 +67,19 @@ PLIANT_HD Pose<To> convert(const Pose<From>& pose) {
   return {convert<To>(pose.position), convert<To>(pose.rotation)};
 }
 
-/// A point of the pose's frame, in the world.
+/// A point of the pose's frame in world coordinates.
 template <class R>
 PLIANT_HD Vec3<R> to_world(const Pose<R>& pose, const Vec3<R>& local) {
   return rotate(pose.rotation, local) + pose.position;
 }
 
-/// A point of the world, in the pose's frame.
+/// A world point in the pose's frame.
 template <class R>
 PLIANT_HD Vec3<R> to_local(const Pose<R>& pose, const Vec3<R>& world) {
   return rotate(conjugate(pose.rotation), world - pose.position);
 }
 
-/// First `inner`, then `outer`.
+/// Applies `inner` first, then `outer`.
 template <class R>
 PLIANT_HD Pose<R> compose(const Pose<R>& outer, const Pose<R>& inner) {
   return {to_world(outer, inner.position), normalise(multiply(outer.rotation, inner.rotation))};

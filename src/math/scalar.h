@@ -1,4 +1,4 @@
-// The scalars of pliant/formula.h, and what only the library needs besides.
+// The scalars of pliant/formula.h, and additions for the library's own use.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace pliant {
 
-/// The bits of `from` as a `To` of the same size (std::bit_cast, which not every compiler of ours has).
+/// The bits of `from` as a `To` of the same size (std::bit_cast, which not all supported compilers have).
 template <class To, class From>
 PLIANT_HD To bits_as(const From& from) {
   static_assert(sizeof(To) == sizeof(From), "only between types of one size");

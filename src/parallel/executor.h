@@ -1,8 +1,8 @@
-// The one parallel loop of the engine. Work that is one text for each of many items goes through launch (launch.h).
+// The engine's parallel loop. Loops of one functor over many items use launch (launch.h).
 //
-// Every loop has a name and times itself: a Report's phases are these names. What a body does may not depend on which thread
-// runs it or in what order, so that any number of threads gives the same bits. On oneTBB (executor_tbb.cpp), or on the caller's
-// thread alone (executor_serial.cpp); CMake's PLIANT_THREADS chooses.
+// Every loop has a name and is timed: these names are the phases of a Report. A body must not depend on the thread that
+// runs it or on the order, so any number of threads gives the same bits. CMake's PLIANT_THREADS selects oneTBB
+// (executor_tbb.cpp) or the calling thread alone (executor_serial.cpp).
 #pragma once
 
 #include <memory>
@@ -11,14 +11,14 @@
 
 namespace pliant {
 
-/// A reference to a callable that outlives the call: what std::function would be without its allocation.
+/// A non-owning reference to a callable, which must outlive the call: std::function without its allocation.
 template <class Signature>
 class FunctionRef;
 template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:
   template <class F>
-  FunctionRef(const F& f)  // NOLINT(google-explicit-constructor): meant to be made in passing
+  FunctionRef(const F& f)  // implicit, for temporaries
       : object_(&f), call_([](const void* object, Arguments... arguments) -> Result {
           return (*static_cast<const F*>(object))(arguments...);
         }) {}
@@ -44,7 +44,7 @@ class Timings {
   std::vector<Entry> entries_;
 };
 
-/// Adds the time from construction to destruction to a Timings.
+/// Adds the time from its construction to its destruction to a Timings.
 class Stopwatch {
  public:
   Stopwatch(Timings& timings, const char* name);
@@ -60,7 +60,7 @@ class Stopwatch {
 
 class Executor {
  public:
-  /// `threads` of at least 1, or 0 for as many as the machine has. The serial backend has one, whatever is asked for.
+  /// `threads` >= 1, or 0 for all hardware threads. The serial backend always has one.
   explicit Executor(int threads);
   ~Executor();
   Executor(Executor&&) noexcept;
@@ -68,10 +68,10 @@ class Executor {
 
   int threads() const { return threads_; }
 
-  /// Runs f where parallel loops find the threads waiting: wrap a whole step in it.
+  /// Runs f inside the thread pool, so that its loops start without waking threads: wrap a whole step in it.
   void enter(FunctionRef<void()> f);
 
-  /// body(i) for i in [0, n), each once, timed under `name`. Runs on the caller where n is 1 or there is one thread.
+  /// Calls body(i) once for each i in [0, n), timed under `name`. Runs on the calling thread if n or threads is 1.
   void parallel_for(const char* name, int n, FunctionRef<void(int)> body);
 
   Timings& timings() { return timings_; }

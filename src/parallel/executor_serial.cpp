@@ -1,12 +1,12 @@
-// The parallel loop on the caller's thread alone: for machines without oneTBB (WebAssembly), or where a program must have no
-// threads. Same bits, as on any number of threads.
+// The parallel loop on the calling thread alone: for platforms without oneTBB (WebAssembly), and programs that must not
+// start threads. The bits are the same as with any number of threads.
 #include "parallel/executor.h"
 
 namespace pliant {
 
 struct Executor::Arena {};
 
-/// One thread, whatever was asked for.
+/// Always one thread.
 Executor::Executor(int) : threads_(1) {}
 Executor::~Executor() = default;
 Executor::Executor(Executor&&) noexcept = default;

@@ -18,8 +18,8 @@ namespace pliant {
 
 namespace {
 
-// Debian's oneTBB is not built for the thread sanitizer, which so takes every loop for a race. What a loop hands out and
-// takes back is told to it here; then it sees the races of loops' bodies, and those alone.
+// Debian's oneTBB is built without the thread sanitizer, which then reports every loop as a race. These annotations declare
+// a loop's fork and join, so that only races between loop bodies are reported.
 #if defined(__SANITIZE_THREAD__)
 #define PLIANT_UNSEEN_BY_TSAN __attribute__((no_sanitize("thread")))
 char handed_out, handed_back;
@@ -32,9 +32,9 @@ void hand_over_release(const void*) {}
 void hand_over_acquire(const void*) {}
 #endif
 
-/// Without it oneTBB caps the threads at the machine's. Of several limits the lowest holds, and oneTBB complains on standard
-/// error of who asks for more; so there is one for all, which only rises. It is never taken back: at a program's end there is
-/// no good moment to.
+/// oneTBB caps threads at the hardware's number unless a limit is set. The lowest of several
+/// limits holds, and oneTBB warns on standard error about larger requests. So one global
+/// limit only rises; it is never released, because no safe moment exists at program exit.
 void raise_limit(std::size_t threads) {
   static std::mutex mutex;
   static std::size_t limit = std::max(1U, std::thread::hardware_concurrency());

@@ -1,9 +1,9 @@
-// The same work for each of n items, on any machine: launch(backend, "name", n, functor) calls functor(i) once for every i in
-// [0, n).
+// A data-parallel loop on any backend: launch(backend, "name",
+// n, functor) calls functor(i) once for every i in [0, n).
 //
-// A functor is plain data, pointers and numbers, whose PLIANT_HD operator()(int) const is the text of one item. Here threads share
-// out blocks of items; on a CUDA device the same functor is the body of a kernel (launch_cuda.h). No item may read what another
-// writes, so that the order of items is nobody's affair and the bits are the same everywhere.
+// A functor is plain data with a PLIANT_HD operator()(int) const for one item. On the host, threads share blocks of items;
+// on a CUDA device the functor is the body of a kernel (launch_cuda.h). No item may read what another writes, so the order
+// of items is irrelevant and the bits are the same everywhere.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace pliant {
 
-/// Items that one task of the host visits.
+/// Items per task on the host.
 inline constexpr int launch_block = 1024;
 
 constexpr int launch_blocks(int n) { return n / launch_block + (n % launch_block != 0 ? 1 : 0); }

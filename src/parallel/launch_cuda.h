@@ -1,5 +1,5 @@
-// launch on a CUDA device, for units that nvcc compiles: the functor is the body of a kernel, one thread an item. What its pointers
-// name must be the device's memory.
+// launch on a CUDA device, for units compiled by nvcc: the functor is a
+// kernel body, one thread per item. Its pointers must refer to device memory.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -8,7 +8,7 @@
 
 namespace pliant {
 
-/// A stream of a device; the default stream unless said.
+/// A CUDA stream; the default stream unless set.
 struct CudaBackend {
   cudaStream_t stream = nullptr;
 };
@@ -19,7 +19,7 @@ __global__ void launch_kernel(Functor functor, int n) {
   if (i < n) functor(i);
 }
 
-/// Starts the work and returns. What the device refuses is what cudaGetLastError says next.
+/// Asynchronous. Launch errors are reported by the next cudaGetLastError.
 template <class Functor>
 void launch(CudaBackend& device, const char*, int n, const Functor& functor) {
   static_assert(std::is_trivially_copyable_v<Functor>, "a functor is copied to a device as bytes");

@@ -1,4 +1,4 @@
-// Timings and stopwatches, the same over every backend.
+// Timings and stopwatches, shared by all backends.
 #include "parallel/executor.h"
 
 #include <chrono>

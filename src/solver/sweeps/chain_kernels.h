@@ -1,5 +1,5 @@
-// The innermost loops of chains and tethers, one table for each instruction set as in solver/kernels.h; all give the same
-// bits.
+// The inner loops of chains and tethers, one table for each instruction
+// set level as in solver/kernels.h. All levels give the same bits.
 #pragma once
 
 #include "math/levels.h"
@@ -8,17 +8,17 @@
 
 namespace pliant {
 
-/// Floats of scratch that a link of sixteen chains takes.
+/// Scratch floats for one link of sixteen chains.
 inline constexpr int chain_scratch_floats = 160;
 
 struct ChainKernels {
-  /// Solves sixteen paths exactly. `links` are the segments of a ChainBatch, `softness` its sixteen; `multipliers` is its
-  /// pool's array or null; `scratch` has room for steps x chain_scratch_floats and starts at a cache line.
+  /// Solves sixteen chains exactly. `links` are the segments of a ChainBatch, `softness` its sixteen values, `multipliers`
+  /// the pool's array or null. `scratch` needs steps x chain_scratch_floats floats from a cache line on.
   void (*solve_chain)(const Pool& pool, const Segment* links, int steps, const float* softness, float* multipliers,
                       const SweepArguments& arguments, float* scratch);
 
-  /// Puts particles [first, last) of an object back to within their tethers; `first` is a multiple of 16, and so is `last`
-  /// or it is the object's end. `anchors` holds position and displacement of each anchor, one after the other.
+  /// Projects the particles [first, last) of an object onto their tethers. `first` and `last` are multiples of 16, or
+  /// `last` is the object's end. `anchors` holds the position and the displacement of each anchor, interleaved.
   void (*hold_tethers)(const Tethers& tethers, const Record* anchors, int first, int last, const SweepArguments& arguments);
 };
 

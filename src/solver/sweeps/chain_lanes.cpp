@@ -1,7 +1,7 @@
-// Chains and tethers in sixteen lanes, compiled once for each instruction set under the rules of lanes.cpp.
+// Chains and tethers in sixteen SIMD lanes, compiled per instruction set level under the rules of lanes.cpp.
 //
-// A path is a lane. On the way forth each particle is fetched once and what the way back needs is left in a scratch that is
-// written and read in line; on the way back each particle is stored once.
+// Each lane solves one path. Forward elimination loads each particle once and stores what back substitution needs in a
+// sequential scratch. Back substitution stores each particle once.
 #include "math/wide.h"
 #include "solver/sweeps/chain_kernels.h"
 #include "solver/sweeps/chain_link.h"
@@ -10,8 +10,8 @@ namespace pliant {
 inline namespace PLIANT_ISA {
 namespace {
 
-// What is kept of a link, as floats of a scratch: its direction, the weight, change, coupling, and the displacements of its
-// end.
+// The scratch layout of a link, as float offsets: direction, weight,
+// change, coupling, and the displacements of its end particle.
 constexpr int kept_direction = 0, kept_weight = 48, kept_change = 64, kept_coupling = 80, kept_displacements = 96;
 static_assert(kept_displacements + 4 * wide_width == chain_scratch_floats);
 
@@ -25,7 +25,7 @@ PLIANT_HD void keep(float* to, const ChainLink<Wide>& link, const Registers& dis
   std::memcpy(to + kept_displacements, &displacements, sizeof displacements);
 }
 
-/// Rows of the pool for a chain's batches, and the softness of its lanes.
+/// The pool rows of a chain's batches, and the softness of its lanes.
 struct ChainRows {
   const float *rest, *compliance;
   std::int32_t rest_step, compliance_step;
@@ -46,7 +46,7 @@ struct ChainRows {
   }
 };
 
-/// Eliminates from the first link to the last. Returns the displacements of the first particles.
+/// Forward elimination over all links. Returns the displacements of the first particles.
 PLIANT_HD Registers eliminate_chain(const Pool& pool, const Segment* links, int steps, const float* softness,
                                     const float* multipliers, const SweepArguments& a, float* scratch, Wide& first_weight) {
   const std::int32_t* index = pool.indices.data() + links->index_offset;
@@ -85,7 +85,7 @@ void solve_chain(const Pool& pool, const Segment* links, int steps, const float*
   const Registers start =
       eliminate_chain(pool, links, steps, softness, a.first_pass ? nullptr : multipliers, a, scratch, first_weight);
   const Wide zero(0.f);
-  Vec3<Wide> pull{zero, zero, zero};  // of the link after
+  Vec3<Wide> pull{zero, zero, zero};  // correction of the next link
   Wide change = zero, coupling = zero;
   for (int k = steps - 1; k >= 0; --k) {
     const float* kept = scratch + static_cast<std::ptrdiff_t>(k) * chain_scratch_floats;
@@ -124,7 +124,7 @@ PLIANT_HD Registers spread_record(const Record& record) {
   return r;
 }
 
-/// Anchors of a row: positions and displacements.
+/// The anchors of a row: positions and displacements.
 struct WideAnchors {
   Registers positions, displacements;
 

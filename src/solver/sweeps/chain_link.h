@@ -1,14 +1,14 @@
 // One link of a chain and one tether, written once for a float and for sixteen lanes.
 //
-// A path of distances is solved exactly: (J W J^T + alpha~) dlambda = -C - alpha~ lambda is tridiagonal, with the diagonal
-// w_k + w_{k+1} + alpha~ and beside it -w_k (n_{k-1} . n_k), and Thomas's elimination solves it forwards and back (the
-// direct solver of Macklin et al. 2016's system along a line; Deul et al. 2018 do the same for rods).
+// A path of distance constraints is solved exactly: (J W J^T + alpha~) dlambda = -C - alpha~ lambda is tridiagonal, with
+// the diagonal w_k + w_{k+1} + alpha~ and the off-diagonal -w_k (n_{k-1} . n_k). The Thomas algorithm solves it (a direct
+// solver for the system of Macklin et al. 2016 along a path; Deul et al. 2018 do the same for rods).
 //
-// The pivot is not formed as a difference. With q_k the mobility of link k's first end when all before it holds,
+// The pivot avoids a difference. With the mobility q_k of link k's first end while all earlier links hold,
 //   p_k = q_k + w_{k+1} + s_k,   q_k = w_k - (w_k n_{k-1}.n_k)^2 / p_{k-1} = w_k (q_{k-1} + s_{k-1} + w_k |n_{k-1} x
 //   n_k|^2) / p_{k-1},
-// where s_k is what is added to the diagonal: sums of what is not negative, so that a load 100 000 times as heavy as a
-// link, whose pivot is the hundred-thousandth part of what the difference would be taken of, keeps all its digits.
+// where s_k is added to the diagonal. All terms are sums of non-negative values, so no digits cancel. A load 100 000 times
+// as heavy as a link would make the pivot a hundred-thousandth of the two terms of a difference.
 #pragma once
 
 #include "math/scalar.h"
@@ -17,11 +17,11 @@
 
 namespace pliant {
 
-/// What link k + 1 needs of link k.
+/// Data of link k that link k + 1 needs.
 template <class R>
 struct ChainEnd {
   Vec3<R> direction;  ///< n_k
-  R length;           ///< of the link now; zero: it has no direction
+  R length;           ///< current length of the link; zero: no direction
   R weight;           ///< inverse mass of the particle between
   R mobility;         ///< q_k
   R added;            ///< s_k
@@ -29,23 +29,23 @@ struct ChainEnd {
   R change;           ///< dlambda_k as if no link followed
 };
 
-/// What is kept of a link for the way back.
+/// Data of a link that back substitution needs.
 template <class R>
 struct ChainLink {
   Vec3<R> direction;
-  R weight;    ///< inverse mass of the particle at its end
+  R weight;    ///< inverse mass of its end particle
   R change;    ///< dlambda as if no link followed
-  R coupling;  ///< by which its dlambda counts in that of the link before
+  R coupling;  ///< factor of its dlambda in that of the previous link
 };
 
-/// The numbers of a link.
+/// The parameters of a link.
 template <class R>
 struct ChainParams {
   R rest_length, compliance, softness, multiplier;
 };
 
-/// Eliminates a link: `across` from its first particle to its second, whose inverse mass is `weight`. `end` is that of the
-/// link before, or for the first link has zero in all but `weight`.
+/// Eliminates a link: `across` points from its first particle to its second, which has inverse mass `weight`. `end` is that
+/// of the previous link; for the first link all fields but `weight` are zero.
 template <bool first, class R>
 PLIANT_HD ChainLink<R> eliminate(const Vec3<R>& across, const R& weight, const ChainParams<R>& params,
                                  const SweepArguments& a, ChainEnd<R>& end) {
@@ -54,7 +54,7 @@ PLIANT_HD ChainLink<R> eliminate(const Vec3<R>& across, const R& weight, const C
   const Vec3<R> n = across * (R(1) / max(length, tiny));
   R mobility = w, coupled(0), coupling(0);
   if constexpr (!first) {
-    // Where a link has no direction the two do not know of one another: as if they stood at right angles.
+    // A link without direction is decoupled from its neighbour, as if they were perpendicular.
     const R sine2 = select(min(length, end.length) < tiny, R(1), length_squared(cross(end.direction, n)));
     coupled = w * dot(end.direction, n);
     mobility = w * ((end.mobility + end.added + w * sine2) * end.inverse_pivot);
@@ -70,13 +70,13 @@ PLIANT_HD ChainLink<R> eliminate(const Vec3<R>& across, const R& weight, const C
   return {n, weight, change, coupling};
 }
 
-/// How far a particle is to be moved along a tether: (x - anchor) times this share.
+/// The displacement of a particle on a tether: this share times (x - anchor).
 template <class R>
 PLIANT_HD R tether_share(const R& distance, const R& longest) {
   return (longest - distance) / max(distance, R(smallest_denominator));
 }
 
-/// One particle's tethers, one after the other. `anchors` holds a position and a displacement each.
+/// Projects one particle's tethers in sequence. `anchors` holds a position and a displacement each.
 PLIANT_HD void hold_particle(const Tethers& tethers, int batch, int lane, int particle, const Record* anchors,
                              const SweepArguments& a) {
   const Record& x = a.positions[particle];

@@ -1,4 +1,4 @@
-// Chains and tethers one path and one particle at a time in plain floats: the readable reference of chain_lanes.cpp.
+// Chains and tethers in scalar floats, one path or particle at a time: the readable reference of chain_lanes.cpp.
 #include <cstring>
 
 #include "solver/sweeps/chain_kernels.h"
@@ -8,7 +8,7 @@ namespace pliant {
 
 namespace {
 
-/// One lane of a chain. Steps past its path's end are links of length zero that move nothing, as in the lanes.
+/// One lane of a chain. Steps beyond the path's end are links of length zero without effect, as in the SIMD lanes.
 class Lane {
  public:
   Lane(const Pool& pool, const Segment* links, int lane, const SweepArguments& a, float* multipliers)

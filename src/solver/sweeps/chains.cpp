@@ -9,9 +9,9 @@ namespace pliant {
 
 namespace {
 
-/// Below this many links of sixteen lanes a colour is done sooner than other threads can be told of it.
+/// Below this many links of sixteen lanes, waking other threads costs more than solving a colour.
 constexpr int fewest_steps_to_share = 96;
-/// Particles of a task that holds tethers.
+/// Particles per task of the tether loop.
 constexpr int particles_per_task = 4096;
 
 void solve_one(const Model& model, const ChainKernels& kernels, const ChainPhase::Task& task, const SweepArguments& a,
@@ -19,8 +19,8 @@ void solve_one(const Model& model, const ChainKernels& kernels, const ChainPhase
   const CompiledObject& object = model.objects[task.object];
   const ChainBatch& batch = object.chains[task.batch];
   float* multipliers = a.multipliers != nullptr ? a.multipliers[batch.pool] : nullptr;
-  // One or two paths, such as a rope, are done sooner one by one than in lanes that are mostly empty. The bits are the
-  // same.
+  // One or two paths, such as a rope, are solved faster one by
+  // one than in mostly empty SIMD lanes. The bits are the same.
   const bool few = object.segments[batch.first_segment].last_count <= 2;
   const ChainKernels& by = few ? chain_kernels_sequential() : kernels;
   by.solve_chain(object.pools[batch.pool], object.segments.data() + batch.first_segment, batch.steps,
@@ -31,7 +31,7 @@ void solve_one(const Model& model, const ChainKernels& kernels, const ChainPhase
 }  // namespace
 
 void iterate_chains(Substep& s, bool first) {
-  if (!(first && s.sweeps_on_entry)) sweep_tiles(s, first, Order::forward);  // what is not in chains
+  if (!(first && s.sweeps_on_entry)) sweep_tiles(s, first, Order::forward);  // constraints outside chains
   sweep_inter_tile(s, first, Order::forward);
   solve_chains(s, first);
   sweep_volumes(s, first);
@@ -51,7 +51,7 @@ void solve_chains(Substep& s, bool first_pass) {
   for (const ChainPhase& phase : s.model.chains) {
     const int tasks = static_cast<int>(phase.tasks.size());
     const int shares = phase.steps < fewest_steps_to_share ? 1 : std::min(tasks, static_cast<int>(scratch.size()));
-    for_tasks(s, "solve: chains", shares, [&](int share) {  // dealt out like cards: neighbours are alike in length
+    for_tasks(s, "solve: chains", shares, [&](int share) {  // strided, because neighbouring paths have similar lengths
       for (int i = share; i < tasks; i += shares) {
         const ChainPhase::Task& task = phase.tasks[i];
         solve_one(s.model, kernels, task, arguments(s, task.object, first_pass), scratch[share].data());
@@ -66,7 +66,7 @@ void hold_tethers(Substep& s) {
     const CompiledObject& object = s.model.objects[o];
     if (object.tethers.slots == 0) continue;
     const SweepArguments a = arguments(s, o, false);
-    // A copy of what all threads read, so that none reads records that another writes, be it with what they hold.
+    // A copy, so that no thread reads records that another thread writes.
     Records& anchors = s.work.anchors[o];
     for (std::size_t i = 0; i < object.tethers.anchors.size(); ++i) {
       anchors[2 * i] = a.positions[object.tethers.anchors[i]];

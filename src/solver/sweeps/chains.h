@@ -1,7 +1,7 @@
-// The chain sweep: which paths are solved when, and the tethers after them.
+// The chain sweep: the order in which paths are solved, and the tethers after them.
 //
-// Plain sweeps carry a pull one edge a pass, so what hangs from two corners needs passes by the thousand when it is finely
-// meshed. Solving whole rows, columns and diagonals at once carries it from end to end in one.
+// Gauss-Seidel carries a force one edge per pass, so finely meshed cloth that hangs from two corners needs thousands of
+// passes. Solving whole rows, columns and diagonals at once carries it from end to end in one pass.
 #pragma once
 
 #include <vector>
@@ -14,15 +14,15 @@
 namespace pliant {
 
 struct ChainScratch : SweepScratch {
-  std::vector<AlignedVector<float>> of_thread;  ///< room for the longest chain each
+  std::vector<AlignedVector<float>> of_thread;  ///< room for the longest chain, for each thread
 
   void prepare(const SweepSetup& setup, int object) override;
 };
 
-/// Solves all chains of the group once, colour after colour.
+/// Solves all chains of the group once, colour by colour.
 void solve_chains(Substep& s, bool first_pass);
 
-/// Puts every particle back to within its tethers.
+/// Projects every particle onto its tethers.
 void hold_tethers(Substep& s);
 
 }  // namespace pliant

@@ -17,12 +17,12 @@ struct View {
   const CompiledObject& object;
   SweepArguments arguments;
   const Record* orientations;                            ///< of the object's frames
-  const std::vector<AlignedVector<float>>* multipliers;  ///< null: none yet, all are zero
-  std::vector<Vec3d>& explained;                         ///< w grad C^T lambda, by particle
-  std::vector<char>& left_out;                           ///< particles that something without a multiplier moves
+  const std::vector<AlignedVector<float>>* multipliers;  ///< null: all are still zero
+  std::vector<Vec3d>& explained;                         ///< w grad C^T lambda of each particle
+  std::vector<char>& left_out;                           ///< particles moved by a constraint without a multiplier
 };
 
-/// Where the slots of a constraint are, points relative to its first one, in double.
+/// Loads a constraint's slots in double, points relative to the first one.
 void load_slots(const View& view, const Pool& pool, const std::int32_t* particle, StencilArrays<double>& arrays) {
   const Record* origin = nullptr;
   for (int slot = 0; slot < pool.stencil; ++slot) {
@@ -38,7 +38,7 @@ void load_slots(const View& view, const Pool& pool, const std::int32_t* particle
   }
 }
 
-/// One component of C: its residual, and what its multiplier moves.
+/// Adds one row of C: its residual, and the displacements that its multiplier explains.
 double look_at(const View& view, const ConstraintPlace& at, const std::int32_t* particle,
                const StencilArrays<double>& arrays, int component) {
   const bool has =
@@ -88,7 +88,7 @@ void add_volume(const View& view, double multiplier, ErrorSum& sum) {
   }
 }
 
-/// Displacements since the prediction that no multiplier explains.
+/// Adds displacements since the prediction that no multiplier explains.
 void add_unexplained(const View& view, const Record* predicted, ErrorSum& sum) {
   for (int i = 0; i < view.object.particles; ++i) {
     if (!(view.arguments.positions[i].w > 0) || view.left_out[i] != 0) continue;

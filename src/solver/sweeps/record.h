@@ -1,17 +1,17 @@
-// How a solve converges, iteration by iteration: both residuals of XPBD's equations (Macklin et al. 2016, eq. 8 and 9).
+// Convergence of a solve by iteration: both residuals of XPBD (Macklin et al. 2016, eq. 8 and 9).
 //
-// A looking glass, not a part of the solve: it changes nothing, works in double, one thread, and allocates as it likes.
+// Diagnostics only: changes no state, computes in double on one thread, and may allocate.
 #pragma once
 
 namespace pliant {
 
 struct Substep;
 
-/// Keeps the prediction, from which the dual residual is measured, and reports iteration 0. Before the first sweep of a
-/// substep.
+/// Stores the prediction, from which the dual residual is measured, and
+/// reports iteration 0. Call it before the first sweep of a substep.
 void record_prediction(Substep& s);
 
-/// Appends the residuals after iteration number `iteration`, from 1, to the report.
+/// Appends the residuals after iteration `iteration` (from 1) to the report.
 void record_iteration(Substep& s, int iteration);
 
 }  // namespace pliant

@@ -1,6 +1,6 @@
-// Symmetric Gauss-Seidel: there and back. What the way there does last the way back does first, so that the iteration as a
-// whole has no direction: its matrix is symmetric in the norm of the masses, its eigenvalues are real and none is negative,
-// which is what Chebyshev acceleration asks for. Volumes, one constraint over everything, stand at the turning point.
+// Symmetric Gauss-Seidel: a forward and a backward pass. The iteration matrix is thus
+// symmetric in the mass norm, with real, non-negative eigenvalues, as Chebyshev acceleration
+// requires. Volume constraints act on all points and are projected between the two passes.
 #include "solver/passes.h"
 #include "solver/sweeps/sweep.h"
 

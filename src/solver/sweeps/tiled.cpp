@@ -1,4 +1,4 @@
-// Coloured Gauss-Seidel: tile by tile, then the inter-tile constraints, colour by colour.
+// Coloured Gauss-Seidel: tile by tile, then the inter-tile constraints colour by colour.
 #include "solver/passes.h"
 #include "solver/sweeps/sweep.h"
 
