@@ -25,7 +25,7 @@ struct alignas(64) Contact {
   float gap = 0;    ///< distance at the substep's start minus `thickness`: C before any motion [m]
   Vec3f carried{};  ///< the part of the relative displacement that is no motion: the points' rounding residues [m]
   float approach =
-      0;             ///< relative velocity along the normal before the substep; negative if approaching [m/s]
+      0;             ///< relative normal velocity at the beginning of the substep; negative where the sides approach [m/s]
   Vec3f friction{};  ///< sum of this substep's tangential corrections [m]
   float push = 0;    ///< sum of this substep's normal corrections [m]
   float static_friction = 0, kinetic_friction = 0, restitution = 0;
