@@ -1,5 +1,5 @@
-// What there is to say about contact among what moves and with meshes: mesh colliders that can't be, and thickness that is too
-// much for a mesh. What passes through what before anything has moved: inspect_tangles.cpp.
+// Findings about contact: invalid mesh colliders, and a thickness too large for
+// the mesh or too costly. Initial intersections are in inspect_tangles.cpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -74,11 +74,11 @@ namespace {
 
 // ------------------------------------------------------------------------------------------------ cost
 
-/// Pairs that contact looks at for each vertex of a sheet whose thickness suits its edges.
+/// Pairs per vertex that contact tests on a sheet whose thickness suits its edges.
 constexpr double usual_pairs = 60;
 
-/// About as many pairs of an object with itself are near enough to be looked at: of triangles of area A, those within the kept
-/// distance and an edge of a vertex, and three times as many pairs in all. Measured on grids of one to nine edges within 15 %.
+/// Estimates the near pairs of an object with itself. A vertex has triangles of area A within the kept distance plus one
+/// edge; the total is three times as many pairs. Measured on grids of one to nine edges: within 15 %.
 double estimated_pairs(const Object& object, double kept) {
   std::vector<double> areas(object.positions.size(), 0);
   std::vector<int> triangles(object.positions.size(), 0);
@@ -103,7 +103,7 @@ double estimated_pairs(const Object& object, double kept) {
   return pairs;
 }
 
-/// A thickness of many edges, of the whole mesh or where it is finest, makes a frame dearer by the square of their number.
+/// A thickness of n edges, on the whole mesh or its finest part, makes a frame n^2 times as expensive.
 void doubt_cost(Problems& problems, const Object& object) {
   if (!object.self_collision || object.triangles.empty()) return;
   const double kept = 2 * static_cast<double>(object.thickness),
@@ -126,7 +126,7 @@ void doubt_thickness(Problems& problems, const Object& object) {
   if (edge == 0)
     return problems.doubtful("", "has neither triangles nor links: its particles touch surfaces, but not one another",
                              "leave out self_collision");
-  if (kept > edge && !object.triangles.empty())  // a rope may be: it bends no more sharply than it is thick
+  if (kept > edge && !object.triangles.empty())  // not for ropes, which bend no more sharply than they are thick
     problems.doubtful("thickness",
                       "is " + words(object.thickness) +
                           " m: two layers keep twice that apart, more than the median edge, " + words(edge) + " m",
@@ -141,7 +141,7 @@ bool masks_allow(const A& a, const B& b) {
   return (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
 }
 
-/// What is said to collide and meets nobody would pass through everything in silence.
+/// Warns of an object that is set to collide but that can meet no other: it would pass through everything.
 void doubt_company(Problems& problems, const Object& object, const Scene& scene) {
   if (!object.collides) return;
   const auto is_met_by_object = [&](const Object& other) {
@@ -186,7 +186,7 @@ void check_frames(Problems& problems, const MeshCollider& collider) {
                    "leave them out, or let it be met as triangles");
 }
 
-/// A mesh that is otherwise sound.
+/// Checks a mesh collider as a solid, after its mesh has passed.
 void check_solid(Problems& problems, const MeshCollider& collider) {
   require_range(problems, "grid_spacing", collider.grid_spacing, 0, largest_place);
   if (collider.as == MeshCollider::As::triangles || problems.grave_count() > 0) return;

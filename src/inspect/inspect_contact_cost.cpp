@@ -1,7 +1,7 @@
-// What contact would cost, before it is paid: pairs of primitives within the thickness at the start, and rounding far from the origin.
+// Estimates the cost of contact at the start: pairs of primitives within the thickness, and rounding far from the origin.
 //
-// A vertex of a triangle mesh has two triangles and three edges, so one neighbour within reach stands for 2 pairs of a vertex and a
-// triangle and 3 x 3 / 2 pairs of edges. Contact keeps each such pair in a list.
+// A vertex of a triangle mesh has two triangles and three edges. So one near vertex stands for 2 vertex-triangle pairs and
+// 3 x 3 / 2 edge-edge pairs. Contact stores each such pair in a list.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,16 +15,16 @@ namespace pliant {
 namespace {
 
 constexpr double pairs_of_surface = 6.5, pairs_of_rope = 0.5, bytes_of_pair = 24;
-/// Refused: an object of more pairs a vertex than this, if it has more than `most_pairs` in all. Ten times what cloth needs whose
-/// thickness is half an edge.
+/// Rejects an object with more pairs per vertex than this, if it has more than `most_pairs` in all. That is ten times what
+/// cloth with a thickness of half an edge needs.
 constexpr double most_pairs_of_vertex = 1000, most_pairs = 1e6;
-/// Refused: a scene of more pairs than this, a gigabyte; named is the object of most pairs a vertex, if it has more than `many_pairs`.
+/// Rejects scenes with more pairs (a gigabyte). Names the object with most pairs per vertex, if above `many_pairs`.
 constexpr double most_pairs_of_scene = 4e7, many_pairs = 300;
-/// How many vertices are looked at; each is compared with those near it along x.
+/// The number of sampled vertices; each is compared with those near it along x.
 constexpr std::size_t samples = 256;
-/// Near lists reach this share of an edge beyond the thickness.
+/// The skin of near lists beyond the thickness, over the edge length.
 constexpr double skin_over_edge = 0.75;
-/// The filter keeps at least this share of a coordinate between surfaces: 32 roundings of a float.
+/// The filter's least margin between surfaces, over the largest coordinate: 32 float roundings.
 constexpr double filter_roundings = 32 * 6e-8;
 
 bool touches(const Object& object) { return object.self_collision || object.collides; }
@@ -65,7 +65,7 @@ class Neighbours {
 
   double edge(std::size_t object) const { return edge_[object]; }
 
-  /// Calls visit(object, neighbours) for vertices spread over all.
+  /// Calls visit(object, neighbours) for vertices sampled evenly over all objects.
   template <class Visit>
   void sample(const Visit& visit) const {
     const std::size_t stride = std::max<std::size_t>(1, all_.size() / samples);
@@ -89,7 +89,7 @@ class Neighbours {
   }
 
   const Scene& scene_;
-  std::vector<double> edge_;  ///< of each object; 0: it touches nothing [m]
+  std::vector<double> edge_;  ///< median edge of each object; 0: it does not collide [m]
   std::vector<Vertex> all_;   ///< ascending by x
   double thickest_ = 0;
 };

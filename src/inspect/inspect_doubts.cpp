@@ -1,4 +1,4 @@
-// What is doubtful about an object: nothing that a World refuses, but most likely not what was meant.
+// Warnings about an object: settings that a World accepts but that are probably unintended.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,18 +16,18 @@ namespace pliant {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Masses further apart than this make heavy things hang on light ones like on rubber.
+/// At larger mass ratios, heavy particles on light ones stretch their constraints like rubber.
 constexpr double large_mass_ratio = 1e4;
-/// The speed of sound [m/s], which nothing that this engine is made for exceeds.
+/// The speed of sound [m/s], an upper bound of plausible speeds.
 constexpr double large_speed = 343;
-/// Where a mesh in millimetres or centimetres usually ends up [m].
+/// Coordinates beyond this suggest a mesh in millimetres or centimetres [m].
 constexpr float large_place = 1e4f;
-/// Share of its rest length by which a constraint may be off at the start.
+/// Relative deviation from the rest length above which a warning is given.
 constexpr double large_strain = 0.5;
 /// Angle [rad] from which a rest shape counts as curved.
 constexpr double large_angle = 0.1;
 
-/// One object being doubted, with what several doubts need.
+/// The object being checked, with data that several checks need.
 struct Doubts {
   Problems& problems;
   const Object& object;
@@ -91,7 +91,7 @@ void doubt_references(const Doubts& d) {
   Tally loose;
   for (std::size_t i = 0; i < used.size(); ++i)
     if (!used[i]) loose.add(static_cast<std::int64_t>(i));
-  if (static_cast<std::size_t>(loose.count) == d.count()) return;  // a cloud of particles is meant to be one
+  if (static_cast<std::size_t>(loose.count) == d.count()) return;  // all particles are free: a particle cloud is intended
   d.problems.doubtful(loose, "particle", "is in no constraint and no triangle, so it flies by itself",
                       "drop it, or tie it");
 }
@@ -113,7 +113,7 @@ void doubt_places(const Doubts& d) {
 
 // ------------------------------------------------------------------------------------------------ constraints
 
-/// Hung on it, half of its own mass would stretch it to more than ten times its length.
+/// True if half of its own mass, hung on the constraint, would stretch it more than tenfold.
 bool does_nothing(const Doubts& d, const ConstraintGroup& group, std::size_t c) {
   const double alpha = group.compliances.empty() ? group.stiffness.value : group.compliances[c];
   const int* pair = &group.particles[2 * c];
@@ -135,7 +135,7 @@ void doubt_distances(const Doubts& d, const ConstraintGroup& group) {
                       "it will jump; check rest lengths and units");
   d.problems.doubtful(idle, "distance constraint", "is so compliant that its own weight stretches it tenfold",
                       "compliance is the inverse of stiffness, in m/N: 0 is rigid");
-  const double most = d.object.triangles.empty() ? 10 * shortest : shortest;  // short links make a thick rope bend smoothly
+  const double most = d.object.triangles.empty() ? 10 * shortest : shortest;  // short links let a thick rope bend smoothly
   if (static_cast<double>(d.object.thickness) > most)
     d.problems.doubtful("thickness",
                         "is " + words(d.object.thickness) + " m, more than the shortest edge, " + words(shortest) + " m",

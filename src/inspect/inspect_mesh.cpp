@@ -256,8 +256,8 @@ class Inspector {
            "the surface turns freely about it; split the vertex or close the gap");
   }
 
-  /// How many parts there are that not even a vertex joins. What hangs together over edges of three triangles, or in a point, is
-  /// one: it does not move by itself, and what is the matter with it is said of those.
+  /// The number of parts without a common vertex. Parts joined by non-manifold edges or in one point count as one, because
+  /// they cannot separate; other findings cover them.
   std::size_t pieces_apart() const {
     std::vector<std::size_t> parent(mesh_.positions.size());
     std::iota(parent.begin(), parent.end(), std::size_t{0});

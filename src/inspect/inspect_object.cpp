@@ -1,4 +1,4 @@
-// What a World refuses in an object: sizes that do not fit, indices out of range, numbers that mean nothing.
+// Errors in an object that a World rejects: inconsistent sizes, indices out of range, invalid numbers.
 #include <cmath>
 #include <limits>
 #include <string>

@@ -1,4 +1,4 @@
-// What passes through what, or is shut up in it, before anything has moved: refused, or doubted, as the scene has it.
+// Initial intersections and enclosures: reported as errors or warnings, as the scene's setting requires.
 #include <algorithm>
 #include <map>
 #include <string>
@@ -20,7 +20,7 @@ using Intersections = Settings::Intersections;
 constexpr const char* what_to_do =
     "move one of them or mend the mesh, or set initial_intersections to \"untangle\" or \"leave\"";
 
-/// What crosses between two parts: the first, and how many.
+/// The intersections between two parts: the first, and their number.
 struct Crossings {
   Intersection first{};
   std::size_t count = 0;
@@ -70,7 +70,7 @@ void name_crossings(Problems& problems, const Surfaces& all, const Crossings& cr
 
 // ---------------------------------------------------------------- inside
 
-/// A closed surface that a thing may be shut up in without touching it.
+/// A closed surface that may enclose an object without touching it.
 struct Closed {
   std::string name;  ///< "closed collider 'ball'"
   int part = -1;     ///< -1: a distance grid
@@ -104,7 +104,7 @@ bool meet(const Surfaces& all, int object, const Closed& closed) {
   return (of.groups & closed.mask) != 0 && (closed.groups & of.mask) != 0;
 }
 
-/// Particles of an object inside of a closed surface.
+/// Counts the particles of an object inside a closed surface.
 Tally inside_of(const Surfaces& all, int object, const MeshQuery& query) {
   Tally inside;
   const BoxBounds& box = query.bounds();
@@ -116,8 +116,8 @@ Tally inside_of(const Surfaces& all, int object, const MeshQuery& query) {
   return inside;
 }
 
-/// Things that nothing crosses may still be where they can't be. What crosses is named already. Where it is no error, only
-/// closed colliders are doubted: an object may well be meant to hold another.
+/// Reports objects enclosed without any crossing; crossings are reported separately. Unless enclosures are errors, only
+/// closed colliders count, because one object may legitimately contain another.
 void name_inside(Problems& problems, const Scene& scene, const Surfaces& all, const CrossingsOfParts& crossings,
                  Intersections what) {
   const int objects = static_cast<int>(scene.objects.size());
@@ -146,7 +146,7 @@ float thickness_of(const Scene& scene, int part) {
   return number < objects ? scene.objects[number].thickness : scene.mesh_colliders[number - objects].thickness;
 }
 
-/// The distance that two parts keep.
+/// The contact distance of two parts.
 float kept_between(const Scene& scene, const Surfaces& all, int a, int b) {
   float kept = thickness_of(scene, a) + thickness_of(scene, b);
   const std::string &first = all.parts[static_cast<std::size_t>(a)].name,
@@ -158,7 +158,7 @@ float kept_between(const Scene& scene, const Surfaces& all, int a, int b) {
   return kept;
 }
 
-/// Particles of part `a` that are nearer to a surface than `kept`, and the least distance.
+/// Counts particles of part `a` nearer to a surface than `kept`, and finds the least distance.
 Tally near_to(const Surfaces& all, int a, const MeshQuery& query, float kept, float& least) {
   Tally near;
   const int first = all.parts[static_cast<std::size_t>(a)].first;
@@ -174,9 +174,9 @@ Tally near_to(const Surfaces& all, int a, const MeshQuery& query, float kept, fl
   return near;
 }
 
-/// What starts nearer than it may be is pushed apart at once.
+/// Warns of parts that start within the contact distance, because contact pushes them apart at once.
 void doubt_touching(Problems& problems, const Scene& scene, const Surfaces& all, const CrossingsOfParts& crossings) {
-  constexpr float share = 0.9f;  // layers that are laid out just so far apart are meant to be
+  constexpr float share = 0.9f;  // layers laid out at just the contact distance are intended
   const int objects = static_cast<int>(scene.objects.size()), parts = static_cast<int>(all.parts.size());
   for (int b = 0; b < parts; ++b) {
     const std::vector<Triangle> triangles = all.triangles_of(b);
@@ -185,7 +185,7 @@ void doubt_touching(Problems& problems, const Scene& scene, const Surfaces& all,
         {all.positions.begin() + all.parts[static_cast<std::size_t>(b)].first, all.positions.begin() + all.end_of(b)},
         triangles);
     for (int a = 0; a < objects; ++a) {
-      const bool was_told = a > b && b < objects && !all.triangles_of(a).empty();  // as b of a
+      const bool was_told = a > b && b < objects && !all.triangles_of(a).empty();  // already reported as b of a
       if (a == b || was_told || !all.meet(a, b) || crossings.count(std::minmax(a, b)) > 0) continue;
       const float kept = kept_between(scene, all, a, b);
       float least = kept;

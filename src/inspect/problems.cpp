@@ -1,4 +1,4 @@
-// The list of findings, and the checks that objects and colliders share.
+// The list of findings, and checks shared by objects and colliders.
 #include "inspect/problems.h"
 
 #include <algorithm>

@@ -1,11 +1,11 @@
-// From PBD stiffness to XPBD compliance and back, without a logarithm.
+// Converts PBD stiffness to XPBD compliance and back, without a logarithm.
 //
-// Of an isolated constraint's error C one PBD projection leaves (1 - k'') C; the m iterations of a substep leave 1 - k',
-// the n substeps of a frame 1 - k. XPBD leaves alpha~ / (w + alpha~) of it in a substep, alpha~ = alpha / h^2, whatever m
-// is, because the multiplier remembers what was already done. Equal shares in a substep, k' = w / (w + alpha~), make both
-// take the very same path, inertia included. Only k' = 1 - (1 - k)^(1/n) is not elementary arithmetic. It is found by
-// Newton's method on K(k') = 1 - (1 - k')^n, and K by repeated doubling from terms of one sign, so that small shares lose
-// no digits.
+// One PBD projection of an isolated constraint leaves (1 - k'') C of its error; the m
+// iterations of a substep leave 1 - k', the n substeps of a frame 1 - k. XPBD leaves alpha~ /
+// (w + alpha~) per substep, alpha~ = alpha / h^2, for any m, because the multiplier
+// accumulates. Equal shares, k' = w / (w + alpha~), give the same path, inertia included. Only
+// k' = 1 - (1 - k)^(1/n) is not elementary. Newton's method solves K(k') = 1 - (1 - k')^n for
+// it. Repeated doubling evaluates K from terms of one sign, so small shares keep their digits.
 #include <cmath>
 #include <limits>
 #include <string>
@@ -27,7 +27,7 @@ void require_context(const ConversionContext& context) {
     throw Error({"", 0, "", context.substeps < 1 ? "substeps" : "iterations"}, "must be at least 1");
 }
 
-/// 1 - (1 - share)^times. Shares add up as a + b - a b = a + b (1 - a); no term is negative.
+/// 1 - (1 - share)^times. Shares combine as a + b - a b = a + b (1 - a), without negative terms.
 double repeated_share(double share, int times) {
   double result = 0, power = share;
   for (int bits = times; bits > 0; bits >>= 1) {
@@ -37,9 +37,9 @@ double repeated_share(double share, int times) {
   return result;
 }
 
-/// The share that done `times` times makes `whole`, for 0 < whole < 1. K is concave and K(whole / times) <= whole, so
-/// Newton's method climbs to the root from below and never passes it; a step that gains nothing more ends it. The climb
-/// gains at least a factor e of what is left to do in each step, so that floats need some twenty steps at most.
+/// The share whose `times`-fold repetition gives `whole`, 0 < whole < 1. K is concave and K(whole / times) <= whole, so
+/// Newton's method approaches the root monotonically from below and stops when a step gains nothing. Each step reduces the
+/// distance by a factor e or more, so about twenty steps suffice for floats.
 double single_share(double whole, int times) {
   double share = whole / times;
   for (int step = 0; step < 200; ++step) {

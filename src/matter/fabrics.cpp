@@ -1,10 +1,10 @@
-// Fabrics as the textile trade measures them, in SI units. docs/guide/materials.md holds the same table, with how to read it and
-// how far to trust it; a test compares the two.
+// Measured fabrics of the textile trade in SI units. docs/guide/materials.md
+// has the same table, how to read it and its accuracy; a test compares the two.
 //
-// The Kawabata evaluation system (KES-F) reports bending rigidity per width in gf cm^2/cm (1 = 9.81e-5 N m) and the
-// extension at 500 gf/cm (490 N/m), which gives the membrane stiffness as a secant: 490 N/m over the strain. Woven fabrics
-// spread over a factor of three and more, differ between warp and weft, and stiffen as they stretch: one number each is a
-// typical one.
+// The Kawabata evaluation system (KES-F) reports bending rigidity per width in gf cm^2/cm (1
+// = 9.81e-5 N m). It also reports the extension at 500 gf/cm (490 N/m); the secant membrane
+// stiffness is 490 N/m over the strain. Woven fabrics vary by a factor of three or more,
+// differ between warp and weft, and stiffen as they stretch. Each number is a typical value.
 #include <string>
 
 #include "pliant/error.h"

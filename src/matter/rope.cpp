@@ -1,4 +1,4 @@
-// A rope: links that keep their length, and where it bends, struts that keep second neighbours apart.
+// A rope: links that keep their length and, for bending stiffness, struts between second neighbours.
 #include <cmath>
 #include <string>
 #include <utility>
@@ -10,7 +10,7 @@ namespace pliant {
 
 namespace {
 
-/// Length of each link, computed in double and checked.
+/// The length of each link, computed in double and validated.
 std::vector<double> link_lengths(const std::vector<Vec3f>& points, const std::string& name) {
   std::vector<double> lengths;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -35,7 +35,7 @@ std::vector<float> lumped_masses(const std::vector<double>& lengths, double line
   return masses;
 }
 
-/// Distances between each particle and the one `apart` further on.
+/// The distance constraints between particles i and i + apart.
 ConstraintGroup struts(int particles, int apart, const Stiffness& stiffness) {
   ConstraintGroup group;
   group.type = "distance";

@@ -1,4 +1,4 @@
-// Adding to a Scene. It stays plain data: what is added is checked when a World is made of it, or by inspect().
+// Adds to a Scene, which stays plain data. World and inspect() validate what is added.
 #include "pliant/scene.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ void Scene::pin(int object, const std::vector<int>& particles, const Motion& mot
                 "does not exist; the scene has " + std::to_string(objects.size()) + " objects",
                 "pin what add() or add_cloth() returned");
   Object& pinned = objects[static_cast<std::size_t>(object)];
-  // All are checked before the first is pinned, so that an error leaves the scene as it was.
+  // All are validated before the first is pinned, so that an error leaves the scene unchanged.
   for (int particle : particles)
     if (particle < 0 || particle >= static_cast<int>(pinned.positions.size()))
       throw Error({"", 0, pinned.name, "particle " + std::to_string(particle)},

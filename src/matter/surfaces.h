@@ -30,7 +30,7 @@ struct Surfaces {
   std::string name(int part) const;  ///< "object 'shirt'"
   /// A vertex in the numbers of its part.
   std::string local(int vertex) const { return std::to_string(vertex - parts[part_of(vertex)].first); }
-  /// The triangles of a part, in its own numbers.
+  /// The triangles of a part, in local vertex indices.
   std::vector<Triangle> triangles_of(int part) const;
 };
 

@@ -1,4 +1,4 @@
-// The list of sweeps, as the outside sees it.
+// The public list of sweeps.
 #include "pliant/scene.h"
 
 namespace pliant {

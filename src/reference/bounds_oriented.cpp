@@ -1,5 +1,5 @@
-// Oriented boxes. Axes are kept as floats and so are orthonormal to some 1e-7 only: everything is worked out in double, and
-// extents are widened by more than that could cost.
+// Oriented bounding boxes. Float axes are orthonormal only to about 1e-7, so
+// everything is computed in double and extents are widened to cover that error.
 #include "reference/volumes.h"
 
 #include <initializer_list>
@@ -18,7 +18,7 @@ Axes axes_of(const OrientedBoxBounds& box) {
   return {{convert<double>(box.axes[0]), convert<double>(box.axes[1]), convert<double>(box.axes[2])}};
 }
 
-/// As the points' first triangle lies: along its longest side, and along its normal.
+/// Axes aligned with the points' first triangle: along its longest side, and along its normal.
 Axes axes_of_triangle(const Vec3f* points, int count) {
   const Vec3d a = convert<double>(points[0]), b = convert<double>(points[count > 1 ? 1 : 0]),
               c = convert<double>(points[count > 2 ? 2 : 0]);
@@ -26,14 +26,14 @@ Axes axes_of_triangle(const Vec3f* points, int count) {
   for (const Vec3d& other : {c - b, a - c})
     if (length_squared(other) > length_squared(side)) side = other;
   const Vec3d x = unit_or(side, Vec3d{1, 0, 0});
-  // Where there is no normal, whatever is perpendicular: the axis that x follows least serves.
+  // Without a normal any perpendicular serves: the coordinate axis least aligned with x gives one.
   const Vec3d least = abs(x.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
   const Vec3d perpendicular = cross(x, unit_or(cross(b - a, c - a), least));
   const Vec3d y = unit_or(perpendicular, unit_or(cross(x, least), Vec3d{0, 0, 1}));
   return {{x, y, cross(x, y)}};
 }
 
-/// A box along `axes` between these bounds, relative to `origin`.
+/// The box along `axes` between these bounds, relative to `origin`.
 OrientedBoxBounds box_between(const Axes& axes, const Vec3d& origin, const double (&low)[3], const double (&high)[3]) {
   OrientedBoxBounds box;
   Vec3d centre = origin;
@@ -45,7 +45,7 @@ OrientedBoxBounds box_between(const Axes& axes, const Vec3d& origin, const doubl
     box.axes[i] = convert<float>(axes.axis[i]);
   }
   box.centre = convert<float>(centre);
-  const double shift = length(convert<double>(box.centre) - centre);  // by rounding the centre
+  const double shift = length(convert<double>(box.centre) - centre);  // rounding error of the centre
   const double wider = widening * size + shift;
   box.extents = {detail::float_above(half[0] + wider), detail::float_above(half[1] + wider),
                  detail::float_above(half[2] + wider)};
@@ -93,7 +93,7 @@ OrientedBoxBounds OrientedBoxBounds::of(const Vec3f* points, int count) {
   return box_between(axes, origin, low, high);
 }
 
-// Of the first and the last box's axes and the world's, those that give the least surface.
+// Of the first and the last box's axes and the world's, picks those of least surface area.
 OrientedBoxBounds OrientedBoxBounds::merged(const OrientedBoxBounds* boxes, int count) {
   if (count == 1) return boxes[0];
   const Axes world{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -137,7 +137,7 @@ bool overlap(const OrientedBoxBounds& a, const OrientedBoxBounds& b) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
       const Vec3d axis = cross(u.axis[i], v.axis[j]);
-      if (length_squared(axis) > 1e-6 && separates(axis)) return false;  // of parallel axes the product says nothing new
+      if (length_squared(axis) > 1e-6 && separates(axis)) return false;  // for parallel axes the product adds no axis
     }
   return true;
 }

@@ -1,4 +1,4 @@
-// Candidates in three passes: boxes and trees, lists of each part, lists of all in their places.
+// Candidates in three passes: boxes and trees, lists of each part, merged lists.
 #include "reference/candidates.h"
 
 #include <algorithm>
@@ -79,7 +79,7 @@ void CandidateFinder::fit_trees(Executor& executor, bool anew) {
   });
 }
 
-/// The list of each owner: leaves of `others` whose boxes overlap its own and that are wanted(owner, other).
+/// Lists for each owner the leaves of `others` with overlapping boxes that satisfy wanted(owner, other).
 template <class Wanted>
 void CandidateFinder::find_lists(Executor& executor, const Tree<BoxBounds>& owners, const Tree<BoxBounds>& others,
                                  const int* owner_of_leaf, IntLists& lists, const Wanted& wanted) {

@@ -1,12 +1,12 @@
-// Which vertices may meet which triangles, and which edges which edges, while everything moves from one place to another.
+// Vertex-triangle and edge-edge candidates of a substep in which all vertices move linearly.
 //
-// Boxes hold each vertex's whole motion, grown by half the radius, and so do those of edges and triangles, which are the boxes of
-// their vertices together. Vertices are looked for in a hierarchy over the triangles, edges in one over the edges, in packets of
-// eight that lie together: one way down a tree for eight, then eight boxes at once. (Going by pairs of triangles and what each
-// of them owns was tried, is more code and was no faster: docs/internals/broadphase.md.) Each packet's lists are written by one thread:
-// counts, then places, then the lists. Sorted, and the same on any number of threads.
+// Each vertex has a swept box, grown by half the radius; edges and triangles have the union of their vertices' boxes.
+// Vertices are searched in a BVH of triangles, edges in a BVH of edges, in packets of eight neighbours: one descent for
+// eight, then eight boxes at once. (Enumerating pairs of triangles and their owned primitives was no faster, with more
+// code: docs/internals/broadphase.md.) One thread writes each packet's lists: counts, then offsets, then lists. They are
+// sorted and do not depend on the number of threads.
 //
-// Memory grows with what is found and is kept: a frame that finds no more than an earlier one allocates nothing.
+// Memory grows with the result and is reused: a frame with no more candidates than before allocates nothing.
 #pragma once
 
 #include <vector>
@@ -21,19 +21,19 @@ class CandidateFinder {
  public:
   explicit CandidateFinder(ContactElements elements);
 
-  /// Finds all pairs that may come within `radius` [m] while vertices move straight from `from` to `to`. All finite and below
-  /// 1e15 m. `anew` builds the trees from scratch, as the first call does in any case: due when things have moved far.
+  /// Finds all pairs that can come within `radius` [m] while vertices move linearly from `from` to `to`. All positions must
+  /// be finite and below 1e15 m. `anew` rebuilds the trees, as the first call does; use it after large motions.
   void find(Executor& executor, const std::vector<Vec3f>& from, const std::vector<Vec3f>& to, float radius,
             bool anew = false);
 
-  /// For each vertex the triangles of which it is no corner, ascending.
+  /// For each vertex the triangles without it as a corner, ascending.
   const IntLists& vertex_triangles() const { return vertex_triangles_; }
-  /// For each edge the edges after it in ContactElements::edges with which it shares no vertex, ascending.
+  /// For each edge the later edges in ContactElements::edges without a common vertex, ascending.
   const IntLists& edge_edges() const { return edge_edges_; }
   const ContactElements& elements() const { return elements_; }
 
  private:
-  /// What one thread found for some packets: runs of items, each with its owner.
+  /// The result of one thread for some packets: runs of items, each with its owner.
   struct Part {
     struct Run {
       int owner, count;

@@ -10,12 +10,12 @@
 
 namespace pliant::reference {
 
-/// What the solver must know of a constraint, whatever its type.
+/// The interface of a constraint for the solver, independent of its type.
 class AnyConstraint {
  public:
   virtual ~AnyConstraint() = default;
   virtual void start_substep() = 0;
-  /// One projection. `start` holds the positions before the substep, `projections` how often it is projected in a step.
+  /// Projects once. `start` holds the positions before the substep; `projections` is the number per step.
   virtual void project(std::vector<Particle>& particles, const std::vector<Vec3d>& start, double h, int projections) = 0;
   virtual double value(const std::vector<Particle>& particles) const = 0;
   virtual double multiplier() const = 0;
@@ -55,13 +55,13 @@ void copy_stencil(const std::vector<Vec3d>& from, Places<T>& to) {
   for (std::size_t i = 0; i < size_of<T>; ++i) to[i] = from[i];
 }
 
-/// Calls visit(TypeTag<T>{}) for the type of this name.
+/// Calls visit(TypeTag<T>{}) for the type with this name.
 template <class Visit>
 void with_name(const std::string& type, const Visit& visit) {
   bool found = false;
   for_each_type(AllConstraints{}, [&](auto tag, int) {
     using T = typename decltype(tag)::type;
-    if constexpr (in_lanes<T>) {  // this solver has particles alone, and one row
+    if constexpr (in_lanes<T>) {  // this solver supports particles and one row only
       if (type != T::name) return;
       found = true;
       visit(tag);
@@ -110,7 +110,7 @@ class Constraint final : public AnyConstraint {
     for (std::size_t i = 0; i < size_of<T>; ++i) x[i] = particles[indices_[i]].position;
   }
 
-  // k' = 1 - (1 - k)^(1/n): after n projections of an isolated linear constraint the share k of its error is gone.
+  // k' = 1 - (1 - k)^(1/n): n projections of an isolated linear constraint remove the share k of its error.
   double pbd_change(double c, double weight, int projections) const {
     const double each = 1 - std::pow(1 - hardness_.pbd, 1.0 / projections);
     return -each * c / weight;

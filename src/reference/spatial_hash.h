@@ -1,10 +1,10 @@
-// A uniform grid without bounds: cells hashed into a table, what lies in them listed by count, scan and fill.
+// An unbounded uniform grid: cells are hashed into a table and filled by count, scan and fill.
 //
-// Teschner et al. 2003, "Optimized spatial hashing for collision detection of deformable objects", with what that leaves open:
-// cells are found by floor, not by truncation; entries keep their cell, so that cells which share a place of the table are never
-// mixed; a box lies in many cells, and a pair is reported in the one cell where both begin, so never twice; boxes far larger
-// than a cell are kept apart instead of filling the table. Entries of a place are in the order of their numbers: the same input
-// gives the same answers in the same order on any machine.
+// Teschner et al. 2003, "Optimized spatial hashing for collision detection of deformable objects",
+// with these details. Cells use floor, not truncation. Entries store their cell, so colliding
+// cells in a slot are never mixed. A pair of boxes is reported only in the cell where both begin,
+// so never twice. Boxes much larger than a cell are kept in a separate list. Entries of a slot are
+// in index order: the same input gives the same result in the same order on any machine.
 #pragma once
 
 #include <array>
@@ -17,17 +17,17 @@ namespace pliant {
 
 class SpatialHash {
  public:
-  /// Edge of a cell [m], > 0: best about the size of what is put in. Throws Error otherwise.
+  /// Cell size [m], > 0: best about the size of the boxes. Throws an Error otherwise.
   explicit SpatialHash(float cell_size);
 
-  /// Puts in boxes (points: low = high), finite, in place of what was there. Takes new memory only to grow.
+  /// Replaces the content by finite boxes (points: low = high). Allocates only to grow.
   void build(const std::vector<BoxBounds>& boxes);
 
-  /// visit(i) once for each box that overlaps `box`.
+  /// Calls visit(i) once for each box that overlaps `box`.
   template <class Visit>
   void query(const BoxBounds& box, const Visit& visit) const;
 
-  /// visit(a, b), a < b, once for each pair of boxes that overlap.
+  /// Calls visit(a, b), a < b, once for each pair of overlapping boxes.
   template <class Visit>
   void self_pairs(const Visit& visit) const;
 
@@ -53,9 +53,9 @@ class SpatialHash {
   double inverse_size_;
   std::uint32_t mask_ = 0;
   std::vector<BoxBounds> boxes_;
-  std::vector<std::uint32_t> start_;  ///< of each place in entries_
+  std::vector<std::uint32_t> start_;  ///< first entry of each slot
   std::vector<Entry> entries_;
-  std::vector<int> large_;  ///< boxes over too many cells, ascending
+  std::vector<int> large_;  ///< boxes that span too many cells, ascending
   std::vector<char> is_large_;
 };
 
@@ -70,7 +70,7 @@ template <class Visit>
 void SpatialHash::query(const BoxBounds& box, const Visit& visit) const {
   const auto index = [](int i) { return static_cast<std::size_t>(i); };
   const Cell first = cell_of(box.low), last = cell_of(box.high);
-  if (cell_count(first, last) > static_cast<double>(entries_.size() + 8)) {  // more cells than there are things
+  if (cell_count(first, last) > static_cast<double>(entries_.size() + 8)) {  // more cells than entries
     for (int i = 0; i < static_cast<int>(boxes_.size()); ++i)
       if (overlap(boxes_[index(i)], box)) visit(i);
     return;

@@ -1,4 +1,4 @@
-// Volumes that the engine does without, for comparison with its boxes: sphere, oriented box, k-DOP.
+// Bounding volumes for comparison with the engine's boxes: sphere, oriented box, k-DOP.
 //
 // Gottschalk, Lin and Manocha 1996 (oriented boxes); Klosowski et al. 1998 (k-DOPs).
 #pragma once
@@ -7,7 +7,7 @@
 
 namespace pliant {
 
-/// A sphere. Cheap to test and loose: flat things fill little of one.
+/// A sphere: cheap to test, but loose around flat objects.
 struct SphereBounds {
   Vec3f centre{};
   float radius = 0;
@@ -20,11 +20,11 @@ struct SphereBounds {
 };
 bool overlap(const SphereBounds& a, const SphereBounds& b);
 
-/// A box turned as its first triangle lies: tight for slanted things, dear to test (fifteen axes) and to merge.
+/// A box aligned with its first triangle: tight around slanted objects, expensive to test (fifteen axes) and to merge.
 struct OrientedBoxBounds {
   Vec3f centre{};
-  Vec3f axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< orthonormal within rounding, for which the extents allow
-  Vec3f extents{};                                    ///< half of the sizes along them
+  Vec3f axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< orthonormal up to rounding, which the extents cover
+  Vec3f extents{};                                    ///< half sizes along the axes
 
   static OrientedBoxBounds of(const Vec3f* points, int count);
   static OrientedBoxBounds merged(const OrientedBoxBounds* boxes, int count);
