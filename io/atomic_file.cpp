@@ -1,5 +1,5 @@
-// The temporary file, its checks and its rename. POSIX calls rather than streams, because a stream can neither say why it
-// failed nor force the bytes to the disk.
+// The temporary file, its checks and its rename. POSIX calls, because
+// a stream can neither report why it failed nor sync to disk.
 #include "atomic_file.h"
 
 #include <fcntl.h>
@@ -45,7 +45,7 @@ const char* advice(int code) {
   }
 }
 
-/// The names of unfinished files. One beyond the last place is merely not removed by remove_unfinished_files().
+/// The names of unfinished files. If the table is full, remove_unfinished_files() merely misses a file.
 std::array<std::atomic<const char*>, 256> unfinished{};
 static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler reads it");
 
@@ -63,7 +63,7 @@ std::string follow_links(const std::string& path) {
   return result;
 }
 
-/// Writes all of it, in as many calls as it takes. Returns 0 or the error code.
+/// Writes all bytes, in as many calls as needed. Returns 0 or the error code.
 int write_all(int descriptor, const char* bytes, std::size_t count) {
   while (count > 0) {
     const ssize_t done = ::write(descriptor, bytes, count);
@@ -78,7 +78,7 @@ int write_all(int descriptor, const char* bytes, std::size_t count) {
 
 std::string name_of_descriptor(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
 
-/// A file without a name, which is gone with the program however that ends; -1 where the system has none.
+/// A nameless file, which vanishes when the program ends for any reason; -1 if the system has none.
 int open_nameless(const std::string& folder) {
   const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
   if (descriptor < 0 || ::access(name_of_descriptor(descriptor).c_str(), F_OK) == 0) return descriptor;
@@ -102,7 +102,7 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(path_
   if (exists) target_ = follow_links(path_);
   if (exists && ::access(target_.c_str(), W_OK) != 0) fail("cannot write", errno);
   open_temporary();
-  // A file system without permissions is no reason to write nothing.
+  // Failure is ignored: some file systems have no permissions.
   if (exists) (void)!::fchmod(descriptor_, status.st_mode & 0777);
 }
 
@@ -118,7 +118,7 @@ void AtomicFile::fail(const char* what, int code) const {
               std::string(what) + ": " + std::generic_category().message(code), advice(code));
 }
 
-/// A short name of its own: a long target name plus a suffix could exceed what the file system allows.
+/// A short unique name: a long target name plus a suffix could exceed the file system's limit.
 std::string AtomicFile::next_name() const {
   static std::atomic<unsigned> counter{0};
   return folder_of(target_) + "/.pliant-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".part";
@@ -141,7 +141,7 @@ void AtomicFile::open_temporary() {
   fail("cannot write", errno);
 }
 
-/// A rename needs a name: a nameless file gets one only now.
+/// A rename needs a name, so a nameless file gets one here.
 void AtomicFile::name_temporary() {
   if (!temporary_.empty()) return;
   const std::string self = name_of_descriptor(descriptor_);
@@ -157,7 +157,7 @@ void AtomicFile::name_temporary() {
 }
 
 void AtomicFile::open_directly() {
-  // Opening a pipe that nobody reads would wait for ever.
+  // Without O_NONBLOCK, opening a pipe without a reader would block forever.
   direct_ = true;
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor_ < 0) fail("cannot write", errno);
@@ -212,7 +212,7 @@ void AtomicFile::commit() {
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot put the file in place", errno);
   forget_unfinished(temporary_.c_str());
   temporary_.clear();
-  // The rename itself lives in the folder. Where a folder cannot be synced the file is whole all the same.
+  // The rename is stored in the folder. If the folder cannot be synced, the file is complete anyway.
   const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder < 0) return;
   ::fsync(folder);

@@ -1,8 +1,8 @@
-// Files that are whole or not there: what is written appears under its name only once all of it is on the disk.
+// Atomic files: the content appears under its name only after all of it is on disk.
 //
-// A simulation's output takes hours to make and a moment to lose. So every writer of this folder writes to a temporary file
-// in the same folder, checks every call, and lets commit() put it in place by one rename, which the file system does wholly
-// or not at all. Until then, and for ever where anything fails, the old file stands as it was.
+// A simulation's output takes hours to compute and must not be lost. So every writer of this folder writes a temporary file
+// in the target folder and checks every call. commit() replaces the target by one rename, which is atomic. Until then, or
+// after any failure, the old file stays unchanged.
 #pragma once
 
 #include <cstddef>
@@ -12,36 +12,36 @@
 
 namespace pliant {
 
-/// A file being written. Nothing is seen under `path` before commit() returns.
+/// A file being written. Nothing is visible under `path` before commit() returns.
 class AtomicFile {
  public:
-  /// Makes the temporary file. A symbolic link is followed; a device or pipe is written to directly. Throws Error naming
-  /// the path where its folder is missing, it is itself a folder, or it may not be written.
+  /// Creates the temporary file. Follows symbolic links; writes directly to a device or pipe. Throws an Error that names
+  /// the path if its folder is missing, or the path is a folder or not writable.
   explicit AtomicFile(std::string path);
 
-  /// Drops what was written unless commit() has returned.
+  /// Discards the content unless commit() has returned.
   ~AtomicFile();
 
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Appends bytes. Throws Error naming the path where the disk is full or the write fails otherwise.
+  /// Appends bytes. Throws an Error that names the path if the disk is full or the write fails.
   void write(const void* bytes, std::size_t count);
   void write(std::string_view text) { write(text.data(), text.size()); }
 
-  /// Appends a value's bytes as they lie in memory (little-endian on every machine that Pliant is built for).
+  /// Appends the bytes of a value as in memory (little-endian on every supported machine).
   template <class T>
   void write_value(const T& value) {
     write(&value, sizeof value);
   }
 
-  /// Overwrites `count` bytes at `offset`, all of them written before: for a header that counts what follows it.
+  /// Overwrites `count` bytes at `offset`, all written before: for headers that count what follows.
   void overwrite(std::size_t offset, const void* bytes, std::size_t count);
 
   /// Bytes written so far.
   std::size_t size() const { return written_ + buffer_.size(); }
 
-  /// Puts the file in place, on the disk. Throws Error naming the path where that fails.
+  /// Moves the file into place, synced to disk. Throws an Error that names the path on failure.
   void commit();
 
   const std::string& path() const { return path_; }
@@ -55,22 +55,22 @@ class AtomicFile {
   void flush();
   void close_checked();
 
-  std::string path_;       // as the caller gave it, for errors
+  std::string path_;       // as given by the caller, for errors
   std::string target_;     // path_ with symbolic links followed
-  std::string temporary_;  // empty as long as the file has no name
-  bool direct_ = false;    // a device or pipe, written to as it is
+  std::string temporary_;  // empty while the file has no name
+  bool direct_ = false;    // a device or pipe, written directly
   std::vector<char> buffer_;
   std::size_t written_ = 0;
   int descriptor_ = -1;
 };
 
-/// Names a file that remove_unfinished_files() removes; the name stays the caller's until it is forgotten. Every AtomicFile
-/// does this with its temporary file.
+/// Registers a file for remove_unfinished_files(). The name must stay valid
+/// until it is forgotten. Every AtomicFile registers its temporary file.
 void remember_unfinished(const char* name) noexcept;
 void forget_unfinished(const char* name) noexcept;
 
-/// Removes every file that is unfinished, without waiting for anything: for a signal handler that is about to end the program.
-/// Async-signal-safe.
+/// Removes all unfinished files without blocking: for a signal
+/// handler that is about to end the program. Async-signal-safe.
 void remove_unfinished_files() noexcept;
 
 }  // namespace pliant

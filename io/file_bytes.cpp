@@ -1,5 +1,5 @@
-// POSIX calls rather than streams: a stream waits for ever on a pipe, reads a device without end, and cannot say what it
-// was that failed.
+// POSIX calls, because a stream blocks forever on a pipe,
+// reads a device without end, and cannot report what failed.
 #include "file_bytes.h"
 
 #include <fcntl.h>
@@ -20,11 +20,11 @@ namespace {
   throw Error({.file = path, .line = 0, .object = {}, .element = {}}, problem, advice);
 }
 
-/// Closes the file on every way out.
+/// Closes the file on every exit path.
 class Descriptor {
  public:
   explicit Descriptor(const std::string& path)
-      // Without O_NONBLOCK opening a pipe that nobody writes would never return.
+      // Without O_NONBLOCK, opening a pipe without a writer would block forever.
       : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
     if (number_ >= 0) return;
     const int code = errno;
@@ -64,7 +64,7 @@ std::string read_file_bytes(const std::string& path, std::uint64_t most, AtMost 
   const bool whole = at_most == AtMost::refuse;
   if (whole) refuse_large(static_cast<std::uint64_t>(status.st_size), most, path);
 
-  // A file may grow or shrink meanwhile, and some systems' own files say 0: the end is where reading says it is.
+  // The file's size may change meanwhile, and some virtual files report 0: read to the end instead.
   std::string bytes;
   bytes.resize(static_cast<std::size_t>(std::min(static_cast<std::uint64_t>(status.st_size), most)) + 1);
   std::size_t done = 0;

@@ -1,7 +1,7 @@
-// A whole file as bytes, for every reader of this folder.
+// Reads a whole file into memory, for every reader of this folder.
 //
-// Readers parse memory, never a stream: a parser that is given all there is can check each claim of a header against it
-// before it allocates anything, and can be fuzzed without a disk.
+// Readers parse memory, never a stream. So a parser can check each claim of a header against the remaining bytes before it
+// allocates, and it can be fuzzed without a disk.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace pliant {
 
-/// The largest file that a reader takes, in bytes. More than any triangle mesh that can be simulated, less than what would
-/// hurt a machine.
+/// The largest file that a reader accepts, in bytes. It exceeds any triangle
+/// mesh that can be simulated, and is small enough for any machine's memory.
 inline constexpr std::uint64_t largest_file = std::uint64_t{1} << 30;
 
-/// What is done with a file that is larger than is wanted.
+/// What to do with a file above the size limit.
 enum class AtMost { refuse, first_bytes };
 
-/// The bytes of a regular file; a symbolic link is followed. Throws Error naming the path where it is missing, a folder, a
-/// pipe, a device, not readable, or larger than `most` bytes; with `first_bytes` those up to `most` are given instead.
+/// Returns the bytes of a regular file; follows symbolic links. Throws an Error that names the path if it is missing, a
+/// folder, pipe or device, not readable, or larger than `most` bytes. `first_bytes` truncates to `most` instead.
 std::string read_file_bytes(const std::string& path, std::uint64_t most = largest_file, AtMost at_most = AtMost::refuse);
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// The public writer: reads a World's objects, frame by frame, and hands them to the format that the suffix names.
+// The public writer: reads a World's objects each frame and passes them to the format of the path's suffix.
 #include "pliant/error.h"
 #include "pliant/io.h"
 #include "write_frames.h"
@@ -13,7 +13,7 @@ namespace {
               "give the scene that the world was made from");
 }
 
-/// Writers index with the scene's numbers what the world says; so those must fit, whatever scene was handed in.
+/// Writers use the scene's indices for the World's data, so the sizes must match for any scene passed in.
 void require_fitting(const std::string& path, const Object& object, int particles) {
   if (object.positions.size() != static_cast<std::size_t>(particles))
     refuse(path, object.name, "",

@@ -1,14 +1,14 @@
-// Wavefront OBJ: vertices and faces; all else in it is about looks.
+// Wavefront OBJ: vertices and faces; appearance is ignored.
 //
-// An own reader rather than tinyobjloader. A mesh needs two of the format's keywords, which is a page of code; the
-// library's errors name no line, it passes over faces it does not understand, reads "nan" as a number, and has had memory
-// errors on hostile files. What a simulation is made from should be refused by line instead of being silently smaller.
+// A custom reader instead of tinyobjloader. A mesh needs only two of the format's keywords. The library's errors name no
+// line, it skips faces that it cannot parse, reads "nan" as a number, and has had memory errors on hostile files. A damaged
+// mesh should be rejected with a line number, not silently shrunk.
 //
-// Read: v (further values, a weight or colours, must be numbers and are ignored), f in all its forms (v, v/vt, v//vn,
-// v/vt/vn, negative indices), "\" at a line's end, comments, any line ending. Ignored with a note: points, lines, curves
-// and free-form surfaces, and keywords that the format does not have ("seam", "stitch"), which other programs add. Ignored
-// without: materials, groups, normals, texture coordinates. An unknown keyword of one letter, or of anything but letters, is
-// refused: it may be a damaged "v", and every vertex after one that is passed over would be another.
+// Read: v (extra values, a weight or colours, must be numbers and are ignored), f in all forms (v, v/vt, v//vn, v/vt/vn,
+// negative indices), "\" at a line's end, comments, any line ending. Ignored with a note: points, lines, curves, free-form
+// surfaces, and longer keywords that other programs add ("seam", "stitch"). Ignored silently: materials, groups, normals,
+// texture coordinates. An unknown keyword of one letter, or with other characters than letters, is an error: as a damaged
+// "v" it would shift the index of every later vertex.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ constexpr std::string_view silent_keywords[] = {
     "c_interp", "d_interp", "deg",    "step",  "parm",       "trim",      "hole", "scrv", "sp",
     "con",      "end",      "ctech",  "stech", "bmat",       "cstype",    "call"};
 
-/// Shapes that are no polygons, and what one of them is called.
+/// Elements that are not polygons, and their names in notes.
 constexpr std::pair<std::string_view, const char*> noted_keywords[] = {
     {"p", "point"}, {"l", "line"}, {"curv", "curve"}, {"curv2", "curve"}, {"surf", "surface"},
 };
@@ -54,13 +54,13 @@ class ObjParser {
     throw Error({.file = name_, .line = line, .object = {}, .element = {}}, std::move(problem), std::move(advice));
   }
 
-  /// A comment goes on over no line's end: many end in a folder's name of another system, "C:\\meshes\\".
+  /// A trailing "\" does not continue a comment: many end in a folder's name, "C:\\meshes\\".
   static bool is_comment(std::string_view line) {
     const std::string_view word = take_word(line);
     return !word.empty() && word.front() == '#';
   }
 
-  /// Moves to the next statement: a line, together with those that a trailing "\" joins to it.
+  /// Advances to the next statement: a line and all lines joined to it by a trailing "\".
   bool next_statement() {
     if (!lines_.next()) return false;
     line_ = lines_.number();
@@ -93,7 +93,7 @@ class ObjParser {
          "this is no OBJ file, or the line is damaged; delete it if it is not needed");
   }
 
-  /// The next word of a statement; a comment ends it.
+  /// The next word of a statement, which ends at a comment.
   static std::string_view next_value(std::string_view& rest) {
     const std::string_view word = take_word(rest);
     if (word.empty() || word.front() != '#') return word;
@@ -102,7 +102,7 @@ class ObjParser {
   }
 
   void vertex(std::string_view rest) {
-    constexpr int most = 8;  // x y z, perhaps a weight, perhaps four colour values
+    constexpr int most = 8;  // x y z, optionally a weight and four colour values
     float values[most] = {};
     int count = 0;
     for (std::string_view word = next_value(rest); !word.empty(); word = next_value(rest)) {
@@ -131,7 +131,7 @@ class ObjParser {
     mesh_.close_polygon();
   }
 
-  /// The vertex of "v", "v/vt", "v//vn" or "v/vt/vn"; the other parts must be numbers or empty.
+  /// The vertex index of "v", "v/vt", "v//vn" or "v/vt/vn"; other parts must be numbers or empty.
   int corner(std::string_view word) {
     const std::string_view whole = word;
     std::int64_t vertex = 0;
@@ -149,7 +149,7 @@ class ObjParser {
     fail(line_, quoted(whole) + " has more than three parts", "write V, V/VT, V//VN or V/VT/VN");
   }
 
-  /// Counts from 1, or backwards from the vertex just read; a positive one may name a vertex that is still to come.
+  /// Indices count from 1, or backwards from the last vertex read. A positive index may refer to a later vertex.
   int resolve(std::int64_t index) {
     const std::int64_t known = static_cast<std::int64_t>(mesh_.positions.size());
     if (index == 0) fail(line_, "vertex index 0", "OBJ counts vertices from 1");
@@ -180,7 +180,7 @@ class ObjParser {
     return false;
   }
 
-  /// What another program may have added: a word that is longer than OBJ's own of one letter.
+  /// Notes a keyword that another program may have added: longer than OBJ's one-letter keywords.
   bool note_unknown(std::string_view keyword) {
     constexpr std::size_t most_letters = 40, most_keywords = 100;
     const auto is_of_a_word = [](char c) {
@@ -190,7 +190,7 @@ class ObjParser {
     if (!std::all_of(keyword.begin(), keyword.end(), is_of_a_word)) return false;
     PassedOver& of = unknown_[std::string(keyword)];
     if (of.count++ == 0) of.first_line = line_;
-    return unknown_.size() <= most_keywords;  // more are prose
+    return unknown_.size() <= most_keywords;  // more are probably prose
   }
 
   void note_unknown_keywords() {
@@ -235,7 +235,7 @@ class ObjParser {
   std::string joined_;
   int line_ = 0;
   PolygonMesh mesh_;
-  std::vector<std::pair<std::int64_t, int>> forward_;  // indices beyond the vertices read so far, with their lines
+  std::vector<std::pair<std::int64_t, int>> forward_;  // indices of vertices not read yet, with their lines
   std::map<std::string, PassedOver> unknown_;
   PassedOver passed_over_[std::size(noted_keywords)];
 };

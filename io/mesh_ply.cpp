@@ -1,7 +1,7 @@
-// PLY: the rows behind the header, as text or as bytes of either order.
+// PLY: the rows after the header, as text or as bytes of either byte order.
 //
-// One loop over rows serves all three: what differs is a "source" that hands out the next number and knows where it is.
-// Own code because no library in Debian reads PLY with checks: it must not allocate for what the file only claims.
+// One loop over rows serves all three encodings through a "source", which yields the next number and knows its position.
+// Custom code, because no PLY library in Debian validates sizes: nothing may be allocated on a header's claim alone.
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -17,7 +17,7 @@ namespace pliant {
 
 namespace {
 
-/// Rows of text, one a line.
+/// Rows as text, one per line.
 class TextSource {
  public:
   TextSource(std::string_view bytes, const PlyHeader& header, const std::string& name)
@@ -45,7 +45,7 @@ class TextSource {
 
   void skip(PlyType) { word(); }
 
-  /// NaN is handed on: the caller names the vertex.
+  /// NaN is returned, so that the caller can name the vertex.
   double real(PlyType) {
     float value = 0;
     const std::string_view text = word();
@@ -83,7 +83,7 @@ class TextSource {
   std::string_view row_;
 };
 
-/// Rows of bytes.
+/// Rows as bytes.
 class BinarySource {
  public:
   BinarySource(std::string_view bytes, const PlyHeader& header, const std::string& name)
@@ -151,7 +151,7 @@ class BinarySource {
   const std::string& name_;
 };
 
-/// Which properties matter. -1: none of this row's.
+/// The property indices of interest; -1: absent in this element.
 struct Roles {
   int coordinates[3] = {-1, -1, -1};
   int polygon = -1;

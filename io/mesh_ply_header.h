@@ -1,4 +1,4 @@
-// The header of a PLY file: which elements follow, how many, made of what.
+// The header of a PLY file: its elements, their counts and properties.
 #pragma once
 
 #include <cstddef>
@@ -16,20 +16,20 @@ bool is_integer(PlyType type);
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::float32;  ///< of the value, or of a list's entries
+  PlyType type = PlyType::float32;  ///< of the value, or of list entries
   bool is_list = false;
-  PlyType count_type = PlyType::uint8;  ///< of a list's length
+  PlyType count_type = PlyType::uint8;  ///< of the list length
 };
 
 struct PlyElement {
   std::string name;
   std::uint64_t count = 0;
   std::vector<PlyProperty> properties;
-  int line = 0;  ///< where the header declares it
+  int line = 0;  ///< line of its declaration in the header
 
   int find(std::string_view property) const;  ///< index, or -1
 
-  /// The least that one row can take, in bytes, and so what a claimed count is checked against.
+  /// The smallest size of one row in bytes; claimed counts are checked against it.
   std::size_t least_row_size(bool binary) const;
 };
 
@@ -37,14 +37,14 @@ struct PlyHeader {
   enum class Format { ascii, little_endian, big_endian };
   Format format = Format::ascii;
   std::vector<PlyElement> elements;
-  std::size_t data_offset = 0;  ///< byte where the rows start
-  int data_line = 0;            ///< and line
+  std::size_t data_offset = 0;  ///< byte offset of the first row
+  int data_line = 0;            ///< line number of the first row
 
   const PlyElement* find(std::string_view element) const;
 };
 
-/// Reads and checks the header: known types and formats, no name twice, no counts that the rest of the file cannot hold.
-/// Throws Error with `name` and the line.
+/// Parses and validates the header: known types and formats, unique names, counts
+/// that fit into the rest of the file. Throws an Error with `name` and the line.
 PlyHeader parse_ply_header(std::string_view bytes, const std::string& name);
 
 }  // namespace pliant

@@ -1,8 +1,8 @@
-// What read_mesh mends, and the account that it gives of it.
+// The repairs of read_mesh, and their report.
 //
-// Merging is welding, and welding can do harm: a sheet folded flat onto itself would become one layer that branches
-// everywhere. So vertices in one place stay apart where merging them would join more than two triangles at an edge that had
-// two at most. Triangles without connections of their own (STL) are always merged, as they would fall apart otherwise.
+// Merging vertices (welding) can do harm: a sheet folded flat onto itself would become one non-manifold layer. So
+// coincident vertices stay separate if merging would give an edge more than two triangles that had two or fewer. Soups
+// without connectivity (STL) are always merged, because they would fall apart otherwise.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -30,12 +30,12 @@ bool has_area(const TriangleMesh& mesh, const Triangle& t) {
     const Vec3f& p = mesh.positions[index(i)];
     return Vec3d{p.x, p.y, p.z};
   };
-  // Differences of floats and their products are exact in double for points of like size, so that this is zero where the
-  // corners lie on one line, and only there.
+  // For points of similar size, differences of floats and their products are
+  // exact in double. So this is zero exactly if the corners are collinear.
   return length_squared(cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]))) > 0;
 }
 
-/// Counts something with its first place.
+/// A count and the index of the first.
 struct Tally {
   std::size_t count = 0, first = 0;
   void add(std::size_t place) {
@@ -43,14 +43,14 @@ struct Tally {
   }
 };
 
-/// A mesh under repair: `numbers` are its triangles' places in the file, so that reports speak of those.
+/// A mesh under repair. `numbers` are the triangles' indices in the file, for reports.
 struct Work {
   TriangleMesh& mesh;
   std::vector<std::string>& repairs;
   std::vector<std::size_t> numbers;
 };
 
-/// Drops the triangles for which drop(i) holds.
+/// Removes the triangles for which drop(i) is true.
 template <class Drop>
 Tally drop_triangles(Work& work, const Drop& drop) {
   Tally dropped;
@@ -75,7 +75,7 @@ void drop_degenerate(Work& work) {
                            std::to_string(dropped.first));
 }
 
-/// For each vertex the first one in the same place.
+/// For each vertex, the first vertex at the same position.
 std::vector<int> find_first_in_place(const std::vector<Vec3f>& positions) {
   std::vector<int> order(positions.size());
   std::iota(order.begin(), order.end(), 0);
@@ -92,8 +92,8 @@ std::vector<int> find_first_in_place(const std::vector<Vec3f>& positions) {
   return first;
 }
 
-/// For each vertex the first one in the same place that sides of no length connect it with: neighbours, so to speak, that
-/// are one whatever else may lie there.
+/// For each vertex, the first vertex at the same position that zero-length edges connect to it.
+/// Such vertices are one, whatever else lies at that position.
 std::vector<int> find_connected_in_place(const TriangleMesh& mesh) {
   std::vector<int> parent(mesh.positions.size());
   std::iota(parent.begin(), parent.end(), 0);
@@ -112,13 +112,13 @@ std::vector<int> find_connected_in_place(const TriangleMesh& mesh) {
   return parent;
 }
 
-/// A triangle begun at its smallest corner: equal for triangles that differ only in where they begin.
+/// A triangle rotated to start at its smallest corner: equal for triangles that differ only in their start.
 Triangle canonical(Triangle t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;
 }
 
-/// Marks every triangle that repeats an earlier one, corner for corner and wound alike.
+/// Marks every triangle that repeats an earlier one with the same winding.
 std::vector<bool> find_repeated(const std::vector<Triangle>& triangles) {
   std::vector<std::pair<Triangle, std::size_t>> sorted(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) sorted[i] = {canonical(triangles[i]), i};
@@ -129,12 +129,12 @@ std::vector<bool> find_repeated(const std::vector<Triangle>& triangles) {
   return repeated;
 }
 
-/// A triangle's side before and after merging, both with the smaller end first.
+/// A triangle's side before and after merging, smaller vertex first.
 struct Side {
   std::pair<int, int> after, before;
 };
 
-/// The sides of all triangles that merging leaves, sorted by where they come to lie.
+/// All sides that remain after merging, sorted by their merged vertices.
 std::vector<Side> find_sides(const std::vector<Triangle>& triangles, const std::vector<int>& merged) {
   std::vector<Triangle> welded = triangles;
   for (Triangle& t : welded) t = {merged[index(t[0])], merged[index(t[1])], merged[index(t[2])]};
@@ -150,8 +150,8 @@ std::vector<Side> find_sides(const std::vector<Triangle>& triangles, const std::
   return sides;
 }
 
-/// Calls visit(a, b, count, joined_anew) for each edge a-b of the merged mesh: how many triangles it has, and whether it
-/// comes of several edges.
+/// Calls visit(a, b, count, joined_anew) for each edge a-b of the merged mesh:
+/// its number of triangles, and whether several edges were merged into it.
 template <class Visit>
 void for_each_edge(const std::vector<Side>& sides, const Visit& visit) {
   for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
@@ -161,8 +161,8 @@ void for_each_edge(const std::vector<Side>& sides, const Visit& visit) {
   }
 }
 
-/// Vertices (as merged) that had better stay apart: those at edges that merging would make branch, and beside them those
-/// that would be joined in a point alone, like the corners of a sheet folded in two.
+/// Finds merged vertices that must stay separate: those on edges that merging would make non-manifold, and adjacent ones
+/// that would touch in a point alone, like the corners of a sheet folded in two.
 std::vector<bool> find_branching(const std::vector<Triangle>& triangles, const std::vector<int>& merged) {
   const std::vector<Side> sides = find_sides(triangles, merged);
   std::vector<bool> branching(merged.size(), false), beside(merged.size(), false), on_seam(merged.size(), false);
@@ -179,14 +179,14 @@ std::vector<bool> find_branching(const std::vector<Triangle>& triangles, const s
   return branching;
 }
 
-/// Lets triangles use the first vertex in each place, or of those in `connected` where more would do harm. Returns which
-/// vertices have become superfluous by that.
+/// Replaces vertices by the first at the same position, or only by `connected`
+/// ones where full merging does harm. Returns which vertices became unused.
 std::vector<bool> merge_vertices(Work& work, const std::vector<int>& connected, bool is_soup) {
   TriangleMesh& mesh = work.mesh;
   std::vector<int> merged = find_first_in_place(mesh.positions);
   std::vector<bool> emptied(merged.size(), false);
   const auto stays = [&, i = 0](int to) mutable { return to == i++; };
-  if (std::all_of(merged.begin(), merged.end(), stays)) return emptied;  // the usual case, and the rest takes time
+  if (std::all_of(merged.begin(), merged.end(), stays)) return emptied;  // the usual case; the rest is slow
   for (Triangle& t : mesh.triangles) t = {connected[index(t[0])], connected[index(t[1])], connected[index(t[2])]};
   const std::vector<bool> branching =
       is_soup ? std::vector<bool>(merged.size(), false) : find_branching(mesh.triangles, merged);
@@ -216,7 +216,7 @@ void drop_repeated(Work& work) {
                            " another, the first " + std::to_string(dropped.first));
 }
 
-/// Renumbers the vertices without those that merging emptied and, where asked, without those of no triangle.
+/// Compacts the vertices: removes those emptied by merging and, on request, isolated ones.
 void drop_vertices(Work& work, const std::vector<bool>& emptied, bool drop_isolated) {
   TriangleMesh& mesh = work.mesh;
   std::vector<bool> used(mesh.positions.size(), false);
@@ -245,7 +245,7 @@ void repair(MeshFile& file, bool is_soup, const MeshReadOptions& options) {
   Work work{file.mesh, file.repairs, {}};
   work.numbers.resize(file.mesh.triangles.size());
   std::iota(work.numbers.begin(), work.numbers.end(), std::size_t{0});
-  // Before degenerate triangles go, because it is they that tell: a strip without width still holds its two sides together.
+  // Runs before degenerate triangles are removed: a zero-width strip still connects its two sides.
   const std::vector<int> connected = options.merge_duplicates ? find_connected_in_place(file.mesh) : std::vector<int>();
   if (options.drop_degenerate) drop_degenerate(work);
   std::vector<bool> emptied(file.mesh.positions.size(), false);

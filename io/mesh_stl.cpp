@@ -1,9 +1,9 @@
-// STL: triangles each with corners of their own, as text or as bytes.
+// STL: triangles with unshared corners, as text or binary.
 //
-// The bytes decide which: binary files whose first word is "solid" exist, so the length is asked first, which a binary file
-// fixes exactly (80 bytes of anything, a count, 50 bytes a triangle). Normals are ignored: they follow from the corners,
-// and files disagree with themselves about them. Own code for the same reasons as the other readers: errors with their
-// place.
+// Binary files that start with "solid" exist, so the length is tested first; a binary
+// file's length is exact (80 arbitrary bytes, a count, 50 bytes per triangle). Normals
+// are ignored: they follow from the corners, and files often contradict themselves.
+// Custom code for the reason of the other readers: errors with a position.
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -37,7 +37,7 @@ std::uint64_t claimed_size(std::string_view bytes) {
   return head_size + triangle_size * std::uint64_t{read_u32(bytes, 80)};
 }
 
-/// Letters of keywords may be of either case.
+/// Keywords are case-insensitive.
 bool same_word(std::string_view word, std::string_view lower_case) {
   if (word.size() != lower_case.size()) return false;
   for (std::size_t i = 0; i < word.size(); ++i) {
@@ -82,7 +82,7 @@ class TextStl {
                 std::move(advice));
   }
 
-  /// Moves to the next line that is not empty and takes its first word.
+  /// Advances to the next non-empty line and takes its first word.
   bool next_line() {
     while (lines_.next()) {
       rest_ = lines_.line();
@@ -171,7 +171,7 @@ PolygonMesh parse_binary(std::string_view bytes, const std::string& name) {
   mesh.corners.reserve(3 * count);
   mesh.ends.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t corners = head_size + i * triangle_size + 12;  // behind the normal
+    const std::size_t corners = head_size + i * triangle_size + 12;  // after the normal
     for (std::size_t at = corners; at < corners + 36; at += 12)
       add_corner(mesh, {coordinate(bytes, at, name), coordinate(bytes, at + 4, name), coordinate(bytes, at + 8, name)});
     mesh.close_polygon();

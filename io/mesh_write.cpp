@@ -1,5 +1,5 @@
-// One mesh to a file: OBJ as text, PLY as little-endian bytes. Coordinates in text are the shortest that read back to the
-// same float, so that writing and reading loses nothing.
+// Writes one mesh: OBJ as text, PLY as little-endian binary. Text coordinates are
+// the shortest that read back as the same float, so a round trip is lossless.
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -27,7 +27,7 @@ bool ends_with(const std::string& text, const char* suffix, std::size_t length) 
   return true;
 }
 
-/// A file that read_mesh would refuse must not be written.
+/// Rejects meshes that read_mesh would reject.
 void check(const std::string& path, const TriangleMesh& mesh) {
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const Vec3f& p = mesh.positions[i];

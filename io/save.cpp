@@ -1,4 +1,4 @@
-// What a State and a World are in a file (include/pliant/save.h).
+// The content of a saved State and a saved World (include/pliant/save.h).
 #include "pliant/save.h"
 
 #include <fmt/format.h>
@@ -19,10 +19,10 @@ using namespace save_file;
 
 // ---------------------------------------------------------------- a State
 
-/// The names of a State's columns in a file.
+/// The block names of a State's columns.
 constexpr std::string_view time_block = "state.time", frame_block = "state.frame", positions_block = "state.positions",
                            remainders_block = "state.remainders", velocities_block = "state.velocities";
-/// Those that are only there where a State has frames or channels.
+/// Blocks that exist only if a State has frames or channels.
 constexpr std::string_view orientations_block = "state.orientations", spins_block = "state.angular_velocities",
                            inertias_block = "state.inverse_inertias", channels_block = "state.channels";
 const std::vector<std::string_view> state_blocks{time_block,       frame_block,      positions_block,
@@ -50,8 +50,8 @@ T read_bytes(const Contents& from, std::string_view name) {
   return of;
 }
 
-/// Takes the State apart by a structured binding, so that a new column that is not written does not compile.
-/// `channel_bytes` holds what the last block points to.
+/// The structured binding makes an unwritten new column a compile
+/// error. `channel_bytes` owns the memory of the last block.
 std::vector<Block> blocks_of(const State& state, std::string& channel_bytes) {
   const auto& [time, frame, positions, remainders, velocities, frames, channels] = state;
   const auto& [orientations, angular_velocities, inverse_inertias] = frames;
@@ -107,7 +107,7 @@ State state_in(const Contents& from) {
   return state;
 }
 
-/// Every block of a State, and those named.
+/// The given names, and those of all State blocks.
 std::vector<std::string_view> with_state_blocks(std::vector<std::string_view> names) {
   names.insert(names.end(), state_blocks.begin(), state_blocks.end());
   return names;
@@ -195,7 +195,7 @@ void save(const std::string& path, const World& world, const Scene& scene) {
   refuse_other_scene(world, scene);
   refuse_force_fields(scene);
   Settings settings = world.settings();
-  settings.isa.clear();  // another machine may not have it, and the bits are the same
+  settings.isa.clear();  // another machine may lack it, and all levels give the same bits
   const std::string scene_bytes = bytes_of(scene), settings_bytes = bytes_of(settings);
   std::string channels;
   std::vector<Block> blocks = blocks_of(world.state(), channels);

@@ -1,5 +1,5 @@
-// Archives for save_fields.h: one that writes bytes into a sink, one that reads them back. Numbers are little-endian, as they
-// lie in memory; lists and texts have their length before them.
+// Archives for save_fields.h: one writes bytes to a sink, one reads them back.
+// Numbers are little-endian, as in memory; lists and strings are length-prefixed.
 #pragma once
 
 #include <array>
@@ -21,17 +21,17 @@ namespace pliant::save_file {
 template <class T>
 inline constexpr bool is_number = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
 
-/// Values without padding whose every bit pattern is a value: lists of them are copied as bytes.
+/// Types without padding and with all bit patterns valid: lists of them are copied as bytes.
 template <class T>
 inline constexpr bool is_plain = is_number<T> || std::is_same_v<T, Vec3f> || std::is_same_v<T, Quatf>;
 template <class T, std::size_t n>
 inline constexpr bool is_plain<std::array<T, n>> = is_plain<T>;
 static_assert(sizeof(Vec3f) == 12 && sizeof(Quatf) == 16);
 
-/// Which members an archive takes.
+/// Which members an archive processes.
 enum class Take { all, deciding };
 
-/// Gives the bytes of members to `sink(const void*, size)`.
+/// Passes the bytes of members to `sink(const void*, size)`.
 template <class Sink>
 class Output {
  public:
@@ -88,7 +88,7 @@ class Output {
   Take take_;
 };
 
-/// Takes members from bytes; nothing is allocated that the bytes left cannot fill.
+/// Reads members from bytes. Allocates no more than the remaining bytes can fill.
 class Input {
  public:
   explicit Input(std::string_view bytes) : left_(bytes) {}
@@ -101,7 +101,7 @@ class Input {
   void aside(T&... values) {
     (get(values), ...);
   }
-  /// Whether all bytes made sense and none are left.
+  /// True if all bytes were valid and none remain.
   bool complete() const { return good_ && left_.empty(); }
 
  private:
@@ -123,7 +123,7 @@ class Input {
       list.resize(count(sizeof(T)));
       copy(list.data(), list.size() * sizeof(T));
     } else {
-      // One at a time: an element is larger in memory than the least that it takes in the file.
+      // Appends one at a time: an element's memory exceeds its least size in the file.
       for (std::uint64_t left = count(1); left > 0 && good_; --left) get(list.emplace_back());
     }
   }
@@ -162,7 +162,7 @@ class Input {
     good_ = good_ && value <= largest;
     return good_ ? value : 0;
   }
-  /// How many elements of so many bytes come; 0 where there cannot be so many.
+  /// Reads an element count; 0 if the remaining bytes cannot hold that many elements.
   std::uint64_t count(std::size_t element_size) {
     std::uint64_t value = 0;
     copy(&value, sizeof value);

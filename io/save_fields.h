@@ -1,7 +1,7 @@
-// Every member of a Scene, in one order: what is written, read and hashed. Each function takes a struct apart by a structured
-// binding, which stops compiling when the struct gets a member: then add it here and raise save_file::version.
+// All members of a Scene in one order, for writing, reading and hashing. Each function uses a structured binding, which
+// fails to compile when the struct gets a member: then add it here and raise save_file::version.
 //
-// An archive is called with members that decide a run's bits; `aside` is called with those that do not (colours, threads).
+// An archive is called with members that affect a run's bits; `aside` is called with the others (colours, threads).
 #pragma once
 
 #include <concepts>
@@ -12,7 +12,7 @@
 
 namespace pliant::save_file {
 
-/// A struct, const or not: what is written is, what is read is not.
+/// A struct, const for writing or mutable for reading.
 template <class T, class As>
 concept Is = std::same_as<std::remove_const_t<T>, As>;
 
@@ -143,8 +143,8 @@ void fields(A& a, Is<Settings> auto& of) {
   a(sweep, sweep_options, contact_filter, most_substeps, initial_intersections, untangling_speed);
   a.aside(separate_phases, measure, record_residuals, record_multipliers, isa);
 }
-/// Force fields are functions: of them only the number can be told, and the caller of `fields` decides about it. Settings are a
-/// block of their own.
+/// Force fields are functions: only their number is stored, and the
+/// caller of `fields` handles it. Settings have a block of their own.
 template <class A>
 void fields(A& a, Is<Scene> auto& of) {
   [[maybe_unused]] auto& [gravity, wind, forces, settings, frame_time, frames, objects, colliders, mesh_colliders, pairs] =
@@ -154,7 +154,7 @@ void fields(A& a, Is<Scene> auto& of) {
   a(objects, colliders, mesh_colliders, pairs);
 }
 
-/// The last value of an enum, so that a reader can refuse one beyond it.
+/// The last value of an enum, so that a reader can reject larger ones.
 constexpr int last_value(Stiffness::Kind) { return static_cast<int>(Stiffness::Kind::pbd); }
 constexpr int last_value(MeshCollider::As) { return static_cast<int>(MeshCollider::As::heightfield); }
 constexpr int last_value(Sweep) { return static_cast<int>(Sweep::multigrid); }

@@ -17,17 +17,17 @@ namespace pliant::save_file {
 
 namespace {
 
-// As in PNG: the high bit and both line ends show a transfer that changed bytes.
+// As in PNG: the high bit and both line ends reveal transfers that changed bytes.
 constexpr std::string_view magic = "\x89PLN\r\n\x1a\n";
 constexpr std::uint64_t header_size = 32, block_header_size = 40, checksum_size = 32, name_size = 24, alignment = 8;
-/// Beyond any machine's memory today; it bounds what a forged header can make a reader allocate.
+/// Limits what a forged header can make a reader allocate; beyond any machine's memory today.
 constexpr std::uint64_t largest_save = std::uint64_t{1} << 38;
 
 const char* const advice_damaged = "use an earlier file, or simulate again from the start";
 
 std::uint64_t padded(std::uint64_t size) { return (size + alignment - 1) / alignment * alignment; }
 
-/// The checksum as bytes: the hash comes as hexadecimal digits.
+/// The checksum as bytes, from hexadecimal digits.
 std::string digest(Sha256& sha) {
   const std::string text = sha.finish();
   const auto value = [](char digit) { return digit <= '9' ? digit - '0' : digit - 'a' + 10; };
@@ -46,7 +46,7 @@ T value_at(std::string_view bytes, std::uint64_t at) {
 
 const char* words(Content content) { return content == Content::state ? "a State" : "a World"; }
 
-/// Appends to a file and to its checksum.
+/// Appends to a file and updates its checksum.
 class Writer {
  public:
   explicit Writer(const std::string& path) : file_(path) {}
@@ -101,9 +101,9 @@ Contents::Contents(std::string path, Content expected) : path_(std::move(path)) 
   bytes_ = read_file_bytes(path_, header_size, AtMost::first_bytes);
   check_header(expected);
   std::error_code unknown;
-  check_size(std::filesystem::file_size(path_, unknown));  // before memory is taken for all of it
+  check_size(std::filesystem::file_size(path_, unknown));  // before memory is allocated for the whole file
   bytes_ = read_file_bytes(path_, largest_save);
-  check_header(expected);  // it may have been replaced meanwhile
+  check_header(expected);  // the file may have been replaced meanwhile
   check_size(bytes_.size());
   check_sum();
   find_blocks();
@@ -142,7 +142,7 @@ void Contents::check_sum() const {
     fail("is damaged: its checksum is not that of its contents", advice_damaged);
 }
 
-/// No size is trusted: each is compared with what is left of the file before it is multiplied or added.
+/// Sizes are untrusted: each is compared with the remaining bytes before it is multiplied or added.
 void Contents::find_blocks() {
   const std::string_view bytes = std::string_view(bytes_).substr(0, bytes_.size() - checksum_size);
   const auto count = value_at<std::uint64_t>(bytes, 24);

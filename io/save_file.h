@@ -1,11 +1,11 @@
-// The file that saves are written to: named, typed blocks between a header and a checksum.
+// The file format of saves: named, typed blocks between a header and a checksum.
 //
 //   header    magic (8 bytes), format version u32, content u32, size of the file u64, number of blocks u64
-//   block     name (24 bytes, zeros behind it), type u32, bytes an element u32, number of elements u64, the elements, zeros up
-//             to a multiple of 8 bytes
+// block     name (24 bytes, zero-padded), type u32, bytes per element u32, number of elements u64, the elements, zero
+// padding to a multiple of 8 bytes
 //   checksum  SHA-256 of all bytes before it, 32 bytes
 //
-// Everything is little-endian. A later version may add blocks; a reader refuses those that it does not know.
+// Everything is little-endian. A later version may add blocks; a reader rejects unknown ones.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +18,13 @@ namespace pliant::save_file {
 
 inline constexpr std::uint32_t version = 1;
 
-/// What a file is of.
+/// What a file contains.
 enum class Content : std::uint32_t { state = 1, world = 2 };
 
-/// What the elements of a block are.
+/// The element type of a block.
 enum class Type : std::uint32_t { bytes = 1, int64 = 2, float32 = 3, float64 = 4, record = 5 };
 
-/// A block to be written. The bytes stay the caller's.
+/// A block to write. The caller owns the bytes.
 struct Block {
   std::string_view name;  ///< at most 24 bytes
   Type type = Type::bytes;
@@ -33,21 +33,21 @@ struct Block {
   const void* data = nullptr;
 };
 
-/// Writes a file whole or not at all. Throws Error naming the path.
+/// Writes a file atomically. Throws an Error that names the path.
 void write(const std::string& path, Content content, const std::vector<Block>& blocks);
 
-/// A file that was checked whole: header, size, checksum, and every block inside it.
+/// A fully validated file: header, size, checksum, and every block.
 class Contents {
  public:
-  /// Reads and checks. Throws Error naming the path and the reason.
+  /// Reads and validates. Throws an Error that names the path and the reason.
   Contents(std::string path, Content expected);
 
   bool has(std::string_view name) const { return find(name) != nullptr; }
-  /// A block of that type. Throws Error where there is none, or it is of another type or element size.
+  /// A block of that type. Throws an Error if it is missing or has another type or element size.
   const Block& block(std::string_view name, Type type, std::uint32_t element_size) const;
   /// The bytes of a block of type `bytes`.
   std::string_view text(std::string_view name) const;
-  /// Throws Error where a block has a name that is not among these.
+  /// Throws an Error if a block's name is not among these.
   void refuse_unknown(const std::vector<std::string_view>& known) const;
 
   [[noreturn]] void fail(const std::string& problem, const std::string& advice) const;

@@ -1,4 +1,4 @@
-// The table of scene_grammar against a JSON tree.
+// Checks a JSON tree against the table of scene_grammar.
 #include "scene_check.h"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ std::string range(const Type& type) {
          words(type.maximum);
 }
 
-/// The members that make a record what it is: those it can't be without, or all where it can be without any.
+/// The members that identify a record: its required ones, or all if none is required.
 std::string members(const Record& record) {
   std::vector<std::string> names;
   for (const Field& field : record.fields)
@@ -152,7 +152,7 @@ class Checker {
       const Field* field = record.find(member.key);
       if (field == nullptr) unknown(member, record);
       for (std::size_t k = 0; k < i;
-           ++k)  // every earlier one is known and unlike the others: no more than there are fields
+           ++k)  // all earlier members are known and distinct, so that there are at most as many as fields
         if (at.items[k].key == member.key)
           document_.fail_key(member, "'" + member.key + "' is there twice", "keep one of the two");
       value(member, field->type);
@@ -167,7 +167,7 @@ class Checker {
     if (!inside(at.number, type)) document_.fail(at, words(at.number) + " is out of range", "expected " + expected(type));
   }
 
-  /// What is positive as a double may still be zero as a float, and floats are what is kept.
+  /// A positive double may become zero as a float, and values are stored as floats.
   static bool inside(double number, const Type& type) {
     if (!(number >= type.minimum && number <= type.maximum)) return false;
     return !type.above_minimum || static_cast<float>(number) > static_cast<float>(type.minimum);

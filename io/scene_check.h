@@ -1,4 +1,4 @@
-// Whether a text says what a scene may say, before anything is built from it.
+// Validates a JSON tree against the scene format, before anything is built from it.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace pliant::scene_file {
 
-/// Throws Error at the first unknown, repeated or missing member, wrong type, or number out of range.
+/// Throws an Error at the first unknown, repeated or missing member, wrong type, or number out of range.
 void check(const JsonDocument& document, const Record& record);
 
-/// Throws Error at the first member that nobody asked for by JsonValue::find: nothing that a file says is dropped in
-/// silence.
+/// Throws an Error at the first member that no reader requested by
+/// JsonValue::find, so that no content of a file is dropped silently.
 void check_all_used(const JsonDocument& document);
 
 }  // namespace pliant::scene_file

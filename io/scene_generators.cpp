@@ -1,4 +1,4 @@
-// Surfaces that a scene may ask for besides those of pliant/mesh.h.
+// Generated surfaces of scene files, beyond those of pliant/mesh.h.
 #include <map>
 
 #include "scene_mesh.h"
@@ -14,7 +14,7 @@ TriangleMesh tube_mesh(int columns, int rows, float length, float top_radius, fl
     const float down = static_cast<float>(r) / static_cast<float>(rows - 1);
     for (int c = 0; c < columns; ++c) {
       const float turn = 360.f * static_cast<float>(c) / static_cast<float>(columns);
-      // The phase of the waves within one turn, so that large angles lose no digits.
+      // The wave's phase modulo one turn, so that large angles keep their precision.
       const float phase = 360.f * static_cast<float>(c * folds % columns) / static_cast<float>(columns);
       const float wave = 1 + fold_depth * down * rotated(rotation({0, 1, 0}, phase), {1, 0, 0}).x;
       const float radius = (top_radius + (bottom_radius - top_radius) * down) * wave;
@@ -26,7 +26,7 @@ TriangleMesh tube_mesh(int columns, int rows, float length, float top_radius, fl
     for (int c = 0; c < columns; ++c) {
       const int a = r * columns + c, b = r * columns + (c + 1) % columns;
       const int below_a = a + columns, below_b = b + columns;
-      // Alternating diagonals, for one direction alone would make the tube twist as it stretches.
+      // Diagonals alternate, because a single direction would make the tube twist as it stretches.
       if ((r + c) % 2 == 0) {
         mesh.triangles.push_back({a, below_a, below_b});
         mesh.triangles.push_back({a, below_b, b});
@@ -42,7 +42,7 @@ TriangleMesh tube_mesh(int columns, int rows, float length, float top_radius, fl
 TriangleMesh box_mesh(const Vec3f& size, int segments) {
   TriangleMesh mesh;
   std::map<std::array<int, 3>, int>
-      numbers;  // of the vertices by their place on the lattice: sides share those of their edges
+      numbers;  // of the vertices by their position on the lattice: sides share the vertices of their edges
   const auto vertex = [&](const std::array<int, 3>& at) {
     const auto [found, is_new] = numbers.try_emplace(at, static_cast<int>(mesh.positions.size()));
     const auto along = [&](int i, float whole) {
@@ -53,7 +53,7 @@ TriangleMesh box_mesh(const Vec3f& size, int segments) {
   };
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (const int side : {0, segments}) {
-      // The other two axes, so that u x v looks outwards.
+      // The other two axes, ordered so that u x v points outward.
       const std::size_t u = (axis + (side == 0 ? 2 : 1)) % 3, v = (axis + (side == 0 ? 1 : 2)) % 3;
       const auto corner = [&](int i, int k) {
         std::array<int, 3> at{};

@@ -1,4 +1,4 @@
-// The table of the scene format. Ranges are wide: they stop what can only be a slip or an attack, not what is unusual.
+// The table of the scene format. Ranges are wide: they reject slips and attacks, not unusual values.
 #include "scene_grammar.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The part of the table that says what there is to meet: colliders, and what certain two things are to one another.
+// Part of the table: colliders, and contact parameters of named pairs.
 #include "pliant/scene.h"
 #include "scene_grammar_parts.h"
 #include "scene_grammar_words.h"

@@ -1,4 +1,4 @@
-// The part of the table that others refer to: stiffness, rotations, motions, meshes, fabrics.
+// Part of the table: records used by others, such as stiffness, rotations, motions, meshes and fabrics.
 #include "scene_grammar_parts.h"
 
 #include "pliant/scene.h"

@@ -1,4 +1,4 @@
-// Parts of the table that several records refer to.
+// Parts of the table that several records use.
 #pragma once
 
 #include "scene_grammar.h"

@@ -1,4 +1,4 @@
-// The words that the table in scene_grammar.cpp is written with: one function a type of value, one a kind of field.
+// Helper functions for the table in scene_grammar.cpp: one for each type of value and each kind of field.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 namespace pliant::scene_file {
 
 constexpr double largest_velocity = 1e5;   // [m/s]
-constexpr double largest_quantity = 1e30;  // of anything else: products of two still fit a double
+constexpr double largest_quantity = 1e30;  // of other values: products of two still fit a double
 
 // ------------------------------------------------------------------------------------------------ types
 
@@ -78,7 +78,7 @@ inline Type choice(std::vector<std::string> choices, std::string documented = {}
   return type;
 }
 
-/// Words that can become more while the program runs.
+/// A choice that can grow at run time.
 inline Type choice(std::vector<std::string> (*choices)(), std::string documented) {
   Type type = choice(std::vector<std::string>{}, std::move(documented));
   type.choices_now = choices;
@@ -107,7 +107,7 @@ inline Type any_of(std::vector<Type> alternatives) {
   return type;
 }
 
-/// Groups and masks: the numbers of the bits that are set.
+/// Groups and masks: the indices of the set bits.
 inline Type bits() { return list(integer(0, 31), 0, 32); }
 
 inline Type particle_index() { return integer(0, 2147483647); }
@@ -115,7 +115,7 @@ inline Type particle_index() { return integer(0, 2147483647); }
 // ------------------------------------------------------------------------------------------------ defaults, in words
 
 inline std::string words(float value) {
-  std::array<char, 32> digits{};  // the shortest that reads back as the same float
+  std::array<char, 32> digits{};  // shortest digits that read back as the same float
   return {digits.data(), write_shortest(digits.data(), digits.data() + digits.size(), value)};
 }
 inline std::string words(int value) { return std::to_string(value); }
@@ -130,7 +130,7 @@ inline Field field(const char* name, Type type, const T& fallback, const char* m
 
 inline Field needed(const char* name, Type type, const char* meaning) { return {name, std::move(type), {}, meaning, true}; }
 
-/// One of a group of which exactly one is given.
+/// A member of a group of which exactly one must be given.
 inline Field either(const char* name, Type type, const char* meaning) {
   return {name, std::move(type), {}, meaning, false};
 }

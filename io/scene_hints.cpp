@@ -1,4 +1,4 @@
-// Names are looked for by how they are written, first where they were written, then below there, then in the whole format.
+// Names are compared by spelling: first in the record itself, then in records below it, then in the whole format.
 #include "scene_hints.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@ namespace pliant::scene_file {
 
 namespace {
 
-constexpr std::size_t longest_name = 64;  // of what is compared: the format's own are shorter
+constexpr std::size_t longest_name = 64;  // of compared names: all names of the format are shorter
 
 std::string nearest_spelling(const std::string& wanted, const std::vector<std::string>& names) {
   std::string best;
@@ -26,13 +26,13 @@ std::vector<std::string> names_of(const Record& record) {
   return names;
 }
 
-/// A record, and how to get to it: "settings.sweep_options", "objects[].cloth"; nothing for where the search began.
+/// A record and its path: "settings.sweep_options", "objects[].cloth"; empty for the start of the search.
 struct Reached {
   const Record* record;
   std::string path;
 };
 
-/// Adds the records that a value of this type may be.
+/// Adds the records that a value of this type can be.
 void reach(const Type& type, const std::string& path, std::vector<Reached>& reached) {
   const auto is_it = [&](const Reached& one) { return one.record == type.record; };
   const bool is_new = type.record != nullptr && std::none_of(reached.begin(), reached.end(), is_it);
@@ -40,7 +40,7 @@ void reach(const Type& type, const std::string& path, std::vector<Reached>& reac
   for (const Type& part : type.parts) reach(part, path + (type.kind == Type::Kind::list ? "[]" : ""), reached);
 }
 
-/// All records from `first` on, the near ones first, each once by its shortest way.
+/// All records reachable from `first` in breadth-first order, each once by its shortest path.
 std::vector<Reached> reached_from(const Record& first) {
   std::vector<Reached> reached{{&first, {}}};
   for (std::size_t i = 0; i < reached.size(); ++i) {
@@ -51,7 +51,7 @@ std::vector<Reached> reached_from(const Record& first) {
   return reached;
 }
 
-/// Where the name stands in another record, in words; nothing where it does not.
+/// The path of another record that has this name; empty if there is none.
 std::string home_of(const std::string& wanted, const std::vector<Reached>& reached) {
   for (const Reached& one : reached) {
     if (one.record->find(wanted) == nullptr) continue;
@@ -60,12 +60,12 @@ std::string home_of(const std::string& wanted, const std::vector<Reached>& reach
   return {};
 }
 
-/// The name of all these records that is nearest, with the way to it; nothing where none is near.
+/// The most similar name in all of these records, with its path; empty if none is similar.
 std::string nearest_elsewhere(const std::string& wanted, const std::vector<Reached>& reached) {
   std::vector<std::string> names;
   for (const Reached& one : reached)
     for (std::string& name : names_of(*one.record)) names.push_back(std::move(name));
-  const std::string near = wanted.size() < 4 ? "" : nearest_spelling(wanted, names);  // short ones are like too many
+  const std::string near = wanted.size() < 4 ? "" : nearest_spelling(wanted, names);  // short names resemble too many
   for (const Reached& one : reached)
     if (!near.empty() && one.record->find(near) != nullptr)
       return "did you mean '" + (one.path.empty() ? "" : one.path + ".") + near + "'" +

@@ -1,4 +1,4 @@
-// What a name that is not known may have been meant for.
+// Suggestions for unknown member names.
 #pragma once
 
 #include <string>
@@ -8,16 +8,16 @@
 
 namespace pliant::scene_file {
 
-/// The number of single-character insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`
-/// (optimal string alignment).
+/// The number of insertions, deletions, substitutions and swaps of
+/// adjacent characters that turn `a` into `b` (optimal string alignment).
 std::size_t edit_distance(const std::string& a, const std::string& b);
 
-/// The name most like `wanted`, the first of several: a third of its letters may differ. Without one, the first that contains it.
-/// Nothing where none is near.
+/// The name most similar to `wanted`, the first if equal: up to a third of its letters may differ. Otherwise the first name
+/// that contains it. Empty if none is similar.
 std::string nearest_name(const std::string& wanted, const std::vector<std::string>& names);
 
-/// What to do about a member `wanted` that is none of `record`: a name like it that the record has, a record that has the name,
-/// a name like it elsewhere, with the way there ("settings.substeps"), or else all names of the record.
+/// Advice for a member `wanted` that `record` lacks: a similar name of the record, a record that has the name, a similar
+/// name elsewhere with its path ("settings.substeps"), or else all names of the record.
 std::string hint_for(const std::string& wanted, const Record& record);
 
 }  // namespace pliant::scene_file

@@ -1,7 +1,7 @@
-// From the events of nlohmann's parser to a tree with places.
+// Builds a tree with source positions from the events of nlohmann's parser.
 //
-// The events carry no position. But up to an event the text is known to be valid, and so the start of its token follows
-// from the end of the one before: skip blanks, commas and colons. `Scanner` does just that, in step with the events.
+// The events carry no position. But the text before an event is valid, so a token starts after the previous one and any
+// blanks, commas and colons. `Scanner` tracks this in step with the events.
 #include "scene_json.h"
 
 #include <algorithm>
@@ -13,12 +13,12 @@ namespace pliant::scene_file {
 
 namespace {
 
-/// Finds the tokens of a text that is valid as far as it is asked for.
+/// Finds the tokens of a text that is valid as far as it is scanned.
 class Scanner {
  public:
   explicit Scanner(const std::string& text) : text_(text) {}
 
-  /// Goes past the next token and returns its first byte.
+  /// Skips the next token and returns its first byte's offset.
   std::uint32_t next() {
     end_ = std::min(text_.find_first_not_of(" \t\r\n,:", end_), text_.size());
     const std::size_t start = end_;
@@ -48,7 +48,7 @@ class Scanner {
   std::size_t end_ = 0;
 };
 
-/// "parse error at line 3, column 7: PROBLEM" without what is said better elsewhere.
+/// The message without "parse error at line 3, column 7", which is reported separately.
 std::string without_preamble(const std::string& message) {
   const std::size_t column = message.find(", column ");
   const std::size_t bracket = message.find("] ");
@@ -63,7 +63,7 @@ bool is_word(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
 }
 
-/// The word that byte `at` lies in, or nothing.
+/// The word that contains byte `at`; empty if there is none.
 std::string word_around(const std::string& text, std::size_t at) {
   std::size_t begin = at, end = at;
   while (begin > 0 && is_word(text[begin - 1])) --begin;
@@ -71,7 +71,7 @@ std::string word_around(const std::string& text, std::size_t at) {
   return text.substr(begin, end - begin);
 }
 
-/// What to do about a word that JSON does not know.
+/// Advice for a word that is no JSON.
 std::string word_advice(std::string word) {
   for (char& c : word) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   for (const char* number : {"nan", "-nan", "inf", "-inf", "infinity", "-infinity"})
@@ -82,7 +82,7 @@ std::string word_advice(std::string word) {
   return is_name ? "write names and text in double quotes" : "";
 }
 
-/// What people write who know languages beside JSON, and what to write instead; `last` is the byte at which reading ended.
+/// Advice for common habits from other languages; `last` is the byte at which parsing stopped.
 std::string syntax_advice(const std::string& text, std::size_t last, const std::string& problem) {
   const auto says = [&](const char* words) { return problem.find(words) != std::string::npos; };
   if (says("unexpected end of input"))
@@ -113,7 +113,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   bool number_unsigned(number_unsigned_t value) override { return number(static_cast<double>(value)); }
   bool number_float(number_float_t value, const string_t&) override { return number(value); }
   bool string(string_t& value) override { return add(JsonValue::Kind::string).text = std::move(value), true; }
-  bool binary(binary_t&) override { return false; }  // no event of JSON texts
+  bool binary(binary_t&) override { return false; }  // never called for JSON texts
   bool start_object(std::size_t) override { return open(JsonValue::Kind::object); }
   bool start_array(std::size_t) override { return open(JsonValue::Kind::array); }
   bool end_object() override { return close(); }
@@ -126,7 +126,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& exception) override {
-    if (exception.id == 406) {  // the token is sound JSON, but no double holds it
+    if (exception.id == 406) {  // the token is valid JSON, but out of double's range
       const JsonValue& value = add(JsonValue::Kind::number);
       document_.fail(value, "this number is too large", "the largest that a 32-bit float holds is about 3.4e38");
     }
@@ -165,7 +165,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
 
   JsonDocument& document_;
   Scanner scanner_;
-  std::vector<JsonValue*> open_;  // from the root to here; an ancestor doesn't move, for only its own items grow
+  std::vector<JsonValue*> open_;  // from the root; pointers stay valid, because only the innermost value's items grow
   std::string key_;
   std::uint32_t key_offset_ = 0;
 };
@@ -176,7 +176,7 @@ std::string escaped(const std::string& key) {
   return printable(text);
 }
 
-/// Appends the path from `from` to `to`; false where it is not below.
+/// Appends the path from `from` to `to`. Returns false if `to` is not below `from`.
 bool append_path(const JsonValue& from, const JsonValue& to, std::string& path) {
   if (&from == &to) return true;
   for (std::size_t i = 0; i < from.items.size(); ++i) {
@@ -188,7 +188,7 @@ bool append_path(const JsonValue& from, const JsonValue& to, std::string& path) 
   return false;
 }
 
-/// Length of the UTF-8 sequence that starts at byte i, 0 where none does.
+/// Length of the UTF-8 sequence at byte i, 0 if invalid.
 std::size_t sequence_length(const std::string& text, std::size_t i) {
   const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
   const unsigned first = byte(i);
@@ -255,7 +255,7 @@ JsonDocument parse_json(std::string text, std::string name) {
   JsonDocument document{std::move(name), std::move(text), {}};
   const std::size_t zero = document.text.find('\0');  // the parser would take it for the end of the text
   if (zero != std::string::npos) throw Error(document.locate_byte(zero), "not valid JSON: a zero byte");
-  if (document.text.compare(0, 3, mark) == 0)  // which the parser would skip in its turn
+  if (document.text.compare(0, 3, mark) == 0)  // the parser skips a second mark
     throw Error(document.locate_byte(0), "not valid JSON: two byte order marks");
   TreeBuilder builder(document);
   nlohmann::json::sax_parse(document.text, &builder);

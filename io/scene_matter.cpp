@@ -1,4 +1,4 @@
-// The three things that an object of a scene may be: cloth, rope, particles.
+// The three kinds of object in a scene file: cloth, rope, particles.
 #include <algorithm>
 #include <limits>
 
@@ -82,7 +82,7 @@ const ConstraintType& type_named(const std::string& name) {
   return *std::find_if(types.begin(), types.end(), [&](const ConstraintType& type) { return type.name == name; });
 }
 
-/// Throws unless a row has as many elements as the constraint's type asks for.
+/// Throws unless a row has as many elements as the constraint type requires.
 void check_width(const JsonDocument& document, const JsonValue& row, std::size_t wanted, const std::string& of) {
   if (row.items.size() == wanted) return;
   document.fail(row, std::to_string(row.items.size()) + " elements", of + " takes " + std::to_string(wanted));
@@ -171,7 +171,7 @@ BuiltObject build_matter(const JsonDocument& document, const JsonValue& what, co
     if (what.key == "cloth") return cloth_of(document, what, name, folder, repairs);
     if (what.key == "rope") return rope_of(document, what, name);
   } catch (const Error& error) {
-    if (!error.where().file.empty()) throw;  // it knows its place: this file, or the mesh's
+    if (!error.where().file.empty()) throw;  // the error already has a location: this file, or the mesh's
     Location place = document.locate(what);
     place.object = name;
     if (!error.where().element.empty()) place.element += ", " + error.where().element;

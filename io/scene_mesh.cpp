@@ -1,6 +1,6 @@
-// Which files a scene may name: regular ones, and in a scene that isn't trusted only those in its own folder, links
-// followed. A scene may come from anywhere; it must not make a program wait at a pipe, read a device, or publish a private
-// file.
+// Restricts the files that a scene may name: regular files, and for an untrusted scene
+// only those below its own folder after links are resolved. Scenes may come from anywhere.
+// They must not make a program block on a pipe, read a device, or publish a private file.
 #include "scene_mesh.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ bool leaves_folder(const fs::path& path) {
   return path.is_absolute() || std::find(path.begin(), path.end(), fs::path("..")) != path.end();
 }
 
-/// Whether `path` with all links followed lies below `folder`.
+/// True if `path` with all links resolved lies below `folder`.
 bool lies_below(const fs::path& path, const fs::path& folder) {
   std::error_code no_path, no_folder;
   const fs::path inner = fs::canonical(path, no_path);
@@ -104,7 +104,7 @@ TriangleMesh rabbit_of(const JsonValue& at) {
 
 float wave(float turns) { return rotated(rotation({0, 0, 1}, 360 * turns), {1, 0, 0}).y; }
 
-/// Heights by formula: where a vertex is in its wave is worked out from its number, so that both borders are alike.
+/// Heights by formula. The phase is computed from the vertex index, so that opposite borders match.
 void raise(const JsonValue& at, int columns, int rows, TriangleMesh& mesh) {
   float height = 0, along_x = 1, along_z = 1;
   set(at, "height", height);
@@ -134,7 +134,7 @@ TriangleMesh heightfield_of(const JsonDocument& document, const JsonValue& at, S
   return mesh;
 }
 
-/// So that the longest side of the mesh's box is `size`, its middle above the origin, its lowest point at y = 0.
+/// Scales and moves the mesh: `size` is its longest side, centred above the origin, its lowest point at y = 0.
 void fit(const TriangleMesh& mesh, float size, Placement& placement) {
   if (mesh.positions.empty()) return;
   Vec3f low = mesh.positions.front(), high = low;
@@ -162,7 +162,7 @@ Placement placement_of(const JsonDocument& document, const JsonValue& at, const 
 }
 
 void check_places(const JsonDocument& document, const JsonValue& at, const TriangleMesh& mesh) {
-  const auto inside = [](float x) { return x >= -largest_place && x <= largest_place; };  // false for what is no number
+  const auto inside = [](float x) { return x >= -largest_place && x <= largest_place; };  // false for NaN
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const Vec3f& p = mesh.positions[i];
     if (!inside(p.x) || !inside(p.y) || !inside(p.z))
@@ -176,7 +176,7 @@ MeshFile read(const std::string& path, Repair repair) {
   return read_mesh_file(path, {mends, mends, mends});
 }
 
-/// From the file that stands for the record's own source, or from that.
+/// Reads the replacement file of the object, or else the record's own source.
 void fill(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, const std::string& name,
           Repair repair, SceneMesh& result) {
   const auto from_file = [&](const std::string& path, const std::string& called) {

@@ -1,8 +1,8 @@
-// A rabbit out of balls and capsules, for scenes that drape something over a closed mesh and bring none of their own.
+// A rabbit of balls and capsules, for scenes that need a closed mesh without a file.
 //
-// Surface nets (Gibson 1998): every cell of a grid through which the surface passes gets one vertex, the mean of where the cell's
-// edges cross it; every edge of the grid that crosses it joins the four cells around it. Closed by construction, and
-// without the slivers of marching cubes. Only +, -, *, / and sqrt: the same bits everywhere.
+// Surface nets (Gibson 1998): each grid cell that the surface crosses gets one vertex, the mean of the crossings of its
+// edges. Each grid edge that crosses the surface joins its four cells. The result is closed by construction and free of
+// marching cubes' slivers. Only +, -, *, / and sqrt are used: the same bits everywhere.
 #include <cmath>
 #include <map>
 
@@ -12,13 +12,13 @@ namespace pliant::scene_file {
 
 namespace {
 
-/// A round cone: radius a at `from`, b at `to`, in between on the line.
+/// A round cone: radius a at `from`, b at `to`, linear in between.
 struct Part {
   Vec3f from, to;
   float from_radius, to_radius;
 };
 
-/// In units of its height; ears and legs are mirrored.
+/// In units of the height; ears and legs are mirrored.
 const std::vector<Part>& parts() {
   static const std::vector<Part> result = [] {
     std::vector<Part> all{{{0, 0.24f, -0.10f}, {0, 0.27f, 0.06f}, 0.23f, 0.19f},     // trunk
@@ -43,7 +43,7 @@ float distance_to(const Part& part, const Vec3f& p) {
          (part.from_radius + share * (part.to_radius - part.from_radius));
 }
 
-/// Joins two surfaces with a fillet of about this width.
+/// Smooth union of two distances, with a fillet of about this width.
 float joined(float a, float b) {
   constexpr float width = 0.08f;
   const float apart = a > b ? a - b : b - a, near = width > apart ? width - apart : 0;
@@ -94,7 +94,7 @@ class Net {
            Vec3f{0.375f + 0.31f * shift_ * size_, 0.05f + shift_ * size_, 0.55f + 0.73f * shift_ * size_};
   }
 
-  /// The edge from a node along an axis: where it crosses the surface, the four cells around it make two triangles.
+  /// The two triangles of a grid edge that crosses the surface: they join its four cells.
   void join(const int (&from)[3], int axis, int u, int v) {
     int to[3] = {from[0], from[1], from[2]};
     ++to[axis];
@@ -136,14 +136,14 @@ class Net {
     return found->second;
   }
 
-  float size_, shift_;  ///< of a cell; of the grid, in cells
+  float size_, shift_;  ///< size of a cell [m]; offset of the grid in cells
   int counts_[3] = {};
   std::vector<float> values_;
   std::map<std::size_t, int> numbers_;
   TriangleMesh mesh_;
 };
 
-/// Two sheets that pass through one cell share its vertex, and may share an edge.
+/// False if two sheets through one cell share an edge.
 bool is_manifold(const TriangleMesh& mesh) {
   std::map<std::pair<int, int>, int> sides;
   for (const auto& t : mesh.triangles)
@@ -155,7 +155,7 @@ bool is_manifold(const TriangleMesh& mesh) {
 }  // namespace
 
 TriangleMesh rabbit_mesh(float height, int cells) {
-  constexpr int attempts = 32;  // with the grid elsewhere
+  constexpr int attempts = 32;  // each with another grid offset
   TriangleMesh mesh;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     mesh = Net(cells, static_cast<float>(attempt) / attempts).mesh();

@@ -1,5 +1,5 @@
-// The public functions: text to scene in four steps, each its own file. Parse JSON, check it against the table of fields,
-// build, and refuse what nothing asked for.
+// The public functions read a scene in four steps: parse JSON, check
+// it against the table of fields, build, and reject unused members.
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -24,7 +24,7 @@ SceneFile scene_from(std::string text, const std::string& name, const scene_file
   return file;
 }
 
-/// The bytes of a regular file: a pipe might never end, a device has no size.
+/// The bytes of a regular file: a pipe may never end, and a device has no size.
 std::string text_of(const std::string& path) {
   std::error_code unknown;
   const fs::file_status status = fs::status(path, unknown);
@@ -37,7 +37,7 @@ std::string text_of(const std::string& path) {
   std::string block(1 << 16, '\0');
   while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) || stream.gcount() > 0) {
     text.append(block, 0, static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > scene_file::largest_text + 3) break;  // parse_json refuses it
+    if (text.size() > scene_file::largest_text + 3) break;  // too long; parse_json rejects it
   }
   if (stream.bad()) throw Error({path, 0, {}, {}}, "can't be read");
   return text;

@@ -1,5 +1,5 @@
-// See scene_schema.h. The schema says all that the table says; relations between values (friction, keyframe times,
-// particles that exist) are beyond it.
+// Implements scene_schema.h. The schema contains everything in the table; relations between values (friction, keyframe
+// times, existing particles) are outside its scope.
 #include "scene_schema.h"
 
 #include <array>
@@ -21,7 +21,7 @@ std::string words(double value) {
   return {digits.data(), write_shortest(digits.data(), digits.data() + digits.size(), value)};
 }
 
-/// The name of a record as a key of "$defs".
+/// A record's name as a key of "$defs".
 std::string key_of(const Record& record) {
   std::string key = record.name;
   for (char& c : key)
@@ -29,7 +29,7 @@ std::string key_of(const Record& record) {
   return key;
 }
 
-/// Whole numbers without a fraction, as a person would write them.
+/// A JSON number; integers are written without a fraction.
 Json number(double value) {
   const bool whole = value > -1e15 && value < 1e15 && value == static_cast<double>(static_cast<long long>(value));
   return whole ? Json(static_cast<long long>(value)) : Json(value);

@@ -1,4 +1,4 @@
-// Which particles a selection stands for.
+// Resolves selections to particles.
 #include <algorithm>
 #include <string>
 
@@ -42,7 +42,7 @@ std::vector<int> by_index(const JsonDocument& document, const JsonValue& at, con
   return result;
 }
 
-/// The particle nearest to a point, the first of several.
+/// The particle nearest to a point, the first if equal.
 int nearest(const Vec3f& point, const std::vector<Vec3f>& positions) {
   const auto distance = [&](const Vec3f& p) { return length_squared(p - point); };
   const auto nearer = [&](const Vec3f& a, const Vec3f& b) { return distance(a) < distance(b); };

@@ -62,7 +62,7 @@ bool set(const JsonDocument& document, const JsonValue& at, const char* name, Qu
   float degrees = 0;
   set(*value, "axis", axis);
   set(*value, "degrees", degrees);
-  // Scaled to a largest part of 1, for the square of a tiny axis would vanish.
+  // Scaled to a largest component of 1, because the square of a tiny axis underflows.
   const float largest = std::max({axis.x, -axis.x, axis.y, -axis.y, axis.z, -axis.z});
   if (largest < std::numeric_limits<float>::min())
     document.fail(*value->find("axis"), "this axis has no direction", "[0, 1, 0] is upright");

@@ -1,4 +1,4 @@
-// See text_lines.h for why this is own code: it is a page, and every rule in it is one that a file of somebody's broke.
+// Custom text parsing: it is short, and each of its rules handles a file that occurs in practice.
 #include "text_lines.h"
 
 #include <cerrno>
@@ -15,15 +15,15 @@ namespace {
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// std::from_chars takes no plus, and after it no second sign may follow.
+/// std::from_chars accepts no plus sign; a second sign after it is invalid.
 bool strip_plus(std::string_view& word) {
   if (word.empty() || word.front() != '+') return true;
   word.remove_prefix(1);
   return !word.empty() && word.front() != '-' && word.front() != '+';
 }
 
-/// Whether a number that does not fit is too small rather than too large. It is small when its exponent is negative or,
-/// without one, when nothing but zeros stands before the point.
+/// True if a number out of range is too small rather than too large. It is small if its exponent is negative or, without an
+/// exponent, if only zeros precede the point.
 bool is_small(std::string_view word) {
   const std::size_t exponent = word.find_first_of("eE");
   if (exponent != std::string_view::npos) return exponent + 1 < word.size() && word[exponent + 1] == '-';
@@ -39,8 +39,8 @@ std::from_chars_result read_float(const char* first, const char* last, float& va
   return std::from_chars(first, last, value);
 }
 #else
-/// For libraries whose std::from_chars reads integers alone (libc++ 14): std::strtof where there are no locales, of a copy that
-/// ends, and of nothing that from_chars would not take.
+/// For libraries whose std::from_chars supports integers only (libc++ 14): std::strtof in the C locale on a terminated
+/// copy, for input that from_chars would accept.
 std::from_chars_result read_float(const char* first, const char* last, float& value) {
   const std::string copy(first, last);
   if (copy.find_first_of("xX+ \t\n\v\f\r") == 0 || copy.find_first_of("xX") != std::string::npos)

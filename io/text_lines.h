@@ -1,7 +1,7 @@
-// Lines, words and numbers of text formats, the same on every machine.
+// Lines, words and numbers of text formats, with the same result on every machine.
 //
-// std::from_chars is the one way to read a number that no locale changes and that needs no copy; what it leaves out (a
-// leading plus) and what it lets in (inf, nan) is put right here, so that no reader forgets.
+// std::from_chars parses numbers without locale or copy. It rejects a leading
+// plus and accepts inf and nan; these functions correct both, for all readers.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@
 
 namespace pliant {
 
-/// Walks over the lines of a text. A line ends with \n, \r\n or \r, or where the text does.
+/// Iterates over the lines of a text. A line ends with \n, \r\n, \r or the end of the text.
 class LineReader {
  public:
   explicit LineReader(std::string_view text, int first_line = 1) : text_(text), next_number_(first_line) {}
 
-  /// Moves on. False at the end.
+  /// Advances. Returns false at the end.
   bool next();
 
-  std::string_view line() const { return line_; }   ///< without its end
+  std::string_view line() const { return line_; }   ///< without its line end
   int number() const { return number_; }            ///< of line(), from 1
-  std::size_t offset() const { return position_; }  ///< byte behind line() and its end
+  std::size_t offset() const { return position_; }  ///< byte after line() and its line end
 
  private:
   std::string_view text_, line_;
@@ -28,21 +28,21 @@ class LineReader {
   int number_ = 0, next_number_;
 };
 
-/// Takes the first word (no spaces or tabs) off `rest`. Empty where there is none.
+/// Takes the first word (no spaces or tabs) off `rest`; empty if there is none.
 std::string_view take_word(std::string_view& rest);
 
-/// A name or number from a file, fit to stand in a message: cut to 40 bytes, with what is not printable as '?'.
+/// A name or number from a file, made safe for a message: at most 40 bytes, unprintable ones as '?'.
 std::string quoted(std::string_view word);
 
 enum class NumberProblem { none, not_a_number, not_finite, too_large };
 
-/// What is wrong, as the middle of a sentence: "is not a number".
+/// The problem as a clause: "is not a number".
 const char* describe(NumberProblem problem);
 
-/// The whole word as a float, correctly rounded. A leading '+' is taken; what is too small becomes 0.
+/// Parses the whole word as a float, correctly rounded. Accepts a leading '+'; values too small become 0.
 NumberProblem parse_float(std::string_view word, float& value);
 
-/// The whole word as a whole number; a leading '+' is taken. False where it is none or does not fit.
+/// Parses the whole word as an integer; accepts a leading '+'. Returns false if it is none or out of range.
 bool parse_integer(std::string_view word, std::int64_t& value);
 
 }  // namespace pliant

@@ -1,7 +1,7 @@
-// What every writer of moving geometry is given, and the writers there are.
+// The input of all writers of moving geometry, and the list of writers.
 //
-// A format sees objects that do not change (names, triangles, colours) and frames that do (places, velocities). It sees no
-// World, so it can be tested with a mesh made by hand, and a run read back from a checkpoint could be written as well.
+// A format sees constant objects (names, triangles, colours) and frames (positions, velocities), but no World. So it can be
+// tested with a handmade mesh, and could also write a run from saved States.
 #pragma once
 
 #include <array>
@@ -20,73 +20,73 @@ class AtomicFile;
 
 namespace pliant::output {
 
-/// What does not change about an object. It is a surface where it has triangles, else lines, else points.
+/// The constant part of an object. It is a surface if it has triangles, else lines, else points.
 struct FrameObject {
   std::string name;
   Vec3f colour{};       ///< linear RGB
   float width = 0.01f;  ///< of lines and points [m]
   int particles = 0;
   std::vector<std::array<int, 3>> triangles;
-  std::vector<std::vector<int>> lines;  ///< each the particles along a line; a closed one ends where it began
+  std::vector<std::vector<int>> lines;  ///< each the particles along a line; a closed one ends at its start
 };
 
-/// One moment.
+/// The data of one time.
 struct Frame {
   double time = 0;                             ///< [s]
-  std::vector<std::vector<Vec3f>> positions;   ///< an object's particles [m]
-  std::vector<std::vector<Vec3f>> velocities;  ///< the same, or empty [m/s]
-  std::int64_t number = 0;                     ///< in the run: names the file where a format has a file a frame
+  std::vector<std::vector<Vec3f>> positions;   ///< of each object's particles [m]
+  std::vector<std::vector<Vec3f>> velocities;  ///< as above, or empty [m/s]
+  std::int64_t number = 0;                     ///< in the run; names the file in formats with one file per frame
 };
 
-/// Writes one format. Frames come in the order of time; finish() completes the files.
+/// Writes one format. Frames must come in time order; finish() completes the files.
 class FormatWriter {
  public:
   virtual ~FormatWriter() = default;
   virtual void add(const Frame& frame) = 0;
   virtual void finish() = 0;
 
-  /// Every file that is in its place, in the order in which they got there.
+  /// Every committed file, in order of commit.
   const std::vector<WrittenFile>& written() const { return written_; }
 
  protected:
-  /// Puts a file in its place and notes it. Throws Error as AtomicFile::commit does.
+  /// Commits a file and records it. Throws as AtomicFile::commit does.
   void commit(AtomicFile& file);
 
  private:
   std::vector<WrittenFile> written_;
 };
 
-/// The objects of a scene as writers see them. The lines of an object without triangles are its first group of distance
-/// constraints: in a rope those are its links, later groups (bending) are no part of its shape.
+/// The objects of a scene as writers see them. An object without triangles has its first group of distance constraints as
+/// lines: a rope's links. Later groups (bending) are not part of its shape.
 std::vector<FrameObject> describe(const Scene& scene);
 FrameObject describe(const Object& object);
 
-/// Joins edges to as few lines as a walk in the order of the particles finds.
+/// Joins edges to polylines by a walk in the order of particles, as few as it finds.
 std::vector<std::vector<int>> join_lines(const std::vector<std::array<int, 2>>& edges);
 
-/// Throws Error naming `path` and the object where a frame does not fit the objects, has a non-finite place, or does not
-/// come after `last_time` (the first: give -infinity).
+/// Throws an Error that names `path` and the object if a frame does not fit the objects, has a non-finite position, or is
+/// not after `last_time` (-infinity for the first).
 void check_frame(const std::string& path, const std::vector<FrameObject>& objects, const Frame& frame, double last_time);
 
-/// A name for each object made of letters, digits and _, beginning with no digit, all different.
+/// A unique identifier for each object: letters, digits and _, with no leading digit.
 std::vector<std::string> identifiers(const std::vector<FrameObject>& objects);
 
-/// Vertex normals, weighted by area; (0, 1, 0) where there is none.
+/// Area-weighted vertex normals; (0, 1, 0) if undefined.
 std::vector<Vec3f> vertex_normals(const std::vector<Vec3f>& positions, const std::vector<std::array<int, 3>>& triangles);
 
-/// The path without its last suffix, and the suffix with its point ("" where there is none), in lower case.
+/// The path without its last suffix, and the suffix with its point ("" if there is none), in lower case.
 struct SplitPath {
   std::string stem, suffix;
 };
 SplitPath split_path(const std::string& path);
 
-/// `path`'s last part.
+/// The last component of `path`.
 std::string file_name(const std::string& path);
 
-/// A frame's number in four digits or more.
+/// A frame's number with four digits or more.
 std::string frame_number(std::int64_t frame);
 
-// One maker a format. `path` is the path with suffix as the user gave it; `frame_time` the nominal time between frames [s].
+// One factory per format. `path` is the user's path with suffix; `frame_time` is the nominal time between frames [s].
 using Objects = std::vector<FrameObject>;
 std::unique_ptr<FormatWriter> make_obj_sequence(const std::string& path, const Objects& objects);
 std::unique_ptr<FormatWriter> make_ply_sequence(const std::string& path, const Objects& objects);
@@ -95,7 +95,7 @@ std::unique_ptr<FormatWriter> make_usda_writer(const std::string& path, const Ob
 std::unique_ptr<FormatWriter> make_pc2_writer(const std::string& path, const Objects& objects, double frame_time);
 std::unique_ptr<FormatWriter> make_pvd_writer(const std::string& path, const Objects& objects);
 
-/// The writer for the suffix. Throws Error listing the suffixes there are for another one.
+/// The writer for the suffix. Throws an Error that lists the known suffixes if it is unknown.
 std::unique_ptr<FormatWriter> make_format_writer(const std::string& path, const Objects& objects, double frame_time);
 
 }  // namespace pliant::output

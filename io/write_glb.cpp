@@ -1,8 +1,8 @@
-// glTF 2.0 in one file: each object a mesh whose morph targets are its frames, moved by one animation of weights.
+// glTF 2.0 in one file: each object is a mesh with its frames as morph targets and one animation of weights.
 //
-// Frame 0 is the mesh itself and frame k its k-th target, as differences; at the time of frame k the k-th weight is 1 and
-// all others are 0, so between frames a viewer blends two neighbours. Normals are written too, because a viewer shades a
-// mesh without them in facets. The list of frames comes first in the file, so vertices wait in a spool.
+// Frame 0 is the mesh itself; frame k is its k-th morph target, as differences. At the time of frame k the k-th weight is 1
+// and all others are 0, so a viewer blends two neighbouring frames. Normals are written because viewers shade meshes
+// without them flat. The frame list precedes the vertices in the file, so vertices wait in a spool.
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -23,7 +23,7 @@ using nlohmann::json;
 enum Component : int { unsigned_int = 5125, float_32 = 5126 };
 enum Target : int { array_buffer = 34962, element_array_buffer = 34963 };
 enum Mode : int { points = 0, lines = 1, triangles = 4 };
-constexpr std::uint64_t largest_file = 0xFFFFFFFFu;  // sizes are 32 bits in the format
+constexpr std::uint64_t largest_file = 0xFFFFFFFFu;  // sizes are 32-bit in the format
 
 struct Bounds {
   Vec3f low, high;
@@ -46,7 +46,7 @@ std::vector<Vec3f> difference(const std::vector<Vec3f>& a, const std::vector<Vec
   return result;
 }
 
-/// One object's vertices: block after block of positions and, for surfaces, normals.
+/// One object's vertices: a block per frame of positions and, for surfaces, normals.
 class Part {
  public:
   Part(const std::string& path, const FrameObject& object) : object_(object), spool_(path) {}
@@ -96,12 +96,12 @@ class Part {
   std::vector<Bounds> bounds_;              // of each frame's block
 };
 
-/// The JSON of the file and the plan of its binary part, grown together.
+/// The JSON of the file and the layout of its binary part.
 class Document {
  public:
   Document() : root_{{"asset", {{"version", "2.0"}, {"generator", "Pliant"}}}, {"scene", 0}} {}
 
-  /// Takes up `size` bytes of the binary part; returns the view's index.
+  /// Reserves `size` bytes of the binary part; returns the view's index.
   int add_view(std::uint64_t size, int target, bool vertices) {
     json view{{"buffer", 0}, {"byteOffset", binary_size_}, {"byteLength", size}};
     if (target != 0) view["target"] = target;
@@ -179,7 +179,7 @@ class GlbWriter final : public FormatWriter {
 
   void add(const Frame& frame) override {
     check_frame(path_, objects_, frame, last_time_);
-    // Times are floats in the file and must grow there too.
+    // Times are floats in the file and must increase there too.
     if (!times_.empty() && !(static_cast<float>(frame.time) > times_.back()))
       refuse("has frames too close together in time for floats");
     for (std::size_t o = 0; o < parts_.size(); ++o) parts_[o].add(frame.positions[o]);
@@ -254,7 +254,7 @@ class GlbWriter final : public FormatWriter {
     commit(file_);
   }
 
-  /// In the order in which the document's views were added.
+  /// In the order of the document's views.
   void write_binary(bool animated) {
     for (Part& part : parts_) {
       if (part.blocks().empty()) continue;

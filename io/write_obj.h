@@ -1,4 +1,4 @@
-// What the two writers of .obj text share.
+// The common part of the two writers of .obj text.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace pliant::output {
 
-/// One `v` line a position.
+/// One `v` line for each position.
 inline std::string obj_vertices(const std::vector<Vec3f>& positions) {
   std::string text;
   for (const Vec3f& position : positions) {
@@ -19,7 +19,7 @@ inline std::string obj_vertices(const std::vector<Vec3f>& positions) {
   return text;
 }
 
-/// The object's `f` lines, else its `l` lines, else its `p` lines; `first` is the number of its first vertex, from 1.
+/// The object's `f` lines, else its `l` lines, else its `p` lines; `first` is the index of its first vertex, from 1.
 inline std::string obj_elements(const FrameObject& object, int first) {
   std::string text;
   const auto line = [&](const char* kind, const auto& indices) {

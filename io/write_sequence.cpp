@@ -1,6 +1,6 @@
-// One file a frame: NAME_0000.obj and NAME_0000.ply, all objects in each.
+// One file per frame: NAME_0000.obj or NAME_0000.ply, with all objects in each.
 //
-// OBJ tells objects apart by `o`; PLY has no such thing, so each vertex carries its object's colour and number.
+// OBJ separates objects by `o`. PLY cannot, so each vertex carries its object's colour and index.
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -46,7 +46,7 @@ class ObjSequence final : public SequenceWriter {
       : SequenceWriter(path, objects), elements_(elements(objects)) {}
 
  private:
-  /// Faces, lines and points are the same in each frame.
+  /// Faces, lines and points are the same in every frame.
   static std::vector<std::string> elements(const Objects& objects) {
     std::vector<std::string> result;
     int first = 1;

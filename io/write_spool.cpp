@@ -1,4 +1,4 @@
-// The nameless file. POSIX calls, for the same reasons as in atomic_file.cpp.
+// The nameless file. POSIX calls, for the reasons given in atomic_file.cpp.
 #include "write_spool.h"
 
 #include <fcntl.h>

@@ -1,8 +1,8 @@
-// Bytes set aside while a run lasts, for formats whose file begins with what is known only at its end.
+// Temporary storage during a run, for formats whose file starts with data known only at the end.
 //
-// A .glb starts with the list of its frames and a .usda holds one object's frames before the next object's; keeping them in
-// memory would cost gigabytes for a large cloth. The spool is a file without a name, so that nothing is left of it whatever
-// happens.
+// A .glb starts with the list of its frames, and a .usda holds one object's frames
+// before the next object's. Keeping them in memory would take gigabytes for a
+// large cloth. The spool is a nameless file, so nothing remains of it in any case.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace pliant::output {
 
 class Spool {
  public:
-  /// `beside` is the file that is being made; the spool lies in its folder. Throws Error naming it.
+  /// `beside` is the output file; the spool lies in its folder. Throws an Error that names it.
   explicit Spool(std::string beside);
   ~Spool();
   Spool(Spool&& other) noexcept;
@@ -26,7 +26,7 @@ class Spool {
   void write(std::string_view text) { write(text.data(), text.size()); }
   std::size_t size() const { return written_ + buffer_.size(); }
 
-  /// Appends all that was written to `file`.
+  /// Appends the spool's whole content to `file`.
   void copy_to(AtomicFile& file);
 
  private:

@@ -1,4 +1,4 @@
-// Numbers as text for the writers: the shortest digits that read back as the same float, whatever the locale.
+// Numbers as text for the writers: the shortest digits that read back as the same float, in any locale.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace pliant::output {
 
-/// Appends a number in the fewest digits that give it back exactly.
+/// Appends a number with the fewest digits that read back exactly.
 template <class Number>
 void append(std::string& text, Number number) {
   char digits[32];
   text.append(digits, write_shortest(digits, digits + sizeof digits, number));
 }
 
-/// Appends three numbers with `between` in between.
+/// Appends three numbers separated by `between`.
 inline void append(std::string& text, const Vec3f& v, const char* between = " ") {
   append(text, v.x);
   text += between;
