@@ -116,7 +116,7 @@ struct CompiledObject {
 /// What the schedule depends on besides the object.
 struct CompileOptions {
   int passes = 1;           ///< projections of a constraint in a frame: substeps x iterations, for k'
-  int largest_tile = 4096;  ///< particles
+  int largest_tile = 2048;  ///< particles: as many as fit the shared memory of a thread block on any GPU
   /// `chains` and `multigrid` need data of their own; `natural` is one tile, one constraint after another: type by type, law by
   /// law, as they were given. All others are laid out alike.
   Sweep sweep = Sweep::tiled;
