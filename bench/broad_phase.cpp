@@ -1,5 +1,5 @@
-// What finds pairs that may touch, one beside the other: the spatial hash and the hierarchies over each volume, on triangles that
-// deform frame by frame. Arguments: vertices along a side of the cloth. `pairs`: of volumes that overlap.
+// Compares broad phases: the spatial hash and BVHs over each bounding volume, on triangles that deform every frame.
+// Arguments: vertices along a side of the cloth. `pairs`: overlapping volumes.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int frames = 8;
 
-/// Triangles and where their vertices are in each frame.
+/// Triangles and their vertex positions in each frame.
 struct Input {
   std::string name;
   std::vector<Triangle> triangles;
@@ -42,7 +42,7 @@ Vec3d wave(const Vec3d& p, double phase) {
   return {p.x, 0.1 * std::sin(6 * p.x + 5 * phase) * std::cos(7 * p.z - 3 * phase), p.z};
 }
 
-/// Onto an Archimedean spiral whose windings are `gap` apart and turn with the phase.
+/// Maps onto an Archimedean spiral whose windings are `gap` apart and rotate with the phase.
 Vec3d roll(const Vec3d& p, double phase, double gap) {
   constexpr double pi = 3.141592653589793;
   const double along = p.x + 0.5, pitch = gap / (2 * pi), inner = 4 * gap;
@@ -79,7 +79,7 @@ std::vector<B> volumes_of(const Input& input, std::size_t frame) {
   return volumes;
 }
 
-/// Calls refit(frame) and then query(), which returns a number of pairs, over and over.
+/// Times alternating calls of refit(frame) and query(), which returns a number of pairs.
 template <class Refit, class Query>
 void measure(benchmark::State& state, const Input& input, const Refit& refit, const Query& query) {
   std::size_t frame = 0;

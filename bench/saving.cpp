@@ -1,4 +1,4 @@
-// Hashing, saving and loading the State of a million particles, 48 MB, in a temporary folder.
+// Hashes, saves and loads the State of a million particles, 48 MB, in a temporary folder.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// The workloads: which engines run on which cloth, and how a frame is timed.
+// The workloads: which engines run on which cloth, and how frames are timed.
 #include "apps/bench/bench.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// The element that the share `rank` of all lies below. Takes a copy on purpose.
+// The quantile `rank` of the values. Takes a copy, because it reorders them.
 double quantile(std::vector<double> values, double rank) {
   if (values.empty()) return 0;
   const auto index = static_cast<std::ptrdiff_t>(
@@ -84,7 +84,7 @@ class Bench {
     }
     measure({workload, size, "plain loop"}, cloth, bullets_best, [&] { return make_plain_loop(cloth, bullets_best); });
     measure_pliant(workload, cloth, size, bullets_best);
-    measure_pliant(workload, cloth, size, small_steps);  // the same work, spent as the engine recommends
+    measure_pliant(workload, cloth, size, small_steps);  // the same work in the recommended way: small steps
   }
 
   void run_set_up(const std::string& workload, int size) {
@@ -143,7 +143,7 @@ class Bench {
 
   const Options& options_;
   std::vector<Row> rows_;
-  double first_ms_ = 0;  // of the row that the others of its workload and size are compared with
+  double first_ms_ = 0;  // of the reference row of its workload and size
 };
 
 void check(const Options& options) {

@@ -1,5 +1,5 @@
-// Benchmarks of whole frames, the engine beside others in one run: figures of different runs or machines are never
-// compared, only their ratios within a run are quoted. `pliant bench` prints what this library measures.
+// Benchmarks of whole frames, the engine and others in one run (`pliant bench`). Times of different runs or machines are
+// not comparable; only ratios within a run are quoted.
 #pragma once
 
 #include <functional>
@@ -10,42 +10,42 @@
 
 namespace pliant::bench {
 
-/// One engine's figures for one workload at one size.
+/// The figures of one engine for one workload and size.
 struct Row {
   std::string workload;  ///< a name from workloads()
   int size = 0;          ///< N of an N x N cloth
   std::string engine;    ///< "plain loop", "bullet" or "pliant"
   int threads = 1, substeps = 0, iterations = 0;
-  double ms_per_frame = 0;       ///< median over the frames; the time itself where a workload has no frames
-  double ns_per_projection = 0;  ///< of the whole frame, prediction and velocity update included
+  double ms_per_frame = 0;       ///< median over the frames; the total time if a workload has no frames
+  double ns_per_projection = 0;  ///< whole frame, including prediction and velocity update
   double stretch_mean = 0, stretch_p99 = 0, stretch_max = 0;  ///< length over rest length after the last frame
-  double energy_lost = 0;                                     ///< by frame 40 [J]; of W1-quality alone
-  bool met = true;                                            ///< of W1-quality: whether the bounds were kept
+  double energy_lost = 0;                                     ///< by frame 40 [J]; W1-quality only
+  bool met = true;                                            ///< W1-quality only: the bounds were met
   std::vector<PhaseTime>
-      phases{};      ///< of "pliant": milliseconds a frame by phase, in a run of its own that times them apart
-  double ratio = 0;  ///< how many times as fast as the first row of the same workload and size
+      phases{};      ///< of "pliant": milliseconds per frame and phase, from a separate run that times phases
+  double ratio = 0;  ///< speedup over the first row of the same workload and size
 };
 
 struct Options {
   std::string workload;  ///< empty: all of them
   std::vector<int> sizes{64, 128, 256, 512};
-  int warm_up = 20, frames = 120;  ///< frames before and during measurement
-  int threads = 0;                 ///< of the engine's second run beside that with one thread; 0: all
+  int warm_up = 20, frames = 120;  ///< unmeasured and measured frames
+  int threads = 0;                 ///< of the engine's second run, beside the one with one thread; 0: all
   bool against_bullet = false;
-  std::function<void(const Row&)> on_row;  ///< called as soon as a row is known
+  std::function<void(const Row&)> on_row;  ///< called as soon as a row is complete
 };
 
 struct Workload {
   std::string name, what;
 };
 
-/// What there is to measure.
+/// All workloads.
 const std::vector<Workload>& workloads();
 
-/// Whether Bullet was found when this was built.
+/// True if this build includes Bullet.
 bool has_bullet();
 
-/// Throws Error where the workload is unknown, a size is out of 2..4096, or Bullet is asked for and was not built in.
+/// Throws an Error if the workload is unknown, a size is outside 2..4096, or Bullet is requested but not built in.
 std::vector<Row> run(const Options& options);
 
 /// The rows as a JSON list.

@@ -1,5 +1,5 @@
-// Bullet's soft bodies with their self-collision, set up as its own examples of clusters of cloth are. Compiled only where Bullet
-// was found.
+// Bullet's soft bodies with self-collision, set up like its own
+// examples of cloth clusters. Compiled only if Bullet is present.
 #include <BulletSoftBody/btSoftBody.h>
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 #include <BulletSoftBody/btSoftBodyInternals.h>
@@ -30,8 +30,8 @@ class BulletLanding final : public LandingEngine {
     if (ball_) world_.removeRigidBody(ball_.get());
   }
 
-  // Bullet's flag for clusters of one body (CL_SELF) switches off all contact of soft bodies in 3.24, since the mask by which they
-  // are told apart holds it too; so what Bullet would do at the end of a step is asked for here.
+  // In Bullet 3.24 the flag for clusters of one body (CL_SELF) disables all soft body contact, because the handler's mask
+  // contains it. So the contact at the end of a step is triggered explicitly here.
   void step(float dt) override {
     const float h = dt / static_cast<float>(steps_.substeps);
     for (const auto& body : cloths_) body->m_cfg.kDP = 1 - 1 / (1 + h * damping_);

@@ -1,4 +1,4 @@
-// The workload is taken from the object that Pliant itself simulates, so that every engine has the same constraints.
+// The workload derives from Pliant's own object, so that every engine has the same constraints.
 #include "apps/bench/cloth.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ float distance(const Vec3f& a, const Vec3f& b) { return std::sqrt(length_squared
 
 std::pair<int, int> key(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-// When each edge is first named by a triangle. A sweep in the order of sorted edges, away from the pins, goes to infinity.
+// The rank of each edge's first use by a triangle. A sweep over sorted edges, away from the pins, diverges.
 std::map<std::pair<int, int>, int> mesh_order(const Object& object) {
   std::map<std::pair<int, int>, int> rank;
   for (const std::array<int, 3>& t : object.triangles)
@@ -30,7 +30,7 @@ std::map<std::pair<int, int>, int> mesh_order(const Object& object) {
   return rank;
 }
 
-// Sorts items by the mesh order of the edge that each stands on.
+// Sorts items by the mesh order of their edges.
 template <class Item, class EdgeOf>
 void sort_by_mesh(std::vector<Item>& items, const std::map<std::pair<int, int>, int>& rank, const EdgeOf& edge_of) {
   std::vector<std::pair<int, int>> order;
@@ -45,7 +45,7 @@ void sort_by_mesh(std::vector<Item>& items, const std::map<std::pair<int, int>, 
 
 namespace {
 
-/// Grid cells are two triangles each, in order of rows: every second one gets its other diagonal.
+/// Grid cells are two triangles each, in row order: every second cell gets the other diagonal.
 TriangleMesh w1_mesh(int size, Diagonals diagonals) {
   TriangleMesh mesh = grid_mesh(size, size, 1, 1);
   if (diagonals == Diagonals::uniform) return mesh;

@@ -1,5 +1,5 @@
-// W1, the cloth that everything is measured on: N x N particles, 1 m, hung by two corners, one stretching constraint an
-// edge, one bending constraint an inner edge if wanted; and what an engine must offer to be measured on it.
+// W1, the standard benchmark cloth: N x N particles, 1 m, hung by two corners, one stretching constraint per edge and
+// optionally one bending constraint per inner edge; and the interface of an engine to be measured on it.
 #pragma once
 
 #include <array>
@@ -24,37 +24,37 @@ struct Hinge {
   float compliance;
 };
 
-/// The workload, free of any engine.
+/// The workload in an engine-independent form.
 struct Cloth {
-  Object object;              ///< as Pliant takes it, pins included
-  std::vector<Edge> edges;    ///< the object's own, in the order in which its triangles first name them
-  std::vector<Hinge> hinges;  ///< likewise; empty without bending
+  Object object;              ///< as Pliant takes it, with pins
+  std::vector<Edge> edges;    ///< the object's edges, in the order of their first use by triangles
+  std::vector<Hinge> hinges;  ///< in the same order; empty without bending
   std::array<int, 2> pins{};
 };
 
-/// Which way the cells of the grid are cut: all alike, or each the other way than its neighbours, as other engines' figures have
-/// it.
+/// How grid cells are cut: all alike, or alternating,
+/// as in the published figures of other engines.
 enum class Diagonals { uniform, alternating };
 
-/// The object alone, without the lists that other engines need.
+/// The object alone, without the lists for other engines.
 Object make_w1_object(int size, bool with_bending, Diagonals diagonals = Diagonals::uniform);
 Cloth make_w1(int size, bool with_bending, Diagonals diagonals = Diagonals::uniform);
 
-/// The edges that a cloth's distance constraints stand on, in the order in which its triangles first name them.
+/// The edges with distance constraints, in the order of their first use by triangles.
 std::vector<Edge> edges_of(const Object& object);
 
-/// A grid of size x size over 1 m whose inner particles are moved by up to 0.3 of a cell, each cell's diagonal either way:
-/// nothing in it lines up.
+/// A grid of size x size over 1 m without any alignment: inner particles are
+/// displaced by up to 0.3 of a cell, and diagonals have random directions.
 TriangleMesh make_irregular_mesh(int size);
 
-/// An engine at work on a Cloth.
+/// An engine that simulates a Cloth.
 class Engine {
  public:
   virtual ~Engine() = default;
   virtual void step(float dt) = 0;
   virtual std::vector<Vec3f> positions() const = 0;
   virtual int threads() const { return 1; }
-  /// Milliseconds a frame by phase, over so many more frames; nothing where an engine has none to tell.
+  /// Milliseconds per frame by phase, over `frames` more frames; empty if the engine does not measure phases.
   virtual std::vector<PhaseTime> phases(float /*dt*/, int /*frames*/) { return {}; }
 };
 
@@ -67,11 +67,11 @@ std::unique_ptr<Engine> make_pliant(const Cloth& cloth, Steps steps, int threads
 
 /// The order in which Bullet solves its links.
 enum class BulletOrder {
-  shuffled,  ///< as its helper that makes a body from a mesh leaves them
-  spread,    ///< as its ReoptimizeLinkOrder leaves them: neighbours do not wait for each other; the faster one
+  shuffled,  ///< as its helper that converts a mesh leaves them
+  spread,    ///< as its ReoptimizeLinkOrder leaves them: neighbours are not adjacent in order; the faster one
 };
 
-/// Null where Bullet was not found when this was built. Edges only.
+/// Null if this build lacks Bullet. Edges only.
 std::unique_ptr<Engine> make_bullet(const Cloth& cloth, Steps steps, BulletOrder order);
 
 }  // namespace pliant::bench

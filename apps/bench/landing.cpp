@@ -16,7 +16,7 @@ namespace pliant::bench {
 namespace {
 
 constexpr float frame_time = 1.f / 60, width = 1, thickness_of_edge = 0.1f;
-constexpr float damping = 6;  // without it Bullet's positions are infinite within 20 frames at N = 64 [1/s]
+constexpr float damping = 6;  // without it Bullet's positions become infinite within 20 frames at N = 64 [1/s]
 
 Object cloth_at(int size, float height, float degrees, const std::string& name) {
   TriangleMesh mesh = grid_mesh(size, size, width, width);
@@ -45,7 +45,7 @@ class PliantLanding final : public LandingEngine {
     Scene scene;
     scene.settings.substeps = steps.substeps;
     scene.settings.iterations = steps.iterations;
-    scene.settings.sweep = Sweep::tiled;  // as many projections as Bullet makes
+    scene.settings.sweep = Sweep::tiled;  // as many projections as Bullet
     scene.settings.threads = 1;
     for (const Object& cloth : landing.cloths) scene.add(cloth);
     if (landing.radius > 0) {
@@ -95,7 +95,7 @@ void measure_stretch(const Landing& landing, const LandingEngine& engine, Landin
   row.stretch_p99 = quantile(ratios, 0.99);
 }
 
-/// Frames until all are done or the time is up.
+/// Runs frames until all are done or the time limit is reached.
 std::vector<double> run_frames(LandingEngine& engine, const LandingOptions& options) {
   std::vector<double> times;
   double sum = 0;

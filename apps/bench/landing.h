@@ -1,5 +1,5 @@
-// W3: cloth that meets itself lands on a ball, or on another cloth; the engine beside Bullet, with the exact count of what
-// passes through what at the end. `pliant bench W3` prints it.
+// W3: self-colliding cloth lands on a ball or on another cloth; the engine and Bullet, with the exact number of
+// intersections at the end (`pliant bench W3`).
 #pragma once
 
 #include <functional>
@@ -11,20 +11,20 @@
 
 namespace pliant::bench {
 
-/// The workload, free of any engine: N x N cloths of 1 m with rigid edges and no bending, which meet themselves and one another.
+/// The workload in an engine-independent form: N x N cloths of 1 m with rigid edges, no bending, self-collision.
 struct Landing {
   std::string on;                        ///< "ball" or "cloth"
   int size = 0;                          ///< N
-  std::vector<Object> cloths;            ///< as Pliant takes them; the held one of two has its corners pinned
-  std::vector<std::vector<Edge>> edges;  ///< of each
-  Vec3f ball{};                          ///< its middle [m]
-  float radius = 0;                      ///< of the ball [m]; 0: there is none
+  std::vector<Object> cloths;            ///< as Pliant takes them; of two, the lower has pinned corners
+  std::vector<std::vector<Edge>> edges;  ///< of each cloth
+  Vec3f ball{};                          ///< centre [m]
+  float radius = 0;                      ///< of the ball [m]; 0: no ball
 };
 
-/// Throws Error where `on` is neither.
+/// Throws an Error if `on` is neither.
 Landing make_landing(const std::string& on, int size);
 
-/// An engine at work on a Landing.
+/// An engine that simulates a Landing.
 class LandingEngine {
  public:
   virtual ~LandingEngine() = default;
@@ -33,33 +33,33 @@ class LandingEngine {
 };
 
 std::unique_ptr<LandingEngine> make_pliant_landing(const Landing& landing, Steps steps);
-/// Bullet's position based soft body, kept from itself and from others by so many convex clusters of its faces; 0: one for each
-/// face, the finest that it has. Null where Bullet was not found when this was built.
+/// Bullet's position based soft body, with collision by `clusters` convex clusters
+/// of its faces; 0: one per face, the finest. Null if this build lacks Bullet.
 std::unique_ptr<LandingEngine> make_bullet_landing(const Landing& landing, Steps steps, int clusters);
 
-/// Processor time of one thread.
+/// Times are processor time of one thread.
 struct LandingRow {
   std::string on, engine;
   int size = 0, substeps = 0, iterations = 0;
-  int frames = 0;       ///< done within the limit
-  bool in_time = true;  ///< whether those are all
+  int frames = 0;       ///< completed within the time limit
+  bool in_time = true;  ///< true if all frames were completed
   double mean_ms = 0, median_ms = 0, largest_ms = 0;
   std::size_t crossings =
-      0;  ///< edges that pass through a triangle after the last of them; not counted where a position is no number
-  double stretch_mean = 0, stretch_p99 = 0;  ///< length over rest length then; not a number where a position is not
-  double ratio = 0;                          ///< how many times as fast as the first row of the same landing and size
+      0;  ///< edges that intersect a triangle after the last frame; not counted if a position is not finite
+  double stretch_mean = 0, stretch_p99 = 0;  ///< length over rest length after it; NaN if a position is
+  double ratio = 0;                          ///< speedup over the first row of the same landing and size
 };
 
 struct LandingOptions {
   std::vector<std::string> on{"ball", "cloth"};  ///< landings
   std::vector<int> sizes{64, 128};
-  int frames = 120;    ///< from the start: the fall, the landing and the draping
-  double limit = 120;  ///< on each row's time [s]
+  int frames = 120;    ///< from the start: fall, landing and draping
+  double limit = 120;  ///< of each row's time [s]
   bool against_bullet = false;
   std::function<void(const LandingRow&)> on_row;
 };
 
-/// Throws Error where a size is out of 2..4096, there are no frames or no time, or Bullet is asked for and was not built in.
+/// Throws an Error if a size is outside 2..4096, frames or time are 0, or Bullet is requested but not built in.
 std::vector<LandingRow> measure_landings(const LandingOptions& options);
 
 std::string to_json(const std::vector<LandingRow>& rows);

@@ -14,7 +14,7 @@ namespace pliant::bench {
 
 namespace {
 
-/// A line of /proc/self/status such as "VmHWM:   123 kB", in bytes; 0 where there is none.
+/// The value of a line of /proc/self/status such as "VmHWM:   123 kB", in bytes; 0 if missing.
 double resident(const std::string& name) {
   std::ifstream status("/proc/self/status");
   std::string key;
@@ -40,7 +40,7 @@ void step_twice(World& world) {
 
 MemoryRow measure_here(int size, Sweep sweep) {
   World small(scene_of(4, sweep));
-  step_twice(small);  // brings in the code and the threads, which are no part of a cloth
+  step_twice(small);  // loads code and starts threads, which do not count as memory of a cloth
   const double before = resident("VmRSS"), particles = static_cast<double>(size) * size;
   const auto now = [&](const std::string& name) { return (resident(name) - before) / particles; };
   MemoryRow row{size, sweep};
@@ -54,7 +54,7 @@ MemoryRow measure_here(int size, Sweep sweep) {
   return row;
 }
 
-/// In a process of its own, whose high-water mark is of this row alone.
+/// Measures in a separate process, so that the high-water mark covers this row alone.
 MemoryRow measure(int size, Sweep sweep) {
   int ends[2];
   if (pipe(ends) != 0) throw Error({}, "no process can be started to measure memory in");

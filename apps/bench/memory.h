@@ -1,4 +1,4 @@
-// How much memory a cloth takes, from the high-water mark of a process of its own. `pliant bench memory` prints it.
+// The memory of a cloth, from the high-water mark of a separate process (`pliant bench memory`).
 #pragma once
 
 #include <functional>
@@ -9,15 +9,15 @@
 
 namespace pliant::bench {
 
-/// Of one W1 cloth of cotton with bending, in bytes a particle above what the process took before. Resident memory, what the allocator
-/// holds back included.
+/// Figures of one W1 cotton cloth with bending: resident bytes per particle above the process's initial memory. They
+/// include memory that the allocator retains.
 struct MemoryRow {
   int size = 0;  ///< N of an N x N cloth
   Sweep sweep = Sweep::tiled;
   double scene = 0;       ///< the Scene alone
-  double scene_peak = 0;  ///< while it is made, mesh included
+  double scene_peak = 0;  ///< peak while the Scene is made, including the mesh
   double peak =
-      0;  ///< while Scene and World are made and two frames stepped, the Scene being kept: the figure that is promised
+      0;  ///< peak while Scene and World are made and two frames stepped, with the Scene kept: the documented figure
   double world = 0;  ///< the World alone, after these frames
 };
 
@@ -27,7 +27,7 @@ struct MemoryOptions {
   std::function<void(const MemoryRow&)> on_row;
 };
 
-/// Linux alone says how much a process takes: throws Error elsewhere, and where a size is out of 2..4096.
+/// Only Linux reports a process's memory: throws an Error elsewhere, or if a size is outside 2..4096.
 std::vector<MemoryRow> measure_memory(const MemoryOptions& options);
 
 std::string to_json(const std::vector<MemoryRow>& rows);

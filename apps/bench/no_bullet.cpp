@@ -1,4 +1,4 @@
-// Stands in where Bullet was not found.
+// Replaces the Bullet engines in builds without Bullet.
 #include "apps/bench/cloth.h"
 #include "apps/bench/landing.h"
 

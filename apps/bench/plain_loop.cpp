@@ -1,5 +1,5 @@
-// The yardstick: position based dynamics as a competent programmer writes it in an hour. Records, one constraint after
-// another in the mesh's order, float, one thread, the compiler's best effort with the same flags as the engine.
+// The baseline: PBD as a competent programmer writes it in an hour. Array of structures, constraints in mesh order, float,
+// one thread, the same compiler flags as the engine.
 #include <cmath>
 
 #include "apps/bench/cloth.h"
@@ -64,7 +64,7 @@ class PlainLoop final : public Engine {
     }
   }
 
-  // One iteration a substep, so that XPBD's multiplier need not be kept; with more it is a stiffer spring.
+  // One iteration per substep needs no stored XPBD multiplier; more iterations would act as a stiffer spring.
   void bend(float h) {
     for (const Hinge& hinge : hinges_) {
       Particle &p0 = particles_[hinge.v0], &p1 = particles_[hinge.v1], &p2 = particles_[hinge.v2],

@@ -1,4 +1,4 @@
-// Pliant through its public interface, as any program would use it.
+// Pliant through its public interface, as a user's program would use it.
 #include <algorithm>
 
 #include "apps/bench/cloth.h"
@@ -24,7 +24,7 @@ class PliantCloth final : public Engine {
   std::vector<Vec3f> positions() const override { return world_.positions(0); }
   int threads() const override { return world_.threads(); }
 
-  /// In a World that shows them apart, from where this one is.
+  /// Runs a second World, which times phases separately, from this one's State.
   std::vector<PhaseTime> phases(float dt, int frames) override {
     Scene scene = scene_;
     scene.settings.separate_phases = true;

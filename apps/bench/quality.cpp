@@ -1,5 +1,5 @@
-// Substeps are tried in a geometric series from below, each in a run from the start: the first that keeps the bounds
-// counts. The stretch is taken after every frame, since it is the second swing that stretches most and not the end.
+// Tries increasing substeps in a geometric series, each in a run from the start; the first within the bounds counts.
+// Stretch is taken after every frame, because the second swing stretches most, not the end.
 #include "apps/bench/quality.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int frame_of_energy = 40;
 
-/// What is tried, and up to which number of substeps: a plain sweep needs some N^1.5, which is hours where N is large.
+/// A sweep and its largest number of substeps: a plain sweep needs about N^1.5, which takes hours for large N.
 struct Contender {
   const char* engine;
   Sweep sweep;

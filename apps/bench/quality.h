@@ -1,4 +1,4 @@
-// What a frame costs at equal quality: the substeps that a sweep needs until a cloth hardly stretches, and their milliseconds.
+// The cost of a frame at equal quality: the substeps until a cloth hardly stretches, and their time.
 #pragma once
 
 #include <limits>
@@ -8,19 +8,19 @@
 
 namespace pliant::bench {
 
-/// A cloth of N x N with bending, and the bounds that it has to keep over all frames of a run.
+/// An N x N cloth with bending, and the bounds that all frames of a run must meet.
 struct QualityWorkload {
   enum class Kind { hung, irregular, draped } kind;
   Workload as;
   double p99, largest;
 };
 
-/// Hung by two corners; the same on an irregular mesh; and that draped over a ball, pinned nowhere, friction 0.3.
+/// Cloth hung by two corners; the same on an irregular mesh; and cloth draped over a ball without pins, friction 0.3.
 const std::vector<QualityWorkload>& quality_workloads();
 
-/// How a cloth of `size` x `size` fares under the tiled sweep, under chains (with tethers where there are pins) and under
-/// multigrid: one row each, at the fewest substeps of a geometric series that keep the bounds over `frames` frames. Where
-/// none up to the sweep's limit does, the row is that of the limit, and `met` says no.
+/// Runs a cloth of `size` x `size` with the tiled sweep, with chains (and tethers if pinned) and with multigrid. Each row
+/// has the fewest substeps of a geometric series that meet the bounds over `frames` frames. If none up to the sweep's limit
+/// does, the row shows the limit, and `met` is false.
 std::vector<Row> measure_quality(const QualityWorkload& workload, int size, int frames);
 
 }  // namespace pliant::bench

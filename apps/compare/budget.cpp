@@ -1,4 +1,4 @@
-// As many substeps as fit into some milliseconds a frame, for several numbers of iterations.
+// Fits as many substeps as possible into a time budget per frame, for several numbers of iterations.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -13,11 +13,11 @@ namespace pliant::compare {
 namespace {
 
 constexpr int iterations_tried[] = {1, 2, 4, 10, 30};
-constexpr int probe_frames = 6;      // from which the first guess is made
+constexpr int probe_frames = 6;      // for the first estimate
 constexpr int probe_substeps = 2;    // of the probe
-constexpr int most_substeps = 2000;  // more help nobody
-constexpr int most_corrections = 3;  // of a guess that turns out wrong
-constexpr double well_used = 1.2;    // budget over what is taken of it
+constexpr int most_substeps = 2000;  // more do not help
+constexpr int most_corrections = 3;  // of a wrong estimate
+constexpr double well_used = 1.2;    // accept if budget over time used is below this
 
 Settings settings_of(const Scene& scene, const Method& method, int substeps, int iterations) {
   Settings settings = scene.settings;
@@ -37,13 +37,13 @@ void take_larger(Stretch& worst, const Stretch& stretch) {
   worst.largest = std::max(worst.largest, stretch.largest);
 }
 
-/// What one number of substeps and iterations came to.
+/// The result of one combination of substeps and iterations.
 struct Trial {
   Budgeted row;
-  bool finite = true;  ///< where not, the row holds the frames before
+  bool finite = true;  ///< if false, the row holds the frames before
 };
 
-/// The first `frames` frames of the scene, or those until a value is not finite.
+/// Simulates the first `frames` frames, or until a value is not finite.
 Trial simulate(const Scene& scene, const Method& method, int substeps, int iterations, int frames, const Options& options) {
   World world(scene, settings_of(scene, method, substeps, iterations));
   Trial trial{{method.name, substeps, iterations, 0, {0, 0, 0}, {}}};
@@ -63,20 +63,20 @@ Trial simulate(const Scene& scene, const Method& method, int substeps, int itera
   return trial;
 }
 
-/// Why numbers of iterations gave nothing.
+/// Why combinations of substeps and iterations failed.
 struct Misses {
-  double fastest = std::numeric_limits<double>::infinity();  ///< of what takes too long [ms a frame]
-  int not_finite = 0;                                        ///< how many fit and do not stay finite
+  double fastest = std::numeric_limits<double>::infinity();  ///< fastest combination above the budget [ms per frame]
+  int not_finite = 0;                                        ///< combinations within the budget that do not stay finite
 };
 
-/// The substeps to try next where so many took `share` times less than they may; no more than before: the search is over.
+/// The next substeps to try, where `share` is budget over time used; a value not above the last ends the search.
 int next_substeps(int substeps, double share) {
   const int scaled = static_cast<int>(std::min(0.98 * share * substeps, 1. * most_substeps));
   return share < 1 ? std::min(substeps - 1, scaled) : scaled;
 }
 
-/// As many substeps of `iterations` as fit; the probe may be too few to stay finite, since it only tells the time. What leaves
-/// much of the budget unused, because the probe met a busy moment, is tried with more.
+/// Fits substeps of `iterations` into the budget. The probe may have too few to stay finite, because it only measures time.
+/// If much of the budget is unused because the probe was slow by chance, more are tried.
 std::optional<Budgeted> fit(const Scene& scene, const Method& method, int iterations, const Options& options,
                             Misses& misses) {
   const int frames = std::min(probe_frames, scene.frames);

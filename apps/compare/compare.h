@@ -1,9 +1,9 @@
-// One scene under several sweeps, side by side: how fast each brings down the error of one and the same substep, and what
-// stretch each is left with when all of them get the same milliseconds a frame.
+// Compares sweeps on one scene: how fast each reduces the error of the same
+// substep, and the stretch that each reaches with equal milliseconds per frame.
 //
-// Whole runs can't be compared iteration by iteration: after a few frames each sweep is somewhere else. So the scene is run to
-// one frame by its own settings, and from that very state every sweep solves the one substep that comes next, with 1, 2, 3 and
-// more iterations.
+// Whole runs cannot be compared by iteration, because the sweeps diverge after
+// a few frames. So the scene runs to one frame with its own settings. From that
+// State, every sweep solves the next substep with 1, 2, 3 and more iterations.
 #pragma once
 
 #include <functional>
@@ -16,113 +16,113 @@
 
 namespace pliant::compare {
 
-/// A sweep with its options, and what it is called on the command line: "chains", "tiled+chebyshev".
+/// A sweep with its options, and its name on the command line: "chains", "tiled+chebyshev".
 struct Method {
   std::string name;
   Sweep sweep = Sweep::tiled;
   SweepOptions options;
 };
 
-/// What may follow a sweep's name after a plus sign: "tethers", "chebyshev", "average".
+/// Options that may follow a sweep's name after a plus sign: "tethers", "chebyshev", "average".
 std::vector<std::string> option_names();
 
-/// The method of this name; what the name does not say is as in `base`. Throws Error that lists what there is.
+/// The method of this name; options not named are those of `base`. Throws an Error that lists the known names.
 Method method_of(const std::string& name, const SweepOptions& base);
 
-/// Names compared unless told otherwise: every sweep there is but `sequential`, which has the bits of `tiled`, then Chebyshev
-/// over the default, and tethers where something of the scene is fixed to hold them.
+/// The default selection: every sweep except `sequential`, which has the bits of `tiled`; then Chebyshev over the default,
+/// and tethers if the scene has fixed points to hold them.
 std::vector<std::string> default_methods(const Scene& scene);
 
-/// Where a substep stands after so many iterations.
+/// The state of a substep after a number of iterations.
 struct Sample {
   int iterations = 0;
-  double milliseconds = 0;  ///< of the whole substep, the fastest of several; never less than with fewer iterations
-  double residual = 0;      ///< root mean square of |C + alpha~ lambda| of the curve's type, in the unit of C
+  double milliseconds = 0;  ///< of the whole substep, the fastest of several; monotonic in iterations
+  double residual = 0;      ///< root mean square |C + alpha~ lambda| of the curve's type, in the unit of C
   Stretch stretch;
   bool of_next =
-      false;  ///< `milliseconds` are of the substep after it: surfaces meet, and the first lists their pairs anew
+      false;  ///< true if `milliseconds` are of the next substep, because the first one after a restore rebuilds its lists
 };
 
-/// One method's way through the substep.
+/// The convergence of one method in the substep.
 struct Curve {
   std::string name;
   std::vector<IterationResidual> record;  ///< after every iteration, from 0, the prediction
-  std::vector<double> residuals;          ///< the same of the one type that is drawn
-  std::vector<Sample> samples;            ///< at some numbers of iterations, 1 and the last among them
+  std::vector<double> residuals;          ///< the same for the plotted type
+  std::vector<Sample> samples;            ///< at some numbers of iterations, including 1 and the last
 };
 
-/// What one method reaches within the budget.
+/// The best result of one method within the budget.
 struct Budgeted {
   std::string name;
-  int substeps = 0, iterations = 0;  ///< of what was tried and fits, the one whose `worst` stretch is least at p99
-  double milliseconds = 0;           ///< a frame, the median
-  Stretch worst;                     ///< largest of all frames, each figure by itself
+  int substeps = 0, iterations = 0;  ///< the combination within the budget with the least `worst` stretch at p99
+  double milliseconds = 0;           ///< per frame, median
+  Stretch worst;                     ///< maximum over all frames, for each figure separately
   Stretch last;                      ///< after the last frame
 };
 
-/// A method that was left out, and why.
+/// A rejected method and the reason.
 struct Refusal {
   std::string name, reason;
 };
 
 struct Options {
   std::vector<std::string> methods;  ///< empty: default_methods()
-  int frame = -1;                    ///< frames before the substep of the curves; -1: half of the scene's
-  int substeps = 0;                  ///< a frame, of the curves' substep alone; 0: the scene's own
-  int iterations = 100;              ///< the most of the curves, 1..10000
-  double budget = 0;                 ///< milliseconds a frame; 0: curves alone
-  std::function<void()> pause;       ///< called between measurements; what it throws passes through
+  int frame = -1;                    ///< frames before the curves' substep; -1: half of the scene's
+  int substeps = 0;                  ///< per frame, for the curves' substep only; 0: the scene's own
+  int iterations = 100;              ///< maximum of the curves, 1..10000
+  double budget = 0;                 ///< milliseconds per frame; 0: curves only
+  std::function<void()> pause;       ///< called between measurements; its exceptions pass through
 };
 
 struct Result {
   int frame = 0, iterations = 0, frames = 0;
   double substep = 0;         ///< of the curves [s]
-  double budget = 0;          ///< milliseconds a frame
-  std::string residual_type;  ///< of Sample::residual: "distance" where the scene has any
+  double budget = 0;          ///< milliseconds per frame
+  std::string residual_type;  ///< of Sample::residual: "distance" if the scene has any
   std::vector<Curve> curves;
   std::vector<Budgeted> budgeted;
   std::vector<Refusal> refused;
 };
 
-/// Measures. Throws Error where a method is unknown, the scene is wrong or does not stay finite up to the frame, or every
-/// method was refused.
+/// Runs all measurements. Throws an Error if a method is unknown, the scene is
+/// invalid or does not stay finite up to the frame, or all methods are rejected.
 Result run(const Scene& scene, const Options& options);
 
-/// `to` gets the motion of `from`, a World of the same scene with other settings: sweeps number particles as suits them. Both
-/// forget their multipliers. The last `collider_particles` of either State are those of mesh colliders.
+/// Copies the motion of `from` into `to`, a World of the same scene with other settings: each sweep has its own particle
+/// order. Both reset their multipliers. The last `collider_particles` of either State belong to mesh colliders.
 void take_state(World& to, World& from, std::size_t collider_particles = 0);
 
-/// So many digits, or all before the point where those are more: "0.00834", "118", "12345", and no powers of ten before 1e15.
+/// At least `digits` significant digits, all before the point: "0.00834", "118", "12345"; no exponent below 1e15.
 std::string figure(double value, int digits);
 
-/// Six panels: residual, largest stretch and its 99th percentile, each against iterations and against milliseconds.
+/// Six panels: residual, largest stretch and its 99th percentile, each over iterations and over milliseconds.
 std::vector<plot::Chart> to_charts(const Result& result);
 std::string to_table(const Result& result);
 std::string to_json(const Result& result);
 
 // ---------------------------------------------------------------- the parts of run
 
-/// Whether what was timed is the substep after the one that is solved (see Sample::of_next).
+/// True if the timed substep is the one after the solved one (see Sample::of_next).
 bool times_next(const Result& result);
 
 /// The length of the curves' substep [s].
 double substep_of(const Scene& scene, const Options& options);
 
-/// Curves of one method from the state of `start`. Throws Error where it refuses the scene or does not stay finite.
+/// Measures the curves of one method from the state of `start`. Throws an Error if it rejects the scene or diverges.
 Curve measure_curve(const Scene& scene, World& start, const Method& method, const Options& options);
 
-/// Takes the times of a curve of this method once more, and keeps the lower ones.
+/// Repeats the timings of a curve and keeps the lower ones.
 void time_again(const Scene& scene, World& start, const Method& method, const Options& options, Curve& curve);
 
-/// A run contains every shorter one, so that what it took bounds what they take: where a time falls from one sample to the
-/// next, the earlier ones come down to it.
+/// A run contains every shorter one, so its time is an upper bound of theirs.
+/// Where a time falls from one sample to the next, earlier ones are lowered to it.
 void lower_to_longer_runs(std::vector<Sample>& samples);
 
-/// Of the substep with so many iterations, between the samples on a straight line: an iteration costs what another does [ms].
+/// Time of the substep with so many iterations, linearly interpolated between samples [ms].
 double milliseconds_at(const Curve& curve, int iterations);
 
-/// The best of some numbers of iterations, with as many substeps as fit. Throws Error where none fits, or none of those that
-/// do stays finite, and says which.
+/// The best of several numbers of iterations, each with as many substeps as
+/// fit. Throws an Error that gives the reason if none fits or stays finite.
 Budgeted fit_budget(const Scene& scene, const Method& method, const Options& options);
 
 }  // namespace pliant::compare

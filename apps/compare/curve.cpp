@@ -1,12 +1,12 @@
-// One substep from one state, with more and more iterations.
+// Solves one substep from one state with increasing iterations.
 //
-// A machine that others use is now fast and now slow. So the runs that a curve is made of are timed by turns, round after
-// round, and not one after another; and so are the curves (run.cpp). A slow moment then hits all or none of them. What is kept
-// is the fastest time; and since a run contains every shorter one, whatever a longer one took bounds it too.
+// The speed of a shared machine varies. So the runs of a curve are timed in alternating
+// rounds, and so are the curves (run.cpp): a slow moment affects all or none. The fastest
+// time is kept. A run contains every shorter one, so its time also bounds theirs from above.
 //
-// A World that was put back looks for tangles and lists near pairs anew where surfaces meet, in far more time than a sweep takes; a
-// run does so once and seldom again. There the substep that comes after is timed, which goes on as a run does; what is left of
-// the error is of the first.
+// With surface contact, a restored World searches for initial intersections and rebuilds
+// its near lists, which takes far longer than a sweep. A normal run does so once and rarely
+// again. In that case the next substep is timed, and the error is that of the first.
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -18,11 +18,11 @@ namespace pliant::compare {
 
 namespace {
 
-constexpr int repeats = 3;  // of a run in one round: the first finds the caches cold
+constexpr int repeats = 3;  // of a run in one round, because the first finds the caches cold
 constexpr int most_rounds = 20;
-constexpr double enough_milliseconds = 10;  // of all rounds, a run
+constexpr double enough_milliseconds = 10;  // of all rounds of a run
 
-/// 1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100 and so on, and the last.
+/// 1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100 and so on, and `last`.
 std::vector<int> sampled_iterations(int last) {
   std::vector<int> numbers;
   for (int decade = 1; decade <= last; decade *= 10)
@@ -32,7 +32,7 @@ std::vector<int> sampled_iterations(int last) {
   return numbers;
 }
 
-/// Particles that mesh colliders have in a State.
+/// The number of particles that mesh colliders have in a State.
 std::size_t collider_particles(const Scene& scene) {
   std::size_t count = 0;
   for (const MeshCollider& collider : scene.mesh_colliders) count += collider.mesh.positions.size();
@@ -64,7 +64,7 @@ std::vector<IterationResidual> record_of(const Scene& scene, World& start, const
   return step_once(world, scene, options).convergence;
 }
 
-/// The substep with one number of iterations, to be solved again and again.
+/// The substep with one number of iterations, solved repeatedly.
 struct Run {
   World world;
   State start;
@@ -78,8 +78,8 @@ Run run_of(const Scene& scene, World& start, const Method& method, int iteration
   return {std::move(world), std::move(state), {iterations, std::numeric_limits<double>::infinity(), 0, {}}};
 }
 
-/// Of the substep just made, or of the next one where this one did what only the first after a restore does. That one may not be
-/// finite where a sweep diverges: then the first has to do.
+/// The time of this substep, or of the next one if this one did work that only follows a restore. If the next is not
+/// finite, because the sweep diverges, the first counts.
 double milliseconds_of(const Report& report, Run& run, const Scene& scene, const Options& options) {
   if (report.pairs.rebuilds == 0) return report.milliseconds;
   run.sample.of_next = true;
@@ -119,7 +119,7 @@ std::vector<Sample> samples_of(const Scene& scene, World& start, const Method& m
   return samples;
 }
 
-/// Of distances where there are any, since it is a length; else of the first type there is.
+/// The residual of distances if there are any, because it is a length; otherwise of the first type.
 double drawn_residual(const IterationResidual& at) {
   for (const Residual& residual : at.primal)
     if (residual.type == "distance") return residual.rms;

@@ -1,4 +1,4 @@
-// Names of methods: a sweep, and options after plus signs.
+// Method names: a sweep, and options after plus signs.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -46,7 +46,7 @@ void apply_option(const std::string& name, SweepOptions& options) {
               "write a sweep and after it, with a plus sign each, any of " + joined(option_names()));
 }
 
-/// Whether anything holds a tether.
+/// True if the scene has fixed points, which tethers need.
 bool has_fixed(const Scene& scene) {
   const auto is_infinite = [](float mass) { return std::isinf(mass); };
   return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {

@@ -1,4 +1,4 @@
-// The order in which everything is measured.
+// The order of all measurements.
 #include <algorithm>
 
 #include "apps/compare/compare.h"
@@ -8,9 +8,9 @@ namespace pliant::compare {
 
 namespace {
 
-constexpr int turns = 3;  // of timing all curves, one after another
+constexpr int turns = 3;  // rounds of timing all curves
 
-/// The scene at the frame from which the curves start, by its own settings.
+/// Runs the scene with its own settings to the frame from which the curves start.
 World run_to(const Scene& scene, int frames, const Options& options) {
   Settings settings = scene.settings;
   settings.measure = settings.record_residuals = settings.record_multipliers = false;

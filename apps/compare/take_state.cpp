@@ -1,8 +1,8 @@
-// The motion of one World put into another that numbers its particles otherwise.
+// Copies the motion of one World into another with a different particle order.
 //
-// A State lists particles in the order of the compiled model, which a sweep may choose; only a World knows which of them is
-// which of the user's. So a World is asked: it is given a state whose positions are the numbers of their places, and what it then
-// says of the user's particles are those numbers.
+// A State stores particles in the order of the compiled model, which depends on the sweep;
+// only a World knows the permutation. So it is queried: the World gets a State whose positions
+// encode their own indices, and the positions that it then reports are those indices.
 #include <algorithm>
 
 #include "apps/compare/compare.h"
@@ -11,10 +11,10 @@ namespace pliant::compare {
 
 namespace {
 
-/// Two digits of a place's number, each a float without rounding.
+/// Indices are encoded as two digits, each exact in a float.
 constexpr std::size_t digit = std::size_t{1} << 20;
 
-/// Of every particle of the user's, object after object: where it is in a State.
+/// The State index of every user particle, object by object.
 std::vector<std::size_t> places_in(World& world) {
   const State kept = world.state();
   State numbered = kept;
@@ -40,7 +40,7 @@ void move(Record& to, const Record& from) { to = {from.x, from.y, from.z, to.w};
 void take_state(World& to, World& from, std::size_t collider_particles) {
   const std::vector<std::size_t> there = places_in(from), here = places_in(to);
   const State& given = from.state();
-  State taken = to.state();  // targets of attachments are nobody's particles: they go where they belong in the next substep
+  State taken = to.state();  // attachment targets are not copied: the next substep sets them
   taken.time = given.time;
   taken.frame = given.frame;
   for (std::size_t i = 0; i < here.size(); ++i) {
@@ -48,7 +48,7 @@ void take_state(World& to, World& from, std::size_t collider_particles) {
     move(taken.remainders[here[i]], given.remainders[there[i]]);
     move(taken.velocities[here[i]], given.velocities[there[i]]);
   }
-  // Mesh colliders come last and are numbered alike in every World.
+  // Mesh colliders come last, in the same order in every World.
   const std::size_t total = taken.positions.size();
   for (std::size_t i = total - std::min(collider_particles, total); i < total; ++i) {
     move(taken.positions[i], given.positions[i]);

@@ -91,7 +91,7 @@ std::string bench_landings(const BenchOptions& options) {
   return to_json(pliant::bench::measure_landings(wanted));
 }
 
-/// Of a workload that is measured by name alone: its rows as JSON; nothing where it is none of them.
+/// The JSON rows of a workload with a separate measurement; empty for all others.
 std::optional<std::string> bench_by_name(const BenchOptions& options) {
   if (options.workload == "contact") return bench_contact(options);
   if (options.workload == "memory") return bench_memory(options);

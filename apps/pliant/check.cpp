@@ -1,5 +1,5 @@
-// pliant check: reads a scene or a mesh and says, in words, what is wrong or doubtful and what to do about it. A scene in
-// which nothing is wrong is also run, to see whether its solve keeps up.
+// pliant check: reads a scene or a mesh and reports errors and warnings with
+// advice. A scene without errors is also run, to test whether its solve converges.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -19,7 +19,7 @@ namespace pliant::command {
 
 namespace {
 
-// ", 1 x 0 x 0.8 m": what is drawn in centimetres is seen here.
+// ", 1 x 0 x 0.8 m": reveals a mesh modelled in centimetres.
 std::string extent(const std::vector<Vec3f>& positions) {
   if (positions.empty()) return {};
   Vec3f low = positions.front(), high = low;
@@ -34,7 +34,7 @@ std::string extent(const std::vector<Vec3f>& positions) {
   return text;
 }
 
-// One line a finding, the grave ones first, the others called `lesser`; whether there was a grave one.
+// Prints one line per finding, grave ones first, others labelled `lesser`. Returns true if any was grave.
 bool print_findings(const std::vector<Finding>& findings, const std::string& lesser) {
   std::string text;
   bool grave = false;
@@ -60,13 +60,13 @@ std::vector<Finding> check_mesh(const std::string& path) {
   return inspect(file.mesh);
 }
 
-/// Enough for the scene itself, which gets a part of the time, or else for more other settings.
+/// The time needed for the scene itself, which gets a part of it, or else for more alternative settings.
 double more_seconds(const Advice& advice, double seconds) {
   const double missing = static_cast<double>(advice.frames) / std::max(1, advice.own.frames);
   return std::min(86400., seconds * std::max(10., std::ceil(1.5 * missing)));
 }
 
-/// Runs the scene and others like it, unless it can't be, or no time is given for it.
+/// Runs the scene and variants of it, unless it has grave findings or no time is given.
 void try_out(const Scene& scene, double seconds, std::vector<Finding>& findings) {
   const bool grave = std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.grave; });
   if (grave || seconds <= 0 || scene.frames < 1) return;
@@ -113,7 +113,7 @@ std::vector<Finding> check_scene(const std::string& path, double seconds) {
 }  // namespace
 
 int check(const CheckOptions& options) {
-  // Much that a mesh alone makes one ask is right for a cloth, so that it is told and not doubted.
+  // Findings that are doubtful in a mesh alone are often normal for cloth, so they are notes.
   const bool is_scene = has_suffix(options.path, ".json");
   const bool grave = print_findings(is_scene ? check_scene(options.path, options.seconds) : check_mesh(options.path),
                                     is_scene ? "doubtful" : "note");

@@ -1,4 +1,4 @@
-// Checkpoints of a run: its State in a file, from which it goes on in the same bits.
+// Checkpoints of a run: a file with its State, from which it resumes with the same bits.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@ namespace pliant::command {
 
 class Checkpoint {
  public:
-  /// Saves to `path` after every `every`-th frame; does nothing where `path` is empty.
+  /// Saves to `path` after every `every`-th frame; does nothing if `path` is empty.
   Checkpoint(std::string path, int every, const Scene& scene);
 
   /// Call before the first frame.
   void begin(const World& world);
   /// Call after each complete frame.
   void after_frame(const World& world);
-  /// Saves the last complete frame unless it is saved already.
+  /// Saves the last complete frame unless it has been saved.
   void write_last();
 
  private:
@@ -27,7 +27,7 @@ class Checkpoint {
   int every_;
   Fingerprint fingerprint_;
   State last_;               ///< after the last complete frame
-  std::int64_t saved_ = -1;  ///< the frame in the file; -1: none yet
+  std::int64_t saved_ = -1;  ///< the frame in the file; -1: none
 };
 
 }  // namespace pliant::command

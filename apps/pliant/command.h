@@ -1,8 +1,8 @@
-// The subcommands of `pliant` as plain functions of plain options: main.cpp alone knows the command line.
+// The subcommands of `pliant` as functions of plain options; only main.cpp parses the command line.
 //
-// Every one returns the exit status (0: done; 1: done, and what was asked for is not as it should be, which it has said)
-// and throws pliant::Error, or Interrupted, where it can't be done. Standard output is for results, standard error for the
-// one line that says what went wrong and, on a terminal, for progress.
+// Each returns the exit status: 0 done; 1 done, with a negative result that it has
+// printed. Each throws pliant::Error, or Interrupted, if it fails. Standard output is for
+// results, standard error for a one-line error message and, on a terminal, for progress.
 #pragma once
 
 #include <optional>
@@ -11,26 +11,26 @@
 
 namespace pliant::command {
 
-/// What run, render and whatever else simulates a scene let the caller change of the scene's own settings.
+/// Changes to a scene's settings for run, render and other commands that simulate.
 struct Overrides {
   std::optional<int> frames, threads, substeps, iterations;
   std::string sweep;                ///< as "chains" or "chains+tethers"; empty: the scene's own
-  std::string isa;                  ///< empty: the best there is
-  bool sequential = false;          ///< the plain reference sweep
-  std::vector<std::string> meshes;  ///< "name=path": files for the meshes of objects and colliders
-  std::string cache;                ///< folder where distance grids are kept; empty: nowhere
+  std::string isa;                  ///< empty: the best available
+  bool sequential = false;          ///< the scalar reference sweep
+  std::vector<std::string> meshes;  ///< "name=path": mesh files for objects and colliders
+  std::string cache;                ///< folder for cached distance grids; empty: none
 };
 
 struct RunOptions {
   std::string scene;
   Overrides overrides;
-  std::vector<std::string> out;  ///< geometry files; the suffix picks the format
+  std::vector<std::string> out;  ///< geometry files; the suffix selects the format
   std::string report;            ///< JSON file, empty: none
-  std::string checkpoint;        ///< file that the State is saved to every `every` frames and at the end, empty: none
+  std::string checkpoint;        ///< file for the State, saved every `every` frames and at the end; empty: none
   int every = 60;                ///< frames
-  std::string resume;            ///< checkpoint to go on from, empty: none
-  bool hash_frames = false;      ///< the state's hash of every frame in the report
-  bool quiet = false;            ///< nothing on standard output, no progress
+  std::string resume;            ///< checkpoint to resume from, empty: none
+  bool hash_frames = false;      ///< hash the State of every frame in the report
+  bool quiet = false;            ///< no standard output, no progress
 };
 
 /// Simulates a scene.
@@ -38,44 +38,44 @@ int run(const RunOptions& options);
 
 struct RenderOptions {
   std::string scene;
-  Overrides overrides;                 ///< but `frames`
-  std::optional<int> frame;            ///< of a picture, and the length of a movie; the scene's last unless told
+  Overrides overrides;                 ///< without `frames`
+  std::optional<int> frame;            ///< of a picture, or the length of a movie; default: the scene's last
   std::string out;                     ///< .png or .mp4
   std::string size = "1280x720";       ///< WxH in pixels
-  float azimuth = 28, elevation = 18;  ///< where the camera stands [degrees]
-  std::vector<int> strip;              ///< frames drawn side by side in one picture; empty: the last alone
+  float azimuth = 28, elevation = 18;  ///< camera direction [degrees]
+  std::vector<int> strip;              ///< frames side by side in one picture; empty: the last alone
   bool quiet = false;
 };
 
-/// Draws a scene after some frames, or all of them as a movie.
+/// Draws a scene after some frames, or a movie of all frames.
 int render(const RenderOptions& options);
 
 struct CheckOptions {
   std::string path;    ///< a scene (.json) or a mesh
-  double seconds = 3;  ///< for trying a scene out, about; 0: it is not [s]
+  double seconds = 3;  ///< approximate time for trial runs; 0: none [s]
 };
 
-/// Says what is wrong or doubtful; 1 where something is wrong.
+/// Prints errors and warnings; returns 1 if there are errors.
 int check(const CheckOptions& options);
 
 struct ValidateOptions {
   std::string group;    ///< empty: all
-  bool slow = false;    ///< also what takes minutes
-  std::string queries;  ///< folder of query sets for continuous tests, empty: none
+  bool slow = false;    ///< include rows that take minutes
+  std::string queries;  ///< folder of query sets for continuous collision tests, empty: none
   std::string json;     ///< file for the rows as JSON, empty: none; "-": standard output instead of the table
   std::string plot;     ///< PNG file for the curves, empty: none
 };
 
-/// Compares with known answers and prints a table; throws Error where a row fails.
+/// Compares with known answers and prints a table; throws an Error if a row fails.
 int validate(const ValidateOptions& options);
 
 struct BenchOptions {
   std::string workload;    ///< empty: all
   std::string against;     ///< "bullet", or empty
   std::vector<int> sizes;  ///< empty: 64, 128, 256, 512
-  int frames = 120;        ///< measured, after 20 that are not
-  double limit = 120;      ///< of W3: on the time of a row [s]
-  int threads = 0;         ///< of the run beside that with one thread; 0: all
+  int frames = 120;        ///< measured, after 20 unmeasured ones
+  double limit = 120;      ///< of W3: the time limit of a row [s]
+  int threads = 0;         ///< of the second run, beside the one with one thread; 0: all
   std::string json;        ///< file for the rows as JSON, empty: none
 };
 
@@ -84,16 +84,16 @@ int bench(const BenchOptions& options);
 
 struct CompareOptions {
   std::string scene;
-  Overrides overrides;              ///< `frames` and `threads` alone
-  std::vector<std::string> sweeps;  ///< as "chains" or "tiled+chebyshev"; empty: all that the scene allows
-  std::optional<int> frame;         ///< before the substep of the curves; half of the scene's unless told
-  int substeps = 0;                 ///< a frame, of the curves' substep; 0: the scene's own
-  int iterations = 100;             ///< the most of the curves
-  double budget = 0;                ///< milliseconds a frame; 0: curves alone
+  Overrides overrides;              ///< only `frames` and `threads`
+  std::vector<std::string> sweeps;  ///< as "chains" or "tiled+chebyshev"; empty: all that the scene permits
+  std::optional<int> frame;         ///< before the curves' substep; default: half of the scene's
+  int substeps = 0;                 ///< per frame, for the curves' substep; 0: the scene's own
+  int iterations = 100;             ///< maximum of the curves
+  double budget = 0;                ///< milliseconds per frame; 0: curves only
   std::vector<std::string> out;     ///< a .png, a .json, or both
 };
 
-/// Shows how fast each sweep brings down the error of one substep of a scene, and what it reaches in a given time.
+/// Shows how fast each sweep reduces the error of one substep, and its result within a time budget.
 int compare(const CompareOptions& options);
 
 /// Prints the JSON Schema of the scene format.

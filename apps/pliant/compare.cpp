@@ -1,4 +1,4 @@
-// pliant compare: a scene under several sweeps, as a table, a picture and JSON.
+// pliant compare: one scene with several sweeps, as a table, a picture and JSON.
 #include "apps/compare/compare.h"
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace pliant::command {
 
 namespace {
 
-/// The files, made before anything is measured, so that a name that can't be written to costs no time.
+/// The output files, opened before any measurement, so that an unwritable name fails at once.
 struct Outputs {
   std::unique_ptr<AtomicFile> json;
   std::string picture;

@@ -1,4 +1,4 @@
-// Memory while a scene is read and a World made.
+// Returns memory to the system while a scene is read and a World is made.
 #pragma once
 
 #if defined(__GLIBC__)
@@ -7,13 +7,13 @@
 
 namespace pliant::command {
 
-/// While it lives, large arrays that are freed go back to the system at once. What building leaves behind is then no part of what a
-/// run takes; frames, which free and take the same arrays again, are faster without.
+/// During its lifetime, large freed arrays return to the system at once, so building adds nothing to a run's memory. Frames
+/// reuse the same arrays and are faster without it.
 class GiveBackMemory {
  public:
 #if defined(__GLIBC__)
   GiveBackMemory() { mallopt(M_MMAP_THRESHOLD, 1 << 18); }
-  ~GiveBackMemory() { mallopt(M_MMAP_THRESHOLD, 1 << 25); }  // the most that glibc itself would come to
+  ~GiveBackMemory() { mallopt(M_MMAP_THRESHOLD, 1 << 25); }  // glibc's own maximum
 #else
   GiveBackMemory() {}
   ~GiveBackMemory() {}

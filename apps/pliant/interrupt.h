@@ -14,7 +14,7 @@ class Interrupted : public std::exception {
  public:
   explicit Interrupted(int signal);
   const char* what() const noexcept override { return message_.c_str(); }
-  /// 128 + the signal's number, as a shell reports it.
+  /// 128 + the signal's number, as shells report it.
   int exit_status() const noexcept { return 128 + signal_; }
 
  private:

@@ -1,6 +1,6 @@
-// The command line: reads it, calls a subcommand, and turns what it throws into one line and an exit status.
+// The command line: parses it, calls a subcommand, and turns exceptions into one line and an exit status.
 //
-// Exit status: 0 done, 1 an error or a finding that is wrong, 2 the command line itself, 128 + N ended by signal N.
+// Exit status: 0 done, 1 an error or a grave finding, 2 a command line error, 128 + N ended by signal N.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <functional>
@@ -21,13 +21,13 @@ constexpr int most_threads = 1024;  // as in a scene
 
 void complain(const std::string& message) { std::fprintf(stderr, "pliant: %s\n", one_line(message).c_str()); }
 
-/// A range that a wrong value is told of, and that does not fill the help.
+/// A range check with a message, but without text in the help.
 template <class Number>
 CLI::Validator range(Number least, Number largest) {
   return CLI::Validator(CLI::Range(least, largest)).description("");
 }
 
-/// What run and render take alike.
+/// The options common to run and render.
 void add_settings(CLI::App& app, Overrides& overrides) {
   app.add_option("--mesh", overrides.meshes,
                  "a mesh file for the object or collider of that name; may be given more than once")
@@ -58,7 +58,7 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
   app.add_flag("--sequential", overrides.sequential, "in plain code; the same bits, slowly")->excludes("--sweep");
 }
 
-// Every subcommand sets `chosen`, which main then calls.
+// Each subcommand sets `chosen`, which main then calls.
 using Chosen = std::function<int()>;
 
 void add_run(CLI::App& app, RunOptions& options, Chosen& chosen) {
@@ -195,7 +195,7 @@ void add_compare(CLI::App& app, CompareOptions& options, Chosen& chosen) {
   compare_app->callback([&] { chosen = [&] { return compare(options); }; });
 }
 
-/// What to do about a command line that is not understood: the subcommands for an unknown one, else where the help is.
+/// Advice for an invalid command line: the list of subcommands for an unknown one, otherwise a pointer to the help.
 std::string usage_advice(const CLI::App& app) {
   const std::vector<CLI::App*> given = app.get_subcommands();
   if (!given.empty()) return "see pliant " + given.front()->get_name() + " --help";
@@ -225,7 +225,7 @@ int main(int argc, char** argv) {
   catch_signals();
   CLI::App app{"A position based dynamics engine: cloth, soft bodies, ropes", "pliant"};
   app.set_version_flag("--version", "pliant " PLIANT_VERSION);
-  app.require_subcommand(0, 1);  // so that an unknown one is named instead of one being missed
+  app.require_subcommand(0, 1);  // so that an unknown subcommand is named instead of reported missing
 
   Chosen chosen;
   RunOptions run_options;

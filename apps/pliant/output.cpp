@@ -16,7 +16,7 @@ namespace pliant::command {
 
 namespace {
 
-/// One name for one file: "a", "./a" and a link to it are the same.
+/// The canonical name of a file: "a", "./a" and a link to it are equal.
 std::string file_itself(const std::string& path) {
   std::error_code unknown;
   const std::filesystem::path place = std::filesystem::absolute(path, unknown);

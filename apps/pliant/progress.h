@@ -1,4 +1,4 @@
-// One line on the terminal that says how far a run is; nothing at all where standard error is a pipe or a file.
+// The progress line of a run on a terminal; silent if standard error is a pipe or a file.
 #pragma once
 
 #include <chrono>
@@ -6,18 +6,18 @@
 
 namespace pliant::command {
 
-/// Frames as text: "frame 17 of 120, 43.1 frames/s, 3 s left". A rate that is not known yet is left out.
+/// Progress as text: "frame 17 of 120, 43.1 frames/s, 3 s left". Omits an unknown rate.
 std::string progress_line(int done, int total, double seconds);
 
 class Progress {
  public:
   /// Shows nothing unless `wanted` and standard error is a terminal.
   Progress(int total, bool wanted);
-  ~Progress();  ///< wipes the line
+  ~Progress();  ///< clears the line
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// At most ten times a second.
+  /// Updates at most ten times per second.
   void show(int done);
 
  private:

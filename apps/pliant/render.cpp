@@ -1,8 +1,8 @@
-// pliant render: a scene as a picture or a movie, drawn without a screen.
+// pliant render: a scene as a picture or a movie, drawn without a display.
 //
-// A movie keeps one camera, which must show the whole motion; so it is simulated twice, first to see how far things go.
-// That is cheap beside drawing, and the same bits come out both times. A strip keeps one camera too: what moves between its
-// frames is then the matter alone.
+// A movie has one fixed camera that must show the whole motion. So the scene is simulated twice,
+// first to find its extent. Simulation is cheap compared with drawing, and both runs give the
+// same bits. A strip also has one camera, so that only the objects differ between its frames.
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
@@ -48,7 +48,7 @@ void draw_picture(const RenderOptions& options, const Scene& scene, Size size) {
   pliant::render::write_png(options.out, size.width, size.height, renderer.draw(picture));
 }
 
-// The scene after each of the frames asked for, in their order.
+// The scene after each requested frame, in their order.
 std::vector<RenderScene> moments_of(const RenderOptions& options, Scene scene) {
   scene.frames = *std::max_element(options.strip.begin(), options.strip.end());
   std::vector<RenderScene> moments(options.strip.size());
@@ -64,7 +64,7 @@ std::vector<RenderScene> moments_of(const RenderOptions& options, Scene scene) {
 }
 
 void draw_strip(const RenderOptions& options, const Scene& scene, Size size) {
-  constexpr int gap = 4;  // pixels of white between two panels
+  constexpr int gap = 4;  // white pixels between two panels
   const int count = static_cast<int>(options.strip.size());
   const int panel = (size.width - gap * (count - 1)) / count;
   Renderer renderer(panel, size.height);
@@ -84,7 +84,7 @@ void draw_strip(const RenderOptions& options, const Scene& scene, Size size) {
   pliant::render::write_png(options.out, size.width, size.height, strip);
 }
 
-// A camera that shows the scene at the start, at the end and at some moments between.
+// A camera that shows the scene at the start, at the end and at sampled times between.
 Camera camera_for(const RenderOptions& options, const Scene& scene, World& world, Size size) {
   const int every = std::max(1, scene.frames / 24);
   const State start = world.state();

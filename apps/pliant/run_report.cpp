@@ -44,7 +44,7 @@ Json pairs_json(const PairReport& pairs) {
           {"deepest", pairs.deepest}};
 }
 
-/// What belongs to a moment is the last frame's, what is counted is counted over the run.
+/// Adds a frame: momentary values are those of the last frame, counts are summed over the run.
 void add_pairs(PairReport& sum, const PairReport& frame) {
   sum.candidates = frame.candidates;
   sum.contacts = frame.contacts;
@@ -129,7 +129,7 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["threads"] = world.threads();
   json["isa"] = world.isa();
   if (hash_frames_) json["frame_hashes"] = hashes_;
-  // A path or a name may hold bytes that are no text.
+  // A path or a name may contain invalid UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,4 +1,4 @@
-// What a run has to say, collected frame by frame and written as JSON (docs/reference/command.md lists the fields).
+// The report of a run, collected frame by frame and written as JSON (docs/reference/command.md lists the fields).
 #pragma once
 
 #include <map>
@@ -11,35 +11,35 @@
 
 namespace pliant::command {
 
-/// The value below which a share `q` in [0, 1] of the values lie, linear between neighbours; 0 where there are none.
+/// The quantile q in [0, 1] of the values, linearly interpolated; 0 if there are none.
 double quantile(std::vector<double> values, double q);
 
 class RunReport {
  public:
   explicit RunReport(bool hash_frames) : hash_frames_(hash_frames) {}
 
-  /// After every frame.
+  /// Call after every frame.
   void add(const Report& report, const World& world);
 
-  /// The whole as JSON text: figures of the last frame where nothing else is said, times over all frames.
+  /// The report as JSON: figures of the last frame unless stated otherwise, times over all frames.
   std::string json(const std::string& scene_path, const Scene& scene, const World& world) const;
 
   double median_milliseconds() const { return quantile(milliseconds_, 0.5); }
   double p95_milliseconds() const { return quantile(milliseconds_, 0.95); }
-  std::size_t frames() const { return milliseconds_.size(); }  ///< that this run simulated
+  std::size_t frames() const { return milliseconds_.size(); }  ///< simulated by this run
   const Report& last() const { return last_; }
-  /// Of all frames, the first of each kind with its frame; those that differ by numbers alone are of one kind.
+  /// The first warning of each kind with its frame; warnings that differ only in numbers are of one kind.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   bool hash_frames_;
   Report last_;
-  IterationCount iterations_;  ///< its mean is the sum over frames until it is written
-  PairReport pairs_;           ///< candidates, contacts and tangles of the last frame, the rest summed
+  IterationCount iterations_;  ///< its mean holds the sum over frames until it is written
+  PairReport pairs_;           ///< candidates, contacts and intersections of the last frame, the rest summed
   std::vector<double> milliseconds_;
   std::map<std::string, double> phase_sums_;
   std::vector<std::string> hashes_, warnings_;
-  std::set<std::string> warned_of_;  ///< without their numbers
+  std::set<std::string> warned_of_;  ///< warning texts without numbers
 };
 
 }  // namespace pliant::command

@@ -14,7 +14,7 @@ namespace pliant::command {
 
 namespace {
 
-/// What a name such as "chains+tethers" does not say stays as the scene has it.
+/// Options that a name such as "chains+tethers" omits keep the scene's values.
 void set_sweep(const std::string& name, Settings& settings) {
   if (name == "automatic") {
     settings.sweep = Sweep::automatic;
@@ -25,7 +25,7 @@ void set_sweep(const std::string& name, Settings& settings) {
   settings.sweep_options = method.options;
 }
 
-/// `tiled` has a reference of another name; of any other sweep plain code is one of its code paths.
+/// `tiled` has the reference `sequential`; other sweeps run their scalar code path.
 void set_plain(Scene& scene) {
   scene.settings = chosen_settings(scene);
   if (scene.settings.sweep == Sweep::tiled)

@@ -1,4 +1,4 @@
-// What run and render share: a scene read with the caller's changes, and the loop over its frames.
+// The common part of run and render: a scene with the caller's overrides, and the frame loop.
 #pragma once
 
 #include <functional>
@@ -12,26 +12,26 @@
 
 namespace pliant::command {
 
-/// Reads a scene and applies what the caller changes of it. Prints what reading its meshes mended, unless `quiet`.
+/// Reads a scene and applies the overrides. Prints the repairs of its meshes unless `quiet`.
 Scene read_scene_with(const std::string& path, const Overrides& overrides, bool quiet);
 
-/// Makes the World of a scene that was read from `path`: what is wrong with it names the file.
+/// Makes the World of a scene read from `path`; errors name the file.
 World make_world(const Scene& scene, const std::string& path);
 
-/// The same error, of the file unless it names one already.
+/// The same error located in the file, unless it names one already.
 Error of_file(const Error& error, const std::string& path);
 
-/// Steps until the World has made the scene's frames, from those that it has made, and calls `after_frame` after each. Stops early, and returns false, after a frame that is not
-/// finite. Shows progress where standard error is a terminal and not `quiet`. Throws Interrupted on a signal to end.
+/// Steps until the World has made all of the scene's frames and calls `after_frame` after each. Returns false after a frame
+/// that is not finite. Shows progress on a terminal unless `quiet`. Throws Interrupted on a termination signal.
 bool simulate(World& world, const Scene& scene, bool quiet, const std::function<void(const Report&)>& after_frame);
 
-/// Throws Error where the scene has fewer frames than that.
+/// Throws an Error if the scene has fewer frames.
 void require_frame(const Scene& scene, const std::string& path, int frame);
 
-/// Whether `path` ends in `suffix` (".png"), capitals or not.
+/// True if `path` ends in `suffix` (".png"), case-insensitively.
 bool has_suffix(const std::string& path, std::string_view suffix);
 
-/// Simulates as simulate() does, and throws Error with the report's own words where a frame is not finite.
+/// Simulates like simulate(), but throws an Error with the report's message if a frame is not finite.
 void simulate_finite(World& world, const Scene& scene, const std::string& path, bool quiet,
                      const std::function<void()>& after_frame);
 

@@ -1,4 +1,4 @@
-// The canvas: coverage of a pixel is how far its centre lies inside the shape, cut to 0..1.
+// The canvas: a pixel's coverage is the depth of its centre inside the shape, clamped to 0..1.
 #include "apps/plot/canvas.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace {
 
 constexpr int largest_side = 16384;
 
-// One corner of a rectangle as stb_easy_font lays it out.
+// A corner of a rectangle in stb_easy_font's layout.
 struct FontCorner {
   float x, y, z;
   std::uint8_t colour[4];
@@ -37,7 +37,7 @@ std::string printable(const std::string& words) {
   return result;
 }
 
-// The letters of a line of text as boxes, in units of the font's own pixel.
+// The letters of a line of text as boxes, in font pixels.
 std::vector<FontBox> letter_boxes(const std::string& words) {
   std::string line = printable(words);
   std::vector<FontBox> boxes(line.size() * 10 + 10);
@@ -53,7 +53,7 @@ double distance_to_segment(Point p, Point a, Point b) {
   return std::hypot(p.x - a.x - along * dx, p.y - a.y - along * dy);
 }
 
-// Share of the pixel [i, i + 1] that the interval [low, high] covers.
+// The share of the pixel [i, i + 1] that the interval [low, high] covers.
 double overlap(int i, double low, double high) {
   return std::clamp(std::min(high, i + 1.0) - std::max(low, static_cast<double>(i)), 0.0, 1.0);
 }

@@ -1,4 +1,4 @@
-// Line charts as data, and how to paint them: `pliant validate --plot` and `pliant compare` show their curves with these.
+// Line charts as data, and their painting, for `pliant validate --plot` and `pliant compare`.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct Series {
   std::string name;  ///< for the legend
   std::vector<double> x, y;
   Style style = Style::line;
-  int colour = -1;  ///< of the palette, so that a curve looks alike in several charts; -1: as its place in the chart has it
+  int colour = -1;  ///< palette index, so that a curve has the same colour in several charts; -1: its index in the chart
 };
 
 /// Axes with curves.
@@ -24,19 +24,19 @@ struct Chart {
   std::vector<Series> series;
 };
 
-/// Where an axis puts its marks, and what it writes there.
+/// The ticks of an axis and their labels.
 struct Ticks {
   std::vector<double> places;
   std::vector<std::string> labels;
 };
 
-/// Marks at 1, 2 or 5 times a power of ten within [low, high], about `wanted` of them.
+/// Ticks at 1, 2 or 5 times a power of ten within [low, high], about `wanted` of them.
 Ticks linear_ticks(double low, double high, int wanted);
-/// Marks at powers of ten within 10^low and 10^high, thinned out to `wanted`; over less than two decades also at 2 and 5 times
-/// these, and where even that makes fewer than three, as linear_ticks has it.
+/// Ticks at powers of ten within 10^low and 10^high, thinned out to `wanted`. Over less than two decades also at 2 and 5
+/// times these; with fewer than three ticks, as linear_ticks.
 Ticks logarithmic_ticks(double low, double high, int wanted);
 
-/// The charts side by side and below each other, `columns` a row, each `width` x `height` pixels.
+/// The charts in a grid of `columns` columns, each `width` x `height` pixels.
 Canvas paint(const std::vector<Chart>& charts, int columns = 2, int width = 760, int height = 500);
 
 }  // namespace pliant::plot

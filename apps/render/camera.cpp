@@ -1,4 +1,4 @@
-// Where to stand so that everything is in the picture.
+// Finds a camera position from which everything is visible.
 #include <algorithm>
 #include <cmath>
 
@@ -12,8 +12,8 @@ namespace {
 constexpr float degree = 3.14159265f / 180;
 constexpr float used_share = 0.86f;  // of the picture's width and height
 
-/// In one direction of the picture a point at (x, z) is inside where |x - eye_x| <= (eye_z - z) * slope. The nearest eye
-/// that has all points inside follows from the largest x + z slope and the largest -x + z slope.
+/// In one picture direction, a point at (x, z) is visible if |x - eye_x| <= (eye_z - z) * slope. The nearest eye that sees
+/// all points follows from the largest x + z slope and the largest -x + z slope.
 struct Side {
   float slope = 1, largest_plus = -1e30f, largest_minus = -1e30f;
 

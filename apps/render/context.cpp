@@ -1,4 +1,4 @@
-// epoxy ends the program where it can't load a library, so the libraries are looked for first.
+// epoxy aborts the program if a library is missing, so the libraries are probed first.
 #include "context.h"
 
 #include <dlfcn.h>
@@ -17,7 +17,7 @@ namespace {
 [[noreturn]] void fail(const std::string& problem, const std::string& advice) { throw Error({}, problem, advice); }
 
 bool is_there(const char* library) {
-  // Never closed: epoxy will hold it anyway.
+  // Never closed: epoxy keeps it open anyway.
   return ::dlopen(library, RTLD_LAZY | RTLD_LOCAL) != nullptr;
 }
 
@@ -41,7 +41,7 @@ std::vector<EGLDisplay> displays() {
   return result;
 }
 
-/// A context that is current and speaks OpenGL 3.3, or EGL_NO_CONTEXT.
+/// Returns a current context with OpenGL 3.3, or EGL_NO_CONTEXT.
 EGLContext make_context(EGLDisplay display) {
   EGLint major = 0, minor = 0;
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, &major, &minor)) return EGL_NO_CONTEXT;
@@ -77,7 +77,7 @@ Context::Context() {
 }
 
 Context::~Context() {
-  // The display is one for all contexts of the program, so it stays.
+  // All contexts of the program share the display, so it stays open.
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
 }

@@ -7,14 +7,14 @@ namespace pliant::render {
 
 class Context {
  public:
-  /// Tries, in this order, a Mesa context without surface, a graphics card, and the default display. Throws Error naming
-  /// the package that is missing.
+  /// Tries, in this order, a Mesa context without a surface, a graphics card,
+  /// and the default display. Throws an Error that names the missing package.
   Context();
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  /// Directs OpenGL calls of this thread to it.
+  /// Makes it current for the calling thread.
   void make_current() const;
   std::string device() const;
 

@@ -1,4 +1,4 @@
-// What a RenderScene is drawn from: triangles with normals, and how far they reach.
+// The drawable form of a RenderScene: triangles with normals, and their bounds.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ struct Vertex {
   Vec3f position, normal;
 };
 
-/// How light meets a surface.
+/// The shading model of a surface.
 enum class Material { cloth, solid, ground };
 
 /// Triangles of one colour.
@@ -23,7 +23,7 @@ struct Geometry {
   Material material = Material::solid;
 };
 
-/// A box around points; empty until one is included.
+/// A bounding box of points; empty until one is included.
 struct Bounds {
   Vec3f low{1, 1, 1}, high{-1, -1, -1};
 
@@ -31,24 +31,24 @@ struct Bounds {
   void include(const Vec3f& point, float margin = 0);
   void include(const Bounds& other);
   Vec3f centre() const { return (low + high) * 0.5f; }
-  float radius() const;  ///< of the sphere around the box
+  float radius() const;  ///< of the box's circumscribed sphere
 };
 
-/// Every point that a picture should show: surfaces, tubes, and colliders that are not much larger than those.
+/// Every point that a picture should show: surfaces, tubes, and colliders not much larger than those.
 std::vector<Vec3f> points_of_interest(const RenderScene& scene);
 Bounds bounds(const std::vector<Vec3f>& points);
 
-/// Whether a collider is a level plane facing up.
+/// True if the collider is a horizontal plane that faces up.
 bool is_level_plane(const RenderCollider& collider);
 
-/// Everything but the ground. `around` and `radius` say how large a slab for a plane must be; tubes get at least
-/// `least_radius`.
+/// All geometry except the ground. `around` and `radius` give the extent
+/// of a plane's slab; tubes have a radius of at least `least_radius`.
 std::vector<Geometry> build_geometry(const RenderScene& scene, const Vec3f& around, float radius, float least_radius);
 
-/// A level square about `centre`.
+/// A horizontal square about `centre`.
 Geometry build_ground(const Vec3f& centre, float half_size, const Vec3f& colour);
 
-/// Throws Error naming the mesh and element where a place is not finite or an index is out of range.
+/// Throws an Error that names mesh and element if a position is not finite or an index is out of range.
 void check(const RenderScene& scene);
 
 }  // namespace pliant::render

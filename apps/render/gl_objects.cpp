@@ -1,4 +1,4 @@
-// Programs, textures and framebuffers, each checked when it is made.
+// Programs, textures and framebuffers, each checked on creation.
 #include "gl_objects.h"
 
 #include "pliant/error.h"

@@ -1,4 +1,4 @@
-// OpenGL's objects as values with an owner.
+// OpenGL objects as owning values.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -12,7 +12,7 @@
 
 namespace pliant::render {
 
-/// A name given by OpenGL, deleted with its owner. `Delete` takes it.
+/// An OpenGL name, deleted with its owner by `Delete`.
 template <void (*Delete)(GLuint)>
 class Name {
  public:
@@ -46,7 +46,7 @@ using Buffer = Name<delete_buffer>;
 using Sampler = Name<delete_sampler>;
 using VertexArray = Name<delete_vertex_array>;
 
-/// A program from GLSL source. Throws Error with the driver's words where it does not compile.
+/// A program from GLSL source. Throws an Error with the driver's message if it does not compile.
 class Program {
  public:
   Program(const std::string& vertex, const std::string& fragment);
@@ -67,13 +67,13 @@ class Program {
   Name<delete_program> name_;
 };
 
-/// A texture of one level that is read without wrapping around; `filter` GL_NEAREST or GL_LINEAR.
+/// A texture with one level and clamped coordinates; `filter` GL_NEAREST or GL_LINEAR.
 Texture make_texture(GLint internal, int width, int height, GLenum format, GLenum type, GLint filter);
 
-/// A framebuffer with a colour and a depth texture, either of them 0 for none. Throws Error where it is not complete.
+/// A framebuffer with a colour and a depth texture, 0 for none. Throws an Error if it is incomplete.
 Framebuffer make_framebuffer(GLuint colour, GLuint depth);
 
-/// One with several samples a pixel: what is drawn first, before it is averaged.
+/// A multisampled render target, which is resolved later.
 struct SampledTarget {
   Renderbuffer colour, depth;
   Framebuffer framebuffer;
@@ -81,7 +81,7 @@ struct SampledTarget {
   SampledTarget(int width, int height, int samples);
 };
 
-/// Throws Error where the bound framebuffer can't be drawn to.
+/// Throws an Error if the bound framebuffer is incomplete.
 void require_complete();
 
 }  // namespace pliant::render

@@ -1,8 +1,8 @@
-// Movies: pictures poured into ffmpeg.
+// Movies: frames piped into ffmpeg.
 //
-// ffmpeg reads from a socket rather than a pipe, because writing to a pipe whose reader has died would kill the program,
-// where a socket gives an error. It writes to a temporary file beside the movie, which takes the movie's name once it is
-// whole.
+// ffmpeg reads from a socket instead of a pipe: a write to a pipe whose reader
+// has died would kill the program, but a socket reports an error. ffmpeg writes
+// a temporary file next to the movie, which is renamed when it is complete.
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/socket.h>
@@ -29,7 +29,7 @@ namespace pliant::render {
 struct MovieWriter::Implementation {
   std::string path, temporary, words_path;
   std::size_t frame_size = 0;
-  int socket = -1, words = -1;  // to ffmpeg; what it says
+  int socket = -1, words = -1;  // to ffmpeg; its messages
   pid_t process = -1;
   bool finished = false;
 
@@ -37,7 +37,7 @@ struct MovieWriter::Implementation {
     throw Error({.file = path, .line = 0, .object = {}, .element = {}}, problem, advice);
   }
 
-  /// Makes an empty file beside the movie and returns its name.
+  /// Creates an empty file next to the movie and returns its name.
   std::string make_beside(int& descriptor) const {
     const std::size_t slash = path.rfind('/');
     std::string name = (slash == std::string::npos ? "" : path.substr(0, slash + 1)) + ".pliant-movie-XXXXXX";
@@ -75,7 +75,7 @@ struct MovieWriter::Implementation {
     const std::vector<std::string> words_of_command{
         "ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo", "-pixel_format", "rgb24",
         "-video_size", size, "-framerate", frames, "-i", "pipe:0", "-an", "-vf",
-        // H.264 with halved colours needs even sizes, and players take colours for BT.709.
+        // H.264 with subsampled colours needs even sizes, and players assume BT.709.
         "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "-c:v", "libx264", "-preset", "medium",
         "-crf", "17", "-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
         "-color_range", "tv", "-movflags", "+faststart", "-f", "mp4", "file:" + temporary};
@@ -87,8 +87,8 @@ struct MovieWriter::Implementation {
     posix_spawn_file_actions_adddup2(&actions, input, 0);
     posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, words, 2);
-    // A group of its own, so that an interrupt from the terminal reaches only this program, which can then end the movie
-    // well.
+    // A process group of its own: a terminal interrupt then
+    // reaches only this program, which can end the movie properly.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
@@ -99,7 +99,7 @@ struct MovieWriter::Implementation {
     return code;
   }
 
-  /// Waits until ffmpeg has ended; true where it is content.
+  /// Waits for ffmpeg to exit; true on success.
   bool wait() {
     if (socket >= 0) ::close(std::exchange(socket, -1));
     if (process < 0) return false;

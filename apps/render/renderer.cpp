@@ -1,5 +1,5 @@
-// One picture in five passes: shadow map, depth, how open each pixel is to the sky, the picture with several samples a
-// pixel, and its mean.
+// One picture in five passes: shadow map, depth, ambient
+// occlusion, the multisampled picture, and its resolve.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -19,15 +19,15 @@ namespace {
 constexpr int shadow_size = 2048;
 constexpr float degree = 3.14159265f / 180;
 
-/// The part of the buffers that one Geometry takes.
+/// The range of the buffers that one Geometry occupies.
 struct Range {
   GLsizei count = 0;
-  std::size_t first = 0;  // byte in the index buffer
+  std::size_t first = 0;  // byte offset in the index buffer
   Vec3f colour{};
   Material material = Material::solid;
 };
 
-/// The eye, and all that follows from it.
+/// The eye, and derived view parameters.
 struct Eye {
   Camera camera;
   ViewFrame frame;
@@ -42,25 +42,25 @@ Eye make_eye(const Camera& camera, int width, int height, const Bounds& content)
   eye.half_width = eye.half_height * static_cast<float>(width) / static_cast<float>(height);
   const float size = std::max(content.radius(), 1e-4f);
   const float distance = dot(eye.frame.back, camera.eye - content.centre());
-  eye.near = 0.05f * size;  // not where the content begins: the ground comes nearer
+  eye.near = 0.05f * size;  // less than the distance to the content, because the ground comes nearer
   eye.far = std::max(distance, 0.f) + 40 * size;
   eye.view_projection =
       perspective(eye.half_width, eye.half_height, eye.near, eye.far) * view_matrix(eye.frame, camera.eye);
   return eye;
 }
 
-/// The sun stands left of the viewer and behind, so that folds throw short shadows to the right.
+/// The sun stands to the left of and behind the viewer, so that folds cast short shadows to the right.
 Vec3f sun_direction(const ViewFrame& view) {
   const Vec3f level_back = unit({view.back.x, 0, view.back.z}, {0, 0, 1});
   const Vec3f level_right{level_back.z, 0, -level_back.x};
   return unit(Vec3f{0, 1.15f, 0} + level_back * 0.38f - level_right * 1.0f);
 }
 
-/// The sun, and a parallel view along its rays that holds all content.
+/// The sun, and an orthographic view along its rays that contains everything.
 struct Sun {
   Vec3f direction{};
   Matrix clip;
-  float softness = 0;  // radius of a shadow's edge over the distance from what casts it, in the map's own units
+  float softness = 0;  // penumbra radius over the distance to the caster, in shadow map units
 };
 
 Sun make_sun(const ViewFrame& view, const std::vector<Geometry>& geometries) {
@@ -75,7 +75,7 @@ Sun make_sun(const ViewFrame& view, const std::vector<Geometry>& geometries) {
   }
   if (box.empty()) box.include(Vec3f{}, 1);
   const float margin = 0.04f * std::max(box.radius(), 1e-4f);
-  // Along the rays the map reaches far, so that the ground in the shadow is in it too.
+  // The map extends far along the rays, so that it includes the shadowed ground.
   const Vec3f low = box.low - Vec3f{margin, margin, 150 * margin}, high = box.high + Vec3f{margin, margin, margin};
   sun.clip = orthographic(low, high) * view_matrix(frame, {});
   sun.softness = angular_radius * (high.z - low.z) / std::max(high.x - low.x, high.y - low.y);
@@ -87,7 +87,7 @@ Matrix to_texture(const Matrix& clip) {
   return halve * clip;
 }
 
-/// Places evenly spread over the unit disc: steps of the golden angle along a spiral (Vogel 1979).
+/// Points evenly distributed over the unit disc: golden-angle spiral (Vogel 1979).
 std::vector<std::pair<float, float>> spiral(int count) {
   std::vector<std::pair<float, float>> places;
   for (int i = 0; i < count; ++i) {
@@ -104,7 +104,7 @@ int best_samples() {
   return std::clamp(most, 1, 8);
 }
 
-/// The grid's spacing: a power of ten that gives a handful of lines.
+/// The grid's spacing: a power of ten that gives a few lines.
 float grid_spacing(float radius) {
   float spacing = 1;
   while (spacing > 0.5f * radius) spacing /= 10;
@@ -122,7 +122,7 @@ struct Programs {
   Program surface{surface_vertex, std::string(light_functions) + surface_fragment};
 };
 
-/// A texture and the framebuffer that draws into it.
+/// A texture and its framebuffer.
 struct Target {
   Texture texture;
   Framebuffer framebuffer;
@@ -146,7 +146,7 @@ struct Renderer::Implementation {
   Context context;
   Programs programs;
   VertexArray array, nothing;
-  Sampler plain_sampler;  // reads the shadow map's depth itself
+  Sampler plain_sampler;  // reads the shadow map's raw depth
   Buffer vertices, indices;
   Target shadow, depth, raw_occlusion, occlusion, picture;
   SampledTarget sampled;
@@ -300,7 +300,7 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   program.set("widest", 18.f);
   program.set("softness", sun.softness * shadow_size);
   program.set("spiral", spiral(16));
-  // Where a pixel's middle lies beside the triangle that is seen in it, its place is up to a pixel off the surface.
+  // If a pixel's centre misses the triangle visible in it, its position is up to a pixel off the surface.
   program.set("bias", std::max(5 * size / shadow_size, 2 * pixel));
   for (const Range& range : ranges) {
     program.set("albedo", range.colour);
@@ -309,7 +309,7 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   }
 }
 
-/// Where two layers of cloth lie in one place, the one that faces the viewer is seen and not a chequer of both.
+/// Draws back and front separately: for coincident cloth layers the front wins, without z-fighting.
 void Renderer::Implementation::draw_both_sides(const Range& range) const {
   const auto* const first = reinterpret_cast<const void*>(range.first);
   if (range.material != Material::cloth) {
@@ -357,7 +357,7 @@ std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scen
     for (const RenderCollider& c : scene.colliders)
       if (is_level_plane(c) && std::abs(c.position.y - *scene.ground) < 1e-6f) colour = c.colour;
     const Vec3f centre = content.centre();
-    const float sink = 0.002f * content.radius();  // so that what lies flat on it is seen
+    const float sink = 0.002f * content.radius();  // so that objects flat on it stay visible
     geometries.push_back(build_ground({centre.x, *scene.ground - sink, centre.z}, 30 * content.radius(), colour));
   }
   upload(geometries);
@@ -382,7 +382,7 @@ Renderer::Renderer(int width, int height) {
 }
 
 Renderer::~Renderer() {
-  // What it owns in OpenGL is deleted in its own context, whichever is current.
+  // OpenGL objects must be deleted in their own context, whichever is current.
   if (self_) self_->context.make_current();
 }
 Renderer::Renderer(Renderer&&) noexcept = default;

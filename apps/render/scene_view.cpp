@@ -1,4 +1,4 @@
-// From a Scene and the World made from it to what is drawn.
+// Converts a Scene and its World to a RenderScene.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -12,7 +12,7 @@ namespace pliant::render {
 
 namespace {
 
-/// How low an object may come: what hangs can swing down by its size, what falls comes to rest on something.
+/// The lowest height that an object can reach: hanging ones can swing down by their size, falling ones land on something.
 float lowest(const Object& object) {
   Bounds all, held;
   for (std::size_t i = 0; i < object.positions.size(); ++i) {
@@ -27,8 +27,8 @@ float lowest(const Object& object) {
   return held.empty() ? all.low.y : std::min(all.low.y, held.low.y - 2 * all.radius());
 }
 
-/// The ground: the lowest level plane, or else 0 unless the scene reaches below that. It depends on the Scene alone, so it
-/// stands still in a movie.
+/// The ground: the lowest horizontal plane; otherwise 0, or lower if the scene
+/// extends below. It depends on the Scene alone, so it is constant in a movie.
 float ground_height(const Scene& scene, const std::vector<RenderCollider>& at_rest) {
   bool level = false, tilted = false;
   float plane = 0, low = 0;
@@ -55,10 +55,10 @@ float ground_height(const Scene& scene, const std::vector<RenderCollider>& at_re
   return low < 0 ? low - 0.02f * all.radius() : 0;
 }
 
-/// A particle much heavier than its fellows is a weight: a ball around it, as large as twice the line's thickness where it
-/// weighs as much as the others, its volume growing with its mass.
+/// A particle much heavier than the others is a weight, drawn as a ball: of twice
+/// the line's thickness for equal mass, with a volume proportional to mass.
 void add_weights(RenderScene& result, const Object& object, const std::vector<Vec3f>& positions) {
-  constexpr float much = 2.5f;  // more than the ends of a rope differ from its middle
+  constexpr float much = 2.5f;  // more than the end and middle masses of a rope differ
   std::vector<float> masses;
   std::copy_if(object.masses.begin(), object.masses.end(), std::back_inserter(masses),
                [](float mass) { return std::isfinite(mass); });

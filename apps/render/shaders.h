@@ -1,9 +1,9 @@
-// The programs that run per vertex and per pixel, in GLSL.
+// The vertex and fragment shaders in GLSL.
 #pragma once
 
 namespace pliant::render {
 
-/// Places only: for the shadow map and the first look at depth.
+/// Positions only: for the shadow map and the depth prepass.
 inline constexpr const char* depth_vertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
 uniform mat4 view_projection;
@@ -14,7 +14,7 @@ inline constexpr const char* depth_fragment = R"(#version 330 core
 void main() {}
 )";
 
-/// One triangle over the whole picture.
+/// One triangle that covers the picture.
 inline constexpr const char* screen_vertex = R"(#version 330 core
 out vec2 place;
 void main() {
@@ -23,9 +23,9 @@ void main() {
 }
 )";
 
-/// How much of the sky each pixel sees, from depth alone: points around it that rise above its surface hide the sky in
-/// proportion to the angle at which they rise (McGuire et al. 2011, "The Alchemy screen-space ambient obscurance
-/// algorithm"). The sixteen directions turn from pixel to pixel in a 4 x 4 pattern that the blur then averages exactly.
+/// Ambient occlusion from depth alone: nearby points above a pixel's surface hide the sky in proportion to their elevation
+/// (McGuire et al. 2011, "The Alchemy screen-space ambient obscurance algorithm"). The sixteen directions rotate between
+/// pixels in a 4 x 4 pattern that the blur averages exactly.
 inline constexpr const char* occlusion_fragment = R"(#version 330 core
 in vec2 place;
 out float openness;
@@ -62,7 +62,7 @@ void main() {
 }
 )";
 
-/// The mean over 4 x 4 pixels of about the same distance.
+/// The mean over 4 x 4 pixels of similar depth.
 inline constexpr const char* blur_fragment = R"(#version 330 core
 in vec2 place;
 out float openness;
@@ -86,8 +86,8 @@ void main() {
 }
 )";
 
-/// Colours of the air and the curve from light to a picture, shared by sky and surfaces. The curve is Narkowicz's fit
-/// (2015) of the Academy's filmic tone scale.
+/// Atmosphere colours and tone mapping, shared by sky and surfaces.
+/// The curve is Narkowicz's fit (2015) of the ACES filmic tone scale.
 inline constexpr const char* light_functions = R"(#version 330 core
 uniform vec3 eye;
 vec3 sky(vec3 direction) {
@@ -124,8 +124,8 @@ void main() {
 }
 )";
 
-/// Cloth, solids and the ground: a sun with a soft shadow, a sky that is bluer above than the ground is bright below, and
-/// for cloth a sheen at grazing angles and a little light through it.
+/// Cloth, solids and ground: a sun with soft shadows, a hemispherical sky light
+/// (blue from above), and for cloth a sheen at grazing angles and some translucency.
 inline constexpr const char* surface_fragment = R"(
 in vec3 at, facing;
 out vec4 colour;

@@ -1,4 +1,4 @@
-// Surfaces by CrossingFinder; ropes by continuous tests.
+// Audits surfaces by CrossingFinder, and ropes by continuous collision tests.
 #include "apps/validate/audit.h"
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 namespace pliant::validate {
 namespace {
 
-/// Distances are measured in every so many frames: they cost more than the frame itself.
+/// Distances are measured only every so many frames, because they cost more than the frame.
 constexpr int frames_between_distances = 20;
 
-/// Steps a World and keeps the time that it takes.
+/// Steps a World and measures the time.
 class Stopwatch {
  public:
   Report step(World& world, float dt) {
@@ -23,7 +23,7 @@ class Stopwatch {
     return report;
   }
 
-  /// Ends a frame of one step or more.
+  /// Ends a frame of one or more steps.
   void lap(Audit& audit) {
     ++audit.frames;
     audit.ms += (last_ - audit.ms) / audit.frames;
@@ -42,7 +42,7 @@ void note(Audit& audit, std::size_t found, int frame) {
 
 // ---------------------------------------------------------------- ropes
 
-/// Around the straight paths of a link's ends.
+/// The swept box of a link's ends.
 struct Box {
   Vec3d low, high;
 
@@ -62,7 +62,7 @@ Box path_of(const std::vector<Vec3f>& from, const std::vector<Vec3f>& to, std::s
   return box;
 }
 
-/// Links that meet on their straight ways, and the least distance of those that come near at the end.
+/// Counts links that meet on linear paths, and finds the least distance of near pairs at the end.
 class Links {
  public:
   explicit Links(std::vector<Vec3f> start) : from_(std::move(start)), paths_(from_.size() - 1) {}

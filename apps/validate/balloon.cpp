@@ -1,4 +1,4 @@
-// A closed membrane with a volume constraint encloses its pressure times its rest volume, as long as the skin can give way.
+// A closed membrane with a volume constraint encloses pressure times rest volume, while its skin can stretch.
 #include <cmath>
 
 #include "apps/validate/rows.h"

@@ -1,4 +1,4 @@
-// Chains: the force at the top of one, how far iterations and substeps carry a heavy end, and the shape between two nails.
+// Chains: the force at the top, the convergence with a heavy end, and the shape between two nails.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,7 +13,7 @@ using reference::Solver;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// ---- twenty particles of 1 kg, the first fixed: the top constraint carries nineteen of them
+// ---- twenty particles of 1 kg, the first fixed: the top constraint carries nineteen
 
 constexpr int links = 19;
 constexpr float link_length = 0.1f;
@@ -66,7 +66,7 @@ void force_rows(Result& result) {
   }
 }
 
-// ---- the same with 100 t at the end (Macklin et al. 2019): how much too long it gets
+// ---- the same with 100 t at the end (Macklin et al. 2019): the excess length
 
 constexpr int heavy_count = 20, heavy_frames = 1000;
 constexpr double heavy_dt = 0.03, heavy_length = 0.01;
@@ -138,7 +138,7 @@ void heavy_rows(Result& result) {
 constexpr int nail_links = 20;
 constexpr double nail_span = 1, nail_length = 1.5, nail_mass = 0.05, nail_g = 10;
 
-// Equal links under equal weights: tan(theta) grows by one step m g / H from link to link, symmetric about the middle.
+// Equal links under equal weights: tan(theta) increases by m g / H per link, symmetric about the middle.
 double span_of(double slope_step, int count, double length) {
   double span = 0;
   for (int i = 0; i < count; ++i) {
@@ -148,7 +148,7 @@ double span_of(double slope_step, int count, double length) {
   return span;
 }
 
-// The step that makes the polygon span the nails, by bisection: a larger one hangs deeper.
+// The increment for which the polygon spans the nails, by bisection: a larger one hangs deeper.
 double exact_slope_step(int count, double length, double span) {
   double low = 0, high = 1e6;
   for (int i = 0; i < 200; ++i) {
@@ -177,7 +177,7 @@ double catenary_sag(double length, double span) {
   return low * (std::cosh(span / (2 * low)) - 1);
 }
 
-// From a V of the right length.
+// The start: a V of the right length.
 Vec3d nail_start(int i) {
   const double along = nail_length * i / nail_links, half = nail_length / 2, x = nail_span * i / nail_links;
   const double depth = std::sqrt(nail_length * nail_length - nail_span * nail_span) / nail_length;
@@ -193,7 +193,7 @@ Solver nails_reference() {
   for (int i = 0; i <= nail_links; ++i) solver.add(nail_start(i), nail_weight(i));
   for (int i = 0; i < nail_links; ++i) solver.add("distance", {i, i + 1}, {nail_length / nail_links});
   for (int i = 0; i < 30000; ++i) solver.step(1e-4);
-  for (int i = 0; i < 150000; ++i) solver.step(1e-5);  // what remains of the links' stretch goes with h^2
+  for (int i = 0; i < 150000; ++i) solver.step(1e-5);  // the remaining stretch of the links decreases with h^2
   return solver;
 }
 
@@ -215,7 +215,7 @@ std::vector<Vec3f> nails_engine() {
   return world.positions(0);
 }
 
-// The farthest of tan(theta_{i+1}) - tan(theta_i) from `expected`, over the inner particles.
+// The value of tan(theta_{i+1}) - tan(theta_i) farthest from `expected`, over inner particles.
 double farthest_slope_step(const std::vector<Vec3d>& x, double expected) {
   std::vector<double> steps;
   for (std::size_t i = 1; i + 1 < x.size(); ++i)

@@ -1,5 +1,5 @@
-// Collision: continuous tests on queries whose answer is known by construction, and what a World
-// promises of surfaces, with the filter and without.
+// Collision: continuous tests on queries with an answer known by construction,
+// and the guarantees of a World about surfaces, with and without the filter.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,14 +17,14 @@ constexpr double pi = 3.14159265358979323846, g = 9.81;
 
 // ------------------------------------------------------------------------------------------------ continuous tests
 
-/// A vertex and a triangle, or two edges, that move straight: through one another at a moment in between, or past.
+/// A vertex-triangle or edge-edge pair under linear motion that crosses at a time in between, or misses.
 void impact_rows(Result& result) {
   Random random(11);
   constexpr int queries = 20000;
   int missed[2] = {0, 0}, false_alarms[2] = {0, 0};
   for (int i = 0; i < queries; ++i) {
     const bool edges = i % 2 == 1, hits = i % 4 < 2;
-    std::array<Vec3f, 4> at, from, to;  // at the moment of contact: in the plane z = 0, crossing or apart by 0.1
+    std::array<Vec3f, 4> at, from, to;  // at contact: in the plane z = 0, crossing or 0.1 apart
     const float s = static_cast<float>(random.uniform(0.05, 0.95)), past = hits ? 0.f : 0.1f;
     if (edges) {
       at[0] = {-1, 0, past}, at[1] = {1, 0, past};
@@ -90,7 +90,7 @@ std::size_t crossings(const World& world) {
   return find_crossings(all).size();
 }
 
-/// Layers that fall on the ground and on one another: what crosses in any frame, and how far the top rests above the next.
+/// Layers that fall on the ground and one another: crossings in any frame, and the rest distance of the top layer.
 void layer_rows(Result& result, bool filter) {
   Scene scene;
   scene.settings = settings_of(20, filter);
@@ -112,7 +112,7 @@ void layer_rows(Result& result, bool filter) {
                                  "the sum of both thicknesses"));
 }
 
-/// How far a patch slides in a second down two triangles askew.
+/// The distance that a patch slides in a second down two oblique triangles.
 double slide(double degrees, bool filter) {
   const double c = std::cos(degrees * pi / 180), s = std::sin(degrees * pi / 180);
   const auto turned = [&](const Vec3f& p) {
@@ -143,7 +143,7 @@ void slope_rows(Result& result, bool filter) {
                                  slide(40, filter), 0.03, "m", "g (sin - mu cos) / 2, in a second"));
 }
 
-/// How high a patch comes up again that falls flat on triangles from 0.5 m.
+/// The rebound height of a patch that falls flat on triangles from 0.5 m.
 double apex(float restitution, bool filter) {
   Scene scene;
   scene.settings = settings_of(50, filter);
@@ -161,7 +161,7 @@ double apex(float restitution, bool filter) {
   return 0;
 }
 
-/// A ball of triangles that nothing stops against a loose sheet.
+/// A kinematic ball of triangles against a loose sheet.
 void ball_rows(Result& result) {
   for (const float speed : {1.f, 10.f, 30.f}) {
     Scene scene;
@@ -192,7 +192,7 @@ void ball_rows(Result& result) {
   }
 }
 
-/// Crossings of three loose sheets, thrown at 20 m/s on a fourth that is fixed, in frames of two substeps.
+/// Crossings of three loose sheets thrown at 20 m/s at a fixed fourth, with two substeps per frame.
 std::size_t thrown_sheets(bool filter) {
   Scene scene;
   scene.gravity = {};
@@ -214,7 +214,7 @@ std::size_t thrown_sheets(bool filter) {
   return most;
 }
 
-/// The filter alone keeps these sheets apart: without it they cross, so that a filter that does nothing is noticed.
+/// Without the filter these sheets cross, so these rows detect a filter that does nothing.
 void filter_rows(Result& result) {
   const std::string name = "collision: engine, sheets thrown at 20 m/s, edges through triangles";
   result.rows.push_back(at_most(name, 0, static_cast<double>(thrown_sheets(true)), "", "exact signs, 2 substeps"));

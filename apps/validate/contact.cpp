@@ -11,7 +11,7 @@ constexpr double pi = 3.14159265358979323846, g = 9.81;
 constexpr float thickness = 0.01f;
 constexpr int substeps = 20, bounce_substeps = 100;
 
-// A particle that touches a plane tilted by `degrees` about the z-axis, in a scene with that friction throughout.
+// A particle in contact with a plane tilted by `degrees` about the z-axis, with that friction throughout.
 Scene on_plane(double degrees, double friction, const Vec3f& velocity) {
   const double angle = degrees * pi / 180;
   const float away = thickness;
@@ -28,7 +28,7 @@ Scene on_plane(double degrees, double friction, const Vec3f& velocity) {
   return scene;
 }
 
-// How far a particle at rest has slid along the plane after a second.
+// The distance that a particle from rest slides along the plane in a second.
 double slide(double degrees, double friction) {
   World world(on_plane(degrees, friction, {}));
   const Vec3f start = world.positions(0)[0];
@@ -68,7 +68,7 @@ struct Bounce {
   plot::Series curve;
 };
 
-// Dropped with its surface 1 m above the ground. Apex from where it is and how fast it rises, so that frames may miss it.
+// Drops a particle 1 m above contact. The apex follows from position and velocity, so it may lie between frames.
 Bounce drop(double restitution) {
   Object object = particles({{0, 1 + thickness, 0}}, {1});
   object.thickness = thickness;

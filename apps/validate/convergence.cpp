@@ -1,10 +1,10 @@
-// How many sweeps each method needs: a chain without ends to hold it, its particles displaced at random along it, until the
-// links' errors are a thousandth of what they were.
+// Sweeps that each method needs: a free chain with particles randomly
+// displaced along it, until the links' errors fall to a thousandth.
 //
-// The matrix of n equal links is tridiagonal (-1, 2, -1) / 2: Jacobi keeps cos(pi / (n + 1)) of its slowest error in a
-// sweep, Gauss-Seidel the square of that. The counts depend on how much of the slowest error the start holds; that of this
-// start was chosen to be as in the source of the counts (random too, its numbers unknown), so that ten counts agree by one
-// choice.
+// The matrix of n equal links is tridiagonal (-1, 2, -1) / 2. Jacobi multiplies its slowest
+// error by cos(pi / (n + 1)) per sweep, Gauss-Seidel by the square of that. The counts
+// depend on the start's share of the slowest error. The seed was chosen to match the source
+// of the counts, whose random numbers are unknown; one choice makes ten counts agree.
 #include <cmath>
 
 #include "apps/validate/rows.h"
@@ -19,7 +19,7 @@ const double pi = std::acos(-1.0);
 const double jacobi_radius = std::cos(pi / (links + 1));
 const double gauss_seidel_radius = jacobi_radius * jacobi_radius;
 
-/// Where the particles are along the chain, one apart but for a displacement each.
+/// Positions along the chain: spacing one plus a random displacement each.
 std::vector<double> start() {
   Random random(seed);
   std::vector<double> x;
@@ -27,7 +27,7 @@ std::vector<double> start() {
   return x;
 }
 
-// ---- in double, one link after another
+// ---- in double, one link at a time
 
 using Places = std::vector<double>;
 
@@ -75,8 +75,8 @@ void over_relaxed(Places& x) {
 using Sweeper = void (*)(Places&);
 constexpr int most_sweeps = 10000;
 
-/// The residual before the first sweep and after each, until it is a thousandth; Chebyshev after `plain` sweeps where rho >
-/// 0.
+/// The residual before the first sweep and after each, down to a
+/// thousandth. If rho > 0, Chebyshev starts after `plain` sweeps.
 std::vector<double> curve_of(Sweeper sweep, double rho = 0, int plain = 1) {
   Places x = start(), older = x;
   std::vector<double> curve{residual(x)};
@@ -191,9 +191,9 @@ void engine_rows(Result& result) {
   };
   add("Gauss-Seidel, natural order", 1741, engine_sweeps(Sweep::natural, {}, 2500));
   add("Gauss-Seidel, red-black", 2094, engine_sweeps(Sweep::tiled, {}, 2500));
-  // Two constraints share each inner particle, which halves every step: 1 - rho is halved, and Chebyshev goes with its root.
+  // Two constraints share each inner particle, which halves every step and so 1 - rho; Chebyshev's rate goes with its root.
   add("Jacobi, half steps", 2 * 3495, engine_sweeps(Sweep::jacobi, {}, 9000));
-  // There and back over two colours is one way: the second colour twice in a row, then the first twice.
+  // Forward and backward over two colours merges repeated colours: the second colour twice in a row, then the first.
   add("Gauss-Seidel, symmetric over red-black", 2094, engine_sweeps(Sweep::symmetric, {}, 2500));
   add("over-relaxed Gauss-Seidel", 125, engine_sweeps(Sweep::natural, over, 200));
   add("Chebyshev over Jacobi, half steps", std::sqrt(2.0) * 232,

@@ -1,4 +1,4 @@
-// The scenes that surfaces must come through whole: 600 frames each, every one of them looked at. Minutes each, so only `--slow`.
+// Long contact scenes without any intersection allowed: 600 frames, every one audited. Minutes each, so only with `--slow`.
 #include "apps/validate/long_contact.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 constexpr float pi = 3.14159265f;
 constexpr float thickness_of_edge = 0.1f;  // as docs/guide/contact.md advises
 
-/// Cotton that meets itself and others, of a sheet with edges of `edge`.
+/// Self-colliding cotton, for a sheet with edges of length `edge`.
 Object sheet_of(const TriangleMesh& mesh, float edge, const std::string& name = "sheet") {
   ClothOptions options;
   options.name = name;
@@ -38,7 +38,7 @@ Scene scene_of(int substeps) {
   return scene;
 }
 
-/// Particles of a sheet at one end of it along x (`end` -1 or 1), or along y.
+/// The particles at one end of a sheet along x (`end` -1 or 1), or along y.
 std::vector<int> border(const Object& sheet, int end, float Vec3f::*axis) {
   float farthest = 0;
   for (const Vec3f& p : sheet.positions) farthest = std::max(farthest, p.*axis * static_cast<float>(end));
@@ -88,10 +88,10 @@ Scene layered_scene(int side) {
 
 Scene twisted_scene(int side) {
   constexpr float edge = 0.01f, seconds = 8, drawn_in = 0.1f;
-  const int columns = 2 * side, rows = side / 2;  // wider, and half a turn would draw the ends together
+  const int columns = 2 * side, rows = side / 2;  // on a wider sheet, half a turn would pull the ends together
   const float length = edge * static_cast<float>(columns - 1), width = edge * static_cast<float>(rows - 1);
   Scene scene = scene_of(20);
-  scene.settings.sweep = Sweep::multigrid;  // by the others so long a sheet stretches by half before it is twisted at all
+  scene.settings.sweep = Sweep::multigrid;  // other sweeps stretch so long a sheet by half before it twists
   const Object sheet = sheet_of(grid_mesh(columns, rows, length, width), edge);
   const int object = scene.add(sheet);
   for (const int end : {-1, 1}) {
@@ -110,8 +110,8 @@ Scene twisted_scene(int side) {
 Scene ball_scene(int side) {
   constexpr float edge = 0.01f;
   Scene scene = scene_of(5);
-  scene.settings.most_substeps = 2000;  // at 10 m/s it takes more than eight times the substeps
-  scene.frame_time = 1.f / 240;         // so that no frame begins on one side of the sheet and ends on the other
+  scene.settings.most_substeps = 2000;  // 10 m/s needs more than eight times the substeps
+  scene.frame_time = 1.f / 240;         // so that no frame starts on one side of the sheet and ends on the other
   TriangleMesh mesh = square(side, edge);
   const float width = edge * static_cast<float>(side - 1);
   for (Vec3f& p : mesh.positions) p = {0, p.x, p.z};
@@ -133,7 +133,7 @@ Scene ball_scene(int side) {
 
 namespace {
 
-/// A line through the points, as points `apart` from one another along it.
+/// Resamples a polyline at distances of `apart`.
 std::vector<Vec3f> resampled(const std::vector<Vec3d>& line, double apart) {
   std::vector<Vec3f> result{to_float(line.front())};
   double left = apart;
@@ -150,7 +150,7 @@ std::vector<Vec3f> resampled(const std::vector<Vec3d>& line, double apart) {
   return result;
 }
 
-/// A trefoil, cut at the tip of a lobe, with its ends led outward [m].
+/// A trefoil cut at the tip of a lobe, with its ends led outward [m].
 std::vector<Vec3f> open_trefoil(double size, double link) {
   constexpr double turn = 2 * double(pi), gap = 0.12, leg = 8;
   constexpr int pieces = 2000;
@@ -178,7 +178,7 @@ Scene knot_scene() {
   rope.self_collision = true;
   rope.damping = 1;
   const int last = static_cast<int>(rope.positions.size()) - 1;
-  const float reach = 0.5f * (link * static_cast<float>(last) - 0.09f);  // what is left is less than the knot takes
+  const float reach = 0.5f * (link * static_cast<float>(last) - 0.09f);  // leaves less rope than the knot needs
   for (const int end : {0, last}) {
     Attachment attachment;
     attachment.particle = end;

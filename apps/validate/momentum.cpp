@@ -68,7 +68,7 @@ void compare_gradients(const Sample& sample, const std::vector<Vec3d>& gradient,
   worst.torque = std::max(worst.torque, length(torque) / scale);
 }
 
-// Projects the sample once with random masses; relative to the sum of |m dx| and of |x| |m dx|.
+// Projects once with random masses; errors relative to the sum of |m dx| and of |x| |m dx|.
 void compare_momenta(const Sample& sample, Random& random, Worst& worst) {
   Solver solver;
   std::vector<int> indices;

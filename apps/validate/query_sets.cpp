@@ -1,4 +1,4 @@
-// Continuous tests on query sets whose answers are known exactly: none missed, hardly any false alarm, and how fast.
+// Continuous tests on query sets with exactly known answers: no misses, few false positives, and the rate.
 #include <ctime>
 
 #include "apps/validate/query_sets.h"
@@ -11,7 +11,7 @@ namespace {
 
 struct Answers {
   int missed = 0, false_alarms = 0;
-  double per_second = 0;  ///< queries, of one thread's processor time
+  double per_second = 0;  ///< queries per second of one thread's processor time
 };
 
 template <class Test>
@@ -27,7 +27,7 @@ Answers ask(const std::vector<CollisionQuery>& queries, const Test& test) {
   return answers;
 }
 
-/// The same queries over and over: the clock tells nothing about a thousand.
+/// Repeats the queries, because a thousand are too few to time.
 std::vector<CollisionQuery> repeated(const std::vector<CollisionQuery>& queries, int times) {
   std::vector<CollisionQuery> result;
   for (int i = 0; i < times; ++i) result.insert(result.end(), queries.begin(), queries.end());

@@ -1,4 +1,4 @@
-// Makers of rows and of small scenes.
+// Helpers that make rows and small scenes.
 #include "apps/validate/rows.h"
 
 #include <cmath>

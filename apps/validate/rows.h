@@ -1,4 +1,4 @@
-// What the files of rows have in common: the groups themselves, makers of rows, and small scenes.
+// Declares the groups of rows, and helpers that make rows and small scenes.
 #pragma once
 
 #include <cmath>
@@ -30,34 +30,34 @@ void steadiness_rows(Result& result, bool slow);
 void heavy_chain_rows(Result& result, bool slow);
 void convergence_rows(Result& result, bool slow);
 void sweep_rows(Result& result, bool slow);
-/// Of `collision`, where there are query sets. Throws Error where the folder holds none.
+/// Rows of `collision` from query sets. Throws an Error if the folder holds none.
 void query_set_rows(Result& result, const std::string& folder);
 
-/// Rows with their verdict; what is not finite fails.
+/// Rows with their verdict; non-finite values fail.
 Row relative(std::string name, double expected, double measured, double tolerance, std::string unit, std::string note = {});
 Row absolute(std::string name, double expected, double measured, double tolerance, std::string unit, std::string note = {});
 Row at_most(std::string name, double bound, double measured, std::string unit, std::string note = {});
 Row at_least(std::string name, double bound, double measured, std::string unit, std::string note = {});
 
-/// "1e-08", "50", "0.0166667": as few digits as tell it.
+/// A number in few digits: "1e-08", "50", "0.0166667".
 std::string brief(double value);
 
-/// The measured value that lies farthest from `expected`; not a number if any is.
+/// The measured value farthest from `expected`; NaN if any is.
 double farthest(double expected, const std::vector<double>& measured);
 
-/// An object of free particles. A mass of infinity fixes one.
+/// An object of free particles. An infinite mass fixes a particle.
 Object particles(const std::vector<Vec3f>& positions, const std::vector<float>& masses);
 
-/// Adds distance constraints between the pairs, with one stiffness and given rest lengths.
+/// Adds distance constraints between pairs, with one stiffness and given rest lengths.
 void connect(Object& object, const std::vector<int>& pairs, const std::vector<float>& lengths, const Stiffness& stiffness);
 
-/// A straight hanging line of `count` particles, `length` apart, the first fixed at the origin.
+/// A straight hanging line of `count` particles at distance `length`, the first fixed at the origin.
 Object hanging_line(int count, float length, float mass, float last_mass, const Stiffness& stiffness);
 
 /// A scene with one object, one thread, and gravity (0, -g, 0).
 Scene scene_with(Object object, double g, int substeps, int iterations);
 
-/// The deterministic random numbers of Lehmer (Park and Miller 1988), so that every run has the same rows.
+/// The Lehmer generator (Park and Miller 1988), so that every run has the same rows.
 class Random {
  public:
   explicit Random(unsigned seed) : state_(seed % 2147483646U + 1) {}

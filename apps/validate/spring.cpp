@@ -1,5 +1,5 @@
-// A mass on a spring. One XPBD iteration on one linear spring is backward Euler, to the last digit: that is the sharpest
-// test there is of compliance, damping, and their powers of h.
+// A mass on a spring. One XPBD iteration on one linear spring equals backward Euler, to the last digit: the sharpest test
+// of compliance, damping, and their powers of h.
 #include <cmath>
 #include <limits>
 
@@ -68,7 +68,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return farthest(0, differences);
 }
 
-// A damped oscillation obeys u(n+1) = 2 r cos(phi) u(n) - r^2 u(n-1): fits r and phi by least squares.
+// A damped oscillation satisfies u(n+1) = 2 r cos(phi) u(n) - r^2 u(n-1); a least-squares fit gives r and phi.
 struct Oscillation {
   double amplitude, phase;
 };
@@ -134,7 +134,7 @@ void backward_euler_rows(Result& result) {
         series("engine", path_float, h, Style::points, 2), series("engine, damped", damped_float, h, Style::points, 2)}});
 }
 
-// A mass hanging in gravity from a damped spring, so that it comes to rest; damping does not change where.
+// A mass that hangs from a damped spring until it rests; damping does not change the rest position.
 struct Hanging {
   double mass = 1, compliance = 0.01, g = 10, dt = 1.0 / 60;
   int substeps = 1, iterations = 1;
@@ -182,7 +182,7 @@ void static_rows(Result& result) {
   }
 }
 
-// After n substeps a falling particle is at x0 - g h^2 n (n + 1) / 2, in any precision that deserves the name.
+// After n substeps a falling particle is at x0 - g h^2 n (n + 1) / 2, in any precision.
 double engine_fall(int substeps, double dt, int frames) {
   Scene scene = scene_with(particles({{0.5f, 2, -0.25f}}, {0.3f}), 9.81, substeps, 1);
   World world(scene);

@@ -1,4 +1,4 @@
-// W1 with inextensible edges, where engines have been seen to explode: it must stay finite, slow, and never gain energy.
+// W1 with inextensible edges, on which engines have diverged: it must stay finite, slow, and never gain energy.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,7 +13,7 @@ constexpr double speed_limit = 20;
 
 struct Swing {
   double fastest = 0;      // after the first swing [m/s]
-  double energy_gain = 0;  // highest energy over the start's [J]
+  double energy_gain = 0;  // highest energy over the initial energy [J]
   bool finite = true;
   double mean_stretch = 1, largest_stretch = 1;
   plot::Series energy;

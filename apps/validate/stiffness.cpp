@@ -1,6 +1,6 @@
-// Stiffness means the same whatever the iterations, the time step and the mesh: a sheet of rubber hangs from its upper
-// edge, and how far its lower edge sinks under its own weight may depend on neither. (Iterations alone, without the
-// multiplier of XPBD or with one that is reset in every iteration, change it at once.)
+// Stiffness is independent of iterations, time step and mesh: a rubber sheet hangs from its upper
+// edge, and the sag of its lower edge under its own weight must not depend on them. (Without
+// XPBD's multiplier, or with a reset in every iteration, the number of iterations changes it.)
 #include <cmath>
 
 #include "apps/validate/rows.h"
@@ -9,14 +9,14 @@ namespace pliant::validate {
 namespace {
 
 constexpr double g = 9.81;
-constexpr double density = 0.5, membrane = 25;  // [kg/m^2], [N/m]: about a tenth longer under its own weight
+constexpr double density = 0.5, membrane = 25;  // [kg/m^2], [N/m]: stretches by about a tenth under its own weight
 
 struct Run {
   int side = 9, substeps = 20, iterations = 2;
   double dt = 1.0 / 60;
 };
 
-// A square of 1 m standing in the xy-plane.
+// A square of 1 m in the xy-plane.
 TriangleMesh upright(int side) {
   TriangleMesh mesh = grid_mesh(side, side, 1, 1);
   for (Vec3f& x : mesh.positions) x = {x.x, -x.z, 0};
@@ -26,7 +26,7 @@ TriangleMesh upright(int side) {
 bool at_top(const Vec3f& x) { return x.y > 0.4999f; }
 bool at_bottom(const Vec3f& x) { return x.y < -0.4999f; }
 
-// How far the lower edge has sunk on average once the sheet is at rest.
+// The mean sag of the lower edge at rest.
 double sinking(const Run& run) {
   ClothOptions options;
   options.material.area_density = static_cast<float>(density);

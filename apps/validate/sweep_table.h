@@ -1,5 +1,5 @@
-// Every way to solve, one a line: the tests of sweeps, the golden hashes and the rows of `pliant validate sweeps` all go through this
-// table, so that a new sweep is held to the same promises by a line here.
+// All solver variants in one table, used by the tests of sweeps, the golden hashes and the rows of `pliant validate
+// sweeps`. A line here subjects a new sweep to all of them.
 #pragma once
 
 #include <ostream>
@@ -10,12 +10,12 @@
 
 namespace pliant::validate {
 
-/// What a way does not promise, and everybody else does.
+/// A guarantee that a variant lacks.
 enum class Lacks {
   nothing,
-  pairs,  ///< forces are no pairs: momentum is not kept, and compliance ends elsewhere
-  give,   ///< what is meant to stretch is held back
-  turns,  ///< where one step turns edges far, the linear correction leaves much to the sweeps after it
+  pairs,  ///< no Newton's third law: momentum is not conserved, and compliant constraints rest elsewhere
+  give,   ///< tethers limit what is meant to stretch
+  turns,  ///< if edges rotate far in one step, the linearised correction leaves much to later sweeps
 };
 
 struct SweepWay {
@@ -25,14 +25,14 @@ struct SweepWay {
   Lacks lacks = Lacks::nothing;
 };
 
-/// How tests name it.
+/// The name in test output.
 inline void PrintTo(const SweepWay& way, std::ostream* out) { *out << way.name; }
 
-/// Options as changes of the default.
+/// Default options with a change applied.
 template <class Change>
 SweepOptions options_with(const Change& change) {
   SweepOptions options;
-  options.plain_iterations = 3;  // so that Chebyshev has something to do in few iterations
+  options.plain_iterations = 3;  // so that Chebyshev acts within few iterations
   change(options);
   return options;
 }

@@ -1,6 +1,6 @@
-// Every sweep against the same known answers: what a scene is at rest, and how it moves, may not depend on the order in which
-// its constraints are visited. The ways are those of apps/validate/sweep_table.h, a line each. What a way can't give is a
-// row too, which says what it gives instead and why.
+// Every sweep against the same known answers: rest state and motion must not depend on the
+// order of constraints. The variants are the lines of apps/validate/sweep_table.h. An answer
+// that a variant cannot give has a row with the value it gives instead and the reason.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -38,7 +38,7 @@ double static_stretch(const SweepWay& way) {
   return -1 - static_cast<double>(world.positions(0)[1].y);
 }
 
-// The constraint at the top of twenty particles of 1 kg, the first fixed, carries nineteen: lambda / h^2.
+// The force lambda / h^2 of the constraint at the top of twenty particles of 1 kg, the first fixed; it carries nineteen.
 double top_force(const SweepWay& way) {
   World world = world_of(way, hanging_line(20, 0.1f, 1, 1, Stiffness::compliance(1e-8f)), 1, 100);
   std::vector<double> forces;
@@ -49,7 +49,7 @@ double top_force(const SweepWay& way) {
   return farthest(190, forces);
 }
 
-// How far a rubber sheet hanging from one edge sinks, over the same of 50 substeps of 50 Gauss-Seidel iterations.
+// The sag of a rubber sheet that hangs from one edge, over that of 50 substeps of 50 Gauss-Seidel iterations.
 double sinking(const SweepWay& way, int substeps, int iterations) {
   ClothOptions options;
   options.material.area_density = 0.5f;
@@ -82,7 +82,7 @@ double inflation(const SweepWay& way) {
   return world.enclosed_volume(0) / rest;
 }
 
-// T / T0 of a pendulum of 1 m let go at 90 degrees: a quarter of a period is the time to the lowest point.
+// T / T0 of a pendulum of 1 m released at 90 degrees: a quarter of a period is the time to the lowest point.
 double period(const SweepWay& way) {
   Object object = particles({{0, 0, 0}, {1, 0, 0}}, {std::numeric_limits<float>::infinity(), 1});
   connect(object, {0, 1}, {1}, Stiffness::rigid());
@@ -143,7 +143,7 @@ double momentum_change(const SweepWay& way, bool angular) {
 double linear_momentum(const SweepWay& way) { return momentum_change(way, false); }
 double angular_momentum(const SweepWay& way) { return momentum_change(way, true); }
 
-// A sheet that slides on a floor from 2 m/s stops after v^2 / (2 mu g), whatever holds it together.
+// A sheet sliding on a floor from 2 m/s stops after v^2 / (2 mu g), whatever its constraints.
 double stopping_distance(const SweepWay& way) {
   ClothOptions options;
   options.material = fabric("cotton");
@@ -174,7 +174,7 @@ Object hanging_cloth() {
   return object;
 }
 
-// What it gains in energy over its start, at the most [J].
+// The largest energy above the initial one [J].
 double energy_gain(const SweepWay& way) {
   World world = world_of(way, hanging_cloth(), 10, 4);
   const double start = world.kinetic_energy() + world.potential_energy();
@@ -186,7 +186,7 @@ double energy_gain(const SweepWay& way) {
   return highest - start;
 }
 
-// How much too long its worst edge is, at the most, in the first second.
+// The largest overstretch of an edge in the first second.
 double overstretch(const SweepWay& way) {
   World world = world_of(way, hanging_cloth(), 20, 10);
   double largest = 0;
@@ -199,7 +199,7 @@ double overstretch(const SweepWay& way) {
 
 // ---------------------------------------------------------------- the table
 
-/// What an answer asks of a way besides being a solver.
+/// The guarantees that an answer requires of a variant.
 struct Asks {
   bool pairs = false, give = false, speed = false;
 };
@@ -237,7 +237,7 @@ const Answer answers[] = {
      "16 x 16, rigid, 20 x 10, largest of 1 s"},
 };
 
-/// Why a way can't give an answer; null where it can.
+/// Why a variant cannot give an answer; null if it can.
 const char* excuse(const SweepWay& way, const Answer& answer) {
   if (answer.asks.pairs && way.lacks == Lacks::pairs)
     return "what neighbours exert on one another is averaged, and no pair";

@@ -1,4 +1,4 @@
-// The list of groups, and the two ways to print rows.
+// The list of groups, and the two formats of rows.
 #include "apps/validate/validate.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ std::string number(double value) {
   return text;
 }
 
-// JSON has no infinity and no NaN.
+// JSON has neither infinity nor NaN.
 nlohmann::ordered_json json_number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }

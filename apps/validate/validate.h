@@ -1,7 +1,7 @@
-// Known answers: what the engine must give because mechanics says so, as a table that anyone can run.
+// Validation against known answers: results that mechanics requires of the engine, as a table that anyone can run.
 //
-// Rows whose answer is exact use the reference solver in double precision, which shares the engine's formulas; beside each
-// stands what the engine itself gives in float, with a tolerance of its own.
+// Rows with an exact answer use the reference solver in double precision, which shares the engine's formulas. Next to each
+// is the engine's own float result, with its own tolerance.
 #pragma once
 
 #include <optional>
@@ -27,7 +27,7 @@ struct Row {
   Comparison comparison = Comparison::relative;
   std::string unit;
   bool pass = false;
-  std::string note;  ///< settings, where the answer comes from
+  std::string note;  ///< settings, and the source of the answer
 };
 
 struct Result {
@@ -36,22 +36,22 @@ struct Result {
 };
 
 struct Options {
-  std::optional<std::string> name;  ///< one of group_names() alone
-  bool slow = false;                ///< also what takes minutes
-  std::string queries;              ///< a folder of query sets for continuous tests, rows of `collision`; empty: none
+  std::optional<std::string> name;  ///< one of group_names() only
+  bool slow = false;                ///< include rows that take minutes
+  std::string queries;              ///< folder of query sets for continuous tests, rows of `collision`; empty: none
 };
 
-/// A family of rows.
+/// A group of rows.
 struct Group {
   std::string name, what;
 };
 
 const std::vector<Group>& groups();
 
-/// Computes the rows of one group or of all. Throws Error for an unknown name.
+/// Computes the rows of one or all groups. Throws an Error for an unknown name.
 Result run_validation(const Options& options = {});
 
-/// The rows as lines of text with a verdict each, and as a JSON list.
+/// The rows as lines of text with verdicts, and as a JSON list.
 std::string to_table(const std::vector<Row>& rows);
 std::string to_json(const std::vector<Row>& rows);
 

@@ -1,4 +1,4 @@
-// Comparing floats as bits, and making those that formulas stumble over.
+// Bitwise comparison of floats, and floats that break formulas.
 #pragma once
 
 #include <cmath>
@@ -10,12 +10,12 @@
 
 namespace pliant::testing_support {
 
-/// Equal bits, any NaN being equal to any other: their payloads differ between machines and tell nothing.
+/// True for equal bits. Any two NaN are equal, because their payloads differ between machines.
 inline bool same_bits(float a, float b) {
   return (std::isnan(a) && std::isnan(b)) || bits_as<std::uint32_t>(a) == bits_as<std::uint32_t>(b);
 }
 
-/// Mostly plain numbers around 1; among them zeros of both signs, subnormals, huge, infinite and NaN.
+/// Mostly plain numbers around 1, with zeros of both signs, subnormals, huge values, infinities and NaN.
 inline float nasty_float(std::mt19937& random) {
   constexpr float special[] = {0.f,
                                -0.f,

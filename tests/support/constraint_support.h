@@ -1,6 +1,6 @@
-// What the typed tests of constraints share: the list of types as GoogleTest takes it, and stencils to try them on.
+// The common part of the typed tests of constraints: the list of types for GoogleTest, and stencils.
 //
-// Everything is asked of the types themselves, so that a type put into constraints/all.h is tested without a change here.
+// Everything is queried from the types, so that a new type in constraints/all.h is tested without a change here.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -30,9 +30,9 @@ template <class... Taken, class First, class... More>
 struct AsTypes<::testing::Types<Taken...>, TypeList<First, More...>>
     : AsTypes<std::conditional_t<in_lanes<First>, ::testing::Types<Taken..., First>, ::testing::Types<Taken...>>,
               TypeList<More...>> {};
-/// Every type of all.h that has one row over points; tests/stencils has all.
+/// Every type of all.h with one row over points; tests/stencils covers all.
 using ConstraintTypes = AsTypes<::testing::Types<>, AllConstraints>::Alone;
-/// The same with contacts, for what holds for them too.
+/// The same with contacts.
 using ConstraintAndContactTypes = AsTypes<::testing::Types<>, AllConstraints>::WithContact;
 
 struct NameOfType {
@@ -51,13 +51,13 @@ using ParamsOf = typename T::template Params<R>;
 template <class T>
 inline constexpr int field_count = static_cast<int>(sizeof(ParamsOf<T, float>) / sizeof(float));
 
-/// Whether the type can read its rest data off a stencil; contacts have none.
+/// True if the type can measure its rest data from a stencil; contacts have none.
 template <class T>
 inline constexpr bool measures = requires(const Vec3<double> (&x)[size_of<T>]) {
   T::template measure<double>(x);
 };
 
-/// The parameters in another precision.
+/// The parameters converted to another precision.
 template <class T, class To, class From>
 ParamsOf<T, To> convert_params(const ParamsOf<T, From>& from) {
   From in[field_count<T>];
@@ -93,7 +93,7 @@ ParamsOf<T, R> measure(const Stencil<T, R>& at) {
   return T::template measure<R>(x);
 }
 
-/// T::canonical, where T has it.
+/// Applies T::canonical if T has it.
 template <class T>
 void canonical_order(std::array<int, size_of<T>>& order, ParamsOf<T, float>& params) {
   if constexpr (requires { T::canonical(order, params); }) T::canonical(order, params);
@@ -112,7 +112,7 @@ inline Quatd random_rotation(Random& random) {
   return normalise(Quatd{v.x, v.y, v.z, uniform(random, 0.2, 1)});
 }
 
-/// Whether no two points are close and no three nearly on a line: far from where any formula has its corners.
+/// True if no two points are close and no three nearly collinear: far from every formula's singularities.
 template <std::size_t n>
 bool is_well_spread(const std::array<Vec3d, n>& x) {
   for (std::size_t i = 0; i < n; ++i) {
@@ -135,7 +135,7 @@ Stencil<T, double> random_stencil(Random& random) {
   }
 }
 
-/// Rest data that some other stencil has, so that C is not zero; for a contact, some plane.
+/// Rest data of another stencil, so that C is not zero; for a contact, a random plane.
 template <class T>
 ParamsOf<T, double> random_params(Random& random) {
   if constexpr (measures<T>) {
@@ -150,7 +150,7 @@ ParamsOf<T, double> random_params(Random& random) {
   }
 }
 
-/// All points in the plane z = 0, the third and the fourth on either side of the first two: what is flat at rest.
+/// All points in the plane z = 0, the third and fourth on opposite sides of the first two: a flat rest shape.
 template <class T>
 Stencil<T, double> flat_stencil(Random& random) {
   for (;;) {

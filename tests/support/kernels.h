@@ -21,7 +21,7 @@ inline const std::vector<std::string>& isa_names() {
 }
 #undef PLIANT_LEVEL_NAME
 
-/// Those of the builds in lanes that run here; "generic" is the first and always does.
+/// The SIMD builds that run on this machine; "generic" is the first and always runs.
 inline std::vector<std::string> available_isas() {
   std::vector<std::string> available;
   for (const std::string& name : isa_names()) {

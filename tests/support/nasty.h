@@ -1,4 +1,4 @@
-// Small sets of triangles that broad phases get wrong: far away, on cell boundaries, flat, degenerate, coincident, of all sizes.
+// Small triangle sets that challenge broad phases: distant, on cell boundaries, flat, degenerate, coincident, of all sizes.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ inline Corners3 random_triangle(std::mt19937_64& random, float place, float size
   return {at + random_vector(random, size), at + random_vector(random, size), at + random_vector(random, size)};
 }
 
-/// `kind` picks the trouble, 0 to nasty_kinds - 1; from 0 to some twenty triangles.
+/// `kind` selects the difficulty, 0 to nasty_kinds - 1; up to about twenty triangles.
 constexpr int nasty_kinds = 9;
 inline std::vector<Corners3> nasty_triangles(std::mt19937_64& random, int kind) {
   std::vector<Corners3> all(std::uniform_int_distribution<std::size_t>(0, 22)(random));

@@ -1,5 +1,5 @@
-// Whether a sanitizer watches, under which everything takes ten times as long and more: a test that would take over a minute of a
-// core then runs fewer scenes or frames, and all the others as they are.
+// Detects sanitizers, which slow code down tenfold or more: tests that would take over a minute of a core then run fewer
+// scenes or frames. All others are unchanged.
 #pragma once
 
 #if defined(__has_feature)
@@ -19,7 +19,7 @@ inline constexpr bool is_sanitized = true;
 inline constexpr bool is_sanitized = false;
 #endif
 
-/// `all`, or under a sanitizer so many.
+/// `all`, or the smaller count under a sanitizer.
 constexpr int fewer_if_sanitized(int all, int sanitized) { return is_sanitized ? sanitized : all; }
 
 }  // namespace pliant::testing_support

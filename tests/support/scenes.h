@@ -1,4 +1,4 @@
-// Small scenes that tests of a World share.
+// Small scenes shared by tests of a World.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace pliant::testing_support {
 
-/// Particles of 1 kg and nothing between them.
+/// Free particles of 1 kg.
 inline Object loose_particles(std::vector<Vec3f> positions, std::vector<Vec3f> velocities = {}) {
   Object object;
   object.name = "particles";
@@ -19,7 +19,7 @@ inline Object loose_particles(std::vector<Vec3f> positions, std::vector<Vec3f> v
   return object;
 }
 
-/// A line of particles of 1 kg, `spacing` apart along x from the origin, joined by distances.
+/// A line of particles of 1 kg, `spacing` apart along x from the origin, joined by distance constraints.
 inline Object chain(int particles, float spacing, const Stiffness& stiffness = {}) {
   Object object;
   object.name = "chain";
@@ -33,7 +33,7 @@ inline Object chain(int particles, float spacing, const Stiffness& stiffness = {
   return object;
 }
 
-/// Of plain sweeps.
+/// Settings of a plain sweep.
 inline Settings settings_of(int substeps, int iterations = 1, int threads = 1) {
   Settings settings;
   settings.sweep = Sweep::tiled;
@@ -43,7 +43,7 @@ inline Settings settings_of(int substeps, int iterations = 1, int threads = 1) {
   return settings;
 }
 
-/// Straight from one place to another, from time 0 to `seconds`.
+/// Linear motion by `way` from time 0 to `seconds`.
 inline Motion straight(const Vec3f& way, float seconds) {
   return {{Keyframe{0, {}, {}}, Keyframe{seconds, way, {}}}, {}, false};
 }

@@ -1,5 +1,5 @@
-// Constraint types of a user, as pliant/constraint.h has them: with frame slots, with several rows, with eight points. They include
-// public headers alone.
+// User-defined constraint types through pliant/constraint.h: with frame
+// slots, several rows, or eight points. They include only public headers.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace pliant::testing_support {
 
-/// Two bodies (point and frame each) share an anchor. C is the gap, in world axes [m].
+/// Two bodies (point and frame each) share an anchor. C is the gap in world axes [m].
 struct BallJoint {
   static constexpr const char* name = "ball_joint";
   using slots = Slots<Point, Frame, Point, Frame>;
@@ -16,7 +16,7 @@ struct BallJoint {
 
   template <class R>
   struct Params {
-    Vec3<R> anchor_a, anchor_b;  ///< from each body's centre, along its own axes [m]
+    Vec3<R> anchor_a, anchor_b;  ///< from each body's centre, in its local axes [m]
   };
   static constexpr std::array<const char*, 6> fields{"anchor_ax", "anchor_ay", "anchor_az",
                                                      "anchor_bx", "anchor_by", "anchor_bz"};
@@ -37,7 +37,7 @@ struct BallJoint {
   }
 };
 
-/// A point keeps its distances to two others: a truss of two bars, solved at once [m].
+/// A point keeps its distances to two others: a two-bar truss solved as a block [m].
 struct TwoBars {
   static constexpr const char* name = "two_bars";
   using slots = Points<3>;
@@ -70,7 +70,7 @@ struct TwoBars {
   }
 };
 
-/// Eight points keep their spread, the root mean square distance from their mean [m]. In the short form.
+/// Eight points keep their spread, the root mean square distance from their mean [m]. Uses the short form.
 struct Spread {
   static constexpr const char* name = "spread";
   using slots = Points<8>;
