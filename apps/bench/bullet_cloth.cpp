@@ -1,7 +1,7 @@
-// Bullet's position based soft body on the same cloth, with the settings of Bullet's cloth examples: linear stiffness 1,
-// position iterations only. Links are either shuffled, as its mesh helper leaves them, or reordered by its
-// ReoptimizeLinkOrder helper. Contact is off, because the workload has none. Compiled
-// only if Bullet is present.
+// Bullet's position based soft body on the same cloth, with the settings of Bullet's cloth
+// examples: linear stiffness 1, position iterations only. Links are either shuffled, as
+// its mesh helper leaves them, or reordered by its ReoptimizeLinkOrder helper. Contact is
+// off, because the workload has none. Compiled only if Bullet is present.
 #include <BulletSoftBody/btSoftBody.h>
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 #include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>

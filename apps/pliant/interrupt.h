@@ -1,6 +1,6 @@
-// Ctrl-C and its like: a signal raises a flag; the frame loop and the step see it and unwind, so that every temporary file is
-// removed by its own destructor. Where that takes too long, as while a World is made, the program removes its temporary files
-// and ends all the same.
+// Ctrl-C and other termination signals raise a flag; the frame loop and the step poll it and
+// unwind, so that destructors remove all temporary files. If that takes too long, for instance
+// while a World is made, the handler removes the temporary files and ends the program.
 #pragma once
 
 #include <atomic>
@@ -9,7 +9,7 @@
 
 namespace pliant::command {
 
-/// Thrown where a signal asked the program to end.
+/// Thrown after a signal asked the program to end.
 class Interrupted : public std::exception {
  public:
   explicit Interrupted(int signal);
@@ -22,11 +22,11 @@ class Interrupted : public std::exception {
   std::string message_;
 };
 
-/// From now on SIGINT, SIGTERM and SIGHUP raise the flag, and end the program 0.7 s later if it still runs; a second one ends it
-/// at once. A closed pipe becomes an error of the write instead of a signal.
+/// Installs handlers: SIGINT, SIGTERM and SIGHUP raise the flag, and end the program 0.7 s later if it still runs; a second
+/// signal ends it at once. A closed pipe becomes a write error instead of a signal.
 void catch_signals();
 
-/// True after a signal: for whatever can end its work early.
+/// True after a signal; long-running work may poll it.
 const std::atomic<bool>& interrupted();
 
 /// Throws Interrupted if a signal came.

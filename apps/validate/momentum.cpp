@@ -1,8 +1,8 @@
-// What a constraint may not do: push the whole, turn the whole, or point its gradient the wrong way.
+// Invariants of a constraint: it conserves linear and angular momentum, and its gradient is correct.
 //
-// A projection leaves sum m x' x dx at its own positions unchanged. The momentum that the velocity update then makes of it
-// is exact when linear; the angular one decays a little, as in backward Euler, because the push acts along the direction at
-// the substep's end. A spinning dumbbell shows that decay in closed form.
+// A projection conserves sum m x' x dx at its own positions. The velocity update conserves linear momentum exactly. Angular
+// momentum decays slightly, as in backward Euler, because the impulse acts along the direction at the substep's end. A
+// spinning dumbbell has that decay in closed form.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,7 +31,7 @@ struct Sample {
   double value() const { return reference::evaluate(type, x, rest).value; }
 };
 
-// A random place for the stencil, its rest measured at another so that C is not zero.
+// A random stencil whose rest data are measured at another one, so that C is not zero.
 Sample make_sample(const ConstraintType& type, Random& random) {
   Sample sample{type.name, std::vector<Vec3d>(static_cast<std::size_t>(type.stencil_size)), {}};
   for (Vec3d& x : sample.x) x = random.vector(1);
@@ -96,7 +96,7 @@ void type_rows(Result& result, const ConstraintType& type) {
     const reference::Evaluation at = reference::evaluate(type.name, sample.x, sample.rest);
     double largest = 0;
     for (const Vec3d& g : at.gradients) largest = std::max(largest, length(g));
-    // Left out: what is too sharp for differences, near the cut of an angle, or moves too little to measure.
+    // Skips samples too steep for differences, near the branch cut of an angle, or with too small a value.
     if (largest > 30 || std::abs(at.value) > 2.5 || std::abs(at.value) < 0.05 * largest) continue;
     ++samples;
     compare_gradients(sample, at.gradients, worst);
@@ -111,7 +111,7 @@ void type_rows(Result& result, const ConstraintType& type) {
   rows.push_back(absolute("momentum: " + name + "angular, changed by a projection", 0, worst.angular, 1e-13, "", note));
 }
 
-// ---- a crumpled sheet that flies freely
+// ---- a crumpled sheet in free flight
 
 constexpr int sheet_side = 6;
 
@@ -198,13 +198,13 @@ void sheet_rows(Result& result) {
                                  1e-4, "", note + ", float"));
 }
 
-// ---- a dumbbell that spins
+// ---- a spinning dumbbell
 
 constexpr double dumbbell_spin = 6, dumbbell_h = 1.0 / 200;
 constexpr int dumbbell_steps = 200;
 
-// The velocity is that of the chord just passed, which stands at half its angle D to the circle: h v has the components
-// r sin D along it and r (1 - cos D) outwards. Hence tan D' = sin D / (2 - cos D), at first tan D = h omega.
+// The velocity is that of the last chord, at half its angle D to the circle: h v has the components r sin D along it and r
+// (1 - cos D) outward. Hence tan D' = sin D / (2 - cos D), initially tan D = h omega.
 double discrete_spin() {
   double angle = std::atan(dumbbell_h * dumbbell_spin);
   for (int i = 1; i < dumbbell_steps; ++i) angle = std::atan(std::sin(angle) / (2 - std::cos(angle)));

@@ -1,8 +1,8 @@
-// inspect(): everything that can be said about a mesh without a scene, worst first.
+// inspect() of a mesh without a scene: all findings, worst first.
 //
-// Grave is what no simulation can be made of (no triangles, vertices that are not there, coordinates that are not finite or
-// whose squared areas leave single precision). All else is told, with what it will do to the simulation, because many a
-// good mesh has a sliver and every cloth has a border.
+// A finding is grave if the mesh cannot be simulated: no triangles, missing vertices, coordinates that are not finite or
+// whose squared areas overflow a float. All other findings state their effect on the simulation, because many good meshes
+// have a sliver and every cloth has a border.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,13 +21,13 @@ namespace pliant {
 
 namespace {
 
-/// Beyond it the square of a triangle's area is no longer a float.
+/// Beyond it the square of a triangle's area overflows a float.
 constexpr float most_coordinate = 1e9f;
-/// Beyond it neighbouring floats are a millimetre apart.
+/// Beyond it adjacent floats are a millimetre apart.
 constexpr float doubtful_coordinate = 1e4f;
-/// Longest side over smallest height. Beyond it a triangle is worth a look.
+/// Longest side over smallest height: above it a triangle counts as a sliver.
 constexpr double doubtful_aspect = 100;
-/// The search for self-intersections grows faster than the mesh.
+/// The search for self-intersections is skipped above this: its cost grows faster than the mesh.
 constexpr std::size_t most_triangles_to_intersect = 20000;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -36,7 +36,7 @@ std::string counted(std::size_t count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-/// Counts something with its first place.
+/// A count of equal findings and the index of the first.
 struct Tally {
   std::size_t count = 0, first = 0;
   void add(std::size_t place) {
@@ -226,7 +226,7 @@ class Inspector {
              : "the surface has but one side, like a Moebius band; it can be a cloth but no balloon");
   }
 
-  /// Vertices whose triangles are more than one fan. Each corner of each triangle is a node, joined over edges.
+  /// Finds non-manifold vertices, whose triangles form several fans. Corners are nodes, joined across edges.
   void check_corners() {
     std::vector<std::size_t> parent(3 * mesh_.triangles.size());
     std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -239,7 +239,7 @@ class Inspector {
       return 3 * index(triangle) + static_cast<std::size_t>(std::find(t.begin(), t.end(), vertex) - t.begin());
     };
     for (const Edge& edge : edges_) {
-      if (edge.triangle_count > 2) return;  // said already, and fans are not defined there
+      if (edge.triangle_count > 2) return;  // already reported, and fans are undefined there
       if (!edge.is_inner()) continue;
       for (const int vertex : {edge.a, edge.b})
         parent[root(node(edge.triangles[0], vertex))] = root(node(edge.triangles[1], vertex));
@@ -289,7 +289,7 @@ class Inspector {
   }
 
   void check_volume(const Pieces& pieces) {
-    // Relative to one of its own vertices, so that a far-away mesh loses nothing.
+    // Relative to a vertex of the mesh, so that a distant mesh keeps its precision.
     std::vector<double> volume(index(pieces.count), 0);
     const Vec3d origin = at(mesh_.triangles.front()[0]);
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {

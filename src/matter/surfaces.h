@@ -1,4 +1,4 @@
-// What takes part in contact when a scene begins, in one numbering: for checks that look at all of it together.
+// All contact geometry at the start of a scene, in one numbering, for checks of the whole scene.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace pliant {
 
-/// All objects, then all mesh colliders.
+/// Objects first, then mesh colliders.
 struct Surfaces {
   struct Part {
     std::string name;
     bool self, collides, is_collider;
     std::uint32_t groups, mask;
-    int first = 0;           ///< vertex
-    int first_triangle = 0;  ///< of `triangles`
+    int first = 0;           ///< first vertex
+    int first_triangle = 0;  ///< index in `triangles`
   };
   std::vector<Part> parts;
   std::vector<Vec3f> positions;
@@ -25,19 +25,19 @@ struct Surfaces {
 
   int part_of(int vertex) const;
   int end_of(int part) const;  ///< one past its last vertex
-  /// As collision/pair_model.cpp decides.
+  /// True if two parts can meet, by the rules of collision/proxies/pair_model.cpp.
   bool meet(int a, int b) const;
   std::string name(int part) const;  ///< "object 'shirt'"
-  /// A vertex in the numbers of its part.
+  /// A vertex index local to its part.
   std::string local(int vertex) const { return std::to_string(vertex - parts[part_of(vertex)].first); }
   /// The triangles of a part, in local vertex indices.
   std::vector<Triangle> triangles_of(int part) const;
 };
 
-/// At time 0, of a scene in which nothing is grave.
+/// The surfaces at time 0 of a scene without grave findings.
 Surfaces surfaces_of(const Scene& scene);
 
-/// Where a mesh collider's vertices are at time 0.
+/// A mesh collider's vertex positions at time 0.
 std::vector<Vec3f> positions_at_start(const MeshCollider& collider);
 
 }  // namespace pliant

@@ -23,10 +23,10 @@ class Colouring {
  public:
   explicit Colouring(int particles) : used_(particles, 0), next_(particles, 0) {}
 
-  /// Colours the constraints `members` of stencils (`size` particles each, at stencils[size * member]). Groups of four that
-  /// are contiguous in all slots come first, each coloured as a whole; if many remain, groups contiguous in some slots;
-  /// then single constraints. Stencils of more than four particles are coloured singly. The result depends on the input
-  /// alone.
+  /// Colours the constraints `members` of stencils (`size` particles each, at stencils[size *
+  /// member]). Groups of four that are contiguous in all slots come first, each coloured as a
+  /// whole; if many remain, groups contiguous in some slots; then single constraints. Stencils
+  /// of more than four particles are coloured singly. The result depends on the input alone.
   std::vector<Colour> colour(const std::vector<int>& stencils, int size, const std::vector<int>& members);
 
   /// The same without groups: first fit in the order of `members`.

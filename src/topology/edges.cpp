@@ -1,6 +1,6 @@
-// Edges by a counting sort: half-edges go into one bucket for each smaller end, and each bucket is sorted by the larger
-// end. A vertex has about six edges, so the time is linear, unlike a comparison sort of all edges. Memory is accessed in
-// order.
+// Edges by a counting sort: half-edges go into one bucket for each smaller end, and
+// each bucket is sorted by the larger end. A vertex has about six edges, so the time
+// is linear, unlike a comparison sort of all edges. Memory is accessed in order.
 #include "topology/edges.h"
 
 #include <algorithm>
