@@ -1,7 +1,7 @@
 // The file format of saves: named, typed blocks between a header and a checksum.
 //
 //   header    magic (8 bytes), format version u32, content u32, size of the file u64, number of blocks u64
-// block     name (24 bytes, zero-padded), type u32, bytes per element u32, number of elements u64, the elements, zeros up
+//   block     name (24 bytes, zero-padded), type u32, bytes per element u32, number of elements u64, the elements, zeros up
 //             to a multiple of 8 bytes
 //   checksum  SHA-256 of all bytes before it, 32 bytes
 //
