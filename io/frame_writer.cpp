@@ -30,11 +30,12 @@ void require_fitting(const std::string& path, const Object& object, int particle
 
 class WorldWriter final : public FrameWriter {
  public:
-  explicit WorldWriter(std::unique_ptr<output::FormatWriter> format) : format_(std::move(format)) {}
+  WorldWriter(std::unique_ptr<output::FormatWriter> format, std::vector<ObjectId> objects)
+      : format_(std::move(format)), objects_(std::move(objects)) {}
 
   void add(const World& world) override {
     output::Frame frame{.time = world.state().time, .positions = {}, .velocities = {}, .number = world.state().frame};
-    for (int object = 0; object < world.object_count(); ++object) {
+    for (const ObjectId object : objects_) {
       frame.positions.push_back(world.positions(object));
       frame.velocities.push_back(world.velocities(object));
     }
@@ -46,6 +47,7 @@ class WorldWriter final : public FrameWriter {
 
  private:
   std::unique_ptr<output::FormatWriter> format_;
+  std::vector<ObjectId> objects_;  ///< those that there were at first
 };
 
 }  // namespace
@@ -56,7 +58,7 @@ std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Sc
   for (int o = 0; o < world.object_count(); ++o)
     require_fitting(path, scene.objects[static_cast<std::size_t>(o)], world.info(o).particles);
   const output::Objects objects = output::describe(scene);
-  return std::make_unique<WorldWriter>(output::make_format_writer(path, objects, scene.frame_time));
+  return std::make_unique<WorldWriter>(output::make_format_writer(path, objects, scene.frame_time), world.objects());
 }
 
 }  // namespace pliant

@@ -20,16 +20,18 @@ using namespace save_file;
 // ---------------------------------------------------------------- a State
 
 /// The block names of a State's columns.
-constexpr std::string_view time_block = "state.time", frame_block = "state.frame", positions_block = "state.positions",
-                           remainders_block = "state.remainders", velocities_block = "state.velocities";
-/// Blocks that exist only if a State has frames or channels.
+constexpr std::string_view time_block = "state.time", frame_block = "state.frame", blocks_block = "state.blocks",
+                           positions_block = "state.positions", remainders_block = "state.remainders",
+                           velocities_block = "state.velocities";
+/// Blocks that exist only if a State has frames, channels or held poses.
 constexpr std::string_view orientations_block = "state.orientations", spins_block = "state.angular_velocities",
-                           inertias_block = "state.inverse_inertias", channels_block = "state.channels";
-const std::vector<std::string_view> state_blocks{time_block,       frame_block,      positions_block,
-                                                 remainders_block, velocities_block, orientations_block,
-                                                 spins_block,      inertias_block,   channels_block};
+                           inertias_block = "state.inverse_inertias", channels_block = "state.channels",
+                           poses_block = "state.held_poses";
+const std::vector<std::string_view> state_blocks{time_block,       frame_block,      blocks_block,       positions_block,
+                                                 remainders_block, velocities_block, orientations_block, spins_block,
+                                                 inertias_block,   channels_block,   poses_block};
 constexpr std::string_view fingerprint_blocks[] = {"fingerprint.scene", "fingerprint.settings"};
-constexpr std::string_view scene_block = "scene", settings_block = "settings";
+constexpr std::string_view scene_block = "scene", settings_block = "settings", layout_block = "layout";
 
 static_assert(sizeof(Record) == 16);
 
@@ -50,16 +52,25 @@ T read_bytes(const Contents& from, std::string_view name) {
   return of;
 }
 
-/// The structured binding makes an unwritten new column a compile
-/// error. `channel_bytes` owns the memory of the last block.
-std::vector<Block> blocks_of(const State& state, std::string& channel_bytes) {
-  const auto& [time, frame, positions, remainders, velocities, frames, channels] = state;
+/// Columns of structs as bytes.
+struct Columns {
+  std::string blocks, channels, held_poses;
+};
+
+/// The structured binding makes an unwritten new column a compile error. `columns` owns the memory of blocks of structs.
+std::vector<Block> blocks_of(const State& state, Columns& columns) {
+  const auto& [time, frame, object_blocks, positions, remainders, velocities, frames, channels, held_poses] = state;
+  const auto bytes = [](std::string_view name, const std::string& column) {
+    return Block{name, Type::bytes, 1, column.size(), column.data()};
+  };
+  columns = {bytes_of(object_blocks), bytes_of(channels), bytes_of(held_poses)};
   const auto& [orientations, angular_velocities, inverse_inertias] = frames;
   const auto records = [](std::string_view name, const Records& column) {
     return Block{name, Type::record, sizeof(Record), column.size(), column.data()};
   };
   std::vector<Block> blocks{{time_block, Type::float64, sizeof time, 1, &time},
                             {frame_block, Type::int64, sizeof frame, 1, &frame},
+                            bytes(blocks_block, columns.blocks),
                             records(positions_block, positions),
                             records(remainders_block, remainders),
                             records(velocities_block, velocities)};
@@ -68,10 +79,8 @@ std::vector<Block> blocks_of(const State& state, std::string& channel_bytes) {
     blocks.push_back(records(spins_block, angular_velocities));
     blocks.push_back(records(inertias_block, inverse_inertias));
   }
-  if (!channels.empty()) {
-    channel_bytes = bytes_of(channels);
-    blocks.push_back({channels_block, Type::bytes, 1, channel_bytes.size(), channel_bytes.data()});
-  }
+  if (!channels.empty()) blocks.push_back(bytes(channels_block, columns.channels));
+  if (!held_poses.empty()) blocks.push_back(bytes(poses_block, columns.held_poses));
   return blocks;
 }
 
@@ -90,9 +99,10 @@ void read(const Contents& from, std::string_view name, Type type, T& value) {
 
 State state_in(const Contents& from) {
   State state;
-  auto& [time, frame, positions, remainders, velocities, frames, channels] = state;
+  auto& [time, frame, blocks, positions, remainders, velocities, frames, channels, held_poses] = state;
   read(from, time_block, Type::float64, time);
   read(from, frame_block, Type::int64, frame);
+  blocks = read_bytes<std::vector<StateBlock>>(from, blocks_block);
   read(from, positions_block, positions);
   read(from, remainders_block, remainders);
   read(from, velocities_block, velocities);
@@ -104,6 +114,7 @@ State state_in(const Contents& from) {
     read(from, inertias_block, frames.inverse_inertias);
   }
   if (from.has(channels_block)) channels = read_bytes<std::vector<Channel>>(from, channels_block);
+  if (from.has(poses_block)) held_poses = read_bytes<std::vector<HeldPose>>(from, poses_block);
   return state;
 }
 
@@ -131,14 +142,18 @@ std::string hash_of(const T& of, const More&... more) {
 
 void refuse_other_scene(const World& world, const Scene& scene) {
   const auto refuse = [](const Location& where, const std::string& problem) {
-    throw Error(where, problem, "give save() the scene that the World was made from");
+    throw Error(where, problem, "give save() a scene of what the World holds now, in the order of its ids");
   };
-  const auto objects = static_cast<int>(scene.objects.size());
-  if (world.object_count() != objects)
-    refuse({}, fmt::format("the World has {} objects and the scene {}", world.object_count(), objects));
-  for (int o = 0; o < objects; ++o) {
-    const Object& object = scene.objects[static_cast<std::size_t>(o)];
-    const ObjectInfo info = world.info(o);
+  const auto require = [&](std::size_t in_world, std::size_t in_scene, const char* what) {
+    if (in_world != in_scene) refuse({}, fmt::format("the World has {} {} and the scene {}", in_world, what, in_scene));
+  };
+  const std::vector<ObjectId> objects = world.objects();
+  require(objects.size(), scene.objects.size(), "objects");
+  require(world.colliders().size(), scene.colliders.size(), "colliders");
+  require(world.mesh_colliders().size(), scene.mesh_colliders.size(), "mesh colliders");
+  for (std::size_t o = 0; o < objects.size(); ++o) {
+    const Object& object = scene.objects[o];
+    const ObjectInfo info = world.info(objects[o]);
     Location where;
     where.object = object.name;
     if (info.name != object.name) refuse(where, "is called '" + info.name + "' in the World");
@@ -164,13 +179,13 @@ Fingerprint fingerprint(const Scene& scene) {
 }
 
 void save(const std::string& path, const State& state) {
-  std::string channels;
-  write(path, Content::state, blocks_of(state, channels));
+  Columns columns;
+  write(path, Content::state, blocks_of(state, columns));
 }
 
 void save(const std::string& path, const State& state, const Fingerprint& of) {
-  std::string channels;
-  std::vector<Block> blocks = blocks_of(state, channels);
+  Columns columns;
+  std::vector<Block> blocks = blocks_of(state, columns);
   blocks.push_back({fingerprint_blocks[0], Type::bytes, 1, of.scene.size(), of.scene.data()});
   blocks.push_back({fingerprint_blocks[1], Type::bytes, 1, of.settings.size(), of.settings.data()});
   write(path, Content::state, blocks);
@@ -196,22 +211,24 @@ void save(const std::string& path, const World& world, const Scene& scene) {
   refuse_force_fields(scene);
   Settings settings = world.settings();
   settings.isa.clear();  // another machine may lack it, and all levels give the same bits
-  const std::string scene_bytes = bytes_of(scene), settings_bytes = bytes_of(settings);
-  std::string channels;
-  std::vector<Block> blocks = blocks_of(world.state(), channels);
+  const std::string scene_bytes = bytes_of(scene), settings_bytes = bytes_of(settings),
+                    layout_bytes = bytes_of(world.layout());
+  Columns columns;
+  std::vector<Block> blocks = blocks_of(world.state(), columns);
   blocks.push_back({scene_block, Type::bytes, 1, scene_bytes.size(), scene_bytes.data()});
   blocks.push_back({settings_block, Type::bytes, 1, settings_bytes.size(), settings_bytes.data()});
+  blocks.push_back({layout_block, Type::bytes, 1, layout_bytes.size(), layout_bytes.data()});
   write(path, Content::world, blocks);
 }
 
 LoadedWorld load_world(const std::string& path) {
   const Contents contents(path, Content::world);
-  contents.refuse_unknown(with_state_blocks({scene_block, settings_block}));
+  contents.refuse_unknown(with_state_blocks({scene_block, settings_block, layout_block}));
   Scene scene = read_bytes<Scene>(contents, scene_block);
   scene.settings = read_bytes<Settings>(contents, settings_block);
   const State state = state_in(contents);
   try {
-    World world(scene);
+    World world(scene, read_bytes<WorldLayout>(contents, layout_block));
     world.restore(state);
     return {std::move(scene), std::move(world)};
   } catch (const Error& error) {

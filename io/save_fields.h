@@ -62,6 +62,26 @@ void fields(A& a, Is<Channel> auto& of) {
   a(name, components, values);
 }
 template <class A>
+void fields(A& a, Is<StateBlock> auto& of) {
+  auto& [first, particles, generation] = of;
+  a(first, particles, generation);
+}
+template <class A>
+void fields(A& a, Is<HeldPose> auto& of) {
+  auto& [is_mesh, slot, generation, position, rotation] = of;
+  a(is_mesh, slot, generation, position, rotation);
+}
+template <class A>
+void fields(A& a, Is<WorldLayout::Slot> auto& of) {
+  auto& [number, generation] = of;
+  a(number, generation);
+}
+template <class A>
+void fields(A& a, Is<WorldLayout> auto& of) {
+  auto& [objects, colliders, mesh_colliders, blocks, first_frames, sweeps] = of;
+  a(objects, colliders, mesh_colliders, blocks, first_frames, sweeps);
+}
+template <class A>
 void fields(A& a, Is<Object> auto& of) {
   auto& [name, positions, velocities, masses, frames, constraints, triangles, volume, pins, attachments, thickness,
          self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift, sweep, damping,

@@ -39,8 +39,10 @@ State load_state(const std::string& path);
 State load_state(const std::string& path, const Fingerprint& of);
 inline State load_state(const std::string& path, const Scene& scene) { return load_state(path, fingerprint(scene)); }
 
-/// Writes a World: the scene that it was made from, its settings and its State. Throws Error where the scene has force fields,
-/// which are functions and cannot be written, or is not this World's by number, names and particles of its objects.
+/// Writes a World: a scene of what it holds now, its settings, its ids and its State. Where nothing came or went that is the scene
+/// that it was made from; else one with the descriptions of what exists, in the order of World::objects(), colliders() and
+/// mesh_colliders(). Throws Error where the scene has force fields, which are functions and cannot be written, or is not this
+/// World's by number, names and particles of its objects.
 void save(const std::string& path, const World& world, const Scene& scene);
 
 /// A World as loaded, and its scene, whose settings are the World's.
@@ -49,7 +51,7 @@ struct LoadedWorld {
   World world;
 };
 
-/// Reads a World. Throws Error as load_state does.
+/// Reads a World, in which the same ids name the same things. Throws Error as load_state does.
 LoadedWorld load_world(const std::string& path);
 
 }  // namespace pliant

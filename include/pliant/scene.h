@@ -2,12 +2,15 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -225,9 +228,25 @@ struct Wind {
   float air_density = 0;  ///< 0: no air at all; 1.2 at sea level [kg/m^3]
 };
 
-/// A force on a particle [N] from its position [m], velocity [m/s], mass [kg] and the time [s]. Called from one thread at a
-/// time in the particles' order. Use no libm in it if the run must give the same bits elsewhere.
-using ForceField = std::function<Vec3f(const Vec3f& position, const Vec3f& velocity, float mass, float time)>;
+/// A force on a particle [N] from its position [m], velocity [m/s], mass [kg] and the time [s]. Use no libm in it if the run must
+/// give the same bits elsewhere.
+struct ForceField {
+  using Function = std::function<Vec3f(const Vec3f& position, const Vec3f& velocity, float mass, float time)>;
+  Function function;
+  /// Whether it may be called from several threads at once, in any order: it must depend on its arguments alone. Where all
+  /// fields of a scene say so they run on all threads, with the same bits; else on one thread, in the particles' order.
+  bool on_all_threads = false;
+
+  ForceField() = default;
+  template <class F>
+  requires(!std::same_as<std::remove_cvref_t<F>, ForceField> && std::constructible_from<Function, F>)
+      ForceField(F&& f, bool may_run_on_all_threads = false)  // NOLINT(google-explicit-constructor): any callable is one
+      : function(std::forward<F>(f)), on_all_threads(may_run_on_all_threads) {}
+  explicit operator bool() const { return static_cast<bool>(function); }
+  Vec3f operator()(const Vec3f& position, const Vec3f& velocity, float mass, float time) const {
+    return function(position, velocity, mass, time);
+  }
+};
 
 // ---------------------------------------------------------------- how it is solved
 

@@ -1,155 +1,19 @@
 // A World is a Scene compiled, with the State that moves. Data runs one way: step, then read.
 #pragma once
 
-#include <array>
 #include <atomic>
-#include <cstdint>
 #include <memory>
-#include <new>
-#include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pliant/mesh.h"
+#include "pliant/report.h"
 #include "pliant/scene.h"
+#include "pliant/state.h"
 
 namespace pliant {
-
-/// Four floats in one 16-byte record, moved by whole loads.
-struct alignas(16) Record {
-  float x = 0, y = 0, z = 0, w = 0;
-};
-
-/// Allocates at the start of a cache line, so that four records are one line.
-template <class T>
-struct CacheLineAllocator {
-  using value_type = T;
-  CacheLineAllocator() = default;
-  template <class U>
-  CacheLineAllocator(const CacheLineAllocator<U>&) {}  // NOLINT(google-explicit-constructor): as allocators must
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{64})); }
-  void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{64}); }
-  friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
-};
-
-using Records = std::vector<Record, CacheLineAllocator<Record>>;
-
-/// What is known of the orientations of a State, one record a frame.
-struct FrameRecords {
-  Records orientations;        ///< unit quaternion from the frame's principal axes to the world
-  Records angular_velocities;  ///< along the frame's own axes [rad/s], w zero
-  Records inverse_inertias;    ///< about the frame's own axes [1/(kg m^2)], w zero; never changes
-
-  std::size_t size() const { return orientations.size(); }
-};
-
-/// A number or a vector for every particle that a kind of matter owns, such as a temperature.
-struct Channel {
-  std::string name;
-  int components = 1;         ///< of each particle
-  std::vector<float> values;  ///< components x particles, in the order of the State
-};
-
-/// All that changes as time passes, a plain value: copy it, hash it, put it back, and the next step gives the same bits.
-/// Particles stand in the order of the compiled model, not of the user; read places through World.
-struct State {
-  double time = 0;                ///< [s]
-  std::int64_t frame = 0;         ///< steps taken
-  Records positions;              ///< (x, y, z) [m], w the inverse mass [1/kg]
-  Records remainders;             ///< what a float position could not hold of the motion so far [m]
-  Records velocities;             ///< [m/s]
-  FrameRecords frames;            ///< object after object, as the particles are; mostly empty
-  std::vector<Channel> channels;  ///< mostly none
-};
-
-/// SHA-256 over every member of a State, as 64 hexadecimal digits. Frames and channels count where there are any.
-std::string hash(const State& state);
-
-/// Milliseconds spent in a named phase of a step.
-struct PhaseTime {
-  std::string name;
-  double milliseconds = 0;
-};
-
-/// How far the constraints of one type are from being met, at the end of a frame: |C + alpha~ lambda| over all of them.
-struct Residual {
-  std::string type;
-  std::int64_t constraints = 0;
-  double rms = 0, largest = 0;  ///< in the unit of C
-};
-
-/// Where the solve stood after an iteration of a step's last substep.
-///
-/// Primal: |C + alpha~ lambda| by type, as in Residual. Dual: how far a particle is from where the multipliers alone would
-/// have moved it, |x - x~ - w grad C^T lambda|, the other half of the equations that XPBD solves (Macklin et al. 2016, eq.
-/// 8), as a length. Particles that touch something or have a PBD constraint are left out of it: those have no multipliers.
-struct IterationResidual {
-  int iteration = 0;  ///< 0: as predicted, before the first
-  std::vector<Residual> primal;
-  double dual_rms = 0, dual_largest = 0;  ///< over particles with mass [m]
-};
-
-/// Length over rest length of every distance constraint with a rest length.
-struct Stretch {
-  double mean = 1, p99 = 1, largest = 1;
-};
-
-/// By how much distance constraints are longer than the force in them makes them, (C + alpha~ lambda) / L: what a step left
-/// undone and more substeps, more iterations or another sweep would do. Of a rigid one that is its stretch; of a compliant one
-/// the stretch that its own tension does not explain, so that what is meant to stretch may. PBD stiffness, which has no
-/// multiplier, is left out.
-struct Overstretch {
-  double p99 = 0, largest = 0;             ///< shares of the rest length; below 0 where all are too short [-]
-  int object = -1;                         ///< with the largest; -1: there are no such constraints
-  std::array<int, 2> particles{{-1, -1}};  ///< between which it is, in the object's own numbering
-};
-
-/// Where the first non-finite value came from.
-struct NonFinite {
-  std::string object, element;  ///< "distance constraint 17 (particles 3, 4)", "particle 12"; no object: see World::step
-  std::int64_t frame = 0;       ///< how many frames were complete before it
-  int substep = 0;              ///< of the frame after those, from 0
-};
-
-/// How many iterations the substeps of a step made: all alike unless Settings::tolerance ends them early.
-struct IterationCount {
-  int smallest = 0, largest = 0;
-  double mean = 0;
-};
-
-/// What surfaces did among one another and with mesh colliders.
-struct PairReport {
-  std::int64_t candidates = 0;    ///< pairs in lists: vertex-triangle and edge-edge, near in the mesh or found near
-  std::int64_t contacts = 0;      ///< that pushed in the last substep
-  std::int64_t truncated = 0;     ///< steps that the filter truncated so that nothing crossed, over all substeps
-  std::int64_t unresolvable = 0;  ///< pairs that no step limit keeps apart: static or kinematic surfaces pinch the cloth
-  std::int64_t initially_intersecting = 0;  ///< edges through a triangle since the start: no contact until they part
-  std::int64_t rebuilds = 0;                ///< broad-phase rebuilds
-  std::int64_t inside = 0;                  ///< vertices inside a closed mesh collider, on their way out
-  double deepest = 0;  ///< what the last substep left of a contact's overlap: thickness less distance, or 0 [m]
-};
-
-/// What a step has to say. A step never throws, but lets through what a force field of the user's throws.
-struct Report {
-  std::int64_t frame = 0;
-  double time = 0;
-  double milliseconds = 0;
-  int substeps = 0;  ///< that the frame was divided into (Settings::most_substeps)
-  std::vector<PhaseTime> phases;
-  std::int64_t contacts = 0;  ///< active in the last substep
-  PairReport pairs;
-  std::vector<Residual> residuals;             ///< where Settings::measure
-  std::optional<Stretch> stretch;              ///< where Settings::measure
-  IterationCount iterations;                   ///< of each substep
-  std::optional<Overstretch> overstretch;      ///< where Settings::measure; World::advice says it in words
-  std::vector<IterationResidual> convergence;  ///< of the last substep, where Settings::record_residuals
-  std::optional<NonFinite> nonfinite;
-  bool stopped = false;  ///< by World::stop_when, before the frame was complete
-  std::vector<std::string> warnings;
-
-  bool ok() const { return !nonfinite; }
-  std::string explain() const;  ///< in words, empty where all is well
-};
 
 /// What was compiled for one object.
 struct ObjectInfo {
@@ -161,12 +25,59 @@ struct ObjectInfo {
 /// A solve is called good where no distance is longer than its force explains by more than this [-].
 inline constexpr double tolerated_overstretch = 0.01;
 
-/// More than thirty members: it is the one object that a user steps and reads.
+/// A rigid transform: a point p of a collider's own frame is at rotation p + position.
+struct RigidPose {
+  Vec3f position{};  ///< [m]
+  Quatf rotation{};  ///< of any length but zero
+};
+
+/// An object changed in place: what it is from now on, and where its particles come from. remove_triangles and cut make one;
+/// masses, stiffness, pins and all else are changed in `object` itself.
+struct Edit {
+  Object object;
+  /// Of each particle of `object`: the one before the edit whose position and velocity it takes, or -1 for a new one, which
+  /// begins where `object` has it. Several may come from one.
+  std::vector<int> from;
+  // Frames keep their numbers: as far as there were as many, they keep orientation and angular velocity.
+};
+
+/// The object as it is, with no particle changed: an Edit to build on.
+Edit unchanged(const Object& object);
+
+/// Takes triangles out, with the constraints that only they held: those between two particles that no triangle joins any
+/// more, and those among more whose triangles are not all there. Particles keep their numbers. Throws Error where a triangle
+/// does not exist.
+Edit remove_triangles(const Object& object, std::span<const int> triangles);
+
+/// Cuts a surface along a path of particles, each joined to the next by an edge of a triangle. A particle is split where the cut
+/// parts the triangles around it: those inside the path, and an end that lies on the border. Copies come after all other
+/// particles and share their mass by the area of their triangles, so mass and momentum stay. Constraints between the two
+/// sides go; an edge on the cut is held on either side by its share, by area, of its stiffness. Throws Error where two neighbours of the path share no
+/// edge.
+Edit cut(const Object& object, std::span<const int> path);
+
+/// Where the things of a World stand: with a Scene that describes them, what makes the World anew with the same ids and the same
+/// bits after things came and went. pliant::save writes it.
+struct WorldLayout {
+  struct Slot {
+    int number = -1;     ///< of an object or mesh collider in `blocks`, of a collider among its like; -1: nothing is there
+    int generation = 0;  ///< of what is there, or comes next
+  };
+  std::vector<Slot> objects, colliders, mesh_colliders;  ///< by slot
+  std::vector<StateBlock> blocks;                        ///< by number
+  std::vector<int> first_frames;                         ///< by number: of the object's frames in a State
+  std::vector<Sweep> sweeps;                             ///< by number: the one that the object is solved by
+};
+
+/// More than thirty members: it is the one object that a user steps, changes and reads.
 class World {
  public:
   /// Compiles a scene. Throws Error naming the object, the element and what to do where it can't be simulated.
   explicit World(const Scene& scene);
   World(const Scene& scene, const Settings& settings);
+  /// Makes a World anew whose things came and went: the scene describes those that exist, in the order of objects(), colliders() and
+  /// mesh_colliders(); its settings are those of that World. Throws Error too where the two do not fit.
+  World(const Scene& scene, const WorldLayout& layout);
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
@@ -187,28 +98,100 @@ class World {
   void restore(const State& state);
   std::string state_hash() const { return hash(state()); }
 
+  // ---- Objects come and go, between steps. A call that throws Error leaves the World as it was.
+
+  /// Adds an object as it is now: the first frame of its keyframes is the one that follows. Costs what this object costs to
+  /// compile; where it can touch other surfaces, contact is prepared anew before the next step. The World's sweep and
+  /// substeps stay as chosen when it was made. Throws Error naming the element where it can't be simulated.
+  ObjectId add(const Object& object);
+  ColliderId add(const Collider& collider);
+  MeshColliderId add(const MeshCollider& collider);
+
+  /// Takes it out. Other ids stay as they are. Throws Error where there is no such thing any more.
+  void remove(ObjectId object);
+  void remove(ColliderId collider);
+  void remove(MeshColliderId collider);
+
+  /// Changes an object in place, as it moves: its id stays, and every particle with an origin keeps position and velocity
+  /// exactly. Give the description that the object was added with, changed: the World keeps none. Returns the first new number
+  /// of each old particle, or -1 where it is gone. Costs what the object costs to compile. Throws Error where the description can't
+  /// be simulated or `from` does not fit.
+  std::vector<int> edit(ObjectId object, const Edit& edit);
+
+  /// Whether the id still names something.
+  bool has(ObjectId object) const;
+  bool has(ColliderId collider) const;
+  bool has(MeshColliderId collider) const;
+
+  WorldLayout layout() const;
+
+  /// Those that exist, by slot.
+  std::vector<ObjectId> objects() const;
+  std::vector<ColliderId> colliders() const;
+  std::vector<MeshColliderId> mesh_colliders() const;
+
+  // ---- Control, between steps. Wrong sizes and values that are not finite throw Error naming object and element, and
+  // nothing has changed then.
+
+  /// Moves particles that no force moves (pins, infinite mass) to `positions` [m], where they are when the next step ends, at
+  /// even speed. After it they stay, or follow their keyframes again where they have some.
+  void set_targets(ObjectId object, std::span<const int> particles, std::span<const Vec3f> positions);
+  /// The same for the targets of attachments, by their numbers in the Object.
+  void set_attachment_targets(ObjectId object, std::span<const int> attachments, std::span<const Vec3f> positions);
+  /// Moves colliders to where they are when the next step ends, translations at even speed, rotations along the shorter arc.
+  /// After it they stay, or follow their keyframes again where they have some.
+  void set_poses(std::span<const ColliderId> colliders, std::span<const RigidPose> poses);
+  /// The same for mesh colliders: their mesh as given, deformed by its frames, in the pose.
+  void set_poses(std::span<const MeshColliderId> colliders, std::span<const RigidPose> poses);
+  /// Moves every vertex of a mesh collider as triangles to where it is when the next step ends [m].
+  void set_positions(MeshColliderId collider, std::span<const Vec3f> positions);
+  /// One velocity a particle [m/s]. Those of particles without free mass are passed over.
+  void set_velocities(ObjectId object, std::span<const Vec3f> velocities);
+  /// One impulse a particle [N s]: velocity += impulse / mass.
+  void add_impulses(ObjectId object, std::span<const Vec3f> impulses);
+  /// One force a particle [N], constant through the next step and gone after it. Replaces those of an earlier call.
+  void set_forces(ObjectId object, std::span<const Vec3f> forces);
+
+  // ---- Contact events.
+
+  /// Whether steps find out which things touch. Off at first; where on, a step costs one more pass over contacts.
+  void record_contact_events(bool on);
+  /// Of the last step, ordered by things: what began to touch, still touches, and touches no longer.
+  const std::vector<ContactEvent>& contact_events() const;
+
+  /// How many objects there are. Unless one was removed, their indices from 0 on are their ids.
   int object_count() const;
-  ObjectInfo info(int object) const;
+  ObjectInfo info(ObjectId object) const;
   const Settings& settings() const;
   std::string isa() const;  ///< the code path in use: "x86-64-v2", "-v3", "-v4" or "generic"
   int threads() const;
 
   /// In the object's own numbering.
-  std::vector<Vec3f> positions(int object) const;
-  std::vector<Vec3f> velocities(int object) const;
+  std::vector<Vec3f> positions(ObjectId object) const;
+  std::vector<Vec3f> velocities(ObjectId object) const;
   /// Of the object's frames, in the order of Object::frames.
-  std::vector<Quatf> orientations(int object) const;
-  std::vector<Vec3f> angular_velocities(int object) const;  ///< in world axes [rad/s]
-  TriangleMesh mesh(int object) const;
+  std::vector<Quatf> orientations(ObjectId object) const;
+  std::vector<Vec3f> angular_velocities(ObjectId object) const;  ///< in world axes [rad/s]
+  TriangleMesh mesh(ObjectId object) const;
+  /// The same into the caller's memory, one a particle. Throws Error where the size is another.
+  void read_positions(ObjectId object, std::span<Vec3f> into) const;
+  void read_velocities(ObjectId object, std::span<Vec3f> into) const;
+  void read_mesh_collider_positions(MeshColliderId collider, std::span<Vec3f> into) const;
+
+  /// Without a copy, as stored: (x, y, z) and inverse mass, and velocities with w zero. Valid until the next step or change of the
+  /// World. Record i is particle storage_order(object)[i]; numbers beyond the object's particles are targets of attachments.
+  std::span<const Record> positions_in_storage_order(ObjectId object) const;
+  std::span<const Record> velocities_in_storage_order(ObjectId object) const;
+  std::span<const int> storage_order(ObjectId object) const;
   /// Where a collider is now.
-  Vec3f collider_position(int collider) const;
-  Quatf collider_rotation(int collider) const;
+  Vec3f collider_position(ColliderId collider) const;
+  Quatf collider_rotation(ColliderId collider) const;
   /// Where the vertices of a mesh collider are now, in its own numbering [m]. Throws Error where there is no such collider.
-  std::vector<Vec3f> mesh_collider_positions(int collider) const;
+  std::vector<Vec3f> mesh_collider_positions(MeshColliderId collider) const;
 
   /// Multipliers of the last substep in the order of the object's constraint groups of that type, row by row; empty where they were not
   /// kept. The force is lambda / h^2 along the gradient (XPBD, eq. 17).
-  std::vector<float> multipliers(int object, const std::string& type) const;
+  std::vector<float> multipliers(ObjectId object, const std::string& type) const;
 
   /// Kinetic and gravitational energy of all free particles [J]; heights from the origin.
   double kinetic_energy() const;
@@ -222,7 +205,7 @@ class World {
   /// Where the solve fell short in the step of a Report with Settings::measure, by how much, and what to do; empty where
   /// it did not, by no more than `tolerated_overstretch`. `advise` tries what helps.
   std::string advice(const Report& report) const;
-  double enclosed_volume(int object) const;  ///< of its triangles [m^3]
+  double enclosed_volume(ObjectId object) const;  ///< of its triangles [m^3]
 
  private:
   struct Implementation;

@@ -220,4 +220,22 @@ void refuse_grave(const Scene& scene) {
   look_through(problems, scene);
 }
 
+void refuse_grave(const Object& object) {
+  Problems problems(Problems::Mode::throw_grave);
+  problems.at(object.name);
+  check_object(problems, object);
+}
+
+void refuse_grave(const Collider& collider) {
+  Problems problems(Problems::Mode::throw_grave);
+  problems.at(collider.name);
+  check_collider(problems, collider);
+}
+
+void refuse_grave(const MeshCollider& collider) {
+  Problems problems(Problems::Mode::throw_grave);
+  problems.at(collider.name);
+  check_mesh_collider(problems, collider);
+}
+
 }  // namespace pliant

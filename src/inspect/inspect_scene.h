@@ -13,4 +13,9 @@ constexpr double shortest_substep = 1e-12;
 /// ranges.
 void refuse_grave(const Scene& scene);
 
+/// The same for one thing that is added to a World.
+void refuse_grave(const Object& object);
+void refuse_grave(const Collider& collider);
+void refuse_grave(const MeshCollider& collider);
+
 }  // namespace pliant

@@ -14,8 +14,8 @@
 #include <cstring>
 
 #include "math/scalar.h"
+#include "pliant/state.h"
 #include "pliant/vec3.h"
-#include "pliant/world.h"
 
 // PLIANT_X86_BITS: the widest registers of x86 that this unit may name, or 0.
 #if defined(PLIANT_LEVEL_IS_generic) || !defined(__x86_64__)

@@ -30,8 +30,10 @@ void include(CarrierBox& box, const Vec3d& p) {
 
 }  // namespace
 
-CarrierPose::CarrierPose(const Carrier& carrier, double time)
-    : pose_(pose_at(carrier.motion, time)), before_(&carrier.rest), after_(&carrier.rest) {
+CarrierPose::CarrierPose(const Carrier& carrier, double time) : CarrierPose(carrier, time, pose_at(carrier.motion, time)) {}
+
+CarrierPose::CarrierPose(const Carrier& carrier, double time, const Posed& pose)
+    : pose_(pose), before_(&carrier.rest), after_(&carrier.rest) {
   if (!carrier.deforms()) return;
   const TimePlace at = place_in(carrier.times, carrier.repeat, time);
   before_ = &carrier.frames[at.before];

@@ -25,6 +25,8 @@ struct Carrier {
 class CarrierPose {
  public:
   CarrierPose(const Carrier& carrier, double time);
+  /// In a pose that is not its motion's.
+  CarrierPose(const Carrier& carrier, double time, const Posed& pose);
   Vec3d place(int particle) const;
 
  private:

@@ -11,7 +11,7 @@
 #include "model/multigrid.h"
 #include "model/pool.h"
 #include "pliant/scene.h"
-#include "pliant/world.h"
+#include "pliant/state.h"
 
 namespace pliant {
 

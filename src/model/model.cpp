@@ -1,58 +1,227 @@
 #include "model/model.h"
 
+#include <algorithm>
 #include <utility>
+
+#include "model/layout.h"
+#include "pliant/error.h"
 
 namespace pliant {
 
 namespace {
 
-void append_colours(const CompiledObject& object, int number, const std::vector<InterTileColour>& colours,
-                    std::vector<InterTilePhase>& phases) {
+/// The orientation that stands where no object has a frame: it stays finite when predicted.
+constexpr Record unrotated{0, 0, 0, 1};
+
+/// Tasks stand in the order of their objects' numbers.
+template <class Task>
+auto tasks_of(std::vector<Task>& tasks, int object) {
+  const auto before = [](const Task& task, int number) { return task.object < number; };
+  const auto after = [](int number, const Task& task) { return number < task.object; };
+  return std::make_pair(std::lower_bound(tasks.begin(), tasks.end(), object, before),
+                        std::upper_bound(tasks.begin(), tasks.end(), object, after));
+}
+
+template <class Task>
+void insert(const std::vector<Task>& some, int object, std::vector<Task>& tasks) {
+  tasks.insert(tasks_of(tasks, object).second, some.begin(), some.end());
+}
+
+template <class Task>
+void erase(std::vector<Task>& tasks, int object) {
+  const auto [first, last] = tasks_of(tasks, object);
+  tasks.erase(first, last);
+}
+
+std::vector<TileTask> tiles_of(const CompiledObject& object, int number) {
+  std::vector<TileTask> tasks;
+  for (int tile = 0; tile < static_cast<int>(object.tiles.size()); ++tile) tasks.push_back({number, tile});
+  return tasks;
+}
+
+void add_colours(const CompiledObject& object, int number, const std::vector<InterTileColour>& colours,
+                 std::vector<InterTilePhase>& phases) {
+  if (phases.size() < colours.size()) phases.resize(colours.size());
   for (std::size_t colour = 0; colour < colours.size(); ++colour) {
-    if (phases.size() <= colour) phases.emplace_back();
-    InterTilePhase& phase = phases[colour];
+    std::vector<InterTilePhase::Task> tasks;
     for (int s = colours[colour].first_segment; s < colours[colour].last_segment; ++s) {
-      phase.tasks.push_back({number, s});
-      phase.batches += object.segments[s].batches;
+      tasks.push_back({number, s});
+      phases[colour].batches += object.segments[s].batches;
     }
+    insert(tasks, number, phases[colour].tasks);
   }
 }
 
-void append(const Records& from, Records& to) { to.insert(to.end(), from.begin(), from.end()); }
+void remove_colours(const CompiledObject& object, int number, std::vector<InterTilePhase>& phases) {
+  for (InterTilePhase& phase : phases) {
+    const auto [first, last] = tasks_of(phase.tasks, number);
+    for (auto task = first; task != last; ++task) phase.batches -= object.segments[task->segment].batches;
+    phase.tasks.erase(first, last);
+  }
+}
+
+void add_chains(const CompiledObject& object, int number, std::vector<ChainPhase>& phases) {
+  if (phases.size() < object.chain_colours.size()) phases.resize(object.chain_colours.size());
+  for (std::size_t colour = 0; colour < object.chain_colours.size(); ++colour) {
+    std::vector<ChainPhase::Task> tasks;
+    for (int b = object.chain_colours[colour].first_batch; b < object.chain_colours[colour].last_batch; ++b) {
+      tasks.push_back({number, b});
+      phases[colour].steps += object.chains[b].steps;
+    }
+    insert(tasks, number, phases[colour].tasks);
+  }
+}
+
+/// Phases that nobody has tasks in any more are always the last ones: an object has tasks in all up to its own last.
+template <class Phase>
+void drop_empty(std::vector<Phase>& phases) {
+  while (!phases.empty() && phases.back().tasks.empty()) phases.pop_back();
+}
+
+void add_tasks(Model& model, int number) {
+  const CompiledObject& object = model.objects[number];
+  insert(tiles_of(object, number), number, model.tiles);
+  add_colours(object, number, object.inter_tile, model.inter_tile);
+  add_colours(object, number, object.stencil_colours, model.stencils);
+  add_chains(object, number, model.chains);
+}
+
+void remove_tasks(Model& model, int number) {
+  const CompiledObject& object = model.objects[number];
+  erase(model.tiles, number);
+  remove_colours(object, number, model.inter_tile);
+  remove_colours(object, number, model.stencils);
+  for (ChainPhase& phase : model.chains) {
+    const auto [first, last] = tasks_of(phase.tasks, number);
+    for (auto task = first; task != last; ++task) phase.steps -= object.chains[task->batch].steps;
+    phase.tasks.erase(first, last);
+  }
+  drop_empty(model.inter_tile);
+  drop_empty(model.stencils);
+  drop_empty(model.chains);
+}
+
+struct Range {
+  int first = 0, size = 0, owner = 0;
+};
+
+/// Takes blocks where they are given: what lies between them is held until the last has its own.
+void occupy(std::vector<Range> ranges, BlockAllocator& blocks) {
+  std::erase_if(ranges, [](const Range& range) { return range.size == 0; });
+  std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.first < b.first; });
+  std::vector<Range> gaps;
+  for (const Range& range : ranges) {
+    if (range.first < blocks.end())
+      throw Error({}, "two of its objects overlap in the State", "lay out each in a place of its own");
+    if (range.first > blocks.end()) gaps.push_back({blocks.end(), range.first - blocks.end()});
+    if (range.first > blocks.end()) blocks.allocate(range.first - blocks.end(), -1);
+    blocks.allocate(range.size, range.owner);
+  }
+  for (const Range& gap : gaps) blocks.release(gap.first, gap.size);
+}
 
 }  // namespace
 
-void Model::add(CompiledObject object) {
-  const int number = static_cast<int>(objects.size());
-  if (first.empty()) first.push_back(0);
-  if (first_frame.empty()) first_frame.push_back(0);
-  first.push_back(first.back() + object.particles);
-  first_frame.push_back(first_frame.back() + static_cast<int>(object.frames.size()));
-  for (int tile = 0; tile < static_cast<int>(object.tiles.size()); ++tile) tiles.push_back({number, tile});
-  append_colours(object, number, object.inter_tile, inter_tile);
-  append_colours(object, number, object.stencil_colours, stencils);
-  for (std::size_t colour = 0; colour < object.chain_colours.size(); ++colour) {
-    if (chains.size() <= colour) chains.emplace_back();
-    for (int b = object.chain_colours[colour].first_batch; b < object.chain_colours[colour].last_batch; ++b) {
-      chains[colour].tasks.push_back({number, b});
-      chains[colour].steps += object.chains[b].steps;
+void lay_out(std::vector<CompiledObject> objects, const std::vector<ObjectPlace>& places, Model& model) {
+  std::vector<Range> particles, frames;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const int number = static_cast<int>(i);
+    model.first.push_back(places[i].is_free ? 0 : places[i].first);
+    model.first_frame.push_back(places[i].is_free ? 0 : places[i].first_frame);
+    model.generation.push_back(places[i].generation);
+    if (places[i].is_free) {
+      model.free_numbers.insert(number);
+    } else {
+      particles.push_back({places[i].first, objects[i].particles, number});
+      frames.push_back({places[i].first_frame, static_cast<int>(objects[i].frames.size()), number});
     }
   }
-  objects.push_back(std::move(object));
+  occupy(std::move(particles), model.blocks);
+  occupy(std::move(frames), model.frame_blocks);
+  model.objects = std::move(objects);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (!places[i].is_free) add_tasks(model, static_cast<int>(i));
+}
+
+int Model::add(CompiledObject object) {
+  int number = static_cast<int>(objects.size());
+  if (free_numbers.empty()) {
+    objects.emplace_back();
+    first.push_back(0);
+    first_frame.push_back(0);
+    generation.push_back(0);
+  } else {
+    number = *free_numbers.begin();
+    free_numbers.erase(free_numbers.begin());
+  }
+  first[number] = blocks.allocate(object.particles, number);
+  first_frame[number] = frame_blocks.allocate(static_cast<int>(object.frames.size()), number);
+  objects[number] = std::move(object);
+  add_tasks(*this, number);
+  return number;
+}
+
+void Model::remove(int object) {
+  remove_tasks(*this, object);
+  blocks.release(first[object], objects[object].particles);
+  frame_blocks.release(first_frame[object], static_cast<int>(objects[object].frames.size()));
+  objects[object] = {};
+  first[object] = first_frame[object] = 0;
+  ++generation[object];
+  free_numbers.insert(object);
+}
+
+void Model::replace(int object, CompiledObject by) {
+  remove_tasks(*this, object);
+  if (by.particles != objects[object].particles) {
+    blocks.release(first[object], objects[object].particles);
+    first[object] = blocks.allocate(by.particles, object);
+  }
+  if (by.frames.size() != objects[object].frames.size()) {
+    frame_blocks.release(first_frame[object], static_cast<int>(objects[object].frames.size()));
+    first_frame[object] = frame_blocks.allocate(static_cast<int>(by.frames.size()), object);
+  }
+  objects[object] = std::move(by);
+  ++generation[object];
+  add_tasks(*this, object);
+}
+
+void resize_frames(const Model& model, FrameRecords& frames) {
+  const auto count = static_cast<std::size_t>(model.frames());
+  frames.orientations.resize(count, unrotated);
+  frames.angular_velocities.resize(count);
+  frames.inverse_inertias.resize(count);
+}
+
+void clear_frames(int first, int count, FrameRecords& frames) {
+  std::fill_n(frames.orientations.begin() + first, count, unrotated);
+  std::fill_n(frames.angular_velocities.begin() + first, count, Record{});
+  std::fill_n(frames.inverse_inertias.begin() + first, count, Record{});
+}
+
+void put_at_start(const Model& model, int object, State& state) {
+  const CompiledObject& from = model.objects[object];
+  const auto particles = static_cast<std::size_t>(model.particles());
+  for (Records* records : {&state.positions, &state.remainders, &state.velocities}) records->resize(particles);
+  if (state.blocks.size() <= static_cast<std::size_t>(object)) state.blocks.resize(static_cast<std::size_t>(object) + 1);
+  state.blocks[object] = {model.first[object], from.particles, model.generation[object]};
+  resize_frames(model, state.frames);
+  const auto put = [&](const Records& start, Records& all) {
+    std::copy(start.begin(), start.end(), all.begin() + model.first_frame[object]);
+  };
+  put(from.frames.orientations, state.frames.orientations);
+  put(from.frames.angular_velocities, state.frames.angular_velocities);
+  put(from.frames.inverse_inertias, state.frames.inverse_inertias);
+  std::copy(from.positions.begin(), from.positions.end(), state.positions.begin() + model.first[object]);
+  std::fill_n(state.velocities.begin() + model.first[object], from.particles, Record{});
+  std::copy(from.velocities.begin(), from.velocities.end(), state.velocities.begin() + model.first[object]);
+  std::fill_n(state.remainders.begin() + model.first[object], from.particles, Record{});
 }
 
 State initial_state(const Model& model) {
   State state;
-  state.positions.reserve(model.particles());
-  for (const CompiledObject& object : model.objects) {
-    state.positions.insert(state.positions.end(), object.positions.begin(), object.positions.end());
-    state.velocities.insert(state.velocities.end(), object.velocities.begin(), object.velocities.end());
-    state.velocities.resize(state.positions.size());
-    append(object.frames.orientations, state.frames.orientations);
-    append(object.frames.angular_velocities, state.frames.angular_velocities);
-    append(object.frames.inverse_inertias, state.frames.inverse_inertias);
-  }
-  state.remainders.resize(state.positions.size());
+  for (Records* records : {&state.positions, &state.remainders, &state.velocities}) records->reserve(model.particles());
+  for (int object = 0; object < static_cast<int>(model.objects.size()); ++object) put_at_start(model, object, state);
   return state;
 }
 

@@ -1,11 +1,13 @@
 // Everything of a World that does not change as time passes: objects compiled, colliders, the field they are in, and one
-// list of tasks over all objects. It changes only when objects come or go.
+// list of tasks over all objects. It changes only when objects come, go or are edited, at the cost of those objects.
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "model/blocks.h"
 #include "model/compiled_object.h"
 #include "pliant/scene.h"
 
@@ -38,6 +40,7 @@ class SolidField;
 
 /// A mesh collider that particles meet as a distance grid or as ground.
 struct FieldCollider {
+  int object = 0;  ///< that of the mesh collider in the model
   std::shared_ptr<const SolidField> field;
   Motion motion;
   float thickness = 0, static_friction = 0, kinetic_friction = 0, restitution = 0;
@@ -51,22 +54,43 @@ struct Model {
   std::vector<Collider> colliders;
   std::vector<FieldCollider> fields;
   std::vector<PairProperties> pairs;
-  std::vector<CompiledObject> objects;  ///< the user's, then one for each mesh collider
-  int user_objects = 0;
-  std::vector<int> first;        ///< first[o] is object o's first particle in a State; one more at the end
+  /// Objects, and mesh colliders among them. A number whose object was removed has an empty one until it is given out again.
+  std::vector<CompiledObject> objects;
+  std::vector<int> first;        ///< first[o] is object o's first particle in a State
   std::vector<int> first_frame;  ///< likewise of frames
+  std::vector<int> generation;   ///< of each number: how many objects had it before, or it was compiled anew
+  std::set<int> free_numbers;    ///< those of removed objects
+  BlockAllocator blocks, frame_blocks;
+  // Tasks are in the order of their objects' numbers, whatever came and went before.
   std::vector<TileTask> tiles;
   std::vector<InterTilePhase> inter_tile;
   std::vector<InterTilePhase> stencils;  ///< what is projected one constraint at a time (solver/stencil.h)
   std::vector<ChainPhase> chains;
 
-  /// Appends an object and its tasks.
-  void add(CompiledObject object);
-  int particles() const { return first.empty() ? 0 : first.back(); }
-  int frames() const { return first_frame.empty() ? 0 : first_frame.back(); }
+  /// Adds an object and its tasks under the lowest free number, which it returns.
+  int add(CompiledObject object);
+  /// Empties an object and takes out its tasks. Its place in a State becomes a hole.
+  void remove(int object);
+  /// Compiles an object anew under its old number.
+  void replace(int object, CompiledObject by);
+
+  /// Of a State: one past the last that an object has; there may be holes before it.
+  int particles() const { return blocks.end(); }
+  int frames() const { return frame_blocks.end(); }
+  int end_of(int object) const { return first[object] + objects[object].particles; }
+  int end_of_frames(int object) const { return first_frame[object] + static_cast<int>(objects[object].frames.size()); }
+  int object_of(int particle) const { return blocks.owner_of(particle); }
 };
 
 /// The state in which a model's objects begin.
 State initial_state(const Model& model);
+
+/// Gives a State as many frames as the model has.
+void resize_frames(const Model& model, FrameRecords& frames);
+/// Makes `count` frames from `first` on those of nobody.
+void clear_frames(int first, int count, FrameRecords& frames);
+
+/// Puts one object into a State where it begins; the State grows as needed.
+void put_at_start(const Model& model, int object, State& state);
 
 }  // namespace pliant

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pliant/world.h"
+#include "pliant/state.h"
 
 namespace pliant {
 

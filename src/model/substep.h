@@ -8,7 +8,7 @@
 #pragma once
 
 #include "geometry/shapes.h"
-#include "pliant/world.h"
+#include "pliant/state.h"
 
 namespace pliant {
 

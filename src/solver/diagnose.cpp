@@ -60,7 +60,7 @@ std::optional<std::string> replay(const StepContext& context, const CompiledObje
 std::optional<std::string> replay_stencils(const StepContext& context, const CompiledObject& object,
                                            const InterTileColour& colour, const SweepArguments& arguments) {
   const auto number = static_cast<std::size_t>(&object - context.model.objects.data());
-  const int first = context.model.first_frame[number], last = context.model.first_frame[number + 1];
+  const int first = context.model.first_frame[number], last = context.model.end_of_frames(static_cast<int>(number));
   FrameRecords& all = context.state.frames;
   Records orientations(all.orientations.begin() + first, all.orientations.begin() + last), none(orientations.size());
   for (Record& q : orientations) q = is_finite(q) && q.w - q.w == 0 ? q : Record{0, 0, 0, 1};
@@ -134,7 +134,7 @@ bool is_finite_orientation(const Record& r) { return is_finite(r) && r.w - r.w =
 void name_bad_frame(const StepContext& context, NonFinite& found) {
   const FrameRecords& frames = context.state.frames;
   for (std::size_t o = 0; o < context.model.objects.size(); ++o) {
-    for (int i = context.model.first_frame[o]; i < context.model.first_frame[o + 1]; ++i) {
+    for (int i = context.model.first_frame[o]; i < context.model.end_of_frames(static_cast<int>(o)); ++i) {
       if (is_finite_orientation(frames.orientations[i]) && is_finite(frames.angular_velocities[i])) continue;
       found.object = context.model.objects[o].name;
       found.element = "frame " + std::to_string(i - context.model.first_frame[o]);

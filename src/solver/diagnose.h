@@ -1,7 +1,7 @@
 // Who made the first value that is not finite.
 #pragma once
 
-#include "pliant/world.h"
+#include "pliant/report.h"
 #include "solver/substep.h"
 
 namespace pliant {

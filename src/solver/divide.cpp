@@ -38,11 +38,45 @@ Swept swept(const Carrier& carrier, const PlannedFrame& frame) {
   return out;
 }
 
+void follow(const Vec3d& from, const Vec3d& to, Swept& out) {
+  out.box = joined(out.box, {min(from, to), max(from, to)});
+  out.largest = std::max(out.largest, static_cast<double>(length(to - from)));
+}
+
+/// Of a collider that the user moves to a pose.
+Swept swept(const Carrier& carrier, const PoseDrive& drive, const PlannedFrame& frame) {
+  Swept out{{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}}, 0};
+  for (int substep = 0; substep < frame.substeps; ++substep) {
+    const double from = frame.start + frame.dt * substep / frame.substeps,
+                 to = frame.start + frame.dt * (substep + 1) / frame.substeps;
+    const CarrierPose before(carrier, from, drive.at(from)), after(carrier, to, drive.at(to));
+    for (int i = 0; i < static_cast<int>(carrier.rest.size()); ++i) follow(before.place(i), after.place(i), out);
+  }
+  return out;
+}
+
+/// Of a collider whose vertices the user moves.
+Swept swept(const std::vector<Target>& targets, const PlannedFrame& frame) {
+  Swept out{{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}}, 0};
+  for (const Target& target : targets) follow(target.from, target.to, out);
+  out.largest /= frame.substeps;
+  return out;
+}
+
+/// Of mesh collider number `c`; of one that stands, nothing.
+Swept swept(const Model& model, const Control& control, int c, const PlannedFrame& frame) {
+  const Carrier& carrier = model.objects[c].carrier;
+  if (const ObjectControl* given = control.object(c); given != nullptr && !given->targets.empty())
+    return swept(given->targets, frame);
+  if (const PoseDrive* drive = control.mesh(c)) return drive->moves() ? swept(carrier, *drive, frame) : Swept{};
+  return carrier.moves() ? swept(carrier, frame) : Swept{};
+}
+
 /// Holds an object's particles on their way through the frame as velocities and gravity have it.
 CarrierBox foreseen(const Model& model, const State& state, int object, double dt) {
   CarrierBox box{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
   const Vec3d fall = convert<double>(model.gravity) * (dt * dt);
-  for (int i = model.first[object]; i < model.first[object + 1]; ++i) {
+  for (int i = model.first[object]; i < model.end_of(object); ++i) {
     const Record &x = state.positions[static_cast<std::size_t>(i)], &v = state.velocities[static_cast<std::size_t>(i)];
     const Vec3d from{x.x, x.y, x.z}, to = from + Vec3d{v.x, v.y, v.z} * dt + (x.w > 0 ? fall : Vec3d{});
     box = joined(box, {min(from, to), max(from, to)});
@@ -75,17 +109,19 @@ std::string divides(const Model& model, const Demand& demand, int planned, int s
 
 }  // namespace
 
-int divided_substeps(const Model& model, const PairModel& pairs, const State& state, const PlannedFrame& frame,
-                     std::vector<std::string>& warnings) {
+int divided_substeps(const Model& model, const Control& control, const PairModel& pairs, const State& state,
+                     const PlannedFrame& frame, std::vector<std::string>& warnings) {
   const int most = std::max(frame.substeps, frame.most_substeps);
   int substeps = frame.substeps;
   Demand demand;
-  for (int c = model.user_objects; c < static_cast<int>(model.objects.size()); ++c) {
+  const int objects = static_cast<int>(model.objects.size());
+  for (int c = 0; c < objects; ++c) {
     const CompiledObject& collider = model.objects[c];
-    if (!collider.carrier.moves()) continue;
-    const Swept sweep = swept(collider.carrier, frame);
-    for (int o = 0; o < model.user_objects; ++o) {
-      if (!pairs.rules.meet(c, o)) continue;
+    if (!collider.is_collider) continue;
+    const Swept sweep = swept(model, control, c, frame);
+    if (!(sweep.largest > 0)) continue;
+    for (int o = 0; o < objects; ++o) {
+      if (model.objects[o].is_collider || !pairs.rules.meet(c, o)) continue;
       const double thickness = pairs.rules.material(c, o).thickness, allowed = share_of_thickness * thickness;
       if (!(allowed > 0) || !(sweep.largest > allowed)) continue;
       const double margin = thickness + sweep.largest * frame.substeps * 0.1;

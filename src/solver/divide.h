@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "collision/proxies/pair_model.h"
+#include "model/control.h"
 #include "model/model.h"
 
 namespace pliant {
@@ -20,9 +21,9 @@ struct PlannedFrame {
 };
 
 /// At least `substeps`; more, up to `most_substeps`, until no mesh collider that comes near an object moves more than half the
-/// pair's thickness in one. Depends on the state alone. A warning says how much dearer
+/// pair's thickness in one. Depends on the state and on what the user moves alone. A warning says how much dearer
 /// the frame becomes, another where the most is not enough.
-int divided_substeps(const Model& model, const PairModel& pairs, const State& state, const PlannedFrame& frame,
-                     std::vector<std::string>& warnings);
+int divided_substeps(const Model& model, const Control& control, const PairModel& pairs, const State& state,
+                     const PlannedFrame& frame, std::vector<std::string>& warnings);
 
 }  // namespace pliant

@@ -1,5 +1,7 @@
 #include "solver/forces.h"
 
+#include <algorithm>
+
 #include "math/functions.h"
 #include "math/vector.h"
 #include "parallel/launch.h"
@@ -38,32 +40,102 @@ void apply_air(const Model& model, State& state, Workspace& workspace, Executor&
 
 bool is_finite(const Vec3f& v) { return (v.x - v.x) + (v.y - v.y) + (v.z - v.z) == 0; }
 
-void apply_fields(const Model& model, State& state, double time, float h, FunctionRef<Vec3f(int)> gravity,
-                  std::vector<std::string>& warnings) {
+/// A force that was left out: which field's, at which particle of the user's.
+struct LeftOut {
+  int particle = -1, field = -1;
+};
+
+/// What fields do to one particle, each seeing the velocity that those before it left. The first force that is not finite.
+LeftOut apply_fields(const Model& model, const Record& x, const Vec3f& gravity, float h, double time, int user, Record& v) {
+  LeftOut first;
+  if (x.w == 0) return first;
+  for (std::size_t f = 0; f < model.forces.size(); ++f) {
+    const Vec3f force = model.forces[f](vector_of(x), vector_of(v) + gravity, 1 / x.w, static_cast<float>(time));
+    if (is_finite(force)) {
+      push(v, force * (h * x.w));
+    } else if (first.field < 0) {
+      first = {user, static_cast<int>(f)};
+    }
+  }
+  return first;
+}
+
+void warn_of(const LeftOut& force, const CompiledObject& object, std::vector<std::string>& warnings) {
+  if (force.field < 0 || !warnings.empty()) return;
+  warnings.push_back("force field " + std::to_string(force.field) + " is not finite at particle " +
+                     std::to_string(force.particle) + " of object '" + object.name + "' and was left out there");
+}
+
+/// In the user's order, on one thread.
+LeftOut apply_in_order(const Model& model, const CompiledObject& object, const Record* positions, Record* velocities,
+                       const Vec3f& gravity, double time, float h) {
+  LeftOut first;
+  for (int user = 0; user < object.user_particles; ++user) {
+    const int i = object.place[user];
+    const LeftOut one = apply_fields(model, positions[i], gravity, h, time, user, velocities[i]);
+    if (first.field < 0) first = one;
+  }
+  return first;
+}
+
+/// Tile by tile, on all threads: particles do not see one another, so the bits are those of any other order.
+LeftOut apply_by_tiles(const Model& model, const CompiledObject& object, const Record* positions, Record* velocities,
+                       const Vec3f& gravity, double time, float h, Executor& executor) {
+  std::vector<LeftOut> of_tiles(object.tiles.size());
+  executor.parallel_for("forces: fields", static_cast<int>(object.tiles.size()), [&](int tile) {
+    for (int i = object.tiles[tile].first_particle; i < object.tiles[tile].last_particle; ++i) {
+      const int user = object.order[i];
+      if (user >= object.user_particles) continue;
+      const LeftOut one = apply_fields(model, positions[i], gravity, h, time, user, velocities[i]);
+      LeftOut& first = of_tiles[tile];
+      if (one.field >= 0 && (first.field < 0 || one.particle < first.particle)) first = one;
+    }
+  });
+  LeftOut first;
+  for (const LeftOut& one : of_tiles)
+    if (one.field >= 0 && (first.field < 0 || one.particle < first.particle)) first = one;
+  return first;
+}
+
+void apply_fields(const Model& model, State& state, Executor& executor, double time, float h,
+                  FunctionRef<Vec3f(int)> gravity, std::vector<std::string>& warnings) {
+  const bool on_all_threads =
+      std::all_of(model.forces.begin(), model.forces.end(), [](const ForceField& field) { return field.on_all_threads; });
   for (std::size_t o = 0; o < model.objects.size(); ++o) {
     const CompiledObject& object = model.objects[o];
+    if (object.is_collider) continue;
     const Vec3f gravity_so_far = gravity(static_cast<int>(o));
-    for (int user = 0; user < object.user_particles; ++user) {
-      const int i = model.first[o] + object.place[user];
-      const Record& x = state.positions[i];
-      if (x.w == 0) continue;
-      for (std::size_t f = 0; f < model.forces.size(); ++f) {
-        const Vec3f force = model.forces[f](vector_of(x), vector_of(state.velocities[i]) + gravity_so_far, 1 / x.w,
-                                            static_cast<float>(time));
-        if (is_finite(force)) {
-          push(state.velocities[i], force * (h * x.w));
-        } else if (warnings.empty()) {
-          warnings.push_back("force field " + std::to_string(f) + " is not finite at particle " + std::to_string(user) +
-                             " of object '" + object.name + "' and was left out there");
-        }
-      }
+    const Record* positions = state.positions.data() + model.first[o];
+    Record* velocities = state.velocities.data() + model.first[o];
+    if (on_all_threads) {
+      warn_of(apply_by_tiles(model, object, positions, velocities, gravity_so_far, time, h, executor), object, warnings);
+    } else {
+      Stopwatch watch(executor.timings(), "forces: fields");
+      warn_of(apply_in_order(model, object, positions, velocities, gravity_so_far, time, h), object, warnings);
     }
+  }
+}
+
+/// Forces that the user gave for this frame.
+void apply_given(const Model& model, const Control& control, State& state, Executor& executor, float h) {
+  for (const auto& [o, given] : control.objects) {
+    if (given.forces.empty()) continue;
+    const CompiledObject& object = model.objects[o];
+    const Record* positions = state.positions.data() + model.first[o];
+    Record* velocities = state.velocities.data() + model.first[o];
+    const std::vector<Vec3f>& forces = given.forces;
+    executor.parallel_for("forces: given", static_cast<int>(object.tiles.size()), [&](int tile) {
+      for (int i = object.tiles[tile].first_particle; i < object.tiles[tile].last_particle; ++i)
+        if (positions[i].w > 0) push(velocities[i], forces[i] * (h * positions[i].w));
+    });
   }
 }
 
 }  // namespace
 
-bool has_forces(const Model& model) { return model.wind.air_density > 0 || !model.forces.empty(); }
+bool has_forces(const Model& model, const Control& control) {
+  return model.wind.air_density > 0 || !model.forces.empty() || control.has_forces();
+}
 
 Vec3f wind_at(const Wind& wind, double time) {
   if (wind.gust == 0) return wind.velocity;
@@ -76,9 +148,9 @@ void apply_forces(const Model& model, State& state, Workspace& workspace, Execut
                   FunctionRef<Vec3f(int)> gravity, std::vector<std::string>& warnings) {
   if (model.wind.air_density > 0) apply_air(model, state, workspace, executor, time, h, gravity);
   if (!model.forces.empty()) {
-    Stopwatch watch(executor.timings(), "forces: fields");
-    apply_fields(model, state, time, h, gravity, warnings);
+    apply_fields(model, state, executor, time, h, gravity, warnings);
   }
+  if (workspace.control.has_forces()) apply_given(model, workspace.control, state, executor, h);
 }
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// External forces other than gravity: moving air on triangles, and force fields of the user's own.
+// External forces other than gravity: moving air on triangles, force fields, and forces given for a frame.
 #pragma once
 
 #include <string>
@@ -6,13 +6,13 @@
 
 #include "model/model.h"
 #include "parallel/executor.h"
-#include "pliant/world.h"
+#include "pliant/state.h"
 #include "solver/workspace.h"
 
 namespace pliant {
 
 /// Whether apply_forces has anything to do.
-bool has_forces(const Model& model);
+bool has_forces(const Model& model, const Control& control);
 
 /// Adds h f / m to every free particle's velocity; `gravity(object)` is what the velocities do not hold yet. A force that
 /// is not finite is left out and named in `warnings`.

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "model/model.h"
-#include "pliant/world.h"
+#include "pliant/report.h"
 #include "solver/workspace.h"
 
 namespace pliant {

@@ -9,14 +9,9 @@ namespace pliant {
 
 namespace {
 
-int object_of(const Model& model, int particle) {
-  const auto after = std::upper_bound(model.first.begin(), model.first.end(), particle);
-  return static_cast<int>(after - model.first.begin()) - 1;
-}
-
 /// A particle of the State in the numbers of its object.
 std::string number_of(const Model& model, int particle) {
-  const int object = object_of(model, particle);
+  const int object = model.object_of(particle);
   return std::to_string(model.objects[object].order[particle - model.first[object]]);
 }
 
@@ -35,7 +30,7 @@ struct Between {
 std::string words_of(const Model& model, const Triangle& triangle, const Between& between) {
   const Intersection& found = *between.first;
   const std::int64_t count = between.count;
-  const int a = object_of(model, found.a), b = object_of(model, triangle[0]);
+  const int a = model.object_of(found.a), b = model.object_of(triangle[0]);
   const std::string corners =
       number_of(model, triangle[0]) + ", " + number_of(model, triangle[1]) + ", " + number_of(model, triangle[2]);
   std::string text = name_of(model, a) + ": edge " + number_of(model, found.a) + "-" + number_of(model, found.b) +
@@ -58,7 +53,7 @@ std::string words_of(const Model& model, const PairStencil& pair) {
 }
 
 std::string words_of(const Model& model, const UnresolvablePairs& pairs) {
-  const int a = object_of(model, pairs.first.vertex[0]), b = object_of(model, pairs.first.vertex[3]);
+  const int a = model.object_of(pairs.first.vertex[0]), b = model.object_of(pairs.first.vertex[3]);
   const std::string of = a == b ? " and itself: " : " and " + name_of(model, b) + ": ";
   return name_of(model, a) + of + words_of(model, pairs.first) +
          (pairs.count > 1 ? " and " + std::to_string(pairs.count - 1) + " more pairs were" : " were") +
@@ -72,7 +67,7 @@ std::string words_of(const Model& model, const UnresolvablePairs& pairs) {
 void warn_of_pairs(const Model& model, const SurfaceContact& pairs, std::vector<std::string>& warnings) {
   std::map<std::pair<int, int>, Between> between;
   for (const Intersection& found : pairs.intersecting()) {
-    const int a = object_of(model, found.a), b = object_of(model, pairs.triangle(found.triangle)[0]);
+    const int a = model.object_of(found.a), b = model.object_of(pairs.triangle(found.triangle)[0]);
     Between& of = between[std::minmax(a, b)];
     if (of.count++ == 0) of.first = &found;
     of.given_up += pairs.gives_up(found) ? 1 : 0;

@@ -79,6 +79,7 @@ void add_segment(std::int32_t object, std::int32_t segment, std::int32_t batches
 }  // namespace
 
 void prepare_residual(const Model& model, ResidualScratch& scratch) {
+  scratch = {};
   for (std::size_t o = 0; o < model.objects.size(); ++o) {
     const CompiledObject& object = model.objects[o];
     for (std::size_t s = 0; s < object.segments.size(); ++s) {

@@ -24,7 +24,7 @@ struct ResidualScratch {
   std::int64_t constraints = 0;  ///< of all tasks
 };
 
-/// Finds the segments.
+/// Finds the segments of all objects.
 void prepare_residual(const Model& model, ResidualScratch& scratch);
 
 /// Root mean square of |C + alpha~ lambda| over all distance constraints as they are now [m]; infinity where there are none.

@@ -61,7 +61,7 @@ void update_frames(Substep& s) {
   Records& corrections = s.work.frames.corrections;
   for (std::size_t o = 0; o < s.model.objects.size();
        ++o)  // the fourth number holds the share of velocity that damping leaves
-    for (int i = s.model.first_frame[o]; i < s.model.first_frame[o + 1]; ++i)
+    for (int i = s.model.first_frame[o]; i < s.model.end_of_frames(static_cast<int>(o)); ++i)
       corrections[i].w = 1 / (1 + s.h * s.model.objects[o].damping);
   const float inverse_h = 1 / s.h;
   for_frames(s, "update: frames", [&](int i) {

@@ -32,6 +32,7 @@ void run(const StepContext& context, double dt, Report& report) {
     solve(s);
     if (context.stop != nullptr && *context.stop) s.substeps = s.number + 1;  // this one is the frame's last
     filter(s);
+    if (s.work.contact_log != nullptr) log_contacts(s, *s.work.contact_log);
     if (!update(s)) return;
     respond(s);
   }

@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 #include "parallel/executor.h"
-#include "pliant/world.h"
+#include "pliant/report.h"
 #include "solver/kernels.h"
 #include "solver/workspace.h"
 

@@ -1,5 +1,7 @@
 #include "solver/workspace.h"
 
+#include <algorithm>
+
 #include "solver/sweeps/chebyshev.h"
 
 namespace pliant {
@@ -73,13 +75,25 @@ void prepare_sweeps(const Model& model, const Settings& settings, int threads, W
 
 void prepare_sweep(const Model& model, int object, const Settings& settings, int threads, Workspace& workspace) {
   if (settings.record_residuals) workspace.predicted.resize(model.particles());
-  if (model.objects[object].is_collider) return;  // kinematic: it has no constraints
-  const SweepSetup setup{model, workspace, settings.sweep_options, threads};
-  SweepGroup& group = group_of(model.objects[object].sweep, workspace);
+  const CompiledObject& of = model.objects[object];
   const bool accelerates = settings.sweep_options.acceleration == SweepOptions::Acceleration::chebyshev;
-  if (accelerates && !group.acceleration) group.acceleration = std::make_unique<ChebyshevScratch>();
-  if (group.scratch) group.scratch->prepare(setup, object);
-  if (group.acceleration) group.acceleration->prepare(setup, object);
+  if (!of.is_collider && of.particles > 0) {  // a collider has no constraints, and a removed object nothing
+    SweepGroup& group = group_of(of.sweep, workspace);
+    if (accelerates && !group.acceleration) group.acceleration = std::make_unique<ChebyshevScratch>();
+  }
+  for (auto& [sweep, group] : workspace.sweeps) {
+    const SweepSetup setup{model, workspace, settings.sweep_options, sweep, threads};
+    if (group.scratch) group.scratch->prepare(setup, object);
+    if (group.acceleration) group.acceleration->prepare(setup, object);
+  }
+}
+
+void drop_unused_sweeps(const Model& model, Workspace& workspace) {
+  std::erase_if(workspace.sweeps, [&](const auto& group) {
+    return std::none_of(model.objects.begin(), model.objects.end(), [&](const CompiledObject& object) {
+      return !object.is_collider && object.particles > 0 && object.sweep == group.first;
+    });
+  });
 }
 
 }  // namespace pliant

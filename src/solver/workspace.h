@@ -7,8 +7,10 @@
 
 #include "collision/narrow/contact.h"
 #include "collision/surfaces/surface_contact.h"
+#include "model/control.h"
 #include "model/model.h"
-#include "pliant/world.h"
+#include "pliant/state.h"
+#include "solver/contact_log.h"
 #include "solver/contact_solver.h"
 #include "solver/residual.h"
 #include "solver/sweeps/sweep.h"
@@ -52,14 +54,16 @@ struct Workspace {
   std::vector<std::vector<Vec3f>> triangle_forces;  ///< [object], where there is air
   std::vector<TileScratch> tiles;                   ///< one a tile task
   std::vector<MovingCollider> colliders;
-  std::vector<FrameGravity> gravity;      ///< one an object
-  std::vector<Records> anchors;           ///< [object], position and displacement of each anchor of tethers
-  SweepGroups sweeps;                     ///< of the sweeps that objects are solved by
-  Records predicted;                      ///< displacements as predicted, where residuals are recorded
-  std::unique_ptr<SurfaceContact> pairs;  ///< null where no surface that moves can touch another
-  ContactSolver contact_solver;           ///< of the contacts of `pairs`
-  bool look_for_tangles = true;           ///< at the next frame: the first, or after a State was put back
-  ResidualScratch residual;               ///< where iterations stop at a tolerance
+  std::unique_ptr<ContactLog> contact_log;  ///< of the frame under way; null where nobody asks
+  Control control;                          ///< of the frame under way
+  std::vector<FrameGravity> gravity;        ///< one an object
+  std::vector<Records> anchors;             ///< [object], position and displacement of each anchor of tethers
+  SweepGroups sweeps;                       ///< of the sweeps that objects are solved by
+  Records predicted;                        ///< displacements as predicted, where residuals are recorded
+  std::unique_ptr<SurfaceContact> pairs;    ///< null where no surface that moves can touch another
+  ContactSolver contact_solver;             ///< of the contacts of `pairs`
+  bool look_for_tangles = true;             ///< at the next frame: the first, or after a State was put back
+  ResidualScratch residual;                 ///< where iterations stop at a tolerance
 };
 
 /// Which multipliers are kept: those that a second iteration needs, or all.
@@ -68,12 +72,14 @@ enum class Multipliers { none, needed, all };
 /// Makes everything the right size for a model but for its sweeps.
 void prepare(const Model& model, Multipliers kept, Workspace& workspace);
 
-/// Makes what belongs to one object the right size, after it was added or compiled again.
+/// Makes what belongs to one object the right size, after it was added, edited or removed.
 void prepare(const Model& model, int object, Multipliers kept, Workspace& workspace);
 
 /// After prepare: the groups of the sweeps that objects are compiled for, and what their methods keep. Of the settings, the
 /// options of sweeps and what is recorded count.
 void prepare_sweeps(const Model& model, const Settings& settings, int threads, Workspace& workspace);
 void prepare_sweep(const Model& model, int object, const Settings& settings, int threads, Workspace& workspace);
+/// Drops the groups that no object is of any more, after one was edited or removed.
+void drop_unused_sweeps(const Model& model, Workspace& workspace);
 
 }  // namespace pliant

@@ -45,7 +45,7 @@ struct Tiny {
     Model model;
     model.colliders = colliders;
     std::vector<MovingCollider> moving;
-    move_colliders(model, 0, static_cast<double>(h), moving);
+    move_colliders(model, {}, 0, static_cast<double>(h), moving);
     AdvanceArguments a;
     a.positions = positions.data();
     a.displacements = displacements.data();

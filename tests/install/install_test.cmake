@@ -17,6 +17,7 @@ must(${CMAKE_COMMAND} --build ${WORK}/build --config ${CONFIGURATION})
 must(${CMAKE_COMMAND} -E chdir ${WORK}/build ./hello_cloth)
 must(${CMAKE_COMMAND} -E chdir ${WORK}/build ./save_and_load)
 must(${CMAKE_COMMAND} -E chdir ${WORK}/build ./own_constraint)
+must(${CMAKE_COMMAND} -E chdir ${WORK}/build ./run_time)
 
 file(READ ${WORK}/build/draped.ply draped)
 if(NOT draped MATCHES "element vertex 1600")

@@ -28,7 +28,7 @@ System dense_system_of(const std::vector<Object>& objects, const Corrected& foun
   for (std::size_t o = 0; o < objects.size(); ++o) {
     Linearised of(objects[o]);
     const auto begin = found.predicted.begin() + found.model.first[o],
-               end = found.predicted.begin() + found.model.first[o + 1];
+               end = found.predicted.begin() + found.model.end_of(static_cast<int>(o));
     of.displacements.assign(begin, end);
     System one = dense_system(of);
     hold(of, one);

@@ -224,10 +224,7 @@ struct Corrected {
     CompileOptions options;
     options.sweep = Sweep::multigrid;
     options.gravity = 9.81f;
-    for (const Object& object : objects) {
-      model.add(compile(object, options));
-      ++model.user_objects;
-    }
+    for (const Object& object : objects) model.add(compile(object, options));
     state = initial_state(model);
     prepare(model, Multipliers::all, workspace);
     prepare_sweeps(model, run.settings, 1, workspace);

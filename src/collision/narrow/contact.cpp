@@ -91,11 +91,14 @@ BoundingBox<float> bounding_box(const SolidField& field, const Pose<float>& pose
   return {low - Vec3f{grown, grown, grown}, high + Vec3f{grown, grown, grown}};
 }
 
-template <class Motion, class From>
-void move(const From& from, const Motion& pose_at_time, double time_before, double time_after, MovingCollider& to) {
-  to.before = convert<float>(pose_at_time(time_before));
-  to.moves = from.motion.moves();
-  to.after = to.moves ? convert<float>(pose_at_time(time_after)) : to.before;
+/// Where a collider is at a time, and whether it moves at all.
+template <class From, class MotionPose>
+void move(const From& from, const PoseDrive* drive, const MotionPose& motion_pose, double time_before, double time_after,
+          MovingCollider& to) {
+  const auto pose = [&](double time) { return convert<float>(drive != nullptr ? drive->at(time) : motion_pose(time)); };
+  to.before = pose(time_before);
+  to.moves = drive != nullptr ? drive->moves() : from.motion.moves();
+  to.after = to.moves ? pose(time_after) : to.before;
   to.thickness = from.thickness;
   to.static_friction = from.static_friction;
   to.kinetic_friction = from.kinetic_friction;
@@ -104,23 +107,26 @@ void move(const From& from, const Motion& pose_at_time, double time_before, doub
 
 }  // namespace
 
-void move_colliders(const Model& model, double time_before, double time_after, std::vector<MovingCollider>& colliders) {
+void move_colliders(const Model& model, const Control& control, double time_before, double time_after,
+                    std::vector<MovingCollider>& colliders) {
   colliders.resize(model.colliders.size() + model.fields.size());
   MovingCollider* to = colliders.data();
-  for (const Collider& from : model.colliders) {
+  for (int c = 0; c < static_cast<int>(model.colliders.size()); ++c, ++to) {
+    const Collider& from = model.colliders[c];
+    *to = {};
     to->shape = local_shape(from.shape);
-    move(
-        from, [&](double time) { return collider_pose(from, time); }, time_before, time_after, *to);
+    const auto by_motion = [&](double time) { return collider_pose(from, time); };
+    move(from, control.collider(c), by_motion, time_before, time_after, *to);
     to->swept =
         merge(bounding_box(to->shape, to->before, to->thickness), bounding_box(to->shape, to->after, to->thickness));
-    ++to;
   }
   for (const FieldCollider& from : model.fields) {
+    *to = {};
     to->field = from.field.get();
     to->groups = from.groups;
     to->mask = from.mask;
-    move(
-        from, [&](double time) { return pose_at(from.motion, time); }, time_before, time_after, *to);
+    const auto by_motion = [&](double time) { return pose_at(from.motion, time); };
+    move(from, control.mesh(from.object), by_motion, time_before, time_after, *to);
     to->swept =
         merge(bounding_box(*to->field, to->before, to->thickness), bounding_box(*to->field, to->after, to->thickness));
     ++to;

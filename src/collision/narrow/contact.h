@@ -11,6 +11,7 @@
 #include "collision/fields/solid_field.h"
 #include "constraints/contact.h"
 #include "geometry/shapes.h"
+#include "model/control.h"
 #include "model/model.h"
 #include "model/substep.h"
 
@@ -28,8 +29,9 @@ struct MovingCollider {
   float static_friction = 0, kinetic_friction = 0, restitution = 0;
 };
 
-/// The colliders of a model between two times.
-void move_colliders(const Model& model, double time_before, double time_after, std::vector<MovingCollider>& colliders);
+/// The colliders of a model between two times: where `control` has them, else where their keyframes do.
+void move_colliders(const Model& model, const Control& control, double time_before, double time_after,
+                    std::vector<MovingCollider>& colliders);
 
 /// What finding the contacts of one tile needs.
 struct ContactSearch {

@@ -1,6 +1,7 @@
 // Who meets whom, and with what material: groups decide, and a short list of exceptions. No table is bodies x bodies.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <utility>

@@ -190,7 +190,7 @@ std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& po
   std::vector<int> loose;
   for (int o = 0; o < out->rules.bodies(); ++o) {
     const int first = model.first[o];
-    std::fill(out->vertex_body.begin() + first, out->vertex_body.begin() + model.first[o + 1], o);
+    std::fill(out->vertex_body.begin() + first, out->vertex_body.begin() + model.end_of(o), o);
     if (meets_some[o] == 0) continue;
     for (const auto& t : model.objects[o].surface.triangles)
       triangles.push_back({first + t[0], first + t[1], first + t[2]});

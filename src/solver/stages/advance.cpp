@@ -18,7 +18,7 @@ namespace {
 
 /// Whether another stage reads velocities before the next prediction, or the two are to be timed apart.
 bool velocities_are_read(const Substep& s) {
-  return s.is_last() || s.has_pairs() || has_forces(s.model) || s.context.separate_phases;
+  return s.is_last() || s.has_pairs() || has_forces(s.model, s.work.control) || s.context.separate_phases;
 }
 
 /// A particle whose place at the substep's end is given.
@@ -29,10 +29,22 @@ void move_to(const Vec3d& target, int particle, const AdvanceArguments& a) {
   v = {(d.x - r.x) * a.inverse_h, (d.y - r.y) * a.inverse_h, (d.z - r.z) * a.inverse_h, 0};
 }
 
+/// What the user moves, at even speed; it overrides keyframes.
+void move_to_targets(const Substep& s, const std::vector<Target>& targets, const AdvanceArguments& a) {
+  const double share = static_cast<double>(s.number + 1) / s.context.substeps;
+  auto target = std::lower_bound(targets.begin(), targets.end(), a.first,
+                                 [](const Target& t, int first) { return t.particle < first; });
+  for (; target != targets.end() && target->particle < a.last; ++target)
+    move_to(s.is_last() ? target->to : target->from + (target->to - target->from) * share, target->particle, a);
+}
+
 /// Kinematic particles go where they are to be at the substep's end.
-void move_kinematics(const Substep& s, const CompiledObject& object, const AdvanceArguments& a) {
-  if (object.carrier.moves()) {
-    const CarrierPose pose(object.carrier, s.time_after);
+void move_kinematics(const Substep& s, int task, const AdvanceArguments& a) {
+  const CompiledObject& object = object_of(s, task);
+  const int number = s.model.tiles[task].object;
+  if (const PoseDrive* drive = s.work.control.mesh(number); drive != nullptr || object.carrier.moves()) {
+    const CarrierPose pose = drive != nullptr ? CarrierPose(object.carrier, s.time_after, drive->at(s.time_after))
+                                              : CarrierPose(object.carrier, s.time_after);
     for (int i = a.first; i < a.last; ++i) move_to(pose.place(i), i, a);
   }
   auto kinematic = std::lower_bound(object.kinematics.begin(), object.kinematics.end(), a.first,
@@ -41,6 +53,7 @@ void move_kinematics(const Substep& s, const CompiledObject& object, const Advan
     const Vec3<double> target = to_world(pose_at(kinematic->motion, s.time_after), convert<double>(kinematic->rest));
     move_to(target, kinematic->particle, a);
   }
+  if (const ObjectControl* control = s.work.control.object(number)) move_to_targets(s, control->targets, a);
 }
 
 bool is_finite(const Substep& s, int task) {
@@ -67,7 +80,7 @@ void predict_tile(const Substep& s, int task, void (*move)(const AdvanceArgument
   scratch.bounds = {};
   PointBounds* bounds = s.work.colliders.empty() ? nullptr : &scratch.bounds;
   move(a, bounds);
-  move_kinematics(s, object, a);
+  move_kinematics(s, task, a);
   if (bounds == nullptr) return;
   find_contacts({object, a, *bounds, s.work.colliders, s.kernels.find_near}, scratch.near, scratch.contacts);
 }

@@ -4,7 +4,7 @@
 namespace pliant {
 
 void apply_forces(Substep& s) {
-  if (!has_forces(s.model)) return;
+  if (!has_forces(s.model, s.work.control)) return;
   apply_forces(
       s.model, s.state, s.work, s.context.executor, time_of(s, s.number), s.h,
       [&](int object) { return gravity_for(s, s.work.gravity[object].settled); }, s.report.warnings);

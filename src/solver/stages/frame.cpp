@@ -33,6 +33,7 @@ Substep begin_frame(const StepContext& context, double dt, Report& report) {
   for (std::size_t o = 0; o < s.work.gravity.size(); ++o)
     s.work.gravity[o] = {0, static_cast<double>(s.h), 0, 1 / (1 + s.h * s.model.objects[o].damping)};
   begin_pairs(context);
+  if (s.work.contact_log != nullptr) s.work.contact_log->clear();
   s.sweeps_on_entry = may_sweep_on_entry(context);
   return s;
 }

@@ -187,7 +187,8 @@ void ChebyshevScratch::prepare(const SweepSetup& setup, int object) {
   for (ChebyshevIterate* iterate : {&before, &older}) {
     iterate->displacements.resize(setup.model.particles());
     iterate->multipliers.resize(setup.model.objects.size());
-    iterate->multipliers[object] = setup.workspace.multipliers[object];
+    iterate->multipliers[object].clear();
+    if (setup.has(object)) iterate->multipliers[object] = setup.workspace.multipliers[object];
     iterate->volumes.resize(setup.model.objects.size());
   }
   tile_sums.resize(setup.model.tiles.size());

@@ -38,6 +38,7 @@ void JacobiScratch::prepare(const SweepSetup& setup, int object) {
   objects.resize(setup.model.objects.size());
   JacobiObject& to = objects[object];
   to = {};
+  if (!setup.has(object)) return;
   to.incidence = make_incidence(from);
   to.corrections.resize(to.incidence.pool_begin.back());
   for (std::size_t p = 0; p < from.pools.size(); ++p)

@@ -122,7 +122,7 @@ bool place(const Model& model, const Contact& contact, const Record* positions, 
   float limit[2] = {0, 0};
   for (int i = 0; i < 4; ++i) {
     const int v = contact.point[i];
-    const int o = static_cast<int>(std::upper_bound(model.first.begin(), model.first.end(), v) - model.first.begin()) - 1;
+    const int o = model.object_of(v);
     spring.object[i] = -1;
     if (i > 0 && v == contact.point[0]) continue;  // the stencil has fewer points
     if (!(positions[v].w > 0) || model.objects[o].multigrid.levels.empty()) continue;

@@ -1,5 +1,6 @@
 #include "solver/sweeps/sweep.h"
 
+#include "model/model.h"
 #include "solver/sweeps/chains.h"
 #include "solver/sweeps/jacobi.h"
 #include "solver/sweeps/multigrid.h"
@@ -14,6 +15,11 @@ std::unique_ptr<SweepScratch> make() {
 }
 
 }  // namespace
+
+bool SweepSetup::has(int object) const {
+  const CompiledObject& of = model.objects[object];
+  return of.sweep == sweep && !of.is_collider && of.particles > 0;
+}
 
 const SweepMethod& sweep_method(Sweep sweep) {
   static constexpr SweepMethod tiled{true, 1, nullptr, &iterate_tiled}, symmetric{true, 2, nullptr, &iterate_symmetric},

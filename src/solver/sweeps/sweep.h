@@ -22,14 +22,19 @@ struct SweepSetup {
   const Model& model;
   const Workspace& workspace;  ///< with the multipliers that are kept
   const SweepOptions& options;
+  Sweep sweep = Sweep::tiled;  ///< of the group
   int threads = 1;
+
+  /// Whether an object is of the group.
+  bool has(int object) const;
 };
 
 /// What a method keeps between the passes of a substep. Nothing of it outlives a substep: a State put back gives the same bits.
 class SweepScratch {
  public:
   virtual ~SweepScratch() = default;
-  /// Makes room for one object of the group.
+  /// Makes room after an object came, went or was compiled anew. One that is not of the group takes none of its own, and what
+  /// was kept under its number goes.
   virtual void prepare(const SweepSetup& setup, int object) = 0;
 };
 

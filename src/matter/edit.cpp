@@ -1,0 +1,286 @@
+// Edits of a description: triangles taken out, and surfaces cut along edges.
+//
+// A cut is described by the fans of triangles around each particle: triangles that follow one another across edges that are not
+// cut. The first fan keeps the particle, every other gets a copy. What a constraint joins is then told by the fans of the
+// triangles that it lies in.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "pliant/error.h"
+#include "pliant/world.h"
+
+namespace pliant {
+
+namespace {
+
+using Edge = std::pair<int, int>;
+using Corners = std::array<int, 3>;
+
+Edge edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+bool holds(const Corners& t, int particle) { return t[0] == particle || t[1] == particle || t[2] == particle; }
+
+int slots_of(const ConstraintGroup& group, const Object& object) {
+  for (const ConstraintType& type : constraint_types())
+    if (type.name == group.type) return type.stencil_size;
+  throw Error({.object = object.name, .element = group.type + " constraints"}, "are of no type that there is",
+              "constraint_types() lists them");
+}
+
+/// The triangles around each particle.
+using Around = std::vector<std::vector<int>>;
+
+Around triangles_around(const Object& object, const std::vector<char>* present = nullptr) {
+  Around around(object.positions.size());
+  for (std::size_t t = 0; t < object.triangles.size(); ++t) {
+    if (present != nullptr && (*present)[t] == 0) continue;
+    for (const int corner : object.triangles[t]) {
+      if (corner < 0 || corner >= static_cast<int>(around.size()))
+        throw Error({.object = object.name, .element = "triangle " + std::to_string(t)},
+                    "uses a particle that does not exist", "particles count from 0");
+      around[static_cast<std::size_t>(corner)].push_back(static_cast<int>(t));
+    }
+  }
+  return around;
+}
+
+/// The triangles that hold two of a stencil of two, or have all three corners in a larger one.
+std::vector<int> triangles_of(const std::vector<int>& stencil, const Object& object, const Around& around) {
+  std::set<int> found;
+  for (const int particle : stencil) {
+    for (const int t : around[static_cast<std::size_t>(particle)]) {
+      const Corners& corners = object.triangles[static_cast<std::size_t>(t)];
+      const auto inside = std::count_if(stencil.begin(), stencil.end(), [&](int other) { return holds(corners, other); });
+      if (inside >= std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(stencil.size()), 3)) found.insert(t);
+    }
+  }
+  return {found.begin(), found.end()};
+}
+
+/// One constraint more in a group, like number `from` but among `stencil`, with its compliance times `softer`.
+void append(const ConstraintGroup& from, int number, const std::vector<int>& stencil, double softer, ConstraintGroup& to) {
+  const auto slots = stencil.size();
+  const std::size_t count = from.particles.size() / slots, fields = count > 0 ? from.rest.size() / count : 0;
+  const auto at = static_cast<std::size_t>(number);
+  to.particles.insert(to.particles.end(), stencil.begin(), stencil.end());
+  const auto rest = from.rest.begin() + static_cast<std::ptrdiff_t>(at * fields);
+  to.rest.insert(to.rest.end(), rest, rest + static_cast<std::ptrdiff_t>(fields));
+  const bool compliant = from.stiffness.kind == Stiffness::Kind::compliance;
+  const float alpha = from.compliances.empty() ? from.stiffness.value : from.compliances[at];
+  if (compliant || !from.compliances.empty())
+    to.compliances.push_back(softer == 1 ? alpha : static_cast<float>(alpha * softer));
+}
+
+ConstraintGroup empty_like(const ConstraintGroup& group) {
+  ConstraintGroup out = group;
+  out.particles.clear();
+  out.rest.clear();
+  out.compliances.clear();
+  return out;
+}
+
+std::vector<int> stencil_of(const ConstraintGroup& group, int slots, int number) {
+  const auto first = group.particles.begin() + static_cast<std::ptrdiff_t>(number) * slots;
+  return {first, first + slots};
+}
+
+double area_of(const Object& object, int t) {
+  const Corners& c = object.triangles[static_cast<std::size_t>(t)];
+  const auto p = [&](int i) { return object.positions[static_cast<std::size_t>(c[static_cast<std::size_t>(i)])]; };
+  const Vec3f n = cross(p(1) - p(0), p(2) - p(0));
+  return 0.5 * std::sqrt(double(n.x) * n.x + double(n.y) * n.y + double(n.z) * n.z);
+}
+
+/// Which copy of each particle each triangle has, and what the copies are of.
+class Cut {
+ public:
+  Cut(const Object& object, const std::set<Edge>& edges)
+      : object_(object), edges_(edges), around_(triangles_around(object)) {
+    for (int p = 0; p < static_cast<int>(around_.size()); ++p) split(p);
+  }
+
+  Edit make() {
+    Edit edit{object_, {}};
+    for (int p = 0; p < particles(); ++p) edit.from.push_back(p);
+    edit.from.insert(edit.from.end(), origins_.begin(), origins_.end());
+    share_masses(edit.object);
+    for (const int origin : origins_) {
+      const auto at = static_cast<std::size_t>(origin);
+      edit.object.positions.push_back(object_.positions[at]);
+      if (!object_.velocities.empty()) edit.object.velocities.push_back(object_.velocities[at]);
+    }
+    for (std::size_t t = 0; t < object_.triangles.size(); ++t)
+      for (int& corner : edit.object.triangles[t]) corner = copy(corner, static_cast<int>(t));
+    for (ConstraintGroup& group : edit.object.constraints) group = split(group);
+    for (std::size_t i = 0; i < origins_.size(); ++i) add_pins(origins_[i], particles() + static_cast<int>(i), edit.object);
+    return edit;
+  }
+
+ private:
+  int particles() const { return static_cast<int>(around_.size()); }
+
+  /// What triangle t has as particle p.
+  int copy(int p, int t) const {
+    const auto found = copies_.find({p, t});
+    return found == copies_.end() ? p : found->second;
+  }
+
+  /// Fans of triangles around a particle: the first keeps it.
+  void split(int p) {
+    const std::vector<int>& around = around_[static_cast<std::size_t>(p)];
+    std::set<int> left(around.begin(), around.end());
+    for (bool first = true; !left.empty(); first = false) {
+      std::vector<int> fan{*left.begin()};
+      left.erase(left.begin());
+      for (std::size_t i = 0; i < fan.size(); ++i) {
+        for (auto other = left.begin(); other != left.end();) {
+          if (!joined(p, fan[i], *other)) {
+            ++other;
+            continue;
+          }
+          fan.push_back(*other);
+          other = left.erase(other);
+        }
+      }
+      if (first) continue;
+      if (!parts_here(p)) return;  // fans that met in a point before the cut do so after it
+      origins_.push_back(p);
+      for (const int t : fan) copies_[{p, t}] = particles() + static_cast<int>(origins_.size()) - 1;
+    }
+  }
+
+  bool parts_here(int p) const {
+    return std::any_of(edges_.begin(), edges_.end(), [p](const Edge& e) { return e.first == p || e.second == p; });
+  }
+
+  /// Whether two triangles share an edge at p that is not cut.
+  bool joined(int p, int a, int b) const {
+    for (const int other : object_.triangles[static_cast<std::size_t>(a)])
+      if (other != p && holds(object_.triangles[static_cast<std::size_t>(b)], other) && edges_.count(edge(p, other)) == 0)
+        return true;
+    return false;
+  }
+
+  void share_masses(Object& out) const {
+    out.masses.resize(static_cast<std::size_t>(particles()) + origins_.size());
+    for (std::size_t i = 0; i < origins_.size(); ++i) {
+      const auto origin = static_cast<std::size_t>(origins_[i]);
+      double whole = 0, part = 0;
+      for (const int t : around_[origin]) {
+        whole += area_of(object_, t);
+        if (copy(origins_[i], t) == particles() + static_cast<int>(i)) part += area_of(object_, t);
+      }
+      const double share = whole > 0 ? part / whole : 0.5;
+      const float mass = object_.masses[origin];
+      float& of_copy = out.masses[static_cast<std::size_t>(particles()) + i];
+      of_copy = std::isinf(mass) ? mass : static_cast<float>(mass * share);
+      if (!std::isinf(mass)) out.masses[origin] -= of_copy;
+    }
+  }
+
+  /// Constraints that lie on one side go with it; those of an edge of the cut are held on either side; others go.
+  ConstraintGroup split(const ConstraintGroup& group) const {
+    const int slots = slots_of(group, object_);
+    ConstraintGroup out = empty_like(group);
+    for (int c = 0; c < static_cast<int>(group.particles.size()) / slots; ++c) {
+      const std::vector<int> stencil = stencil_of(group, slots, c);
+      const std::vector<int> triangles = triangles_of(stencil, object_, around_);
+      std::map<std::vector<int>, double> sides;  // by the copies, the area of the triangles that it lies in
+      double whole = 0;
+      for (const int t : triangles) {
+        sides[copies(stencil, t, triangles)] += area_of(object_, t);
+        whole += area_of(object_, t);
+      }
+      if (sides.empty()) sides[stencil] = 0;
+      if (sides.size() > 1 && slots > 2) continue;
+      for (const auto& [side, area] : sides) append(group, c, side, sides.size() > 1 && area > 0 ? whole / area : 1, out);
+    }
+    return out;
+  }
+
+  /// The stencil as triangle t sees it; what t does not hold is seen by the others.
+  std::vector<int> copies(const std::vector<int>& stencil, int t, const std::vector<int>& triangles) const {
+    std::vector<int> out;
+    for (const int p : stencil) {
+      int sees = t;
+      for (const int other : triangles)
+        if (!holds(object_.triangles[static_cast<std::size_t>(sees)], p)) sees = other;
+      out.push_back(copy(p, sees));
+    }
+    return out;
+  }
+
+  static void add_pins(int of, int copy, Object& object) {
+    const std::vector<Pin> pins = object.pins;
+    for (const Pin& pin : pins)
+      if (pin.particle == of) object.pins.push_back({copy, pin.motion});
+  }
+
+  const Object& object_;
+  const std::set<Edge>& edges_;
+  Around around_;
+  std::map<std::pair<int, int>, int> copies_;  ///< by particle and triangle
+  std::vector<int> origins_;                   ///< of each copy
+};
+
+std::set<Edge> edges_of(const Object& object, std::span<const int> path) {
+  std::set<Edge> edges, all;
+  for (const auto& [a, b, c] : object.triangles) all.insert({edge(a, b), edge(b, c), edge(c, a)});
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const Edge cut = edge(path[i], path[i + 1]);
+    if (all.count(cut) == 0)
+      throw Error({.object = object.name, .element = "edge " + std::to_string(path[i]) + "-" + std::to_string(path[i + 1])},
+                  "is no edge of a triangle, so it can't be cut", "give a path along edges");
+    edges.insert(cut);
+  }
+  return edges;
+}
+
+}  // namespace
+
+Edit unchanged(const Object& object) {
+  Edit edit{object, {}};
+  for (int i = 0; i < static_cast<int>(object.positions.size()); ++i) edit.from.push_back(i);
+  return edit;
+}
+
+Edit remove_triangles(const Object& object, std::span<const int> triangles) {
+  std::vector<char> present(object.triangles.size(), 1);
+  for (const int t : triangles) {
+    if (t < 0 || t >= static_cast<int>(present.size()))
+      throw Error({.object = object.name, .element = "triangle " + std::to_string(t)},
+                  "does not exist; there are " + std::to_string(present.size()), "triangles count from 0");
+    present[static_cast<std::size_t>(t)] = 0;
+  }
+  const Around before = triangles_around(object), after = triangles_around(object, &present);
+  Edit edit = unchanged(object);
+  edit.object.triangles.clear();
+  for (std::size_t t = 0; t < present.size(); ++t)
+    if (present[t] != 0) edit.object.triangles.push_back(object.triangles[t]);
+  for (ConstraintGroup& group : edit.object.constraints) {
+    const int slots = slots_of(group, object);
+    ConstraintGroup kept = empty_like(group);
+    for (int c = 0; c < static_cast<int>(group.particles.size()) / slots; ++c) {
+      const std::vector<int> stencil = stencil_of(group, slots, c);
+      const auto had = triangles_of(stencil, object, before).size(), has = triangles_of(stencil, object, after).size();
+      if (had == has || (slots == 2 && has > 0)) append(group, c, stencil, 1, kept);
+    }
+    group = std::move(kept);
+  }
+  return edit;
+}
+
+Edit cut(const Object& object, std::span<const int> path) {
+  for (const int p : path)
+    if (p < 0 || p >= static_cast<int>(object.positions.size()))
+      throw Error({.object = object.name, .element = "particle " + std::to_string(p)}, "does not exist",
+                  "particles count from 0");
+  const std::set<Edge> edges = edges_of(object, path);
+  return Cut(object, edges).make();
+}
+
+}  // namespace pliant

@@ -1,0 +1,87 @@
+#include "solver/contact_log.h"
+
+#include <algorithm>
+
+#include "solver/substep.h"
+
+namespace pliant {
+
+namespace {
+
+struct Push {
+  int on = 0, by = 0;  ///< bodies
+  double impulse = 0;  ///< [N s]
+  Vec3f normal{};      ///< in which `on` is pushed
+  Vec3d at{};          ///< [m]
+};
+
+void add(const Push& push, ContactLog& log) {
+  ContactSum& sum = log[std::minmax(push.on, push.by)];
+  ++sum.in_substep;
+  sum.impulse += push.impulse;
+  const double sign = push.on <= push.by ? 1 : -1;
+  sum.push += convert<double>(push.normal) * (sign * push.impulse);
+  sum.moment += push.at * push.impulse;
+}
+
+Vec3d place_of(const Record& position, const Record& displacement) {
+  return {double(position.x) + displacement.x, double(position.y) + displacement.y, double(position.z) + displacement.z};
+}
+
+/// Particles as a contact's points number them.
+struct PointReader {
+  const Record *positions, *displacements;
+  float h;
+  int object;  ///< whose particles they are, or -1: those of all objects
+};
+
+/// What is in the way of a particle: a primitive collider, or a mesh collider that it meets as a solid.
+int body_of(const Substep& s, std::int32_t collider) {
+  const auto colliders = static_cast<std::int32_t>(s.model.colliders.size());
+  return collider < colliders ? body_of_collider(collider) : s.model.fields[collider - colliders].object;
+}
+
+/// The push, and the restitution that the end of the substep adds, change the relative velocity by so much along the normal [m/s].
+double change_of(const Contact& contact, const PointReader& of, float slow) {
+  const Vec3f motion = relative(contact, of.displacements) - contact.carried - contact.surface_motion;
+  const float separating = dot(contact.normal, motion) / of.h;
+  const float wanted = separation_after(separating, contact.approach, contact.restitution, slow, contact.collider >= 0);
+  return std::max(0., double(contact.push) / of.h + (double(wanted) - separating));
+}
+
+void log_contact(const Substep& s, const Contact& contact, const PointReader& of, float slow, ContactLog& log) {
+  const double mobility = inverse_mass_of(contact, of.positions);
+  if (!(contact.push > 0) || !(mobility > 0)) return;
+  Push push;
+  push.by = contact.collider >= 0 ? body_of(s, contact.collider) : 0;
+  push.impulse = change_of(contact, of, slow) / mobility;
+  push.normal = contact.normal;
+  for (int i = 0; i < 4; ++i) {
+    const int point = contact.point[i];
+    const float weight = contact.weight[i];
+    if (weight == 0) continue;
+    (weight > 0 ? push.on : push.by) = of.object >= 0 ? of.object : s.model.object_of(point);
+    if (weight > 0) push.at += place_of(of.positions[point], of.displacements[point]) * double(weight);
+  }
+  add(push, log);
+}
+
+}  // namespace
+
+void log_contacts(const Substep& s, ContactLog& log) {
+  const float slow = 2 * length(s.model.gravity) * s.h;
+  for (std::size_t task = 0; task < s.model.tiles.size(); ++task) {
+    const int object = s.model.tiles[task].object, first = s.model.first[object];
+    const PointReader of{s.state.positions.data() + first, s.work.displacements.data() + first, s.h, object};
+    for (const Contact& contact : s.work.tiles[task].contacts) log_contact(s, contact, of, slow, log);
+  }
+  const PointReader all{s.state.positions.data(), s.work.displacements.data(), s.h, -1};
+  if (s.has_pairs())
+    for (const Contact& contact : s.work.pairs->contacts()) log_contact(s, contact, all, slow, log);
+  for (auto& [bodies, sum] : log) {
+    sum.contacts = std::max(sum.contacts, sum.in_substep);
+    sum.in_substep = 0;
+  }
+}
+
+}  // namespace pliant

@@ -1,0 +1,30 @@
+// Which bodies pushed one another in a frame, and how hard: what contact events are made of.
+#pragma once
+
+#include <map>
+#include <utility>
+
+#include "math/vector.h"
+
+namespace pliant {
+
+/// A body in contacts: an object or mesh collider by its number in the model, a primitive collider as -1 - its number.
+inline constexpr int body_of_collider(int collider) { return -1 - collider; }
+
+/// Two bodies in a frame.
+struct ContactSum {
+  int contacts = 0, in_substep = 0;  ///< that pushed: the most in one substep, and in the one under way
+  double impulse = 0;                ///< sum of the sizes of normal impulses [N s]
+  Vec3d push{};                      ///< sum of normal impulses on the first body [N s]
+  Vec3d moment{};                    ///< sum of impulse x position [N s m]
+};
+
+/// By two bodies, the lower one first.
+using ContactLog = std::map<std::pair<int, int>, ContactSum>;
+
+struct Substep;
+
+/// Adds the contacts of a substep that pushed, in the order of tiles, then of contacts among surfaces.
+void log_contacts(const Substep& s, ContactLog& log);
+
+}  // namespace pliant

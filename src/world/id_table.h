@@ -1,0 +1,106 @@
+// Ids of one kind of thing and what each stands for.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "pliant/error.h"
+#include "pliant/world.h"
+
+namespace pliant {
+
+/// A number of the World's own for each id that exists.
+template <class Kind>
+class IdTable {
+ public:
+  explicit IdTable(std::string kind) : kind_(std::move(kind)) {}
+
+  using LayoutSlot = WorldLayout::Slot;
+
+  /// What layout() of another returned.
+  void restore(const std::vector<LayoutSlot>& slots) {
+    slots_.clear();
+    free_.clear();
+    for (int slot = 0; slot < static_cast<int>(slots.size()); ++slot) {
+      slots_.push_back({slots[slot].number < 0 ? none : slots[slot].number, slots[slot].generation});
+      if (slots_.back().number == none) free_.insert(slot);
+    }
+  }
+  std::vector<LayoutSlot> layout() const {
+    std::vector<LayoutSlot> slots;
+    for (const Slot& slot : slots_) slots.push_back({slot.number, slot.generation});
+    return slots;
+  }
+
+  /// The lowest free slot.
+  Id<Kind> add(int number) {
+    if (free_.empty()) {
+      slots_.push_back({number, 0});
+      return Id<Kind>(static_cast<int>(slots_.size()) - 1, 0);
+    }
+    const int slot = *free_.begin();
+    free_.erase(free_.begin());
+    slots_[slot].number = number;
+    return Id<Kind>(slot, slots_[slot].generation);
+  }
+
+  void remove(Id<Kind> id) {
+    (void)number(id);  // throws where there is none
+    slots_[id.slot].number = none;
+    ++slots_[id.slot].generation;
+    free_.insert(id.slot);
+  }
+
+  bool has(Id<Kind> id) const {
+    return id.slot >= 0 && id.slot < static_cast<int>(slots_.size()) && slots_[id.slot].number != none &&
+           slots_[id.slot].generation == id.generation;
+  }
+
+  /// Throws Error where the id names nothing, or no longer.
+  int number(Id<Kind> id) const {
+    if (has(id)) return slots_[id.slot].number;
+    const bool existed =
+        id.slot >= 0 && id.slot < static_cast<int>(slots_.size()) && id.generation < slots_[id.slot].generation;
+    throw Error({}, "there is no " + kind_ + " " + words(id) + (existed ? " any more" : ""),
+                existed ? "it was removed; use the id of one that exists" : "use an id that this World returned");
+  }
+
+  /// The id of what is in a slot now; one that names nothing where it is empty.
+  Id<Kind> id_in(int slot) const { return Id<Kind>(slot, slots_.at(static_cast<std::size_t>(slot)).generation); }
+
+  /// The id that has a number.
+  Id<Kind> id_of(int number) const {
+    for (int slot = 0; slot < static_cast<int>(slots_.size()); ++slot)
+      if (slots_[slot].number == number) return Id<Kind>(slot, slots_[slot].generation);
+    return {};
+  }
+
+  std::vector<Id<Kind>> all() const {
+    std::vector<Id<Kind>> ids;
+    for (int slot = 0; slot < static_cast<int>(slots_.size()); ++slot)
+      if (slots_[slot].number != none) ids.push_back(Id<Kind>(slot, slots_[slot].generation));
+    return ids;
+  }
+  int count() const { return static_cast<int>(slots_.size() - free_.size()); }
+
+  /// A number was taken out of a list without holes: those above it are one less.
+  void close_gap(int number) {
+    for (Slot& slot : slots_) slot.number -= slot.number > number ? 1 : 0;
+  }
+
+ private:
+  static constexpr int none = -1;
+  struct Slot {
+    int number, generation;
+  };
+  static std::string words(Id<Kind> id) {
+    return std::to_string(id.slot) + (id.generation == 0 ? "" : " of generation " + std::to_string(id.generation));
+  }
+
+  std::string kind_;
+  std::vector<Slot> slots_;
+  std::set<int> free_;
+};
+
+}  // namespace pliant

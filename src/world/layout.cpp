@@ -1,0 +1,118 @@
+// A World of which things came and went, made anew with the same ids.
+#include <set>
+#include <string>
+
+#include "inspect/inspect_scene.h"
+#include "matter/advice_settings.h"
+#include "model/layout.h"
+#include "pliant/error.h"
+#include "world/implementation.h"
+
+namespace pliant {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& problem) {
+  throw Error({}, "the layout does not fit the scene: " + problem, "give layout() of the World that the scene describes");
+}
+
+/// Numbers of the slots that are in use, one for each of `count` things; each below `numbers` and taken once.
+std::vector<int> numbers_in(const std::vector<WorldLayout::Slot>& slots, std::size_t count, std::vector<char>& taken) {
+  std::vector<int> numbers;
+  for (const WorldLayout::Slot& slot : slots) {
+    if (slot.generation < 0) refuse("a generation is below 0");
+    if (slot.number < 0) continue;
+    if (slot.number >= static_cast<int>(taken.size()) || taken[slot.number] != 0)
+      refuse("number " + std::to_string(slot.number) + " does not exist or is given twice");
+    taken[slot.number] = 1;
+    numbers.push_back(slot.number);
+  }
+  if (numbers.size() != count)
+    refuse("it has " + std::to_string(numbers.size()) + " of what the scene has " + std::to_string(count));
+  return numbers;
+}
+
+/// What the World has besides things that come and go.
+Scene without_things(const Scene& scene) {
+  Scene rest;
+  rest.gravity = scene.gravity;
+  rest.wind = scene.wind;
+  rest.forces = scene.forces;
+  rest.pairs = scene.pairs;
+  rest.settings = scene.settings;
+  return rest;
+}
+
+/// A pair of what was removed waits for a thing of that name to come again.
+Scene without_pairs_of_others(const Scene& scene) {
+  std::set<std::string> names;
+  for (const Object& object : scene.objects) names.insert(object.name);
+  for (const MeshCollider& collider : scene.mesh_colliders) names.insert(collider.name);
+  Scene own = scene;
+  std::erase_if(own.pairs,
+                [&](const PairProperties& pair) { return names.count(pair.first) * names.count(pair.second) == 0; });
+  return own;
+}
+
+void require_place(const StateBlock& block, int first_frame, const CompiledObject& object) {
+  if (block.particles != object.particles || block.first < 0 || block.generation < 0 || first_frame < 0)
+    refuse("object '" + object.name + "' has " + std::to_string(object.particles) + " particles and a place for " +
+           std::to_string(block.particles));
+}
+
+}  // namespace
+
+World::Implementation::Implementation(const Scene& scene, const WorldLayout& layout)
+    : Implementation(without_things(scene), scene.settings) {
+  suggested = suggest(scene);
+  const std::size_t count = layout.blocks.size();
+  if (layout.first_frames.size() != count || layout.sweeps.size() != count) refuse("its columns differ in length");
+  std::vector<char> taken(count, 0), taken_colliders(scene.colliders.size(), 0);
+  const std::vector<int> of_objects = numbers_in(layout.objects, scene.objects.size(), taken),
+                         of_meshes = numbers_in(layout.mesh_colliders, scene.mesh_colliders.size(), taken),
+                         of_colliders = numbers_in(layout.colliders, scene.colliders.size(), taken_colliders);
+  model.colliders.resize(scene.colliders.size());
+  for (std::size_t i = 0; i < of_colliders.size(); ++i) model.colliders[of_colliders[i]] = scene.colliders[i];
+  std::vector<CompiledObject> objects(count);
+  for (std::size_t i = 0; i < of_objects.size(); ++i) {
+    if (layout.sweeps[of_objects[i]] == Sweep::automatic) refuse("an object has no sweep");
+    objects[of_objects[i]] = compile(scene.objects[i], compile_options(layout.sweeps[of_objects[i]]));
+  }
+  for (std::size_t i = 0; i < of_meshes.size(); ++i) {
+    objects[of_meshes[i]] = compile(scene.mesh_colliders[i]);
+    add_field(scene.mesh_colliders[i], of_meshes[i]);
+  }
+  std::vector<ObjectPlace> places;
+  for (std::size_t number = 0; number < count; ++number) {
+    const StateBlock& block = layout.blocks[number];
+    if (taken[number] != 0) require_place(block, layout.first_frames[number], objects[number]);
+    places.push_back({block.first, layout.first_frames[number], block.generation, taken[number] == 0});
+  }
+  lay_out(std::move(objects), places, model);
+  object_ids.restore(layout.objects);
+  collider_ids.restore(layout.colliders);
+  mesh_collider_ids.restore(layout.mesh_colliders);
+  state = initial_state(model);
+  for (std::size_t number = 0; number < count; ++number) {
+    if (taken[number] == 0) state.blocks[number] = {0, 0, model.generation[number]};
+    prepare(static_cast<int>(number));
+  }
+  prepare_pairs(state.positions);
+  bring_up_to_date();
+}
+
+World::World(const Scene& scene, const WorldLayout& layout) {
+  refuse_grave(without_pairs_of_others(scene));
+  Scene chosen = scene;
+  if (chosen.settings.substeps <= 0) chosen.settings = chosen_settings(scene);
+  self_ = std::make_unique<Implementation>(chosen, layout);
+}
+
+WorldLayout World::layout() const {
+  WorldLayout layout{self_->object_ids.layout(), self_->collider_ids.layout(), self_->mesh_collider_ids.layout(),
+                     self_->state.blocks,        self_->model.first_frame,     {}};
+  for (const CompiledObject& object : self_->model.objects) layout.sweeps.push_back(object.sweep);
+  return layout;
+}
+
+}  // namespace pliant

@@ -1,0 +1,322 @@
+// Objects come and go. Each has a number in the model, a block in the State and its own part of the workspace, so that adding or
+// removing one costs what that one costs. Contact among surfaces is prepared anew, once, before the next step.
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+
+#include "collision/fields/solid_fields.h"
+#include "inspect/inspect_scene.h"
+#include "math/motion.h"
+#include "pliant/error.h"
+#include "solver/sweeps/sweep.h"
+#include "world/implementation.h"
+
+namespace pliant {
+
+namespace {
+
+/// Those that are asked for; else those that a second pass needs or that say how much of a length is meant.
+Multipliers kept_multipliers(const Settings& settings, Sweep sweep) {
+  if (settings.record_multipliers || settings.record_residuals) return Multipliers::all;
+  const bool more_passes = settings.iterations * sweep_method(sweep).passes > 1;
+  return more_passes || settings.measure ? Multipliers::needed : Multipliers::none;
+}
+
+constexpr int most_particles = std::numeric_limits<int>::max() / 4;
+
+void require_room(const Model& model, std::size_t particles, const std::string& name) {
+  if (particles > static_cast<std::size_t>(most_particles - model.particles()))
+    throw Error({.object = name}, "its particles and those of the World are more than can be numbered",
+                "make it smaller, or remove others first");
+}
+
+/// What is moved by keyframes is where they have it by now, not where it would have begun.
+void move_to_present(const CompiledObject& object, double time, Record* positions) {
+  const auto put = [&](int particle, const Vec3d& place) {
+    const Vec3f at = convert<float>(place);
+    positions[particle] = {at.x, at.y, at.z, positions[particle].w};
+  };
+  if (object.carrier.moves()) {
+    const CarrierPose pose(object.carrier, time);
+    for (int i = 0; i < object.particles; ++i) put(i, pose.place(i));
+  }
+  for (const Kinematic& kinematic : object.kinematics)
+    put(kinematic.particle, to_world(pose_at(kinematic.motion, time), convert<double>(kinematic.rest)));
+}
+
+}  // namespace
+
+CompileOptions World::Implementation::compile_options(Sweep sweep) const {
+  CompileOptions options;
+  options.sweep = sweep;
+  options.passes = settings.substeps * settings.iterations * sweep_method(sweep).passes;
+  options.chain_softness = settings.sweep_options.chain_softness;
+  options.tethers = settings.sweep_options.tethers;
+  options.tether_slack = settings.sweep_options.tether_slack;
+  options.air = model.wind.air_density > 0;
+  options.gravity = length(model.gravity);
+  return options;
+}
+
+Sweep World::Implementation::sweep_of(const Object& object) const {
+  if (object.sweep != Sweep::automatic) return object.sweep;
+  if (settings.sweep != Sweep::automatic) return settings.sweep;
+  Scene scene;  // of the others counts only whether it can touch them
+  scene.settings = settings;
+  scene.gravity = model.gravity;
+  for (const CompiledObject& other : model.objects) {
+    if (other.is_collider) {
+      MeshCollider& mesh = scene.mesh_colliders.emplace_back();
+      mesh.groups = other.groups;
+      mesh.mask = other.mask;
+    } else if (other.particles > 0) {
+      Object& one = scene.objects.emplace_back();
+      one.collides = other.collides;
+      one.groups = other.groups;
+      one.mask = other.mask;
+    }
+  }
+  scene.objects.push_back(object);
+  return chosen_sweep(scene, static_cast<int>(scene.objects.size()) - 1);
+}
+
+int World::Implementation::add_to_model(const MeshCollider& collider) {
+  const int number = model.add(compile(collider));
+  add_field(collider, number);
+  return number;
+}
+
+void World::Implementation::add_field(const MeshCollider& collider, int number) {
+  if (collider.as == MeshCollider::As::triangles) return;
+  const auto after = std::find_if(model.fields.begin(), model.fields.end(),
+                                  [&](const FieldCollider& field) { return field.object > number; });
+  model.fields.insert(after,
+                      {number, solid_field_of(collider), collider.motion, collider.thickness, collider.static_friction,
+                       collider.kinetic_friction, collider.restitution, collider.groups, collider.mask});
+}
+
+void World::Implementation::put(int number) {
+  put_at_start(model, number, state);
+  fit_state();
+  if (state.time != 0) move_to_present(model.objects[number], state.time, &state.positions[model.first[number]]);
+  prepare(number);
+  note_surfaces(number);
+}
+
+void World::Implementation::remove(int number) {
+  note_surfaces(number);
+  (void)take(number);
+  model.remove(number);
+  forget_control(number);
+  std::erase_if(model.fields, [&](const FieldCollider& field) { return field.object == number; });
+  state.blocks[number] = {0, 0, model.generation[number]};
+  fit_state();
+  prepare(number);
+  drop_unused_sweeps(model, workspace);
+}
+
+void World::Implementation::forget_control(int number) {
+  workspace.control.objects.erase(number);
+  workspace.control.meshes.erase(number);
+}
+
+void World::Implementation::prepare(int number) {
+  pliant::prepare(model, number, kept_multipliers(settings, model.objects[number].sweep), workspace);
+  prepare_sweep(model, number, settings, executor.threads(), workspace);
+  objects_changed = true;
+}
+
+void World::Implementation::note_surfaces(int number) {
+  const CompiledObject& object = model.objects[number];
+  const auto is_mesh = [](const CompiledObject& one) { return one.is_collider && one.groups != 0; };
+  surfaces_changed = surfaces_changed || pair_model != nullptr || object.self_collision ||
+                     (object.collides && object.groups != 0) ||
+                     std::any_of(model.objects.begin(), model.objects.end(), is_mesh);
+}
+
+void World::Implementation::require_origins(int number, const Edit& edit) const {
+  const CompiledObject& old = model.objects[number];
+  const auto refuse = [&](const std::string& element, const std::string& problem) {
+    throw Error({.object = edit.object.name, .element = element}, problem, "give for each particle the one it was, or -1");
+  };
+  if (edit.from.size() != edit.object.positions.size())
+    refuse("", "has " + std::to_string(edit.object.positions.size()) + " particles and " +
+                   std::to_string(edit.from.size()) + " origins");
+  for (std::size_t i = 0; i < edit.from.size(); ++i)
+    if (edit.from[i] < -1 || edit.from[i] >= old.user_particles)
+      refuse("particle " + std::to_string(i),
+             "comes from particle " + std::to_string(edit.from[i]) + ", which does not exist");
+  require_room(model, edit.object.positions.size() + edit.object.attachments.size(), edit.object.name);
+}
+
+void World::Implementation::replace(int number, CompiledObject by, const std::vector<int>& from) {
+  note_surfaces(number);
+  const CompiledObject& old = model.objects[number];
+  const int particles = old.particles;
+  // Targets of attachments follow the particles, and are the same as far as there were as many.
+  const auto origin = [&](int user) {
+    const int at = user < by.user_particles ? from[user] : user - by.user_particles + old.user_particles;
+    return at < 0 || at >= particles ? -1 : old.place[at];
+  };
+  std::vector<int> origins;
+  for (const int user : by.order) origins.push_back(origin(user));
+  const ObjectState kept = take(number);
+  forget_control(number);
+  model.replace(number, std::move(by));
+  put(number);
+  drop_unused_sweeps(model, workspace);
+  give_back(number, kept, origins);
+}
+
+ObjectState World::Implementation::take(int number) {
+  const int first = model.first[number], particles = model.objects[number].particles;
+  const int first_frame = model.first_frame[number], frames = model.end_of_frames(number) - first_frame;
+  const auto slice = [](const auto& all, std::ptrdiff_t begin, std::ptrdiff_t count) {
+    return std::decay_t<decltype(all)>(all.begin() + begin, all.begin() + begin + count);
+  };
+  ObjectState out{slice(state.positions, first, particles),
+                  slice(state.remainders, first, particles),
+                  slice(state.velocities, first, particles),
+                  slice(state.frames.orientations, first_frame, frames),
+                  slice(state.frames.angular_velocities, first_frame, frames),
+                  {}};
+  for (Records* records : {&state.positions, &state.remainders, &state.velocities, &workspace.displacements})
+    std::fill_n(records->begin() + first, particles, Record{});
+  clear_frames(first_frame, frames, state.frames);
+  for (Channel& channel : state.channels) {
+    const std::ptrdiff_t begin = std::ptrdiff_t{first} * channel.components,
+                         count = std::ptrdiff_t{particles} * channel.components;
+    out.channels.push_back(slice(channel.values, begin, count));
+    std::fill_n(channel.values.begin() + begin, count, 0.f);
+  }
+  return out;
+}
+
+void World::Implementation::give_back(int number, const ObjectState& kept, const std::vector<int>& origins) {
+  for (std::size_t i = 0; i < origins.size(); ++i) {
+    if (origins[i] < 0) continue;
+    const auto from = static_cast<std::size_t>(origins[i]), at = static_cast<std::size_t>(model.first[number]) + i;
+    Record& x = state.positions[at];
+    x = {kept.positions[from].x, kept.positions[from].y, kept.positions[from].z, x.w};
+    state.remainders[at] = kept.remainders[from];
+    state.velocities[at] = x.w > 0 ? kept.velocities[from] : Record{};
+    for (std::size_t c = 0; c < state.channels.size(); ++c) {
+      const auto components = static_cast<std::size_t>(state.channels[c].components);
+      for (std::size_t k = 0; k < components; ++k)
+        state.channels[c].values[at * components + k] = kept.channels[c][from * components + k];
+    }
+  }
+  const auto first_frame = static_cast<std::size_t>(model.first_frame[number]);
+  const std::size_t frames = std::min(kept.orientations.size(), model.objects[number].frames.size());
+  for (std::size_t i = 0; i < frames; ++i) {
+    state.frames.orientations[first_frame + i] = kept.orientations[i];
+    state.frames.angular_velocities[first_frame + i] = kept.angular_velocities[i];
+  }
+}
+
+void World::Implementation::fit_state() {
+  const auto particles = static_cast<std::size_t>(model.particles());
+  for (Records* records : {&state.positions, &state.remainders, &state.velocities}) records->resize(particles);
+  resize_frames(model, state.frames);
+  for (Channel& channel : state.channels) channel.values.resize(particles * static_cast<std::size_t>(channel.components));
+}
+
+void World::Implementation::forget_pose(bool is_mesh, int slot) {
+  std::erase_if(state.held_poses, [&](const HeldPose& pose) { return pose.is_mesh == is_mesh && pose.slot == slot; });
+}
+
+void World::Implementation::prepare_pairs(const Records& rest) {
+  workspace.pairs = nullptr;
+  pair_model = make_pair_model(model, rest);
+  surfaces_changed = false;
+  if (pair_model == nullptr) return;
+  pair_model->filter = settings.contact_filter;
+  if (settings.initial_intersections == Settings::Intersections::untangle)
+    pair_model->untangling_speed = settings.untangling_speed;
+  workspace.pairs = std::make_unique<SurfaceContact>(*pair_model, kernels.pairs);
+  workspace.look_for_tangles = true;
+}
+
+void World::Implementation::bring_up_to_date() {
+  if (surfaces_changed) prepare_pairs(initial_state(model).positions);
+  if (!objects_changed) return;
+  for (TileScratch& tile : workspace.tiles) tile.contacts.clear();  // tasks have moved up
+  if (settings.tolerance > 0) prepare_residual(model, workspace.residual);
+  objects_changed = false;
+}
+
+// ---------------------------------------------------------------- World
+
+ObjectId World::add(const Object& object) {
+  refuse_grave(object);
+  require_room(self_->model, object.positions.size() + object.attachments.size(), object.name);
+  const int number = self_->model.add(compile(object, self_->compile_options(self_->sweep_of(object))));
+  self_->put(number);
+  return self_->object_ids.add(number);
+}
+
+ColliderId World::add(const Collider& collider) {
+  refuse_grave(collider);
+  self_->model.colliders.push_back(collider);
+  return self_->collider_ids.add(static_cast<int>(self_->model.colliders.size()) - 1);
+}
+
+MeshColliderId World::add(const MeshCollider& collider) {
+  refuse_grave(collider);
+  require_room(self_->model, collider.mesh.positions.size(), collider.name);
+  const int number = self_->add_to_model(collider);
+  self_->put(number);
+  return self_->mesh_collider_ids.add(number);
+}
+
+std::vector<int> World::edit(ObjectId object, const Edit& edit) {
+  const int number = self_->number(object);
+  refuse_grave(edit.object);
+  self_->require_origins(number, edit);
+  const CompiledObject& old = self_->model.objects[number];
+  std::vector<int> news(old.user_particles, -1);
+  for (int i = static_cast<int>(edit.from.size()); i-- > 0;)
+    if (edit.from[i] >= 0) news[edit.from[i]] = i;
+  const Sweep sweep = edit.object.sweep == Sweep::automatic ? old.sweep : edit.object.sweep;
+  self_->replace(number, compile(edit.object, self_->compile_options(sweep)), edit.from);
+  return news;
+}
+
+void World::remove(ObjectId object) {
+  self_->remove(self_->number(object));
+  self_->forget_touching(object);
+  self_->object_ids.remove(object);
+}
+
+void World::remove(ColliderId collider) {
+  const int number = self_->collider_ids.number(collider);
+  self_->forget_pose(false, collider.slot);
+  self_->forget_touching(collider);
+  self_->collider_ids.remove(collider);
+  self_->collider_ids.close_gap(number);
+  self_->model.colliders.erase(self_->model.colliders.begin() + number);
+  std::map<int, PoseDrive> drives;  // of those above it the numbers are one less
+  for (const auto& [other, drive] : self_->workspace.control.colliders)
+    if (other != number) drives.emplace(other > number ? other - 1 : other, drive);
+  self_->workspace.control.colliders = std::move(drives);
+}
+
+void World::remove(MeshColliderId collider) {
+  self_->remove(self_->mesh_collider_ids.number(collider));
+  self_->forget_pose(true, collider.slot);
+  self_->forget_touching(collider);
+  self_->mesh_collider_ids.remove(collider);
+}
+
+bool World::has(ObjectId object) const { return self_->object_ids.has(object); }
+bool World::has(ColliderId collider) const { return self_->collider_ids.has(collider); }
+bool World::has(MeshColliderId collider) const { return self_->mesh_collider_ids.has(collider); }
+
+std::vector<ObjectId> World::objects() const { return self_->object_ids.all(); }
+std::vector<ColliderId> World::colliders() const { return self_->collider_ids.all(); }
+std::vector<MeshColliderId> World::mesh_colliders() const { return self_->mesh_collider_ids.all(); }
+
+int World::object_count() const { return self_->object_ids.count(); }
+
+}  // namespace pliant

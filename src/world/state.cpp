@@ -1,0 +1,146 @@
+// A State put back, and its hash.
+#include <algorithm>
+#include <cmath>
+
+#include "core/sha256.h"
+#include "pliant/error.h"
+#include "world/implementation.h"
+
+namespace pliant {
+
+namespace {
+
+/// So many frames no run takes; counting on from there stays far from the end of the integers.
+constexpr std::int64_t largest_frame = std::int64_t{1} << 60;
+
+/// They belong to the last substep, and a restored state has none: what is read then is the same in any World.
+void forget_multipliers(Workspace& workspace) {
+  for (auto& object : workspace.multipliers)
+    for (auto& values : object) std::fill(values.begin(), values.end(), 0.f);
+  std::fill(workspace.volume_multipliers.begin(), workspace.volume_multipliers.end(), 0.);
+}
+
+void add_records(Sha256& sha, const Records& records) { sha.add(records.data(), records.size() * sizeof(Record)); }
+
+/// Throws unless `given` are the frames of a state of this world.
+void require_frames_of(const FrameRecords& own, const FrameRecords& given) {
+  const std::size_t frames = own.size();
+  if (given.orientations.size() != frames || given.angular_velocities.size() != frames ||
+      given.inverse_inertias.size() != frames)
+    throw Error({}, "the state has " + std::to_string(given.size()) + " frames, the world " + std::to_string(frames),
+                "restore a state of this world");
+  for (std::size_t i = 0; i < frames; ++i) {
+    const Record &q = given.orientations[i], &w = given.angular_velocities[i];
+    const Record &inertia = given.inverse_inertias[i], &same = own.inverse_inertias[i];
+    const std::string element = "frame " + std::to_string(i);
+    if (inertia.x != same.x || inertia.y != same.y || inertia.z != same.z)
+      throw Error({.element = element}, "its inertia is not this world's", "restore a state of this world");
+    if (!std::isfinite(q.x + q.y + q.z + q.w) || !std::isfinite(w.x + w.y + w.z))
+      throw Error({.element = element}, "its orientation or angular velocity is not finite", "restore an earlier state");
+  }
+}
+
+/// Whether blocks are as in a World of which nothing was removed or edited.
+bool follow_one_another(const std::vector<StateBlock>& blocks) {
+  int first = 0;
+  for (const StateBlock& block : blocks) {
+    if (block.first != first || block.generation != 0) return false;
+    first += block.particles;
+  }
+  return true;
+}
+
+}  // namespace
+
+void World::Implementation::require_held_poses(const State& given) const {
+  for (const HeldPose& pose : given.held_poses) {
+    const bool exists =
+        pose.is_mesh ? mesh_collider_ids.has({pose.slot, pose.generation}) : collider_ids.has({pose.slot, pose.generation});
+    if (!exists)
+      throw Error({}, "the state holds a pose of a collider that this World does not have",
+                  "restore a state of this world");
+    const Quatf& q = pose.rotation;
+    const float size = length_squared(pose.position) + q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+    if (!std::isfinite(size)) throw Error({}, "the state holds a pose that is not finite", "restore an earlier state");
+  }
+}
+
+void World::Implementation::require_blocks(const State& given) const {
+  const std::vector<StateBlock>& own = state.blocks;
+  if (given.blocks == own) return;
+  const auto other = std::mismatch(given.blocks.begin(), given.blocks.end(), own.begin(), own.end()).second;
+  const std::string name = other != own.end() ? model.objects[static_cast<std::size_t>(other - own.begin())].name : "";
+  throw Error({.object = name},
+              "the state is of a World with other objects, or from before one was added, removed or edited",
+              "restore a state that was taken since the last such change");
+}
+
+void World::restore(const State& state) {
+  self_->require_blocks(state);
+  self_->require_held_poses(state);
+  const std::size_t particles = self_->state.positions.size();
+  if (state.positions.size() != particles || state.velocities.size() != particles || state.remainders.size() != particles) {
+    throw Error(
+        {},
+        "the state has " + std::to_string(state.positions.size()) + " particles, the world " + std::to_string(particles),
+        "restore a state of this world");
+  }
+  const auto is_finite = [](const Record& r) { return std::isfinite(r.x) && std::isfinite(r.y) && std::isfinite(r.z); };
+  for (std::size_t i = 0; i < particles; ++i) {
+    if (state.positions[i].w != self_->state.positions[i].w) {
+      throw Error({.element = "particle " + std::to_string(i)}, "its mass is not this world's",
+                  "restore a state of this world");
+    }
+    if (state.velocities[i].w != 0 || state.remainders[i].w != 0) {
+      throw Error({.element = "particle " + std::to_string(i)}, "the fourth number of its velocity or remainder is not 0",
+                  "restore a state of this world");
+    }
+    if (!is_finite(state.positions[i]) || !is_finite(state.velocities[i]) || !is_finite(state.remainders[i])) {
+      throw Error({.element = "particle " + std::to_string(i)}, "its position or velocity is not finite",
+                  "restore an earlier state");
+    }
+  }
+  require_frames_of(self_->state.frames, state.frames);
+  if (!std::isfinite(state.time)) throw Error({}, "the state's time is not finite", "restore an earlier state");
+  if (state.frame < 0 || state.frame > largest_frame)
+    throw Error({}, "the state's frame is " + std::to_string(state.frame), "restore a state of this world");
+  self_->state = state;
+  forget_multipliers(self_->workspace);
+  self_->workspace.look_for_tangles = true;
+  self_->stopped = false;
+  self_->may_drift = true;
+  self_->workspace.control = {};
+  self_->touching.clear();
+  self_->events.clear();
+}
+
+std::string hash(const State& state) {
+  Sha256 sha;
+  sha.add(&state.time, sizeof state.time);
+  sha.add(&state.frame, sizeof state.frame);
+  if (!follow_one_another(state.blocks)) sha.add(state.blocks.data(), state.blocks.size() * sizeof(StateBlock));
+  add_records(sha, state.positions);
+  add_records(sha, state.remainders);
+  add_records(sha, state.velocities);
+  if (state.frames.size() > 0) {
+    add_records(sha, state.frames.orientations);
+    add_records(sha, state.frames.angular_velocities);
+    add_records(sha, state.frames.inverse_inertias);
+  }
+  for (const Channel& channel : state.channels) {
+    const std::uint64_t sizes[] = {channel.name.size(), static_cast<std::uint64_t>(channel.components),
+                                   channel.values.size()};
+    sha.add(sizes, sizeof sizes);
+    sha.add(channel.name.data(), channel.name.size());
+    sha.add(channel.values.data(), channel.values.size() * sizeof(float));
+  }
+  for (const HeldPose& pose : state.held_poses) {
+    const int thing[] = {pose.is_mesh ? 1 : 0, pose.slot, pose.generation};
+    sha.add(thing, sizeof thing);
+    sha.add(&pose.position, sizeof pose.position);
+    sha.add(&pose.rotation, sizeof pose.rotation);
+  }
+  return sha.finish();
+}
+
+}  // namespace pliant

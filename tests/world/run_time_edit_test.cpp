@@ -1,0 +1,256 @@
+// Objects that are changed in place: torn, cut, pinned, made heavier.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "pliant/error.h"
+#include "world/run_time_support.h"
+
+namespace pliant {
+namespace {
+
+using namespace testing_support;
+
+/// Nine by nine particles, row after row; the middle column from edge to edge.
+std::vector<int> middle_column() {
+  std::vector<int> path;
+  for (int row = 0; row < 9; ++row) path.push_back(9 * row + 4);
+  return path;
+}
+
+Vec3<double> momentum(const World& world, ObjectId object) {
+  Vec3<double> sum{};
+  const auto positions = world.positions_in_storage_order(object), velocities = world.velocities_in_storage_order(object);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (positions[i].w > 0)
+      sum += Vec3<double>{double(velocities[i].x), double(velocities[i].y), double(velocities[i].z)} *
+             (1 / double(positions[i].w));
+  return sum;
+}
+
+double mass_of(const Object& object) {
+  double sum = 0;
+  for (const float mass : object.masses) sum += double(mass);
+  return sum;
+}
+
+/// Particles that triangles join, each with the least of its piece.
+std::vector<int> pieces_of(const Object& object) {
+  std::vector<int> piece(object.positions.size());
+  for (std::size_t i = 0; i < piece.size(); ++i) piece[i] = static_cast<int>(i);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto& t : object.triangles) {
+      const int least = std::min({piece[static_cast<std::size_t>(t[0])], piece[static_cast<std::size_t>(t[1])],
+                                  piece[static_cast<std::size_t>(t[2])]});
+      for (const int corner : t) {
+        changed = changed || piece[static_cast<std::size_t>(corner)] != least;
+        piece[static_cast<std::size_t>(corner)] = least;
+      }
+    }
+  }
+  return piece;
+}
+
+Scene sheet(float gravity = -9.81f) {
+  Scene scene;
+  scene.gravity = {0, gravity, 0};
+  scene.add_cloth(grid_mesh(9, 9, 1, 1));
+  scene.settings = settings_of(8);
+  return scene;
+}
+
+TEST(Cut, PartsASheetInTwoAndKeepsItsMass) {
+  const Object whole = sheet().objects[0];
+  const Edit edit = cut(whole, middle_column());
+  EXPECT_EQ(edit.object.positions.size(), 90u) << "nine particles were split";
+  EXPECT_NEAR(mass_of(edit.object), mass_of(whole), 1e-7);
+  const std::vector<int> pieces = pieces_of(edit.object);
+  EXPECT_EQ(std::set<int>(pieces.begin(), pieces.end()).size(), 2u);
+  for (const ConstraintGroup& group : edit.object.constraints) {
+    const std::size_t slots = group.type == "distance" ? 2 : 4;
+    for (std::size_t i = 0; i < group.particles.size(); i += slots)
+      for (std::size_t s = 1; s < slots; ++s)
+        EXPECT_EQ(pieces[static_cast<std::size_t>(group.particles[i])],
+                  pieces[static_cast<std::size_t>(group.particles[i + s])])
+            << group.type;
+  }
+  EXPECT_EQ(edit.from[3], 3);
+  for (std::size_t i = 81; i < 90; ++i) EXPECT_EQ(edit.from[i] % 9, 4);
+}
+
+TEST(Cut, EndsInsideWithoutSplittingItsTip) {
+  const Object whole = sheet().objects[0];
+  const Edit edit = cut(whole, std::vector<int>{4, 13, 22, 31});
+  EXPECT_EQ(edit.object.positions.size(), 84u) << "the border's and two inside, not the tip";
+  const std::vector<int> pieces = pieces_of(edit.object);
+  EXPECT_EQ(std::set<int>(pieces.begin(), pieces.end()).size(), 1u);
+  EXPECT_EQ(cut(whole, std::vector<int>{40, 41}).object.positions.size(), 81u) << "one edge inside is no opening";
+}
+
+TEST(Cut, HoldsItsEdgesOnEitherSideByItsShare) {
+  const Object whole = sheet().objects[0];
+  const Edit edit = cut(whole, middle_column());
+  const auto stiffness_of = [](const Object& object, int a, int b, const std::vector<int>& from) {
+    double sum = 0;
+    int count = 0;
+    for (const ConstraintGroup& group : object.constraints) {
+      if (group.type != "distance") continue;
+      for (std::size_t i = 0; i + 1 < group.particles.size(); i += 2) {
+        const int p = from[static_cast<std::size_t>(group.particles[i])],
+                  q = from[static_cast<std::size_t>(group.particles[i + 1])];
+        if (std::minmax(p, q) != std::minmax(a, b)) continue;
+        sum += 1 / double(group.compliances.empty() ? group.stiffness.value : group.compliances[i / 2]);
+        ++count;
+      }
+    }
+    EXPECT_GT(count, 0);
+    return sum;
+  };
+  const std::vector<int> same = unchanged(whole).from;
+  const double before = stiffness_of(whole, 13, 22, same);
+  EXPECT_NEAR(stiffness_of(edit.object, 13, 22, edit.from), before, 1e-5 * before) << "springs side by side";
+}
+
+TEST(Cut, RefusesWhatIsNoEdge) {
+  const Object whole = sheet().objects[0];
+  EXPECT_THROW(cut(whole, std::vector<int>{0, 2}), Error);
+  EXPECT_THROW(cut(whole, std::vector<int>{0, 81}), Error);
+  EXPECT_THROW(remove_triangles(whole, std::vector<int>{-1}), Error);
+  EXPECT_THROW(remove_triangles(whole, std::vector<int>{128}), Error);
+}
+
+TEST(Edit, ACutKeepsMomentumAndEnergyAndTheHalvesFallApart) {
+  Scene scene = sheet();
+  scene.pin(0, {0});
+  World world(scene);
+  for (int frame = 0; frame < 30; ++frame) world.step(dt);
+  const Vec3<double> before = momentum(world, 0);
+  const double kinetic = world.kinetic_energy(), potential = world.potential_energy();
+  const std::vector<Vec3f> places = world.positions(0), speeds = world.velocities(0);
+  const Edit edit = cut(scene.objects[0], middle_column());
+  const std::vector<int> news = world.edit(0, edit);
+  ASSERT_EQ(news.size(), 81u);
+  for (int i = 0; i < 81; ++i) EXPECT_EQ(news[static_cast<std::size_t>(i)], i);
+  const std::vector<Vec3f> now = world.positions(0), speeds_now = world.velocities(0);
+  ASSERT_EQ(now.size(), 90u);
+  for (std::size_t i = 0; i < 90; ++i) {
+    EXPECT_EQ(now[i], places[static_cast<std::size_t>(edit.from[i])]) << i;
+    EXPECT_EQ(speeds_now[i], speeds[static_cast<std::size_t>(edit.from[i])]) << i;
+  }
+  const Vec3<double> after = momentum(world, 0);
+  EXPECT_NEAR(after.y, before.y, 1e-6 * std::abs(before.y));
+  EXPECT_NEAR(world.kinetic_energy(), kinetic, 1e-6 * kinetic);
+  EXPECT_NEAR(world.potential_energy(), potential, 1e-6 * std::abs(potential));
+  // The half without the pin falls freely.
+  double fallen = 0, mass = 0, speed = 0;
+  const std::vector<int> pieces = pieces_of(edit.object);
+  const int loose = pieces[8];
+  ASSERT_NE(loose, pieces[0]);
+  for (std::size_t i = 0; i < 90; ++i) {
+    if (pieces[i] != loose) continue;
+    mass += double(edit.object.masses[i]);
+    fallen -= double(edit.object.masses[i]) * double(now[i].y);
+    speed += double(edit.object.masses[i]) * double(speeds_now[i].y);
+  }
+  for (int frame = 0; frame < 30; ++frame) ASSERT_TRUE(world.step(dt).ok());
+  const std::vector<Vec3f> then = world.positions(0);
+  for (std::size_t i = 0; i < 90; ++i)
+    if (pieces[i] == loose) fallen += double(edit.object.masses[i]) * double(then[i].y);
+  const double t = 30 * double(dt), h = double(dt) / 8;
+  EXPECT_NEAR(fallen / mass, speed / mass * t - 0.5 * 9.81 * t * (t + h), 1e-4);
+  EXPECT_GT(then[0].y, -1e-6f) << "the other hangs on";
+}
+
+TEST(Edit, ANinthOfTheTrianglesGoWithWhatTheyHeld) {
+  Scene scene = sheet();
+  World world(scene);
+  world.step(dt);
+  std::vector<int> gone;
+  for (int t = 0; t < 128; t += 9) gone.push_back(t);
+  const Edit edit = remove_triangles(scene.objects[0], gone);
+  EXPECT_EQ(edit.object.triangles.size(), 128 - gone.size());
+  const auto before = world.info(0).constraints;
+  world.edit(0, edit);
+  const auto after = world.info(0).constraints;
+  EXPECT_LT(after[1].second, before[1].second) << "hinges of what is gone";
+  EXPECT_LE(after[0].second, before[0].second);
+  EXPECT_EQ(world.mesh(0).triangles.size(), edit.object.triangles.size());
+  EXPECT_TRUE(world.step(dt).ok());
+}
+
+TEST(Edit, NothingChangedGivesTheBitsOfAWorldThatWasNotEdited) {
+  Scene scene = hanging_cloth();
+  World world(scene), same(scene);
+  for (int frame = 0; frame < 20; ++frame) {
+    if (frame == 10) world.edit(0, unchanged(scene.objects[0]));
+    world.step(dt);
+    same.step(dt);
+  }
+  EXPECT_EQ(world.positions(0), same.positions(0));
+  EXPECT_EQ(world.velocities(0), same.velocities(0));
+}
+
+TEST(Edit, PinsAndMassesChangeInPlace) {
+  Scene scene = sheet();
+  scene.pin(0, {0, 8});
+  World world(scene);
+  for (int frame = 0; frame < 20; ++frame) world.step(dt);
+  Edit edit = unchanged(scene.objects[0]);
+  edit.object.pins = {{80, {}}};
+  for (float& mass : edit.object.masses) mass *= 2;
+  const Vec3f place = world.positions(0)[80], other = world.positions(0)[8];
+  world.edit(0, edit);
+  for (int frame = 0; frame < 20; ++frame) ASSERT_TRUE(world.step(dt).ok());
+  EXPECT_EQ(world.positions(0)[80], place);
+  EXPECT_LT(world.positions(0)[8].y, other.y - 0.1f);
+}
+
+TEST(Edit, OthersKeepTheirBitsAndSurfacesMeetAsBefore) {
+  Scene scene = sheet();
+  scene.add_cloth(grid_mesh(7, 7, 1, 1));
+  for (Vec3f& p : scene.objects[1].positions) p.x += 5;
+  scene.pin(1, {0});
+  World world(scene), same(scene);
+  for (int frame = 0; frame < 20; ++frame) {
+    if (frame == 10) world.edit(0, cut(scene.objects[0], middle_column()));
+    world.step(dt);
+    same.step(dt);
+  }
+  EXPECT_EQ(world.positions(1), same.positions(1));
+  Scene landing = sheet();
+  landing.objects[0].collides = true;
+  MeshCollider floor;
+  floor.mesh = box_mesh({3, 0.2f, 3});
+  for (Vec3f& p : floor.mesh.positions) p.y -= 0.5f;
+  landing.add(floor);
+  World lands(landing);
+  for (int frame = 0; frame < 15; ++frame) lands.step(dt);
+  lands.edit(0, cut(landing.objects[0], middle_column()));
+  for (int frame = 0; frame < 40; ++frame) ASSERT_TRUE(lands.step(dt).ok());
+  for (const Vec3f& p : lands.positions(0)) EXPECT_NEAR(p.y, -0.4f, 0.01f);
+}
+
+TEST(Edit, WhatDoesNotFitIsRefusedAndChangesNothing) {
+  Scene scene = sheet();
+  World world(scene);
+  world.step(dt);
+  const std::string before = world.state_hash();
+  Edit edit = unchanged(scene.objects[0]);
+  edit.from.pop_back();
+  EXPECT_THROW(world.edit(0, edit), Error);
+  edit = unchanged(scene.objects[0]);
+  edit.from[3] = 81;
+  EXPECT_THROW(world.edit(0, edit), Error);
+  edit = unchanged(scene.objects[0]);
+  edit.object.masses[0] = -1;
+  EXPECT_THROW(world.edit(0, edit), Error);
+  EXPECT_EQ(world.state_hash(), before);
+}
+
+}  // namespace
+}  // namespace pliant
