@@ -1,4 +1,4 @@
-// Trial runs of a scene: is its solve accurate, and which is the cheapest setting that makes it so?
+// Trial runs of a scene: tests whether its solve is accurate, and finds the cheapest settings that make it so.
 #pragma once
 
 #include <cstdint>
@@ -42,14 +42,14 @@ struct Advice {
   std::string what_to_do;  ///< the advice for that finding
 };
 
-/// Whether no overstretch exceeded tolerated_overstretch.
+/// True if no overstretch exceeded tolerated_overstretch.
 bool is_good(const Trial& trial);
 
-/// Runs the scene, and where it is not good (see is_good) runs it again from the start with more substeps, tethers and the
-/// sweeps that may do better on it. From the start, since a state that a poor setting has stretched would only show how a
-/// better one mends it.
-/// The bits of a trial do not depend on anything but its settings; how many trials there is time for does. Throws Error
-/// where a World would.
+/// Runs the scene. If it is not good (see is_good), runs it again with more substeps,
+/// tethers and sweeps that may do better. Each trial starts from the scene's start,
+/// because a stretched state would only show how a better setting repairs it.
+/// The bits of a trial depend on its settings alone; the number of trials
+/// depends on the machine's speed. Throws an Error where a World would.
 Advice advise(const Scene& scene, const AdviseOptions& options = {});
 
 }  // namespace pliant

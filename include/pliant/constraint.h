@@ -1,4 +1,4 @@
-// A constraint type of your own, in your own header, known to the library without rebuilding it.
+// User-defined constraint types, in the user's own header, without a rebuild of the library.
 //
 //   struct RightAngle {                                       // three points; the angle at the first one is 90 degrees
 //     static constexpr const char* name = "right_angle";      // what ConstraintGroup::type and scene files call it
@@ -31,24 +31,24 @@
 
 namespace pliant {
 
-/// What the library keeps of a constraint type: its description, and its functions over plain arrays. A slot is four numbers: the
-/// place and a zero, or the quaternion. Gradients stand by row, then slot, three numbers each.
+/// The library's record of a constraint type: its description, and its functions on plain arrays. A slot is four numbers: a
+/// position and a zero, or a quaternion. Gradients are ordered by row, then slot, three numbers each.
 struct ConstraintDefinition {
   std::string name;
   std::vector<SlotKind> slots;
   int rows = 1;
   std::vector<std::string> rest_fields;
-  bool is_length = false;    ///< C is the distance of two points less the one rest field
-  bool is_compiled = false;  ///< a one-row type on points of the library itself: projected sixteen at a time
-  float largest_change = 0;  ///< by which one projection may change C; 0: any
+  bool is_length = false;    ///< C is the distance of two points minus the one rest field
+  bool is_compiled = false;  ///< a built-in one-row type on points: projected sixteen at a time
+  float largest_change = 0;  ///< largest change of C by one projection; 0: unlimited
   void (*evaluate)(const float* slots, const float* rest, float* c, float* gradients) = nullptr;
   void (*evaluate_double)(const double* slots, const double* rest, double* c, double* gradients) = nullptr;
   void (*measure)(const double* slots, double* rest) = nullptr;  ///< rest data of a rest shape; null: it must be given
-  void (*canonical)(int* stencil, float* rest) = nullptr;        ///< null: every order of the stencil stays as it is
+  void (*canonical)(int* stencil, float* rest) = nullptr;        ///< sorts symmetric slots; null: stencils stay as they are
 };
 
-/// Makes a type known by its name. A World made afterwards can use it. The same type twice is fine. Throws Error where another type
-/// has that name, or where the definition is not complete. Call it before other threads use the library.
+/// Registers a type by its name, for Worlds made afterwards. Registering the same type twice is permitted. Throws an Error
+/// if another type has the name or the definition is incomplete. Call it before other threads use the library.
 void register_constraint(const ConstraintDefinition& definition);
 
 namespace detail {
@@ -56,7 +56,7 @@ namespace detail {
 template <class T>
 inline constexpr int field_count = static_cast<int>(T::fields.size());
 
-/// Whether T has the short form: one row over points, with evaluate(x, params, gradient) that returns C.
+/// True if T has the short form: one row over points, with evaluate(x, params, gradient) that returns C.
 template <class T, class R>
 inline constexpr bool is_short = requires(const Vec3<R> (&x)[static_cast<std::size_t>(T::slots::count)],
                                           const typename T::template Params<R>& params,
@@ -87,7 +87,7 @@ SlotValues<S, R> values_of(const R* slots) {
   return at;
 }
 
-/// C and gradients of a type in either form.
+/// Evaluates C and its gradients for a type in either form.
 template <class T, class R>
 void evaluate_rows(const SlotValues<typename T::slots, R>& at, const typename T::template Params<R>& params,
                    Rows<typename T::slots, T::rows, R>& out) {
@@ -173,7 +173,7 @@ ConstraintDefinition definition_of() {
 
 }  // namespace detail
 
-/// Makes the constraint type T known by its name, T::name. See the head of this file.
+/// Registers the constraint type T by its name, T::name. See the top of this file.
 template <class T>
 void register_constraint() {
   register_constraint(detail::definition_of<T>());

@@ -1,9 +1,9 @@
-// What the formula of a constraint is written with: scalars, rotations, slots and rows.
+// Building blocks of constraint formulas: scalars, rotations, slots and rows.
 //
-// A formula is a template over its scalar type: float runs one constraint, Wide runs sixteen, double is the tests' oracle. The functions
-// here exist under the same names for all of them (argument-dependent lookup finds those of Wide), so one text gives the same bits
-// everywhere. For that reason min and max are the one comparison that SSE's minps and maxps make: where a is NaN, or both are
-// zero, they return the second argument.
+// A formula is a template over its scalar type: float projects one constraint, Wide sixteen, and
+// double serves as the tests' oracle. These functions exist for all three (argument-dependent lookup
+// finds those of Wide), so the same code gives the same bits everywhere. Hence min and max are the
+// comparison of SSE's minps and maxps: if a is NaN, or both are zero, they return the second argument.
 #pragma once
 
 #include <array>
@@ -22,11 +22,11 @@ namespace pliant {
 PLIANT_HD float select(bool mask, float a, float b) { return mask ? a : b; }
 PLIANT_HD double select(bool mask, double a, double b) { return mask ? a : b; }
 
-/// The smaller; b where they compare unordered or equal.
+/// The smaller; b if they are unordered or equal.
 PLIANT_HD float min(float a, float b) { return a < b ? a : b; }
 PLIANT_HD double min(double a, double b) { return a < b ? a : b; }
 
-/// The larger; b where they compare unordered or equal.
+/// The larger; b if they are unordered or equal.
 PLIANT_HD float max(float a, float b) { return a > b ? a : b; }
 PLIANT_HD double max(double a, double b) { return a > b ? a : b; }
 
@@ -50,7 +50,7 @@ PLIANT_HD double sqrt(double a) {
 #endif
 }
 
-/// `a` between `low` and `high`; `high` wins where they cross.
+/// `a` clamped to [low, high]; `high` wins if low > high.
 template <class R>
 PLIANT_HD R clamp(const R& a, const R& low, const R& high) {
   return min(max(a, low), high);
@@ -64,7 +64,7 @@ PLIANT_HD Quat<R> conjugate(const Quat<R>& q) {
   return {-q.x, -q.y, -q.z, q.w};
 }
 
-/// Hamilton's product: the rotation b, then a.
+/// Hamilton product: applies rotation b, then a.
 template <class R>
 PLIANT_HD Quat<R> multiply(const Quat<R>& a, const Quat<R>& b) {
   return {a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y), a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z),
@@ -81,13 +81,13 @@ PLIANT_HD Vec3<R> rotate(const Quat<R>& q, const Vec3<R>& v) {
 
 // ---------------------------------------------------------------- slots and rows
 
-/// Names of the two kinds of slot.
-class Point;  ///< a particle: its place
+/// The two kinds of slot.
+class Point;  ///< a particle: its position
 class Frame;  ///< an orientation: a unit quaternion from the frame's principal axes to the world
 
 enum class SlotKind : std::uint8_t { point, frame };
 
-/// What a constraint acts on, in the order of its stencil: Slots<Point, Frame, Point, Frame>. One to eight.
+/// The slots of a constraint in stencil order, one to eight: Slots<Point, Frame, Point, Frame>.
 template <class... Kinds>
 struct Slots {
   static_assert(sizeof...(Kinds) >= 1 && sizeof...(Kinds) <= 8, "a stencil has one to eight slots");
@@ -115,19 +115,19 @@ struct PointSlots<std::index_sequence<index...>> {
 template <int n>
 using Points = typename detail::PointSlots<std::make_index_sequence<static_cast<std::size_t>(n)>>::Type;
 
-/// What the slots hold now. Points are as the first point sees them, which is at zero: no constraint knows where the origin is.
+/// The current slot values. Positions are relative to the first point, so constraints are independent of the origin.
 template <class S, class R>
 struct SlotValues {
-  Vec3<R> point[static_cast<std::size_t>(S::count)];  ///< by slot; not used where the slot is a frame [m]
-  Quat<R> frame[static_cast<std::size_t>(S::count)];  ///< by slot; not used where the slot is a point
+  Vec3<R> point[static_cast<std::size_t>(S::count)];  ///< by slot; unused for frames [m]
+  Quat<R> frame[static_cast<std::size_t>(S::count)];  ///< by slot; unused for points
 };
 
 /// C and its gradients, one row for each component of C.
 template <class S, int rows, class R>
 struct Rows {
   R c[static_cast<std::size_t>(rows)];
-  /// By row and slot. Of a point: dC/dx. Of a frame: dC/dtheta, where the frame turns by the small rotation vector theta in
-  /// world axes. A point r of the frame then moves by theta x r, so that a gradient g at r gives r x g.
+  /// By row and slot. For a point: dC/dx. For a frame: dC/dtheta, with a small rotation vector theta in world axes. A point
+  /// r of the frame then moves by theta x r, so a gradient g at r contributes r x g.
   Vec3<R> gradient[static_cast<std::size_t>(rows)][static_cast<std::size_t>(S::count)];
 };
 

@@ -1,4 +1,4 @@
-// Files: meshes and scenes in, geometry out. Part of the library pliant_io; the core knows no file.
+// File input and output: meshes, scenes and geometry. Part of the library pliant_io; the core accesses no files.
 #pragma once
 
 #include <cstdint>
@@ -44,8 +44,8 @@ struct SceneFile {
   std::vector<std::string> repairs;
 };
 
-/// Reads a scene in strict JSON (docs/reference/scene-format.md). Throws Error with file, line, column and JSON path. Mesh paths are
-/// relative to the scene's own folder and may not leave it, by links neither, unless `allow_outside`.
+/// Reads a scene in strict JSON (docs/reference/scene-format.md). Throws an Error with file, line, column and JSON path.
+/// Unless `allow_outside`, mesh paths may not leave the scene's folder, even by links; they are relative to it.
 SceneFile read_scene_file(const std::string& path, bool allow_outside = true);
 
 /// Options of read_scene_file.
@@ -90,8 +90,8 @@ class FrameWriter {
   virtual std::vector<WrittenFile> written() const = 0;  ///< so far, in their order; all of them after finish()
 };
 
-/// A writer by suffix: NAME.obj and NAME.ply (one file a frame, NAME_0000.obj after State::frame 0, ...), .glb (morph targets), .usda (time
-/// samples), .pc2 (beside NAME.obj), .pvd (with one .vtp a frame and object). Throws Error for another suffix.
+/// A writer by suffix: NAME.obj and NAME.ply (one file per frame, NAME_0000.obj for State::frame 0, ...), .glb (morph
+/// targets), .usda (time samples), .pc2 (with NAME.obj), .pvd (one .vtp per frame and object). Throws an Error otherwise.
 std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Scene& scene, const World& world);
 
 }  // namespace pliant

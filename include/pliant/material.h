@@ -9,10 +9,10 @@ namespace pliant {
 
 /// How strongly a constraint is enforced, in one of two ways.
 ///
-/// Compliance (XPBD; Macklin, Mueller and Chentanez 2016): the inverse stiffness alpha in the unit of the constraint's type
-/// (m/N for a distance), 0 meaning rigid. It means the same whatever the time step, substeps and iterations.
-/// Stiffness k (PBD; Mueller et al. 2007): the share in [0, 1] of the error that is removed in a step, spread over the
-/// projections by k' = 1 - (1 - k)^(1/n). It still depends on the time step: prefer compliance.
+/// Compliance (XPBD; Macklin, Mueller and Chentanez 2016): the inverse stiffness alpha in the unit of the constraint type
+/// (m/N for a distance); 0 is rigid. It is independent of time step, substeps and iterations. Stiffness k (PBD; Mueller et
+/// al. 2007): the share in [0, 1] of the error that a step removes, distributed over projections by k' = 1 - (1 - k)^(1/n).
+/// It depends on the time step, so prefer compliance.
 struct Stiffness {
   enum class Kind { compliance, pbd };
   Kind kind = Kind::compliance;
@@ -25,7 +25,7 @@ struct Stiffness {
   static Stiffness pbd(float k) { return {Kind::pbd, k, 0}; }
 };
 
-/// What a conversion between k and compliance depends on.
+/// The context of a conversion between k and compliance.
 struct ConversionContext {
   float
       inverse_mass;  ///< generalised: sum over the particles of w_i |grad_i C|^2; 2/m for a distance between equal masses [1/kg]
@@ -34,12 +34,12 @@ struct ConversionContext {
   int iterations = 1;
 };
 
-/// The compliance that removes the same share k of an isolated constraint's error in a frame as PBD stiffness k does:
-/// alpha = h^2 w (1 - k') / k' with h = dt/substeps and k' = 1 - (1 - k)^(1/substeps). XPBD with multipliers gives the same
-/// answer for any number of iterations, so they do not enter. k = 0 gives infinity, k = 1 gives 0. Throws Error outside [0, 1].
+/// The compliance that removes the same share of an isolated constraint's error per frame as PBD stiffness k: alpha = h^2 w
+/// (1 - k') / k' with h = dt/substeps and k' = 1 - (1 - k)^(1/substeps). It is independent of iterations, as XPBD with
+/// multipliers is. k = 0 gives infinity, k = 1 gives 0. Throws an Error outside [0, 1].
 float compliance_from_stiffness(float k, const ConversionContext& context);
 
-/// The inverse of compliance_from_stiffness. Throws Error where alpha < 0.
+/// The inverse of compliance_from_stiffness. Throws an Error if alpha < 0.
 float stiffness_from_compliance(float alpha, const ConversionContext& context);
 
 /// Measured properties of a fabric, independent of any mesh.
@@ -55,8 +55,8 @@ struct Fabric {
   std::string source;               ///< source of the numbers
 };
 
-/// One of the built-in fabrics: "cotton", "silk", "denim", "wool", "leather", "rubber sheet". Throws Error for another name,
-/// listing those there are.
+/// One of the built-in fabrics: "cotton", "silk", "denim", "wool", "leather",
+/// "rubber sheet". Throws an Error that lists the names for any other.
 const Fabric& fabric(std::string_view name);
 
 /// All built-in fabrics.

@@ -1,4 +1,4 @@
-// Triangle meshes as values, and what is known about one.
+// Triangle meshes as values, and their inspection.
 #pragma once
 
 #include <array>
@@ -15,23 +15,23 @@ struct TriangleMesh {
   std::vector<std::array<int, 3>> triangles;
 };
 
-/// Something found in a mesh or a scene: `grave` findings make the engine refuse it, the others are worth knowing.
+/// A finding about a mesh or a scene. The engine rejects input with `grave` findings; others are warnings or notes.
 struct Finding {
   bool grave = false;
-  std::string message;  ///< what and where, in words: "3 sliver triangles, the first 17 (aspect 1:4000)"
-  std::string advice;   ///< what to do about it
+  std::string message;  ///< the problem and its place: "3 sliver triangles, the first 17 (aspect 1:4000)"
+  std::string advice;   ///< the remedy
 };
 
-/// Triangulates a flat rectangle of `columns` x `rows` vertices, `width` x `depth` metres, in the xz-plane, centred at the
-/// origin, facing +y. Vertex (row r, column c) has index r * columns + c; each cell's diagonal runs from (r, c) to
-/// (r + 1, c + 1). Throws Error unless columns, rows >= 2 and the sizes are positive and finite.
+/// A flat rectangle of `columns` x `rows` vertices, `width` x `depth` metres, in the xz-plane, centred at the origin,
+/// facing +y. Vertex (row r, column c) has index r * columns + c; each cell's diagonal runs from (r, c) to (r + 1, c + 1).
+/// Throws an Error unless columns, rows >= 2 and the sizes are positive and finite.
 TriangleMesh grid_mesh(int columns, int rows, float width, float depth);
 
-/// A closed sphere of radius 1 about the origin: an icosahedron whose faces are split `subdivisions` (0..7) times in four.
+/// A closed unit sphere about the origin: an icosahedron whose faces are split into four `subdivisions` (0..7) times.
 TriangleMesh sphere_mesh(int subdivisions);
 
-/// All that can be said about a mesh without a scene: duplicates, degenerate and sliver triangles, non-manifold or
-/// inconsistently wound edges, isolated vertices, non-finite or huge coordinates, open boundary loops, number of pieces.
+/// All findings about a mesh without a scene: duplicates, degenerate and sliver triangles, non-manifold or inconsistently
+/// wound edges, isolated vertices, non-finite or huge coordinates, open boundary loops, number of connected components.
 std::vector<Finding> inspect(const TriangleMesh& mesh);
 
 }  // namespace pliant

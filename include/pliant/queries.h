@@ -1,5 +1,5 @@
-// Exact questions about meshes: do surfaces pass through one another, how near are they, do moving primitives meet. They judge
-// what a run did, and any tool may ask them.
+// Exact geometric queries on meshes: intersections, distances, and contact times
+// of moving primitives. They serve to audit runs and can be used by any tool.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace pliant {
 
-/// An edge that passes through a triangle with which it shares no vertex.
+/// An edge that intersects a triangle with which it shares no vertex.
 struct Crossing {
   int a = -1, b = -1;  ///< the edge's ends, a < b
   int triangle = -1;
@@ -22,17 +22,17 @@ struct Crossing {
   }
 };
 
-/// Finds the crossings of one mesh over many frames without new memory. The signs are exact: rounding changes no answer.
+/// Finds the intersections of a mesh over many frames without new allocations. Signs are exact: rounding changes no answer.
 class CrossingFinder {
  public:
-  /// Throws Error where a triangle has a corner outside 0..vertex_count - 1.
+  /// Throws an Error if a triangle has a corner outside 0..vertex_count - 1.
   CrossingFinder(const std::vector<std::array<int, 3>>& triangles, int vertex_count);
   ~CrossingFinder();
   CrossingFinder(CrossingFinder&&) noexcept;
   CrossingFinder& operator=(CrossingFinder&&) noexcept;
 
-  /// All crossings with these positions (finite, one a vertex [m]), ascending by (a, b, triangle); edges that only touch a
-  /// triangle too where `touching`. Valid until the next call.
+  /// All intersections at these positions (finite, one per vertex [m]), ascending by (a, b, triangle). `touching` includes
+  /// edges that only touch a triangle. Valid until the next call.
   const std::vector<Crossing>& find(const std::vector<Vec3f>& positions, bool touching = false);
 
  private:
@@ -40,19 +40,19 @@ class CrossingFinder {
   std::unique_ptr<Implementation> self_;
 };
 
-/// All crossings of a mesh. Throws Error as CrossingFinder does.
+/// All intersections of a mesh. Throws as CrossingFinder does.
 std::vector<Crossing> find_crossings(const TriangleMesh& mesh, bool touching = false);
 
-/// The least distance of a vertex and a triangle, or of two edges, that share no vertex, where it is below `reach` [m]; else
-/// `reach`.
+/// The least vertex-triangle or edge-edge distance of primitives without
+/// a common vertex, if it is below `reach` [m]; otherwise `reach`.
 double least_distance(const TriangleMesh& mesh, double reach);
 
 /// The least distance of two segments, given by their ends (a0, a1, b0, b1) [m].
 double segment_distance(const std::array<Vec3d, 4>& ends);
 
-/// When a vertex (number 0) and a triangle (1, 2, 3), all of which move straight, first come within a distance of one another,
-/// as a share of the motion in [0, 1] and never after the true time; nothing where they do not. In double the answer for
-/// distance 0 is decided by exact signs; in float it may be a false alarm, and never a miss.
+/// The time at which a vertex (0) and a triangle (1, 2, 3) under linear motion first come within a distance: a share of the
+/// motion in [0, 1], never after the true time; empty if they do not. In double the answer for distance 0 is exact; in
+/// float there can be false positives, but no misses.
 std::optional<double> vertex_triangle_impact(const std::array<Vec3d, 4>& from, const std::array<Vec3d, 4>& to,
                                              double within);
 std::optional<float> vertex_triangle_impact(const std::array<Vec3f, 4>& from, const std::array<Vec3f, 4>& to, float within);

@@ -1,9 +1,9 @@
-// A second solver to hold the first against: position based dynamics in double precision, one constraint after another in the
-// order in which they were added, in the plainest code that does it. Slow, and for checking only.
+// A reference solver for tests: PBD in double precision, constraints in the order in which they were added, in the simplest
+// possible code. It is slow, and for verification only.
 //
-// It shares the formulas of the constraint types with World, and nothing of World's schedule, layout, lanes or rounding.
-// Mueller et al. 2007 for stiffness k; Macklin, Mueller and Chentanez 2016 for compliance and damping; Macklin et al. 2019 for
-// substeps.
+// It shares the formulas of the constraint types with World, but not World's schedule,
+// layout, SIMD lanes or rounding. Stiffness k: Mueller et al. 2007; compliance and
+// damping: Macklin, Mueller and Chentanez 2016; substeps: Macklin et al. 2019.
 #pragma once
 
 #include <cstddef>
@@ -15,42 +15,42 @@
 
 namespace pliant::reference {
 
-/// A point of matter. With inverse mass 0 it is a pin: it moves only where `position` is set between steps.
+/// A particle. With inverse mass 0 it is a pin: it moves only if `position` is set between steps.
 struct Particle {
   Vec3d position{};         ///< [m]
   Vec3d velocity{};         ///< [m/s]
   double inverse_mass = 1;  ///< [1/kg], >= 0
 };
 
-/// Compliance alpha with damping beta, or PBD's k where that is not negative.
+/// Compliance alpha with damping beta, or PBD's k if it is not negative.
 struct Hardness {
   double compliance = 0;  ///< alpha >= 0 [the type's own unit]
   double damping = 0;     ///< beta >= 0 [N s/m for a distance]
-  double pbd = -1;        ///< k in [0, 1]; negative: compliance counts
+  double pbd = -1;        ///< k in [0, 1]; negative: use compliance
 };
 
-/// A constraint function and its gradients, one a particle of its stencil.
+/// A constraint function and its gradients, one per particle of its stencil.
 struct Evaluation {
   double value = 0;
   std::vector<Vec3d> gradients;
 };
 
-/// C of a type of constraint_types() at the places `x` of its stencil [m]. Throws Error for an unknown type, or a stencil or rest
-/// data of the wrong size.
+/// C of a type of constraint_types() at the stencil's positions `x` [m]. Throws an Error for an unknown type, or if the
+/// stencil or the rest data have the wrong size.
 Evaluation evaluate(const std::string& type, const std::vector<Vec3d>& x, const std::vector<double>& rest);
 
-/// The rest data that make these places the rest shape. Throws Error as evaluate does.
+/// The rest data for which these positions are the rest shape. Throws as evaluate does.
 std::vector<double> measure(const std::string& type, const std::vector<Vec3d>& x);
 
 class AnyConstraint;
 
-/// Particles and constraints, and the loop over them.
+/// Particles, constraints, and the solver loop.
 class Solver {
  public:
   Vec3d gravity{};     ///< [m/s^2]
-  double damping = 0;  ///< a second keeps the share exp(-damping) of velocity [1/s]
+  double damping = 0;  ///< velocity is multiplied by exp(-damping) per second [1/s]
   int substeps = 1;    ///< >= 1
-  int iterations = 1;  ///< a substep, >= 1
+  int iterations = 1;  ///< per substep, >= 1
   std::vector<Particle> particles;
 
   Solver();
@@ -61,22 +61,22 @@ class Solver {
   /// Adds a particle (mass > 0, or infinity for a pin [kg]) and returns its index.
   int add(const Vec3d& position, double mass, const Vec3d& velocity = {});
 
-  /// Adds a constraint of a type of constraint_types() and returns its index. Empty rest data are measured from the particles'
-  /// places. Throws Error for an unknown type, a particle that does not exist, or a stencil or rest data of the wrong size.
+  /// Adds a constraint of a type of constraint_types() and returns its index. Empty rest data are measured from the
+  /// positions. Throws an Error for an unknown type, a missing particle, or a stencil or rest data of the wrong size.
   int add(const std::string& type, const std::vector<int>& particles, const std::vector<double>& rest = {},
           const Hardness& hardness = {});
 
   int constraint_count() const { return static_cast<int>(constraints_.size()); }
-  /// C now. `constraint` is an index that add returned.
+  /// The current C. `constraint` is an index returned by add.
   double value(int constraint) const;
-  /// Of the last substep; the force is multiplier / h^2 along the gradient [unit of C times kg m^2].
+  /// The multiplier of the last substep; the force is multiplier / h^2 along the gradient [unit of C times kg m^2].
   double multiplier(int constraint) const;
 
   /// Advances by dt > 0 [s].
   void step(double dt);
 
-  double kinetic_energy() const;    ///< of all particles but pins [J]
-  double potential_energy() const;  ///< of their weight, from the origin [J]
+  double kinetic_energy() const;    ///< of all particles except pins [J]
+  double potential_energy() const;  ///< gravitational, relative to the origin [J]
 
  private:
   void substep(double h);

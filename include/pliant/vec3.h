@@ -1,7 +1,7 @@
 // Three-component vectors and unit quaternions, the only mathematics in the public interface.
 //
-// The scalar type is a template parameter because one formula serves four machines: float for a single particle, Wide for
-// sixteen at once, double for the tests' oracle, and float again on a CUDA device.
+// The scalar type is a template parameter, because one formula serves four targets: float for one particle, Wide for
+// sixteen, double for the tests' oracle, and float on a CUDA device.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 #if defined(__CUDACC__)
 #define PLIANT_HD __host__ __device__ __forceinline__
 #else
-// Always inline, so that no function compiled for one instruction set is ever shared with a unit compiled for another.
+// Force-inlined, so that units compiled for different instruction sets never share a function.
 #define PLIANT_HD inline __attribute__((always_inline))
 #endif
 
 namespace pliant {
 
-/// A vector of three scalars. Positions are in metres, velocities in metres a second, forces in newtons.
+/// A vector of three scalars. Positions are in metres, velocities in metres per second, forces in newtons.
 template <class R>
 struct Vec3 {
   R x{}, y{}, z{};

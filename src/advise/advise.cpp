@@ -1,8 +1,8 @@
-// Trials: a scene run again and again, each time with more of something, until its distances are as long as they should be.
+// Trial runs: repeats a scene with increasingly expensive settings until its overstretch is tolerable.
 //
-// A few families: the sweeps that may do better, the likeliest first, with tethers where these help, the scene's own sweep with
-// tethers, and without; each with its substeps doubled until it is good or can't be the cheapest any more; what is good is then tried with
-// less. Most trials are short: one is given up as soon as it is worse than the best before it.
+// Families are the sweeps that may do better, the most promising first, with tethers where these help, then the scene's own
+// sweep with and without tethers. Each doubles its substeps until it is good or too expensive. Good settings are then tried
+// with fewer substeps. A trial ends as soon as it is worse than the best before it, so most are short.
 #include "pliant/advise.h"
 
 #include <algorithm>
@@ -23,13 +23,13 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int most_doublings = 6;
 constexpr int most_substeps = 10000;
-/// Of the scene's own overstretch, what another setting may leave and be called better.
+/// A setting counts as better if its overstretch is below this share of the scene's own.
 constexpr double clearly_better = 0.8;
-/// Of the time, for the scene as it is: what is left must do for the rest.
+/// The share of the time for the scene's own settings; the rest is for other trials.
 constexpr double own_share = 0.3;
 
 Clock::time_point after(double seconds) {
-  const std::chrono::duration<double> limited(seconds > 0 ? std::min(seconds, 1e6) : 0.0);  // a clock has an end
+  const std::chrono::duration<double> limited(seconds > 0 ? std::min(seconds, 1e6) : 0.0);  // clamped to the clock's range
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(limited);
 }
 
@@ -44,7 +44,7 @@ void keep_worse(const Report& report, Trial& trial) {
   trial.worst.p99 = p99;
 }
 
-/// What all trials of a scene share.
+/// The common data of all trials of a scene.
 class Trials {
  public:
   Trials(const Scene& scene, const AdviseOptions& options)
@@ -54,14 +54,14 @@ class Trials {
         own_end_(after(own_share * options.seconds)),
         stops_(options.stops) {}
 
-  /// The scene as it is. Where its time was out before its end, trials are as long as it got from then on.
+  /// Runs the scene's own settings. If time runs out first, other trials have as many frames.
   Trial run_own(std::string& words) {
     Trial trial = run(scene_.settings, std::numeric_limits<double>::infinity(), own_end_, &words);
     if (std::isfinite(trial.worst.largest)) frames_ = trial.frames;
     return trial;
   }
 
-  /// Given up where it is worse than `bound` and than what is tolerated.
+  /// Stops when it is worse than both `bound` and the tolerance.
   Trial run_other(const Settings& settings, double bound) const { return run(settings, bound, end_, nullptr); }
 
   bool out_of_time() const { return is_over(end_); }
@@ -101,11 +101,11 @@ class Trials {
   std::function<bool()> stops_;
 };
 
-/// A setting of which there may be more.
+/// Settings of one kind with increasing substeps.
 struct Family {
   Settings settings;  ///< of the next trial
-  bool open = true;   ///< not good so far, and perhaps with more
-  int good = -1;      ///< number of its last good trial
+  bool open = true;   ///< not good yet, but possibly with more substeps
+  int good = -1;      ///< index of its last good trial
 };
 
 std::vector<Family> families_of(const Scene& scene) {
@@ -128,7 +128,7 @@ std::vector<Family> families_of(const Scene& scene) {
   return families;
 }
 
-/// Tries what there is time for, and keeps what came of it.
+/// Runs as many trials as time permits, and stores their results.
 class Search {
  public:
   Search(const Scene& scene, const Trials& trials, Advice& advice)
@@ -149,7 +149,7 @@ class Search {
     return bound;
   }
 
-  /// False, and time noted as out, where it is.
+  /// Returns false, and records that time ran out, when it has.
   bool has_time() {
     if (!trials_.out_of_time()) return true;
     advice_.cut_short = true;
@@ -165,7 +165,7 @@ class Search {
     return true;
   }
 
-  /// Twice the substeps cost about twice as much: a family that would be dearer than what is good already is closed.
+  /// Twice the substeps cost about twice as much: closes a family that would cost more than the best good trial.
   void try_next(Family& family) {
     if (!family.open || !has_time()) return;
     const bool good = try_out(family);
@@ -176,7 +176,7 @@ class Search {
     if (family.open) family.settings.substeps *= 2;
   }
 
-  /// Half of what was good, as long as that is; then three quarters of the least that was.
+  /// Tries half of the good number of substeps while that is good, then three quarters of the least good number.
   void try_less(Family& family) {
     if (family.good < 0) return;
     const bool was_doubled = family.settings.substeps > advice_.own.settings.substeps;

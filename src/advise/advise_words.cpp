@@ -1,4 +1,4 @@
-// What trials came to, in words.
+// The result of the trials in words.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -20,7 +20,7 @@ std::string setting_in_words(const Trial& trial, const Settings& own) {
 
 std::string cost_in_words(const Trial& trial) { return two_digits(trial.milliseconds) + " ms a frame"; }
 
-/// The cheapest good trial of another kind than the best, or -1.
+/// The cheapest good trial with another sweep or tethers than the best, or -1.
 int runner_up(const Advice& advice) {
   const auto kind = [](const Trial& t) { return std::make_pair(t.settings.sweep, t.settings.sweep_options.tethers); };
   int found = -1;
@@ -37,8 +37,8 @@ std::string setting_and_cost(const Advice& advice, int trial) {
   return setting_in_words(of, advice.own.settings) + " (" + cost_in_words(of) + ")";
 }
 
-/// Whether the scene as it is got through all frames that were to be tried, or to where it was not finite. A verdict on the first
-/// frames says nothing of the others.
+/// True if the scene's own settings ran through all planned frames, or until
+/// not finite. Results of the first frames do not extend to later ones.
 bool knows_all(const Advice& advice) { return advice.own.complete || !std::isfinite(advice.own.worst.largest); }
 
 std::string json_of_best(const Advice& advice) {
@@ -46,13 +46,13 @@ std::string json_of_best(const Advice& advice) {
          "add to the scene's \"settings\": " + in_json(advice.others[advice.best].settings, advice.own.settings);
 }
 
-/// Of which it is known what they came to: not those that time ran out on.
+/// The number of trials with a known result: those that time did not cut short.
 int judged(const Advice& advice) {
   const auto is_judged = [](const Trial& trial) { return trial.complete || trial.worse; };
   return static_cast<int>(std::count_if(advice.others.begin(), advice.others.end(), is_judged));
 }
 
-/// Where no setting is good.
+/// The advice if no setting is good.
 std::string of_the_nearest(const Advice& advice) {
   const std::string in_time = advice.cut_short ? " in the time there was" : "";
   if (judged(advice) == 0) return "no other setting could be tried" + in_time;
@@ -68,7 +68,7 @@ std::string of_the_nearest(const Advice& advice) {
          percent(best.worst.p99) + "; as it is it takes " + cost_in_words(advice.own) + "; " + json_of_best(advice);
 }
 
-/// The cheapest that is good, and the cheapest of another kind.
+/// The cheapest good setting, and the cheapest of another kind.
 std::string of_the_good(const Advice& advice) {
   const int other = runner_up(advice);
   const bool one = other < 0 && advice.others[advice.best].settings.substeps == 1;

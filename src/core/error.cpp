@@ -1,4 +1,4 @@
-// How an Error reads.
+// Formats the text of an Error.
 #include "pliant/error.h"
 
 #include <utility>
