@@ -14,7 +14,7 @@ struct DoubleDouble {
   double high = 0, low = 0;  ///< |low| at most half a unit in the last place of `high`
 
   DoubleDouble() = default;
-  DoubleDouble(double value) : high(value) {}  // implicit, as float to double is
+  DoubleDouble(double value) : high(value) {}  // NOLINT(google-explicit-constructor): implicit, as float to double is
   DoubleDouble(double h, double l) : high(h), low(l) {}
   explicit operator double() const { return high; }
 };

@@ -18,7 +18,7 @@ template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:
   template <class F>
-  FunctionRef(const F& f)  // implicit, for temporaries
+  FunctionRef(const F& f)  // NOLINT(google-explicit-constructor): implicit, for temporaries
       : object_(&f), call_([](const void* object, Arguments... arguments) -> Result {
           return (*static_cast<const F*>(object))(arguments...);
         }) {}
