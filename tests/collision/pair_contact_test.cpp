@@ -191,6 +191,26 @@ TEST(PairContact, ReachesTheThicknessAndMovesNothingFixed) {
   }
 }
 
+/// A vertex of 1 kg that came down at 3 m/s on a triangle of three: 1 / (1 + 1 / 9 * 3) = 3 / 4 of its momentum stays with them.
+TEST(PairContact, LeavesNoApproachOfAnImpact) {
+  Four four;
+  four.positions = {{0, 0.01f, 0, 1}, {-1, 0, -1, 1}, {1, 0, -1, 1}, {0, 0, 2, 1}};
+  four.velocities = {{0, -3, 0, 0}, {}, {}, {}};
+  four.remainders.assign(4, Record{});
+  Contact contact = contact_of(four, {0.005f, 0, 0});
+  EXPECT_FALSE(is_impact(contact)) << "it has not pushed";
+  contact.push = 0.001f;
+  EXPECT_TRUE(is_impact(contact)) << "0.01 m apart, to keep 0.005 m: it came closer by 0.006 m";
+  Contact touching = contact_of(four, {0.02f, 0, 0});
+  touching.push = 0.001f;
+  EXPECT_FALSE(is_impact(touching)) << "it began earlier";
+  EXPECT_NEAR(end_impact(contact, four.velocities.data(), {}), 3, 1e-5f);
+  for (const Record& v : four.velocities) EXPECT_NEAR(v.y, -0.75f, 1e-5f);
+  four.velocities[0].y = 1;
+  EXPECT_EQ(end_impact(contact, four.velocities.data(), {}), 0);
+  EXPECT_EQ(four.velocities[0].y, 1) << "what separates is left to its response";
+}
+
 TEST(PairContact, SeparatesWhatOverlapsNoFasterThanTheCap) {
   Four four;
   four.positions = {{0.1f, 0.001f, 0.1f, 1}, {-1, 0, -1, 1}, {1, 0, -1, 1}, {0, 0, 1, 1}};

@@ -1,6 +1,7 @@
 // What the tests of surfaces that touch share: cloth that does, sheets to make it of, and a watch on what crosses.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -39,19 +40,18 @@ inline Collider floor_at(float height) {
   return floor;
 }
 
-/// Finds what crosses among the objects of a World, and meshes that are carried along.
+/// Finds what crosses among the objects of a World that their masks let meet, and meshes that are carried along.
 class Watch {
  public:
   Watch(const World& world, const Scene& scene) : scene_(scene), objects_(world.object_count()) {
-    std::vector<Triangle> triangles;
-    int vertices = 0;
-    const auto add = [&](const TriangleMesh& mesh) {
-      for (const auto& t : mesh.triangles) triangles.push_back({vertices + t[0], vertices + t[1], vertices + t[2]});
-      vertices += static_cast<int>(mesh.positions.size());
+    const auto add = [&](const TriangleMesh& mesh, int object) {
+      const int first = static_cast<int>(object_of_.size());
+      for (const auto& t : mesh.triangles) triangles_.push_back({first + t[0], first + t[1], first + t[2]});
+      object_of_.insert(object_of_.end(), mesh.positions.size(), object);
     };
-    for (int o = 0; o < objects_; ++o) add(world.mesh(o));
-    for (const MeshCollider& collider : scene.mesh_colliders) add(collider.mesh);
-    finder_ = std::make_unique<IntersectionFinder>(triangles, vertices);
+    for (int o = 0; o < objects_; ++o) add(world.mesh(o), o);
+    for (const MeshCollider& collider : scene.mesh_colliders) add(collider.mesh, objects_);
+    finder_ = std::make_unique<IntersectionFinder>(triangles_, static_cast<int>(object_of_.size()));
   }
 
   /// `carried`: how far mesh colliders have come.
@@ -63,12 +63,23 @@ class Watch {
     }
     for (const MeshCollider& collider : scene_.mesh_colliders)
       for (const Vec3f& p : collider.mesh.positions) places.push_back(p + carried);
-    return finder_->find(places).size();
+    const std::vector<Intersection> found = finder_->find(places);
+    return static_cast<std::size_t>(std::count_if(found.begin(), found.end(), [&](const Intersection& crossing) {
+      return meet(object_of_[crossing.a], object_of_[triangles_[crossing.triangle][0]]);
+    }));
   }
 
  private:
+  bool meet(int a, int b) const {
+    if (a == b || a >= objects_ || b >= objects_) return true;
+    const Object &p = scene_.objects[a], &q = scene_.objects[b];
+    return (p.groups & q.mask) != 0 && (q.groups & p.mask) != 0;
+  }
+
   const Scene& scene_;
   int objects_;
+  std::vector<Triangle> triangles_;
+  std::vector<int> object_of_;  ///< of each vertex; objects_: of a mesh
   std::unique_ptr<IntersectionFinder> finder_;
 };
 

@@ -16,6 +16,7 @@ struct Detection {
   Neighbourhood& near;
   const PairParticles& particles;
   const FunctionRef<bool(const PairStencil&)>& is_exempt;
+  const CoveredPairs& covered;
 };
 
 /// The distance that a pair may keep, by what its primitives keep at rest [m]. `known`: its value, below 0 where it was not measured
@@ -46,8 +47,10 @@ void detect_pair(const Detection& d, const ClusterSides& sides, const PairLanes&
   if (d.is_exempt(pair)) return;
   PairMaterial kept = clusters.material;
   kept.thickness = min(kept.thickness, kept_at_rest(d.near, pair, at_rest));
-  if (nearest <= kept.thickness && lanes.paths.apart[lane] <= kept.thickness)
-    add_contact(pair, lanes.at, lane, kept, d.particles, contacts);
+  if (nearest > kept.thickness || lanes.paths.apart[lane] > kept.thickness) return;
+  // A covered pair that does not touch yet would push sideways.
+  if (distance > kept.thickness && d.covered.covers(pair, lanes.at, lane, d.particles.positions)) return;
+  add_contact(pair, lanes.at, lane, kept, d.particles, contacts);
 }
 
 void measure(const Detection& d, const ClusterSides& sides, PairLanes& lanes) {
@@ -107,7 +110,7 @@ void ContactDetector::detect(Executor& executor, Neighbourhood& near, const Pair
                              FunctionRef<bool(const PairStencil&)> is_exempt, std::vector<Contact>& contacts) {
   contacts.clear();
   scratch_.resize(near.tasks.size());
-  const Detection d{near, particles, is_exempt};
+  const Detection d{near, particles, is_exempt, covered_};
   executor.parallel_for("detect contacts", static_cast<int>(near.tasks.size()), [&](int number) {
     const NearTask& task = near.tasks[number];
     Scratch& scratch = scratch_[number];

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "collision/narrow/covered_pairs.h"
 #include "collision/narrow/pair_contact.h"
 #include "collision/near/neighbourhood.h"
 
@@ -11,6 +12,8 @@ namespace pliant {
 
 class ContactDetector {
  public:
+  explicit ContactDetector(const ContactElements& elements) : covered_(elements) {}
+
   /// Contacts of the substep, static pairs first, each in the order of clusters. Pairs for which `is_exempt` holds make none.
   void detect(Executor& executor, Neighbourhood& near, const PairParticles& particles,
               FunctionRef<bool(const PairStencil&)> is_exempt, std::vector<Contact>& contacts);
@@ -22,6 +25,7 @@ class ContactDetector {
     std::vector<Contact> of_groups, of_lists;
   };
 
+  CoveredPairs covered_;
   std::vector<Scratch> scratch_;
 };
 

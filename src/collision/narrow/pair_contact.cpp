@@ -22,6 +22,13 @@ float approach_of(const Contact& c, const Record* displacements, float h) {
   return dot(c.normal, relative(c, displacements) - c.carried) / h;
 }
 
+float end_impact(const Contact& c, Record* velocities, const Vec3f& missing) {
+  const float separating = dot(c.normal, relative(c, velocities) + missing);
+  if (!(separating < 0)) return 0;
+  move_sides(c, c.normal * -separating, velocities);
+  return -separating;
+}
+
 void respond_to_contact(const Contact& c, Record* velocities, const PairResponse& response) {
   if (!(c.push > 0)) return;
   const float separating = dot(c.normal, relative(c, velocities) + response.missing);

@@ -25,6 +25,14 @@ struct PairResponse {
   float slow = 0;   ///< approach no faster than this is rest [m/s]
 };
 
+/// Whether a contact that did not touch when the substep began came closer by more than half its thickness, and pushed.
+inline bool is_impact(const Contact& contact) {
+  return contact.push > 0 && contact.gap > 0 && contact.gap + contact.push > 0.5f * contact.thickness;
+}
+
+/// Removes what is left of an impact's approach and returns it [m/s]. `missing`: what the relative velocity lacks [m/s].
+float end_impact(const Contact& contact, Record* velocities, const Vec3f& missing);
+
 /// Gives a contact that pushed the relative velocity along its normal that restitution leaves (separation_after).
 void respond_to_contact(const Contact& contact, Record* velocities, const PairResponse& response = {});
 

@@ -23,7 +23,12 @@ bool is_driven(const Contact& contact, const PairParticles& particles) {
 }  // namespace
 
 SurfaceContact::SurfaceContact(const PairModel& model, const PairKernels& kernels)
-    : model_(model), lists_(model, kernels), points_(model), filter_(model), intersections_(model) {
+    : model_(model),
+      lists_(model, kernels),
+      detector_(model.elements),
+      points_(model),
+      filter_(model),
+      intersections_(model) {
   if (model.untangling_speed > 0) untangler_ = std::make_unique<Untangler>(model);
 }
 
@@ -93,13 +98,23 @@ void SurfaceContact::measure_overlaps(const PairParticles& particles) {
     deepest_ = std::max(deepest_, static_cast<double>(overlap_of(contact, particles.displacements)));
 }
 
-void SurfaceContact::respond(const Contact& contact, const Record* positions, Record* velocities, float slow,
-                             FunctionRef<Vec3f(int body)> gravity) const {
-  if (!(contact.push > 0)) return;
+/// What the relative velocity of a contact lacks of gravity.
+Vec3f SurfaceContact::missing_of(const Contact& contact, const Record* positions,
+                                 FunctionRef<Vec3f(int body)> gravity) const {
   Vec3f missing{};
   for (int i = 0; i < 4; ++i)
     if (positions[contact.point[i]].w > 0) missing += gravity(model_.vertex_body[contact.point[i]]) * contact.weight[i];
-  respond_to_contact(contact, velocities, {missing, slow});
+  return missing;
+}
+
+float SurfaceContact::end_impact(const Contact& contact, const Record* positions, Record* velocities,
+                                 FunctionRef<Vec3f(int body)> gravity) const {
+  return pliant::end_impact(contact, velocities, missing_of(contact, positions, gravity));
+}
+
+void SurfaceContact::respond(const Contact& contact, const Record* positions, Record* velocities, float slow,
+                             FunctionRef<Vec3f(int body)> gravity) const {
+  if (contact.push > 0) respond_to_contact(contact, velocities, {missing_of(contact, positions, gravity), slow});
 }
 
 void SurfaceContact::limit_untangling(Record* velocities, FunctionRef<Vec3f(int body)> gravity) const {
@@ -109,7 +124,12 @@ void SurfaceContact::limit_untangling(Record* velocities, FunctionRef<Vec3f(int 
 // ---------------------------------------------------------------- filter
 
 void SurfaceContact::filter(Executor& executor, const PairParticles& particles) {
-  pushing_ = std::count_if(contacts_.begin(), contacts_.end(), [](const Contact& c) { return c.push > 0; });
+  pushing_ = 0;
+  has_impacts_ = false;
+  for (const Contact& contact : contacts_) {
+    pushing_ += contact.push > 0 ? 1 : 0;
+    has_impacts_ = has_impacts_ || is_impact(contact);
+  }
   const auto exempt = [&](const PairStencil& pair) { return is_exempt(pair); };
   is_bounded_ = model_.filter ? filter_.apply(executor, lists_, particles, exempt) : lists_.measure(executor, particles);
   if (is_bounded_) lists_.advance();

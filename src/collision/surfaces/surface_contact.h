@@ -47,7 +47,12 @@ class SurfaceContact {
   void filter(Executor& executor, const PairParticles& particles);
   /// After a frame's last substep: how much of their thickness contacts lack.
   void measure_overlaps(const PairParticles& particles);
-  /// After a substep, to one of contacts(). `gravity` is what velocities of a body's free particles lack: within a frame, that of the
+  /// After the filter: whether any contact is an impact.
+  bool has_impacts() const { return has_impacts_; }
+  /// After a substep, to an impact: removes what is left of its approach and returns it [m/s].
+  float end_impact(const Contact& contact, const Record* positions, Record* velocities,
+                   FunctionRef<Vec3f(int body)> gravity) const;
+  /// Then, to one of contacts(): restitution. `gravity` is what velocities of a body's free particles lack: within a frame, that of the
   /// frame [m/s]. Approaches no faster than `slow` are rest [m/s].
   void respond(const Contact& contact, const Record* positions, Record* velocities, float slow,
                FunctionRef<Vec3f(int body)> gravity) const;
@@ -74,6 +79,7 @@ class SurfaceContact {
   const std::map<std::pair<int, int>, UnresolvablePairs>& unresolvable() const { return filter_.unresolvable(); }
 
  private:
+  Vec3f missing_of(const Contact& contact, const Record* positions, FunctionRef<Vec3f(int body)> gravity) const;
   bool is_exempt(const PairStencil& pair) const {
     return (untangler_ && untangler_->is_exempt(pair)) || intersections_.hold(pair);
   }
@@ -86,7 +92,7 @@ class SurfaceContact {
   InitialIntersections intersections_;
   std::unique_ptr<Untangler> untangler_;  ///< where the model asks for it
   std::vector<Contact> contacts_;
-  bool is_bounded_ = true;
+  bool is_bounded_ = true, has_impacts_ = false;
   std::int64_t pushing_ = 0, rebuilds_before_ = 0;
   double deepest_ = 0;
 };

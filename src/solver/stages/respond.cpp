@@ -1,6 +1,39 @@
+#include <atomic>
+
 #include "solver/stages/stages.h"
 
 namespace pliant {
+
+namespace {
+
+/// Rounds in which impacts are ended: each passes what a vertex gained from one contact on to its others.
+constexpr int most_rounds_of_impacts = 8;
+/// An approach of less than this share of the thickness in a substep is left to the next one.
+constexpr float share_left = 0.1f;
+
+/// What is left of an impact's approach would be pushed off in the next substep, along the normals of surfaces that have crumpled by then:
+/// what was thrown straight would drift sideways.
+void end_impacts(Substep& s, FunctionRef<Vec3f(int)> gravity, float slow) {
+  SurfaceContact& pairs = *s.work.pairs;
+  const Record* positions = s.state.positions.data();
+  Record* velocities = s.state.velocities.data();
+  const auto for_impacts = [&](FunctionRef<void(const Contact&)> answer) {
+    s.work.contact_solver.for_each(s.context.executor, "respond", pairs.contacts(), [&](const Contact& contact) {
+      if (is_impact(contact)) answer(contact);
+    });
+  };
+  std::atomic<bool> again{true};
+  for (int round = 0; again && round < most_rounds_of_impacts; ++round) {
+    again = false;
+    for_impacts([&](const Contact& contact) {
+      const float approach = pairs.end_impact(contact, positions, velocities, gravity);
+      if (approach * s.h > share_left * contact.thickness) again.store(true, std::memory_order_relaxed);
+    });
+    for_impacts([&](const Contact& contact) { pairs.respond(contact, positions, velocities, slow, gravity); });
+  }
+}
+
+}  // namespace
 
 void respond(Substep& s) {
   if (!s.has_pairs()) return;
@@ -10,6 +43,7 @@ void respond(Substep& s) {
   s.work.contact_solver.for_each(s.context.executor, "respond", s.work.pairs->contacts(), [&](const Contact& contact) {
     s.work.pairs->respond(contact, s.state.positions.data(), velocities, slow, gravity);
   });
+  if (s.work.pairs->has_impacts()) end_impacts(s, gravity, slow);
   s.work.pairs->limit_untangling(velocities, gravity);
 }
 

@@ -1,0 +1,35 @@
+// Covered pairs: another pair of the same two surfaces has the same closest points, or closer ones.
+//
+// Where the closest point lies on a triangle's border, the neighbouring triangle may be closer. Where it is the end of an edge, the
+// pair of that vertex and a triangle is as close. The normal of a covered pair is oblique to both surfaces. A contact made of
+// it before the surfaces touch pushes them sideways.
+#pragma once
+
+#include "collision/narrow/pair_contact.h"
+#include "collision/proxies/contact_elements.h"
+#include "model/substep.h"
+
+namespace pliant {
+
+class CoveredPairs {
+ public:
+  explicit CoveredPairs(const ContactElements& elements);
+
+  /// Whether pair `lane` of the batch is covered by another pair of the same two surfaces.
+  bool covers(const PairStencil& pair, const PairBatch& at, int lane, const Record* positions) const;
+
+ private:
+  /// Closest points as weights of the four particles, and the unit vector between them.
+  struct Closest {
+    float weight[4];
+    Vec3f normal;
+  };
+  bool covers(const PairStencil& pair, const Closest& at, const Record* positions) const;
+  bool is_closer_beside(const PairStencil& pair, const Closest& at, const Record* positions) const;
+  bool has_triangle_without(int a, int b, int vertex) const;
+
+  const ContactElements& elements_;
+  IntLists around_;  ///< of each vertex the triangles at it
+};
+
+}  // namespace pliant
