@@ -24,7 +24,7 @@ using ContactLog = std::map<std::pair<int, int>, ContactSum>;
 
 struct Substep;
 
-/// Adds the contacts of a substep that pushed, in the order of tiles, then of contacts among surfaces.
+/// Adds the contacts of a substep that pushed, in the order of tiles, then of edges and triangles with colliders, then among surfaces.
 void log_contacts(const Substep& s, ContactLog& log);
 
 }  // namespace pliant

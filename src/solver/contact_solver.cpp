@@ -76,10 +76,11 @@ void ContactSolver::for_ranges(Executor& executor, const char* name, FunctionRef
   tail(start[tail_colour], start.back());
 }
 
-void ContactSolver::project(Executor& executor, std::vector<Contact>& contacts, Record* displacements) const {
+void ContactSolver::project(Executor& executor, const char* name, std::vector<Contact>& contacts,
+                            Record* displacements) const {
   if (contacts.empty()) return;
   for_ranges(
-      executor, "solve: contacts among surfaces",
+      executor, name,
       [&](int first, int last) { kernels_->project(contacts.data(), colours_.order().data(), first, last, displacements); },
       [&](int first, int last) {
         project_sequentially(contacts.data(), colours_.order().data(), first, last, displacements);

@@ -38,7 +38,7 @@ class ContactSolver {
   void begin(const ContactKernels& kernels, const std::vector<Contact>& contacts, const Record* positions,
              std::size_t points);
   /// Projects each contact once.
-  void project(Executor& executor, std::vector<Contact>& contacts, Record* displacements) const;
+  void project(Executor& executor, const char* name, std::vector<Contact>& contacts, Record* displacements) const;
   /// answer(contact) once for each contact, at the same time only for those that share no point that moves.
   void for_each(Executor& executor, const char* name, const std::vector<Contact>& contacts,
                 FunctionRef<void(const Contact&)> answer) const;

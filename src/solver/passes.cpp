@@ -96,6 +96,8 @@ void sweep_volumes(Substep& s, bool first_pass) {
 
 void sweep_contacts(Substep& s) {
   if (s.work.colliders.empty()) return;
+  s.work.shape_contact_solver.project(s.context.executor, "solve: contacts", s.work.shape_contacts.contacts(),
+                                      s.work.displacements.data());
   for_swept_tiles(s, "solve: contacts", [&](int task) {
     std::vector<Contact>& contacts = s.work.tiles[task].contacts;
     if (!contacts.empty()) project_contacts(contacts, arguments(s, s.model.tiles[task].object, false));
@@ -104,7 +106,8 @@ void sweep_contacts(Substep& s) {
 
 void sweep_pairs(Substep& s) {
   if (s.has_pairs())
-    s.work.contact_solver.project(s.context.executor, s.work.pairs->contacts(), s.work.displacements.data());
+    s.work.contact_solver.project(s.context.executor, "solve: contacts among surfaces", s.work.pairs->contacts(),
+                                  s.work.displacements.data());
 }
 
 void find_more_contacts(Substep& s) {

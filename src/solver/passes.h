@@ -13,7 +13,7 @@ void sweep_tile(const Substep& s, int task, bool first_pass, Order order);
 void sweep_tiles(Substep& s, bool first_pass, Order order);
 void sweep_inter_tile(Substep& s, bool first_pass, Order order);
 
-/// One projection of every volume, and of every contact with a collider.
+/// One projection of every volume, and of every contact with a collider: edges and triangles, then particles.
 void sweep_volumes(Substep& s, bool first_pass);
 void sweep_contacts(Substep& s);
 

@@ -66,6 +66,7 @@ void prepare(const Model& model, int object, Multipliers kept, Workspace& worksp
   workspace.volume_multipliers[object] = 0;
   workspace.triangle_forces[object] = {};
   workspace.anchors[object].resize(2 * from.tethers.anchors.size());
+  workspace.shape_contacts.prepare(model, object);
   if (from.has_volume) workspace.volume_gradients.resize(model.particles());
 }
 

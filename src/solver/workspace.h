@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "collision/narrow/contact.h"
+#include "collision/narrow/shape_contacts.h"
 #include "collision/surfaces/surface_contact.h"
 #include "model/control.h"
 #include "model/model.h"
@@ -62,8 +63,10 @@ struct Workspace {
   Records predicted;                        ///< displacements as predicted, where residuals are recorded
   std::unique_ptr<SurfaceContact> pairs;    ///< null where no surface that moves can touch another
   ContactSolver contact_solver;             ///< of the contacts of `pairs`
-  bool look_for_tangles = true;             ///< at the next frame: the first, or after a State was put back
-  ResidualScratch residual;                 ///< where iterations stop at a tolerance
+  ShapeContacts shape_contacts;             ///< of edges and triangles with primitive colliders
+  ContactSolver shape_contact_solver;
+  bool look_for_tangles = true;  ///< at the next frame: the first, or after a State was put back
+  ResidualScratch residual;      ///< where iterations stop at a tolerance
 };
 
 /// Which multipliers are kept: those that a second iteration needs, or all.

@@ -259,6 +259,8 @@ ObjectId World::add(const Object& object) {
 ColliderId World::add(const Collider& collider) {
   refuse_grave(collider);
   self_->model.colliders.push_back(collider);
+  for (int o = 0; o < static_cast<int>(self_->model.objects.size()); ++o)
+    self_->workspace.shape_contacts.prepare(self_->model, o);  // which may have met none by more than vertices
   return self_->collider_ids.add(static_cast<int>(self_->model.colliders.size()) - 1);
 }
 

@@ -97,7 +97,7 @@ std::vector<Record> projected(const Kernels& kernels, int threads, const Tangle&
   executor.enter([&] {
     ContactSolver solver;
     solver.begin(kernels.contacts, contacts, from.positions.data(), from.positions.size());
-    for (int i = 0; i < 3; ++i) solver.project(executor, contacts, displacements.data());
+    for (int i = 0; i < 3; ++i) solver.project(executor, "contacts", contacts, displacements.data());
   });
   return displacements;
 }

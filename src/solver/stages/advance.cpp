@@ -18,7 +18,8 @@ namespace {
 
 /// Whether another stage reads velocities before the next prediction, or the two are to be timed apart.
 bool velocities_are_read(const Substep& s) {
-  return s.is_last() || s.has_pairs() || has_forces(s.model, s.work.control) || s.context.separate_phases;
+  return s.is_last() || s.has_pairs() || !s.work.shape_contacts.contacts().empty() || has_forces(s.model, s.work.control) ||
+         s.context.separate_phases;
 }
 
 /// A particle whose place at the substep's end is given.

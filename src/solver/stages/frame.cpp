@@ -39,10 +39,11 @@ Substep begin_frame(const StepContext& context, double dt, Report& report) {
 }
 
 void end_frame(Substep& s) {
-  for (const TileScratch& tile : s.work.tiles) {
-    s.report.contacts +=
-        std::count_if(tile.contacts.begin(), tile.contacts.end(), [](const Contact& c) { return c.push > 0; });
-  }
+  const auto count = [&](const std::vector<Contact>& contacts) {
+    s.report.contacts += std::count_if(contacts.begin(), contacts.end(), [](const Contact& c) { return c.push > 0; });
+  };
+  for (const TileScratch& tile : s.work.tiles) count(tile.contacts);
+  count(s.work.shape_contacts.contacts());
   if (s.has_pairs()) {
     const PairCounts c = s.work.pairs->counts();
     s.report.pairs = {c.candidates,   c.contacts, c.truncated, c.unresolvable,

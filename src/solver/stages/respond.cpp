@@ -33,12 +33,25 @@ void end_impacts(Substep& s, FunctionRef<Vec3f(int)> gravity, float slow) {
   }
 }
 
+/// To contacts of edges and triangles with primitive colliders.
+void respond_to_shapes(Substep& s, float slow, FunctionRef<Vec3f(int object)> gravity) {
+  const Record* positions = s.state.positions.data();
+  s.work.shape_contact_solver.for_each(
+      s.context.executor, "respond", s.work.shape_contacts.contacts(), [&](const Contact& contact) {
+        float free = 0;  // the share of its points that gravity moves
+        for (int i = 0; i < 4; ++i) free += positions[contact.point[i]].w > 0 ? contact.weight[i] : 0.f;
+        const Vec3f missing = gravity(s.model.object_of(contact.point[0])) * free;
+        respond_to_shape_contact(contact, s.state.velocities.data(), missing, slow, 1 / s.h);
+      });
+}
+
 }  // namespace
 
 void respond(Substep& s) {
-  if (!s.has_pairs()) return;
   const float slow = 2 * length(s.model.gravity) * s.h;
   const auto gravity = [&](int object) { return s.is_last() ? Vec3f{} : gravity_for(s, s.work.gravity[object].settled); };
+  respond_to_shapes(s, slow, gravity);
+  if (!s.has_pairs()) return;
   Record* velocities = s.state.velocities.data();
   s.work.contact_solver.for_each(s.context.executor, "respond", s.work.pairs->contacts(), [&](const Contact& contact) {
     s.work.pairs->respond(contact, s.state.positions.data(), velocities, slow, gravity);
