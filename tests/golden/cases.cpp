@@ -64,8 +64,10 @@ Scene scene_of(const SweepWay& way) {
 
 namespace {
 
-/// Scenes of contact that take paths of their own: heightfields, a collider that deforms, distance grids, untangling.
-const char* const contact_scenes[] = {"contact/heightfield", "contact/sleeve", "contact/solids", "contact/untangle"};
+/// Scenes of contact that take paths of their own: edges on primitives, heightfields, a collider that deforms, distance grids,
+/// untangling.
+const char* const contact_scenes[] = {"contact/corners", "contact/heightfield", "contact/sleeve", "contact/solids",
+                                      "contact/untangle"};
 constexpr int contact_frames = 16;
 
 /// Grids as fine as the scene has them take seconds to make.
