@@ -11,7 +11,7 @@ namespace pliant {
 namespace {
 
 constexpr int largest_stencil = 4;
-constexpr int most_failures = 16;  // per sort position, which bounds the cost of hubs with many constraints
+constexpr int most_failures = 16;  // per group of equal bases; bounds the cost of hubs with many constraints
 
 struct Candidate {
   std::array<int, largest_stencil> base;  // for contiguous slots: the particle minus the lane; otherwise 0

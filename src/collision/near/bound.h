@@ -12,9 +12,9 @@
 //   a near list    is rebuilt         when the odometer exceeds the margin of its search, which left out farther pairs
 //   clusters       are paired again   when one has travelled as far as its box was grown (ClusterMotions)
 //
-// The odometer counts the residual motion, after the rigid motion of the clusters is removed. Points p and q displaced by m
-// + w x p and m + w x q come no nearer: |p - q + w x (p - q)| >= |p - q|. So cloth in rigid motion costs nothing. For
-// straight paths this is exact, without a second-order error.
+// The odometer counts the residual motion, after the rigid motion of the clusters is removed. Points p and q that move
+// rigidly, to p + m + w x p and q + m + w x q, come no nearer: |p - q + w x (p - q)| >= |p - q|. So cloth in rigid motion
+// costs nothing. For straight paths this is exact, without a second-order error.
 //
 // Bounds only save work. Every decision about a pair uses its own distance and path in this substep. So a restored State
 // gives the same bits whatever the bounds were.
