@@ -1,26 +1,26 @@
-// Where a segment is closest to a primitive solid.
+// The closest point of a segment to a primitive solid.
 //
-// Along a segment the signed distance to a convex solid is a convex function, so its least value is where its slope changes sign: a
-// bracket that is narrowed down finds it.
+// Along a segment, the signed distance to a convex solid is a convex function.
+// Its minimum is where the slope changes sign, which bracketing finds.
 #pragma once
 
 #include "geometry/shapes.h"
 
 namespace pliant {
 
-/// A place on a segment a b.
+/// A point on a segment a b.
 template <class R>
 struct ClosestToShape {
-  R t{};             ///< share of the way from a to b, 0..1
+  R t{};             ///< share of the segment from a to b, 0..1
   R distance{};      ///< signed [m]
-  Vec3<R> normal{};  ///< unit, out of the solid; perpendicular to the segment within rounding where 0 < t < 1
+  Vec3<R> normal{};  ///< unit, outward; perpendicular to the segment within rounding if 0 < t < 1
 };
 
-/// A segment and a solid, with the signed distance at both ends.
+/// A segment and a solid, with the signed distances at both ends.
 template <class R>
 struct SegmentNearShape {
   LocalShape shape;
-  Vec3<R> a, edge;  ///< first end, and the way to the second
+  Vec3<R> a, edge;  ///< first end, and the vector to the second
   SurfaceDistance<R> at_a, at_b;
 
   PLIANT_HD SegmentNearShape(const LocalShape& solid, const Vec3<R>& from, const Vec3<R>& to)
@@ -29,10 +29,10 @@ struct SegmentNearShape {
   PLIANT_HD SurfaceDistance<R> at(const R& t) const { return signed_distance(shape, a + edge * t); }
   PLIANT_HD R slope(const SurfaceDistance<R>& surface) const { return dot(surface.normal, edge); }
 
-  /// True where some place between the ends is closer than both.
+  /// True if an interior point is closer than both ends.
   PLIANT_HD bool dips() const { return slope(at_a) < R(0) && slope(at_b) > R(0); }
 
-  /// The distance is nowhere below this, by the tangents at the ends [m]. Only where it dips().
+  /// Lower bound of the distance, from the tangents at the ends [m]. Valid only if dips().
   PLIANT_HD R lower_bound() const {
     const R down = slope(at_a), up = slope(at_b);
     const R t = clamp((at_b.distance - up - at_a.distance) / (down - up), R(0), R(1));
@@ -42,20 +42,20 @@ struct SegmentNearShape {
 
 namespace detail {
 
-/// Two places on a segment with the distance there, between which its slope changes.
+/// Two points on a segment with their distances, between which the slope changes sign.
 template <class R>
 struct Bracket {
   R low, high;
   SurfaceDistance<R> at_low, at_high;
 };
 
-/// Narrows down where the slope comes to exceed `threshold`, to within `exact` of it: it does not at `low`, and does at `high`. By regula
-/// falsi, which needs few steps where the solid is round; each third step halves, so that kinks are found too.
+/// Finds where the slope first exceeds `threshold`, to within `exact`: at `high` it exceeds it, at `low` it does not. Uses
+/// regula falsi, which converges fast for round solids; every third step bisects, so that kinks are found too.
 template <class R>
 PLIANT_HD void narrow(const SegmentNearShape<R>& segment, const R& threshold, const R& exact, Bracket<R>& b) {
   constexpr int steps = sizeof(R) == sizeof(float) ? 48 : 120;
   R low_excess = segment.slope(b.at_low) - threshold, high_excess = segment.slope(b.at_high) - threshold;
-  if (!(low_excess < R(0))) {  // all of it exceeds
+  if (!(low_excess < R(0))) {  // the slope exceeds it everywhere
     b.high = b.low;
     b.at_high = b.at_low;
   } else if (!(high_excess > R(0))) {
@@ -75,8 +75,8 @@ PLIANT_HD void narrow(const SegmentNearShape<R>& segment, const R& threshold, co
   }
 }
 
-/// The least distance within a bracket that has been narrowed down to it. Where the distance has a kink there, as inside a box, no normal
-/// of a face is perpendicular to the segment: the one between the two is, and the solid's edge is what is met.
+/// The least distance within a narrowed bracket. If the distance has a kink there, as inside a box, no face normal is
+/// perpendicular to the segment. The interpolated normal is, and the contact is with the solid's edge.
 template <class R>
 PLIANT_HD ClosestToShape<R> closest_in(const SegmentNearShape<R>& segment, const Bracket<R>& b) {
   const R down = segment.slope(b.at_low), up = segment.slope(b.at_high);
@@ -86,14 +86,14 @@ PLIANT_HD ClosestToShape<R> closest_in(const SegmentNearShape<R>& segment, const
   const R share = up - down > R(0) ? clamp(up / (up - down), R(0), R(1)) : R(1);
   const Vec3<R> between = b.at_low.normal * share + b.at_high.normal * (R(1) - share);
   const R size = length(between);
-  if (!(size > R(0.5f))) return found;  // in through one face and out through the opposite one
+  if (!(size > R(0.5f))) return found;  // enters through one face and leaves through the opposite one
   return {found.t, found.distance / size, between * (R(1) / size)};
 }
 
 }  // namespace detail
 
-/// The place on a segment that dips() which is closest to the solid; some such place where there are several. The distance is right to
-/// a hundred-thousandth of the segment's length.
+/// The point closest to the solid on a segment that dips(); any of them if
+/// there are several. The distance is accurate to 1e-5 of the segment's length.
 template <class R>
 PLIANT_HD ClosestToShape<R> closest_between(const SegmentNearShape<R>& segment) {
   detail::Bracket<R> b{R(0), R(1), segment.at_a, segment.at_b};
@@ -101,8 +101,8 @@ PLIANT_HD ClosestToShape<R> closest_between(const SegmentNearShape<R>& segment) 
   return detail::closest_in(segment, b);
 }
 
-/// Up to two places on a segment that dips(): the closest one, or both ends of a stretch along which the segment is almost parallel to the
-/// surface, as across a box or along a capsule, so that it lies there without rocking.
+/// Up to two points on a segment that dips(): the closest one, or both ends of a nearly parallel stretch, as across a box
+/// or along a capsule. Two points keep the segment from rocking.
 template <class R>
 struct ClosestStretch {
   int places = 0;

@@ -1,8 +1,8 @@
-// Edits of a description: triangles taken out, and surfaces cut along edges.
+// Edits of a description: removes triangles, and cuts surfaces along edges.
 //
-// A cut is described by the fans of triangles around each particle: triangles that follow one another across edges that are not
-// cut. The first fan keeps the particle, every other gets a copy. What a constraint joins is then told by the fans of the
-// triangles that it lies in.
+// A cut is described by fans around each particle: triangles connected
+// across uncut edges. The first fan keeps the particle, every other one gets
+// a copy. The fans of its triangles then determine what a constraint joins.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -31,7 +31,7 @@ int slots_of(const ConstraintGroup& group, const Object& object) {
               "constraint_types() lists them");
 }
 
-/// The triangles around each particle.
+/// The triangles incident to each particle.
 using Around = std::vector<std::vector<int>>;
 
 Around triangles_around(const Object& object, const std::vector<char>* present = nullptr) {
@@ -48,7 +48,7 @@ Around triangles_around(const Object& object, const std::vector<char>* present =
   return around;
 }
 
-/// The triangles that hold two of a stencil of two, or have all three corners in a larger one.
+/// The triangles with both particles of a two-particle stencil, or with all corners in a larger one.
 std::vector<int> triangles_of(const std::vector<int>& stencil, const Object& object, const Around& around) {
   std::set<int> found;
   for (const int particle : stencil) {
@@ -61,7 +61,7 @@ std::vector<int> triangles_of(const std::vector<int>& stencil, const Object& obj
   return {found.begin(), found.end()};
 }
 
-/// One constraint more in a group, like number `from` but among `stencil`, with its compliance times `softer`.
+/// Appends a copy of constraint `number` on another stencil, with its compliance times `softer`.
 void append(const ConstraintGroup& from, int number, const std::vector<int>& stencil, double softer, ConstraintGroup& to) {
   const auto slots = stencil.size();
   const std::size_t count = from.particles.size() / slots, fields = count > 0 ? from.rest.size() / count : 0;
@@ -95,7 +95,7 @@ double area_of(const Object& object, int t) {
   return 0.5 * std::sqrt(double(n.x) * n.x + double(n.y) * n.y + double(n.z) * n.z);
 }
 
-/// Which copy of each particle each triangle has, and what the copies are of.
+/// The particle copies that each triangle uses, and their origins.
 class Cut {
  public:
   Cut(const Object& object, const std::set<Edge>& edges)
@@ -123,13 +123,13 @@ class Cut {
  private:
   int particles() const { return static_cast<int>(around_.size()); }
 
-  /// What triangle t has as particle p.
+  /// The copy of particle p that triangle t uses.
   int copy(int p, int t) const {
     const auto found = copies_.find({p, t});
     return found == copies_.end() ? p : found->second;
   }
 
-  /// Fans of triangles around a particle: the first keeps it.
+  /// Splits a particle by its fans of triangles: the first fan keeps it.
   void split(int p) {
     const std::vector<int>& around = around_[static_cast<std::size_t>(p)];
     std::set<int> left(around.begin(), around.end());
@@ -147,7 +147,7 @@ class Cut {
         }
       }
       if (first) continue;
-      if (!parts_here(p)) return;  // fans that met in a point before the cut do so after it
+      if (!parts_here(p)) return;  // fans that met in one point before the cut still do
       origins_.push_back(p);
       for (const int t : fan) copies_[{p, t}] = particles() + static_cast<int>(origins_.size()) - 1;
     }
@@ -157,7 +157,7 @@ class Cut {
     return std::any_of(edges_.begin(), edges_.end(), [p](const Edge& e) { return e.first == p || e.second == p; });
   }
 
-  /// Whether two triangles share an edge at p that is not cut.
+  /// True if two triangles share an uncut edge at p.
   bool joined(int p, int a, int b) const {
     for (const int other : object_.triangles[static_cast<std::size_t>(a)])
       if (other != p && holds(object_.triangles[static_cast<std::size_t>(b)], other) && edges_.count(edge(p, other)) == 0)
@@ -182,14 +182,14 @@ class Cut {
     }
   }
 
-  /// Constraints that lie on one side go with it; those of an edge of the cut are held on either side; others go.
+  /// Constraints on one side follow it; edges on the cut are kept on both sides; others are removed.
   ConstraintGroup split(const ConstraintGroup& group) const {
     const int slots = slots_of(group, object_);
     ConstraintGroup out = empty_like(group);
     for (int c = 0; c < static_cast<int>(group.particles.size()) / slots; ++c) {
       const std::vector<int> stencil = stencil_of(group, slots, c);
       const std::vector<int> triangles = triangles_of(stencil, object_, around_);
-      std::map<std::vector<int>, double> sides;  // by the copies, the area of the triangles that it lies in
+      std::map<std::vector<int>, double> sides;  // by copies: the area of the constraint's triangles
       double whole = 0;
       for (const int t : triangles) {
         sides[copies(stencil, t, triangles)] += area_of(object_, t);
@@ -202,7 +202,7 @@ class Cut {
     return out;
   }
 
-  /// The stencil as triangle t sees it; what t does not hold is seen by the others.
+  /// The stencil with the copies that triangle t uses; other particles come from the other triangles.
   std::vector<int> copies(const std::vector<int>& stencil, int t, const std::vector<int>& triangles) const {
     std::vector<int> out;
     for (const int p : stencil) {
@@ -224,7 +224,7 @@ class Cut {
   const std::set<Edge>& edges_;
   Around around_;
   std::map<std::pair<int, int>, int> copies_;  ///< by particle and triangle
-  std::vector<int> origins_;                   ///< of each copy
+  std::vector<int> origins_;                   ///< original particle of each copy
 };
 
 std::set<Edge> edges_of(const Object& object, std::span<const int> path) {
