@@ -26,7 +26,7 @@ void check_mesh(Problems& problems, const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) problems.grave("mesh", "has no triangles", "give a mesh with faces, or leave it out");
   if (mesh.positions.size() > std::numeric_limits<int>::max() / 4)
     problems.grave("mesh", "has " + std::to_string(mesh.positions.size()) + " vertices",
-                   "make it coarser: so many can't be numbered");
+                   "make it coarser: the limit is 536870911");
   Tally not_places, outside, repeated;
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     if (!is_place(mesh.positions[i])) not_places.add(static_cast<std::int64_t>(i));
@@ -132,7 +132,7 @@ void doubt_thickness(Problems& problems, const Object& object) {
                           " m: two layers keep twice that apart, more than the median edge, " + words(edge) + " m",
                       "folds will be pushed open: give less, or a coarser mesh");
   if (object.thickness == 0)
-    problems.doubtful("thickness", "is 0: layers would rest on the last distance that the filter keeps",
+    problems.doubtful("thickness", "is 0: layers would rest on the filter's separating margin alone",
                       "give about a tenth of an edge");
 }
 
@@ -182,8 +182,8 @@ void check_frames(Problems& problems, const MeshCollider& collider) {
                    "give finite coordinates in metres, near the origin");
   }
   if (!collider.frames.empty() && collider.as != MeshCollider::As::triangles)
-    problems.grave("frames", "deform what is met as a distance grid or a heightfield, which can't deform",
-                   "leave them out, or let it be met as triangles");
+    problems.grave("frames", "deform a distance grid or a heightfield, which can't deform",
+                   "leave them out, or use the mesh as triangles");
 }
 
 /// Checks a mesh collider as a solid, after its mesh has passed.
@@ -228,7 +228,7 @@ void check_pairs(Problems& problems, const Scene& scene) {
     require_range(problems, name + ", restitution", pair.restitution.value_or(0), 0, 1);
     if (pair.static_friction && pair.kinetic_friction && *pair.kinetic_friction > *pair.static_friction)
       problems.grave(name + ", kinetic_friction", "is larger than the static one",
-                     "nothing slides harder than it sticks: lower it");
+                     "lower it to the static friction or less");
   }
 }
 

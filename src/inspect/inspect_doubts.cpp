@@ -92,8 +92,8 @@ void doubt_references(const Doubts& d) {
   for (std::size_t i = 0; i < used.size(); ++i)
     if (!used[i]) loose.add(static_cast<std::int64_t>(i));
   if (static_cast<std::size_t>(loose.count) == d.count()) return;  // all particles are free: a particle cloud is intended
-  d.problems.doubtful(loose, "particle", "is in no constraint and no triangle, so it flies by itself",
-                      "drop it, or tie it");
+  d.problems.doubtful(loose, "particle", "is in no constraint and no triangle, so it moves freely",
+                      "remove it, or constrain it");
 }
 
 void doubt_places(const Doubts& d) {
@@ -139,7 +139,7 @@ void doubt_distances(const Doubts& d, const ConstraintGroup& group) {
   if (static_cast<double>(d.object.thickness) > most)
     d.problems.doubtful("thickness",
                         "is " + words(d.object.thickness) + " m, more than the shortest edge, " + words(shortest) + " m",
-                        "it will hover: lengths are in metres");
+                        "it will hover above colliders: lengths are in metres");
 }
 
 void doubt_hinges(const Doubts& d, const ConstraintGroup& group) {

@@ -24,7 +24,7 @@ std::string of(std::size_t count) { return std::to_string(count); }
 void check_positions(Problems& problems, const Object& object) {
   if (object.positions.empty()) problems.grave("", "has no particles", "add some, or leave the object out");
   if (object.positions.size() > std::numeric_limits<int>::max() / 4)
-    problems.grave("", "has " + of(object.positions.size()) + " particles", "split it: so many can't be numbered");
+    problems.grave("", "has " + of(object.positions.size()) + " particles", "split it: the limit is 536870911");
   Tally infinite, far;
   for (std::size_t i = 0; i < object.positions.size(); ++i) {
     const Vec3f& p = object.positions[i];
@@ -143,7 +143,7 @@ void check_rest(Problems& problems, const ConstraintGroup& group, const Constrai
 void check_compliances(Problems& problems, const ConstraintGroup& group, std::size_t count, const std::string& kind) {
   if (group.compliances.empty()) return;
   if (group.stiffness.kind == Stiffness::Kind::pbd)
-    problems.grave("compliances of " + group.type + " constraints", "can't be had together with a PBD stiffness",
+    problems.grave("compliances of " + group.type + " constraints", "cannot be combined with a PBD stiffness",
                    "give one or the other");
   if (group.compliances.size() != count)
     problems.grave("compliances of " + group.type + " constraints",

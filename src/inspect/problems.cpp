@@ -107,7 +107,7 @@ void check_friction(Problems& problems, float static_friction, float kinetic_fri
   require_range(problems, "restitution", restitution, 0, 1);
   if (kinetic_friction > static_friction)
     problems.grave("kinetic_friction", "is " + words(kinetic_friction) + ", more than the static " + words(static_friction),
-                   "nothing slides harder than it sticks: lower it");
+                   "lower it to the static friction or less");
 }
 
 }  // namespace pliant
