@@ -102,7 +102,8 @@ class World {
 
   /// Adds an object as it is now: the first frame of its keyframes is the one that follows. Costs what this object costs to
   /// compile; where it can touch other surfaces, contact is prepared anew before the next step. The World's sweep and
-  /// substeps stay as chosen when it was made. Throws Error naming the element where it can't be simulated.
+  /// substeps stay as chosen when it was made. Throws Error naming the element where it can't be simulated, or where the settings
+  /// refuse initial intersections and it has some with what is there now; that check looks at all surfaces.
   ObjectId add(const Object& object);
   ColliderId add(const Collider& collider);
   MeshColliderId add(const MeshCollider& collider);

@@ -238,4 +238,9 @@ void refuse_grave(const MeshCollider& collider) {
   check_mesh_collider(problems, collider);
 }
 
+void refuse_initial_intersections(const Scene& scene) {
+  Problems problems(Problems::Mode::throw_grave);
+  refuse_tangles(problems, scene);
+}
+
 }  // namespace pliant

@@ -18,4 +18,7 @@ void refuse_grave(const Object& object);
 void refuse_grave(const Collider& collider);
 void refuse_grave(const MeshCollider& collider);
 
+/// Only of initial intersections and enclosures, and only where the scene's setting refuses them.
+void refuse_initial_intersections(const Scene& scene);
+
 }  // namespace pliant

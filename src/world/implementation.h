@@ -22,6 +22,16 @@ struct ObjectState {
   std::vector<std::vector<float>> channels;
 };
 
+/// Groups that a body is in and those that it meets.
+struct Masks {
+  std::uint32_t groups = 1, mask = ~0u;
+};
+
+/// Moves what follows keyframes to where they have it at a time.
+void move_to_present(const CompiledObject& object, double time, Record* positions);
+/// What particles meet of a mesh collider; null where that is its triangles. Throws Error where the mesh does not suit.
+std::shared_ptr<const SolidField> field_of(const MeshCollider& collider);
+
 // More than fifteen members: it is the one place where what a World consists of comes together.
 struct World::Implementation {
   Implementation(const Scene& scene, const Settings& with);
@@ -33,9 +43,9 @@ struct World::Implementation {
   /// The sweep of an object that is added now.
   Sweep sweep_of(const Object& object) const;
   /// Adds a mesh collider to the model; its number there.
-  int add_to_model(const MeshCollider& collider);
+  int add_to_model(const MeshCollider& collider, CompiledObject compiled);
   /// What particles meet of a mesh collider that is no triangles. Fields stand in the order of their numbers.
-  void add_field(const MeshCollider& collider, int number);
+  void add_field(const MeshCollider& collider, std::shared_ptr<const SolidField> field, int number);
   /// Gives an object of the model, just added, a place in the State and in the workspace.
   void put(int number);
   /// Throws Error where the origins of an edit's particles do not fit.
@@ -63,6 +73,10 @@ struct World::Implementation {
   int number(ObjectId id) const { return object_ids.number(id); }
   const CompiledObject& object(ObjectId id) const { return model.objects[number(id)]; }
   const Collider& collider(ColliderId id) const { return model.colliders[collider_ids.number(id)]; }
+
+  // ---- intersections.cpp
+  /// Throws Error where the settings refuse initial intersections and what is about to be added has some.
+  void refuse_intersections(const CompiledObject& added, const Masks& masks, bool is_grid) const;
 
   // ---- state.cpp
   /// Throws Error where a State's blocks are not those of this World.

@@ -80,7 +80,7 @@ World::Implementation::Implementation(const Scene& scene, const WorldLayout& lay
   }
   for (std::size_t i = 0; i < of_meshes.size(); ++i) {
     objects[of_meshes[i]] = compile(scene.mesh_colliders[i]);
-    add_field(scene.mesh_colliders[i], of_meshes[i]);
+    add_field(scene.mesh_colliders[i], field_of(scene.mesh_colliders[i]), of_meshes[i]);
   }
   std::vector<ObjectPlace> places;
   for (std::size_t number = 0; number < count; ++number) {

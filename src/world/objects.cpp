@@ -31,7 +31,8 @@ void require_room(const Model& model, std::size_t particles, const std::string& 
                 "make it smaller, or remove others first");
 }
 
-/// What is moved by keyframes is where they have it by now, not where it would have begun.
+}  // namespace
+
 void move_to_present(const CompiledObject& object, double time, Record* positions) {
   const auto put = [&](int particle, const Vec3d& place) {
     const Vec3f at = convert<float>(place);
@@ -45,7 +46,9 @@ void move_to_present(const CompiledObject& object, double time, Record* position
     put(kinematic.particle, to_world(pose_at(kinematic.motion, time), convert<double>(kinematic.rest)));
 }
 
-}  // namespace
+std::shared_ptr<const SolidField> field_of(const MeshCollider& collider) {
+  return collider.as == MeshCollider::As::triangles ? nullptr : solid_field_of(collider);
+}
 
 CompileOptions World::Implementation::compile_options(Sweep sweep) const {
   CompileOptions options;
@@ -81,19 +84,19 @@ Sweep World::Implementation::sweep_of(const Object& object) const {
   return chosen_sweep(scene, static_cast<int>(scene.objects.size()) - 1);
 }
 
-int World::Implementation::add_to_model(const MeshCollider& collider) {
-  const int number = model.add(compile(collider));
-  add_field(collider, number);
+int World::Implementation::add_to_model(const MeshCollider& collider, CompiledObject compiled) {
+  std::shared_ptr<const SolidField> field = field_of(collider);  // may throw: before anything changes
+  const int number = model.add(std::move(compiled));
+  add_field(collider, std::move(field), number);
   return number;
 }
 
-void World::Implementation::add_field(const MeshCollider& collider, int number) {
-  if (collider.as == MeshCollider::As::triangles) return;
-  const auto after = std::find_if(model.fields.begin(), model.fields.end(),
-                                  [&](const FieldCollider& field) { return field.object > number; });
-  model.fields.insert(after,
-                      {number, solid_field_of(collider), collider.motion, collider.thickness, collider.static_friction,
-                       collider.kinetic_friction, collider.restitution, collider.groups, collider.mask});
+void World::Implementation::add_field(const MeshCollider& collider, std::shared_ptr<const SolidField> field, int number) {
+  if (field == nullptr) return;
+  const auto after =
+      std::find_if(model.fields.begin(), model.fields.end(), [&](const FieldCollider& one) { return one.object > number; });
+  model.fields.insert(after, {number, std::move(field), collider.motion, collider.thickness, collider.static_friction,
+                              collider.kinetic_friction, collider.restitution, collider.groups, collider.mask});
 }
 
 void World::Implementation::put(int number) {
@@ -251,7 +254,9 @@ void World::Implementation::bring_up_to_date() {
 ObjectId World::add(const Object& object) {
   refuse_grave(object);
   require_room(self_->model, object.positions.size() + object.attachments.size(), object.name);
-  const int number = self_->model.add(compile(object, self_->compile_options(self_->sweep_of(object))));
+  CompiledObject compiled = compile(object, self_->compile_options(self_->sweep_of(object)));
+  self_->refuse_intersections(compiled, {object.groups, object.mask}, false);
+  const int number = self_->model.add(std::move(compiled));
   self_->put(number);
   return self_->object_ids.add(number);
 }
@@ -267,7 +272,11 @@ ColliderId World::add(const Collider& collider) {
 MeshColliderId World::add(const MeshCollider& collider) {
   refuse_grave(collider);
   require_room(self_->model, collider.mesh.positions.size(), collider.name);
-  const int number = self_->add_to_model(collider);
+  CompiledObject compiled = compile(collider);
+  const bool is_ground = collider.as == MeshCollider::As::heightfield;
+  const Masks masks = is_ground ? Masks{0, 0} : Masks{collider.groups, collider.mask};
+  self_->refuse_intersections(compiled, masks, collider.as == MeshCollider::As::distance_grid);
+  const int number = self_->add_to_model(collider, std::move(compiled));
   self_->put(number);
   return self_->mesh_collider_ids.add(number);
 }

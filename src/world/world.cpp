@@ -34,7 +34,8 @@ World::Implementation::Implementation(const Scene& scene, const Settings& with)
   for (int o = 0; o < static_cast<int>(scene.objects.size()); ++o)
     object_ids.add(
         model.add(compile(scene.objects[static_cast<std::size_t>(o)], compile_options(chosen_sweep(scene, with, o)))));
-  for (const MeshCollider& collider : scene.mesh_colliders) mesh_collider_ids.add(add_to_model(collider));
+  for (const MeshCollider& collider : scene.mesh_colliders)
+    mesh_collider_ids.add(add_to_model(collider, compile(collider)));
   state = initial_state(model);
   for (int number = 0; number < static_cast<int>(model.objects.size()); ++number) prepare(number);
   prepare_pairs(state.positions);

@@ -242,6 +242,59 @@ TEST(RunTime, WhatCannotBeSimulatedIsRefusedAndChangesNothing) {
   EXPECT_TRUE(world.step(dt).ok());
 }
 
+TEST(RunTime, IntersectionsOfWhatIsAddedAreRefusedWhereTheSceneRefusesThem) {
+  const auto box = [](float size, const Vec3f& at, const std::string& name) {
+    MeshCollider collider;
+    collider.name = name;
+    collider.mesh = box_mesh({size, size, size});
+    for (Vec3f& p : collider.mesh.positions) p += at;
+    return collider;
+  };
+  Scene scene;
+  scene.settings = settings_of(2);
+  scene.settings.initial_intersections = Settings::Intersections::refuse;
+  scene.gravity = {};
+  Object flat = sheet("flat", {});
+  flat.collides = true;
+  flat.velocities.assign(flat.positions.size(), Vec3f{0, 1, 0});
+  scene.add(flat);
+  World world(scene);
+  for (int frame = 0; frame < 60; ++frame) ASSERT_TRUE(world.step(dt).ok());  // it is 1 m higher now
+  const std::string before = world.state_hash();
+  Object upright = sheet("upright", {});
+  for (Vec3f& p : upright.positions) p = {p.x + 0.013f, p.z + 0.007f, 0.01f};
+  upright.collides = true;
+  const auto at_height = [&](float y) {
+    Object moved = upright;
+    for (Vec3f& p : moved.positions) p.y += y;
+    return moved;
+  };
+  const auto refused = [&](const auto& what) {
+    try {
+      world.add(what);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refused(at_height(1)).find("passes through triangle"), std::string::npos);
+  EXPECT_NE(refused(box(0.2f, {0, 1, 0}, "through")).find("'through'"), std::string::npos);
+  EXPECT_NE(refused(box(4, {0, 1, 0}, "around")).find("is inside of closed collider 'around'"), std::string::npos);
+  MeshCollider grid = box(4, {0, 1, 0}, "grid");
+  grid.as = MeshCollider::As::distance_grid;
+  grid.field = measure_distances(grid.mesh, 0.2f);
+  EXPECT_NE(refused(grid).find("is inside of distance grid 'grid'"), std::string::npos);
+  EXPECT_EQ(world.state_hash(), before);
+  EXPECT_EQ(world.object_count(), 1);
+  EXPECT_TRUE(world.mesh_colliders().empty());
+  Object apart = at_height(1);
+  apart.groups = 2;  // nothing meets it, so it may be anywhere
+  apart.mask = 2;
+  EXPECT_EQ(refused(apart), "");
+  EXPECT_EQ(refused(at_height(0)), "") << "where the sheet was at the start";
+  EXPECT_TRUE(world.step(dt).ok());
+}
+
 /// The same random adds, removes and steps: a hash of all that is left.
 std::string random_life(int threads, int changes, std::size_t& largest) {
   std::mt19937 random(11);

@@ -1,12 +1,41 @@
-// A running world changed from outside, by the installed headers alone: add, remove, cut, move, push, read, contact events.
+// Somebody else's program, by the installed headers alone: a running world that things are added to and removed from, cut, moved
+// and pushed, that tells what touches, that holds a constraint type of the program's own, and that goes on from a file.
+#include <pliant/constraint.h>
 #include <pliant/pliant.h>
 
+#include <array>
 #include <iostream>
+#include <limits>
 #include <span>
 #include <vector>
 
+/// A weight on a line that must not grow longer than a tether.
+struct Tether {
+  static constexpr const char* name = "tether";
+  using slots = pliant::Points<2>;
+  static constexpr int rows = 1;
+  template <class R>
+  struct Params {
+    R longest;  // [m]
+  };
+  static constexpr std::array<const char*, 1> fields{"longest"};
+
+  template <class R>
+  static void evaluate(const pliant::SlotValues<slots, R>& at, const Params<R>& p, pliant::Rows<slots, rows, R>& out) {
+    using pliant::max, pliant::select, pliant::sqrt;
+    const pliant::Vec3<R> d = at.point[1] - at.point[0];
+    const R length = sqrt(dot(d, d));
+    const auto slack = length < p.longest;
+    const R scale = select(slack, R(0), R(1) / max(length, R(1e-20f)));
+    out.c[0] = select(slack, R(0), length - p.longest);
+    out.gradient[0][1] = d * scale;
+    out.gradient[0][0] = -out.gradient[0][1];
+  }
+};
+
 namespace {
 
+constexpr float dt = 1.f / 60;
 int failures = 0;
 
 void expect(bool holds, const char* what) {
@@ -15,9 +44,41 @@ void expect(bool holds, const char* what) {
   ++failures;
 }
 
+pliant::Object weight_on_a_tether() {
+  pliant::Object weight;
+  weight.name = "weight";
+  weight.positions = {{3, 2, 0}, {3.5f, 2, 0}};
+  weight.masses = {std::numeric_limits<float>::infinity(), 1};
+  pliant::ConstraintGroup group;
+  group.type = "tether";
+  group.particles = {0, 1};
+  group.rest = {1};
+  weight.constraints = {group};
+  weight.damping = 4;
+  return weight;
+}
+
+/// From a scene of what exists, with the same ids and in the same bits.
+void expect_to_go_on_from_a_file(pliant::World& world, const pliant::Scene& now) {
+  pliant::save("run_time.world", world, now);
+  pliant::LoadedWorld loaded = pliant::load_world("run_time.world");
+  expect(loaded.world.objects() == world.objects(), "a loaded world has the same ids");
+  for (int frame = 0; frame < 10; ++frame) {
+    world.step(dt);
+    loaded.world.step(dt);
+  }
+  expect(loaded.world.state_hash() == world.state_hash(), "a loaded world goes on in the same bits");
+  pliant::save("run_time.state", world.state());
+  const std::string before = world.state_hash();
+  world.step(dt);
+  world.restore(pliant::load_state("run_time.state"));
+  expect(world.state_hash() == before, "a state is put back");
+}
+
 }  // namespace
 
 int main() {
+  pliant::register_constraint<Tether>();
   pliant::Scene scene;
   scene.settings.sweep = pliant::Sweep::tiled;
   scene.settings.substeps = 10;
@@ -28,8 +89,7 @@ int main() {
   ground.position = {0, -0.3f, 0};
   const pliant::ColliderId floor = world.add(ground);
   pliant::Object sheet = pliant::make_cloth(pliant::grid_mesh(9, 9, 1, 1));
-  const pliant::ObjectId cloth = world.add(sheet);
-  const pliant::ObjectId other = world.add(sheet);
+  const pliant::ObjectId other = world.add(sheet), cloth = world.add(sheet);
   world.remove(other);
   expect(!world.has(other), "a removed object is gone");
   try {
@@ -37,12 +97,14 @@ int main() {
     expect(false, "a stale id is refused");
   } catch (const pliant::Error&) {
   }
+  const pliant::Object weight = weight_on_a_tether();
+  const pliant::ObjectId hanging = world.add(weight);
 
   std::vector<pliant::Vec3f> impulses(81, pliant::Vec3f{0, 0.0001f, 0});
   world.add_impulses(cloth, impulses);
   int begun = 0;
   for (int frame = 0; frame < 60; ++frame) {
-    if (!world.step(1.f / 60).ok()) return 1;
+    if (!world.step(dt).ok()) return 1;
     for (const pliant::ContactEvent& event : world.contact_events())
       begun += event.change == pliant::ContactEvent::Change::begin ? 1 : 0;
   }
@@ -55,10 +117,18 @@ int main() {
 
   const pliant::RigidPose lifted{{0, 0.2f, 0}, {}};
   world.set_poses(std::span<const pliant::ColliderId>(&floor, 1), {&lifted, 1});
-  for (int frame = 0; frame < 30; ++frame) world.step(1.f / 60);
+  for (int frame = 0; frame < 30; ++frame) world.step(dt);
   std::vector<pliant::Vec3f> positions(90);
   world.read_positions(cloth, positions);
   for (const pliant::Vec3f& p : positions) expect(p.y > 0.19f, "the ground carries the cloth");
   expect(world.storage_order(cloth).size() == world.positions_in_storage_order(cloth).size(), "one number a record");
+
+  pliant::Scene now = scene;
+  for (const pliant::ObjectId id : world.objects()) now.objects.push_back(id == cloth ? edit.object : weight);
+  now.colliders = {ground};
+  expect_to_go_on_from_a_file(world, now);
+  for (int frame = 0; frame < 300; ++frame) world.step(dt);
+  const pliant::Vec3f end = world.positions(hanging)[1];
+  expect(end.y > 0.999f && end.y < 1.001f, "the program's own constraint holds the weight");
   return failures == 0 ? 0 : 1;
 }
