@@ -174,16 +174,17 @@ TEST(Control, CollidersGoWhereTheyAreSetAndCarryWhatLiesOnThem) {
 TEST(Control, ADrivenPoseEqualsTheSameMotionByKeyframes) {
   Scene by_hand = hanging_cloth(), by_keyframes = hanging_cloth();
   by_hand.colliders[0].motion = {};
-  by_keyframes.colliders[0].motion = straight({0.2f, 0, 0}, 1);
+  by_keyframes.colliders[0].motion = straight({0.25f, 0, 0}, 1);
   World world(by_hand), expected(by_keyframes);
   for (int frame = 1; frame <= 40; ++frame) {
-    const RigidPose pose{by_hand.colliders[0].position + Vec3f{0.2f * static_cast<float>(frame) / 64, 0, 0}, {}};
+    const RigidPose pose{by_hand.colliders[0].position + Vec3f{0.25f * static_cast<float>(frame) / 64, 0, 0}, {}};
     const ColliderId ball = 0;
     world.set_poses(std::span<const ColliderId>(&ball, 1), {&pose, 1});
     world.step(1.f / 64);
     expected.step(1.f / 64);
   }
-  for (int i = 0; i < 144; ++i) EXPECT_LT(distance(world.positions(0)[i], expected.positions(0)[i]), 1e-3) << i;
+  // Every pose, of frames and of their eight substeps, is a float without rounding: contact sees the same ball.
+  EXPECT_EQ(world.positions(0), expected.positions(0));
   EXPECT_LT(distance(world.collider_position(0), expected.collider_position(0)), 1e-6);
 }
 
