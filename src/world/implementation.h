@@ -65,6 +65,7 @@ struct World::Implementation {
   void prepare(int number);
   /// Whether an object has a surface that could touch something; then contact is prepared anew.
   void note_surfaces(int number);
+  void prepare_shape_contacts();
   void prepare_pairs(const Records& rest);
   /// Before a step: what only needs to be done once for all that came and went since the last.
   void bring_up_to_date();

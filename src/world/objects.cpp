@@ -130,6 +130,11 @@ void World::Implementation::prepare(int number) {
   objects_changed = true;
 }
 
+/// Which elements an object needs depends on the colliders that it may meet by more than vertices.
+void World::Implementation::prepare_shape_contacts() {
+  for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) workspace.shape_contacts.prepare(model, o);
+}
+
 void World::Implementation::note_surfaces(int number) {
   const CompiledObject& object = model.objects[number];
   const auto is_mesh = [](const CompiledObject& one) { return one.is_collider && one.groups != 0; };
@@ -264,8 +269,7 @@ ObjectId World::add(const Object& object) {
 ColliderId World::add(const Collider& collider) {
   refuse_grave(collider);
   self_->model.colliders.push_back(collider);
-  for (int o = 0; o < static_cast<int>(self_->model.objects.size()); ++o)
-    self_->workspace.shape_contacts.prepare(self_->model, o);  // which may have met none by more than vertices
+  self_->prepare_shape_contacts();
   return self_->collider_ids.add(static_cast<int>(self_->model.colliders.size()) - 1);
 }
 
@@ -307,6 +311,7 @@ void World::remove(ColliderId collider) {
   self_->collider_ids.remove(collider);
   self_->collider_ids.close_gap(number);
   self_->model.colliders.erase(self_->model.colliders.begin() + number);
+  self_->prepare_shape_contacts();
   std::map<int, PoseDrive> drives;  // of those above it the numbers are one less
   for (const auto& [other, drive] : self_->workspace.control.colliders)
     if (other != number) drives.emplace(other > number ? other - 1 : other, drive);
