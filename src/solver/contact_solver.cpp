@@ -22,13 +22,14 @@ const ContactKernels& contact_kernels_sequential() {
   return kernels;
 }
 
-void ContactColours::colour(const std::vector<Contact>& contacts, const Record* positions, std::size_t points) {
+void ContactColours::colour(const std::vector<Contact>& contacts, std::size_t first, std::size_t last,
+                            const Record* positions, std::size_t points) {
   if (taken_.size() < points) taken_.resize(points, 0);
-  const std::size_t count = contacts.size();
+  const std::size_t count = last - first;
   colour_.resize(count);
   start_.assign(tail_colour + 2, 0);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto& point = contacts[i].point;
+    const auto& point = contacts[first + i].point;
     std::uint64_t taken = 0;
     bool moves[4];
     for (int k = 0; k < 4; ++k) {
@@ -46,20 +47,21 @@ void ContactColours::colour(const std::vector<Contact>& contacts, const Record* 
   order_.resize(count);
   std::int32_t next[tail_colour + 1];
   std::copy(start_.begin(), start_.end() - 1, next);
-  for (std::size_t i = 0; i < count; ++i) order_[next[colour_[i]]++] = static_cast<std::int32_t>(i);
-  for (const Contact& contact : contacts)
-    for (const std::int32_t point : contact.point) taken_[point] = 0;
+  for (std::size_t i = 0; i < count; ++i) order_[next[colour_[i]]++] = static_cast<std::int32_t>(first + i);
+  for (std::size_t i = first; i < last; ++i)
+    for (const std::int32_t point : contacts[i].point) taken_[point] = 0;
 }
 
-void ContactSolver::begin(const ContactKernels& kernels, const std::vector<Contact>& contacts, const Record* positions,
-                          std::size_t points) {
+void ContactSolver::begin(const ContactKernels& kernels, const std::vector<Contact>& contacts, std::size_t leading,
+                          const Record* positions, std::size_t points) {
   kernels_ = &kernels;
-  colours_.colour(contacts, positions, points);
+  sections_[0].colour(contacts, 0, leading, positions, points);
+  sections_[1].colour(contacts, leading, contacts.size(), positions, points);
 }
 
-void ContactSolver::for_ranges(Executor& executor, const char* name, FunctionRef<void(int, int)> body,
-                               FunctionRef<void(int, int)> tail) const {
-  const std::vector<std::int32_t>& start = colours_.start();
+void ContactSolver::for_ranges(Executor& executor, const char* name, const ContactColours& colours,
+                               FunctionRef<void(int, int)> body, FunctionRef<void(int, int)> tail) const {
+  const std::vector<std::int32_t>& start = colours.start();
   const auto tasks = [&](int c) { return executor.threads() == 1 ? 1 : (start[c + 1] - start[c]) / contacts_a_task; };
   for (int c = 0; c < tail_colour && start[c] < start.back();) {
     if (const int shared = tasks(c); shared > 1) {
@@ -79,21 +81,26 @@ void ContactSolver::for_ranges(Executor& executor, const char* name, FunctionRef
 void ContactSolver::project(Executor& executor, const char* name, std::vector<Contact>& contacts,
                             Record* displacements) const {
   if (contacts.empty()) return;
-  for_ranges(
-      executor, name,
-      [&](int first, int last) { kernels_->project(contacts.data(), colours_.order().data(), first, last, displacements); },
-      [&](int first, int last) {
-        project_sequentially(contacts.data(), colours_.order().data(), first, last, displacements);
-      });
+  for (const ContactColours& colours : sections_) {
+    if (colours.order().empty()) continue;
+    const std::int32_t* order = colours.order().data();
+    for_ranges(
+        executor, name, colours,
+        [&](int first, int last) { kernels_->project(contacts.data(), order, first, last, displacements); },
+        [&](int first, int last) { project_sequentially(contacts.data(), order, first, last, displacements); });
+  }
 }
 
 void ContactSolver::for_each(Executor& executor, const char* name, const std::vector<Contact>& contacts,
                              FunctionRef<void(const Contact&)> answer) const {
   if (contacts.empty()) return;
-  const auto range = [&](int first, int last) {
-    for (int i = first; i < last; ++i) answer(contacts[colours_.order()[i]]);
-  };
-  for_ranges(executor, name, range, range);
+  for (const ContactColours& colours : sections_) {
+    if (colours.order().empty()) continue;
+    const auto range = [&](int first, int last) {
+      for (int i = first; i < last; ++i) answer(contacts[colours.order()[i]]);
+    };
+    for_ranges(executor, name, colours, range, range);
+  }
 }
 
 }  // namespace pliant

@@ -3,8 +3,12 @@
 // Contacts come in a total order. Each gets the first of 64 colours that none of its points has yet, in that order, so that two of
 // one colour share no point that moves; the few that find none are the tail, projected in order at the end. Colours depend on the
 // contacts alone: neither the number of threads nor the instruction set changes a bit.
+//
+// Contacts of static neighbour pairs lead: all of them are projected before the others, which then have the last word. Mixed with the others,
+// neighbours undo what layers that lie on one another have won.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -17,8 +21,9 @@ namespace pliant {
 /// Contacts by colour.
 class ContactColours {
  public:
-  /// Colours contacts whose points are numbers below `points`; those without mass in `positions` may be shared.
-  void colour(const std::vector<Contact>& contacts, const Record* positions, std::size_t points);
+  /// Colours contacts `first` to `last` - 1, whose points are numbers below `points`; those without mass in `positions` may be shared.
+  void colour(const std::vector<Contact>& contacts, std::size_t first, std::size_t last, const Record* positions,
+              std::size_t points);
 
   /// Numbers of contacts, colour by colour, the tail last; ascending in each.
   const std::vector<std::int32_t>& order() const { return order_; }
@@ -34,9 +39,9 @@ class ContactColours {
 /// Projects contacts and answers with restitution, colour by colour.
 class ContactSolver {
  public:
-  /// Forgets the contacts of the substep before and colours these.
-  void begin(const ContactKernels& kernels, const std::vector<Contact>& contacts, const Record* positions,
-             std::size_t points);
+  /// Forgets the contacts of the substep before and colours these. The first `leading` are all projected before the others.
+  void begin(const ContactKernels& kernels, const std::vector<Contact>& contacts, std::size_t leading,
+             const Record* positions, std::size_t points);
   /// Projects each contact once.
   void project(Executor& executor, const char* name, std::vector<Contact>& contacts, Record* displacements) const;
   /// answer(contact) once for each contact, at the same time only for those that share no point that moves.
@@ -45,11 +50,11 @@ class ContactSolver {
 
  private:
   /// body(first, last) over the order of each colour, on several threads where it is large; then tail(first, last).
-  void for_ranges(Executor& executor, const char* name, FunctionRef<void(int, int)> body,
+  void for_ranges(Executor& executor, const char* name, const ContactColours& colours, FunctionRef<void(int, int)> body,
                   FunctionRef<void(int, int)> tail) const;
 
   const ContactKernels* kernels_ = nullptr;
-  ContactColours colours_;
+  std::array<ContactColours, 2> sections_;  ///< the leading contacts, and the others
 };
 
 }  // namespace pliant

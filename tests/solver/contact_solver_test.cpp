@@ -66,7 +66,7 @@ TEST(ContactColours, ShareNothingThatMovesAndLeaveNothingOut) {
     const Tangle tangle = random_tangle(1000, apart == 8 ? 30000 : 6000, apart, 1);
     ContactColours colours;
     for (int round = 0; round < 2; ++round)  // tables are kept
-      colours.colour(tangle.contacts, tangle.positions.data(), tangle.positions.size());
+      colours.colour(tangle.contacts, 0, tangle.contacts.size(), tangle.positions.data(), tangle.positions.size());
     const std::vector<std::int32_t>&order = colours.order(), &start = colours.start();
     ASSERT_EQ(std::set<std::int32_t>(order.begin(), order.end()).size(), tangle.contacts.size());
     ASSERT_EQ(start.back(), static_cast<std::int32_t>(order.size()));
@@ -96,10 +96,27 @@ std::vector<Record> projected(const Kernels& kernels, int threads, const Tangle&
   contacts = from.contacts;
   executor.enter([&] {
     ContactSolver solver;
-    solver.begin(kernels.contacts, contacts, from.positions.data(), from.positions.size());
+    solver.begin(kernels.contacts, contacts, contacts.size() / 3, from.positions.data(), from.positions.size());
     for (int i = 0; i < 3; ++i) solver.project(executor, "contacts", contacts, displacements.data());
   });
   return displacements;
+}
+
+/// By colours alone the third would come before the second, with which it shares a point.
+TEST(ContactSolver, ProjectsTheLeadingContactsFirst) {
+  std::vector<Contact> contacts(3);
+  for (int i = 0; i < 3; ++i) contacts[i].point = {i, i + 1, i, i};
+  const std::vector<Record> positions(4, Record{0, 0, 0, 1});
+  Executor executor(1);
+  const auto order_of = [&](std::size_t leading) {
+    ContactSolver solver;
+    std::vector<std::ptrdiff_t> order;
+    solver.begin(kernels_sequential().contacts, contacts, leading, positions.data(), positions.size());
+    solver.for_each(executor, "contacts", contacts, [&](const Contact& c) { order.push_back(&c - contacts.data()); });
+    return order;
+  };
+  EXPECT_EQ(order_of(2), (std::vector<std::ptrdiff_t>{0, 1, 2}));
+  EXPECT_EQ(order_of(0), (std::vector<std::ptrdiff_t>{0, 2, 1}));
 }
 
 TEST(ContactSolver, GivesTheSameBitsOnAnyThreadsAndInstructionSet) {
@@ -140,7 +157,7 @@ TEST(ContactSolver, AnswersEachContactOnce) {
     std::vector<std::atomic<int>> times(tangle.contacts.size());
     executor.enter([&] {
       ContactSolver solver;
-      solver.begin(kernels_sequential().contacts, tangle.contacts, tangle.positions.data(), tangle.positions.size());
+      solver.begin(kernels_sequential().contacts, tangle.contacts, 0, tangle.positions.data(), tangle.positions.size());
       solver.for_each(executor, "answer", tangle.contacts,
                       [&](const Contact& c) { ++times[static_cast<std::size_t>(&c - tangle.contacts.data())]; });
     });

@@ -106,8 +106,8 @@ void detect_group(const Detection& d, StaticGroup& group, std::vector<Contact>& 
 
 }  // namespace
 
-void ContactDetector::detect(Executor& executor, Neighbourhood& near, const PairParticles& particles,
-                             FunctionRef<bool(const PairStencil&)> is_exempt, std::vector<Contact>& contacts) {
+std::size_t ContactDetector::detect(Executor& executor, Neighbourhood& near, const PairParticles& particles,
+                                    FunctionRef<bool(const PairStencil&)> is_exempt, std::vector<Contact>& contacts) {
   contacts.clear();
   scratch_.resize(near.tasks.size());
   const Detection d{near, particles, is_exempt, covered_};
@@ -122,7 +122,9 @@ void ContactDetector::detect(Executor& executor, Neighbourhood& near, const Pair
   });
   for (const Scratch& scratch : scratch_)
     contacts.insert(contacts.end(), scratch.of_groups.begin(), scratch.of_groups.end());
+  const std::size_t of_static_pairs = contacts.size();
   for (const Scratch& scratch : scratch_) contacts.insert(contacts.end(), scratch.of_lists.begin(), scratch.of_lists.end());
+  return of_static_pairs;
 }
 
 }  // namespace pliant

@@ -14,9 +14,10 @@ class ContactDetector {
  public:
   explicit ContactDetector(const ContactElements& elements) : covered_(elements) {}
 
-  /// Contacts of the substep, static pairs first, each in the order of clusters. Pairs for which `is_exempt` holds make none.
-  void detect(Executor& executor, Neighbourhood& near, const PairParticles& particles,
-              FunctionRef<bool(const PairStencil&)> is_exempt, std::vector<Contact>& contacts);
+  /// Contacts of the substep, static pairs first, each in the order of clusters. Pairs for which `is_exempt` holds make none. Returns how
+  /// many are of static pairs.
+  std::size_t detect(Executor& executor, Neighbourhood& near, const PairParticles& particles,
+                     FunctionRef<bool(const PairStencil&)> is_exempt, std::vector<Contact>& contacts);
 
  private:
   /// What one thread works with.

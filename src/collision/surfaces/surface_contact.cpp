@@ -72,12 +72,13 @@ std::vector<int> SurfaceContact::too_far() const {
 
 void SurfaceContact::detect(Executor& executor, const PairParticles& particles) {
   contacts_.clear();
+  static_contacts_ = 0;
   if (untangler_)
     untangler_->push(model_.untangling_speed * particles.h, particles.h, particles.displacements, particles.remainders);
   is_bounded_ = lists_.measure(executor, particles);
   if (!is_bounded_) return;  // the end of the substep says so
   lists_.update(executor, particles);
-  detector_.detect(
+  static_contacts_ = detector_.detect(
       executor, lists_.neighbourhood(), particles, [&](const PairStencil& pair) { return is_exempt(pair); }, contacts_);
   points_.detect(executor, particles, contacts_);
 }

@@ -69,6 +69,8 @@ class SurfaceContact {
 
   PairCounts counts() const;
   const std::vector<Contact>& contacts() const { return contacts_; }
+  /// How many of contacts(), from the first on, are of static neighbour pairs.
+  std::size_t static_contacts() const { return static_contacts_; }
   std::vector<Contact>& contacts() { return contacts_; }
   /// Edges and triangles that intersect: left out until they are apart.
   const std::vector<Intersection>& intersecting() const { return intersections_.found(); }
@@ -92,6 +94,7 @@ class SurfaceContact {
   InitialIntersections intersections_;
   std::unique_ptr<Untangler> untangler_;  ///< where the model asks for it
   std::vector<Contact> contacts_;
+  std::size_t static_contacts_ = 0;
   bool is_bounded_ = true, has_impacts_ = false;
   std::int64_t pushing_ = 0, rebuilds_before_ = 0;
   double deepest_ = 0;

@@ -12,8 +12,7 @@ void collide_with_shapes(Substep& s) {
   const auto particles_of = [&](int task) { return particles(s, task); };
   const auto bounds_of = [&](int task) -> const PointBounds& { return s.work.tiles[task].bounds; };
   shapes.detect(s.context.executor, {s.model, s.work.colliders, particles_of, bounds_of});
-  if (shapes.contacts().empty()) return;
-  s.work.shape_contact_solver.begin(s.kernels.contacts, shapes.contacts(), s.state.positions.data(),
+  s.work.shape_contact_solver.begin(s.kernels.contacts, shapes.contacts(), 0, s.state.positions.data(),
                                     s.state.positions.size());
 }
 
@@ -23,8 +22,8 @@ void collide(Substep& s) {
   collide_with_shapes(s);
   if (!s.has_pairs()) return;
   s.work.pairs->detect(s.context.executor, all_particles(s));
-  s.work.contact_solver.begin(s.kernels.contacts, s.work.pairs->contacts(), s.state.positions.data(),
-                              s.state.positions.size());
+  s.work.contact_solver.begin(s.kernels.contacts, s.work.pairs->contacts(), s.work.pairs->static_contacts(),
+                              s.state.positions.data(), s.state.positions.size());
 }
 
 }  // namespace pliant
