@@ -94,10 +94,27 @@ void sweep_volumes(Substep& s, bool first_pass) {
   project_volumes(s.model, s.work, s.context.executor, of_object, takes_part);
 }
 
+namespace {
+
+/// Those of the objects that are swept: objects share no contact here, so each gets the bits that it gets alone.
+void sweep_shape_contacts(Substep& s) {
+  constexpr const char* name = "solve: contacts";
+  std::vector<Contact>& contacts = s.work.shape_contacts.contacts();
+  Record* displacements = s.work.displacements.data();
+  const ContactSolver& solver = s.work.shape_contact_solver;
+  if (s.group == nullptr || s.work.sweeps.size() == 1)
+    return solver.project(s.context.executor, name, contacts, displacements);
+  solver.for_each(s.context.executor, name, contacts, [&](const Contact& contact) {
+    if (is_swept(s, s.model.object_of(contact.point[0])))
+      project_contact(contacts[static_cast<std::size_t>(&contact - contacts.data())], displacements);
+  });
+}
+
+}  // namespace
+
 void sweep_contacts(Substep& s) {
   if (s.work.colliders.empty()) return;
-  s.work.shape_contact_solver.project(s.context.executor, "solve: contacts", s.work.shape_contacts.contacts(),
-                                      s.work.displacements.data());
+  sweep_shape_contacts(s);
   for_swept_tiles(s, "solve: contacts", [&](int task) {
     std::vector<Contact>& contacts = s.work.tiles[task].contacts;
     if (!contacts.empty()) project_contacts(contacts, arguments(s, s.model.tiles[task].object, false));

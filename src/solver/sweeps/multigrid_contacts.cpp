@@ -113,7 +113,7 @@ void keep_point_pushes(Substep& s) {
   });
 }
 
-// ---------------------------------------------------------------- among surfaces
+// ---------------------------------------------------------------- of several points
 
 float inverse_h2_of(const PairParticles& all) { return (1 / all.h) * (1 / all.h); }
 
@@ -131,18 +131,26 @@ bool place(const Model& model, const Contact& contact, const Record* positions, 
     float& side = limit[contact.weight[i] > 0 ? 0 : 1];
     side = max(side, model.objects[o].multigrid.stiffness_limit[spring.particle[i]]);
   }
-  stiffness = pair_stiffness * (limit[0] > 0 && limit[1] > 0 ? min(limit[0], limit[1]) : max(limit[0], limit[1]));
+  const float over_limit = contact.collider >= 0 ? contact_stiffness : pair_stiffness;
+  stiffness = over_limit * (limit[0] > 0 && limit[1] > 0 ? min(limit[0], limit[1]) : max(limit[0], limit[1]));
   return stiffness > 0;
+}
+
+/// Contacts of several points: those of edges and triangles with primitives, then those among surfaces.
+std::size_t count_contacts(const Substep& s) {
+  return s.work.shape_contacts.contacts().size() + (s.has_pairs() ? s.work.pairs->contacts().size() : 0);
+}
+Contact& contact_at(Substep& s, std::size_t number) {
+  std::vector<Contact>& shapes = s.work.shape_contacts.contacts();
+  return number < shapes.size() ? shapes[number] : s.work.pairs->contacts()[number - shapes.size()];
 }
 
 void add_pair_contacts(Substep& s) {
   MultigridScratch& scratch = multigrid_of(s);
   scratch.springs.clear();
-  if (!s.has_pairs()) return;
   const PairParticles all = all_particles(s);
-  const std::vector<Contact>& contacts = s.work.pairs->contacts();
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const Contact& contact = contacts[i];
+  for (std::size_t i = 0; i < count_contacts(s); ++i) {
+    const Contact& contact = contact_at(s, i);
     PairSpring spring{};
     float stiffness = 0;
     if (!place(s.model, contact, all.positions, spring, stiffness)) continue;
@@ -172,7 +180,7 @@ void keep_pair_pushes(Substep& s) {
     for (int i = 0; i < 4; ++i)
       if (spring.object[i] >= 0)
         by += vector_of(scratch.objects[spring.object[i]].change[spring.particle[i]]) * spring.weight[i];
-    Contact& contact = s.work.pairs->contacts()[spring.contact];
+    Contact& contact = contact_at(s, static_cast<std::size_t>(spring.contact));
     keep_push(spring, by, inverse_mass_of(contact, all.positions), inverse_h2_of(all), contact);
   }
 }
