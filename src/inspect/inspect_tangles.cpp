@@ -27,14 +27,20 @@ struct Crossings {
 };
 using CrossingsOfParts = std::map<std::pair<int, int>, Crossings>;
 
-CrossingsOfParts find_crossings(const Surfaces& all) {
-  CrossingsOfParts between;
+/// Between parts that meet. Of one part only what crosses: its seams may lie on one another.
+struct Meetings {
+  CrossingsOfParts crossing, touching;
+};
+
+Meetings find_meetings(const Surfaces& all) {
+  Meetings between;
   IntersectionFinder finder(all.triangles, static_cast<int>(all.positions.size()));
-  for (const Intersection& found : finder.find(all.positions)) {
+  for (const Intersection& found : finder.find(all.positions, true)) {
     const int a = all.part_of(found.a), b = all.part_of(all.triangles[static_cast<std::size_t>(found.triangle)][0]);
-    if (!all.meet(a, b)) continue;
-    Crossings& crossings = between[std::minmax(a, b)];
-    if (crossings.count++ == 0) crossings.first = found;
+    const bool crosses = found.kind == EdgeTriangle::crossing;
+    if (!all.meet(a, b) || (a == b && !crosses)) continue;
+    Crossings& meetings = (crosses ? between.crossing : between.touching)[std::minmax(a, b)];
+    if (meetings.count++ == 0) meetings.first = found;
   }
   return between;
 }
@@ -66,6 +72,19 @@ void name_crossings(Problems& problems, const Surfaces& all, const Crossings& cr
                       "move one of them, or mend the mesh");
   else
     problems.doubtful(edge, problem, "contact leaves them out until they are apart: move one of them, or mend the mesh");
+}
+
+/// What lies at distance 0 has no side that contact could keep it on.
+void refuse_touching(Problems& problems, const Surfaces& all, const Crossings& touching) {
+  const Intersection& first = touching.first;
+  const Triangle& t = all.triangles[static_cast<std::size_t>(first.triangle)];
+  problems.at(all.parts[static_cast<std::size_t>(all.part_of(first.a))].name);
+  problems.grave("edge " + all.local(first.a) + "-" + all.local(first.b),
+                 "touches triangle (" + all.local(t[0]) + ", " + all.local(t[1]) + ", " + all.local(t[2]) + ") of " +
+                     all.name(all.part_of(t[0])) + " at the start, at a distance of 0, one of " +
+                     std::to_string(touching.count) + (touching.count == 1 ? " place" : " places"),
+                 "it has no side to be kept on and may pass through: move one of them by their thickness, or set "
+                 "initial_intersections to \"leave\"");
 }
 
 // ---------------------------------------------------------------- inside
@@ -202,11 +221,14 @@ void doubt_touching(Problems& problems, const Scene& scene, const Surfaces& all,
 void look_at(Problems& problems, const Scene& scene) {
   const Intersections what = scene.settings.initial_intersections;
   const Surfaces all = surfaces_of(scene);
-  CrossingsOfParts crossings;
-  if (!all.triangles.empty() && any_meet(all)) crossings = find_crossings(all);
-  for (const auto& [parts, found] : crossings) name_crossings(problems, all, found, what);
-  name_inside(problems, scene, all, crossings, what);
-  if (problems.wants_doubts()) doubt_touching(problems, scene, all, crossings);
+  Meetings between;
+  if (!all.triangles.empty() && any_meet(all)) between = find_meetings(all);
+  for (const auto& [parts, found] : between.crossing) name_crossings(problems, all, found, what);
+  if (what == Intersections::refuse)
+    for (const auto& [parts, found] : between.touching)
+      if (between.crossing.count(parts) == 0) refuse_touching(problems, all, found);
+  name_inside(problems, scene, all, between.crossing, what);
+  if (problems.wants_doubts()) doubt_touching(problems, scene, all, between.crossing);
 }
 
 }  // namespace
