@@ -1,4 +1,4 @@
-// Everything: the core and the files.
+// Includes all public headers: the core and file input and output.
 #pragma once
 
 #include "pliant/advise.h"

@@ -1,8 +1,8 @@
-// Saving and loading: a State, or a whole World, as one file. Part of the library pliant_io.
+// Saves and loads a State, or a whole World, as one file. Part of the library pliant_io.
 //
-// Both are exact: the next step of what was loaded gives the same bits as if nothing had been saved. A file appears under its
-// name only when it is complete, so the one before it survives a crash, a full disk or a kill at any moment. It carries a
-// format version and a SHA-256 checksum. docs/reference/save-format.md describes the format.
+// Both are exact: after loading, the next step gives the same bits as without saving. Files are written atomically, so the
+// previous one survives a crash, a full disk or a kill at any time. They carry a format version and a SHA-256 checksum.
+// docs/reference/save-format.md describes the format.
 #pragma once
 
 #include <string>
@@ -12,46 +12,46 @@
 
 namespace pliant {
 
-/// What decides the bits of a run, as two SHA-256 hashes of 64 hexadecimal digits.
+/// Identifies the input that determines a run's bits: two SHA-256 hashes of 64 hexadecimal digits.
 ///
-/// Left out is what changes no bit: colours, the number of frames, threads, the instruction set, what is measured or recorded,
-/// and the distance grids of mesh colliders, which follow from the meshes. Of force fields only the number counts.
+/// Data without effect on bits are excluded: colours, the number of frames, threads, the instruction set, measuring and
+/// recording, and distance grids, which follow from their meshes. Of force fields only the number counts.
 struct Fingerprint {
   std::string scene;     ///< gravity, wind, frame time, objects, colliders, pairs
-  std::string settings;  ///< those that change bits, after chosen_settings; `tiled` and `sequential` count as one
+  std::string settings;  ///< those that affect bits, after chosen_settings; `tiled` and `sequential` are equal
 };
 
 /// The fingerprint of a scene.
 Fingerprint fingerprint(const Scene& scene);
 
-/// Writes a State. Throws Error naming the path where it cannot be written; the file there before then stays as it was.
+/// Writes a State. Throws an Error that names the path on failure; an existing file then stays unchanged.
 void save(const std::string& path, const State& state);
 
-/// Writes a State with the fingerprint of the scene whose World it is of.
+/// Writes a State with the fingerprint of its World's scene.
 void save(const std::string& path, const State& state, const Fingerprint& of);
 inline void save(const std::string& path, const State& state, const Scene& scene) { save(path, state, fingerprint(scene)); }
 
-/// Reads a State, for World::restore. Throws Error with the path and the reason where the file is missing, no regular file,
-/// empty, of another format or version, shorter or longer than it says, or damaged.
+/// Reads a State for World::restore. Throws an Error with the path and the reason if the file is missing, not regular,
+/// empty, of another format or version, of the wrong length, or damaged.
 State load_state(const std::string& path);
 
-/// The same. Throws Error too where the file does not carry this fingerprint.
+/// The same. Throws an Error also if the file has another fingerprint.
 State load_state(const std::string& path, const Fingerprint& of);
 inline State load_state(const std::string& path, const Scene& scene) { return load_state(path, fingerprint(scene)); }
 
-/// Writes a World: a scene of what it holds now, its settings, its ids and its State. Where nothing came or went that is the scene
-/// that it was made from; else one with the descriptions of what exists, in the order of World::objects(), colliders() and
-/// mesh_colliders(). Throws Error where the scene has force fields, which are functions and cannot be written, or is not this
-/// World's by number, names and particles of its objects.
+/// Writes a World: a scene of its current contents, its settings, ids and State. Without additions
+/// and removals that is its original scene; otherwise one with the existing objects in the order of
+/// World::objects(), colliders() and mesh_colliders(). Throws an Error if the scene has force fields,
+/// which are functions, or does not match the World's objects by number, names and particles.
 void save(const std::string& path, const World& world, const Scene& scene);
 
-/// A World as loaded, and its scene, whose settings are the World's.
+/// A loaded World, and its scene with the World's settings.
 struct LoadedWorld {
   Scene scene;
   World world;
 };
 
-/// Reads a World, in which the same ids name the same things. Throws Error as load_state does.
+/// Reads a World in which all ids stay valid. Throws as load_state does.
 LoadedWorld load_world(const std::string& path);
 
 }  // namespace pliant

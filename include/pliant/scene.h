@@ -1,4 +1,4 @@
-// A Scene is a description: plain data that a World compiles. Nothing here moves.
+// A Scene is a description: plain data that a World compiles. It does not change over time.
 #pragma once
 
 #include <array>
@@ -22,15 +22,15 @@
 
 namespace pliant {
 
-// ---------------------------------------------------------------- what deforms
+// ---------------------------------------------------------------- deformable objects
 
 /// Constraints of one type among the particles of one object. `type` is a name from constraint_types().
 struct ConstraintGroup {
   std::string type;            ///< "distance", "dihedral_bending", "isometric_bending", ...
-  std::vector<int> particles;  ///< stencil after stencil: slots x number of constraints; of a frame slot, a frame's number
+  std::vector<int> particles;  ///< stencil after stencil: slots x number of constraints; a frame slot holds a frame's index
   std::vector<float> rest;     ///< rest data, fields x number of constraints; empty: measured from the positions
   Stiffness stiffness{};       ///< of every constraint in the group
-  std::vector<float> compliances;  ///< one alpha a constraint instead of stiffness.value; empty: all the same
+  std::vector<float> compliances;  ///< one alpha per constraint instead of stiffness.value; empty: all equal
 };
 
 /// The description of a constraint type.
@@ -38,11 +38,11 @@ struct ConstraintType {
   std::string name;
   int stencil_size;                      ///< number of slots
   std::vector<std::string> rest_fields;  ///< names of its rest data, with units in docs/reference/constraints.md
-  std::vector<SlotKind> slots;           ///< what each number of a stencil is: a particle, or one of Object::frames
+  std::vector<SlotKind> slots;           ///< what each index of a stencil refers to: a particle, or one of Object::frames
   int rows;                              ///< components of C
 };
 
-/// Every constraint type that a ConstraintGroup may name: those of the library, then those registered (pliant/constraint.h).
+/// Every constraint type that a ConstraintGroup may name: built-in types, then registered ones (pliant/constraint.h).
 const std::vector<ConstraintType>& constraint_types();
 
 /// The volume of a closed mesh, held at `pressure` times its rest volume: C = sum (x1 x x2) . x3 - pressure * 6 V0.
@@ -85,12 +85,12 @@ struct ObjectFrame {
   Vec3f inertia{1, 1, 1};    ///< moments about its principal axes, > 0; infinity locks that axis [kg m^2]
 };
 
-/// Particles with their constraints; over fifteen members, all of them what a user can say of one. See make_cloth, make_rope.
+/// Particles with their constraints. Over fifteen members: an object's whole description. See make_cloth, make_rope.
 struct Object {
   std::string name;
   std::vector<Vec3f> positions;     ///< also the rest shape [m]
   std::vector<Vec3f> velocities;    ///< empty: at rest [m/s]
-  std::vector<float> masses;        ///< one a particle, > 0, or infinity for a fixed one [kg]
+  std::vector<float> masses;        ///< one per particle, > 0, or infinity for a fixed one [kg]
   std::vector<ObjectFrame> frames;  ///< for constraints with frame slots
   std::vector<ConstraintGroup> constraints;
   std::vector<std::array<int, 3>> triangles;  ///< the surface, for air, volume and pictures; may be empty
@@ -98,9 +98,9 @@ struct Object {
   std::vector<Pin> pins;
   std::vector<Attachment> attachments;
   float thickness = 0.001f;        ///< distance kept from colliders; two surfaces keep the sum of both [m]
-  bool self_collision = false;     ///< its surface does not pass through itself; without triangles, its links do not
-  bool collides = false;           ///< it does not pass through other objects with `collides`
-  std::uint32_t groups = 1;        ///< bits of the groups that it belongs to. Two objects meet if the groups of each
+  bool self_collision = false;     ///< the surface does not pass through itself; without triangles, the links do not
+  bool collides = false;           ///< the surface does not pass through other objects with `collides`
+  std::uint32_t groups = 1;        ///< bit mask of its groups. Two objects can meet if the groups of each
   std::uint32_t mask = ~0u;        ///< share a bit with the other's mask
   float static_friction = 0.4f;    ///< [-]
   float kinetic_friction = 0.3f;   ///< [-], <= static_friction
@@ -123,10 +123,10 @@ struct ClothOptions {
   Vec3f velocity{};                ///< initial [m/s]
 };
 
-/// Cloth from any triangle mesh; its rest shape is the mesh as given, flat or curved: a distance constraint an
-/// edge, a bending constraint an inner edge, a third of each triangle's mass to each corner. Without overrides the
-/// compliance of an edge is L^2 / (Y (A1 + A2)) (Van Gelder 1998) and that of a hinge (A1 + A2) / (|e|^2 B) or, isometric,
-/// 3/B, so that stiffness does not depend on the mesh. Throws Error naming the triangle or edge that can't be cloth.
+/// Cloth from any triangle mesh, flat or curved, which is its rest shape: a distance constraint per edge, a bending
+/// constraint per inner edge, a third of each triangle's mass per corner. Without overrides the compliance of an edge is
+/// L^2 / (Y (A1 + A2)) (Van Gelder 1998), that of a hinge (A1 + A2) / (|e|^2 B) or, isometric, 3/B: independent of the
+/// mesh. Throws an Error that names the unusable triangle or edge.
 Object make_cloth(const TriangleMesh& mesh, const ClothOptions& options = {});
 
 /// Options of make_rope.
@@ -134,15 +134,15 @@ struct RopeOptions {
   std::string name = "rope";
   float linear_density = 0.05f;  ///< [kg/m]
   Stiffness stretch{};
-  Stiffness bending = Stiffness::compliance(1);  ///< distance between second neighbours; used where `bends`
+  Stiffness bending = Stiffness::compliance(1);  ///< distance between second neighbours; used if `bends`
   bool bends = false;
   float thickness = 0.005f;  ///< radius [m]
 };
 
-/// A rope through `points` (two or more, no two neighbours in one place). Each link's mass goes half to either end.
+/// A rope through `points` (two or more, adjacent ones distinct). Each end of a link gets half of its mass.
 Object make_rope(const std::vector<Vec3f>& points, const RopeOptions& options = {});
 
-// ---------------------------------------------------------------- what it meets
+// ---------------------------------------------------------------- colliders
 
 struct Plane {};  ///< the half-space y <= 0 of its frame is solid
 struct Sphere {
@@ -173,31 +173,31 @@ struct Collider {
 /// The vertices of a deforming mesh at one time.
 struct MeshFrame {
   float time = 0;                ///< [s], increasing along a list of frames
-  std::vector<Vec3f> positions;  ///< one a vertex of the mesh [m]
+  std::vector<Vec3f> positions;  ///< one per vertex of the mesh [m]
 };
 
-/// Signed distances to a closed mesh, negative inside, at the nodes of a grid. Plain data: it may be kept, and given to any
-/// number of colliders of the same mesh.
+/// Signed distances to a closed mesh, negative inside, at the nodes of a grid. Plain
+/// data: it can be stored and shared by any number of colliders of the same mesh.
 struct DistanceField {
-  Vec3f low{};                   ///< first node [m]
+  Vec3f low{};                   ///< position of the first node [m]
   float spacing = 0;             ///< between nodes [m]
   std::array<int, 3> nodes{};    ///< along x, y, z
   std::vector<float> distances;  ///< of node (x, y, z) at (z nodes[1] + y) nodes[0] + x [m]
 };
 
-/// A static or kinematic triangle mesh, closed or open. As triangles it collides on both sides with every object that its groups
-/// and mask allow, by its vertices, edges and triangles.
+/// A static or kinematic triangle mesh, closed or open. As triangles it is two-sided and collides with all objects that its
+/// groups and mask permit, by vertices, edges and triangles.
 struct MeshCollider {
-  /// The collision geometry. `triangles`: the mesh itself. `distance_grid`: a DistanceField of the mesh, which must be closed.
-  /// `heightfield`: its heights over a regular grid in x and z, solid below. Distance grids and heightfields collide with the
-  /// particles of all objects, at a cost that does not depend on the mesh, and cannot deform.
+  /// The collision geometry. `triangles`: the mesh itself. `distance_grid`: a DistanceField of the mesh, which must be
+  /// closed. `heightfield`: its heights on a regular grid in x and z, solid below. The last two collide with the particles
+  /// of all objects, at a cost independent of the mesh, and cannot deform.
   enum class As { triangles, distance_grid, heightfield };
 
   std::string name = "mesh";
   TriangleMesh mesh;              ///< [m]
   Motion motion{};                ///< of the whole mesh
-  std::vector<MeshFrame> frames;  ///< deformation, linear between frames, constant outside; `motion` comes after it
-  bool repeat_frames = false;     ///< start again after the last frame
+  std::vector<MeshFrame> frames;  ///< deformation, linear between frames, constant outside; `motion` is applied after it
+  bool repeat_frames = false;     ///< restart after the last frame
   As as = As::triangles;
   float grid_spacing = 0;                        ///< of a distance grid; 0: a 48th of the longest side [m]
   std::shared_ptr<const DistanceField> field{};  ///< of a distance grid, from measure_distances; null: measured at compile
@@ -209,8 +209,8 @@ struct MeshCollider {
   Vec3f colour{0.45f, 0.48f, 0.52f};
 };
 
-/// The distances of a closed mesh at nodes `spacing` apart [m] (0: a 48th of its longest side) over its box grown by two of them.
-/// Throws Error where an edge has not two triangles or there would be more than 2^27 nodes.
+/// Samples the distances of a closed mesh at nodes `spacing` apart [m] (0: a 48th of its longest side) over its box grown
+/// by two nodes. Throws an Error if an edge has not two triangles or more than 2^27 nodes would result.
 std::shared_ptr<const DistanceField> measure_distances(const TriangleMesh& mesh, float spacing = 0);
 
 /// Overrides contact properties of one pair of objects or mesh colliders (as triangles).
@@ -228,13 +228,13 @@ struct Wind {
   float air_density = 0;  ///< 0: no air at all; 1.2 at sea level [kg/m^3]
 };
 
-/// A force on a particle [N] from its position [m], velocity [m/s], mass [kg] and the time [s]. Use no libm in it if the run must
-/// give the same bits elsewhere.
+/// A force on a particle [N] from its position [m], velocity [m/s], mass [kg] and the time [s]. It must not use libm if a
+/// run must give the same bits on other machines.
 struct ForceField {
   using Function = std::function<Vec3f(const Vec3f& position, const Vec3f& velocity, float mass, float time)>;
   Function function;
-  /// Whether it may be called from several threads at once, in any order: it must depend on its arguments alone. Where all
-  /// fields of a scene say so they run on all threads, with the same bits; else on one thread, in the particles' order.
+  /// True if it may be called concurrently and in any order: it depends on its arguments alone. If all fields of a scene
+  /// permit it, they run on all threads with the same bits; otherwise on one thread in particle order.
   bool on_all_threads = false;
 
   ForceField() = default;
@@ -248,7 +248,7 @@ struct ForceField {
   }
 };
 
-// ---------------------------------------------------------------- how it is solved
+// ---------------------------------------------------------------- solver settings
 
 /// A sweep and its name in scene files.
 struct NamedSweep {
@@ -256,16 +256,16 @@ struct NamedSweep {
   Sweep sweep;
 };
 
-/// All sweeps but `automatic`.
+/// All sweeps except `automatic`.
 const std::vector<NamedSweep>& sweeps();
 
-/// The name in scene files; of `automatic` too.
+/// The name in scene files, also of `automatic`.
 std::string sweep_name(Sweep sweep);
 
 /// Options of sweeps.
 struct SweepOptions {
-  /// How `jacobi` combines the n corrections of a particle. `split`: each constraint gets an n-th of its mass (Tonge et al.
-  /// 2012), which conserves momentum. `average`: the mean of the n corrections (Macklin et al. 2014), which does not.
+  /// How `jacobi` combines the n corrections of a particle. `split`: each constraint acts on an n-th of the mass (Tonge et
+  /// al. 2012), which conserves momentum. `average`: the mean of the corrections (Macklin et al. 2014), which does not.
   enum class Sharing { split, average };
   /// Chebyshev semi-iteration over any sweep but `natural` (Wang 2015); off for particles in contact.
   enum class Acceleration { none, chebyshev };
@@ -273,57 +273,57 @@ struct SweepOptions {
   float relaxation = 1;  ///< omega in (0, 2): factor of every multiplier change [-]
   Sharing sharing = Sharing::split;
   Acceleration acceleration = Acceleration::none;
-  int plain_iterations = 10;  ///< of each substep before Chebyshev begins, 1..10000; 2 or more where rho is estimated
-  float spectral_radius = 0;  ///< rho of the sweep in (0, 1), or 0: estimated in each substep from the plain iterations [-]
+  int plain_iterations = 10;  ///< per substep, before Chebyshev starts, 1..10000; at least 2 if rho is estimated
+  float spectral_radius = 0;  ///< rho of the sweep in (0, 1); 0: estimated in each substep from the plain iterations [-]
   bool tethers = false;  ///< limit every particle's distance from the pins to that along the mesh (long-range attachments)
   float tether_slack =
-      0;  ///< share by which that distance may be exceeded, for cloth that is meant to stretch, 0..1000 [-]
+      0;  ///< share by which tether lengths may be exceeded, for cloth that is meant to stretch, 0..1000 [-]
   /// Of `chains`, 0..1000: regularises the solve of a straight path between two pins, as a share of its inverse mass; a link
   /// stretches by about this times g h^2 [-].
   float chain_softness = 0.1f;
-  int multigrid_cycles = 2;  ///< of `multigrid`: W-cycles a substep, each a step of conjugate gradients, 1..100
+  int multigrid_cycles = 2;  ///< of `multigrid`: W-cycles per substep, each a conjugate gradient step, 1..100
 };
 
 struct Settings {
-  int substeps = 0;    ///< 1..10000 a frame; 0: as many as the sweep needs, see chosen_settings
-  int iterations = 1;  ///< 1..10000 a substep
-  /// A substep ends its iterations early when the root mean square of |C + alpha~ lambda| over the distance constraints and
-  /// attachments falls below this [m]; 0: never. No other type counts, and a scene without distance constraints makes all
-  /// iterations. PBD stiffness is converted for the full number of iterations.
+  int substeps = 0;    ///< 1..10000 per frame; 0: as many as the sweep needs, see chosen_settings
+  int iterations = 1;  ///< 1..10000 per substep
+  /// A substep stops iterating when the root mean square |C + alpha~ lambda| of distance constraints and attachments falls
+  /// below this [m]; 0: never. No other type counts; a scene without distance constraints makes all iterations. PBD
+  /// stiffness is converted for the full number of iterations.
   float tolerance = 0;
-  int threads = 0;  ///< 0: as many as the machine has
+  int threads = 0;  ///< 0: all hardware threads
   Sweep sweep = Sweep::automatic;
   SweepOptions sweep_options{};
   bool contact_filter = true;  ///< truncate steps so that colliding surfaces never cross
-  /// A frame in which a mesh collider comes near an object is divided into more substeps, up to so many, until the collider moves
-  /// at most half the pair's thickness in one: the filter cannot limit kinematic colliders. Such a frame is that much dearer,
-  /// and the Report warns of it. 1..10000, or 0: eight times `substeps`. At most `substeps`: never.
+  /// When a mesh collider comes near an object, the frame gets up to this many substeps, so that the collider moves at most
+  /// half the pair's thickness in each: the filter cannot limit kinematic colliders. The Report warns of the cost.
+  /// 1..10000; 0: eight times `substeps`; at most `substeps`: off.
   int most_substeps = 0;
-  /// What to do about surfaces that intersect in the scene as given.
+  /// What to do about initially intersecting surfaces.
   enum class Intersections {
-    leave,     ///< they stay, without contact between them until they are apart
-    untangle,  ///< they are moved apart, and vertices out of closed mesh colliders, at `untangling_speed`
-    refuse,    ///< making a World throws Error that names the first
+    leave,     ///< leave them; contact ignores them until they are apart
+    untangle,  ///< move them apart, and vertices out of closed mesh colliders, at `untangling_speed`
+    refuse,    ///< throw an Error that names the first when a World is made
   } initial_intersections = Intersections::leave;
   float untangling_speed = 0.5f;  ///< speed limit of depenetration [m/s]
-  /// Times update, predict and the search for non-finite values separately in Report::phases. Otherwise they are fused with
-  /// the sweeps, tile by tile. Same bits, slower.
+  /// Times update, predict and the search for non-finite values separately in Report::phases. By default they are fused
+  /// with the sweeps, tile by tile. Same bits, slower.
   bool separate_phases = false;
   bool measure = false;  ///< fill Report::residuals, stretch and overstretch each frame (costs about one more iteration)
   bool record_residuals = false;    ///< fill Report::convergence (slow: every iteration of the last substep is measured)
-  bool record_multipliers = false;  ///< store multipliers for World::multipliers even where the solve does not need them
+  bool record_multipliers = false;  ///< store multipliers for World::multipliers even if the solver does not need them
   std::string
       isa;  ///< "", or "x86-64-v2", "-v3", "-v4", "generic", "sequential" to force a code path (same bits, other speed)
 };
 
-/// Everything that a World is made from.
+/// The complete description of a simulation.
 struct Scene {
   Vec3f gravity{0, -9.81f, 0};  ///< [m/s^2]
   Wind wind;
   std::vector<ForceField> forces;
   Settings settings;
   float frame_time = 1.f / 60;  ///< of one frame [s]
-  int frames = 120;             ///< how many a run lasts unless told otherwise
+  int frames = 120;             ///< the default length of a run
   std::vector<Object> objects;
   std::vector<Collider> colliders;
   std::vector<MeshCollider> mesh_colliders;
@@ -335,24 +335,24 @@ struct Scene {
   int add(MeshCollider collider);
   int add_cloth(const TriangleMesh& mesh, const ClothOptions& options = {});
 
-  /// Fixes particles where they are, or moves them. Throws Error where the object or a particle does not exist.
+  /// Fixes particles in place, or moves them. Throws an Error if the object or a particle does not exist.
   void pin(int object, const std::vector<int>& particles, const Motion& motion = {});
 };
 
-/// The sweep by which one object of the scene is solved: its own; where it names none, that of the settings; where these name
-/// none, the one that measured best on objects of its kind. That is `multigrid` for cloth and rope of 32 particles or more, and
-/// `tiled` where that would do harm or no good: a volume, a sheet so stiff that its bending length (B / rho g)^(1/3) is more than
-/// a quarter of its size, PBD stiffness of bending or of all distances, more than one iteration, a surface that can touch others or
-/// itself. Smaller objects go with the others where these are all solved by `multigrid`. `reason` is told in words what decides where both leave it open.
+/// The sweep of one object: its own; else that of the settings; else the one that measured best on such objects. That is
+/// `multigrid` for cloth and rope of 32 particles or more. It is `tiled` where multigrid does not help: a volume, a bending
+/// length (B / rho g)^(1/3) above a quarter of the sheet's size, PBD stiffness of bending or all distances, several
+/// iterations, or a surface that can touch others or itself. Smaller objects use multigrid if all others do. `reason`
+/// receives the deciding fact if both leave the sweep open.
 Sweep chosen_sweep(const Scene& scene, int object, std::string* reason = nullptr);
 
-/// The settings of a World of this scene: its own, with defaults chosen by what the scene holds.
-/// `Sweep::automatic` becomes the sweep of all objects (see chosen_sweep) where they agree, and stays where they do not. 0 substeps
-/// become 10 where every object is solved by `multigrid`, else 20 (docs/internals/convergence.md). `reason` is told in words what
-/// decides, where the sweep was left open.
+/// The settings of a World of this scene, with defaults chosen by its content. `Sweep::automatic`
+/// becomes the common sweep of all objects (see chosen_sweep), or stays if they differ. 0
+/// substeps become 10 if every object uses `multigrid`, else 20 (docs/internals/convergence.md).
+/// `reason` receives the deciding fact if the sweep was left open.
 Settings chosen_settings(const Scene& scene, std::string* reason = nullptr);
 
-/// All reasons for which a World would refuse the scene (grave findings), and doubtful things.
+/// All errors for which a World rejects the scene (grave findings), and warnings.
 std::vector<Finding> inspect(const Scene& scene);
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// What of a World changes as time passes, and the ids of what it holds.
+// The time-dependent part of a World, and the ids of its contents.
 #pragma once
 
 #include <compare>
@@ -15,9 +15,9 @@ struct Object;
 struct Collider;
 struct MeshCollider;
 
-/// Names one thing of a World for as long as it exists. A slot is used again after its thing was removed, with the next
-/// generation: an id of what was removed is refused with an Error and never names what came after it.
-/// What a Scene was compiled with has generation 0, so the index that Scene::add returned is its id.
+/// Identifies one thing of a World during its existence. A slot is reused after a removal
+/// with the next generation, so a stale id is an Error and never names a later thing. Things
+/// compiled from a Scene have generation 0, so the index returned by Scene::add is their id.
 template <class Kind>
 struct Id {
   int slot = -1;
@@ -33,12 +33,12 @@ using ObjectId = Id<Object>;
 using ColliderId = Id<Collider>;
 using MeshColliderId = Id<MeshCollider>;
 
-/// Four floats in one 16-byte record, moved by whole loads.
+/// Four floats in one 16-byte record, loaded and stored as a whole.
 struct alignas(16) Record {
   float x = 0, y = 0, z = 0, w = 0;
 };
 
-/// Allocates at the start of a cache line, so that four records are one line.
+/// Allocates at cache line boundaries, so that four records fill a line.
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;
@@ -52,55 +52,55 @@ struct CacheLineAllocator {
 
 using Records = std::vector<Record, CacheLineAllocator<Record>>;
 
-/// Where the particles of an object or mesh collider stand in a State.
+/// The particle range of an object or mesh collider in a State.
 struct StateBlock {
-  int first = 0, particles = 0;  ///< no particles: it was removed
-  int generation = 0;            ///< grows whenever the World compiles something new in its place
+  int first = 0, particles = 0;  ///< no particles: removed
+  int generation = 0;            ///< increases whenever the World compiles another object into the block
   friend bool operator==(const StateBlock&, const StateBlock&) = default;
 };
 
-/// Where World::set_poses has left a collider that no keyframes move.
+/// The pose that World::set_poses gave to a collider without keyframes.
 struct HeldPose {
-  bool is_mesh = false;  ///< of a mesh collider, else of a primitive one
+  bool is_mesh = false;  ///< true for a mesh collider, false for a primitive
   int slot = 0, generation = 0;
   Vec3f position{};  ///< [m]
   Quatf rotation{};
   friend bool operator==(const HeldPose&, const HeldPose&) = default;
 };
 
-/// What is known of the orientations of a State, one record a frame.
+/// The orientation data of a State, one record per frame.
 struct FrameRecords {
   Records orientations;        ///< unit quaternion from the frame's principal axes to the world
-  Records angular_velocities;  ///< along the frame's own axes [rad/s], w zero
-  Records inverse_inertias;    ///< about the frame's own axes [1/(kg m^2)], w zero; never changes
+  Records angular_velocities;  ///< in the frame's principal axes [rad/s], w zero
+  Records inverse_inertias;    ///< about the frame's principal axes [1/(kg m^2)], w zero; constant
 
   std::size_t size() const { return orientations.size(); }
 };
 
-/// A number or a vector for every particle that a kind of matter owns, such as a temperature.
+/// A number or vector per particle that a kind of matter owns, such as a temperature.
 struct Channel {
   std::string name;
-  int components = 1;         ///< of each particle
+  int components = 1;         ///< per particle
   std::vector<float> values;  ///< components x particles, in the order of the State
 };
 
-/// All that changes as time passes, a plain value: copy it, hash it, put it back, and the next step gives the same bits.
-/// Each object has a block of particles, in the order of the compiled model and not of the user: World::storage_order tells
-/// which is which. Between blocks there are zeros where objects were removed.
+/// The complete time-dependent data, as a plain value: copy, hash or restore it, and the next
+/// step gives the same bits. Each object has a block of particles in storage order, which
+/// World::storage_order maps to the user's order. Zeros fill blocks of removed objects.
 struct State {
   double time = 0;                 ///< [s]
   std::int64_t frame = 0;          ///< steps taken
-  std::vector<StateBlock> blocks;  ///< one an object or mesh collider, in the order in which they were added
+  std::vector<StateBlock> blocks;  ///< one per object or mesh collider, in the order of addition
   Records positions;               ///< (x, y, z) [m], w the inverse mass [1/kg]
-  Records remainders;              ///< what a float position could not hold of the motion so far [m]
+  Records remainders;              ///< rounding residues: the part of the motion below float precision [m]
   Records velocities;              ///< [m/s]
-  FrameRecords frames;             ///< object after object, as the particles are; mostly empty
+  FrameRecords frames;             ///< by object, like particles; mostly empty
   std::vector<Channel> channels;   ///< mostly none
   std::vector<HeldPose> held_poses;
 };
 
-/// SHA-256 over every member of a State, as 64 hexadecimal digits. Blocks count where something was removed or edited; those
-/// that simply follow one another are told by the particles alone. Frames, channels and held poses count where there are any.
+/// SHA-256 of a State, as 64 hexadecimal digits. Blocks are included only after a removal or an edit, because contiguous
+/// blocks follow from the particles. Frames, channels and held poses are included if there are any.
 std::string hash(const State& state);
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// SHA-256 (FIPS 180-4): the core needs a hash of its state and has no library to borrow one from.
+// SHA-256 (FIPS 180-4), implemented here because the core has no library dependency.
 #pragma once
 
 #include <array>
@@ -8,19 +8,19 @@
 
 namespace pliant {
 
-/// The code that digests blocks: `portable`, or the SHA instructions of x86. `fastest` is what the processor has.
+/// The block function: `portable`, or the x86 SHA instructions. `fastest` is the best that the processor has.
 enum class Sha256Code { fastest, portable };
 
 class Sha256 {
  public:
   explicit Sha256(Sha256Code code = Sha256Code::fastest);
   void add(const void* data, std::size_t size);
-  /// The digest as 64 hexadecimal digits; nothing may be added after it.
+  /// The digest as 64 hexadecimal digits; no data may be added afterwards.
   std::string finish();
 
  private:
   using State = std::array<std::uint32_t, 8>;
-  /// Digests `count` blocks of 64 bytes.
+  /// Processes `count` blocks of 64 bytes.
   using Process = void (*)(State& state, const unsigned char* blocks, std::size_t count);
 
   Process process_;

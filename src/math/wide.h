@@ -1,9 +1,9 @@
-// Wide: sixteen floats that behave like one.
+// Wide: sixteen floats with the interface of one.
 //
-// One logical width on every machine, so that how constraints are grouped never depends on where they run; underneath, an
-// array of native vectors (four of SSE, two of AVX2, one of AVX-512). A raw 64-byte vector would compile too, but g++
-// spills it on AVX2 and runs four times slower. Every operation is the IEEE operation of each lane, so a lane gives the
-// bits that a plain float would: that is what the tests of "wide equals scalar" hold.
+// One logical width on every machine, so that the grouping of constraints is machine-independent. It
+// is stored as an array of native vectors (four of SSE, two of AVX2, one of AVX-512). A raw 64-byte
+// vector type also compiles, but g++ spills it on AVX2 and runs four times slower. Every operation
+// is the IEEE operation per lane, so lanes give the bits of plain floats; tests verify that.
 //
 // Everything lives in an inline namespace named after the instruction set that this unit is compiled for: the sweeps are
 // built once for each level (math/levels.h) into one program, and nothing of one build may be linked into another. The generic
@@ -17,7 +17,7 @@
 #include "pliant/state.h"
 #include "pliant/vec3.h"
 
-// PLIANT_X86_BITS: the widest registers of x86 that this unit may name, or 0.
+// PLIANT_X86_BITS: the widest x86 registers that this unit may use, or 0.
 #if defined(PLIANT_LEVEL_IS_generic) || !defined(__x86_64__)
 #define PLIANT_ISA isa_generic
 #define PLIANT_PART_WIDTH 4
@@ -51,7 +51,7 @@ typedef float Part __attribute__((vector_size(4 * PLIANT_PART_WIDTH)));
 typedef std::int32_t PartMask __attribute__((vector_size(4 * PLIANT_PART_WIDTH)));
 typedef float Quad __attribute__((vector_size(16)));
 
-/// Sixteen truth values, all bits set meaning true.
+/// Sixteen booleans; all bits set means true.
 struct WideMask {
   PartMask part[wide_parts];
 };
@@ -63,11 +63,11 @@ struct Wide {
   Wide() = default;
   /// The same value in every lane.
   PLIANT_HD explicit Wide(float value) {
-    for (int i = 0; i < wide_parts; ++i) part[i] = value - Part{};  // minus nothing is no operation; plus nothing would be
+    for (int i = 0; i < wide_parts; ++i) part[i] = value - Part{};  // x - 0 is exact for every x; x + 0 changes -0
   }
 };
 
-// Loops over parts are written out, since not every compiler unrolls them early enough to keep the parts in registers.
+// Loops over parts are unrolled by hand, because not every compiler does so early enough to keep the parts in registers.
 #if PLIANT_PART_WIDTH == 16
 #define PLIANT_EACH_PART(...) \
   {                           \
@@ -141,16 +141,16 @@ PLIANT_HD Wide operator-(const Wide& a) {
 PLIANT_HD Wide& operator+=(Wide& a, const Wide& b) { return a = a + b; }
 PLIANT_HD Wide& operator-=(Wide& a, const Wide& b) { return a = a - b; }
 
-/// Lane by lane: a where the mask is set, else b.
+/// Per lane: a if the mask is set, else b.
 PLIANT_HD Wide select(const WideMask& mask, const Wide& a, const Wide& b) {
   Wide r;
   PLIANT_EACH_PART(r.part[i] = mask.part[i] ? a.part[i] : b.part[i])
   return r;
 }
-/// a < b ? a : b, which is what the machine's own minimum does, down to zeros and NaN; g++ makes two instructions of the question.
+/// a < b ? a : b, like the hardware minimum, including zeros and NaN; g++ would emit two instructions for the expression.
 PLIANT_HD Part min_part(const Part& a, const Part& b) {
 #if PLIANT_X86_BITS == 512
-  return (Part)_mm512_maskz_min_ps(0xffff, (__m512)a, (__m512)b);  // the plain form makes g++ 12 warn of its own header
+  return (Part)_mm512_maskz_min_ps(0xffff, (__m512)a, (__m512)b);  // the unmasked form makes g++ 12 warn of its own header
 #elif PLIANT_X86_BITS == 256
   return (Part)_mm256_min_ps((__m256)a, (__m256)b);
 #elif PLIANT_X86_BITS == 128
@@ -187,7 +187,7 @@ PLIANT_HD Wide abs(const Wide& a) {
 }
 PLIANT_HD Part sqrt_part(const Part& a) {
 #if PLIANT_X86_BITS == 512
-  return (Part)_mm512_maskz_sqrt_ps(0xffff, (__m512)a);  // the plain form makes g++ 12 warn of its own header
+  return (Part)_mm512_maskz_sqrt_ps(0xffff, (__m512)a);  // the unmasked form makes g++ 12 warn of its own header
 #elif PLIANT_X86_BITS == 256
   return (Part)_mm256_sqrt_ps((__m256)a);
 #elif PLIANT_X86_BITS == 128
@@ -212,11 +212,11 @@ PLIANT_HD Wide load_wide(const float* from) {
 }
 PLIANT_HD void store_wide(float* to, const Wide& a) { std::memcpy(to, &a, sizeof(Wide)); }
 
-// ---------------------------------------------------------------- records in and out
+// ---------------------------------------------------------------- loading and storing records
 //
-// Lane 4 L + j of a Wide holds the particle of constraint 4 L + j. Register j is filled with the records of lanes j, 4 + j,
-// 8 + j and 12 + j; the 4 x 4 transpose inside each 128-bit part then gives x, y, z and w. A run, four records that follow
-// one another, fills a register with one load: it is stored as one base for four constraints.
+// Lane 4 L + j of a Wide holds the particle of constraint 4 L + j. Register j holds the records of lanes j, 4 + j, 8 + j
+// and 12 + j; the 4 x 4 transpose in each 128-bit part gives x, y, z and w. A contiguous group of four records fills a
+// register with one load; it needs one base index for four constraints.
 
 #if PLIANT_PART_WIDTH == 16
 #define PLIANT_SHUFFLE(a, b, p, q, r, s)                                                                          \
@@ -253,7 +253,7 @@ PLIANT_HD Quad load_quad(const Record* from) {
   return q;
 }
 
-/// Part i of the register that holds records at[0], at[4], at[8], at[12]. By name of the instruction: from shuffles g++ makes twice as many.
+/// Part i of the register with records at[0], at[4], at[8], at[12]. By intrinsics: from shuffles g++ makes twice as many.
 PLIANT_HD Part gather_part(const Record* base, const std::int32_t* at, int i) {
 #if PLIANT_PART_WIDTH == 16
   (void)i;
@@ -261,7 +261,7 @@ PLIANT_HD Part gather_part(const Record* base, const std::int32_t* at, int i) {
     return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(&base[at[k]].x)), _mm_loadu_ps(&base[at[k + 4]].x), 1);
   };
   const __m512d low = _mm512_castpd256_pd512(_mm256_castps_pd(pair(0)));
-  return (Part)_mm512_maskz_insertf64x4(0xff, low, _mm256_castps_pd(pair(8)), 1);  // as with the square root
+  return (Part)_mm512_maskz_insertf64x4(0xff, low, _mm256_castps_pd(pair(8)), 1);  // masked, as for the square root
 #elif PLIANT_PART_WIDTH == 8
   const __m256 low = _mm256_castps128_ps256(_mm_loadu_ps(&base[at[8 * i]].x));
   return (Part)_mm256_insertf128_ps(low, _mm_loadu_ps(&base[at[8 * i + 4]].x), 1);
@@ -287,7 +287,7 @@ PLIANT_HD Registers load_indexed(const Record* base, const std::int32_t* index) 
   return r;
 }
 
-/// Four runs of four records, run j from run[j] on: lane 4 L + j is record run[j] + L.
+/// Four contiguous groups of four records, group j from run[j] on: lane 4 L + j is record run[j] + L.
 PLIANT_HD Registers load_runs(const Record* base, const std::int32_t* run) {
   Registers r;
   std::memcpy(r.at[0], base + run[0], 64);
@@ -353,7 +353,7 @@ PLIANT_HD Registers minus_xyz(const Registers& a, const Registers& b) {
   return r;
 }
 
-/// The records' w alone, lane by lane.
+/// The w of each record, by lane.
 PLIANT_HD Wide w_of(const Registers& a) {
   Wide w;
   PLIANT_EACH_PART({
@@ -364,7 +364,7 @@ PLIANT_HD Wide w_of(const Registers& a) {
   return w;
 }
 
-/// The records' fields, lane by lane.
+/// The fields of the records, by lane.
 PLIANT_HD WideRecords from_registers(const Registers& from) {
   Registers r = from;
   WideRecords out;
@@ -433,7 +433,7 @@ PLIANT_HD void store_indexed(Record* base, const std::int32_t* index, const Regi
 #undef PLIANT_QUAD
 }
 
-/// store_indexed for the first `lanes` (1..16) lanes alone: those after them are padding.
+/// store_indexed for the first `lanes` (1..16) lanes; the others are padding.
 PLIANT_HD void store_indexed_some(Record* base, const std::int32_t* index, const Registers& r, int lanes) {
   Record records[4][4];
   static_assert(sizeof records == sizeof r);

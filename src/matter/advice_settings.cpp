@@ -20,7 +20,7 @@ bool may_touch(const Object& a, const Object& b) {
   return a.collides && b.collides && (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
 }
 
-/// Itself, or one another. Mesh colliders are nothing that is moved.
+/// True if dynamic objects can touch themselves or each other. Mesh colliders do not count.
 bool movers_may_touch(const Scene& scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     if (scene.objects[i].self_collision) return true;
@@ -70,7 +70,7 @@ Settings suggest(const Scene& scene, const Settings& settings) {
 std::string in_json(const Settings& wanted, const Settings& own) {
   std::string members;
   const auto add = [&](const std::string& member) { members += (members.empty() ? "" : ", ") + member; };
-  // What the scene leaves open might else become another number with another sweep.
+  // Defaults that the scene leaves open could change with the sweep, so they are written explicitly.
   if (wanted.substeps != own.substeps || wanted.sweep != own.sweep) add("\"substeps\": " + std::to_string(wanted.substeps));
   if (wanted.sweep != own.sweep) add("\"sweep\": \"" + sweep_name(wanted.sweep) + "\"");
   if (wanted.sweep_options.tethers && !own.sweep_options.tethers) add("\"sweep_options\": {\"tethers\": true}");

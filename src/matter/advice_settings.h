@@ -1,4 +1,4 @@
-// Which settings are worth advising for a scene, and how a scene file writes them.
+// Chooses settings to recommend for a scene, and formats them for a scene file.
 #pragma once
 
 #include <string>
@@ -8,26 +8,26 @@
 
 namespace pliant {
 
-/// Whether tethers may help: something hangs from pins, and all that does is rigid. Tethers bound what is inextensible; what
-/// is meant to stretch they would hold back.
+/// True if tethers may help: an object hangs from pins, and all such objects are rigid. Tethers limit inextensible objects;
+/// they would restrain those that are meant to stretch.
 bool may_tether(const Scene& scene);
 
-/// Sweeps other than the scene's own that may need less time for the same stretch, the one that measured best on scenes of its
-/// kind first (see suggest): there may be time for one alone.
+/// Other sweeps that may need less time for the same stretch, the one that measured best on such scenes first (see
+/// suggest), because there may be time for only one.
 std::vector<Sweep> better_sweeps(const Scene& scene);
 
-/// The scene's settings with the sweep, and tethers, that measured best on scenes of its kind (docs/internals/convergence.md); its own
-/// where that is none but the default.
+/// The scene's settings with the sweep and tethers that measured best on such
+/// scenes (docs/internals/convergence.md), or its own if that is the default.
 Settings suggest(const Scene& scene);
-/// The same with other settings than the scene's own.
+/// The same with `settings` instead of the scene's own.
 Settings suggest(const Scene& scene, const Settings& settings);
-/// As chosen_sweep in pliant/scene.h, with other settings than the scene's own.
+/// As chosen_sweep in pliant/scene.h, with `settings` instead of the scene's own.
 Sweep chosen_sweep(const Scene& scene, const Settings& settings, int object, std::string* reason = nullptr);
 
-/// Whether a sheet holds itself up, so that multigrid, which knows no bending, would make it rattle.
+/// True if a sheet supports itself; multigrid, which ignores bending, would make it oscillate.
 bool has_stiff_sheet(const Scene& scene);
 
-/// What a scene's "settings" must say so that `own` becomes `wanted`, of substeps, sweep and tethers, as JSON:
+/// The JSON of a scene's "settings" (substeps, sweep, tethers) that changes `own` into `wanted`:
 /// {"substeps": 10, "sweep": "chains", "sweep_options": {"tethers": true}}.
 std::string in_json(const Settings& wanted, const Settings& own);
 

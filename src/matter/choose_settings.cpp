@@ -1,4 +1,4 @@
-// Which sweep, and how many substeps, a scene is run with that leaves it open: what measured best at equal stretch
+// Chooses the sweep and the substeps of a scene that leaves them open, by measurements at equal stretch
 // (docs/internals/convergence.md, "The default, and what wins").
 #include <algorithm>
 #include <array>
@@ -16,22 +16,22 @@ namespace pliant {
 
 namespace {
 
-/// Where the sweeps differ: fewer particles are joined within a few edges of each other, and 20 plain substeps do.
+/// Below this, sweeps do not differ: all particles are a few edges apart, and 20 plain substeps suffice.
 constexpr int fewest_particles = 32;
-/// A sheet whose bending length is more than this share of its size holds itself up: no sweep over stretch alone moves it well.
+/// A sheet with a longer bending length over its size supports itself: sweeps that correct only stretch converge slowly.
 constexpr double stiff_share = 0.25;
-/// Where gravity is less, something else bends the sheet [m/s^2].
+/// Lower bound of the acceleration that bends the sheet: under less gravity, other forces bend it [m/s^2].
 constexpr double least_acceleration = 9.81;
 constexpr const char* too_coarse = "nothing so fine that it needs more";
 constexpr int substeps_of_multigrid = 10, substeps_of_others = 20;
 
-/// Zero where there is no such particle: a scene is asked about before it is checked.
+/// Zero for a missing particle, because this runs before the scene is validated.
 Vec3d position(const Object& object, int particle) {
   const auto i = static_cast<std::size_t>(particle);
   return i < object.positions.size() ? convert<double>(object.positions[i]) : Vec3d{};
 }
 
-/// Those that multigrid corrects: PBD stiffness is left to the sweeps.
+/// Counts the springs that multigrid corrects; PBD stiffness is left to the sweeps.
 std::size_t springs_of(const Object& object) {
   std::size_t count = 0;
   for (const ConstraintGroup& group : object.constraints)
@@ -51,8 +51,8 @@ double largest_extent(const Object& object) {
   return extent;
 }
 
-/// Flexural rigidities of hinges [N m], and the area of their triangles, each counted at up to three hinges [m^2]. See
-/// hinge_compliance in cloth.cpp.
+/// The flexural rigidity of each hinge [N m], and the area of their triangles, each counted at up to three hinges [m^2].
+/// See hinge_compliance in cloth.cpp.
 struct Bending {
   std::vector<double> rigidities;
   double area = 0;
@@ -62,12 +62,12 @@ struct Bending {
     const double twice =
         std::sqrt(length_squared(cross(edge, x[2] - x[0]))) + std::sqrt(length_squared(cross(edge, x[3] - x[0])));
     const double beside = twice / 2;
-    if (!(beside > 0)) return;  // one of no area says nothing of the sheet
+    if (!(beside > 0)) return;  // a degenerate hinge has no meaning for the sheet
     rigidities.push_back(isometric ? 3 / compliance : beside / (length_squared(edge) * compliance));
     area += beside;
   }
 
-  /// The middle one: a few stiff hinges, as of a seam, do not make a stiff sheet.
+  /// The median: a few stiff hinges, such as a seam, do not make a stiff sheet.
   double median() {
     if (rigidities.empty()) return 0;
     const auto middle = rigidities.begin() + static_cast<std::ptrdiff_t>(rigidities.size() / 2);
@@ -76,7 +76,7 @@ struct Bending {
   }
 };
 
-/// PBD stiffness above none counts as rigid: it is as stiff as mesh and step make it.
+/// Positive PBD stiffness counts as rigid, because its effect depends on mesh and step.
 Bending bending_of(const Object& object) {
   Bending bending;
   std::size_t hinges = 0;
@@ -106,8 +106,8 @@ double area_of(const Object& object) {
   return area;
 }
 
-/// The bending length, how far a sheet stands out before it bends under its own weight, (B / rho g)^(1/3) (Peirce 1930), against its
-/// size; by their cubes, since not every machine has the same cube root.
+/// True if the bending length (B / rho g)^(1/3) (Peirce 1930), the overhang at which a sheet bends under its weight, is
+/// large against its size. Compared as cubes, because machines differ in the cube root.
 bool is_stiff_sheet(const Object& object, double gravity) {
   Bending bending = bending_of(object);
   const double rigidity = bending.median(), drawn = area_of(object), area = drawn > 0 ? drawn : bending.area / 3;
@@ -124,7 +124,7 @@ bool may_meet(std::uint32_t groups, std::uint32_t mask, const Object& object) {
   return (groups & object.mask) != 0 && (object.groups & mask) != 0;
 }
 
-/// Whether its surface can touch itself, another object's or a mesh collider.
+/// True if its surface can touch itself, another object or a mesh collider.
 bool can_touch(const Scene& scene, const Object& object) {
   if (object.self_collision) return true;
   const auto meets_object = [&](const Object& other) {
@@ -156,21 +156,21 @@ Choice choose(const Scene& scene, const Settings& settings, const Object& object
   return {Sweep::multigrid, "cloth or rope, the largest of " + std::to_string(particles) + " particles"};
 }
 
-/// An object's own sweep, the settings', or the one chosen for it.
+/// The object's own sweep, else that of the settings, else the chosen one.
 Choice choice_of(const Scene& scene, const Settings& settings, const Object& object) {
   if (object.sweep != Sweep::automatic) return {object.sweep, {}};
   if (settings.sweep != Sweep::automatic) return {settings.sweep, {}};
   return choose(scene, settings, object);
 }
 
-/// How the objects of a scene are solved. Those too coarse for sweeps to differ are left out: they go with the others.
+/// The sweeps of a scene's objects. Objects too coarse for sweeps to differ are ignored; they use the others' sweep.
 struct SweepsInUse {
   struct Use {
     std::string first;  ///< name of the first object
     int objects = 0;
   };
   std::map<Sweep, Use> uses;
-  std::string reason = too_coarse;  ///< of the largest object by multigrid, else of the first
+  std::string reason = too_coarse;  ///< of the largest object with multigrid, else of the first
   std::size_t particles = 0;        ///< of that object
 
   void add(const Object& object, const Choice& choice) {
@@ -182,7 +182,7 @@ struct SweepsInUse {
     particles = object.positions.size();
   }
 
-  /// automatic where they differ.
+  /// Returns automatic if the sweeps differ.
   Sweep common(Sweep of_none) const {
     return uses.empty() ? of_none : uses.size() == 1 ? uses.begin()->first : Sweep::automatic;
   }

@@ -1,7 +1,7 @@
-// Cloth from a triangle mesh: masses by area, a distance constraint an edge, a bending constraint an inner edge.
+// Cloth from a triangle mesh: masses by area, a distance constraint per edge, a bending constraint per inner edge.
 //
-// Stiffness is a property of the material, so each compliance is computed from the areas that its edge stands for: a finer
-// mesh of the same piece then stretches and folds alike. All of it is computed in double and rounded once.
+// Stiffness is a material property, so each compliance follows from the area that its edge represents. A finer mesh of the
+// same piece then stretches and folds alike. All values are computed in double and rounded once.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -18,18 +18,18 @@ namespace pliant {
 
 namespace {
 
-/// No compliance is larger: in float its square over a substep would overflow, and long before it does nothing.
+/// Upper limit of compliances: the square over a substep would overflow a float, and such constraints have no effect.
 constexpr double largest_compliance = 1e12;
 
 float as_compliance(double alpha) { return static_cast<float>(std::min(alpha, largest_compliance)); }
 
 std::string name_of(const Edge& edge) { return "edge " + std::to_string(edge.a) + "-" + std::to_string(edge.b); }
 
-/// A mesh on its way to becoming cloth, with all that is measured on it.
+/// A mesh being converted to cloth, with its measurements.
 struct Piece {
   const TriangleMesh& mesh;
   const ClothOptions& options;
-  std::vector<Triangle> triangles;  ///< wound alike where that is possible
+  std::vector<Triangle> triangles;  ///< consistently wound if possible
   std::vector<Edge> edges;
   std::vector<double> areas;   ///< of triangles [m^2]
   std::vector<double> masses;  ///< of particles [kg]
@@ -41,7 +41,7 @@ struct Piece {
   int vertex_count() const { return static_cast<int>(mesh.positions.size()); }
   void find_edges_again() { edges = find_edges(triangles, vertex_count()); }
 
-  /// The area of the one or two triangles at an edge [m^2].
+  /// The total area of the one or two triangles at an edge [m^2].
   double area_at(const Edge& edge) const {
     double area = 0;
     for (int t : edge.triangles)
@@ -54,7 +54,7 @@ struct Piece {
   }
 };
 
-// ------------------------------------------------------------------------------------------------ what can't be cloth
+// ------------------------------------------------------------------------------------------------ validation
 
 void require_fraction(const Piece& piece, const char* field, float value) {
   if (!(value >= 0 && value <= 1)) piece.refuse(field, "is " + std::to_string(value), "give 0 to 1");
@@ -84,7 +84,7 @@ void require_positions(const Piece& piece) {
   }
 }
 
-/// An edge of three triangles or more stretches like any other and has no hinge: real meshes have a few of them.
+/// A non-manifold edge gets a distance constraint but no hinge: real meshes have a few of them.
 void require_distinct_triangles(const Piece& piece) {
   for (const Edge& edge : piece.edges) {
     if (edge.is_inner() && edge.opposites[0] == edge.opposites[1])
@@ -99,14 +99,14 @@ void require_distinct_triangles(const Piece& piece) {
 double six_volumes(const Piece& piece) {
   double sum = 0;
   for (const Triangle& t : piece.triangles) {
-    // Measured from a corner of the mesh, so that a far-away balloon loses no digits.
+    // Relative to a mesh vertex, so that a distant balloon keeps its precision.
     const Vec3d origin = piece.at(0);
     sum += dot(cross(piece.at(t[0]) - origin, piece.at(t[1]) - origin), piece.at(t[2]) - origin);
   }
   return sum;
 }
 
-/// Neither distances nor hinges need it (a hinge's four corners alone define its sign), but pictures and balloons do.
+/// Neither distances nor hinges need it (a hinge's corners define its sign), but pictures and balloons do.
 void wind_alike(Piece& piece) {
   if (is_wound_consistently(piece.edges)) return;
   const Pieces pieces = find_pieces(piece.edges, static_cast<int>(piece.triangles.size()));
@@ -117,7 +117,7 @@ void wind_alike(Piece& piece) {
   piece.find_edges_again();
 }
 
-/// Makes the outside of a balloon its outside.
+/// Flips a balloon's triangles if they face inward.
 void require_balloon(Piece& piece) {
   for (const Edge& edge : piece.edges) {
     if (edge.is_border())
@@ -149,7 +149,7 @@ void measure_areas(Piece& piece) {
   }
 }
 
-/// A third of each triangle's mass goes to each of its corners.
+/// Each corner of a triangle gets a third of its mass.
 void lump_masses(Piece& piece) {
   piece.masses.assign(piece.mesh.positions.size(), 0);
   const double density = piece.options.material.area_density;
@@ -165,7 +165,7 @@ void lump_masses(Piece& piece) {
 
 // ------------------------------------------------------------------------------------------------ constraints
 
-/// Van Gelder 1998: an edge stands for the strip of material beside it, alpha = L^2 / (Y (A1 + A2)).
+/// Van Gelder 1998: an edge represents the strip of material beside it, alpha = L^2 / (Y (A1 + A2)).
 ConstraintGroup stretch_group(const Piece& piece) {
   ConstraintGroup group;
   group.type = "distance";
@@ -185,22 +185,22 @@ ConstraintGroup stretch_group(const Piece& piece) {
   return group;
 }
 
-/// Grinspun et al. 2003 and Bergou et al. 2006 give a hinge the energy B/2 . 3 |e|^2 / (A1 + A2) . theta^2; here it has a
-/// third of that. Theirs is right for a sheet that curves alike in all directions, but cloth hardly stretches and so curves
-/// in one. Rolled up, the hinges across the roll are bent and those along it are not, so that the mean of their squares is
-/// three times what one curvature would give. Without the 3 a roll of radius R stores B / (2 R^2) an area, which is what
-/// flexural rigidity means.
+/// Grinspun et al. 2003 and Bergou et al. 2006 give a hinge the energy B/2 . 3 |e|^2 / (A1 +
+/// A2) . theta^2; here it is a third of that. Theirs holds for equal curvature in all
+/// directions. Cloth hardly stretches, so it curves in one direction: only hinges across the
+/// roll bend, and the mean of their squares is three times that of one curvature. Without the
+/// factor 3 a roll of radius R stores B / (2 R^2) per area, which defines flexural rigidity.
 constexpr double share_of_rolled_sheet = 3;
 
-/// Compliance of the bending constraint across an inner edge [1/(N m)].
+/// The compliance of the bending constraint at an inner edge [1/(N m)].
 double hinge_compliance(const Piece& piece, const Edge& edge, bool isometric) {
   const double stiffness = piece.options.material.bending_stiffness;
   if (isometric) return share_of_rolled_sheet / stiffness;
   return piece.area_at(edge) / (length_squared(piece.at(edge.b) - piece.at(edge.a)) * stiffness);
 }
 
-/// Squared lengths of the gradients in the rest shape. Those of the isometric type are the coefficients of the rest shape
-/// times one direction, so their lengths never change.
+/// Squared gradient lengths in the rest shape. Isometric gradients are
+/// constant coefficients times one direction, so their lengths never change.
 std::array<double, 4> squared_gradients(const Vec3d (&x)[4], bool isometric) {
   if (isometric) {
     const auto k = IsometricBending::measure(x);
@@ -212,8 +212,8 @@ std::array<double, 4> squared_gradients(const Vec3d (&x)[4], bool isometric) {
   return {length_squared(g[0]), length_squared(g[1]), length_squared(g[2]), length_squared(g[3])};
 }
 
-/// A hinge alone swings as a mass 1 / w on a spring 1 / alpha, w being the sum of w_i |grad_i C|^2: its critical damping is
-/// 2 / sqrt(w alpha) [N m s].
+/// A single hinge is an oscillator of mass 1 / w and stiffness 1 / alpha, with w
+/// = sum of w_i |grad_i C|^2. Its critical damping is 2 / sqrt(w alpha) [N m s].
 double critical_damping(const Piece& piece, const int* v, double compliance, bool isometric) {
   const Vec3d x[4] = {piece.at(v[0]), piece.at(v[1]), piece.at(v[2]), piece.at(v[3])};
   const std::array<double, 4> squared = squared_gradients(x, isometric);
@@ -222,8 +222,8 @@ double critical_damping(const Piece& piece, const int* v, double compliance, boo
   return 2 / std::sqrt(inverse_mass * compliance);
 }
 
-/// The compliances of all hinges, and the one damping coefficient of their group: the wanted fraction of the mean critical
-/// one.
+/// Sets the compliances of all hinges and the damping coefficient
+/// of their group: a fraction of the mean critical damping.
 void apply_material(const Piece& piece, ConstraintGroup& group, bool isometric) {
   const double fraction = piece.options.material.bending_damping;
   const std::size_t count = group.particles.size() / 4;
@@ -241,7 +241,7 @@ void apply_material(const Piece& piece, ConstraintGroup& group, bool isometric) 
       static_cast<float>(std::min(fraction * critical / static_cast<double>(count), largest_compliance));
 }
 
-/// Rest angles are left to be measured where the constraint type is known.
+/// The constraint type measures the rest angles later.
 ConstraintGroup bending_group(const Piece& piece) {
   const bool isometric = piece.options.bending_model == ClothOptions::Bending::isometric;
   ConstraintGroup group;
@@ -290,7 +290,7 @@ Object make_cloth(const TriangleMesh& mesh, const ClothOptions& options) {
   require_positions(piece);
   try {
     piece.find_edges_again();
-  } catch (const Error& error) {  // it knows the triangle, not whose it is
+  } catch (const Error& error) {  // it names the triangle, but not the object
     piece.refuse(error.where().element, error.problem(), error.advice());
   }
   measure_areas(piece);

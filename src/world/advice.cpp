@@ -12,7 +12,7 @@ namespace pliant {
 
 namespace {
 
-/// Up to so many edges from a pin counts as near it.
+/// A particle within this many edges of a pin counts as near it.
 constexpr int near_edges = 3;
 
 std::vector<std::array<int, 2>> edges_of(const CompiledObject& object) {
@@ -26,7 +26,7 @@ std::vector<std::array<int, 2>> edges_of(const CompiledObject& object) {
   return edges;
 }
 
-/// Of the user's own: the targets of attachments are fixed too, and are no pins.
+/// Excludes the targets of attachments, which are fixed but no pins.
 std::vector<char> pinned(const CompiledObject& object) {
   std::vector<char> is_pinned(object.positions.size(), 0);
   for (std::size_t i = 0; i < is_pinned.size(); ++i)
@@ -34,7 +34,7 @@ std::vector<char> pinned(const CompiledObject& object) {
   return is_pinned;
 }
 
-/// How many edges the nearest pin is away from either particle, by rounds over all edges; -1: more than near_edges.
+/// The number of edges from either particle to the nearest pin, by rounds over all edges; -1: more than near_edges.
 int edges_to_pins(const CompiledObject& object, int a, int b) {
   const std::vector<std::array<int, 2>> edges = edges_of(object);
   std::vector<char> reached = pinned(object);

@@ -1,4 +1,4 @@
-// Contact events: what bodies did to one another in a step, compared with the step before.
+// Contact events: the contacts between bodies in a step, compared with the step before.
 #include <algorithm>
 
 #include "math/vector.h"
@@ -59,7 +59,7 @@ void World::Implementation::make_events() {
   events = std::move(all);
 }
 
-/// A thing that goes ends nothing: its id names nothing any more.
+/// Removal causes no end event, because the id is no longer valid.
 void World::Implementation::forget_touching(const Thing& thing) {
   std::erase_if(touching, [&](const auto& pair) { return pair.first == thing || pair.second == thing; });
 }

@@ -1,4 +1,4 @@
-// Ids of one kind of thing and what each stands for.
+// Ids of one kind of thing, mapped to the World's internal numbers.
 #pragma once
 
 #include <set>
@@ -10,7 +10,7 @@
 
 namespace pliant {
 
-/// A number of the World's own for each id that exists.
+/// An internal number for each valid id.
 template <class Kind>
 class IdTable {
  public:
@@ -18,7 +18,7 @@ class IdTable {
 
   using LayoutSlot = WorldLayout::Slot;
 
-  /// What layout() of another returned.
+  /// Restores the slots that layout() of another table returned.
   void restore(const std::vector<LayoutSlot>& slots) {
     slots_.clear();
     free_.clear();
@@ -33,7 +33,7 @@ class IdTable {
     return slots;
   }
 
-  /// The lowest free slot.
+  /// Uses the lowest free slot.
   Id<Kind> add(int number) {
     if (free_.empty()) {
       slots_.push_back({number, 0});
@@ -46,7 +46,7 @@ class IdTable {
   }
 
   void remove(Id<Kind> id) {
-    (void)number(id);  // throws where there is none
+    (void)number(id);  // throws if the id is stale
     slots_[id.slot].number = none;
     ++slots_[id.slot].generation;
     free_.insert(id.slot);
@@ -57,7 +57,7 @@ class IdTable {
            slots_[id.slot].generation == id.generation;
   }
 
-  /// Throws Error where the id names nothing, or no longer.
+  /// Throws an Error if the id is unknown or stale.
   int number(Id<Kind> id) const {
     if (has(id)) return slots_[id.slot].number;
     const bool existed =
@@ -66,10 +66,10 @@ class IdTable {
                 existed ? "it was removed; use the id of one that exists" : "use an id that this World returned");
   }
 
-  /// The id of what is in a slot now; one that names nothing where it is empty.
+  /// The id of the slot's occupant; an invalid id if the slot is free.
   Id<Kind> id_in(int slot) const { return Id<Kind>(slot, slots_.at(static_cast<std::size_t>(slot)).generation); }
 
-  /// The id that has a number.
+  /// The id with this number.
   Id<Kind> id_of(int number) const {
     for (int slot = 0; slot < static_cast<int>(slots_.size()); ++slot)
       if (slots_[slot].number == number) return Id<Kind>(slot, slots_[slot].generation);
@@ -84,7 +84,7 @@ class IdTable {
   }
   int count() const { return static_cast<int>(slots_.size() - free_.size()); }
 
-  /// A number was taken out of a list without holes: those above it are one less.
+  /// Closes the gap after a removal: larger numbers decrease by one.
   void close_gap(int number) {
     for (Slot& slot : slots_) slot.number -= slot.number > number ? 1 : 0;
   }

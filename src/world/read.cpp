@@ -1,4 +1,4 @@
-// What a World says of itself between steps.
+// Reads a World between steps.
 #include <algorithm>
 
 #include "constraints/registry.h"

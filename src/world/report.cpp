@@ -1,4 +1,4 @@
-// A Report in words.
+// Describes a Report in words.
 #include "pliant/world.h"
 
 namespace pliant {

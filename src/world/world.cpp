@@ -1,4 +1,4 @@
-// A World: a Scene compiled, a State owned, and the step that joins them.
+// A World: a compiled Scene, its State, and the step.
 #include "pliant/world.h"
 
 #include <cmath>
@@ -18,7 +18,7 @@ const Kernels& kernels_for(const Settings& settings) {
   return settings.sweep == Sweep::sequential ? kernels_sequential() : pick_kernels(settings.isa);
 }
 
-/// A frame takes at most so many times as long for what moves fast, unless Settings::most_substeps allows more.
+/// Largest factor of substeps in a frame with fast colliders, unless Settings::most_substeps permits more.
 constexpr int default_division = 8;
 
 }  // namespace
@@ -58,7 +58,7 @@ World::World(const Scene& scene) {
 
 World::World(const Scene& scene, const Settings& settings) {
   const auto checked_settings = [&] {
-    Scene checked = scene;  // gone again before anything is compiled
+    Scene checked = scene;  // freed before compilation starts
     checked.settings = settings;
     refuse_grave(checked);
     return chosen_settings(checked);
@@ -90,7 +90,7 @@ Report World::step(float dt) {
   self_->begin_control(dt);
   report.substeps = self_->substeps_for(dt, report.warnings);
   self_->last_h = static_cast<float>(double(dt) / report.substeps);
-  self_->stopped = true;  // unless the step comes to its end: a force field of the user's own may throw
+  self_->stopped = true;  // stays set unless the step completes: a user's force field may throw
   pliant::step({self_->model, self_->state, self_->workspace, self_->executor, self_->kernels, report.substeps,
                 self_->settings.iterations, self_->settings.sweep_options, self_->settings.record_residuals, self_->stop,
                 self_->settings.separate_phases, static_cast<double>(self_->settings.tolerance)},
