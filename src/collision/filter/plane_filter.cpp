@@ -11,7 +11,7 @@ namespace {
 
 constexpr double nearest_to_a_side = 0.1, largest_slab = 0.98;
 
-/// Where a particle's rounded position is at the end, relative to another's start.
+/// A particle's rounded position at the end, relative to another's start.
 Vec3d end_of(const Record& x, const Record& d, float share, const Record& origin) {
   const float ex = x.x + d.x * share, ey = x.y + d.y * share, ez = x.z + d.z * share;
   return {double(ex) - double(origin.x), double(ey) - double(origin.y), double(ez) - double(origin.z)};
@@ -21,14 +21,14 @@ Vec3d start_of(const Record& x, const Record& origin) {
   return {double(x.x) - double(origin.x), double(x.y) - double(origin.y), double(x.z) - double(origin.z)};
 }
 
-/// Heights of the four along the normal at both ends of their moves.
+/// Heights of the four particles along the normal, at the start and at the end.
 struct Heights {
   double start[4], end[4];
   double lowest_first = 1e300, highest_second = -1e300;  // at the start
   double lowest_first_ever = 1e300, highest_second_ever = -1e300;
-  double first_sinks = 0, second_rises = 0;                    // by how much, at most
+  double first_sinks = 0, second_rises = 0;                    // largest approach of each side
   bool first_moves = false, second_moves = false;              // the filter can limit their steps
-  double first_fixed_low = 1e300, second_fixed_high = -1e300;  // ends of what can't
+  double first_fixed_low = 1e300, second_fixed_high = -1e300;  // end heights of kinematic ones
 };
 
 Heights heights_of(const PairStencil& pair, const Vec3d& normal, const Record* positions, const Record* displacements) {
@@ -61,9 +61,9 @@ Separation plan_separation(const PairStencil& pair, const PairDistance& at, cons
   const double gap = h.lowest_first - h.highest_second;
   if (!(gap > 0)) return Separation::unresolvable;
   const double thickness = std::min(least, largest_slab * gap), half = 0.5 * thickness;
-  // Up to rounding, so that steps truncated to one plane's margin meet no other.
+  // With a tolerance for rounding, so that steps truncated to one plane's margin need no second one.
   if (h.lowest_first_ever - h.highest_second_ever >= thickness * (1 - 1e-9)) return Separation::free;
-  // The plane lies where both sides' moves meet, but leaves half a slab to either.
+  // The plane lies where the motions of both sides meet, but leaves half a margin to each.
   const double moves = h.first_sinks + h.second_rises;
   double share = std::clamp(moves > 0 ? h.second_rises / moves : 0.5, nearest_to_a_side, 1 - nearest_to_a_side);
   share = std::clamp(share, half / gap, 1 - half / gap);
@@ -72,7 +72,7 @@ Separation plan_separation(const PairStencil& pair, const PairDistance& at, cons
   middle = std::min(middle, h.first_fixed_low - half);
   middle = std::max(middle, h.second_fixed_high + half);
   slab = {pair, at.normal, middle + half, middle - half};
-  // What lies on its limit but for the rounding of sums lies within it.
+  // A position on its limit, up to rounding of the sums, counts as inside.
   const double slop = 1e-14 * (std::abs(middle) + std::abs(h.lowest_first) + std::abs(h.highest_second) + half);
   bool unresolvable = false;
   for (int i = 0; i < 4; ++i) {
@@ -85,7 +85,7 @@ Separation plan_separation(const PairStencil& pair, const PairDistance& at, cons
     const bool inside = beyond <= slop;
     unresolvable = unresolvable || !inside;
     if (fixed) continue;
-    // Rounded down, and a little more: the product is rounded again when it is made.
+    // Rounded down with a safety margin, because the product is rounded again later.
     shares[i] = inside ? std::max(0.f, static_cast<float>((start - limit) / (start - end) * (1 - 1e-6)) - 1e-7f) : 0.f;
   }
   return unresolvable ? Separation::unresolvable : Separation::planned;

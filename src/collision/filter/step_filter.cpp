@@ -6,14 +6,14 @@ namespace pliant {
 
 namespace {
 
-/// Rounds in which steps are truncated by as much as they must; after them vertices that still offend stay where they are.
+/// Rounds of truncation by the exact share; after them, offending vertices stay at their start.
 constexpr int rounds_of_shares = 3;
 
 bool moves_at_all(const Record& d) { return d.x != 0 || d.y != 0 || d.z != 0; }
 
 }  // namespace
 
-/// What all tasks of a round share.
+/// The common data of all tasks in a round.
 struct StepFilter::Round {
   Neighbourhood& near;
   const PairParticles& particles;
@@ -61,7 +61,7 @@ void StepFilter::Round::plan_pair(const ClusterSides& sides, const PairLanes& la
   const PairStencil pair = lanes.pair(lane, sides.of_vertices);
   if (is_exempt(pair)) return;
   const PairDistance at = pair_distance(pair, particles.positions);
-  // Bounds only save work: what a tighter bound would have dismissed is dismissed here.
+  // Bounds only save work: this repeats the rejection that a tighter bound would have made.
   if (static_cast<float>(at.distance) * sum_slack - lanes.paths.falls[lane] > margin) return;
   SeparatingSlab slab;
   std::array<float, 4> shares{1, 1, 1, 1};
@@ -79,8 +79,8 @@ void StepFilter::forget_counts() {
   unresolvable_.clear();
 }
 
-/// Pairs are dismissed by how much their sides move against each other, which grows where one of them alone is truncated: what was
-/// truncated is looked at again with its new step, until no more is.
+/// Pairs are rejected by their relative motion, which grows when only one side is truncated. So truncated vertices are
+/// tested again with their new step, until none changes.
 bool StepFilter::apply(Executor& executor, NearLists& lists, const PairParticles& particles,
                        FunctionRef<bool(const PairStencil&)> is_exempt) {
   truncated_in_.clear();
@@ -109,8 +109,8 @@ void StepFilter::plan(Executor& executor, Neighbourhood& near, const PairParticl
   });
 }
 
-/// Each vertex takes the least share that its pairs permit, or none; then what rounding lets through stays where it was, until nothing
-/// more does. Returns whether any step was truncated.
+/// Each vertex takes the smallest share that its pairs permit, or none. Then vertices that rounding lets through stay at
+/// their start, until no more do. Returns true if any step was truncated.
 bool StepFilter::truncate(const PairParticles& particles, bool stops) {
   touched_.clear();
   const auto allow = [&](std::int32_t v, float share) {

@@ -11,7 +11,7 @@
 
 namespace pliant {
 
-/// Pairs between two bodies that no step limit keeps apart.
+/// Pairs of two bodies that no step limit separates.
 struct UnresolvablePairs {
   PairStencil first;
   std::int64_t count = 0;
@@ -21,21 +21,21 @@ class StepFilter {
  public:
   explicit StepFilter(const PairModel& model) : model_(model), share_(model.rest.size(), 1.f) {}
 
-  /// At a frame's start.
+  /// Call at a frame's start.
   void forget_counts();
-  /// Truncates displacements so that no pair crosses, but those for which `is_exempt` holds. The substep's motion is measured anew
-  /// after each round. Returns whether all positions are bounded (NearLists::measure); if not, displacements may be left as they are.
+  /// Truncates displacements so that no pair crosses, unless `is_exempt` holds for it. Measures the motion again after each
+  /// round. Returns true if all positions are bounded (NearLists::measure); else displacements may be unchanged.
   bool apply(Executor& executor, NearLists& lists, const PairParticles& particles,
              FunctionRef<bool(const PairStencil&)> is_exempt);
 
-  /// Vertices whose step was truncated, once a substep each; pairs that could not be kept apart: of this frame.
+  /// Counts of this frame: vertices with a truncated step, once per substep; and unresolvable pairs.
   std::int64_t truncated() const { return truncated_; }
   std::int64_t unresolvable_count() const { return unresolvable_count_; }
-  /// By their bodies, the lower one first.
+  /// By bodies, the lower one first.
   const std::map<std::pair<int, int>, UnresolvablePairs>& unresolvable() const { return unresolvable_; }
 
  private:
-  /// What one thread finds.
+  /// Scratch memory of one thread.
   struct Scratch {
     std::vector<std::int32_t> near;
     std::vector<SeparatingSlab> slabs;
@@ -53,7 +53,7 @@ class StepFilter {
 
   const PairModel& model_;
   std::vector<Scratch> scratch_;
-  std::vector<float> share_;                          ///< of each vertex' step, in a round
+  std::vector<float> share_;                          ///< of each vertex's step, in a round
   std::vector<std::int32_t> touched_, truncated_in_;  ///< vertices, in a round and in a substep
   std::int64_t truncated_ = 0, unresolvable_count_ = 0;
   std::map<std::pair<int, int>, UnresolvablePairs> unresolvable_;

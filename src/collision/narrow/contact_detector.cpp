@@ -6,12 +6,12 @@ namespace pliant {
 
 namespace {
 
-/// A contact keeps no more than this share of the distance that its primitives have at rest.
+/// A contact maintains at most this share of the distance of its primitives at rest.
 constexpr double share_of_rest = 0.9;
-/// A block of static pairs that is measured at all is measured if it is due within so many substeps.
+/// When a block of static pairs is measured, those due within this many substeps are measured with it.
 constexpr float substeps_of_rest = 4;
 
-/// What all tasks share.
+/// The common data of all tasks.
 struct Detection {
   Neighbourhood& near;
   const PairParticles& particles;
@@ -19,8 +19,8 @@ struct Detection {
   const CoveredPairs& covered;
 };
 
-/// The distance that a pair may keep, by what its primitives keep at rest [m]. `known`: its value, below 0 where it was not measured
-/// yet; null where it is not kept.
+/// The distance that a pair may maintain because of its distance at rest
+/// [m]. `known` caches it: < 0 if not measured yet, null if not cached.
 float kept_at_rest(const Neighbourhood& near, const PairStencil& pair, float* known) {
   if (known != nullptr && *known >= 0) return *known;
   const auto kept = static_cast<float>(share_of_rest * pair_distance(pair, near.model.rest.data()).distance);
@@ -36,7 +36,7 @@ void add_contact(const PairStencil& pair, const PairBatch& at, int lane, const P
   contacts.push_back(contact);
 }
 
-/// A pair becomes a contact if its distance, less what it may fall by, is below what it keeps.
+/// A pair becomes a contact if its distance, minus the possible decrease, is below its contact distance.
 void detect_pair(const Detection& d, const ClusterSides& sides, const PairLanes& lanes, int lane, float* at_rest,
                  std::vector<Contact>& contacts) {
   const ClusterPair& clusters = d.near.pair_of(sides);
@@ -85,7 +85,7 @@ void detect_block(const Detection& d, const StaticGroup& group, int block, std::
     detect_pair(d, group, lanes, lane, nullptr, contacts);
 }
 
-/// Measures all blocks of a group that are due in some substeps, so that the next substep does not come back for them.
+/// Measures all blocks of a group that are due within some substeps, so that the next ones need not revisit them.
 void detect_group(const Detection& d, StaticGroup& group, std::vector<Contact>& contacts) {
   const ClusterPair& clusters = d.near.pair_of(group);
   const float within = cull_slack * clusters.material.thickness, next = clusters.odometer.next;

@@ -1,4 +1,4 @@
-// Makes contacts of the pairs that may come within their thickness in a substep.
+// Creates contacts for pairs that may come within their thickness in a substep.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class ContactDetector {
                      FunctionRef<bool(const PairStencil&)> is_exempt, std::vector<Contact>& contacts);
 
  private:
-  /// What one thread works with.
+  /// Scratch memory of one thread.
   struct Scratch {
     std::vector<std::int32_t> near;
     std::vector<Contact> of_groups, of_lists;

@@ -9,22 +9,22 @@ namespace pliant {
 
 namespace {
 
-/// A corner with less weight does not hold the closest point.
+/// Below this weight a corner does not bear the closest point.
 constexpr float least_weight = 1e-5f;
-/// A neighbouring triangle is closer if a corner rises towards the vertex by more than this share of its distance.
+/// A neighbouring triangle is closer if one of its corners rises towards the vertex by over this share of its distance.
 constexpr float least_rise = 1e-3f;
 
 Vec3f place(const Record& r) { return {r.x, r.y, r.z}; }
 
 bool has(const Triangle& t, int vertex) { return t[0] == vertex || t[1] == vertex || t[2] == vertex; }
 
-/// The end of an edge at which its closest point lies; -1: it lies between the ends.
+/// The end of an edge at which its closest point lies; -1 if it lies between the ends.
 int end_of(int a, int b, float weight_of_a, float weight_of_b) {
   if (abs(weight_of_b) < least_weight) return a;
   return abs(weight_of_a) < least_weight ? b : -1;
 }
 
-/// Whether two edges of a triangle, or the two edges of a pair, are not nearly parallel: by some two degrees.
+/// True if two edges of a triangle, or the two edges of a pair, are at least about two degrees from parallel.
 bool is_well_conditioned(const PairStencil& pair, const Record* positions) {
   const auto& v = pair.vertex;
   const bool edges = pair.first_side == 2;
@@ -44,7 +44,7 @@ bool CoveredPairs::has_triangle_without(int a, int b, int vertex) const {
   });
 }
 
-/// Of a vertex and a triangle: whether a triangle that holds the same closest point comes closer to the vertex.
+/// For a vertex and a triangle: true if another triangle with the same closest point comes closer to the vertex.
 bool CoveredPairs::is_closer_beside(const PairStencil& pair, const Closest& at, const Record* positions) const {
   const int vertex = pair.vertex[0];
   std::array<int, 3> holds{};
@@ -76,7 +76,7 @@ bool CoveredPairs::covers(const PairStencil& pair, const Closest& at, const Reco
          (second >= 0 && has_triangle_without(v[0], v[1], second));
 }
 
-/// Of slivers and of nearly parallel edges float closest points can be wrong: double has to agree.
+/// For slivers and nearly parallel edges the float closest points can be wrong, so double precision must agree.
 bool CoveredPairs::covers(const PairStencil& pair, const PairBatch& at, int lane, const Record* positions) const {
   const Closest coarse{{at.weight[0][lane], at.weight[1][lane], at.weight[2][lane], at.weight[3][lane]},
                        {at.normal[0][lane], at.normal[1][lane], at.normal[2][lane]}};

@@ -15,7 +15,7 @@ class CoveredPairs {
  public:
   explicit CoveredPairs(const ContactElements& elements);
 
-  /// Whether pair `lane` of the batch is covered by another pair of the same two surfaces.
+  /// True if another pair of the same two surfaces covers pair `lane` of the batch.
   bool covers(const PairStencil& pair, const PairBatch& at, int lane, const Record* positions) const;
 
  private:
@@ -29,7 +29,7 @@ class CoveredPairs {
   bool has_triangle_without(int a, int b, int vertex) const;
 
   const ContactElements& elements_;
-  IntLists around_;  ///< of each vertex the triangles at it
+  IntLists around_;  ///< the triangles incident to each vertex
 };
 
 }  // namespace pliant

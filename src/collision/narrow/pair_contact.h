@@ -1,8 +1,8 @@
-// Contacts among things that move: a vertex and a triangle, or two edges.
+// Contacts between dynamic objects: vertex-triangle and edge-edge.
 //
-// Both kinds are four particles with weights that add up to nothing: the relative place of the closest points is sum weight x.
-// Point and normal are those of the substep's start, where every clean pair is apart, and stay for the substep: an iterate
-// may have crossed already and would name the wrong side.
+// Both kinds are four particles with weights that sum to zero; sum weight x is the vector between the closest points. Point
+// and normal are those of the substep's start, when separate pairs are apart, and are constant in the substep: an iterate
+// may already have crossed, and would give the wrong side.
 #pragma once
 
 #include "collision/proxies/pair_stencil.h"
@@ -10,19 +10,19 @@
 
 namespace pliant {
 
-/// What overlaps separates at this speed at most [m/s].
+/// Limit of the depenetration speed [m/s].
 inline constexpr float largest_pair_separation_speed = 1;
 
-/// The contact of pair `lane` of sixteen that were measured; its approach is not known yet.
+/// The contact of lane `lane` of sixteen measured pairs; its approach speed is set later.
 Contact make_contact(const PairStencil& pair, const PairBatch& at, int lane, const PairMaterial& material, float h);
 
-/// The speed along the contact's normal, from displacements as predicted [m/s].
+/// The approach speed along the contact's normal, from predicted displacements [m/s].
 float approach_of(const Contact& contact, const Record* displacements, float h);
 
-/// What velocities lack, and what is no impact.
+/// Corrections of velocities for restitution.
 struct PairResponse {
-  Vec3f missing{};  ///< of the relative velocity [m/s]
-  float slow = 0;   ///< approach no faster than this is rest [m/s]
+  Vec3f missing{};  ///< missing part of the relative velocity [m/s]
+  float slow = 0;   ///< slower approaches count as rest [m/s]
 };
 
 /// Whether a contact that did not touch when the substep began came closer by more than half its thickness, and pushed.
@@ -33,7 +33,7 @@ inline bool is_impact(const Contact& contact) {
 /// Removes what is left of an impact's approach and returns it [m/s]. `missing`: what the relative velocity lacks [m/s].
 float end_impact(const Contact& contact, Record* velocities, const Vec3f& missing);
 
-/// Gives a contact that pushed the relative velocity along its normal that restitution leaves (separation_after).
+/// Sets the relative normal velocity of an active contact according to restitution (separation_after).
 void respond_to_contact(const Contact& contact, Record* velocities, const PairResponse& response = {});
 
 }  // namespace pliant

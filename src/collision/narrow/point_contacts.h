@@ -1,4 +1,4 @@
-// Contacts of free particles with one another: spheres of their thickness, found by their swept boxes.
+// Contacts between free particles: spheres with the radius of their thickness, found by swept boxes.
 #pragma once
 
 #include <array>
@@ -14,15 +14,15 @@
 
 namespace pliant {
 
-/// The contact of points `i` and `j`, both of the State; false where the way of one relative to the other stays clear of it. The normal
-/// is that where the distance first falls to the thickness, so that a fast point that passes by is not held up.
+/// The contact of points `i` and `j` of the State; false if their relative path stays clear. The normal is taken where the
+/// distance first reaches the thickness, so that a fast point that passes by is not stopped.
 bool find_point_contact(int i, int j, const PairMaterial& material, const PairParticles& particles, Contact& contact);
 
 class PointContacts {
  public:
   explicit PointContacts(const PairModel& model) : model_(model) {}
 
-  /// Appends those of all of model.free_points that meet, in ascending order of their points.
+  /// Appends the contacts between all model.free_points, in ascending order of points.
   void detect(Executor& executor, const PairParticles& particles, std::vector<Contact>& contacts);
 
  private:

@@ -1,11 +1,11 @@
-// Contacts of edges and triangles with spheres, capsules and boxes, so that no edge cuts a corner and no small sphere slips through a
-// triangle. Vertices have theirs from contact.h; planes need no more than those.
+// Contacts of edges and triangles with spheres, capsules and boxes, so that edges do not cut corners and small spheres do
+// not pass through triangles. Vertex contacts come from contact.h; planes need only those.
 //
-//   edge       the closest place on it                        weights 1 - t, t
-//   triangle   the centre of a sphere, the ends of a capsule's axis, the corners of a box, where they face its inside    barycentric
+//   edge       its closest point                              weights 1 - t, t
+//   triangle   sphere centre, capsule axis ends, or box corners that face its interior       barycentric
 //
-// An element has a contact only where it comes nearer to the solid than its vertices do (least_dip): else theirs stand for it. Its elements
-// are looked at where the prediction takes them, which positions and velocities alone decide.
+// An element has a contact only if it comes nearer to the solid than its vertices by more than least_dip; otherwise theirs
+// suffice. Elements are tested at the prediction, which depends on positions and velocities alone.
 #pragma once
 
 #include <cstdint>
@@ -17,24 +17,24 @@
 
 namespace pliant {
 
-/// What finding the contacts of a substep needs.
+/// The inputs for finding the contacts of a substep.
 struct ShapeContactSearch {
   const Model& model;
   const std::vector<MovingCollider>& colliders;
-  FunctionRef<AdvanceArguments(int task)> particles;  ///< of the tile of a task of the model
-  FunctionRef<const PointBounds&(int task)> bounds;  ///< holds the tile's particles at the substep's start and as predicted
+  FunctionRef<AdvanceArguments(int task)> particles;  ///< of the tile of a model task
+  FunctionRef<const PointBounds&(int task)> bounds;  ///< encloses the tile's particles at the substep's start and predicted
 };
 
-/// Of a vertex in a collider's frame, from where the substep begins to where it is predicted.
+/// A vertex in a collider's frame, at the substep's start and as predicted.
 struct VertexWay {
   Vec3f from, to;
   Vec3f at(float s) const { return from + (to - from) * s; }
 };
 
-/// What one thread works with.
+/// Scratch memory of one thread.
 struct ShapeContactScratch {
-  std::vector<BoundingBox<float>> boxes;  ///< around the ways of each cluster of a tile
-  std::vector<float> paths;               ///< the longest of them, at least [m]
+  std::vector<BoundingBox<float>> boxes;  ///< swept box of each cluster of a tile
+  std::vector<float> paths;               ///< upper bounds of their vertices' displacements [m]
   std::vector<VertexWay> ways;            ///< of the vertices of a cluster
   std::vector<std::uint16_t> outcodes;
   std::vector<Contact> contacts;
@@ -42,10 +42,10 @@ struct ShapeContactScratch {
 
 class ShapeContacts {
  public:
-  /// Makes the elements of an object, after it or the colliders were added or changed.
+  /// Prepares the elements of an object, after it or the colliders were added or changed.
   void prepare(const Model& model, int object);
 
-  /// Finds those of the substep, by tile, then by collider.
+  /// Finds the contacts of the substep, by tile, then by collider.
   void detect(Executor& executor, const ShapeContactSearch& search);
 
   const std::vector<Contact>& contacts() const { return contacts_; }
@@ -59,8 +59,8 @@ class ShapeContacts {
   std::vector<Contact> contacts_;
 };
 
-/// After the velocity update: the normal velocity of what touched, as respond() of contact.h has it. `missing`: what velocities lack of
-/// gravity [m/s].
+/// Restitution after the velocity update, as respond() of contact.h.
+/// `missing`: the gravity not yet included in velocities [m/s].
 void respond_to_shape_contact(const Contact& contact, Record* velocities, const Vec3f& missing, float slow,
                               float inverse_h);
 

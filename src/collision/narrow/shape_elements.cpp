@@ -8,7 +8,7 @@ namespace pliant {
 
 namespace {
 
-/// Cloth stretches by a twentieth at most where its vertices alone are met.
+/// Upper limit of stretch for which vertex contacts alone suffice: 5 %.
 constexpr float stretched = 1.05f;
 constexpr std::size_t vertices_in_a_cluster = 32;
 
@@ -25,7 +25,7 @@ std::vector<std::array<int, 2>> edges_of(const CompiledObject& object) {
   return edges;
 }
 
-/// Of the smallest circle that holds a triangle.
+/// The radius of the smallest circle that encloses a triangle.
 float circle_around(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   float side[3] = {length(b - a), length(c - b), length(a - c)};
   std::sort(side, side + 3);
@@ -47,7 +47,7 @@ Vec3f place_of(const CompiledObject& object, int particle) {
 
 float along(const Vec3f& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
-/// The axis along which vertices extend farthest.
+/// The axis of the vertices' largest extent.
 int longest_axis(const CompiledObject& object, const std::vector<int>& vertices) {
   Vec3f low = place_of(object, vertices[0]), high = low;
   for (const int v : vertices) {
@@ -58,7 +58,7 @@ int longest_axis(const CompiledObject& object, const std::vector<int>& vertices)
   return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
 }
 
-/// Cuts vertices in halves until few are left; cluster_of is that of each vertex, by number.
+/// Bisects vertices until each part fits a cluster; cluster_of is indexed by vertex.
 void split(const CompiledObject& object, std::vector<int> vertices, int& clusters, std::vector<int>& cluster_of) {
   if (vertices.size() <= vertices_in_a_cluster) {
     for (const int v : vertices) cluster_of[static_cast<std::size_t>(v)] = clusters;
@@ -74,7 +74,7 @@ void split(const CompiledObject& object, std::vector<int> vertices, int& cluster
   split(object, {middle, vertices.end()}, clusters, cluster_of);
 }
 
-/// Elements by the vertices of the object, with the lowest of which each is listed.
+/// Elements in the object's indices; each belongs to its lowest vertex.
 struct ElementLists {
   std::vector<std::array<int, 2>> edges;
   std::vector<Triangle> triangles;

@@ -1,4 +1,4 @@
-// Which edges and triangles of an object meet primitive colliders by more than their vertices.
+// The edges and triangles of an object that can come nearer to primitive colliders than their vertices.
 #pragma once
 
 #include <array>
@@ -9,34 +9,34 @@
 
 namespace pliant {
 
-/// What an edge or a triangle may come nearer to a solid between its vertices than at the closest of them before it has a contact of its
-/// own; up to twice that, the contact keeps less than the thickness, so that none begins at a jump. `radius` is that of a circle around
-/// the element [m].
+/// An element gets a contact of its own if its interior comes nearer to a solid than its
+/// vertices by this. Up to twice this the contact keeps less than the thickness, so that
+/// contacts start without a jump. `radius` is that of a circle around the element [m].
 inline float least_dip(float radius, float thickness) { return max(0.5f * thickness, 0.03125f * radius); }
 
-/// Some thirty vertices that lie together, the elements whose lowest vertex is one of them, and the other vertices of these.
+/// About thirty neighbouring vertices, the elements whose lowest vertex is one of them, and those elements' other vertices.
 struct ElementCluster {
-  std::vector<int> vertices;              ///< in the object's numbering, ascending
-  std::vector<std::array<int, 2>> edges;  ///< places in `vertices`
+  std::vector<int> vertices;              ///< in the object's order, ascending
+  std::vector<std::array<int, 2>> edges;  ///< indices into `vertices`
   std::vector<Triangle> triangles;
 };
 
-/// The clusters of a tile: those of its own vertices.
+/// The clusters of a tile, which partition its vertices.
 struct TileElements {
-  std::vector<int> neighbours;  ///< other tiles that clusters have vertices of, ascending
+  std::vector<int> neighbours;  ///< other tiles with vertices of these clusters, ascending
   std::vector<ElementCluster> clusters;
 };
 
-/// Edges and triangles of one object, tile by tile. Nothing where vertices alone are met.
+/// The edges and triangles of one object, by tile. Empty if vertex contacts suffice.
 struct ShapeElements {
-  float radius = 0;  ///< the largest of the least circles around a triangle or an edge as it was made [m]
+  float radius = 0;  ///< largest radius of the smallest circles around initial triangles and edges [m]
   std::vector<TileElements> tiles;
 };
 
 ShapeElements make_shape_elements(const CompiledObject& object);
 
-/// Whether elements of this radius can come nearer to a collider than their vertices by more than least_dip: those of fine cloth on a large
-/// ball cannot. `thickness` is the sum of both [m].
+/// True if elements of this radius can come nearer to a collider than their vertices by more than least_dip; fine cloth on
+/// a large ball cannot. `thickness` is the sum of both [m].
 bool may_dip(float radius, const LocalShape& shape, float thickness);
 
 }  // namespace pliant

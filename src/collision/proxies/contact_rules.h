@@ -1,4 +1,4 @@
-// Who meets whom, and with what material: groups decide, and a short list of exceptions. No table is bodies x bodies.
+// Decides which bodies meet and with which material: by groups and a short list of exceptions, not by a table of pairs.
 #pragma once
 
 #include <algorithm>
@@ -11,21 +11,21 @@
 
 namespace pliant {
 
-/// What a body says about whom it meets, and how.
+/// The contact settings of a body.
 struct ContactBody {
   std::uint32_t groups = 1, mask = ~0u;
   bool collides = true;       ///< with other bodies that collide
-  bool is_collider = false;   ///< meets also those that do not collide
-  bool is_immovable = false;  ///< static or kinematic: two such never meet
+  bool is_collider = false;   ///< also meets bodies that do not collide
+  bool is_immovable = false;  ///< static or kinematic: two such bodies never meet
   bool meets_itself = false;
-  float thickness = 0;  ///< two bodies keep the sum of theirs [m]
+  float thickness = 0;  ///< two bodies maintain the sum of theirs [m]
   float static_friction = 0, kinetic_friction = 0, restitution = 0;
 };
 
 class ContactRules {
  public:
   void add(const ContactBody& body) { bodies_.push_back(body); }
-  /// Overrides what the combination of two bodies gives.
+  /// Overrides the combined material of two bodies.
   void set_material(int a, int b, const PairMaterial& material) { exceptions_[std::minmax(a, b)] = material; }
 
   int bodies() const { return static_cast<int>(bodies_.size()); }
@@ -33,20 +33,20 @@ class ContactRules {
   bool meet(int a, int b) const;
   PairMaterial material(int a, int b) const;
 
-  /// Of any two that meet [m].
+  /// Of any two bodies that meet [m].
   float largest_thickness() const;
-  /// Of each body, whether it meets any other or itself.
+  /// For each body: true if it meets any other or itself.
   std::vector<char> meeting() const;
 
  private:
-  /// Bodies that meet the same others; bodies with an exception are alone in theirs.
+  /// Bodies that meet the same others; a body with an exception has a class of its own.
   struct Class {
-    int thickest = -1, second = -1;  ///< bodies; -1: there is none
+    int thickest = -1, second = -1;  ///< bodies; -1: none
   };
   std::vector<int> find_classes(std::vector<Class>& classes) const;
 
   std::vector<ContactBody> bodies_;
-  std::map<std::pair<int, int>, PairMaterial> exceptions_;  ///< the lower body first
+  std::map<std::pair<int, int>, PairMaterial> exceptions_;  ///< lower body first
 };
 
 }  // namespace pliant

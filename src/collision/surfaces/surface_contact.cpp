@@ -6,10 +6,10 @@ namespace pliant {
 
 namespace {
 
-/// Where a kinematic collider moves by up to half a thickness in a substep, contacts keep this share of their thickness.
+/// Share of the thickness that contacts must keep where a kinematic collider moves by up to half a thickness a substep.
 constexpr float least_share_kept = 0.9f;
 
-/// Whether a side that cannot be pushed moves by more than the thickness may lack without harm.
+/// True if a kinematic side moves by more than the permitted loss of thickness.
 bool is_driven(const Contact& contact, const PairParticles& particles) {
   float way = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -46,7 +46,7 @@ PairCounts SurfaceContact::counts() const {
 }
 
 void SurfaceContact::begin_frame(const Record* positions, bool rebuild) {
-  // Pairs that the filter kept apart stay apart; without it, what has crossed is exempt, as it would be in a State that is put back.
+  // Pairs that the filter kept apart stay apart. Without it, crossed pairs become exempt, as in a restored State.
   const bool kept_apart = model_.filter && filter_.unresolvable_count() == 0;
   const bool untangles = untangler_ && untangler_->is_busy();
   filter_.forget_counts();
@@ -76,14 +76,14 @@ void SurfaceContact::detect(Executor& executor, const PairParticles& particles) 
   if (untangler_)
     untangler_->push(model_.untangling_speed * particles.h, particles.h, particles.displacements, particles.remainders);
   is_bounded_ = lists_.measure(executor, particles);
-  if (!is_bounded_) return;  // the end of the substep says so
+  if (!is_bounded_) return;  // the end of the substep reports it
   lists_.update(executor, particles);
   static_contacts_ = detector_.detect(
       executor, lists_.neighbourhood(), particles, [&](const PairStencil& pair) { return is_exempt(pair); }, contacts_);
   points_.detect(executor, particles, contacts_);
 }
 
-/// Contacts behind the driven one matter as much: a vertex whose step the filter truncates for one of them is no longer out of the way.
+/// Contacts behind the driven one count too: a vertex that the filter truncates for one of them cannot move out of the way.
 bool SurfaceContact::is_overrun(const PairParticles& particles) const {
   const auto lacks = [&](const Contact& contact) {
     return overlap_of(contact, particles.displacements) > (1 - least_share_kept) * contact.thickness;

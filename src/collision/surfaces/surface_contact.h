@@ -1,12 +1,12 @@
-// Contact of surfaces with themselves, one another and meshes: the stages in order, once for all objects.
+// Contact of surfaces with themselves, each other and meshes: its stages in order, once for all objects.
 //
 //   near      which pairs of primitives are near one another         (near/near_lists.h)
 //   narrow    which of them become contacts in this substep          (narrow/contact_detector.h)
 //   filter    truncates steps so that no pair crosses                (filter/step_filter.h)
-//   untangle  what intersects initially: exempt, and led apart       (untangle/)
+//   untangle  initially intersecting pairs: exempt, and moved apart  (untangle/)
 //
-// A substep depends on positions and displacements alone: lists and bounds only save work, so a State that is put back gives the same
-// bits.
+// A substep depends on positions and displacements alone. Lists and
+// bounds only save work, so a restored State gives the same bits.
 #pragma once
 
 #include <map>
@@ -23,29 +23,29 @@
 
 namespace pliant {
 
-/// What was done, for the Report.
+/// Statistics for the Report.
 struct PairCounts {
   std::int64_t candidates = 0, contacts = 0, truncated = 0, unresolvable = 0, intersecting = 0, rebuilds = 0, inside = 0;
-  double deepest = 0;  ///< overlap that contacts of the last substep left [m]
+  double deepest = 0;  ///< remaining penetration of contacts in the last substep [m]
 };
 
 class SurfaceContact {
  public:
-  /// `kernels` are those of an instruction set that this machine has; all give the same bits.
+  /// `kernels` must be of an instruction set level that this machine runs; all give the same bits.
   explicit SurfaceContact(const PairModel& model, const PairKernels& kernels = pair_kernels_generic());
 
-  /// At a frame's start: forgets counts, and finds which initially intersecting pairs are apart by now. `rebuild` tests all pairs: due
-  /// at the first frame and after a State was put back.
+  /// Call at a frame's start: resets counts and updates the initially intersecting pairs. `rebuild` tests all pairs; needed
+  /// at the first frame and after a restored State.
   void begin_frame(const Record* positions, bool rebuild);
 
-  /// Contacts of the substep from predicted displacements.
+  /// Finds the contacts of the substep from predicted displacements.
   void detect(Executor& executor, const PairParticles& particles);
-  /// Whether a kinematic collider moves on into what contacts have not yet moved out of its way, so that the filter might not keep them
-  /// apart: then they should be projected again, which passes a push on to what lies behind.
+  /// True if a kinematic collider moves into vertices that contacts have not moved out of its way yet, so that the filter
+  /// may fail. Then contacts should be projected again, which propagates the push.
   bool is_overrun(const PairParticles& particles) const;
   /// Truncates displacements so that nothing crosses.
   void filter(Executor& executor, const PairParticles& particles);
-  /// After a frame's last substep: how much of their thickness contacts lack.
+  /// Call after a frame's last substep: measures the remaining penetration of contacts.
   void measure_overlaps(const PairParticles& particles);
   /// After the filter: whether any contact is an impact.
   bool has_impacts() const { return has_impacts_; }
@@ -56,15 +56,15 @@ class SurfaceContact {
   /// frame [m/s]. Approaches no faster than `slow` are rest [m/s].
   void respond(const Contact& contact, const Record* positions, Record* velocities, float slow,
                FunctionRef<Vec3f(int body)> gravity) const;
-  /// Then limits the speed of what is being led apart.
+  /// Then limits the untangling speed.
   void limit_untangling(Record* velocities, FunctionRef<Vec3f(int body)> gravity) const;
 
-  /// Whether initially intersecting surfaces are led apart in this frame: contacts are then to be found before constraints are projected.
+  /// True if initial intersections are moved apart in this frame; contacts must then be found before the projection.
   bool untangles() const { return untangler_ && untangler_->limits_speeds(); }
 
-  /// Whether untangling leaves this one as it is: it cuts nothing off, or moving would make more intersections.
+  /// True if untangling ignores this intersection: it separates no part, or moving would create more intersections.
   bool gives_up(const Intersection& found) const { return untangler_ && !untangler_->leads_apart(found); }
-  /// Whether untangling was active in the frame before and made the intersections of two bodies no fewer.
+  /// True if untangling was active in the previous frame without reducing the intersections of two bodies.
   bool stalls(std::pair<int, int> bodies) const { return untangler_ && intersections_.are_no_fewer(bodies); }
 
   PairCounts counts() const;
@@ -72,12 +72,12 @@ class SurfaceContact {
   /// How many of contacts(), from the first on, are of static neighbour pairs.
   std::size_t static_contacts() const { return static_contacts_; }
   std::vector<Contact>& contacts() { return contacts_; }
-  /// Edges and triangles that intersect: left out until they are apart.
+  /// Intersecting edges and triangles, which are exempt until they are apart.
   const std::vector<Intersection>& intersecting() const { return intersections_.found(); }
   const Triangle& triangle(int number) const { return model_.elements.triangles[number]; }
   /// Bodies that are partly too far from the origin for contact (is_too_far), ascending.
   std::vector<int> too_far() const;
-  /// Of this frame, by their bodies, the lower one first.
+  /// Of this frame, by bodies, the lower one first.
   const std::map<std::pair<int, int>, UnresolvablePairs>& unresolvable() const { return filter_.unresolvable(); }
 
  private:
@@ -92,7 +92,7 @@ class SurfaceContact {
   PointContacts points_;
   StepFilter filter_;
   InitialIntersections intersections_;
-  std::unique_ptr<Untangler> untangler_;  ///< where the model asks for it
+  std::unique_ptr<Untangler> untangler_;  ///< if the model requests it
   std::vector<Contact> contacts_;
   std::size_t static_contacts_ = 0;
   bool is_bounded_ = true, has_impacts_ = false;

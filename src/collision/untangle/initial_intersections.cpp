@@ -33,7 +33,7 @@ bool InitialIntersections::are_no_fewer(std::pair<int, int> bodies) const {
   return before != counts_before_.end() && now != counts_.end() && now->second >= before->second;
 }
 
-/// All stencils that the edge and the triangle are made of.
+/// Exempts all stencils formed by the edge and the triangle.
 void InitialIntersections::exempt(const Intersection& found, const IntLists& triangles_at) {
   const auto exempt_corner = [&](int vertex, const Triangle& t) { exempt_.push_back({vertex, t[0], t[1], t[2], 1}); };
   const Triangle& t = model_.elements.triangles[found.triangle];

@@ -1,5 +1,5 @@
-// Edges and triangles that intersect though they should not: where a frame begins so, contact and filter leave them out until they
-// are apart.
+// Intersecting edges and triangles at a frame's start.
+// Contact and filter ignore them until they are apart.
 #pragma once
 
 #include <array>
@@ -18,12 +18,12 @@ class InitialIntersections {
  public:
   explicit InitialIntersections(const PairModel& model);
 
-  /// Finds all between bodies that meet. `forget`: the positions do not follow those of the call before.
+  /// Finds all intersections between bodies that meet. `forget`: the positions do not continue those of the previous call.
   void find(const Record* positions, bool forget);
   const std::vector<Intersection>& found() const { return found_; }
-  /// Whether two bodies, the lower one first, had intersections at the call before too, and no more than now.
+  /// True if two bodies, the lower one first, had intersections at the previous call, and no more than now.
   bool are_no_fewer(std::pair<int, int> bodies) const;
-  /// Whether a pair belongs to an edge and a triangle that intersect.
+  /// True if a pair belongs to an intersecting edge and triangle.
   bool hold(const PairStencil& pair) const;
 
  private:
@@ -33,7 +33,7 @@ class InitialIntersections {
   IntersectionFinder finder_;
   std::vector<Intersection> found_;
   std::map<std::pair<int, int>, std::size_t> counts_, counts_before_;  ///< by bodies, the lower one first
-  std::vector<std::array<std::int32_t, 5>> exempt_;  ///< stencils, with the number of their first side; ascending
+  std::vector<std::array<std::int32_t, 5>> exempt_;  ///< stencils, with the size of their first side; ascending
 };
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// A tree over the triangles, asked for each edge's box; signs from geometry/exact.
+// Queries a triangle BVH with each edge's box; signs come from geometry/exact.
 #include "collision/untangle/intersections.h"
 
 #include <algorithm>

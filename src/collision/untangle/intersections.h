@@ -1,4 +1,4 @@
-// Where surfaces pass through themselves or one another, exactly: the audit of everything that is to prevent it.
+// Exact intersections of surfaces with themselves and each other: the audit of contact and filter.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace pliant {
 
-/// An edge that meets a triangle with which it shares no vertex.
+/// An edge that meets a triangle without a common vertex.
 struct Intersection {
   int a = -1, b = -1;  ///< the edge's ends, a < b
   int triangle = -1;
@@ -20,14 +20,14 @@ struct Intersection {
   }
 };
 
-/// Finds intersections of one mesh over many frames without new memory. Two triangles that share no vertex intersect exactly
-/// if an edge of one meets the other; of two that share one, so do pairs about them (docs/internals/broadphase.md).
+/// Finds intersections of one mesh over many frames without new allocations. Two triangles intersect exactly if an edge of
+/// one meets the other, or, if they share a vertex, if neighbouring pairs do (docs/internals/broadphase.md).
 class IntersectionFinder {
  public:
-  /// Throws Error where a triangle has a corner outside 0..vertex_count - 1.
+  /// Throws an Error if a triangle has a corner outside 0..vertex_count - 1.
   IntersectionFinder(const std::vector<Triangle>& triangles, int vertex_count);
 
-  /// All pairs that cross properly and, if asked for, those that touch; ascending by (a, b, triangle). `positions` finite.
+  /// All pairs that cross transversally or, on request, touch; ascending by (a, b, triangle). `positions` must be finite.
   const std::vector<Intersection>& find(const std::vector<Vec3f>& positions, bool touching = false);
 
  private:

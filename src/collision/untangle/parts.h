@@ -8,7 +8,7 @@
 namespace pliant {
 
 struct Parts {
-  std::vector<int> of;  ///< of each vertex; numbered by their first vertices
+  std::vector<int> of;  ///< of each vertex; numbered by first vertices
   int count = 0;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 Vec3f place(const Record& r) { return {r.x, r.y, r.z}; }
 
-/// The triangles of a body, in its own numbers from `first`, where they close it.
+/// The triangles of a body in local indices from `first`; false if they are not closed.
 bool closed_surface(const PairModel& model, int body, std::vector<Triangle>& triangles, int& first, int& count) {
   const auto of_body = [&](int v) { return model.vertex_body[static_cast<std::size_t>(v)] == body; };
   first = static_cast<int>(std::find(model.vertex_body.begin(), model.vertex_body.end(), body) - model.vertex_body.begin());
@@ -33,10 +33,10 @@ std::vector<Vec3f> places_of(const Record* positions, int first, int count) {
   return places;
 }
 
-/// Vertices inside one closed body that are joined by edges.
+/// A connected set of vertices inside one closed body.
 using Patch = std::vector<int>;
 
-/// Vertices, ascending, in lists of those that edges join; by their first ones.
+/// The connected components of ascending vertices, ordered by their first vertex.
 std::vector<Patch> patches_of(const PairModel& model, const std::vector<int>& vertices) {
   std::vector<int> parent(vertices.size());
   for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = static_cast<int>(i);
@@ -62,7 +62,7 @@ std::vector<Patch> patches_of(const PairModel& model, const std::vector<int>& ve
   return out;
 }
 
-/// The mean normal of the triangles that have a corner in a patch; zero where they face too many ways to speak of one.
+/// The mean normal of the triangles at a patch; zero if the normals differ too much.
 Vec3f mean_normal(const PairModel& model, const IntLists& around, const Patch& patch, const Record* positions) {
   std::vector<int> at_patch;
   for (const int v : patch) at_patch.insert(at_patch.end(), around.begin(v), around.end(v));
@@ -156,7 +156,7 @@ void Untangler::mark_led(int vertex) {
 
 // ---------------------------------------------------------------- inside closed bodies
 
-/// They go to where the thickness is kept.
+/// They move to where the thickness is met.
 void Untangler::find_inside(const Record* positions) {
   for (Closed& closed : closed_) {
     MeshQuery& query = *closed.query;
@@ -173,13 +173,13 @@ void Untangler::find_inside(const Record* positions) {
 
 namespace {
 
-/// A point inside a closed surface and the nearest way out.
+/// A point inside a closed surface, and the shortest way out.
 struct Depth {
   Vec3f from, out;  // `out` is unit
   float way;
 };
 
-/// How far it is out of a closed surface along a unit direction, by strides of the closest distance; no farther than `most`.
+/// The distance out of a closed surface along a unit direction, in strides of the closest distance; at most `most`.
 float way_out(const MeshQuery& query, const Vec3f& from, const Vec3f& direction, float most) {
   const float least = 0.01f * most;
   float way = 0;
@@ -188,7 +188,7 @@ float way_out(const MeshQuery& query, const Vec3f& from, const Vec3f& direction,
   return min(way, most);
 }
 
-/// Along `normal`, or against it, whichever brings all out sooner, if that is not much farther than the closest points are; else zero.
+/// The direction along `normal`, or against it, that moves all out sooner; zero if it is much longer than closest points.
 Vec3f common_way(const MeshQuery& query, const std::vector<Depth>& patch, const Vec3f& normal) {
   float deepest = 0, along = 0, against = 0;
   for (const Depth& depth : patch) deepest = max(deepest, depth.way);
@@ -226,19 +226,19 @@ void Untangler::lead_out(const Patch& patch, const Closed& closed, const Record*
   }
 }
 
-// ---------------------------------------------------------------- pieces
+// ---------------------------------------------------------------- connected pieces
 
 bool Untangler::is_closed(int part) const {
   return std::any_of(closed_.begin(), closed_.end(), [&](const Closed& closed) { return closed.part == part; });
 }
 
 void Untangler::find_pieces(const Record* positions, const std::vector<Intersection>& found) {
-  std::map<std::pair<int, int>, std::vector<Intersection>> cuts;  // by parts of edge and triangle
+  std::map<std::pair<int, int>, std::vector<Intersection>> cuts;  // by the parts of edge and triangle
   for (const Intersection& one : found) {
     const int a = part_of(one.a), b = part_of(model_.elements.triangles[static_cast<std::size_t>(one.triangle)][0]);
-    // What a closed body cuts off is inside of it, or outside: that is told already, and not by which piece is smaller.
+    // Whether a vertex is inside a closed body is known exactly, so the smaller-piece rule does not apply.
     if (!model_.rules.is_immovable(body_of(one.a)) && !is_closed(b)) cuts[{a, b}].push_back(one);
-    // Its vertices may be out already: its speed is limited until its edges are, too.
+    // Its vertices may already be outside: its speed stays limited until its edges are outside as well.
     if (is_closed(b)) mark_led(one.a);
     if (is_closed(a)) mark_led(model_.elements.triangles[one.triangle][0]);
   }
@@ -251,8 +251,8 @@ void Untangler::find_pieces(const Record* positions, const std::vector<Intersect
       add(candidate.through, candidate.piece, candidate.push);
 }
 
-/// Pairs of parts between which there are more intersections once all candidates have gone as far as they go in a sixtieth of a
-/// second; ascending. A trial of positions alone, so that a State put back gives the same bits.
+/// The pairs of parts that would intersect more after all candidates have moved as far as they do in a sixtieth of a
+/// second; ascending. The trial uses positions alone, so a restored State gives the same bits.
 std::vector<Untangler::PartPair> Untangler::made_worse(const Record* positions, const std::vector<Intersection>& found,
                                                        const std::vector<Candidate>& candidates) {
   if (candidates.empty()) return {};
@@ -273,7 +273,7 @@ std::vector<Untangler::PartPair> Untangler::made_worse(const Record* positions, 
 
 namespace {
 
-/// The connected pieces of a part's vertices once edges are cut: the number of each vertex's, and how many it has.
+/// The connected components of a part's vertices without the intersected edges: each vertex's number, and sizes.
 struct Pieces {
   std::vector<int> of, size;
 
@@ -306,7 +306,7 @@ Pieces pieces_of(const PairModel& model, const std::vector<Intersection>& cuts, 
 
 }  // namespace
 
-/// Every piece but the largest of a part may go back through what cuts it.
+/// All pieces of a part except the largest may move back through the part that cuts it.
 void Untangler::lead_back(const Record* positions, const std::vector<Intersection>& cuts, PartPair parts,
                           std::vector<Candidate>& out) const {
   const auto [part, through] = parts;
@@ -342,7 +342,7 @@ void Untangler::push(float distance, float h, Record* displacements, Record* rem
   }
   for (Push& push : pushes_) {
     const Record& d = displacements[push.vertex];
-    if (!(abs(d.x) + abs(d.y) + abs(d.z) < 1e30f)) continue;  // the end of the substep says so
+    if (!(abs(d.x) + abs(d.y) + abs(d.z) < 1e30f)) continue;  // the end of the substep reports it
     const float way = min(distance, push.remaining);
     push.remaining -= way;
     Record& r = remainders[push.vertex];

@@ -1,14 +1,14 @@
-// Leads apart what intersects initially.
+// Moves initially intersecting surfaces apart.
 //
-// A part (parts.h) that is cut in pieces by another, or by itself, has a piece on the wrong side: the smaller one. That piece moves back along the
-// normals of what cuts it. Until it is through, it has no contact with the part that cuts it. A vertex inside a closed static or kinematic
-// body moves to the closest point of its surface. Where a sheet passes through the middle of the body, all of it moves the shorter way
-// along its mean normal: closest points would tear it to all sides. A slit separates nothing and is left as it is.
+// A part (parts.h) that another part, or itself, cuts into pieces has its smaller piece on the wrong side. That piece moves
+// back along the normals of the other part and has no contact with it until it is through. A vertex inside a closed static
+// or kinematic body moves to the closest surface point. A sheet through the middle of a body moves the shorter way along
+// its mean normal, because closest points would tear it apart. Slits separate nothing and are ignored.
 //
-// Before each frame the moves are tried on positions alone. Where they would make more intersections between two parts, nothing
-// moves between the two in that frame.
+// Before each frame the moves are tried on positions alone. If they would create more intersections between two parts,
+// nothing moves between the two in that frame.
 //
-// Displacements have a speed limit and never become momentum, nor does what constraints of a stretched surface make of them.
+// Moves are limited in speed and add no momentum; neither do the constraint forces that they cause.
 #pragma once
 
 #include <memory>
@@ -29,26 +29,26 @@ class Untangler {
  public:
   explicit Untangler(const PairModel& model);
 
-  /// Finds what is on a wrong side, from the intersections of the same positions.
+  /// Finds what is on the wrong side, from the intersections at the same positions.
   void begin_frame(const Record* positions, const std::vector<Intersection>& found);
 
   bool is_busy() const { return !pushes_.empty(); }
-  /// True while the untangling speed limit is active: something is led apart, or a closed static or kinematic body still cuts it.
+  /// True while the untangling speed limit is active: a piece moves, or a closed static or kinematic body still cuts it.
   bool limits_speeds() const { return !speeds_.empty(); }
-  /// Vertices inside closed bodies.
+  /// The number of vertices inside closed bodies.
   std::int64_t inside() const { return inside_; }
-  /// Whether one side of a pair is on the wrong side of the other's part, so that the pair has no contact. A piece keeps contact with
-  /// itself.
+  /// True if one side of a pair is on the wrong side of the other's part,
+  /// so that the pair has no contact. A piece keeps its self-contact.
   bool is_exempt(const PairStencil& pair) const;
-  /// Whether anything of the two parts that intersect is being led apart.
+  /// True if either of the two intersecting parts is being moved.
   bool leads_apart(const Intersection& found) const;
 
-  /// Vertices on a wrong side move at most `distance` [m] towards where they belong, in place of what was predicted. The move goes into the
-  /// remainders, so that it makes no velocity. Due before anything else changes what is predicted.
+  /// Moves vertices on the wrong side by at most `distance` [m] towards their target, in place of the prediction. The move
+  /// goes into the rounding residues, so it adds no velocity. Call it before anything else changes the prediction.
   void push(float distance, float h, Record* displacements, Record* remainders);
 
-  /// After a substep: limits the speed of each vertex of parts that are led apart to `limit` [m/s], or to its predicted speed where that
-  /// is larger and the vertex is on no wrong side. `missing` is what velocities of a body lack.
+  /// After a substep: limits the speed of vertices of moving parts to `limit` [m/s], or to a higher predicted speed if they
+  /// are not on a wrong side. `missing` is the gravity not yet included in a body's velocities.
   void limit_speeds(float limit, Record* velocities, FunctionRef<Vec3f(int body)> missing) const;
 
  private:
@@ -57,7 +57,7 @@ class Untangler {
     Vec3f direction;
     float remaining;  ///< [m]
   };
-  /// A vertex that moves back through a part, if that makes no more intersections.
+  /// A vertex that moves back through a part, unless that creates more intersections.
   struct Candidate {
     Push push;
     int through, piece;
@@ -65,7 +65,7 @@ class Untangler {
   using PartPair = std::pair<int, int>;
 
   struct Closed {
-    int body, part, first;  ///< first: a particle
+    int body, part, first;  ///< first particle
     std::unique_ptr<MeshQuery> query;
   };
 
@@ -88,11 +88,11 @@ class Untangler {
   IntersectionFinder finder_;
   Parts parts_;
   std::vector<Closed> closed_;
-  IntLists around_;                 ///< of each vertex the triangles at it, ascending; empty: no body is closed
-  std::vector<int> wrong_side_of_;  ///< of each vertex the part, -1: none; empty: none of all
-  std::vector<int> piece_;          ///< of each vertex on a wrong side, a number of its piece; as long as wrong_side_of_
+  IntLists around_;                 ///< the triangles incident to each vertex, ascending; empty: no body is closed
+  std::vector<int> wrong_side_of_;  ///< for each vertex the part, or -1; empty: none at all
+  std::vector<int> piece_;          ///< for each vertex on a wrong side, the index of its piece; as long as wrong_side_of_
   std::vector<Push> pushes_;
-  std::vector<char> led_;                      ///< parts whose speed is limited; empty: none
+  std::vector<char> led_;                      ///< parts with a speed limit; empty: none
   std::vector<std::pair<int, float>> speeds_;  ///< predicted speeds of all vertices of those parts [m/s]
   std::int64_t inside_ = 0;
 };
