@@ -1,7 +1,7 @@
-// Where the blocks of a State stand: one contiguous block of particles an object, in one array that all objects share.
+// The block allocator of a State: one contiguous block of particles per object, in one shared array.
 //
-// A block that goes leaves a hole, and a later block that fits takes the first such hole: nobody is moved, so that removing an
-// object costs what that object costs, and memory stays flat where objects come and go. Holes next to one another are one.
+// A removed block leaves a hole, which the first later block that fits reuses. No block ever moves, so removing an object
+// costs no more than its size, and memory stays constant under repeated additions and removals. Adjacent holes are merged.
 #pragma once
 
 #include <iterator>
@@ -11,14 +11,14 @@ namespace pliant {
 
 class BlockAllocator {
  public:
-  /// The first particle of a new block of `size` particles (0 or more), owned by `owner`.
+  /// Returns the first particle of a new block of `size` particles (>= 0), owned by `owner`.
   int allocate(int size, int owner);
-  /// Gives a block back. `first` and `size` are those of allocate.
+  /// Releases a block. `first` and `size` are those of allocate.
   void release(int first, int size);
 
   /// One past the last particle of the last block.
   int end() const { return end_; }
-  /// Owner of the block that holds a particle; of one in a hole, some owner or -1.
+  /// The owner of the block that contains a particle; in a hole, any owner or -1.
   int owner_of(int particle) const {
     const auto after = owners_.upper_bound(particle);
     return after == owners_.begin() ? -1 : std::prev(after)->second;
@@ -26,7 +26,7 @@ class BlockAllocator {
 
  private:
   int end_ = 0;
-  std::map<int, int> owners_;  ///< by the first particle of each block that has some
+  std::map<int, int> owners_;  ///< by the first particle of each non-empty block
   std::map<int, int> holes_;   ///< size by first particle; no two touch, and none ends at end_
 };
 

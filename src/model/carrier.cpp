@@ -6,7 +6,7 @@ namespace pliant {
 
 namespace {
 
-/// The corners of the box of a rigid one: whatever is rigidly moved goes no farther than one of them.
+/// The corners of a rigid mesh's bounding box: no vertex moves farther than the farthest corner.
 struct Corners {
   Vec3d at[8];
 };

@@ -1,6 +1,6 @@
-// What carries the vertices of a mesh collider: frames that deform it, then a rigid motion of the whole.
+// The motion of a mesh collider's vertices: deformation by frames, then a rigid motion of the whole.
 //
-// The pose is worked out once for all vertices, in double: what a float loses of a place would come back as a speed.
+// The pose is computed once for all vertices, in double: a float's rounding error of position would appear as velocity.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace pliant {
 struct Carrier {
   Motion motion;
   std::vector<Vec3f> rest;                 ///< in storage order [m]
-  std::vector<float> times;                ///< of the frames [s]; empty: it does not deform
+  std::vector<float> times;                ///< of the frames [s]; empty: no deformation
   std::vector<std::vector<Vec3f>> frames;  ///< in storage order [m]
   bool repeat = false;
 
@@ -21,11 +21,11 @@ struct Carrier {
   bool moves() const { return motion.moves() || deforms(); }
 };
 
-/// A Carrier at a time, which it must not outlive.
+/// The pose of a Carrier at a time. It refers to the Carrier.
 class CarrierPose {
  public:
   CarrierPose(const Carrier& carrier, double time);
-  /// In a pose that is not its motion's.
+  /// With another pose than that of its motion.
   CarrierPose(const Carrier& carrier, double time, const Posed& pose);
   Vec3d place(int particle) const;
 
@@ -35,7 +35,7 @@ class CarrierPose {
   double share_ = 0;
 };
 
-/// The most that any vertex goes between two times [m]; of a rigid one the most that a corner of its box does, which is no less.
+/// Upper bound of any vertex's displacement between two times [m]: for a rigid mesh, that of its box's corners.
 double largest_move(const Carrier& carrier, double from, double to);
 
 /// A box.
@@ -43,7 +43,7 @@ struct CarrierBox {
   Vec3d low, high;
 };
 
-/// Holds all vertices at a time.
+/// The bounding box of all vertices at a time.
 CarrierBox box_at(const Carrier& carrier, double time);
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// Distance constraints as paths, and tethers to pins: what the chain sweep works on, compiled.
+// Compiles distance constraints to paths, and tethers to pins: the data of the chain sweep.
 #pragma once
 
 #include <vector>
@@ -8,16 +8,16 @@
 
 namespace pliant {
 
-/// Marks the distances that chains take: compliant and rigid ones between two particles at a distance. What has no
-/// direction to solve along (attachments, whose rest length is zero) goes to a list of its own and is swept as before; so
-/// are damped and PBD distances, whose answers are not those of one linear system.
+/// Marks the distances that chains solve: compliant and rigid ones with a positive rest
+/// length. Attachments (rest length zero) have no direction to solve along, and damped and PBD
+/// distances are no part of a linear system. Both go to separate lists and are swept as usual.
 void split_off_chains(std::vector<ConstraintList>& lists);
 
-/// Lays the marked lists along paths of the object, whose particles have their places already and whose pools exist.
+/// Decomposes the marked lists into paths. The object's particles must be in storage order and its pools must exist.
 void append_chains(const std::vector<ConstraintList>& lists, float softness, CompiledObject& out);
 
-/// For each free particle its distance along distance constraints and across the surface's triangles to the nearest pin of
-/// each of the four nearest groups of pins, times 1 + slack. Needs the surface.
+/// For each free particle: the geodesic distance along constraints and triangles to the nearest pin of each of the four
+/// nearest groups of pins, times 1 + slack. Needs the surface.
 Tethers find_tethers(const std::vector<ConstraintList>& lists, float slack, const CompiledObject& object);
 
 }  // namespace pliant

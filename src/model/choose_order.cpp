@@ -12,19 +12,19 @@ namespace pliant {
 
 namespace {
 
-/// With this share in runs chains are good enough to look no further.
+/// Share of contiguous constraints at which the chain order is accepted without trying others.
 constexpr double enough_in_runs = 0.75;
 
-/// Below this many particles a sweep takes no time in any order.
+/// Below this many particles the order does not affect the time of a sweep.
 constexpr std::size_t fewest_to_choose_for = 64;
 
-/// Particles by which an order is judged: more of the same would say the same.
+/// Particles sampled to judge an order.
 constexpr int most_to_judge_by = 1 << 14;
 
 using Links = std::vector<std::array<int, 2>>;
 
-/// The pairs of particles that some constraint shares; if there are constraints between two, only those: they are the mesh on which the
-/// larger ones stand.
+/// The pairs of particles that share a constraint. If there are two-particle
+/// constraints, only those count: they are the mesh on which larger stencils are built.
 Links links_of(const std::vector<ConstraintList>& lists) {
   const bool pairs =
       std::any_of(lists.begin(), lists.end(), [](const ConstraintList& list) { return list.in_lanes && list.size == 2; });
@@ -41,7 +41,7 @@ Links links_of(const std::vector<ConstraintList>& lists) {
   return links;
 }
 
-/// Marks every particle i that some constraint shares with i + 1.
+/// Marks every particle i that shares a constraint with i + 1.
 std::vector<char> find_links_to_next(const std::vector<ConstraintList>& lists, std::size_t particles) {
   std::vector<char> linked(particles, 0);
   for (const ConstraintList& list : lists) {
@@ -57,7 +57,7 @@ std::vector<char> find_links_to_next(const std::vector<ConstraintList>& lists, s
   return linked;
 }
 
-/// The share of links in runs among the first particles stored: as many as tell.
+/// The share of contiguous links among the first particles in storage, as a sample.
 double links_in_runs(const Links& links, const std::vector<int>& order) {
   std::vector<int> place(order.size()), stencils;
   for (int storage = 0; storage < static_cast<int>(order.size()); ++storage) place[order[storage]] = storage;

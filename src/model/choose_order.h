@@ -1,4 +1,4 @@
-// In which order an object's particles are stored.
+// Chooses the storage order of an object's particles.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace pliant {
 
-/// order[storage] = the user's number: tile after tile, inside a tile by the numbering that brings more pairs of constrained particles
-/// into runs: chains (topology/numbering.h), which fit whatever is numbered in lines, or lockstep (topology/lockstep.h).
+/// order[storage] = user index, tile by tile. Within a tile it uses the order with more constrained pairs in contiguous
+/// groups: chains (topology/numbering.h), for grid-like input, or lockstep (topology/lockstep.h).
 std::vector<int> choose_order(const std::vector<Vec3f>& positions, const std::vector<int>& tile,
                               const std::vector<ConstraintList>& lists);
 

@@ -1,5 +1,5 @@
-// One number a constraint, kept in as little memory as it takes: once where all are the same, where they were given while they
-// stand there unchanged, and only else in an array of its own.
+// A column of one number per constraint, stored compactly: once if all are equal, by reference while it equals the user's
+// array, and otherwise in an array of its own.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,14 @@
 
 namespace pliant {
 
-/// A row of numbers, one a constraint: a rest field, the responses or the dampings. Valid until its Column changes.
+/// A view of one number per constraint: a rest field, responses or dampings. Valid until its Column changes.
 struct Row {
   const float* first;
   int stride;
   float at(int constraint) const { return first[static_cast<std::size_t>(constraint) * stride]; }
 };
 
-/// Bit for bit what was appended: zeros of different signs are different numbers.
+/// Stores values bit for bit: +0 and -0 are different numbers.
 template <class T>
 class Column {
  public:
@@ -37,7 +37,7 @@ class Column {
     ++size_;
   }
 
-  /// Appends an array that outlives the column and does not change: the first is not copied.
+  /// Appends an array, which must outlive the column and stay unchanged: the first array is not copied.
   void append(const std::vector<T>& values) {
     if (values.empty()) return;
     if (size_ == 0)
@@ -51,7 +51,7 @@ class Column {
     if (std::memcmp(&(*this)[i], &value, sizeof value) != 0) own()[i] = value;
   }
 
-  /// As an array of its own.
+  /// Converts to an array of its own.
   std::vector<T>& own() {
     if (!own_.empty() || size_ == 0) return own_;
     own_.reserve(size_ + 1);
@@ -60,7 +60,7 @@ class Column {
     return own_;
   }
 
-  /// Every `width`-th number from `offset` on.
+  /// A view of every `width`-th number from `offset` on.
   Row row(int offset, int width) const {
     if (own_.empty() && given_ == nullptr) return {&same_, 0};
     return {(own_.empty() ? given_ : own_.data()) + offset, width};
@@ -82,7 +82,7 @@ class Column {
   std::vector<T> own_;
 };
 
-/// Numbers that mostly count on from one to the next, as runs of such.
+/// Mostly consecutive numbers, stored as ranges.
 class Ordinals {
  public:
   void push_back(int value) {
@@ -93,7 +93,7 @@ class Ordinals {
 
   std::size_t size() const { return size_; }
   int operator[](std::size_t i) const {
-    std::size_t low = 0, high = runs_.size();  // the last run that begins at i or before
+    std::size_t low = 0, high = runs_.size();  // the last range that begins at i or before
     while (high - low > 1) {
       const std::size_t middle = (low + high) / 2;
       (runs_[middle].first <= i ? low : high) = middle;
@@ -103,7 +103,7 @@ class Ordinals {
 
  private:
   std::size_t size_ = 0;
-  std::vector<std::pair<std::size_t, int>> runs_;  // where each begins, and with which number
+  std::vector<std::pair<std::size_t, int>> runs_;  // start and first number of each range
 };
 
 }  // namespace pliant

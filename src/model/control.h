@@ -1,4 +1,4 @@
-// What the user moves in the next frame, beside what keyframes move.
+// User-driven motion in the next frame, in addition to keyframes.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace pliant {
 
-/// A rigid motion between two poses, or a pose that is held.
+/// A rigid motion between two poses, or a held pose.
 struct PoseDrive {
   Posed from, to;
   double start = 0, end = 0;  ///< [s]; equal: held at `to`
@@ -17,7 +17,7 @@ struct PoseDrive {
   Posed at(double time) const;
 };
 
-/// A particle without free mass on its way from one place to another.
+/// A particle of infinite mass that moves between two positions.
 struct Target {
   int particle = 0;  ///< in storage order
   Vec3d from, to;    ///< at the frame's start and end [m]
@@ -28,11 +28,11 @@ struct ObjectControl {
   std::vector<Vec3f> forces;    ///< in storage order [N]; empty: none
 };
 
-/// Of one frame.
+/// The user's control data of one frame.
 struct Control {
-  std::map<int, PoseDrive> colliders;    ///< by number in Model::colliders
-  std::map<int, PoseDrive> meshes;       ///< by number of the mesh collider in Model::objects
-  std::map<int, ObjectControl> objects;  ///< by number in Model::objects
+  std::map<int, PoseDrive> colliders;    ///< by index in Model::colliders
+  std::map<int, PoseDrive> meshes;       ///< by index of the mesh collider in Model::objects
+  std::map<int, ObjectControl> objects;  ///< by index in Model::objects
 
   const PoseDrive* collider(int number) const { return find(colliders, number); }
   const PoseDrive* mesh(int number) const { return find(meshes, number); }

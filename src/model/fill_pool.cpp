@@ -13,7 +13,7 @@ std::vector<Row> rows_of(const ConstraintList& list) {
 
 namespace {
 
-/// Zeros of either sign count as the same: a flat hinge's rest angle changes sign with its canonical order.
+/// Zeros of either sign are equal: a flat hinge's rest angle changes sign with its canonical order.
 bool is_constant(const Row& row, int count) {
   for (int i = 1; i < count; ++i) {
     if (row.at(i) != row.at(0)) return false;

@@ -1,4 +1,4 @@
-// What every way of laying out a pool begins with: which numbers its constraints have.
+// The common start of every pool layout: the rows of its constraints.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace pliant {
 
-/// The rows of a list in the order in which a pool has them; valid until the list changes.
+/// The rows of a list in pool order; valid until the list changes.
 std::vector<Row> rows_of(const ConstraintList& list);
 
-/// A pool for a list, still without a batch: rows that are the same for every constraint are kept once.
+/// A pool for a list without batches; constant rows are stored once.
 Pool make_pool(const ConstraintList& list);
 
 }  // namespace pliant

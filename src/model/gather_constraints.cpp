@@ -13,7 +13,7 @@ namespace pliant {
 
 namespace {
 
-/// The rest data of one constraint as the positions and orientations show it.
+/// Measures the rest data of one constraint from positions and orientations.
 void measure(const ConstraintDefinition& type, const Object& object, const int* stencil, Column<float>& rest) {
   double slots[4 * most_slots], fields[most_rest_fields];
   for (std::size_t slot = 0; slot < type.slots.size(); ++slot) {
@@ -137,7 +137,7 @@ class Gatherer {
     }
   }
 
-  /// Frames are numbered after all particles, the targets of attachments too.
+  /// Frames are numbered after all particles, including attachment targets.
   int first_frame() const { return static_cast<int>(object_.positions.size() + object_.attachments.size()); }
 
   const Object& object_;

@@ -1,4 +1,4 @@
-// A model whose objects came and went, made anew.
+// Recreates a model after additions and removals.
 #pragma once
 
 #include <vector>
@@ -7,13 +7,13 @@
 
 namespace pliant {
 
-/// Where one number's object stands. Nothing where there is none.
+/// The position of one number's object, or none.
 struct ObjectPlace {
   int first = 0, first_frame = 0, generation = 0;
   bool is_free = true;
 };
 
-/// Fills a model without objects: number i gets objects[i] at places[i]. Throws Error where two objects overlap.
+/// Fills an empty model: number i gets objects[i] at places[i]. Throws an Error if two objects overlap.
 void lay_out(std::vector<CompiledObject> objects, const std::vector<ObjectPlace>& places, Model& model);
 
 }  // namespace pliant

@@ -12,13 +12,13 @@ namespace pliant {
 
 namespace {
 
-// A spring as stiff as this many times what holds the object's weight across its own width stretches by a thousandth or so.
+// A spring with this stiffness, over that which carries the object's weight across its width, stretches by about 0.1 %.
 constexpr double stiffness_over_weight = 1700;
-constexpr double least_acceleration = 9.81;  // what moves without gravity is stopped by something, too [m/s^2]
-// Edges across a load's path, by which a single pin's edges carry more than those of the middle.
+constexpr double least_acceleration = 9.81;  // lower bound: without gravity, something else stops the motion [m/s^2]
+// Edges across a load's path, by which the edges at a single pin carry more than those in the middle.
 constexpr double crowding_at_pins = 0.125;
 
-// A level with more of its finer one's rows than this, as around a hub that all are joined to, is not worth its visit.
+// A coarser level with a larger share of rows, as around a hub joined to all, is not worth its visits.
 constexpr double largest_share = 0.75;
 
 struct Spring {
@@ -35,7 +35,7 @@ std::vector<Spring> springs_of(const std::vector<ConstraintList>& lists) {
     if (!is_length(list.type)) continue;
     for (std::size_t i = 0; i < list.response.size(); ++i) {
       const int a = list.stencils[2 * i], b = list.stencils[2 * i + 1];
-      const bool shares = list.law == Law::pbd && list.response[i] < 1;  // no spring: a share of the error, sweep by sweep
+      const bool shares = list.law == Law::pbd && list.response[i] < 1;  // no spring: a share of the error per sweep
       if (a != b && !shares) springs.push_back({a, b, list.rest[i], list.law == Law::pbd ? 0 : list.response[i]});
     }
   }
@@ -44,7 +44,7 @@ std::vector<Spring> springs_of(const std::vector<ConstraintList>& lists) {
 
 // ---------------------------------------------------------------- graphs
 
-/// Who is next to whom, and by how many springs: sorted pairs, both ways.
+/// Weighted adjacency: sorted pairs in both directions, with the number of springs as weight.
 struct Graph {
   std::vector<int> begin, to, weight;
   int size() const { return static_cast<int>(begin.size()) - 1; }
@@ -74,8 +74,8 @@ Graph graph_of(int nodes, std::vector<Link>& links) {
   return graph;
 }
 
-/// Pairs each node with the free neighbour that it has most springs with; of those, with the one that has fewest free
-/// neighbours left. `fixed` ones stay out: -1.
+/// Matches each node with the free neighbour with which it shares most springs; ties go to the one with fewest free
+/// neighbours. `fixed` nodes are excluded: -1.
 std::vector<int> match(const Graph& graph, const std::vector<char>& fixed, int& groups) {
   const int nodes = graph.size();
   std::vector<int> group(nodes, -1), left(nodes, 0);
@@ -124,7 +124,7 @@ Graph merge(const Graph& graph, const std::vector<int>& group, int groups) {
 
 // ---------------------------------------------------------------- levels
 
-/// Rows with their neighbours, as a level of slots. Returns where each link of the graph went: 16 x slot + lane.
+/// Lays out rows and neighbours as a level's slots. Returns the place of each link of the graph: 16 x slot + lane.
 std::vector<std::int32_t> lay_out(const Graph& graph, MultigridLevel& level) {
   level.rows = graph.size();
   level.first_slot.assign(1, 0);
@@ -150,7 +150,7 @@ std::vector<std::int32_t> lay_out(const Graph& graph, MultigridLevel& level) {
   return place;
 }
 
-/// Lists by key, as one array with its beginnings.
+/// Groups items by key in compressed rows.
 void bucket(int keys, const std::vector<std::array<std::int32_t, 2>>& items, std::vector<std::int32_t>& begin,
             std::vector<std::int32_t>& out) {
   begin.assign(static_cast<std::size_t>(keys) + 1, 0);
@@ -174,7 +174,7 @@ void fill_families(const std::vector<int>& group, MultigridLevel& fine, Multigri
   }
 }
 
-/// Which blocks of the finer level make up the coarser one's.
+/// Finds the blocks of the finer level that sum to each coarser block.
 void fill_sources(const Graph& fine_graph, const std::vector<std::int32_t>& fine_place, const std::vector<int>& group,
                   const Graph& graph, const std::vector<std::int32_t>& place, MultigridLevel& coarse) {
   std::vector<std::array<std::int32_t, 2>> sources, anchors;
@@ -215,9 +215,9 @@ void add_coarser(Graph graph, std::vector<std::int32_t> place, std::vector<char>
   }
 }
 
-// ---------------------------------------------------------------- pieces
+// ---------------------------------------------------------------- connected components
 
-/// What hangs together without what is fixed.
+/// Finds the connected components without fixed particles.
 void find_pieces(const Graph& graph, const std::vector<char>& fixed, Multigrid& out) {
   out.piece.assign(fixed.size(), -1);
   std::vector<int> stack;
@@ -239,7 +239,7 @@ void find_pieces(const Graph& graph, const std::vector<char>& fixed, Multigrid& 
   }
 }
 
-/// Which piece each row of the last level is of.
+/// The component of each row of the last level.
 void find_coarsest_pieces(Multigrid& out) {
   out.coarsest_piece = out.piece;
   for (std::size_t l = 0; l + 1 < out.levels.size(); ++l) {
@@ -252,7 +252,7 @@ void find_coarsest_pieces(Multigrid& out) {
 
 // ---------------------------------------------------------------- stiffness
 
-/// Springs from the nearest particle that can't move; many where there is none.
+/// The number of springs to the nearest fixed particle; large if there is none.
 std::vector<int> rings_from_pins(const Graph& graph, const std::vector<char>& fixed) {
   std::vector<int> ring(fixed.size(), 1 << 20), queue;
   for (int i = 0; i < graph.size(); ++i) {
@@ -288,7 +288,7 @@ Measures measure(const std::vector<Spring>& springs, const std::vector<Record>& 
   return m;
 }
 
-/// Every edge of a cross-section carries its share of the object's weight; near few pins, a larger one.
+/// Every edge of a cross-section carries its share of the object's weight; near few pins the share is larger.
 std::vector<float> stiffness_limits(const std::vector<Spring>& springs, const Graph& graph,
                                     const std::vector<Record>& positions, const std::vector<char>& fixed, float gravity) {
   const Measures m = measure(springs, positions);
@@ -307,8 +307,8 @@ std::vector<float> stiffness_limits(const std::vector<Spring>& springs, const Gr
 
 // ---------------------------------------------------------------- the finest level
 
-/// The links of all springs, both ways, sorted; the weight is the spring's number: two springs between the same particles stay two
-/// links.
+/// The links of all springs in both directions, sorted; the weight is the
+/// spring's index, so that two springs between the same particles stay separate.
 std::vector<Link> links_of(const std::vector<Spring>& springs) {
   std::vector<Link> links;
   links.reserve(2 * springs.size());
@@ -360,7 +360,7 @@ Multigrid build_multigrid(const std::vector<ConstraintList>& lists, const std::v
   out.edge_length = static_cast<float>(measure(springs, positions).spacing);
   out.stiffness_limit = stiffness_limits(springs, graph, positions, fixed, gravity);
   fill_springs(springs, links, place, out.stiffness_limit, out.levels.back());
-  springs = {};  // room for what coarser levels are made from
+  springs = {};  // frees memory for the coarser levels
   links = {};
   graph.weight.assign(graph.to.size(), 1);
   find_pieces(graph, fixed, out);

@@ -1,10 +1,10 @@
-// What the parts of a substep hand one another: plain views of particle data.
+// Plain views of particle data that the stages of a substep exchange.
 //
-// Within a substep a particle is at position + displacement. The position is where the substep began and stays; prediction,
-// constraints and contacts change the displacement, a small number that a float holds to a part in ten million however far
-// from the origin the particle is and however short the substep. What the new position can't hold of their sum is the
-// remainder, with which the next displacement begins. Without this, a thousand substeps a frame would round away their own
-// corrections.
+// Within a substep a particle is at position + displacement. The position stays that of the substep's
+// start; prediction, constraints and contacts change the displacement. As a small number, it has full
+// float precision at any distance from the origin and for any substep length. The part of their sum that
+// the new position cannot hold is the rounding residue (`remainders`), with which the next displacement
+// starts (compensated summation). Otherwise many small substeps would round their own corrections away.
 #pragma once
 
 #include "geometry/shapes.h"
@@ -12,59 +12,59 @@
 
 namespace pliant {
 
-/// What a sweep over constraints needs of the substep under way. Pointers are to the object's first particle.
+/// The data that a sweep needs of the current substep. Pointers are to the object's first particle.
 struct SweepArguments {
-  const Record* positions = nullptr;    ///< at the substep's start, w the inverse mass
-  Record* displacements = nullptr;      ///< since then, w zero
-  const Record* remainders = nullptr;   ///< the displacement with which the substep began
-  float* const* multipliers = nullptr;  ///< one array a pool, or null where none are kept
+  const Record* positions = nullptr;    ///< at the substep's start, w is the inverse mass
+  Record* displacements = nullptr;      ///< since then, w is zero
+  const Record* remainders = nullptr;   ///< the initial displacements of the substep
+  float* const* multipliers = nullptr;  ///< one array per pool, or null if none are stored
   float h = 0, inverse_h = 0, inverse_h2 = 0;
-  bool first_pass = true;  ///< of the substep: multipliers start at zero
+  bool first_pass = true;  ///< of the substep; multipliers then start at zero
 
-  // For sweep_general alone:
-  float relaxation = 1;                  ///< omega, on every change of a multiplier
-  Record* const* corrections = nullptr;  ///< one array a pool, size x 16 records a batch: written instead of displacements
+  // For sweep_general only:
+  float relaxation = 1;                  ///< omega, factor of every multiplier change
+  Record* const* corrections = nullptr;  ///< one array per pool, size x 16 records a batch: replaces writing displacements
   const float* const* shares =
       nullptr;  ///< one array a pool: what part of a change reaches the multiplier; null: all of it
 };
 
-/// Frames of one object in the substep under way. Pointers are to its first frame.
+/// The frames of one object in the current substep. Pointers are to its first frame.
 struct FrameArguments {
   Record* orientations = nullptr;
   const Record* inverse_inertias = nullptr;
-  const Record* predicted = nullptr;  ///< rotation vectors of the prediction, world axes [rad]
-  Record* corrections = nullptr;      ///< and of what constraints have added since [rad]
+  const Record* predicted = nullptr;  ///< rotation vectors of the prediction, in world axes [rad]
+  Record* corrections = nullptr;      ///< sum of the constraints' corrections since then [rad]
 };
 
-/// What carrying particles from one substep to the next needs.
+/// The data needed to advance particles from one substep to the next.
 ///
-/// Velocities do not hold the gravity of the frame under way: adding h g in every substep would round it a thousand times.
-/// It is added to them where it is needed, and for good at the frame's end.
+/// Velocities exclude the gravity of the current frame: adding h g in every substep would round it a thousand times. It is
+/// added where needed, and permanently at the frame's end.
 struct AdvanceArguments {
   Record* positions = nullptr;
   Record* displacements = nullptr;
   Record* remainders = nullptr;
   Record* velocities = nullptr;
-  int first = 0, last = 0;  ///< particles, half open
+  int first = 0, last = 0;  ///< particles, half-open
   float h = 0, inverse_h = 0;
-  float velocity_kept = 1;   ///< share of velocity that damping leaves after a substep
+  float velocity_kept = 1;   ///< factor of the velocity after damping in a substep
   Vec3f gravity_step{};      ///< h times gravity [m/s]
-  Vec3f gravity_finished{};  ///< this frame's gravity in the velocity of the substep that ends [m/s]
-  Vec3f gravity_begun{};     ///< and of the one that begins
-  Vec3f gravity_settled{};   ///< added to velocities for good by update
+  Vec3f gravity_finished{};  ///< this frame's gravity in the velocity of the ending substep [m/s]
+  Vec3f gravity_begun{};     ///< the same for the starting substep
+  Vec3f gravity_settled{};   ///< added permanently to velocities by update
 };
 
-/// Which particles a solid could touch in the substep under way.
+/// A query for particles that a solid could touch in the current substep.
 struct NearQuery {
   const Record* positions = nullptr;
   const Record* displacements = nullptr;
-  int first = 0, last = 0;  ///< particles, half open
+  int first = 0, last = 0;  ///< particles, half-open
   LocalShape shape;
   Pose<float> pose;  ///< of the solid at the substep's end
-  float margin = 0;  ///< a particle is near within this and its own motion [m]
+  float margin = 0;  ///< a particle is near within this plus its own displacement [m]
 };
 
-/// A box around points, empty until something is added.
+/// A bounding box of points, initially empty.
 struct PointBounds {
   Record low{3e38f, 3e38f, 3e38f, 0}, high{-3e38f, -3e38f, -3e38f, 0};
 };

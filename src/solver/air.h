@@ -1,4 +1,4 @@
-// Forces of moving air, as functors for launch (parallel/launch.h): first on each triangle, then gathered by each particle.
+// Aerodynamic forces as functors for launch (parallel/launch.h): per triangle, then gathered per particle.
 #pragma once
 
 #include "math/vector.h"
@@ -6,12 +6,12 @@
 
 namespace pliant {
 
-/// Force of air on a triangle [N]: with u the air's velocity relative to it, n its normal turned into the stream, A its
-/// area,
+/// The aerodynamic force on a triangle [N], with u the relative
+/// velocity of the air, n the normal facing the stream, A the area:
 ///   drag  rho/2 A c_drag (u . n) u,      lift  rho/2 A c_lift (u . n) |u| (n - u (u . n)/|u|^2),
-/// as for a flat plate: nothing along the stream when edge on. `response` is 2 h times the mean inverse mass of its
-/// corners; the force is divided by 1 + response |f| / |u|, since no drag can do more in a step than stop the relative
-/// motion.
+/// as for a flat plate: zero for a plate edge-on to the stream. `response` is 2 h
+/// times the mean inverse mass of the corners. The force is divided by 1 + response
+/// |f| / |u|, because drag can at most stop the relative motion in a step.
 PLIANT_HD Vec3f air_force(const Vec3f (&x)[3], const Vec3f& u, float air_density, float drag, float lift, float response) {
   const Vec3f doubled = cross(x[1] - x[0], x[2] - x[0]);
   const float doubled_area = length(doubled), speed = length(u);
@@ -24,12 +24,12 @@ PLIANT_HD Vec3f air_force(const Vec3f (&x)[3], const Vec3f& u, float air_density
   return force * (1 / (1 + response * length(force) / speed));
 }
 
-/// The force on each triangle of an object.
+/// Computes the force on each triangle of an object.
 struct AirOnTriangle {
   const int* triangles;  ///< three corners each
   const Record *positions, *velocities;
-  Vec3f air;      ///< the air's velocity [m/s]
-  Vec3f gravity;  ///< what the velocities of free particles do not hold yet [m/s]
+  Vec3f air;      ///< air velocity [m/s]
+  Vec3f gravity;  ///< gravity that the velocities of dynamic particles do not include yet [m/s]
   float h, air_density, drag, lift;
   Vec3f* forces;  ///< [N]
 
@@ -48,10 +48,10 @@ struct AirOnTriangle {
   }
 };
 
-/// A third of the force of every triangle around a particle, to its velocity.
+/// Adds a third of the force of each incident triangle to a particle's velocity.
 struct AirOnParticle {
   const int *corner_begin, *corners;  ///< of Surface
-  const Vec3f* forces;                ///< of triangles [N]
+  const Vec3f* forces;                ///< per triangle [N]
   const Record* positions;
   float h;
   Record* velocities;

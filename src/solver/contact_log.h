@@ -1,4 +1,4 @@
-// Which bodies pushed one another in a frame, and how hard: what contact events are made of.
+// Sums contact impulses between bodies over a frame, for contact events.
 #pragma once
 
 #include <map>
@@ -8,18 +8,18 @@
 
 namespace pliant {
 
-/// A body in contacts: an object or mesh collider by its number in the model, a primitive collider as -1 - its number.
+/// A body in contacts: an object or mesh collider by its number in the model, a primitive collider as -1 - its index.
 inline constexpr int body_of_collider(int collider) { return -1 - collider; }
 
-/// Two bodies in a frame.
+/// The contacts between two bodies in a frame.
 struct ContactSum {
-  int contacts = 0, in_substep = 0;  ///< that pushed: the most in one substep, and in the one under way
-  double impulse = 0;                ///< sum of the sizes of normal impulses [N s]
+  int contacts = 0, in_substep = 0;  ///< active contacts: maximum over substeps, and of the current one
+  double impulse = 0;                ///< sum of the magnitudes of normal impulses [N s]
   Vec3d push{};                      ///< sum of normal impulses on the first body [N s]
   Vec3d moment{};                    ///< sum of impulse x position [N s m]
 };
 
-/// By two bodies, the lower one first.
+/// By pairs of bodies, the lower one first.
 using ContactLog = std::map<std::pair<int, int>, ContactSum>;
 
 struct Substep;

@@ -6,9 +6,9 @@ namespace pliant {
 
 namespace {
 
-/// The colour of contacts that found none.
+/// The colour of contacts without a free colour.
 constexpr int tail_colour = 64;
-/// A thread is given so many contacts of a colour at once, whole batches; fewer are done sooner than told of.
+/// Contacts of a colour per task, in whole batches; smaller colours finish before other threads wake up.
 constexpr int contacts_a_task = 512;
 
 void project_sequentially(Contact* contacts, const std::int32_t* order, int first, int last, Record* displacements) {

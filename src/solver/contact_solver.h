@@ -1,8 +1,8 @@
-// Contacts of a substep, projected on all threads.
+// Projects the contacts of a substep on all threads.
 //
-// Contacts come in a total order. Each gets the first of 64 colours that none of its points has yet, in that order, so that two of
-// one colour share no point that moves; the few that find none are the tail, projected in order at the end. Colours depend on the
-// contacts alone: neither the number of threads nor the instruction set changes a bit.
+// Contacts have a total order. In that order each gets the first of 64 colours that none of its points has, so contacts of
+// a colour share no dynamic point. Those without a free colour form the tail, which is projected serially at the end.
+// Colours depend on the contacts alone, so threads and instruction set do not change any bits.
 //
 // Contacts of static neighbour pairs lead: all of them are projected before the others, which then have the last word. Mixed with the others,
 // neighbours undo what layers that lie on one another have won.
@@ -25,9 +25,9 @@ class ContactColours {
   void colour(const std::vector<Contact>& contacts, std::size_t first, std::size_t last, const Record* positions,
               std::size_t points);
 
-  /// Numbers of contacts, colour by colour, the tail last; ascending in each.
+  /// Contact indices by colour, ascending within each; the tail is last.
   const std::vector<std::int32_t>& order() const { return order_; }
-  /// Where each colour begins in order(), and where the last one ends.
+  /// The start of each colour in order(), and the end of the last.
   const std::vector<std::int32_t>& start() const { return start_; }
 
  private:
@@ -36,7 +36,7 @@ class ContactColours {
   std::vector<std::int32_t> order_, start_;
 };
 
-/// Projects contacts and answers with restitution, colour by colour.
+/// Projects contacts and applies restitution, colour by colour.
 class ContactSolver {
  public:
   /// Forgets the contacts of the substep before and colours these. The first `leading` are all projected before the others.
@@ -44,12 +44,12 @@ class ContactSolver {
              const Record* positions, std::size_t points);
   /// Projects each contact once.
   void project(Executor& executor, const char* name, std::vector<Contact>& contacts, Record* displacements) const;
-  /// answer(contact) once for each contact, at the same time only for those that share no point that moves.
+  /// Calls answer(contact) once for each contact; concurrent calls share no dynamic point.
   void for_each(Executor& executor, const char* name, const std::vector<Contact>& contacts,
                 FunctionRef<void(const Contact&)> answer) const;
 
  private:
-  /// body(first, last) over the order of each colour, on several threads where it is large; then tail(first, last).
+  /// Calls body(first, last) for ranges of each colour, concurrently if it is large; then tail(first, last).
   void for_ranges(Executor& executor, const char* name, const ContactColours& colours, FunctionRef<void(int, int)> body,
                   FunctionRef<void(int, int)> tail) const;
 

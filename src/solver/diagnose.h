@@ -1,4 +1,4 @@
-// Who made the first value that is not finite.
+// Finds the origin of the first non-finite value.
 #pragma once
 
 #include "pliant/report.h"
@@ -6,9 +6,9 @@
 
 namespace pliant {
 
-/// After a tile was found with a displacement that is not finite: predicts its object's substep again and replays the
-/// sweep, one segment at a time, and names the first constraint whose particles are not finite after it. Then takes the
-/// displacements of such tiles back: their positions are those of the substep's start, so that the state is finite.
+/// Call it after a tile has a non-finite displacement. Predicts the object's substep again, replays the sweep segment by
+/// segment, and names the first constraint that makes a particle non-finite. Then resets the displacements of such tiles,
+/// so that the State is finite and at the substep's start.
 NonFinite diagnose(const Substep& s);
 
 }  // namespace pliant

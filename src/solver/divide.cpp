@@ -11,7 +11,7 @@ namespace pliant {
 
 namespace {
 
-/// A collider moves at most this share of a pair's thickness in a substep.
+/// Upper limit of a collider's displacement per substep, over a pair's thickness.
 constexpr double share_of_thickness = 0.5;
 
 bool come_near(const CarrierBox& a, const CarrierBox& b, double margin) {
@@ -21,7 +21,7 @@ bool come_near(const CarrierBox& a, const CarrierBox& b, double margin) {
 
 CarrierBox joined(const CarrierBox& a, const CarrierBox& b) { return {min(a.low, b.low), max(a.high, b.high)}; }
 
-/// Of a collider in the frame: what it sweeps, and the most that it moves in one of the planned substeps [m].
+/// The swept box of a collider in the frame, and its largest displacement in a planned substep [m].
 struct Swept {
   CarrierBox box{};
   double largest = 0;
@@ -43,7 +43,7 @@ void follow(const Vec3d& from, const Vec3d& to, Swept& out) {
   out.largest = std::max(out.largest, static_cast<double>(length(to - from)));
 }
 
-/// Of a collider that the user moves to a pose.
+/// For a collider that the user moves to a pose.
 Swept swept(const Carrier& carrier, const PoseDrive& drive, const PlannedFrame& frame) {
   Swept out{{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}}, 0};
   for (int substep = 0; substep < frame.substeps; ++substep) {
@@ -55,7 +55,7 @@ Swept swept(const Carrier& carrier, const PoseDrive& drive, const PlannedFrame& 
   return out;
 }
 
-/// Of a collider whose vertices the user moves.
+/// For a collider whose vertices the user moves.
 Swept swept(const std::vector<Target>& targets, const PlannedFrame& frame) {
   Swept out{{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}}, 0};
   for (const Target& target : targets) follow(target.from, target.to, out);
@@ -63,7 +63,7 @@ Swept swept(const std::vector<Target>& targets, const PlannedFrame& frame) {
   return out;
 }
 
-/// Of mesh collider number `c`; of one that stands, nothing.
+/// For mesh collider `c`; empty if it is static.
 Swept swept(const Model& model, const Control& control, int c, const PlannedFrame& frame) {
   const Carrier& carrier = model.objects[c].carrier;
   if (const ObjectControl* given = control.object(c); given != nullptr && !given->targets.empty())
@@ -72,7 +72,7 @@ Swept swept(const Model& model, const Control& control, int c, const PlannedFram
   return carrier.moves() ? swept(carrier, frame) : Swept{};
 }
 
-/// Holds an object's particles on their way through the frame as velocities and gravity have it.
+/// The box of an object's particles along their ballistic paths in the frame.
 CarrierBox foreseen(const Model& model, const State& state, int object, double dt) {
   CarrierBox box{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
   const Vec3d fall = convert<double>(model.gravity) * (dt * dt);
@@ -93,9 +93,9 @@ std::string too_fast(const CompiledObject& collider, const CompiledObject& objec
          "': it may pass through; give a greater thickness or more of the setting most_substeps";
 }
 
-/// The pair that needs the most substeps.
+/// The pair that requires the most substeps.
 struct Demand {
-  double substeps = 0;  ///< wanted; the frame may allow fewer
+  double substeps = 0;  ///< required; the limit may be lower
   int collider = 0, object = 0;
 };
 

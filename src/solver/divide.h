@@ -1,8 +1,8 @@
-// Into how many substeps a frame is divided where mesh colliders move fast.
+// Increases a frame's substeps for fast mesh colliders.
 //
-// What nothing pushes can't be stopped by shortening moves: where it goes farther in a substep than the gap to what it meets, the
-// filter has nothing left to do. Contacts keep that gap near the thickness, so a collider that moves half of it in a
-// substep never outruns them. Only what is near counts: a collider far from everything costs nothing.
+// The filter cannot limit kinematic colliders: one that moves farther in a substep than the gap leaves no room. Contacts
+// keep the gap near the thickness, so a collider that moves at most half of it per substep never outruns them. Only
+// colliders near an object count; distant ones cost nothing.
 #pragma once
 
 #include <string>
@@ -14,15 +14,15 @@
 
 namespace pliant {
 
-/// A frame ahead, as its settings would have it.
+/// A frame as planned from the settings.
 struct PlannedFrame {
   double start = 0, dt = 0;  ///< [s]
   int substeps = 1, most_substeps = 1;
 };
 
-/// At least `substeps`; more, up to `most_substeps`, until no mesh collider that comes near an object moves more than half the
-/// pair's thickness in one. Depends on the state and on what the user moves alone. A warning says how much dearer
-/// the frame becomes, another where the most is not enough.
+/// The number of substeps: at least `substeps`, and up to `most_substeps` so that no mesh
+/// collider near an object moves more than half the pair's thickness in one. Depends on State
+/// and user control alone. Warnings report the extra cost, and a limit that is too low.
 int divided_substeps(const Model& model, const Control& control, const PairModel& pairs, const State& state,
                      const PlannedFrame& frame, std::vector<std::string>& warnings);
 

@@ -40,12 +40,12 @@ void apply_air(const Model& model, State& state, Workspace& workspace, Executor&
 
 bool is_finite(const Vec3f& v) { return (v.x - v.x) + (v.y - v.y) + (v.z - v.z) == 0; }
 
-/// A force that was left out: which field's, at which particle of the user's.
+/// A rejected force: its field, and its particle in the user's order.
 struct LeftOut {
   int particle = -1, field = -1;
 };
 
-/// What fields do to one particle, each seeing the velocity that those before it left. The first force that is not finite.
+/// Applies all fields to one particle, each with the velocity left by earlier ones. Returns the first non-finite force.
 LeftOut apply_fields(const Model& model, const Record& x, const Vec3f& gravity, float h, double time, int user, Record& v) {
   LeftOut first;
   if (x.w == 0) return first;
@@ -78,7 +78,7 @@ LeftOut apply_in_order(const Model& model, const CompiledObject& object, const R
   return first;
 }
 
-/// Tile by tile, on all threads: particles do not see one another, so the bits are those of any other order.
+/// By tile, on all threads: particles are independent, so the order does not change any bits.
 LeftOut apply_by_tiles(const Model& model, const CompiledObject& object, const Record* positions, Record* velocities,
                        const Vec3f& gravity, double time, float h, Executor& executor) {
   std::vector<LeftOut> of_tiles(object.tiles.size());
@@ -116,7 +116,7 @@ void apply_fields(const Model& model, State& state, Executor& executor, double t
   }
 }
 
-/// Forces that the user gave for this frame.
+/// Applies the user's forces of this frame.
 void apply_given(const Model& model, const Control& control, State& state, Executor& executor, float h) {
   for (const auto& [o, given] : control.objects) {
     if (given.forces.empty()) continue;
@@ -140,7 +140,7 @@ bool has_forces(const Model& model, const Control& control) {
 Vec3f wind_at(const Wind& wind, double time) {
   if (wind.gust == 0) return wind.velocity;
   const double phase = time / wind.gust_period;
-  const double turn = phase - __builtin_floor(phase);  // no integer holds every phase
+  const double turn = phase - __builtin_floor(phase);  // floor, because no integer type holds every phase
   return wind.velocity * (1 + wind.gust * static_cast<float>(sin(turn * 6.283185307179586)));
 }
 

@@ -1,4 +1,4 @@
-// External forces other than gravity: moving air on triangles, force fields, and forces given for a frame.
+// External forces except gravity: air on triangles, force fields, and user forces of a frame.
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@
 
 namespace pliant {
 
-/// Whether apply_forces has anything to do.
+/// True if apply_forces has any effect.
 bool has_forces(const Model& model, const Control& control);
 
-/// Adds h f / m to every free particle's velocity; `gravity(object)` is what the velocities do not hold yet. A force that
-/// is not finite is left out and named in `warnings`.
+/// Adds h f / m to every dynamic particle's velocity; `gravity(object)` is the part not included in velocities yet.
+/// Non-finite forces are skipped and named in `warnings`.
 void apply_forces(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h,
                   FunctionRef<Vec3f(int)> gravity, std::vector<std::string>& warnings);
 

@@ -1,8 +1,8 @@
-// The innermost loops of a step, behind one table of functions for each instruction set. A kernel is a line in its struct and one
-// in each table of it; a level is a line in math/levels.h.
+// The inner loops of a step, as one table of functions for each instruction set level. A kernel is a line in its struct and
+// in each table; a level is a line in math/levels.h.
 //
-// Every table gives the same bits; they differ in speed alone. The sequential one is the readable reference: plain floats,
-// one constraint after the other, in the order of the same schedule.
+// All tables give the same bits and differ only in speed. The sequential one is the readable reference: plain floats, one
+// constraint after another, in the same schedule.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace pliant {
 
-/// Where a lane's correction lies among its batch's sixteen: as registers hold them (math/wide.h).
+/// The place of a lane's correction among its batch's sixteen, in register order (math/wide.h).
 inline constexpr int correction_place(int lane) { return 4 * (lane % 4) + lane / 4; }
 
 struct ChainKernels;      // solver/sweeps/chain_kernels.h
@@ -22,34 +22,34 @@ struct ContactKernels;    // solver/contact_kernels.h
 struct PairKernels;       // collision/pair_kernels.h
 
 struct StepKernels {
-  /// Projects every constraint of the segments, one segment after the other.
+  /// Projects every constraint of the segments, segment by segment.
   void (*sweep)(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& arguments);
 
-  /// The same with relaxation, and with corrections written aside where arguments.corrections says so. The correction of a
+  /// The same with relaxation, and with corrections stored separately if arguments.corrections is set. The correction of a
   /// batch's `slot` and `lane` goes to record (16 (size batch + slot)) + correction_place(lane) of its pool's array.
   void (*sweep_general)(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& arguments);
 
-  /// Whether every record is finite.
+  /// True if every record is finite.
   bool (*all_finite)(const Record* records, int first, int last);
 
-  /// Ends a substep: v = (v + (d - d predicted) / h) kept, x += d. Equal to v = (x - x_start) / h, but what is divided is
-  /// the solver's own correction. The part of d that x can't hold goes to the remainder.
+  /// Ends a substep: v = (v + (d - d predicted) / h) kept, x += d. Equal to v = (x - x_start) / h, but only the solver's
+  /// correction is divided. The part of d that x cannot hold goes to the rounding residue.
   void (*update)(const AdvanceArguments& arguments);
 
-  /// Begins a substep: d = remainder + h (v + gravity). Adds the places before and after to `bounds` where it is not null.
+  /// Starts a substep: d = residue + h (v + gravity). Adds the positions before and after to `bounds` unless null.
   void (*predict)(const AdvanceArguments& arguments, PointBounds* bounds);
 
-  /// update, then predict, in one pass over memory: for where nothing responds in between.
+  /// update and predict in one pass over memory, for substeps without a response stage between them.
   void (*advance)(const AdvanceArguments& arguments, PointBounds* bounds);
 
-  /// Writes the particles near a solid to `near`, ascending, and returns how many; room for all is needed.
+  /// Writes the ascending indices of particles near a solid to `near`, which must have room for all; returns their number.
   int (*find_near)(const NearQuery& query, std::int32_t* near);
 };
 
 PLIANT_DECLARE_LEVELS(StepKernels, step_kernels)
 const StepKernels& step_kernels_sequential();
 
-/// All that is compiled for one instruction set. A World picks one and hands it on.
+/// All kernels of one instruction set level. A World picks one.
 struct Kernels : StepKernels {
   const char* isa;  ///< its name
   const ChainKernels& chains;
@@ -58,11 +58,11 @@ struct Kernels : StepKernels {
   const PairKernels& pairs;
 };
 
-/// The readable reference in plain floats. What has no twin there (multigrid, pairs) is of the generic level.
+/// The readable reference in plain floats. Kernels without a scalar twin (multigrid, pairs) use the generic level.
 const Kernels& kernels_sequential();
 
-/// The widest kernels that this machine runs, or those named: a level of math/levels.h, or "sequential". Throws Error where the
-/// name is unknown or the machine cannot run them.
+/// The widest kernels that this machine runs, or the named ones: a level of math/levels.h, or "sequential". Throws an Error
+/// if the name is unknown or the machine cannot run them.
 const Kernels& pick_kernels(const std::string& isa);
 
 }  // namespace pliant

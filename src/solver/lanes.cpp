@@ -12,17 +12,17 @@ namespace {
 
 // ---------------------------------------------------------------- constraints
 
-/// For a set of slots in runs that is known only when the segment is: a branch a slot, the same for all of a segment's batches.
+/// Contiguous slots that are known only per segment: one branch per slot, constant over the segment's batches.
 constexpr std::int32_t any_set = -1;
 
-/// Which slots of a batch are in runs, and where each one's indices are.
+/// The contiguous slots of a batch, and the position of each slot's indices.
 template <int size, std::int32_t fixed>
 struct SlotIndices {
   std::int32_t runs;
 
   PLIANT_HD explicit SlotIndices(std::int32_t in_runs) : runs(fixed == any_set ? in_runs : fixed) {}
   PLIANT_HD bool in_runs(int slot) const { return ((fixed == any_set ? runs : fixed) >> slot & 1) != 0; }
-  /// Indices before those of a slot.
+  /// The number of indices before those of a slot.
   PLIANT_HD std::int32_t before(int slot) const { return indices_before(fixed == any_set ? runs : fixed, slot); }
 
   PLIANT_HD Registers load(const Record* base, const std::int32_t* index, int slot) const {
@@ -36,9 +36,9 @@ struct SlotIndices {
   }
 };
 
-/// A stencil's particles as its first one sees them: x_i = ((position_i - position_0) + displacement_i) - displacement_0, so that
-/// x_0 is zero. Differences of neighbours' positions are small and nearly exact, and no constraint among particles knows where the
-/// origin is. Taken between records, before fields are: the first one's fields but w need no transpose.
+/// Positions relative to the stencil's first particle: x_i = ((position_i - position_0) + displacement_i) - displacement_0,
+/// so x_0 is zero. Differences between neighbours are small and nearly exact, and constraints are translation-invariant.
+/// Subtracted before the transpose, so that of the first particle only w needs one.
 template <int size, std::int32_t fixed>
 PLIANT_HD void load_stencil(const SweepArguments& a, const SlotIndices<size, fixed>& slots, const std::int32_t* index,
                             Registers (&moved)[size], Vec3<Wide> (&x)[size], Wide (&w)[size]) {
@@ -56,7 +56,7 @@ PLIANT_HD void load_stencil(const SweepArguments& a, const SlotIndices<size, fix
   }
 }
 
-/// Where a pool's rows are for one batch: those that are the same for all constraints stay where they are.
+/// Pointers to a pool's rows for one batch; constant rows keep their address.
 template <int rows>
 struct RowPointers {
   const float* at[rows];
@@ -75,10 +75,10 @@ struct RowPointers {
   }
 };
 
-/// What a general sweep has besides, for one batch.
+/// The extra data of a general sweep for one batch.
 struct Aside {
-  Record* corrections = nullptr;  ///< written instead of displacements, sixteen a slot
-  const float* share = nullptr;   ///< of a change that reaches the multiplier, one a lane
+  Record* corrections = nullptr;  ///< written instead of displacements, sixteen per slot
+  const float* share = nullptr;   ///< of a change that reaches the multiplier, one per lane
 
   PLIANT_HD Aside(const SweepArguments& a, const Segment& segment, int size) {
     const std::int64_t first = static_cast<std::int64_t>(segment.first_batch) * batch_width;
@@ -90,7 +90,7 @@ struct Aside {
     if (share != nullptr) share += batch_width;
   }
 };
-/// And what any other sweep has: nothing.
+/// The empty counterpart for other sweeps.
 struct NothingAside {
   PLIANT_HD NothingAside(const SweepArguments&, const Segment&, int) {}
   PLIANT_HD void next(int) {}
@@ -103,8 +103,8 @@ PLIANT_HD void store_aside(Record* to, const Vec3<Wide>& correction) {
   store_runs(to, places, to_registers({correction, Wide(0.f)}), 4);
 }
 
-/// One batch of sixteen constraints: their numbers in `rows`, their particles at `index`. All are written where it is `whole`, else
-/// `count` fours, or lanes where no slot is in runs.
+/// Projects one batch: `rows` hold its numbers, `index` its particles. Stores all
+/// lanes if `whole`, else `count` groups of four, or lanes if no slot is contiguous.
 template <class T, Law law, bool keeps_multipliers, std::int32_t fixed, bool general, int row_count>
 PLIANT_HD void project_batch(const RowPointers<row_count>& rows, const SlotIndices<slot_count<T>, fixed>& slots,
                              const std::int32_t* index, float* multiplier, bool whole, int count,
@@ -112,7 +112,7 @@ PLIANT_HD void project_batch(const RowPointers<row_count>& rows, const SlotIndic
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
   Vec3<Wide> x[slot_count<T>];
   Wide w[slot_count<T>];
-  Registers moved[slot_count<T>];  // kept: sixteen records cost more to find again than to put by
+  Registers moved[slot_count<T>];  // kept in registers, because loading sixteen records again costs more
   load_stencil(a, slots, index, moved, x, w);
   Wide rest[fields];
   PLIANT_UNROLL
@@ -155,7 +155,7 @@ PLIANT_HD void project_batch(const RowPointers<row_count>& rows, const SlotIndic
 
 template <class T, Law law, bool keeps_multipliers, std::int32_t fixed, bool general>
 void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& arguments) {
-  const SweepArguments a = arguments;  // a copy that nothing stored can change, so that it stays in registers
+  const SweepArguments a = arguments;  // a local copy, which no store can alias, so that it stays in registers
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
   RowPointers<fields + 1 + (law == Law::damped ? 1 : 0)> rows(pool, segment.first_batch);
   const SlotIndices<slot_count<T>, fixed> slots(segment.runs);
@@ -208,7 +208,7 @@ void sweep_type(const Pool& pool, const Segment& segment, float* multipliers, co
   }
 }
 
-/// Null for a type that is projected one at a time: its pools are in no segment that comes here.
+/// Null for types that are projected singly, whose pools never occur here.
 template <class T, bool general>
 constexpr auto sweep_of() -> void (*)(const Pool&, const Segment&, float*, const SweepArguments&) {
   if constexpr (in_lanes<T>)
@@ -237,7 +237,7 @@ void sweep(const Pool* pools, const Segment* first, const Segment* last, const S
 PLIANT_HD const float* floats(const Record* r) { return &r->x; }
 PLIANT_HD float* floats(Record* r) { return &r->x; }
 
-/// Each record's w in all four of its places.
+/// Each record's w, broadcast to its four components.
 PLIANT_HD Wide spread_w(const Wide& a) {
   Wide r;
   PLIANT_EACH_PART(r.part[i] = PLIANT_SHUFFLE(a.part[i], a.part[i], 3, 3, 7, 7))
@@ -260,12 +260,12 @@ struct FourParticles {
   Wide position, displacement, remainder, velocity;
 };
 
-/// Gravity for those of the four that have mass.
+/// Gravity for those of the four with finite mass.
 PLIANT_HD Wide gravity_on(const FourParticles& p, const Wide& gravity) {
   return select(spread_w(p.position) > Wide(0.f), gravity, Wide(0.f));
 }
 
-/// The gravities of AdvanceArguments, spread.
+/// The gravity terms of AdvanceArguments, broadcast.
 struct WideGravity {
   Wide finished, begun, settled;
   PLIANT_HD explicit WideGravity(const AdvanceArguments& a)
@@ -297,7 +297,7 @@ PLIANT_HD void store_four(const AdvanceArguments& a, int i, const FourParticles&
   store_wide(floats(a.velocities + i), p.velocity);
 }
 
-/// Up to three particles at the end, in four-record buffers of their own.
+/// Up to three particles at the end, in padded buffers.
 struct Tail {
   Record positions[4], displacements[4], remainders[4], velocities[4];
   AdvanceArguments arguments;
@@ -372,7 +372,7 @@ void update(const AdvanceArguments& a) { advance_all<true, false>(a, nullptr); }
 void predict(const AdvanceArguments& a, PointBounds* bounds) { advance_all<false, true>(a, bounds); }
 void advance(const AdvanceArguments& a, PointBounds* bounds) { advance_all<true, true>(a, bounds); }
 
-/// x - x is zero for what is finite and not a number else, and a sum keeps what is not a number.
+/// x - x is zero for finite x and NaN otherwise, and NaN propagates through the sum.
 bool all_finite(const Record* records, int first, int last) {
   Wide sum(0.f);
   int i = first;
@@ -392,7 +392,7 @@ bool all_finite(const Record* records, int first, int last) {
 
 // ---------------------------------------------------------------- particles near a solid
 
-/// How much nearer than it may be to count a particle is, lane by lane.
+/// How far inside the margin a particle is, by lane.
 PLIANT_HD Wide nearness(const NearQuery& q, const WideRecords& x, const WideRecords& d) {
   const Vec3<Wide> place = x.position + d.position;
   const Vec3<Wide> away{place.x - Wide(q.pose.position.x), place.y - Wide(q.pose.position.y),
@@ -415,7 +415,7 @@ int find_near(const NearQuery& q, std::int32_t* near) {
       count += lanes[4 * (k % 4) + k / 4] >= 0 ? 1 : 0;
     }
   }
-  for (; i < q.last; ++i) near[count++] = i;  // the few at the end are all said to be near
+  for (; i < q.last; ++i) near[count++] = i;  // the last few are all reported as near
   return count;
 }
 

@@ -11,11 +11,11 @@ namespace pliant {
 
 namespace {
 
-/// An object's particles and what its constraints pulled with in the last substep.
+/// An object's particles, and its multipliers of the last substep.
 struct View {
   const CompiledObject& object;
   const Record *positions, *velocities, *orientations;
-  const std::vector<AlignedVector<float>>& multipliers;  ///< by pool, empty where none is kept
+  const std::vector<AlignedVector<float>>& multipliers;  ///< by pool, empty if not stored
   double h;
 
   double multiplier(const ConstraintPlace& at, int component = 0) const {
@@ -36,7 +36,7 @@ View view_of(const Model& model, const State& state, const Workspace& workspace,
 
 Vec3f place_of(const Record& p) { return {p.x, p.y, p.z}; }
 
-/// The length of the vector C + alpha~ lambda.
+/// The norm of the vector C + alpha~ lambda.
 void add_residuals(const View& view, int type, ErrorSum& sum) {
   const auto evaluate = constraint_type(type).evaluate;
   StencilArrays<float> arrays;
@@ -72,7 +72,7 @@ ErrorSum volume_errors(const Model& model, const State& state, const Workspace& 
   return volumes;
 }
 
-/// One distance: by how much it is longer than its force makes it. Damping's part is alpha beta times the speed along it.
+/// The excess length of a distance over what its force explains. Damping contributes alpha beta times the speed along it.
 double excess_of(const View& view, const ConstraintPlace& at, const std::int32_t* particle, double length, double rest) {
   const double compliance = at.value(at.pool.fields);
   double explained = softness(at, 1 / (view.h * view.h)) * view.multiplier(at);
@@ -103,7 +103,7 @@ void add_lengths(const View& view, int number, int type, Lengths& lengths, doubl
   });
 }
 
-/// The value below which 99 in a hundred lie. Leaves those above it behind it.
+/// The 99th percentile. Leaves the larger values behind it.
 double take_p99(std::vector<float>& values) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());

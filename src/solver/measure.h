@@ -1,4 +1,4 @@
-// How well the constraints are met: read-only passes over a state.
+// Measures constraint errors: read-only passes over a State.
 #pragma once
 
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace pliant {
 
-/// |C + alpha~ lambda| of every constraint, by type in the order of AllConstraints, volumes last. Multipliers count where
-/// they were kept; `h` is the substep they belong to [s].
+/// |C + alpha~ lambda| of every constraint, by type in the order of AllConstraints, volumes last. Multipliers count if they
+/// are stored; `h` is the length of their substep [s].
 std::vector<Residual> measure_residuals(const Model& model, const State& state, const Workspace& workspace, float h);
 
-/// What measure_lengths has found, and the room it needs: kept, so that measuring each frame allocates once.
+/// The results of measure_lengths and its scratch memory, kept so that only the first frame allocates.
 struct Lengths {
   Stretch stretch;          ///< of all distance constraints with a rest length
-  Overstretch overstretch;  ///< of those but PBD; multipliers and h as in measure_residuals
+  Overstretch overstretch;  ///< of those except PBD; multipliers and h as in measure_residuals
   std::vector<float> ratios, excesses;
 };
 

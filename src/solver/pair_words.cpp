@@ -9,7 +9,7 @@ namespace pliant {
 
 namespace {
 
-/// A particle of the State in the numbers of its object.
+/// The object's user index of a State particle.
 std::string number_of(const Model& model, int particle) {
   const int object = model.object_of(particle);
   return std::to_string(model.objects[object].order[particle - model.first[object]]);
@@ -20,7 +20,7 @@ std::string name_of(const Model& model, int object) {
   return (of.is_collider ? "collider '" : "object '") + of.name + "'";
 }
 
-/// What intersects between two objects.
+/// The intersections between two objects.
 struct Between {
   const Intersection* first = nullptr;
   std::int64_t count = 0, given_up = 0;
@@ -44,7 +44,7 @@ std::string words_of(const Model& model, const Triangle& triangle, const Between
   return text + (between.stalls || between.given_up > 0 ? ": move the two apart in the scene" : "");
 }
 
-/// A pair in the numbers of its objects: "vertex 4 and triangle (1, 2, 3)".
+/// A pair in its objects' user order: "vertex 4 and triangle (1, 2, 3)".
 std::string words_of(const Model& model, const PairStencil& pair) {
   const auto number = [&](int corner) { return number_of(model, pair.vertex[static_cast<std::size_t>(corner)]); };
   if (pair.first_side == 1)

@@ -1,4 +1,4 @@
-// What a Report says in words of contacts among things that move.
+// Describes contacts between dynamic objects for a Report.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace pliant {
 
-/// Appends a line for each two objects that intersect since the start, and one for each two with unresolvable pairs. A line
-/// names the first edge and triangle, or the first pair, in the user's numbers.
+/// Appends a line for each two objects with initial intersections, and one for each two with unresolvable pairs. A line
+/// names the first edge and triangle, or the first pair, in the user's order.
 void warn_of_pairs(const Model& model, const SurfaceContact& pairs, std::vector<std::string>& warnings);
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// The table of kernels for each instruction set, and which of them this machine runs.
+// The kernel table of each instruction set level, and the choice by CPU.
 #include <string>
 
 #include "collision/proxies/pair_kernels.h"

@@ -1,5 +1,5 @@
-// What a substep does to each particle alone, as functors for launch (parallel/launch.h): plain floats, one particle at a time.
-// The sequential kernels run them, tests run them block by block and as device code; the lanes are tested against them.
+// The per-particle work of a substep as functors for launch (parallel/launch.h), in plain floats. The sequential kernels
+// run them; tests run them by block and as device code; the SIMD kernels are tested against them.
 #pragma once
 
 #include "math/scalar.h"
@@ -7,13 +7,13 @@
 
 namespace pliant {
 
-/// Gravity on a particle, none where it has no mass.
+/// Gravity on a particle, zero for infinite mass.
 PLIANT_HD Vec3f gravity_on(const Record& x, const Vec3f& gravity) {
   const bool free = x.w > 0;
   return {select(free, gravity.x, 0.f), select(free, gravity.y, 0.f), select(free, gravity.z, 0.f)};
 }
 
-/// Ends a particle's substep: v = (v + (d - d predicted) / h) kept, x += d; the remainder is what x cannot hold.
+/// Ends a particle's substep: v = (v + (d - d predicted) / h) kept, x += d; the residue is what x cannot hold.
 struct UpdatePoint {
   AdvanceArguments a;
 
@@ -35,7 +35,7 @@ struct UpdatePoint {
   }
 };
 
-/// Begins a particle's substep: d = remainder + h (v + gravity).
+/// Starts a particle's substep: d = residue + h (v + gravity).
 struct PredictPoint {
   AdvanceArguments a;
 
@@ -46,10 +46,10 @@ struct PredictPoint {
   }
 };
 
-/// Whether x, y and z are finite: x - x is zero for what is finite and not a number else.
+/// True if x, y and z are finite: x - x is zero for finite x, otherwise NaN.
 PLIANT_HD bool is_finite(const Record& p) { return (p.x - p.x) + (p.y - p.y) + (p.z - p.z) == 0; }
 
-/// Notes the particles that are not finite.
+/// Marks non-finite particles.
 struct FindNonfinite {
   const Record* records;
   unsigned char* nonfinite;

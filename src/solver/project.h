@@ -6,8 +6,8 @@
 #include "model/pool.h"
 #include "solver/kernels.h"
 
-/// Before a loop over a stencil's slots. Unrolled at once its arrays become registers; left to itself g++ keeps those of sixteen indexed
-/// records in memory, fills them with zeros first and takes 2.5 times as long.
+/// Precedes loops over a stencil's slots. Unrolled, their arrays stay in registers; otherwise g++ keeps the records in
+/// memory, zeroes them first and takes 2.5 times as long.
 #if defined(__clang__) || defined(__CUDACC__)
 #define PLIANT_UNROLL _Pragma("unroll")
 #else
@@ -16,12 +16,12 @@
 
 namespace pliant {
 
-/// Smallest denominator: constraints among fixed particles alone divide by it and then move nothing.
+/// Least denominator: constraints between fixed particles divide by it and move nothing.
 inline constexpr float smallest_denominator = 1e-20f;
-/// Largest alpha / h^2: infinite compliance times a zero multiplier must stay a number.
+/// Largest alpha / h^2: infinite compliance times a zero multiplier must stay finite.
 inline constexpr float largest_compliance = 1e30f;
 
-/// How far the stencil has moved along the gradients since the substep's start: grad C . (x - x_start).
+/// Motion of the stencil along the gradients since the substep's start: grad C . (x - x_start).
 template <class T, class R>
 PLIANT_HD R motion_along(const Vec3<R> (&gradient)[slot_count<T>], const Vec3<R> (&motion)[slot_count<T>]) {
   R sum = dot(gradient[0], motion[0]);
@@ -41,8 +41,8 @@ PLIANT_HD R generalised_inverse_mass(const Vec3<R> (&gradient)[slot_count<T>], c
   return sum;
 }
 
-/// The denominator, grown where a correction would change C by more than its linearisation is good for, which is what a type
-/// says by `largest_change`. Elsewhere the bits are as if nobody had asked.
+/// The denominator, increased if a correction would change C beyond the validity of its linearisation, which a type
+/// declares as `largest_change`. Otherwise unchanged to the bit.
 template <class T, class R>
 PLIANT_HD R within_trust(const R& denominator, const R& numerator, const R& mass) {
   if constexpr (requires { T::largest_change; }) {
@@ -52,22 +52,22 @@ PLIANT_HD R within_trust(const R& denominator, const R& numerator, const R& mass
   }
 }
 
-/// What a law needs besides positions: compliance, damping, multiplier.
+/// The inputs of a law besides positions: compliance, damping, multiplier.
 template <class R>
 struct ConstraintResponse {
   R softness;        ///< alpha, or k'
   R damping;         ///< beta
-  R multiplier;      ///< lambda so far in this substep; advanced by project
-  R share = R(1.f);  ///< of a change that reaches the multiplier, where sweeps are general
+  R multiplier;      ///< lambda of this substep; updated by project
+  R share = R(1.f);  ///< of a change that reaches the multiplier, in general sweeps
 };
 
-/// The corrections of one constraint (of each lane).
+/// The corrections of one constraint (in each lane).
 ///   PBD:   dlambda = -k' C / sum w |grad C|^2                                              (Mueller 2007, eq. 5 and 3.3)
 ///   XPBD:  dlambda = (-C - a lambda - g grad C . (x - x_start)) / ((1 + g) sum w |grad C|^2 + a)   (Macklin 2016, eq. 18,
 ///   26)
 ///          with a = alpha / h^2 and g = alpha beta / h
 ///   correction_i = w_i grad_i C dlambda
-///   and in a general sweep, dlambda times the relaxation.
+///   In a general sweep dlambda is multiplied by the relaxation.
 template <class T, Law law, bool keeps_multiplier, bool general = false, class R>
 PLIANT_HD void project(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_count<T>],
                        const typename T::template Params<R>& params, const Vec3<R> (&motion)[slot_count<T>],

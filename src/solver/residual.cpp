@@ -12,7 +12,7 @@ namespace pliant {
 
 namespace {
 
-/// A task of fewer batches is done sooner than another thread can be told of it.
+/// A task with fewer batches finishes before another thread wakes up.
 constexpr int fewest_batches = 128;
 
 struct Lanes {
@@ -26,7 +26,7 @@ int count_valid(const Segment& segment) {
   return count;
 }
 
-/// From one end of each constraint of a batch to the other.
+/// The vectors between the ends of a batch's constraints.
 void load_across(const SweepArguments& a, const Segment& segment, const std::int32_t* index, Lanes (&across)[3]) {
   for (int lane = 0; lane < batch_width; ++lane) {
     const int from = particle_of(segment, index, 0, lane), to = particle_of(segment, index, 1, lane);
@@ -37,7 +37,7 @@ void load_across(const SweepArguments& a, const Segment& segment, const std::int
   }
 }
 
-/// Adds the squares of C + alpha~ lambda of one batch, whether or not a lane is padding, to sixteen sums.
+/// Adds the squares of C + alpha~ lambda of one batch to sixteen sums, including padding lanes.
 void add_batch(const SweepArguments& a, const Pool& pool, std::int64_t batch, const float* multipliers,
                const Lanes (&across)[3], Lanes& squares) {
   const float *rest = pool.row(0, batch), *response = pool.row(1, batch);
@@ -67,7 +67,7 @@ double sum_of(const SweepArguments& a, const Pool& pool, const Segment& segment)
   return sum;
 }
 
-/// To the last task, or to a new one where that is large enough or another object's.
+/// Extends the last task, or starts a new one if that is large enough or belongs to another object.
 void add_segment(std::int32_t object, std::int32_t segment, std::int32_t batches,
                  std::vector<ResidualScratch::Task>& tasks) {
   if (tasks.empty() || tasks.back().object != object || tasks.back().batches >= fewest_batches)
@@ -106,7 +106,7 @@ double distance_residual(Substep& s) {
     scratch.squares[task] = sum;
   });
   double sum = 0;
-  for (double squares : scratch.squares) sum += squares;  // in the order of the tasks, whichever thread had them
+  for (double squares : scratch.squares) sum += squares;  // summed in task order, independent of threads
   return std::sqrt(sum / static_cast<double>(scratch.constraints));
 }
 

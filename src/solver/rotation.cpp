@@ -13,7 +13,7 @@ constexpr int frames_a_task = 256;
 Vec3f xyz(const Record& r) { return {r.x, r.y, r.z}; }
 Record record(const Vec3f& v) { return {v.x, v.y, v.z, 0}; }
 
-/// I^-1 (I m x m) along principal axes: Euler's equations without torque. None where an axis can't turn.
+/// I^-1 (I m x m) in principal axes: Euler's equations without torque. Zero if an axis is locked.
 Vec3f gyroscopic_rate(const Vec3f& inverse, const Vec3f& m) {
   if (!(inverse.x > 0 && inverse.y > 0 && inverse.z > 0)) return {};
   const Vec3f inertia{1 / inverse.x, 1 / inverse.y, 1 / inverse.z};
@@ -26,7 +26,7 @@ void predict(float h, const Vec3f& inverse, Record& orientation, Record& velocit
   Vec3f change{};
   for (int round = 0; round < 2; ++round) change = gyroscopic_rate(inverse, w + 0.5f * change) * h;
   const Vec3f angle = (w + 0.5f * change) * h;
-  // The exponential's series: at half a radian a substep it is off by less than a float's last bits.
+  // Taylor series of the exponential: below a float's last bits at half a radian per substep.
   const float t = length_squared(angle) * 0.25f, imaginary = 0.5f * (1 - t * (1 / 6.f));
   const Quatf step{angle.x * imaginary, angle.y * imaginary, angle.z * imaginary, 1 - t * 0.5f + t * t * (1 / 24.f)};
   const Quatf q{orientation.x, orientation.y, orientation.z, orientation.w};
@@ -60,7 +60,7 @@ void update_frames(Substep& s) {
   FrameRecords& frames = s.state.frames;
   Records& corrections = s.work.frames.corrections;
   for (std::size_t o = 0; o < s.model.objects.size();
-       ++o)  // the fourth number holds the share of velocity that damping leaves
+       ++o)  // the fourth component holds the factor by which damping reduces velocity
     for (int i = s.model.first_frame[o]; i < s.model.end_of_frames(static_cast<int>(o)); ++i)
       corrections[i].w = 1 / (1 + s.h * s.model.objects[o].damping);
   const float inverse_h = 1 / s.h;

@@ -1,17 +1,17 @@
-// Orientations in a substep: predicted as free rigid bodies turn, corrected by constraints (stencil.h), then the angular velocity from
-// the corrections.
+// Orientations in a substep: predicted as free rigid bodies, corrected by
+// constraints (stencil.h). The corrections then update the angular velocity.
 //
-// Angular velocity lives along the frame's own axes and changes by increments: rounding then does not add up to a drift of the energy.
+// Angular velocity is in the frame's axes and changes by increments, so rounding accumulates no energy drift.
 #pragma once
 
 #include "solver/substep.h"
 
 namespace pliant {
 
-/// Gyroscopic torque by the implicit midpoint rule in two fixed-point steps, then the rotation of the substep.
+/// Gyroscopic torque by the implicit midpoint rule in two fixed-point steps, then the substep's rotation.
 void predict_frames(Substep& s);
 
-/// omega += corrections / h, less what the object's damping takes. Workspace::frames says whether all is finite.
+/// omega += corrections / h, minus damping. Workspace::frames reports whether all values are finite.
 void update_frames(Substep& s);
 
 }  // namespace pliant

@@ -1,5 +1,5 @@
-// The readable reference: one constraint, one particle at a time, in plain floats, in the order of the schedule. It gives
-// the bits of the lanes, which is how they are tested.
+// The readable reference: one constraint or particle at a time, in plain floats, in the order of the schedule. It gives the
+// same bits as the SIMD kernels, which are tested against it.
 #include <algorithm>
 #include <cstring>
 
@@ -12,14 +12,14 @@ namespace pliant {
 
 namespace {
 
-/// A constraint's place: its pool's number, its batch there, its lane.
+/// The position of a constraint: pool, batch, lane.
 struct Place {
   int pool;
   std::int64_t batch;
   int lane;
 };
 
-/// Where a general sweep puts one constraint's corrections aside, a batch's slots sixteen records apart; null: nowhere.
+/// The storage of one constraint's corrections in a general sweep, slots sixteen records apart; null: not stored.
 Record* correction_of(const Pool& pool, const SweepArguments& a, int pool_number, std::int64_t batch, int lane) {
   if (a.corrections == nullptr) return nullptr;
   return a.corrections[pool_number] + batch * pool.stencil * batch_width + correction_place(lane);
@@ -133,7 +133,7 @@ void advance(const AdvanceArguments& a, PointBounds* bounds) {
   predict(a, bounds);
 }
 
-/// The reference looks closely at every particle.
+/// The reference reports every particle.
 int find_near(const NearQuery& q, std::int32_t* near) {
   for (int i = q.first; i < q.last; ++i) near[i - q.first] = i;
   return q.last - q.first;

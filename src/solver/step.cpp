@@ -1,4 +1,4 @@
-// The frame, whole: this is the page to read first.
+// The whole frame: read this file first.
 //
 //   for each substep of h = dt / substeps
 //     control       kinematic colliders move to where the substep ends
@@ -30,7 +30,7 @@ void run(const StepContext& context, double dt, Report& report) {
     if (!predict(s)) return;
     collide(s);
     solve(s);
-    if (context.stop != nullptr && *context.stop) s.substeps = s.number + 1;  // this one is the frame's last
+    if (context.stop != nullptr && *context.stop) s.substeps = s.number + 1;  // makes this substep the frame's last
     filter(s);
     if (s.work.contact_log != nullptr) log_contacts(s, *s.work.contact_log);
     if (!update(s)) return;

@@ -1,4 +1,4 @@
-// One frame: how a World moves.
+// Advances a World by one frame.
 #pragma once
 
 #include <atomic>
@@ -11,7 +11,7 @@
 
 namespace pliant {
 
-/// Everything that a step works with.
+/// The inputs of a step.
 struct StepContext {
   const Model& model;
   State& state;
@@ -21,12 +21,12 @@ struct StepContext {
   int substeps = 1, iterations = 1;
   SweepOptions options{};
   bool record_residuals = false;
-  const std::atomic<bool>* stop = nullptr;  ///< where it is true, the frame ends with the substep under way
+  const std::atomic<bool>* stop = nullptr;  ///< if true, the frame ends with the current substep
   bool separate_phases = false;             ///< of Settings
-  double tolerance = 0;                     ///< of Settings; above 0 the workspace comes from prepare_residual too
+  double tolerance = 0;                     ///< from Settings; above 0 it needs prepare_residual
 };
 
-/// Advances the state by dt. Never throws; what went wrong is in the report.
+/// Advances the State by dt. Never throws; the report has all problems.
 void step(const StepContext& context, double dt, Report& report);
 
 }  // namespace pliant

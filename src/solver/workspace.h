@@ -1,4 +1,4 @@
-// What a step needs besides model and state, kept between steps only so that nothing is allocated in one.
+// The scratch data of a step, kept between steps only to avoid allocations.
 #pragma once
 
 #include <vector>
@@ -18,19 +18,19 @@
 
 namespace pliant {
 
-/// Results of one tile.
+/// The results of one tile.
 struct alignas(64) TileScratch {
-  std::vector<Contact> contacts, more_contacts, all_contacts;  ///< those that count; and for finding more, scratch
+  std::vector<Contact> contacts, more_contacts, all_contacts;  ///< current ones; the others are scratch for finding more
   std::vector<std::int32_t> near;                              ///< particles that a collider could touch
   PointBounds bounds;
   bool finite = true;
-  double gradient_squared = 0, position_along = 0, motion_along = 0;  ///< sums of the volume constraint
+  double gradient_squared = 0, position_along = 0, motion_along = 0;  ///< sums for the volume constraint
 };
 
-/// For how long an object's particles have felt the gravity of the frame under way, less what damping took of it [s].
+/// The time for which gravity of the current frame has acted on an object's particles, reduced by damping [s].
 struct FrameGravity {
-  double finished = 0, begun = 0, settled = 0;  ///< in the substep that ends, in the one that begins, and between the two
-  float kept = 1;                               ///< share of velocity that damping leaves after a substep
+  double finished = 0, begun = 0, settled = 0;  ///< in the ending substep, in the starting one, and between them
+  float kept = 1;                               ///< factor of the velocity after damping in a substep
 
   void next(float h) {
     finished = begun;
@@ -39,29 +39,29 @@ struct FrameGravity {
   }
 };
 
-/// Of frames, within a substep (stencil.h).
+/// The frame data within a substep (stencil.h).
 struct FrameScratch {
-  Records predicted, corrections;  ///< rotation vectors, world axes [rad]
+  Records predicted, corrections;  ///< rotation vectors in world axes [rad]
   bool finite = true;
 };
 
 struct Workspace {
   Records displacements;                                       ///< since the substep's start [m]
-  std::vector<std::vector<AlignedVector<float>>> multipliers;  ///< [object][pool], a float a lane; empty where not kept
+  std::vector<std::vector<AlignedVector<float>>> multipliers;  ///< [object][pool], one float per lane; empty if not stored
   std::vector<std::vector<float*>> multiplier_pointers;
   FrameScratch frames;
-  std::vector<double> volume_multipliers;           ///< one an object
-  Records volume_gradients;                         ///< one a particle where some object has a volume constraint
-  std::vector<std::vector<Vec3f>> triangle_forces;  ///< [object], where there is air
-  std::vector<TileScratch> tiles;                   ///< one a tile task
+  std::vector<double> volume_multipliers;           ///< one per object
+  Records volume_gradients;                         ///< one per particle if any object has a volume constraint
+  std::vector<std::vector<Vec3f>> triangle_forces;  ///< [object], if there is air
+  std::vector<TileScratch> tiles;                   ///< one per tile task
   std::vector<MovingCollider> colliders;
-  std::unique_ptr<ContactLog> contact_log;  ///< of the frame under way; null where nobody asks
-  Control control;                          ///< of the frame under way
-  std::vector<FrameGravity> gravity;        ///< one an object
-  std::vector<Records> anchors;             ///< [object], position and displacement of each anchor of tethers
-  SweepGroups sweeps;                       ///< of the sweeps that objects are solved by
-  Records predicted;                        ///< displacements as predicted, where residuals are recorded
-  std::unique_ptr<SurfaceContact> pairs;    ///< null where no surface that moves can touch another
+  std::unique_ptr<ContactLog> contact_log;  ///< of the current frame; null if not requested
+  Control control;                          ///< of the current frame
+  std::vector<FrameGravity> gravity;        ///< one per object
+  std::vector<Records> anchors;             ///< [object], position and displacement of each tether anchor
+  SweepGroups sweeps;                       ///< the sweeps in use
+  Records predicted;                        ///< predicted displacements, if residuals are recorded
+  std::unique_ptr<SurfaceContact> pairs;    ///< null if no dynamic surface can touch another
   ContactSolver contact_solver;             ///< of the contacts of `pairs`
   ShapeContacts shape_contacts;             ///< of edges and triangles with primitive colliders
   ContactSolver shape_contact_solver;
@@ -69,20 +69,20 @@ struct Workspace {
   ResidualScratch residual;      ///< where iterations stop at a tolerance
 };
 
-/// Which multipliers are kept: those that a second iteration needs, or all.
+/// Which multipliers are stored: those that a second iteration needs, or all.
 enum class Multipliers { none, needed, all };
 
-/// Makes everything the right size for a model but for its sweeps.
+/// Resizes everything for a model except its sweeps.
 void prepare(const Model& model, Multipliers kept, Workspace& workspace);
 
-/// Makes what belongs to one object the right size, after it was added, edited or removed.
+/// Resizes the data of one object after it was added, edited or removed.
 void prepare(const Model& model, int object, Multipliers kept, Workspace& workspace);
 
-/// After prepare: the groups of the sweeps that objects are compiled for, and what their methods keep. Of the settings, the
-/// options of sweeps and what is recorded count.
+/// Call after prepare: makes the groups of the sweeps in use, and their
+/// scratch. Of the settings, only sweep options and recording matter.
 void prepare_sweeps(const Model& model, const Settings& settings, int threads, Workspace& workspace);
 void prepare_sweep(const Model& model, int object, const Settings& settings, int threads, Workspace& workspace);
-/// Drops the groups that no object is of any more, after one was edited or removed.
+/// Drops groups without objects after an edit or a removal.
 void drop_unused_sweeps(const Model& model, Workspace& workspace);
 
 }  // namespace pliant

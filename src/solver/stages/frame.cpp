@@ -1,4 +1,4 @@
-// What begins and ends a frame.
+// The start and the end of a frame.
 #include <algorithm>
 
 #include "solver/pair_words.h"

@@ -1,40 +1,40 @@
-// The stages of a substep in the order of solver/step.cpp, a file each.
+// The stages of a substep in the order of solver/step.cpp, one file each.
 #pragma once
 
 #include "solver/substep.h"
 
 namespace pliant {
 
-/// The first substep of a frame of dt seconds.
+/// Prepares the first substep of a frame of dt seconds.
 Substep begin_frame(const StepContext& context, double dt, Report& report);
 
-/// Moves colliders to where the substep ends.
+/// Moves colliders to their poses at the substep's end.
 void control(Substep& s);
 
-/// Wind and force fields change velocities.
+/// Applies wind and force fields to velocities.
 void apply_forces(Substep& s);
 
-/// v += h g, displacement = h v; kinematic particles go to their targets. Finds contacts with colliders of each tile's path.
-/// False where the update that was left to it met a value that is not finite.
+/// v += h g, displacement = h v; moves kinematic particles to their targets. Finds contacts with colliders along each
+/// tile's path. Returns false if a deferred update met a non-finite value.
 bool predict(Substep& s);
 
-/// Contacts among surfaces.
+/// Finds contacts between surfaces.
 void collide(Substep& s);
 
-/// The iterations over all constraints.
+/// Iterates over all constraints.
 void solve(Substep& s);
 
 /// Truncates steps so that no surface crosses another.
 void filter(Substep& s);
 
-/// Velocities from the corrections, x += displacement, restitution at colliders. False where a displacement is not finite: the
-/// report names it, and the state is finite again.
+/// Velocities from corrections, x += displacement, restitution at colliders. Returns false for a non-finite displacement:
+/// the report names it, and the State is finite again.
 bool update(Substep& s);
 
-/// Restitution among surfaces.
+/// Applies restitution between surfaces.
 void respond(Substep& s);
 
-/// Counts contacts and moves the clock.
+/// Counts contacts and advances the time.
 void end_frame(Substep& s);
 
 }  // namespace pliant

@@ -1,5 +1,5 @@
-// Objects that contacts join are corrected as one: the same conjugate gradients over all their hierarchies and the contacts
-// between them.
+// Corrects objects that contacts connect together: conjugate
+// gradients over all their hierarchies and the contacts between them.
 #include <algorithm>
 #include <array>
 
@@ -20,7 +20,7 @@ void advance(Substep& s, const MultigridGroup& group, float alpha) {
   for (const int o : group.objects) MultigridSolve(s, o).advance(alpha);
 }
 
-/// A step of conjugate gradients; false where there is none left to make.
+/// One conjugate gradient step; false if the solve has converged.
 bool step(Substep& s, const MultigridGroup& group, double& before) {
   double now = 0;
   for (const int o : group.objects) now += MultigridSolve(s, o).precondition();
@@ -33,17 +33,17 @@ bool step(Substep& s, const MultigridGroup& group, double& before) {
   return true;
 }
 
-/// What holds a contact of the group is between its sides alone: moving both together feels only their difference.
+/// Removes contact stiffness inside the group from the sum, because contacts do not resist a common motion of both sides.
 void release(const PairSpring& s, MultigridObject::Piece& sum) {
   const std::array<float, 6> block = block_of(s);
-  float side[2] = {0, 0};  // what of each moves; the rows hold both
+  float side[2] = {0, 0};  // weight of each side in the group; the rows hold both
   for (int i = 0; i < 4; ++i)
     if (s.object[i] >= 0) side[s.weight[i] > 0 ? 0 : 1] += abs(s.weight[i]);
   const float free = side[0] + side[1] - (side[0] - side[1]) * (side[0] - side[1]);
   for (int c = 0; c < 6; ++c) sum.held[c] -= static_cast<double>(free * block[c]);
 }
 
-/// What contacts join, as one: each piece was shifted as if the others stood still.
+/// Shifts connected objects as one; each piece was shifted as if the others were fixed.
 void shift_together(Substep& s, const MultigridGroup& group) {
   MultigridObject::Piece sum{};
   for (const int o : group.objects) MultigridSolve(s, o).add_pieces(sum);
@@ -54,7 +54,7 @@ void shift_together(Substep& s, const MultigridGroup& group) {
   advance(s, group, 1);
 }
 
-/// The number of the first object that a contact touches or of what is joined to it, halving the ways there.
+/// The first object connected to `o`, with path halving.
 int find(std::vector<int>& root, int o) {
   while (root[o] != o) o = root[o] = root[root[o]];
   return o;

@@ -1,6 +1,6 @@
-// What keeps the multigrid correction from doing harm. It is one Newton step about the prediction, and right as long as springs
-// turn little in it. Where masses differ by many orders, or something else bends the mesh by more than an edge in every substep
-// (a long step with rigid bending), it need not lead anywhere, and made again and again it can throw particles ever further.
+// Rejects harmful multigrid corrections. A correction is one Newton step about the prediction, valid while springs rotate
+// little. With mass ratios of many orders, or other forces that bend the mesh by more than an edge per substep (a long step
+// with rigid bending), it need not converge, and repeated corrections can diverge.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace pliant {
 
 namespace {
 
-/// The square of the farthest that any particle is moved.
+/// The largest squared displacement of any particle.
 float farthest(const Records& change, int particles) {
   float most = 0;
   for (int i = 0; i < particles; ++i) {
@@ -21,7 +21,7 @@ float farthest(const Records& change, int particles) {
   return most;
 }
 
-/// Twice the stretching energy of the springs of batches [first, last), each counted at both ends, where `scale` of the change is made.
+/// Twice the stretching energy of batches [first, last), springs counted at both ends, after `scale` times the correction.
 double stretching(const MultigridLevel& level, const SweepArguments& a, const Records& change, float scale, int first,
                   int last) {
   double total = 0;

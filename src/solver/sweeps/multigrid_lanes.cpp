@@ -1,5 +1,5 @@
-// The multigrid correction in sixteen lanes, compiled once for each instruction set under the rules of lanes.cpp. A row of
-// the matrix is a lane; no row writes what another reads, so batches may run in any order.
+// The multigrid correction in sixteen SIMD lanes, compiled per instruction set level under the rules of lanes.cpp. Each
+// lane is a matrix row; no row writes what another reads, so batches may run in any order.
 #include "math/vector.h"
 #include "math/wide.h"
 #include "solver/sweeps/multigrid_kernels.h"
@@ -8,13 +8,13 @@ namespace pliant {
 inline namespace PLIANT_ISA {
 namespace {
 
-/// How much of a Jacobi step is taken.
+/// Damping factor of Jacobi.
 constexpr float damping = 0.65f;
-/// Blocks of a coarser level are too stiff by what one group spans: two particles in each of two directions.
+/// Coarse blocks are too stiff by the width of a group: two particles in each of two directions.
 constexpr float coarse_stiffness = 0.5f;
-/// What keeps the inverse of a diagonal block from being mere rounding, as a share of its trace.
+/// Regularisation of a diagonal block's inverse against rounding, as a share of its trace.
 constexpr float least_share = 1e-6f;
-/// Of a block over its trace: below this it is rounding.
+/// Of a block divided by its trace: below this it is a rounding error.
 constexpr float least_determinant = 1e-20f;
 
 /// A symmetric 3 x 3 block.
@@ -52,8 +52,8 @@ PLIANT_HD Block operator*(const Block& b, const Wide& s) {
   return {b.xx * s, b.yy * s, b.zz * s, b.xy * s, b.xz * s, b.yz * s};
 }
 
-/// Its inverse by cofactors, damped, zero in lanes that can't move. Of the block over its trace, so that no product leaves
-/// the range of floats whatever the units of a scene.
+/// The damped inverse by cofactors, zero in lanes of fixed rows. Computed for
+/// the block over its trace, so that no product overflows in any unit system.
 PLIANT_HD Block damped_inverse(const Block& block, const WideMask& moves) {
   const Wide scale = Wide(1.f) / max(block.xx + block.yy + block.zz, Wide(1e-30f));
   const Block b = block * scale;
@@ -78,7 +78,7 @@ PLIANT_HD Vec3<Wide> load_vectors(const Record* from, int batch) { return from_r
 
 // ---------------------------------------------------------------- the matrix
 
-/// Sum over a batch's slots of blocks times (x of the row - x of its neighbour).
+/// The sum over a batch's slots of block times (x of the row - x of its neighbour).
 template <bool springs>
 PLIANT_HD Vec3<Wide> couple(const MultigridLevel& level, const MultigridValues& values, int batch, const Record* x) {
   const Registers own = load_rows(x, batch);
@@ -157,7 +157,7 @@ float apply(const MultigridLevel& level, const MultigridValues& values, bool spr
   return springs ? applies<true>(level, values, x, out, first, last) : applies<false>(level, values, x, out, first, last);
 }
 
-// ---------------------------------------------------------------- making it
+// ---------------------------------------------------------------- assembly
 
 struct Linearised {
   Block diagonal, whole;
@@ -165,7 +165,7 @@ struct Linearised {
   WideMask moves;
 };
 
-/// Inertia and contacts of a batch's rows.
+/// Adds inertia and contacts to a batch's rows.
 PLIANT_HD Linearised begin_rows(const WideRecords& position, int batch, const LinearisedAt& at) {
   const Wide zero(0.f);
   Linearised row;
@@ -182,8 +182,8 @@ PLIANT_HD Linearised begin_rows(const WideRecords& position, int batch, const Li
   return row;
 }
 
-/// K C^2 / 2 about where the spring stands: (K - k) n n^T + k I with k = K C / length where it is stretched. Without this
-/// geometric stiffness nothing holds a taut sheet to its plane.
+/// K C^2 / 2, linearised: (K - k) n n^T + k I, with k = K C / length if stretched. Without this geometric stiffness, a taut
+/// sheet has no resistance normal to its plane.
 PLIANT_HD void add_spring(const Vec3<Wide>& u, const Wide& stiffness, const Wide& rest, float* block, Linearised& row) {
   const Wide zero(0.f), length = sqrt(dot(u, u)), inverse = Wide(1.f) / max(length, Wide(1e-20f));
   const Wide tension = stiffness * (length - rest);
@@ -215,7 +215,7 @@ void linearise(const MultigridLevel& level, const LinearisedAt& at, MultigridVal
       add_spring(from_registers(across).position, load_wide(level.stiffness.data() + s * batch_width),
                  load_wide(level.rest_length.data() + s * batch_width), values.blocks.data() + s * spring_floats, row);
     }
-    // Lanes beyond the last row are at the last row's place, without springs: no force, nothing to solve.
+    // Lanes beyond the last row repeat its position without springs: no force, nothing to solve.
     const Wide zero(0.f);
     store_block(values.diagonal.data() + batch * block_floats, row.diagonal);
     store_block(values.inverse.data() + batch * block_floats, damped_inverse(row.whole, row.moves));
@@ -243,7 +243,7 @@ PLIANT_HD void add_source(const MultigridValues& from, bool from_springs, std::i
   sum[5] += y * z;
 }
 
-/// What holds a coarse row beside its neighbours: all that holds its members, and their anchors.
+/// The diagonal of a coarse row: the sum of its members' diagonals and anchors.
 PLIANT_HD void add_members(const MultigridLevel& fine, const MultigridValues& from, bool from_springs,
                            const MultigridLevel& level, std::ptrdiff_t batch, int lane, float* diagonal) {
   float sum[6] = {};

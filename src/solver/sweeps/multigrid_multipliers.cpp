@@ -1,4 +1,4 @@
-// After the multigrid correction: the multipliers of compliant distances, so that the sweeps go on from what it has done.
+// Sets the multipliers of compliant distances after the multigrid correction, so that the sweeps continue from it.
 #include "constraints/registry.h"
 #include "solver/substep.h"
 #include "solver/sweeps/multigrid.h"
@@ -7,9 +7,9 @@ namespace pliant {
 
 namespace {
 
-/// What the correction has made each distance constraint do, so that the sweeps go on from there: lambda = -K C h^2 after the
-/// first of a substep, -K h^2 times what C has changed by after others. C as linearised: what turning lengthens a spring by is
-/// no force, and the sweeps' to mend. Rigid ones need none.
+/// Sets lambda = -K C h^2 after the first correction of a substep, and adds -K h^2
+/// times the change of C after later ones. C is linearised: lengthening by rotation
+/// is no force, and the sweeps correct it. Rigid constraints need no multiplier.
 void add_multipliers(const CompiledObject& object, const Segment& segment, const SweepArguments& a, const Record* change) {
   const Pool& pool = object.pools[segment.pool];
   float* multipliers = a.multipliers != nullptr ? a.multipliers[segment.pool] : nullptr;

@@ -1,5 +1,5 @@
-// One object's part of the multigrid correction: its hierarchy linearised, and the steps of conjugate gradients on it, in parts
-// so that objects that contacts join can make them together (multigrid_group.cpp).
+// One object's part of the multigrid correction: its linearised hierarchy, and conjugate gradients in separate steps, so
+// that objects connected by contacts can be solved together (multigrid_group.cpp).
 #pragma once
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 
 namespace pliant {
 
-/// Batches of a task: of rows that one thread's cache holds.
+/// Batches per task: rows that fit one core's cache.
 inline constexpr int batches_per_task = 128;
 
-/// A view of one object's hierarchy and numbers in one substep.
+/// A view of one object's hierarchy and values in one substep.
 class MultigridSolve {
  public:
   MultigridSolve(Substep& s, int object)
@@ -23,24 +23,24 @@ class MultigridSolve {
         work_(multigrid_of(s).objects[object]),
         kernels_(s.kernels.multigrid) {}
 
-  /// The matrices of all levels and the right-hand side, about where `a` has the particles.
+  /// Assembles the matrices of all levels and the right-hand side at the particles of `a`.
   void linearise(const SweepArguments& a);
-  /// The preconditioned residual, whose product with the residual is returned.
+  /// Preconditions the residual; returns the product of both.
   double precondition();
-  /// The next direction, from that and beta times the last one.
+  /// Sets the next search direction: preconditioned residual + beta times the last direction.
   void turn(float beta);
-  /// The direction's image; returns their product.
+  /// Computes the direction's image A p; returns their product.
   double apply();
-  /// The step along the direction; the right-hand side loses what it has met.
+  /// Steps along the direction; updates the right-hand side to the residual.
   void advance(float alpha);
-  /// The direction that moves all that can move by `by`.
+  /// Sets the direction to a uniform displacement of all dynamic particles.
   void turn_to(const Vec3f& by);
-  /// The direction that moves every piece as a whole so that no force on the whole of it is left over: what nothing holds then
-  /// keeps its momentum, however few the cycles. `springs` are contacts, of which those of a piece with itself hold it nowhere.
+  /// Sets the direction that moves every piece rigidly so that its total force vanishes: free pieces then conserve momentum
+  /// for any number of cycles. `springs` are contacts; those of a piece with itself do not hold it.
   void turn_to_shifts(const std::vector<const PairSpring*>& springs);
   void clear_change() { std::fill(work_.change.begin(), work_.change.end(), Record{}); }
   void clear_direction() { std::fill(work_.direction.begin(), work_.direction.end(), Record{}); }
-  /// Adds what holds all pieces, and what force they are owed.
+  /// Adds the stiffness and the remaining force of all pieces.
   void add_pieces(MultigridObject::Piece& sum);
 
  private:
@@ -64,7 +64,7 @@ class MultigridSolve {
   const MultigridKernels& kernels_;
 };
 
-/// Where the forces owed to a piece move it against what holds it; nowhere where nothing says how far.
+/// The displacement of a piece by its remaining force over its stiffness; zero if the stiffness is singular.
 Record shift_of(const MultigridObject::Piece& piece);
 
 }  // namespace pliant
