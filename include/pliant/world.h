@@ -100,10 +100,10 @@ class World {
 
   // ---- Adding and removing, between steps. A call that throws an Error leaves the World unchanged.
 
-  /// Adds an object as it is now: the first frame of its keyframes is the one that follows. Costs what this object costs to
-  /// compile; where it can touch other surfaces, contact is prepared anew before the next step. The World's sweep and
-  /// substeps stay as chosen when it was made. Throws Error naming the element where it can't be simulated, or where the settings
-  /// refuse initial intersections and it has some with what is there now; that check looks at all surfaces.
+  /// Adds an object at the current time: its keyframes act from the next frame on. The cost is that of compiling it; if it
+  /// can touch other surfaces, contact is prepared again before the next step. The World's sweep and substeps stay as
+  /// chosen when it was made. Throws an Error that names the element if it cannot be simulated, or if the settings reject
+  /// its initial intersections with present objects; that check tests all surfaces.
   ObjectId add(const Object& object);
   ColliderId add(const Collider& collider);
   MeshColliderId add(const MeshCollider& collider);

@@ -24,7 +24,7 @@ using ContactLog = std::map<std::pair<int, int>, ContactSum>;
 
 struct Substep;
 
-/// Adds the contacts of a substep that pushed, in the order of tiles, then of edges and triangles with colliders, then among surfaces.
+/// Adds the active contacts of a substep: by tile, then edges and triangles with colliders, then between surfaces.
 void log_contacts(const Substep& s, ContactLog& log);
 
 }  // namespace pliant

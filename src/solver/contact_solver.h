@@ -4,8 +4,8 @@
 // a colour share no dynamic point. Those without a free colour form the tail, which is projected serially at the end.
 // Colours depend on the contacts alone, so threads and instruction set do not change any bits.
 //
-// Contacts of static neighbour pairs lead: all of them are projected before the others, which then have the last word. Mixed with the others,
-// neighbours undo what layers that lie on one another have won.
+// Contacts of static neighbour pairs lead: all of them are projected before the others, which have the last word. If mixed,
+// static neighbours would undo the corrections between stacked layers.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ namespace pliant {
 /// Contacts by colour.
 class ContactColours {
  public:
-  /// Colours contacts `first` to `last` - 1, whose points are numbers below `points`; those without mass in `positions` may be shared.
+  /// Colours contacts [first, last), with point indices below `points`. Points of infinite mass may be shared.
   void colour(const std::vector<Contact>& contacts, std::size_t first, std::size_t last, const Record* positions,
               std::size_t points);
 
@@ -39,7 +39,7 @@ class ContactColours {
 /// Projects contacts and applies restitution, colour by colour.
 class ContactSolver {
  public:
-  /// Forgets the contacts of the substep before and colours these. The first `leading` are all projected before the others.
+  /// Replaces the contacts of the previous substep and colours the new ones. The first `leading` are projected first.
   void begin(const ContactKernels& kernels, const std::vector<Contact>& contacts, std::size_t leading,
              const Record* positions, std::size_t points);
   /// Projects each contact once.

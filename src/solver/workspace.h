@@ -65,8 +65,8 @@ struct Workspace {
   ContactSolver contact_solver;             ///< of the contacts of `pairs`
   ShapeContacts shape_contacts;             ///< of edges and triangles with primitive colliders
   ContactSolver shape_contact_solver;
-  bool look_for_tangles = true;  ///< at the next frame: the first, or after a State was put back
-  ResidualScratch residual;      ///< where iterations stop at a tolerance
+  bool look_for_tangles = true;  ///< in the next frame: the first, or after a restored State
+  ResidualScratch residual;      ///< for stopping at a tolerance
 };
 
 /// Which multipliers are stored: those that a second iteration needs, or all.

@@ -14,8 +14,8 @@ class ContactDetector {
  public:
   explicit ContactDetector(const ContactElements& elements) : covered_(elements) {}
 
-  /// Contacts of the substep, static pairs first, each in the order of clusters. Pairs for which `is_exempt` holds make none. Returns how
-  /// many are of static pairs.
+  /// Finds the contacts of the substep, static pairs first, each in cluster order, and returns the number of static ones.
+  /// Pairs for which `is_exempt` holds are skipped.
   std::size_t detect(Executor& executor, Neighbourhood& near, const PairParticles& particles,
                      FunctionRef<bool(const PairStencil&)> is_exempt, std::vector<Contact>& contacts);
 

@@ -47,13 +47,13 @@ class SurfaceContact {
   void filter(Executor& executor, const PairParticles& particles);
   /// Call after a frame's last substep: measures the remaining penetration of contacts.
   void measure_overlaps(const PairParticles& particles);
-  /// After the filter: whether any contact is an impact.
+  /// True if any contact is an impact; valid after the filter.
   bool has_impacts() const { return has_impacts_; }
-  /// After a substep, to an impact: removes what is left of its approach and returns it [m/s].
+  /// Removes the remaining approach speed of an impact after a substep, and returns it [m/s].
   float end_impact(const Contact& contact, const Record* positions, Record* velocities,
                    FunctionRef<Vec3f(int body)> gravity) const;
-  /// Then, to one of contacts(): restitution. `gravity` is what velocities of a body's free particles lack: within a frame, that of the
-  /// frame [m/s]. Approaches no faster than `slow` are rest [m/s].
+  /// Then applies restitution to one of contacts(). `gravity` is the gravity of the frame not yet included in a body's
+  /// velocities [m/s]. Approaches slower than `slow` count as rest [m/s].
   void respond(const Contact& contact, const Record* positions, Record* velocities, float slow,
                FunctionRef<Vec3f(int body)> gravity) const;
   /// Then limits the untangling speed.
