@@ -184,7 +184,7 @@ std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& po
   const std::vector<char> meets_some = out->rules.meeting();
   if (std::find(meets_some.begin(), meets_some.end(), 1) == meets_some.end()) return nullptr;
   out->rest.assign(positions.begin(), positions.end());
-  out->vertex_body.assign(positions.size(), 0);
+  out->vertex_body.assign(positions.size(), -1);
   std::vector<Triangle> triangles;
   std::vector<std::array<int, 2>> lines;
   std::vector<int> loose;

@@ -15,7 +15,7 @@ struct PairModel {
   ContactElements elements;
   std::vector<Record> rest;      ///< initial positions
   ContactRules rules;            ///< between bodies, which are the objects and mesh colliders of the Model
-  std::vector<int> vertex_body;  ///< body of each particle
+  std::vector<int> vertex_body;  ///< body of each particle; -1: of none, where an object was removed
   std::vector<int>
       free_points;  ///< particles of bodies without triangles and lines; they meet one another as spheres; ascending
   /// Clusters: about sixty-four neighbouring vertices of one body, with the edges and triangles that begin at them.

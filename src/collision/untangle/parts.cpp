@@ -32,7 +32,7 @@ Parts find_parts(const PairModel& model) {
   Sets sets(model.rest.size());
   for (const auto& [a, b] : model.elements.edges) sets.join(a, b);
   for (int v = 1; v < vertices; ++v)
-    if (body_of(v) == body_of(v - 1) && model.rules.is_immovable(body_of(v))) sets.join(v - 1, v);
+    if (body_of(v) >= 0 && body_of(v) == body_of(v - 1) && model.rules.is_immovable(body_of(v))) sets.join(v - 1, v);
   Parts parts;
   parts.of.resize(model.rest.size());
   for (int v = 0; v < vertices; ++v) {
