@@ -174,7 +174,8 @@ void doubt_names(Problems& problems, const Scene& scene) {
   }
 }
 
-void look_through(Problems& problems, const Scene& scene) {
+/// Everything but what depends on where surfaces begin. Returns whether all but objects is sound.
+bool look_at_parts(Problems& problems, const Scene& scene) {
   check_settings(problems, scene);
   check_forces(problems, scene);
   check_count(problems, scene);
@@ -197,6 +198,11 @@ void look_through(Problems& problems, const Scene& scene) {
     if (sound && problems.wants_doubts()) doubt_object(problems, object, scene);
   }
   problems.at("");
+  return surroundings_are_sound;
+}
+
+void look_through(Problems& problems, const Scene& scene) {
+  const bool surroundings_are_sound = look_at_parts(problems, scene);
   if (problems.grave_count() == 0) check_contact_cost(problems, scene);
   problems.at("");
   if (problems.grave_count() == 0) refuse_tangles(problems, scene);
@@ -218,6 +224,11 @@ std::vector<Finding> inspect(const Scene& scene) {
 void refuse_grave(const Scene& scene) {
   Problems problems(Problems::Mode::throw_grave);
   look_through(problems, scene);
+}
+
+void refuse_grave_but_places(const Scene& scene) {
+  Problems problems(Problems::Mode::throw_grave);
+  look_at_parts(problems, scene);
 }
 
 void refuse_grave(const Object& object) {

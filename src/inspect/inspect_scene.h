@@ -13,6 +13,9 @@ constexpr double shortest_substep = 1e-12;
 /// ranges.
 void refuse_grave(const Scene& scene);
 
+/// The same, but for what depends on where surfaces begin: of a scene whose objects came at different times, and have moved since.
+void refuse_grave_but_places(const Scene& scene);
+
 /// The same for one thing that is added to a World.
 void refuse_grave(const Object& object);
 void refuse_grave(const Collider& collider);

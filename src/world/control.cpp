@@ -74,6 +74,14 @@ void put_targets(const Listed& of, std::span<const int> numbers, std::span<const
   targets.erase(targets.begin(), last.base());
 }
 
+/// Whether one of a list is of a particle; they ascend by particle.
+template <class OfParticle>
+bool lists(const std::vector<OfParticle>& list, int particle) {
+  const auto at = std::lower_bound(list.begin(), list.end(), particle,
+                                   [](const OfParticle& one, int other) { return one.particle < other; });
+  return at != list.end() && at->particle == particle;
+}
+
 template <class Ids>
 void require_poses(const Ids& ids, std::span<const RigidPose> poses, const char* kind) {
   if (ids.size() != poses.size()) {
@@ -147,9 +155,7 @@ void World::Implementation::stop_fixed() {
     if (object.carrier.moves() || workspace.control.mesh(number) != nullptr) continue;
     const ObjectControl* given = workspace.control.object(number);
     const auto moves = [&](int particle) {
-      const auto is_it = [&](const auto& one) { return one.particle == particle; };
-      return std::any_of(object.kinematics.begin(), object.kinematics.end(), is_it) ||
-             (given != nullptr && std::any_of(given->targets.begin(), given->targets.end(), is_it));
+      return lists(object.kinematics, particle) || (given != nullptr && lists(given->targets, particle));
     };
     for (int i = 0; i < object.particles; ++i) {
       const auto at = static_cast<std::size_t>(model.first[number] + i);
@@ -250,12 +256,14 @@ void World::add_impulses(ObjectId object, std::span<const Vec3f> impulses) {
   const int number = self_->number(object), first = self_->model.first[number];
   const CompiledObject& of = self_->model.objects[number];
   require(of, impulses, "impulses");
+  std::vector<Vec3f> velocities(impulses.size());
   for (int user = 0; user < of.user_particles; ++user) {
     const int i = first + of.place[user];
-    const Vec3f change = impulses[user] * self_->state.positions[i].w;
-    Record& v = self_->state.velocities[i];
-    if (self_->state.positions[i].w > 0) v = {v.x + change.x, v.y + change.y, v.z + change.z, 0};
+    const Record& v = self_->state.velocities[i];
+    velocities[user] = Vec3f{v.x, v.y, v.z} + impulses[user] * self_->state.positions[i].w;
   }
+  require(of, velocities, "velocities after the impulses");
+  set_velocities(object, velocities);
 }
 
 void World::set_forces(ObjectId object, std::span<const Vec3f> forces) {

@@ -42,6 +42,8 @@ struct World::Implementation {
   CompileOptions compile_options(Sweep sweep) const;
   /// The sweep of an object that is added now.
   Sweep sweep_of(const Object& object) const;
+  /// Throws Error where the World's acceleration does not suit a sweep.
+  void require_accelerable(Sweep sweep, const std::string& name) const;
   /// Adds a mesh collider to the model; its number there.
   int add_to_model(const MeshCollider& collider, CompiledObject compiled);
   /// What particles meet of a mesh collider that is no triangles. Fields stand in the order of their numbers.

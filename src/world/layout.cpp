@@ -1,4 +1,5 @@
 // A World of which things came and went, made anew with the same ids.
+#include <limits>
 #include <set>
 #include <string>
 
@@ -16,11 +17,15 @@ namespace {
   throw Error({}, "the layout does not fit the scene: " + problem, "give layout() of the World that the scene describes");
 }
 
+/// So many are numbered, and so often is a slot used, at most: counting on from there stays far from the end of the integers.
+constexpr int most = std::numeric_limits<int>::max() / 4;
+
 /// Numbers of the slots that are in use, one for each of `count` things; each below `numbers` and taken once.
 std::vector<int> numbers_in(const std::vector<WorldLayout::Slot>& slots, std::size_t count, std::vector<char>& taken) {
   std::vector<int> numbers;
   for (const WorldLayout::Slot& slot : slots) {
-    if (slot.generation < 0) refuse("a generation is below 0");
+    if (slot.generation < 0 || slot.generation > most)
+      refuse("generation " + std::to_string(slot.generation) + " is out of range");
     if (slot.number < 0) continue;
     if (slot.number >= static_cast<int>(taken.size()) || taken[slot.number] != 0)
       refuse("number " + std::to_string(slot.number) + " does not exist or is given twice");
@@ -55,7 +60,10 @@ Scene without_pairs_of_others(const Scene& scene) {
 }
 
 void require_place(const StateBlock& block, int first_frame, const CompiledObject& object) {
-  if (block.particles != object.particles || block.first < 0 || block.generation < 0 || first_frame < 0)
+  const auto is_in_range = [](int value) { return value >= 0 && value <= most; };
+  if (!is_in_range(block.first) || !is_in_range(block.generation) || !is_in_range(first_frame))
+    refuse("the place of object '" + object.name + "' is out of range");
+  if (block.particles != object.particles)
     refuse("object '" + object.name + "' has " + std::to_string(object.particles) + " particles and a place for " +
            std::to_string(block.particles));
 }
@@ -102,7 +110,7 @@ World::Implementation::Implementation(const Scene& scene, const WorldLayout& lay
 }
 
 World::World(const Scene& scene, const WorldLayout& layout) {
-  refuse_grave(without_pairs_of_others(scene));
+  refuse_grave_but_places(without_pairs_of_others(scene));
   Scene chosen = scene;
   if (chosen.settings.substeps <= 0) chosen.settings = chosen_settings(scene);
   self_ = std::make_unique<Implementation>(chosen, layout);

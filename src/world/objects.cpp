@@ -84,6 +84,13 @@ Sweep World::Implementation::sweep_of(const Object& object) const {
   return chosen_sweep(scene, static_cast<int>(scene.objects.size()) - 1);
 }
 
+void World::Implementation::require_accelerable(Sweep sweep, const std::string& name) const {
+  if (sweep == Sweep::natural && settings.sweep_options.acceleration != SweepOptions::Acceleration::none)
+    throw Error({.object = name, .element = "sweep"},
+                "is natural, over which the Chebyshev acceleration of this World diverges",
+                "give it the tiled, the symmetric or the Jacobi sweep");
+}
+
 int World::Implementation::add_to_model(const MeshCollider& collider, CompiledObject compiled) {
   std::shared_ptr<const SolidField> field = field_of(collider);  // may throw: before anything changes
   const int number = model.add(std::move(compiled));
@@ -259,7 +266,9 @@ void World::Implementation::bring_up_to_date() {
 ObjectId World::add(const Object& object) {
   refuse_grave(object);
   require_room(self_->model, object.positions.size() + object.attachments.size(), object.name);
-  CompiledObject compiled = compile(object, self_->compile_options(self_->sweep_of(object)));
+  const Sweep sweep = self_->sweep_of(object);
+  self_->require_accelerable(sweep, object.name);
+  CompiledObject compiled = compile(object, self_->compile_options(sweep));
   self_->refuse_intersections(compiled, {object.groups, object.mask}, false);
   const int number = self_->model.add(std::move(compiled));
   self_->put(number);
@@ -294,6 +303,7 @@ std::vector<int> World::edit(ObjectId object, const Edit& edit) {
   for (int i = static_cast<int>(edit.from.size()); i-- > 0;)
     if (edit.from[i] >= 0) news[edit.from[i]] = i;
   const Sweep sweep = edit.object.sweep == Sweep::automatic ? old.sweep : edit.object.sweep;
+  self_->require_accelerable(sweep, edit.object.name);
   self_->replace(number, compile(edit.object, self_->compile_options(sweep)), edit.from);
   return news;
 }

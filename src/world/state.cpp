@@ -40,6 +40,18 @@ void require_frames_of(const FrameRecords& own, const FrameRecords& given) {
   }
 }
 
+void require_channels(const State& state) {
+  for (const Channel& channel : state.channels) {
+    if (channel.components < 1 ||
+        channel.values.size() / static_cast<std::size_t>(channel.components) != state.positions.size() ||
+        channel.values.size() % static_cast<std::size_t>(channel.components) != 0)
+      throw Error({.element = "channel '" + channel.name + "'"},
+                  "has " + std::to_string(channel.values.size()) + " values of " + std::to_string(channel.components) +
+                      " components for " + std::to_string(state.positions.size()) + " particles",
+                  "give each particle as many values as the channel has components");
+  }
+}
+
 /// Whether blocks are as in a World of which nothing was removed or edited.
 bool follow_one_another(const std::vector<StateBlock>& blocks) {
   int first = 0;
@@ -60,8 +72,10 @@ void World::Implementation::require_held_poses(const State& given) const {
       throw Error({}, "the state holds a pose of a collider that this World does not have",
                   "restore a state of this world");
     const Quatf& q = pose.rotation;
-    const float size = length_squared(pose.position) + q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-    if (!std::isfinite(size)) throw Error({}, "the state holds a pose that is not finite", "restore an earlier state");
+    const Vec3f& x = pose.position;
+    bool is_finite = true;
+    for (const float value : {x.x, x.y, x.z, q.x, q.y, q.z, q.w}) is_finite = is_finite && std::isfinite(value);
+    if (!is_finite) throw Error({}, "the state holds a pose that is not finite", "restore an earlier state");
   }
 }
 
@@ -101,6 +115,7 @@ void World::restore(const State& state) {
     }
   }
   require_frames_of(self_->state.frames, state.frames);
+  require_channels(state);
   if (!std::isfinite(state.time)) throw Error({}, "the state's time is not finite", "restore an earlier state");
   if (state.frame < 0 || state.frame > largest_frame)
     throw Error({}, "the state's frame is " + std::to_string(state.frame), "restore a state of this world");
