@@ -122,6 +122,7 @@ struct Linearised {
   /// A contact of stiffness 1e4 along y, pushing with 3 N, on particle 7.
   void touch() {
     const int place = lane_place(7);
+    of().extra.resize(of().has_extra.size() * 9 * batch_width);
     of().has_extra[static_cast<std::size_t>(place / batch_width)] = 1;
     float* extra = of().extra.data() + place / batch_width * 9 * batch_width + place % batch_width;
     extra[1 * batch_width] = 1e4f;
