@@ -77,7 +77,7 @@ void append_colour(const ConstraintList& list, const PathColour& colour, float s
                    CompiledObject& out) {
   const std::vector<Row> rows = rows_of(list);
   const int paths = static_cast<int>(colour.paths.size());
-  ChainColour batches{static_cast<int>(out.chains.size()), 0};
+  ObjectPhase batches{Driver::chain, static_cast<int>(out.chains.size()), 0};
   for (int first = 0; first < paths; first += batch_width) {
     ChainBatch batch{pool_number, static_cast<int>(out.segments.size()),
                      static_cast<int>(colour.paths[first].edges.size())};
@@ -87,8 +87,8 @@ void append_colour(const ConstraintList& list, const PathColour& colour, float s
     for (int lane = 0; lane < batch_width; ++lane)
       out.chain_softness.push_back(first + lane < paths ? softness * mobility_of(colour.paths[first + lane], out) : 0.f);
   }
-  batches.last_batch = static_cast<int>(out.chains.size());
-  out.chain_colours.push_back(batches);
+  batches.last = static_cast<int>(out.chains.size());
+  out.phases.push_back(batches);
 }
 
 struct Tether {

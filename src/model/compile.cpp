@@ -243,11 +243,12 @@ void merge(const std::vector<ListSchedule>& schedules, CompiledObject& out) {
       if (!schedules[i].tile_end.empty()) append_to(i, schedules[i].tile_end[t]);
     out.tiles[t].last_segment = static_cast<int>(out.segments.size());
   }
+  out.phases.push_back({Driver::tile, 0, static_cast<int>(out.tiles.size())});
   for (std::size_t i = 0; i < schedules.size(); ++i) {
     for (const int end : schedules[i].colour_end) {
       const int first = static_cast<int>(out.segments.size());
       append_to(i, end);
-      out.inter_tile.push_back({first, static_cast<int>(out.segments.size())});
+      out.phases.push_back({Driver::inter_tile, first, static_cast<int>(out.segments.size())});
     }
   }
 }
@@ -290,7 +291,7 @@ void schedule_stencils(std::vector<ConstraintList>& lists, bool in_given_order, 
     for (const Colour& colour : colours) {
       const int first = static_cast<int>(out.segments.size());
       append_colour(lists[i], colour, batches_per_stencil_task, static_cast<int>(i), out.pools[i], out.segments);
-      out.stencil_colours.push_back({first, static_cast<int>(out.segments.size())});
+      out.phases.push_back({Driver::stencil, first, static_cast<int>(out.segments.size())});
     }
   }
 }
@@ -338,6 +339,14 @@ void fill_volume(const Object& object, int passes, CompiledObject& out) {
   }
 }
 
+/// Volumes and tethers, and all phases in the order of their drivers.
+void add_whole_object_phases(CompiledObject& out) {
+  if (out.has_volume) out.phases.push_back({Driver::volume, 0, 1});
+  if (out.tethers.slots > 0) out.phases.push_back({Driver::tether, 0, 1});
+  std::stable_sort(out.phases.begin(), out.phases.end(),
+                   [](const ObjectPhase& a, const ObjectPhase& b) { return a.driver < b.driver; });
+}
+
 /// What an object without a surface is made of, as contacts see it: its first group of distances. In a rope those are its links;
 /// a later group is bending, whose lines lie on the links themselves and would never be apart from them.
 std::vector<std::array<int, 2>> lines_of(const Object& object, const std::vector<int>& place) {
@@ -380,6 +389,7 @@ CompiledObject compile(const Object& object, const CompileOptions& options) {
   if (options.tethers) out.tethers = find_tethers(lists, options.tether_slack, out);
   if (options.sweep == Sweep::multigrid) out.multigrid = build_multigrid(lists, out.positions, options.gravity);
   fill_volume(object, options.passes, out);
+  add_whole_object_phases(out);
 
   if (object.triangles.empty()) out.lines = lines_of(object, out.place);
   out.self_collision = object.self_collision;

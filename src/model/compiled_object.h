@@ -9,6 +9,7 @@
 
 #include "model/carrier.h"
 #include "model/multigrid.h"
+#include "model/phase.h"
 #include "model/pool.h"
 #include "pliant/scene.h"
 #include "pliant/state.h"
@@ -21,11 +22,6 @@ struct Tile {
   int first_segment = 0, last_segment = 0;
 };
 
-/// A stretch of segments that share no particle: the inter-tile constraints of one colour.
-struct InterTileColour {
-  int first_segment = 0, last_segment = 0;
-};
-
 /// Up to sixteen paths of distance constraints, one a lane, longest first, that share no particle. Link k of every path is
 /// a batch of the pool and a segment of its own: the paths walk in step, and memory is read forwards. Lanes whose path has
 /// ended stay at its last particle: a link of length zero from it to itself, which is read and never written.
@@ -33,11 +29,6 @@ struct ChainBatch {
   int pool = 0;
   int first_segment = 0;
   int steps = 0;  ///< links of the longest path
-};
-
-/// Batches of paths that share no particle.
-struct ChainColour {
-  int first_batch = 0, last_batch = 0;
 };
 
 /// Upper bounds of the distances to pins (long-range attachments: Kim, Chentanez, Mueller-Fischer 2012): sixteen particles
@@ -94,11 +85,8 @@ struct CompiledObject {
   std::vector<Segment>
       segments;  ///< tile after tile, then the inter-tile constraints, then the links of chains, then what is not in lanes
   std::vector<Tile> tiles;
-  std::vector<InterTileColour> inter_tile;
-  std::vector<InterTileColour>
-      stencil_colours;  ///< of what is projected one constraint at a time; shares no particle or frame
+  std::vector<ObjectPhase> phases;  ///< by driver, of each colour after colour
   std::vector<ChainBatch> chains;
-  std::vector<ChainColour> chain_colours;
   AlignedVector<float> chain_softness;  ///< sixteen a chain batch: added to the diagonal [1/kg]
   Tethers tethers;
   Multigrid multigrid;

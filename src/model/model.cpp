@@ -13,8 +13,20 @@ namespace {
 /// The orientation that stands where no object has a frame: it stays finite when predicted.
 constexpr Record unrotated{0, 0, 0, 1};
 
-/// Tasks stand in the order of their objects' numbers.
-template <class Task>
+/// Batches or steps of an item.
+int work_of(const CompiledObject& object, Driver driver, int item) {
+  switch (driver) {
+    case Driver::inter_tile:
+    case Driver::stencil:
+      return object.segments[item].batches;
+    case Driver::chain:
+      return object.chains[item].steps;
+    default:
+      return 1;
+  }
+}
+
+/// An object's tasks in a phase stand side by side.
 auto tasks_of(std::vector<Task>& tasks, int object) {
   const auto before = [](const Task& task, int number) { return task.object < number; };
   const auto after = [](int number, const Task& task) { return number < task.object; };
@@ -22,83 +34,44 @@ auto tasks_of(std::vector<Task>& tasks, int object) {
                         std::upper_bound(tasks.begin(), tasks.end(), object, after));
 }
 
-template <class Task>
-void insert(const std::vector<Task>& some, int object, std::vector<Task>& tasks) {
-  tasks.insert(tasks_of(tasks, object).second, some.begin(), some.end());
-}
-
-template <class Task>
-void erase(std::vector<Task>& tasks, int object) {
-  const auto [first, last] = tasks_of(tasks, object);
-  tasks.erase(first, last);
-}
-
-std::vector<TileTask> tiles_of(const CompiledObject& object, int number) {
-  std::vector<TileTask> tasks;
-  for (int tile = 0; tile < static_cast<int>(object.tiles.size()); ++tile) tasks.push_back({number, tile});
-  return tasks;
-}
-
-void add_colours(const CompiledObject& object, int number, const std::vector<InterTileColour>& colours,
-                 std::vector<InterTilePhase>& phases) {
-  if (phases.size() < colours.size()) phases.resize(colours.size());
-  for (std::size_t colour = 0; colour < colours.size(); ++colour) {
-    std::vector<InterTilePhase::Task> tasks;
-    for (int s = colours[colour].first_segment; s < colours[colour].last_segment; ++s) {
-      tasks.push_back({number, s});
-      phases[colour].batches += object.segments[s].batches;
-    }
-    insert(tasks, number, phases[colour].tasks);
-  }
-}
-
-void remove_colours(const CompiledObject& object, int number, std::vector<InterTilePhase>& phases) {
-  for (InterTilePhase& phase : phases) {
-    const auto [first, last] = tasks_of(phase.tasks, number);
-    for (auto task = first; task != last; ++task) phase.batches -= object.segments[task->segment].batches;
-    phase.tasks.erase(first, last);
-  }
-}
-
-void add_chains(const CompiledObject& object, int number, std::vector<ChainPhase>& phases) {
-  if (phases.size() < object.chain_colours.size()) phases.resize(object.chain_colours.size());
-  for (std::size_t colour = 0; colour < object.chain_colours.size(); ++colour) {
-    std::vector<ChainPhase::Task> tasks;
-    for (int b = object.chain_colours[colour].first_batch; b < object.chain_colours[colour].last_batch; ++b) {
-      tasks.push_back({number, b});
-      phases[colour].steps += object.chains[b].steps;
-    }
-    insert(tasks, number, phases[colour].tasks);
-  }
-}
-
-/// Phases that nobody has tasks in any more are always the last ones: an object has tasks in all up to its own last.
-template <class Phase>
-void drop_empty(std::vector<Phase>& phases) {
-  while (!phases.empty() && phases.back().tasks.empty()) phases.pop_back();
+/// The phase of a driver and colour, made where it is not there yet.
+Phase& phase_of(Driver driver, int colour, std::vector<Phase>& phases) {
+  const auto at = std::find_if(phases.begin(), phases.end(), [&](const Phase& phase) {
+    return std::pair(phase.driver, phase.colour) >= std::pair(driver, colour);
+  });
+  if (at != phases.end() && at->driver == driver && at->colour == colour) return *at;
+  return *phases.insert(at, Phase{driver, colour});
 }
 
 void add_tasks(Model& model, int number) {
   const CompiledObject& object = model.objects[number];
-  insert(tiles_of(object, number), number, model.tiles);
-  add_colours(object, number, object.inter_tile, model.inter_tile);
-  add_colours(object, number, object.stencil_colours, model.stencils);
-  add_chains(object, number, model.chains);
+  int colour = 0;
+  for (std::size_t i = 0; i < object.phases.size(); ++i) {
+    const ObjectPhase& from = object.phases[i];
+    colour = i > 0 && object.phases[i - 1].driver == from.driver ? colour + 1 : 0;
+    Phase& phase = phase_of(from.driver, colour, model.phases);
+    std::vector<Task> tasks;
+    for (int item = from.first; item < from.last; ++item) {
+      tasks.push_back({number, item, work_of(object, from.driver, item)});
+      phase.work += tasks.back().work;
+    }
+    phase.tasks.insert(tasks_of(phase.tasks, number).second, tasks.begin(), tasks.end());
+  }
+}
+
+/// Those of tiles and of contacts are there without tasks, too.
+bool is_to_stay(const Phase& phase) {
+  return !phase.tasks.empty() || phase.driver == Driver::tile || phase.driver == Driver::surface_contact ||
+         phase.driver == Driver::collider_contact;
 }
 
 void remove_tasks(Model& model, int number) {
-  const CompiledObject& object = model.objects[number];
-  erase(model.tiles, number);
-  remove_colours(object, number, model.inter_tile);
-  remove_colours(object, number, model.stencils);
-  for (ChainPhase& phase : model.chains) {
+  for (Phase& phase : model.phases) {
     const auto [first, last] = tasks_of(phase.tasks, number);
-    for (auto task = first; task != last; ++task) phase.steps -= object.chains[task->batch].steps;
+    for (auto task = first; task != last; ++task) phase.work -= task->work;
     phase.tasks.erase(first, last);
   }
-  drop_empty(model.inter_tile);
-  drop_empty(model.stencils);
-  drop_empty(model.chains);
+  std::erase_if(model.phases, [](const Phase& phase) { return !is_to_stay(phase); });
 }
 
 struct Range {

@@ -1,5 +1,5 @@
 // Everything of a World that does not change as time passes: objects compiled, colliders, the field they are in, and one
-// list of tasks over all objects. It changes only when objects come, go or are edited, at the cost of those objects.
+// list of phases over all objects. It changes only when objects come, go or are edited, at the cost of those objects.
 #pragma once
 
 #include <memory>
@@ -9,32 +9,10 @@
 
 #include "model/blocks.h"
 #include "model/compiled_object.h"
+#include "model/phase.h"
 #include "pliant/scene.h"
 
 namespace pliant {
-
-/// One tile of one object.
-struct TileTask {
-  int object = 0, tile = 0;
-};
-
-/// Segments of inter-tile constraints that share no particle, over all objects.
-struct InterTilePhase {
-  struct Task {
-    int object = 0, segment = 0;
-  };
-  std::vector<Task> tasks;
-  int batches = 0;
-};
-
-/// Chain batches that share no particle, over all objects.
-struct ChainPhase {
-  struct Task {
-    int object = 0, batch = 0;
-  };
-  std::vector<Task> tasks;
-  int steps = 0;
-};
 
 class SolidField;
 
@@ -61,11 +39,8 @@ struct Model {
   std::vector<int> generation;   ///< of each number: how many objects had it before, or it was compiled anew
   std::set<int> free_numbers;    ///< those of removed objects
   BlockAllocator blocks, frame_blocks;
-  // Tasks are in the order of their objects' numbers, whatever came and went before.
-  std::vector<TileTask> tiles;
-  std::vector<InterTilePhase> inter_tile;
-  std::vector<InterTilePhase> stencils;  ///< what is projected one constraint at a time (solver/stencil.h)
-  std::vector<ChainPhase> chains;
+  /// In the order in which an iteration visits them. The first is that of tiles, and what is filled in each substep is always there.
+  std::vector<Phase> phases{{Driver::tile}, {Driver::surface_contact}, {Driver::collider_contact}};
 
   /// Adds an object and its tasks under the lowest free number, which it returns.
   int add(CompiledObject object);
@@ -74,6 +49,8 @@ struct Model {
   /// Compiles an object anew under its old number.
   void replace(int object, CompiledObject by);
 
+  /// All tiles of all objects: what predict, update and contacts with colliders go by, too.
+  const std::vector<Task>& tiles() const { return phases.front().tasks; }
   /// Of a State: one past the last that an object has; there may be holes before it.
   int particles() const { return blocks.end(); }
   int frames() const { return frame_blocks.end(); }

@@ -38,7 +38,7 @@ struct Pool {
   std::int32_t stencil = 0;              ///< slots a constraint
   std::int32_t components = 1;           ///< of C
   std::int32_t fields = 0;               ///< rows of rest data, before that of the response
-  bool in_lanes = true;                  ///< else projected one at a time, in CompiledObject::stencil_colours
+  bool in_lanes = true;                  ///< else projected one at a time, in phases of Driver::stencil
   std::int32_t block_floats = 0;         ///< floats a batch in `blocks`
   std::vector<std::int32_t> row_offset;  ///< of each row in a batch's block, or -1: the same for all, in `constants`
   std::int32_t batches = 0;

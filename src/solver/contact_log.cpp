@@ -70,8 +70,8 @@ void log_contact(const Substep& s, const Contact& contact, const PointReader& of
 
 void log_contacts(const Substep& s, ContactLog& log) {
   const float slow = 2 * length(s.model.gravity) * s.h;
-  for (std::size_t task = 0; task < s.model.tiles.size(); ++task) {
-    const int object = s.model.tiles[task].object, first = s.model.first[object];
+  for (std::size_t task = 0; task < s.model.tiles().size(); ++task) {
+    const int object = s.model.tiles()[task].object, first = s.model.first[object];
     const PointReader of{s.state.positions.data() + first, s.work.displacements.data() + first, s.h, object};
     for (const Contact& contact : s.work.tiles[task].contacts) log_contact(s, contact, of, slow, log);
   }

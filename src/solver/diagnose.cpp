@@ -58,17 +58,31 @@ std::optional<std::string> replay(const StepContext& context, const CompiledObje
 
 /// Likewise for what is projected one constraint at a time, from the orientations that the failed substep has left.
 std::optional<std::string> replay_stencils(const StepContext& context, const CompiledObject& object,
-                                           const InterTileColour& colour, const SweepArguments& arguments) {
+                                           const ObjectPhase& colour, const SweepArguments& arguments) {
   const auto number = static_cast<std::size_t>(&object - context.model.objects.data());
   const int first = context.model.first_frame[number], last = context.model.end_of_frames(static_cast<int>(number));
   FrameRecords& all = context.state.frames;
   Records orientations(all.orientations.begin() + first, all.orientations.begin() + last), none(orientations.size());
   for (Record& q : orientations) q = is_finite(q) && q.w - q.w == 0 ? q : Record{0, 0, 0, 1};
-  for (int s = colour.first_segment; s < colour.last_segment; ++s) {
+  for (int s = colour.first; s < colour.last; ++s) {
     Records corrections(orientations.size());
     project_segment(object, object.segments[s], arguments,
                     {orientations.data(), all.inverse_inertias.data() + first, none.data(), corrections.data()});
     if (auto culprit = find_culprit(object, object.segments[s], arguments.displacements)) return culprit;
+  }
+  return std::nullopt;
+}
+
+/// Replays an object's phase; nothing where its driver does not say which constraint it was, or its tasks are replayed one by one.
+std::optional<std::string> replay_phase(const StepContext& context, const CompiledObject& object, const ObjectPhase& phase,
+                                        const SweepArguments& arguments) {
+  if (phase.driver == Driver::inter_tile) return replay(context, object, phase.first, phase.last, arguments);
+  if (phase.driver == Driver::stencil) return replay_stencils(context, object, phase, arguments);
+  if (phase.driver != Driver::chain) return std::nullopt;
+  for (int batch = phase.first; batch < phase.last; ++batch) {
+    const ChainBatch& chain = object.chains[batch];
+    const int last = chain.first_segment + chain.steps;
+    if (auto culprit = replay(context, object, chain.first_segment, last, arguments)) return culprit;
   }
   return std::nullopt;
 }
@@ -84,9 +98,9 @@ std::string first_bad_particle(const CompiledObject& object, const Tile& tile, c
 std::vector<int> bad_tasks(const StepContext& context) {
   const Model& model = context.model;
   std::vector<int> bad;
-  for (int task = 0; task < static_cast<int>(model.tiles.size()); ++task) {
+  for (int task = 0; task < static_cast<int>(model.tiles().size()); ++task) {
     if (context.workspace.tiles[task].finite) continue;
-    if (bad.empty() || model.tiles[task].object == model.tiles[bad.front()].object) bad.push_back(task);
+    if (bad.empty() || model.tiles()[task].object == model.tiles()[bad.front()].object) bad.push_back(task);
   }
   return bad;
 }
@@ -114,15 +128,8 @@ std::string explain(const Substep& s, const CompiledObject& object, const std::v
       const Tile& tile = tile_of(s, task);
       if (auto culprit = replay(context, object, tile.first_segment, tile.last_segment, arguments)) return *culprit;
     }
-    for (const InterTileColour& colour : object.inter_tile) {
-      if (auto culprit = replay(context, object, colour.first_segment, colour.last_segment, arguments)) return *culprit;
-    }
-    for (const ChainBatch& chain : object.chains) {
-      const int last = chain.first_segment + chain.steps;
-      if (auto culprit = replay(context, object, chain.first_segment, last, arguments)) return *culprit;
-    }
-    for (const InterTileColour& colour : object.stencil_colours) {
-      if (auto culprit = replay_stencils(context, object, colour, arguments)) return *culprit;
+    for (const ObjectPhase& phase : object.phases) {
+      if (auto culprit = replay_phase(context, object, phase, arguments)) return *culprit;
     }
   }
   return object.has_volume ? "volume constraint (seen at " + particle + ")" : particle;
@@ -159,7 +166,7 @@ NonFinite diagnose(const Substep& s) {
   NonFinite found;
   const std::vector<int> bad = bad_tasks(context);
   if (!bad.empty()) {
-    const int number = context.model.tiles[bad.front()].object;
+    const int number = context.model.tiles()[bad.front()].object;
     found.object = context.model.objects[number].name;
     found.element = explain(s, context.model.objects[number], bad, arguments(s, number, true));
   }

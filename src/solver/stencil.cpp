@@ -9,9 +9,6 @@ namespace pliant {
 
 namespace {
 
-/// Below this many batches a colour is done sooner than other threads can be told of it.
-constexpr int fewest_batches_to_share = 8;
-
 /// A pivot that elimination leaves less of than this is rounding: its row says what others have said.
 constexpr float least_pivot = 1e-6f;
 
@@ -184,30 +181,6 @@ void project_segment(const CompiledObject& object, const Segment& segment, const
     }
     apply(object, points, frames, pool, number, work);
   });
-}
-
-void project_stencils(Substep& s, bool first_pass) {
-  if (s.model.stencils.empty()) return;
-  int most = 0;
-  for (const auto& [sweep, group] : s.work.sweeps) most = std::max(most, group.method->passes);
-  for (int pass = 0; pass < most; ++pass) {
-    for (const InterTilePhase& phase : s.model.stencils) {
-      const int tasks = static_cast<int>(phase.tasks.size());
-      const auto project_task = [&](int i) {
-        const auto& [number, segment] = phase.tasks[i];
-        const CompiledObject& object = s.model.objects[number];
-        if (pass >= sweep_method(object.sweep).passes) return;
-        project_segment(object, object.segments[segment], arguments(s, number, first_pass && pass == 0),
-                        frame_arguments(s, number));
-      };
-      if (phase.batches >= fewest_batches_to_share) {
-        for_tasks(s, "solve: stencils", tasks, project_task);
-      } else {
-        Stopwatch watch(s.context.executor.timings(), "solve: stencils");
-        for (int i = 0; i < tasks; ++i) project_task(i);
-      }
-    }
-  }
 }
 
 }  // namespace pliant

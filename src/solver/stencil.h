@@ -16,7 +16,4 @@ namespace pliant {
 void project_segment(const CompiledObject& object, const Segment& segment, const SweepArguments& points,
                      const FrameArguments& frames);
 
-/// Projects every such constraint, phase after phase, as often as the sweep of its object projects any other.
-void project_stencils(Substep& s, bool first_pass);
-
 }  // namespace pliant

@@ -28,7 +28,7 @@ FrameArguments frame_arguments(const Substep& s, int object) {
 }
 
 AdvanceArguments particles(const Substep& s, int task) {
-  const int object = s.model.tiles[task].object, first = s.model.first[object];
+  const int object = s.model.tiles()[task].object, first = s.model.first[object];
   const Tile& tile = tile_of(s, task);
   const FrameGravity& gravity = s.work.gravity[object];
   AdvanceArguments a;
@@ -52,12 +52,12 @@ PairParticles all_particles(const Substep& s) {
 }
 
 void for_tiles(Substep& s, const char* name, FunctionRef<void(int)> body) {
-  s.context.executor.parallel_for(name, static_cast<int>(s.model.tiles.size()), body);
+  s.context.executor.parallel_for(name, static_cast<int>(s.model.tiles().size()), body);
 }
 
 void for_swept_tiles(Substep& s, const char* name, FunctionRef<void(int)> body) {
   for_tiles(s, name, [&](int task) {
-    if (is_swept(s, s.model.tiles[task].object)) body(task);
+    if (is_swept(s, s.model.tiles()[task].object)) body(task);
   });
 }
 

@@ -47,8 +47,8 @@ AdvanceArguments particles(const Substep& s, int task);
 PairParticles all_particles(const Substep& s);
 
 /// The tile of a task, and the object that it is of.
-inline const CompiledObject& object_of(const Substep& s, int task) { return s.model.objects[s.model.tiles[task].object]; }
-inline const Tile& tile_of(const Substep& s, int task) { return object_of(s, task).tiles[s.model.tiles[task].tile]; }
+inline const CompiledObject& object_of(const Substep& s, int task) { return s.model.objects[s.model.tiles()[task].object]; }
+inline const Tile& tile_of(const Substep& s, int task) { return object_of(s, task).tiles[s.model.tiles()[task].item]; }
 
 /// Whether an object is of the group whose iteration is under way.
 inline bool is_swept(const Substep& s, int object) {

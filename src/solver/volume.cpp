@@ -82,21 +82,21 @@ void project_volumes(const Model& model, Workspace& workspace, Executor& executo
                      FunctionRef<SweepArguments(int)> arguments, FunctionRef<bool(int)> takes_part) {
   if (workspace.volume_gradients.empty()) return;
   const auto gather = [&](int task) {
-    const CompiledObject& object = model.objects[model.tiles[task].object];
-    if (!takes_part(model.tiles[task].object)) return;
-    Record* gradients = workspace.volume_gradients.data() + model.first[model.tiles[task].object];
-    gather_tile(object, object.tiles[model.tiles[task].tile], arguments(model.tiles[task].object), gradients,
+    const CompiledObject& object = model.objects[model.tiles()[task].object];
+    if (!takes_part(model.tiles()[task].object)) return;
+    Record* gradients = workspace.volume_gradients.data() + model.first[model.tiles()[task].object];
+    gather_tile(object, object.tiles[model.tiles()[task].item], arguments(model.tiles()[task].object), gradients,
                 workspace.tiles[task]);
   };
-  executor.parallel_for("solve: volume", static_cast<int>(model.tiles.size()), gather);
+  executor.parallel_for("solve: volume", static_cast<int>(model.tiles().size()), gather);
 
   std::vector<double>& multipliers = workspace.volume_multipliers;
   struct Sums {
     double mass = 0, along = 0, motion = 0, change = 0;
   };
   std::vector<Sums> sums(model.objects.size());
-  for (std::size_t task = 0; task < model.tiles.size(); ++task) {
-    Sums& sum = sums[model.tiles[task].object];
+  for (std::size_t task = 0; task < model.tiles().size(); ++task) {
+    Sums& sum = sums[model.tiles()[task].object];
     sum.mass += workspace.tiles[task].gradient_squared;
     sum.along += workspace.tiles[task].position_along;
     sum.motion += workspace.tiles[task].motion_along;
@@ -112,12 +112,12 @@ void project_volumes(const Model& model, Workspace& workspace, Executor& executo
     multipliers[o] += sums[o].change;
   }
   const auto apply = [&](int task) {
-    const int o = model.tiles[task].object;
+    const int o = model.tiles()[task].object;
     if (!takes_part(o)) return;
-    apply_tile(model.objects[o].tiles[model.tiles[task].tile], arguments(o),
+    apply_tile(model.objects[o].tiles[model.tiles()[task].item], arguments(o),
                workspace.volume_gradients.data() + model.first[o], sums[o].change);
   };
-  executor.parallel_for("solve: volume", static_cast<int>(model.tiles.size()), apply);
+  executor.parallel_for("solve: volume", static_cast<int>(model.tiles().size()), apply);
 }
 
 Vec3f volume_gradient(const CompiledObject& object, const Record* positions, int particle) {

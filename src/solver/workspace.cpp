@@ -39,7 +39,7 @@ void resize(const Model& model, Workspace& workspace) {
   workspace.triangle_forces.resize(objects);
   workspace.gravity.resize(objects);
   workspace.anchors.resize(objects);
-  workspace.tiles.resize(model.tiles.size());
+  workspace.tiles.resize(model.tiles().size());
   if (!workspace.volume_gradients.empty()) workspace.volume_gradients.resize(model.particles());
 }
 

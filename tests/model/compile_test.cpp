@@ -138,6 +138,13 @@ Object renumbered(const Object& object) {
   return out;
 }
 
+std::vector<ObjectPhase> phases_of(const CompiledObject& object, Driver driver) {
+  std::vector<ObjectPhase> phases;
+  std::copy_if(object.phases.begin(), object.phases.end(), std::back_inserter(phases),
+               [&](const ObjectPhase& phase) { return phase.driver == driver; });
+  return phases;
+}
+
 /// Tiles of some size, the grid numbered line by line or anyhow.
 class Compiled : public testing::TestWithParam<std::tuple<int, bool>> {
  protected:
@@ -207,9 +214,9 @@ TEST_P(Compiled, TilesPartitionParticlesAndSegments) {
     segment = tile.last_segment;
   }
   EXPECT_EQ(particle, compiled_.particles);
-  for (const InterTileColour& colour : compiled_.inter_tile) {
-    EXPECT_EQ(colour.first_segment, segment);
-    segment = colour.last_segment;
+  for (const ObjectPhase& colour : phases_of(compiled_, Driver::inter_tile)) {
+    EXPECT_EQ(colour.first, segment);
+    segment = colour.last;
   }
   EXPECT_EQ(segment, static_cast<int>(compiled_.segments.size()));
 }
@@ -250,9 +257,9 @@ TEST_P(Compiled, TilesTouchTheirOwnParticlesAlone) {
 }
 
 TEST_P(Compiled, SegmentsOfAnInterTileColourShareNothing) {
-  for (const InterTileColour& colour : compiled_.inter_tile) {
+  for (const ObjectPhase& colour : phases_of(compiled_, Driver::inter_tile)) {
     std::set<int> met;
-    for (int s = colour.first_segment; s < colour.last_segment; ++s) {
+    for (int s = colour.first; s < colour.last; ++s) {
       for (int particle : particles_of(compiled_, compiled_.segments[static_cast<std::size_t>(s)])) {
         EXPECT_TRUE(met.insert(particle).second);
       }
@@ -415,13 +422,66 @@ TEST(Model, JoinsObjectsEndToEnd) {
   EXPECT_EQ(state.remainders.size(), 47u);
   // A phase runs over the objects, whose particles are apart anyway.
   std::size_t tasks = 0, segments = 0;
-  for (const InterTilePhase& phase : model.inter_tile) tasks += phase.tasks.size();
+  for (const Phase& phase : model.phases) tasks += phase.driver == Driver::inter_tile ? phase.tasks.size() : 0;
   for (const CompiledObject& object : model.objects) {
-    for (const InterTileColour& colour : object.inter_tile)
-      segments += static_cast<std::size_t>(colour.last_segment - colour.first_segment);
+    for (const ObjectPhase& colour : phases_of(object, Driver::inter_tile))
+      segments += static_cast<std::size_t>(colour.last - colour.first);
   }
   EXPECT_GT(tasks, 0u);
   EXPECT_EQ(tasks, segments);
+}
+
+/// What a phase visits, as numbers to compare.
+std::vector<std::vector<int>> visits_of(const Model& model) {
+  std::vector<std::vector<int>> visits;
+  for (const Phase& phase : model.phases) {
+    visits.push_back({static_cast<int>(phase.driver), phase.colour, phase.work});
+    for (const Task& task : phase.tasks) visits.back().insert(visits.back().end(), {task.object, task.item, task.work});
+  }
+  return visits;
+}
+
+CompileOptions by(Sweep sweep) {
+  CompileOptions options{10, 9};
+  options.sweep = sweep;
+  options.tethers = sweep == Sweep::chains;
+  return options;
+}
+
+TEST(Model, WalksPhasesByDriversThenColours) {
+  Model model;
+  model.add(compile(rumpled_grid(6, 6), by(Sweep::chains)));
+  model.add(compile(rumpled_grid(5, 4), by(Sweep::tiled)));
+  std::set<Driver> met;
+  for (std::size_t i = 0; i < model.phases.size(); ++i) {
+    const Phase& phase = model.phases[i];
+    met.insert(phase.driver);
+    const bool is_next_colour = i > 0 && phase.driver == model.phases[i - 1].driver;
+    EXPECT_EQ(phase.colour, is_next_colour ? model.phases[i - 1].colour + 1 : 0);
+    EXPECT_TRUE(i == 0 || phase.driver >= model.phases[i - 1].driver);
+    EXPECT_TRUE(std::is_sorted(phase.tasks.begin(), phase.tasks.end(),
+                               [](const Task& a, const Task& b) { return a.object < b.object; }));
+  }
+  EXPECT_EQ(model.phases.front().driver, Driver::tile);
+  EXPECT_EQ(model.phases.front().tasks.size(), model.objects[0].tiles.size() + model.objects[1].tiles.size());
+  EXPECT_EQ(met.count(Driver::chain) + met.count(Driver::inter_tile) + met.count(Driver::collider_contact), 3u);
+}
+
+TEST(Model, LosesAnObjectsPhasesWithTheObject) {
+  Model model;
+  model.add(compile(rumpled_grid(5, 4), by(Sweep::tiled)));
+  const auto before = visits_of(model);
+  const int added = model.add(compile(rumpled_grid(6, 6), by(Sweep::chains)));
+  EXPECT_NE(visits_of(model), before);
+  const auto both = visits_of(model);
+  model.remove(added);
+  EXPECT_EQ(visits_of(model), before);
+  EXPECT_EQ(model.add(compile(rumpled_grid(6, 6), by(Sweep::chains))), added);
+  EXPECT_EQ(visits_of(model), both);
+  model.remove(0);
+  model.remove(added);
+  ASSERT_EQ(model.phases.size(), 3u);  // tiles and contacts
+  for (const Phase& phase : model.phases) EXPECT_TRUE(phase.tasks.empty() && phase.work == 0);
 }
 
 }  // namespace

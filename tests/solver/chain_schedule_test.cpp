@@ -23,9 +23,10 @@ TEST(Chains, hold_every_distance_once_and_batches_of_a_colour_share_nothing) {
     for (int origin : pool.origin)
       if (origin >= 0) ++times[origin];
   EXPECT_EQ(std::count(times.begin(), times.end(), 1), static_cast<std::ptrdiff_t>(times.size()));
-  for (const ChainColour& colour : object.chain_colours) {
+  for (const ObjectPhase& colour : object.phases) {
+    if (colour.driver != Driver::chain) continue;
     std::map<int, int> batch_of;
-    for (int b = colour.first_batch; b < colour.last_batch; ++b) {
+    for (int b = colour.first; b < colour.last; ++b) {
       const ChainBatch& chain = object.chains[b];
       for (int k = 0; k < chain.steps; ++k) {
         const Segment& segment = object.segments[chain.first_segment + k];

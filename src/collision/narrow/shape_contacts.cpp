@@ -429,16 +429,16 @@ void ShapeContacts::prepare(const Model& model, int object) {
 }
 
 void ShapeContacts::detect_tile(const ShapeContactSearch& search, int task) {
-  const TileTask& of = search.model.tiles[static_cast<std::size_t>(task)];
+  const Task& of = search.model.tiles()[static_cast<std::size_t>(task)];
   const ShapeElements& elements = elements_[static_cast<std::size_t>(of.object)];
   ShapeContactScratch& scratch = scratch_[static_cast<std::size_t>(task)];
   scratch.contacts.clear();
   if (elements.tiles.empty()) return;
-  const TileElements& tile = elements.tiles[static_cast<std::size_t>(of.tile)];
+  const TileElements& tile = elements.tiles[static_cast<std::size_t>(of.item)];
   const CompiledObject& object = search.model.objects[static_cast<std::size_t>(of.object)];
   const AdvanceArguments particles = search.particles(task);
   SweptBox bounds = box_of(search.bounds(task));
-  for (const int neighbour : tile.neighbours) bounds = merge(bounds, box_of(search.bounds(task - of.tile + neighbour)));
+  for (const int neighbour : tile.neighbours) bounds = merge(bounds, box_of(search.bounds(task - of.item + neighbour)));
   bool is_measured = false;
   for (std::size_t c = 0; c < search.colliders.size(); ++c) {
     const MovingCollider& collider = search.colliders[c];
@@ -462,7 +462,7 @@ void ShapeContacts::detect(Executor& executor, const ShapeContactSearch& search)
   contacts_.clear();
   const auto has_elements = [](const ShapeElements& elements) { return !elements.tiles.empty(); };
   if (std::none_of(elements_.begin(), elements_.end(), has_elements)) return;
-  scratch_.resize(search.model.tiles.size());
+  scratch_.resize(search.model.tiles().size());
   executor.parallel_for("detect contacts", static_cast<int>(scratch_.size()), [&](int task) { detect_tile(search, task); });
   for (const ShapeContactScratch& scratch : scratch_)
     contacts_.insert(contacts_.end(), scratch.contacts.begin(), scratch.contacts.end());

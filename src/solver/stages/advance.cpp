@@ -8,7 +8,7 @@
 #include "math/motion.h"
 #include "solver/diagnose.h"
 #include "solver/forces.h"
-#include "solver/passes.h"
+#include "solver/drivers/lanes.h"
 #include "solver/rotation.h"
 #include "solver/stages/stages.h"
 
@@ -42,7 +42,7 @@ void move_to_targets(const Substep& s, const std::vector<Target>& targets, const
 /// Kinematic particles go where they are to be at the substep's end.
 void move_kinematics(const Substep& s, int task, const AdvanceArguments& a) {
   const CompiledObject& object = object_of(s, task);
-  const int number = s.model.tiles[task].object;
+  const int number = s.model.tiles()[task].object;
   if (const PoseDrive* drive = s.work.control.mesh(number); drive != nullptr || object.carrier.moves()) {
     const CarrierPose pose = drive != nullptr ? CarrierPose(object.carrier, s.time_after, drive->at(s.time_after))
                                               : CarrierPose(object.carrier, s.time_after);
@@ -65,7 +65,7 @@ bool is_finite(const Substep& s, int task) {
 /// Ends a tile's substep: velocities, positions, restitution at colliders.
 void update_tile(const Substep& s, int task, bool ends_frame) {
   AdvanceArguments a = particles(s, task);
-  const Vec3f settled = gravity_for(s, s.work.gravity[s.model.tiles[task].object].settled);
+  const Vec3f settled = gravity_for(s, s.work.gravity[s.model.tiles()[task].object].settled);
   if (ends_frame) a.gravity_settled = settled;
   s.kernels.update(a);
   const std::vector<Contact>& contacts = s.work.tiles[task].contacts;
@@ -116,7 +116,7 @@ bool predict(Substep& s) {
     if (!s.update_is_due) predict_tile(s, task, s.kernels.predict);
     if (s.update_is_due && !advance_tile(s, task)) return;
     if (s.sweeps_on_entry && sweep_method(object_of(s, task).sweep).begins_on_entry)
-      sweep_tile(s, task, true, Order::forward);
+      project_tile(s, task, true, Order::forward);
   });
   s.update_is_due = false;
   return all_finite(s, s.number - 1);

@@ -1,4 +1,4 @@
-#include "solver/passes.h"
+#include "solver/drivers/contacts.h"
 #include "solver/stages/stages.h"
 
 namespace pliant {

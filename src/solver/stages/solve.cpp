@@ -1,11 +1,9 @@
 // The iterations of a substep.
 #include <algorithm>
 
-#include "solver/passes.h"
+#include "solver/drivers/driver.h"
 #include "solver/residual.h"
 #include "solver/stages/stages.h"
-#include "solver/stencil.h"
-#include "solver/sweeps/chains.h"
 #include "solver/sweeps/chebyshev.h"
 #include "solver/sweeps/record.h"
 
@@ -19,7 +17,14 @@ bool is_met(Substep& s, int iteration) {
   return context.tolerance > 0 && iteration + 1 < context.iterations && distance_residual(s) < context.tolerance;
 }
 
-/// One iteration: the constraints of each object as its sweep has it, those projected one at a time, tethers, contacts.
+/// Stencils are projected as often as the sweep of their object projects any other constraint.
+void walk_stencils(Substep& s, bool first) {
+  int passes = 0;
+  for (const auto& [sweep, group] : s.work.sweeps) passes = std::max(passes, group.method->passes);
+  for (int pass = 0; pass < passes; ++pass) walk(s, Turn::stencil, {first && pass == 0, Order::forward, pass});
+}
+
+/// One iteration: the phases that belong to a sweep, group by group, then all others.
 void iterate(Substep& s, int iteration) {
   for (const auto& [sweep, group] : s.work.sweeps) {
     s.group = &group;
@@ -28,10 +33,8 @@ void iterate(Substep& s, int iteration) {
     if (group.acceleration) accelerate(s, iteration);
   }
   s.group = nullptr;
-  project_stencils(s, iteration == 0);
-  hold_tethers(s);
-  sweep_pairs(s);
-  sweep_contacts(s);  // last, so that constraints pull no particle into a collider
+  walk_stencils(s, iteration == 0);
+  walk(s, Turn::last, {});
 }
 
 /// Returns how many iterations were made.

@@ -19,10 +19,4 @@ struct ChainScratch : SweepScratch {
   void prepare(const SweepSetup& setup, int object) override;
 };
 
-/// Solves all chains of the group once, colour by colour.
-void solve_chains(Substep& s, bool first_pass);
-
-/// Projects every particle onto its tethers.
-void hold_tethers(Substep& s);
-
 }  // namespace pliant

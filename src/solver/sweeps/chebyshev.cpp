@@ -136,9 +136,10 @@ void extrapolate_everything(Substep& s, float weight) {
   const Model& model = s.model;
   ChebyshevScratch& c = chebyshev_of(s);
   for_swept_tiles(s, "solve: chebyshev", [&](int task) {
-    const int o = model.tiles[task].object;
-    extrapolate_tile(weight, model.objects[o].tiles[model.tiles[task].tile], c.older.displacements.data() + model.first[o],
-                     arguments(s, o, false).displacements, s.work.tiles[task].contacts, c.touching[task]);
+    const int o = model.tiles()[task].object;
+    extrapolate_tile(weight, model.objects[o].tiles[model.tiles()[task].item],
+                     c.older.displacements.data() + model.first[o], arguments(s, o, false).displacements,
+                     s.work.tiles[task].contacts, c.touching[task]);
   });
   extrapolate_multipliers(s, weight, c.older.multipliers);
   std::vector<double>& volumes = s.work.volume_multipliers;
@@ -169,8 +170,8 @@ double correction_norm(Substep& s) {
   ChebyshevScratch& c = chebyshev_of(s);
   std::fill(c.tile_sums.begin(), c.tile_sums.end(), 0.);
   for_swept_tiles(s, "solve: chebyshev", [&](int task) {
-    const int o = model.tiles[task].object;
-    const Tile& tile = model.objects[o].tiles[model.tiles[task].tile];
+    const int o = model.tiles()[task].object;
+    const Tile& tile = model.objects[o].tiles[model.tiles()[task].item];
     const SweepArguments a = arguments(s, o, false);
     c.tile_sums[task] =
         correction_norm_squared(a.positions, a.displacements, c.before.displacements.data() + model.first[o],
@@ -191,8 +192,8 @@ void ChebyshevScratch::prepare(const SweepSetup& setup, int object) {
     if (setup.has(object)) iterate->multipliers[object] = setup.workspace.multipliers[object];
     iterate->volumes.resize(setup.model.objects.size());
   }
-  tile_sums.resize(setup.model.tiles.size());
-  touching.resize(setup.model.tiles.size());
+  tile_sums.resize(setup.model.tiles().size());
+  touching.resize(setup.model.tiles().size());
 }
 
 void keep_iterate(Substep& s, int iteration) {
@@ -205,8 +206,8 @@ void keep_iterate(Substep& s, int iteration) {
     c.recurrence.given_up = false;
   }
   for_swept_tiles(s, "solve: chebyshev", [&](int task) {
-    const int o = model.tiles[task].object;
-    const Tile& tile = model.objects[o].tiles[model.tiles[task].tile];
+    const int o = model.tiles()[task].object;
+    const Tile& tile = model.objects[o].tiles[model.tiles()[task].item];
     const Record* displacements = arguments(s, o, false).displacements;
     std::copy(displacements + tile.first_particle, displacements + tile.last_particle,
               c.before.displacements.begin() + model.first[o] + tile.first_particle);

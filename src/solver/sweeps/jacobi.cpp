@@ -1,6 +1,6 @@
 #include "solver/sweeps/jacobi.h"
 
-#include "solver/passes.h"
+#include "solver/drivers/lanes.h"
 #include "solver/sweeps/sweep.h"
 
 namespace pliant {
@@ -54,7 +54,7 @@ void JacobiScratch::prepare(const SweepSetup& setup, int object) {
 void iterate_jacobi(Substep& s, bool first) {
   std::vector<JacobiObject>& objects = static_cast<JacobiScratch&>(*s.group->scratch).objects;
   const Model& model = s.model;
-  const auto work_of = [&](int task) -> JacobiObject& { return objects[model.tiles[task].object]; };
+  const auto work_of = [&](int task) -> JacobiObject& { return objects[model.tiles()[task].object]; };
   const auto arguments_of = [&](int number) {
     SweepArguments a = arguments(s, number, first);
     const JacobiObject& object = objects[number];
@@ -63,24 +63,25 @@ void iterate_jacobi(Substep& s, bool first) {
     a.corrections = object.correction_pointers.data();
     return a;
   };
-  const auto displacements = [&](int task) { return arguments(s, model.tiles[task].object, first).displacements; };
+  const auto displacements = [&](int task) { return arguments(s, model.tiles()[task].object, first).displacements; };
 
   if (first) {
     for_swept_tiles(s, "solve: split", [&](int task) {
       if (work_of(task).positions.empty()) return;
-      split_masses(tile_of(s, task), arguments(s, model.tiles[task].object, first).positions, work_of(task));
+      split_masses(tile_of(s, task), arguments(s, model.tiles()[task].object, first).positions, work_of(task));
     });
   }
   for_swept_tiles(s, "solve: tiles", [&](int task) {
     const CompiledObject& object = object_of(s, task);
     s.kernels.sweep_general(object.pools.data(), object.segments.data() + tile_of(s, task).first_segment,
-                            object.segments.data() + tile_of(s, task).last_segment, arguments_of(model.tiles[task].object));
+                            object.segments.data() + tile_of(s, task).last_segment,
+                            arguments_of(model.tiles()[task].object));
   });
-  for_inter_tile(s, Order::forward, [&](int number, const Segment* segment) {
+  for_inter_tile(s, [&](int number, const Segment* segment) {
     s.kernels.sweep_general(model.objects[number].pools.data(), segment, segment + 1, arguments_of(number));
   });
   for_swept_tiles(s, "solve: gather", [&](int task) { gather(tile_of(s, task), work_of(task), displacements(task)); });
-  sweep_volumes(s, first);
+  walk(s, Driver::volume, {first});
 }
 
 }  // namespace pliant

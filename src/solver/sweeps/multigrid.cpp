@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "solver/passes.h"
+#include "solver/drivers/contacts.h"
+#include "solver/drivers/driver.h"
 #include "solver/sweeps/multigrid_solve.h"
 #include "solver/sweeps/sweep.h"
 
@@ -71,11 +72,10 @@ void iterate_multigrid(Substep& s, bool first) {
   correct_multigrid(s, first);
   if (first) find_more_contacts(s);
   // There and back: distances, first of all types, have the last word, and what bending pulls apart is put right again.
-  iterate_tiled(s, false);
+  walk(s, Turn::sweep, {});
   sweep_pairs(s);
   sweep_contacts(s);
-  sweep_inter_tile(s, false, Order::backward);
-  sweep_tiles(s, false, Order::backward);
+  walk(s, Turn::sweep, {false, Order::backward});
 }
 
 }  // namespace pliant

@@ -80,8 +80,8 @@ void keep_push(const ContactSpring& s, const Vec3f& by, float inverse_mass, floa
 template <class Visit>
 void for_contacts(Substep& s, const Visit& visit) {
   const Model& model = s.model;
-  for (std::size_t task = 0; task < model.tiles.size(); ++task) {
-    const int o = model.tiles[task].object;
+  for (std::size_t task = 0; task < model.tiles().size(); ++task) {
+    const int o = model.tiles()[task].object;
     if (model.objects[o].multigrid.levels.empty()) continue;
     const std::vector<float>& limits = model.objects[o].multigrid.stiffness_limit;
     for (Contact& contact : s.work.tiles[task].contacts) visit(contact, contact_stiffness * limits[contact.point[0]], o);

@@ -100,9 +100,9 @@ void add_unexplained(const View& view, const Record* predicted, ErrorSum& sum) {
 }
 
 void leave_out_contacts(Substep& s, std::vector<std::vector<char>>& left_out) {
-  for (std::size_t task = 0; task < s.model.tiles.size(); ++task) {
+  for (std::size_t task = 0; task < s.model.tiles().size(); ++task) {
     for (const Contact& contact : s.work.tiles[task].contacts) {
-      if (contact.push > 0) left_out[s.model.tiles[task].object][contact.point[0]] = 1;
+      if (contact.push > 0) left_out[s.model.tiles()[task].object][contact.point[0]] = 1;
     }
   }
 }

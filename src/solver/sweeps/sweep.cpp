@@ -23,7 +23,7 @@ bool SweepSetup::has(int object) const {
 
 const SweepMethod& sweep_method(Sweep sweep) {
   static constexpr SweepMethod tiled{true, 1, nullptr, &iterate_tiled}, symmetric{true, 2, nullptr, &iterate_symmetric},
-      jacobi{false, 1, &make<JacobiScratch>, &iterate_jacobi}, chains{true, 1, &make<ChainScratch>, &iterate_chains},
+      jacobi{false, 1, &make<JacobiScratch>, &iterate_jacobi}, chains{true, 1, &make<ChainScratch>, &iterate_tiled},
       multigrid{false, 2, &make<MultigridScratch>, &iterate_multigrid};
   switch (sweep) {
     case Sweep::symmetric:

@@ -63,10 +63,9 @@ using SweepGroups = std::map<Sweep, SweepGroup>;
 /// What stands behind a Sweep; `automatic` is `tiled` here.
 const SweepMethod& sweep_method(Sweep sweep);
 
-void iterate_tiled(Substep& s, bool first);      // tiled.cpp
+void iterate_tiled(Substep& s, bool first);      // tiled.cpp; chains too, which are phases of their own
 void iterate_symmetric(Substep& s, bool first);  // symmetric.cpp
 void iterate_jacobi(Substep& s, bool first);     // jacobi.cpp
-void iterate_chains(Substep& s, bool first);     // chains.cpp
 void iterate_multigrid(Substep& s, bool first);  // multigrid.cpp
 
 }  // namespace pliant

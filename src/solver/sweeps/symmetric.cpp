@@ -1,15 +1,14 @@
 // Symmetric Gauss-Seidel: a forward and a backward pass. The iteration matrix is thus
 // symmetric in the mass norm, with real, non-negative eigenvalues, as Chebyshev acceleration
 // requires. Volume constraints act on all points and are projected between the two passes.
-#include "solver/passes.h"
+#include "solver/drivers/driver.h"
 #include "solver/sweeps/sweep.h"
 
 namespace pliant {
 
 void iterate_symmetric(Substep& s, bool first) {
-  iterate_tiled(s, first);
-  sweep_inter_tile(s, false, Order::backward);
-  sweep_tiles(s, false, Order::backward);
+  walk(s, Turn::sweep, {first});
+  walk(s, Turn::sweep, {false, Order::backward});
 }
 
 }  // namespace pliant

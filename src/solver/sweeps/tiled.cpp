@@ -1,13 +1,10 @@
-// Coloured Gauss-Seidel: tile by tile, then the inter-tile constraints colour by colour.
-#include "solver/passes.h"
+// Gauss-Seidel in the order of the model's phases: tile by tile, then the inter-tile constraints colour by colour, chains where the
+// objects have any, volumes.
+#include "solver/drivers/driver.h"
 #include "solver/sweeps/sweep.h"
 
 namespace pliant {
 
-void iterate_tiled(Substep& s, bool first) {
-  if (!(first && s.sweeps_on_entry)) sweep_tiles(s, first, Order::forward);
-  sweep_inter_tile(s, first, Order::forward);
-  sweep_volumes(s, first);
-}
+void iterate_tiled(Substep& s, bool first) { walk(s, Turn::sweep, {first}); }
 
 }  // namespace pliant

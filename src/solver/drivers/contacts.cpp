@@ -1,26 +1,16 @@
-#include "solver/passes.h"
+#include "solver/drivers/contacts.h"
 
 #include <utility>
 
-#include "solver/volume.h"
+#include "solver/drivers/driver.h"
 
 namespace pliant {
 
 namespace {
 
-/// Below this many batches waking other threads takes longer than a colour of inter-tile constraints.
-constexpr int fewest_batches_to_share = 96;
-
 /// A contact found during the solve counts from this share of the thickness on. A shallower one is pushed out in the next
 /// substep: pushed at once, cloth at rest on a floor moves two to four times as much.
 constexpr float least_depth = 0.25f;
-
-void sweep_segments(const Substep& s, int object, int first, int last, bool first_pass) {
-  const CompiledObject& from = s.model.objects[object];
-  const StepKernels& kernels = from.sweep == Sweep::sequential ? step_kernels_sequential() : s.kernels;
-  const auto sweep = s.context.options.relaxation == 1 ? kernels.sweep : kernels.sweep_general;
-  sweep(from.pools.data(), from.segments.data() + first, from.segments.data() + last, arguments(s, object, first_pass));
-}
 
 /// Grows the tile's bounds by where its particles are now.
 void grow_bounds(const AdvanceArguments& a, PointBounds& bounds) {
@@ -51,48 +41,9 @@ void find_more_in_tile(Substep& s, int task) {
 
 }  // namespace
 
-/// The constraints of a segment share no particle and have no order.
-void sweep_tile(const Substep& s, int task, bool first_pass, Order order) {
-  const int object = s.model.tiles[task].object;
-  const Tile& tile = tile_of(s, task);
-  if (order == Order::forward) return sweep_segments(s, object, tile.first_segment, tile.last_segment, first_pass);
-  for (int i = tile.last_segment; i-- > tile.first_segment;) sweep_segments(s, object, i, i + 1, first_pass);
-}
+void project_surface_contacts(Substep& s, const Phase& /*phase*/, const Pass& /*pass*/) { sweep_pairs(s); }
 
-void sweep_tiles(Substep& s, bool first_pass, Order order) {
-  for_swept_tiles(s, "solve: tiles", [&](int task) { sweep_tile(s, task, first_pass, order); });
-}
-
-void sweep_inter_tile(Substep& s, bool first_pass, Order order) {
-  for_inter_tile(s, order, [&](int object, const Segment* segment) {
-    const int number = static_cast<int>(segment - s.model.objects[object].segments.data());
-    sweep_segments(s, object, number, number + 1, first_pass);
-  });
-}
-
-void for_inter_tile(Substep& s, Order order, FunctionRef<void(int, const Segment*)> body) {
-  const std::size_t phases = s.model.inter_tile.size();
-  for (std::size_t p = 0; p < phases; ++p) {
-    const InterTilePhase& phase = s.model.inter_tile[order == Order::forward ? p : phases - 1 - p];
-    const auto sweep_task = [&](int i) {
-      const InterTilePhase::Task& task = phase.tasks[i];
-      if (is_swept(s, task.object)) body(task.object, s.model.objects[task.object].segments.data() + task.segment);
-    };
-    const int tasks = static_cast<int>(phase.tasks.size());
-    if (phase.batches >= fewest_batches_to_share) {
-      s.context.executor.parallel_for("solve: inter-tile constraints", tasks, sweep_task);
-    } else {
-      Stopwatch watch(s.context.executor.timings(), "solve: inter-tile constraints");
-      for (int i = 0; i < tasks; ++i) sweep_task(i);
-    }
-  }
-}
-
-void sweep_volumes(Substep& s, bool first_pass) {
-  const auto of_object = [&](int object) { return arguments(s, object, first_pass); };
-  const auto takes_part = [&](int object) { return s.model.objects[object].has_volume && is_swept(s, object); };
-  project_volumes(s.model, s.work, s.context.executor, of_object, takes_part);
-}
+void project_collider_contacts(Substep& s, const Phase& /*phase*/, const Pass& /*pass*/) { sweep_contacts(s); }
 
 namespace {
 
@@ -117,7 +68,7 @@ void sweep_contacts(Substep& s) {
   sweep_shape_contacts(s);
   for_swept_tiles(s, "solve: contacts", [&](int task) {
     std::vector<Contact>& contacts = s.work.tiles[task].contacts;
-    if (!contacts.empty()) project_contacts(contacts, arguments(s, s.model.tiles[task].object, false));
+    if (!contacts.empty()) project_contacts(contacts, arguments(s, s.model.tiles()[task].object, false));
   });
 }
 

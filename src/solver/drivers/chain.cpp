@@ -1,0 +1,42 @@
+// Paths of distances, each solved directly (solver/sweeps/chains.h).
+#include <algorithm>
+
+#include "solver/drivers/driver.h"
+#include "solver/sweeps/chains.h"
+
+namespace pliant {
+
+namespace {
+
+/// Below this many links of sixteen lanes, waking other threads costs more than solving a colour.
+constexpr int fewest_steps_to_share = 96;
+
+void solve_one(const Model& model, const ChainKernels& kernels, const Task& task, const SweepArguments& a, float* scratch) {
+  const CompiledObject& object = model.objects[task.object];
+  const ChainBatch& batch = object.chains[task.item];
+  float* multipliers = a.multipliers != nullptr ? a.multipliers[batch.pool] : nullptr;
+  // One or two paths, such as a rope, are solved faster one by
+  // one than in mostly empty SIMD lanes. The bits are the same.
+  const bool few = object.segments[batch.first_segment].last_count <= 2;
+  const ChainKernels& by = few ? chain_kernels_sequential() : kernels;
+  by.solve_chain(object.pools[batch.pool], object.segments.data() + batch.first_segment, batch.steps,
+                 object.chain_softness.data() + static_cast<std::ptrdiff_t>(task.item) * batch_width, multipliers, a,
+                 scratch);
+}
+
+}  // namespace
+
+void project_chains(Substep& s, const Phase& phase, const Pass& pass) {
+  if (s.group->sweep != Sweep::chains) return;
+  std::vector<AlignedVector<float>>& scratch = static_cast<ChainScratch&>(*s.group->scratch).of_thread;
+  const int tasks = static_cast<int>(phase.tasks.size());
+  const int shares = phase.work < fewest_steps_to_share ? 1 : std::min(tasks, static_cast<int>(scratch.size()));
+  for_tasks(s, "solve: chains", shares, [&](int share) {  // strided, because neighbouring paths have similar lengths
+    for (int i = share; i < tasks; i += shares) {
+      const Task& task = phase.tasks[i];
+      solve_one(s.model, s.kernels.chains, task, arguments(s, task.object, pass.first), scratch[share].data());
+    }
+  });
+}
+
+}  // namespace pliant

@@ -1,0 +1,49 @@
+#include "solver/drivers/lanes.h"
+
+namespace pliant {
+
+namespace {
+
+/// Below this many batches waking other threads takes longer than a colour of inter-tile constraints.
+constexpr int fewest_batches_to_share = 96;
+
+void project_segments(const Substep& s, int object, int first, int last, bool first_pass) {
+  const CompiledObject& from = s.model.objects[object];
+  const StepKernels& kernels = from.sweep == Sweep::sequential ? step_kernels_sequential() : s.kernels;
+  const auto sweep = s.context.options.relaxation == 1 ? kernels.sweep : kernels.sweep_general;
+  sweep(from.pools.data(), from.segments.data() + first, from.segments.data() + last, arguments(s, object, first_pass));
+}
+
+void for_segments(Substep& s, const Phase& phase, FunctionRef<void(int, const Segment*)> body) {
+  for_tasks(s, phase, "solve: inter-tile constraints", fewest_batches_to_share,
+            [&](const Task& task) { body(task.object, s.model.objects[task.object].segments.data() + task.item); });
+}
+
+}  // namespace
+
+/// The constraints of a segment share no particle and have no order.
+void project_tile(const Substep& s, int task, bool first_pass, Order order) {
+  const int object = s.model.tiles()[task].object;
+  const Tile& tile = tile_of(s, task);
+  if (order == Order::forward) return project_segments(s, object, tile.first_segment, tile.last_segment, first_pass);
+  for (int i = tile.last_segment; i-- > tile.first_segment;) project_segments(s, object, i, i + 1, first_pass);
+}
+
+void project_tiles(Substep& s, const Phase& /*phase*/, const Pass& pass) {
+  if (pass.first && s.sweeps_on_entry) return;  // stages/advance.cpp has done so
+  for_swept_tiles(s, "solve: tiles", [&](int task) { project_tile(s, task, pass.first, pass.order); });
+}
+
+void project_inter_tile(Substep& s, const Phase& phase, const Pass& pass) {
+  for_segments(s, phase, [&](int object, const Segment* segment) {
+    const int number = static_cast<int>(segment - s.model.objects[object].segments.data());
+    project_segments(s, object, number, number + 1, pass.first);
+  });
+}
+
+void for_inter_tile(Substep& s, FunctionRef<void(int, const Segment*)> body) {
+  for (const Phase& phase : s.model.phases)
+    if (phase.driver == Driver::inter_tile) for_segments(s, phase, body);
+}
+
+}  // namespace pliant

@@ -1,0 +1,14 @@
+// Constraints in lanes: inside tiles, and between them.
+#pragma once
+
+#include "solver/drivers/driver.h"
+
+namespace pliant {
+
+/// One projection of the constraints inside a tile.
+void project_tile(const Substep& s, int task, bool first_pass, Order order);
+
+/// Calls body(object, segment) for every segment of inter-tile constraints, colour after colour.
+void for_inter_tile(Substep& s, FunctionRef<void(int, const Segment*)> body);
+
+}  // namespace pliant

@@ -1,0 +1,25 @@
+// Constraints one at a time, in colours over each object (solver/stencil.h), as often as the sweep of the object projects any other.
+#include "solver/stencil.h"
+
+#include "solver/drivers/driver.h"
+#include "solver/sweeps/sweep.h"
+
+namespace pliant {
+
+namespace {
+
+/// Below this many batches a colour is done sooner than other threads can be told of it.
+constexpr int fewest_batches_to_share = 8;
+
+}  // namespace
+
+void project_stencils(Substep& s, const Phase& phase, const Pass& pass) {
+  for_tasks(s, phase, "solve: stencils", fewest_batches_to_share, [&](const Task& task) {
+    const CompiledObject& object = s.model.objects[task.object];
+    if (pass.number >= sweep_method(object.sweep).passes) return;
+    project_segment(object, object.segments[task.item], arguments(s, task.object, pass.first),
+                    frame_arguments(s, task.object));
+  });
+}
+
+}  // namespace pliant

@@ -1,0 +1,36 @@
+// Tethers: every particle within its distance along the mesh to the pins. A tether's pin can't move, so all of an object are independent.
+#include <algorithm>
+
+#include "solver/drivers/driver.h"
+#include "solver/sweeps/chain_kernels.h"
+
+namespace pliant {
+
+namespace {
+
+/// Particles per task of the tether loop.
+constexpr int particles_per_task = 4096;
+
+void hold_tethers_of(Substep& s, int o) {
+  const CompiledObject& object = s.model.objects[o];
+  const SweepArguments a = arguments(s, o, false);
+  // A copy, so that no thread reads records that another thread writes.
+  Records& anchors = s.work.anchors[o];
+  for (std::size_t i = 0; i < object.tethers.anchors.size(); ++i) {
+    anchors[2 * i] = a.positions[object.tethers.anchors[i]];
+    anchors[2 * i + 1] = a.displacements[object.tethers.anchors[i]];
+  }
+  const int tasks = (object.particles + particles_per_task - 1) / particles_per_task;
+  for_tasks(s, "solve: tethers", tasks, [&](int task) {
+    const int first = task * particles_per_task, last = std::min(first + particles_per_task, object.particles);
+    s.kernels.chains.hold_tethers(object.tethers, anchors.data(), first, last, a);
+  });
+}
+
+}  // namespace
+
+void hold_tethers(Substep& s, const Phase& phase, const Pass& /*pass*/) {
+  for (const Task& task : phase.tasks) hold_tethers_of(s, task.object);
+}
+
+}  // namespace pliant
