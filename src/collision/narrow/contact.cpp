@@ -208,6 +208,35 @@ void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near,
   }
 }
 
+void find_breaches(const ContactSearch& search, const std::vector<Contact>& known, std::vector<std::int32_t>& near,
+                   std::vector<Contact>& contacts) {
+  // Constraints move what they move by less than this beyond the bounds of the prediction.
+  const PointBounds& b = search.bounds;
+  const float margin =
+      search.object.thickness + 0.1f * largest(Vec3f{b.high.x - b.low.x, b.high.y - b.low.y, b.high.z - b.low.z});
+  const AdvanceArguments& a = search.particles;
+  near.resize(a.last - a.first + batch_width);
+  auto next = known.begin();
+  const auto is_known = [&](int c, int particle) {
+    const auto is_before = [&](const Contact& k) { return k.collider < c || (k.collider == c && k.point[0] < particle); };
+    while (next != known.end() && is_before(*next)) ++next;
+    return next != known.end() && next->collider == c && next->point[0] == particle;
+  };
+  for (int c = 0; c < static_cast<int>(search.colliders.size()); ++c) {
+    const MovingCollider& collider = search.colliders[c];
+    if (collider.field != nullptr || collider.shape.kind != ShapeKind::plane) continue;
+    if (!overlap(b, collider.swept, margin) || !meet(search.object, collider)) continue;
+    const int count =
+        search.find_near({a.positions, a.displacements, a.first, a.last, collider.shape, collider.after, 0}, near.data());
+    for (int k = 0; k < count; ++k) {
+      if (is_known(c, near[k])) continue;
+      const Record &x = a.positions[near[k]], &d = a.displacements[near[k]];
+      const Vec3f end = to_local(collider.after, Vec3f{x.x + d.x, x.y + d.y, x.z + d.z});
+      if (signed_distance(collider.shape, end).distance < 0) find_contact(search, near[k], c, 0, contacts);
+    }
+  }
+}
+
 void merge_contacts(const std::vector<Contact>& first, const std::vector<Contact>& second, std::vector<Contact>& all) {
   all.clear();
   const auto place = [](const Contact& c) { return std::make_pair(c.collider, c.point[0]); };

@@ -45,6 +45,11 @@ struct ContactSearch {
 /// Appends the contacts of a tile, by collider, then by particle. `near` is scratch.
 void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near, std::vector<Contact>& contacts);
 
+/// Appends contacts, without thickness, of particles whose displacements end them below a plane; in the same order, and
+/// none that `known` has.
+void find_breaches(const ContactSearch& search, const std::vector<Contact>& known, std::vector<std::int32_t>& near,
+                   std::vector<Contact>& contacts);
+
 /// Both in one, in the order of find_contacts; where both have one of a particle with a collider, that of `first`.
 void merge_contacts(const std::vector<Contact>& first, const std::vector<Contact>& second, std::vector<Contact>& all);
 

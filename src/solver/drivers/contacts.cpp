@@ -39,6 +39,20 @@ void find_more_in_tile(Substep& s, int task) {
   std::swap(scratch.contacts, scratch.all_contacts);
 }
 
+/// Particles that end below a plane though no contact was predicted: constraints moved them there. They go to the surface, not to their
+/// thickness: pushed that far at once, cloth at rest on a floor moves two to four times as much.
+void hold_tile_at_surfaces(Substep& s, int task) {
+  TileScratch& scratch = s.work.tiles[task];
+  scratch.more_contacts.clear();
+  const AdvanceArguments a = particles(s, task);
+  const ContactSearch search{object_of(s, task), a, scratch.bounds, s.work.colliders, s.kernels.find_near};
+  find_breaches(search, scratch.contacts, scratch.near, scratch.more_contacts);
+  if (scratch.more_contacts.empty()) return;
+  project_contacts(scratch.more_contacts, arguments(s, s.model.tiles[task].object, false));
+  merge_contacts(scratch.contacts, scratch.more_contacts, scratch.all_contacts);
+  std::swap(scratch.contacts, scratch.all_contacts);
+}
+
 }  // namespace
 
 void project_surface_contacts(Substep& s, const Phase& /*phase*/, const Pass& /*pass*/) { sweep_pairs(s); }
@@ -81,6 +95,11 @@ void sweep_pairs(Substep& s) {
 void find_more_contacts(Substep& s) {
   if (s.work.colliders.empty()) return;
   for_swept_tiles(s, "solve: contacts", [&](int task) { find_more_in_tile(s, task); });
+}
+
+void hold_at_surfaces(Substep& s) {
+  if (s.work.colliders.empty()) return;
+  for_swept_tiles(s, "solve: contacts", [&](int task) { hold_tile_at_surfaces(s, task); });
 }
 
 }  // namespace pliant

@@ -16,4 +16,7 @@ void sweep_pairs(Substep& s);
 /// that moves particles far.
 void find_more_contacts(Substep& s);
 
+/// After the last iteration: finds contacts of particles that constraints moved below a plane, and projects them.
+void hold_at_surfaces(Substep& s);
+
 }  // namespace pliant

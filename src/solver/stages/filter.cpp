@@ -11,6 +11,7 @@ constexpr int most_rounds_of_contacts = 16;
 }  // namespace
 
 void filter(Substep& s) {
+  hold_at_surfaces(s);
   if (!s.has_pairs()) return;
   SurfaceContact& pairs = *s.work.pairs;
   // The filter cannot limit kinematic colliders: whatever they meet must be out of their way first.
