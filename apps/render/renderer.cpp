@@ -128,6 +128,7 @@ struct Target {
   Framebuffer framebuffer;
 };
 
+/// Over fifteen members: what OpenGL keeps for the passes of one picture.
 struct Renderer::Implementation {
   Implementation(int w, int h);
   std::vector<std::uint8_t> draw(const RenderScene& scene);

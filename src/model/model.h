@@ -25,6 +25,7 @@ struct FieldCollider {
   std::uint32_t groups = 1, mask = ~0u;
 };
 
+/// All that a step needs besides the State. Over fifteen members: one list for each kind of thing that a scene holds.
 struct Model {
   Vec3f gravity{};
   Wind wind;

@@ -45,6 +45,7 @@ struct FrameScratch {
   bool finite = true;
 };
 
+/// Memory that a World reuses from step to step. Over fifteen members: one buffer for each stage of a substep.
 struct Workspace {
   Records displacements;                                       ///< since the substep's start [m]
   std::vector<std::vector<AlignedVector<float>>> multipliers;  ///< [object][pool], one float per lane; empty if not stored

@@ -29,6 +29,8 @@ struct PairCounts {
   double deepest = 0;  ///< remaining penetration of contacts in the last substep [m]
 };
 
+/// Contact among surfaces: detection, filter and untangling in one order. Over thirty members, since each stage of a substep and
+/// each count of the Report has its function here; the work is in the parts that it owns.
 class SurfaceContact {
  public:
   /// `kernels` must be of an instruction set level that this machine runs; all give the same bits.

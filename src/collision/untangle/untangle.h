@@ -25,6 +25,7 @@
 
 namespace pliant {
 
+/// Over thirty members: the steps of one algorithm that share its scratch.
 class Untangler {
  public:
   explicit Untangler(const PairModel& model);

@@ -48,7 +48,7 @@ void hold_tile_at_surfaces(Substep& s, int task) {
   const ContactSearch search{object_of(s, task), a, scratch.bounds, s.work.colliders, s.kernels.find_near};
   find_breaches(search, scratch.contacts, scratch.near, scratch.more_contacts);
   if (scratch.more_contacts.empty()) return;
-  project_contacts(scratch.more_contacts, arguments(s, s.model.tiles[task].object, false));
+  project_contacts(scratch.more_contacts, arguments(s, s.model.tiles()[task].object, false));
   merge_contacts(scratch.contacts, scratch.more_contacts, scratch.all_contacts);
   std::swap(scratch.contacts, scratch.all_contacts);
 }
