@@ -10,18 +10,18 @@ namespace pliant {
 
 namespace {
 
-/// What overlaps at the start separates at this speed at most, as vertices do [m/s].
+/// Limit of the depenetration speed of initial overlaps, as for vertices [m/s].
 constexpr float largest_separation_speed = 2;
-/// Barycentric weights below this are on an edge, which has a contact of its own.
+/// Points with a smaller barycentric weight lie on an edge, which has a contact of its own.
 constexpr float least_weight = 1e-4f;
-/// A corner of a box is met by a triangle whose normal turns no more than this out of the box's own normals there.
+/// A triangle meets a box's corner if its normal is within the corner's normal cone, up to this.
 constexpr float cone_slack = 1e-3f;
 
 Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
 
 Vec3f gravity_on(const Record& x, const Vec3f& gravity) { return x.w > 0 ? gravity : Vec3f{}; }
 
-/// Of a particle in the substep, from velocities, since constraints may have changed displacements already.
+/// A particle's displacement predicted from velocities, because constraints may have changed displacements already.
 Vec3f predicted(const AdvanceArguments& a, int i) {
   return vector_of(a.remainders[i]) + (vector_of(a.velocities[i]) + gravity_on(a.positions[i], a.gravity_begun)) * a.h;
 }
@@ -34,44 +34,44 @@ struct Meeting {
   const ElementCluster& cluster;
   const std::vector<VertexWay>& ways;  ///< of its vertices
   const MovingCollider& collider;
-  int number = 0;  ///< of the collider
+  int number = 0;  ///< index of the collider
   float thickness = 0;
   float shortest_squared =
       0;  ///< sides of elements shorter than this cannot come nearer than their ends by least_dip [m^2]
 };
 
-/// Of a circle of radius r around a round solid and its thickness, a chord longer than 2 sqrt(dip (2 r - dip)) dips by more.
+/// For a circle of radius r around a round solid with its thickness: a chord above 2 sqrt(dip (2 r - dip)) dips by more.
 float shortest_dipping(const LocalShape& shape, float thickness) {
   if (shape.kind == ShapeKind::box) return 0;
   const float dip = least_dip(0, thickness), chord = dip * (2 * (shape.a + thickness) - dip);
   return 4 * chord;
 }
 
-/// Where an element is closest to a solid at share `s` of the substep.
+/// The closest point of an element to a solid at share `s` of the substep.
 struct ElementContact {
   Vec3f weights;       ///< of its vertices
-  Vec3f normal;        ///< out of the solid, in its frame
+  Vec3f normal;        ///< outward, in the solid's frame
   float distance = 0;  ///< [m]
-  float dip = 0;       ///< nearer than the closest vertex by this [m]
+  float dip = 0;       ///< how much nearer it is than the closest vertex [m]
   float s = 1;
 };
 
-// ---------------------------------------------------------------- which elements are looked at
+// ---------------------------------------------------------------- culling of elements
 
 std::uint16_t beyond(const Vec3f& p, const Vec3f& half) {
   return static_cast<std::uint16_t>((p.x > half.x ? 1 : 0) | (p.x < -half.x ? 2 : 0) | (p.y > half.y ? 4 : 0) |
                                     (p.y < -half.y ? 8 : 0) | (p.z > half.z ? 16 : 0) | (p.z < -half.z ? 32 : 0));
 }
 
-/// The face of a box that a point is over, from 1; 0 where it is over none or inside.
+/// The face of a box that a point is over, from 1; 0 if it is over none or inside.
 int face_under(const Vec3f& p, const Vec3f& half) {
   const int sides = beyond(p, half);
   if ((sides & (sides - 1)) != 0 || sides == 0) return 0;
   return 1 + __builtin_ctz(static_cast<unsigned>(sides));
 }
 
-/// Bits 0 to 5: the sides of the collider's box, grown by what is looked at, that the whole way is beyond. From bit 6: the face of a box
-/// that it is over.
+/// Bits 0 to 5: the sides of the collider's grown box that the whole
+/// path is beyond. From bit 6: the face of a box that it is over.
 std::uint16_t outcode(const LocalShape& shape, const Vec3f& half, float thickness, const VertexWay& way) {
   const float margin = thickness + largest(way.to - way.from);
   const Vec3f grown = half + Vec3f{margin, margin, margin};
@@ -85,7 +85,7 @@ std::uint16_t outcode(const LocalShape& shape, const Vec3f& half, float thicknes
 
 constexpr int sides = 63;
 
-/// Whether an element may have a contact: not all of it is beyond one side, nor over one face, where its vertices are nearest.
+/// False if an element lies wholly beyond one side, or over one face, where its vertices are closest.
 template <std::size_t n>
 bool may_meet(const std::array<int, n>& vertex, const std::uint16_t* codes) {
   int all = codes[vertex[0]];
@@ -99,8 +99,8 @@ bool may_meet(const std::array<int, n>& vertex, const std::uint16_t* codes) {
 
 // ---------------------------------------------------------------- contacts
 
-/// The share of the substep at which an element is looked at: where it first comes within half the thickness, so that the side it comes
-/// from counts; the end where its way is short or it does not. Conservative advancement: nothing comes nearer faster than `path`.
+/// The share of the substep at which an element is tested: where it first comes within half the thickness, so that its side
+/// is known; the end if its path is short or stays clear. Conservative advancement: no point approaches faster than `path`.
 template <class Distance>
 float time_of_contact(const Distance& distance, float path, float thickness) {
   constexpr int most_steps = 12;
@@ -167,12 +167,12 @@ using Segment3 = SegmentNearShape<float>;
 
 float nearest_end(const Segment3& segment) { return min(segment.at_a.distance, segment.at_b.distance); }
 
-/// Whether its ends do not stand for it, as far as the tangents there tell.
+/// True if the tangents do not exclude that the interior is closer than the ends.
 bool may_dip(const Segment3& segment, float thickness) {
   return segment.dips() && nearest_end(segment) - segment.lower_bound() > least_dip(0.5f * length(segment.edge), thickness);
 }
 
-/// The share of the substep at which an edge is looked at; below 0 where it needs no contact.
+/// The share of the substep at which an edge is tested; < 0 if it needs no contact.
 float time_of_edge(const Meeting& m, const std::array<VertexWay, 2>& ways, float path, const Segment3& after) {
   if (!(path > 0.25f * m.thickness)) return 1;
   const auto segment_at = [&](float s) { return Segment3(m.collider.shape, ways[0].at(s), ways[1].at(s)); };
@@ -207,7 +207,7 @@ void find_edge_contacts(const Meeting& m, const std::array<int, 2>& edge, std::v
 
 // ---------------------------------------------------------------- triangles
 
-/// What of a solid may stick into the inside of a triangle: points with a radius.
+/// Features of a solid that can enter a triangle's interior: points with a radius.
 struct Features {
   std::array<Vec3f, 8> point;
   int count = 0;
@@ -229,7 +229,7 @@ Features features_of(const LocalShape& shape) {
   return f;
 }
 
-/// A triangle and a point of a solid. A box is all on one side of a triangle that its corner sticks into: that of its centre.
+/// A triangle and a feature point of a solid. The box whose corner enters a triangle is wholly on the side of its centre.
 struct Face {
   const Meeting& m;
   const std::array<VertexWay, 3>& ways;
@@ -254,7 +254,7 @@ struct Face {
     return found;
   }
 
-  /// Whether a contact with the point is one with the solid.
+  /// True if a contact with the feature point is one with the solid.
   bool is_met(const ElementContact& found) const {
     const Vec3f& n = found.normal;
     if (!(length_squared(n) > 0)) return false;
@@ -283,7 +283,7 @@ void find_face_contact(const Face& face, const std::array<int, 3>& triangle, flo
   if (at.dip > least_dip(radius, m.thickness)) add_contact(m, triangle, face.ways, radius, at, contacts);
 }
 
-/// A box around the ways of a triangle's vertices.
+/// The swept box of a triangle's vertices.
 BoundingBox<float> swept_box(const std::array<VertexWay, 3>& ways) {
   BoundingBox<float> box{ways[0].from, ways[0].from};
   for (const VertexWay& way : ways) box = {min(box.low, min(way.from, way.to)), max(box.high, max(way.from, way.to))};
@@ -293,7 +293,7 @@ BoundingBox<float> swept_box(const std::array<VertexWay, 3>& ways) {
 void find_triangle_contacts(const Meeting& m, const Features& features, const std::array<int, 3>& triangle,
                             std::vector<Contact>& contacts) {
   const std::array<VertexWay, 3> ways{way_of(m, triangle[0]), way_of(m, triangle[1]), way_of(m, triangle[2])};
-  // A circle around a triangle is no larger than one around three equal sides.
+  // The circumscribed circle is at most that of an equilateral triangle with the longest side.
   const float side = max(length_squared(ways[1].to - ways[0].to),
                          max(length_squared(ways[2].to - ways[1].to), length_squared(ways[0].to - ways[2].to)));
   if (side <= 0.75f * m.shortest_squared) return;
@@ -333,7 +333,7 @@ Four load(const Record& r) {
 Four least(const Four& a, const Four& b) { return a < b ? a : b; }
 Four most(const Four& a, const Four& b) { return a > b ? a : b; }
 
-/// Boxes around the ways of each cluster.
+/// Computes the swept box of each cluster.
 void measure_clusters(const TileElements& tile, const AdvanceArguments& a, ShapeContactScratch& scratch) {
   scratch.boxes.clear();
   scratch.paths.clear();
@@ -354,7 +354,7 @@ void measure_clusters(const TileElements& tile, const AdvanceArguments& a, Shape
   }
 }
 
-/// The frame of a collider as the axes that it has in the world: three products instead of a rotation.
+/// The frame of a collider as its axes in world coordinates: three products instead of a rotation.
 struct Axes {
   Vec3f x, y, z, origin;
 
@@ -368,7 +368,7 @@ struct Axes {
     const Vec3f d = p - origin;
     return {dot(x, d), dot(y, d), dot(z, d)};
   }
-  /// Half the sides of a box around a box that extends so far in the world.
+  /// Half extents of a box in this frame around a box with world half extents `e`.
   Vec3f extent(const Vec3f& e) const { return {dot(abs(x), e), dot(abs(y), e), dot(abs(z), e)}; }
 };
 
@@ -379,7 +379,7 @@ struct ColliderFrames {
 
   explicit ColliderFrames(const MovingCollider& of) : collider(of), before(of.before), after(of.after) {}
 
-  /// Whether what is in a box may come within `margin`, and not over one face of a box alone.
+  /// True if the content of a box may come within `margin`, and not over a single face of a box collider only.
   bool may_meet(const SweptBox& box, float margin) const {
     if (!overlap(box, collider.swept, margin)) return false;
     if (collider.moves) return true;
