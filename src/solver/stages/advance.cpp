@@ -7,8 +7,8 @@
 
 #include "math/motion.h"
 #include "solver/diagnose.h"
-#include "solver/forces.h"
 #include "solver/drivers/lanes.h"
+#include "solver/forces.h"
 #include "solver/rotation.h"
 #include "solver/stages/stages.h"
 
