@@ -240,7 +240,7 @@ struct ForceField {
   ForceField() = default;
   template <class F>
   requires(!std::same_as<std::remove_cvref_t<F>, ForceField> && std::constructible_from<Function, F>)
-      ForceField(F&& f, bool may_run_on_all_threads = false)  // NOLINT(google-explicit-constructor): any callable is one
+      ForceField(F&& f, bool may_run_on_all_threads = false)  // NOLINT: any callable is one, `requires` excludes copies
       : function(std::forward<F>(f)), on_all_threads(may_run_on_all_threads) {}
   explicit operator bool() const { return static_cast<bool>(function); }
   Vec3f operator()(const Vec3f& position, const Vec3f& velocity, float mass, float time) const {

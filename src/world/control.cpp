@@ -158,7 +158,7 @@ void World::Implementation::stop_fixed() {
       return lists(object.kinematics, particle) || (given != nullptr && lists(given->targets, particle));
     };
     for (int i = 0; i < object.particles; ++i) {
-      const auto at = static_cast<std::size_t>(model.first[number] + i);
+      const int at = model.first[number] + i;
       const Record& v = state.velocities[at];
       const bool drifts = state.positions[at].w == 0 && (v.x != 0 || v.y != 0 || v.z != 0);
       if (drifts && !moves(i)) state.velocities[at] = {};
