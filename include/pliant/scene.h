@@ -188,9 +188,9 @@ struct DistanceField {
 /// A static or kinematic triangle mesh, closed or open. As triangles it is two-sided and collides with all objects that its
 /// groups and mask permit, by vertices, edges and triangles.
 struct MeshCollider {
-  /// The collision geometry. `triangles`: the mesh itself. `distance_grid`: a DistanceField of the mesh, which must be
-  /// closed. `heightfield`: its heights on a regular grid in x and z, solid below. The last two collide with the particles
-  /// of all objects, at a cost independent of the mesh, and cannot deform.
+  /// `triangles`: the mesh itself. `distance_grid`: a DistanceField of the mesh, which must be closed. `heightfield`: the mesh must be
+  /// a regular grid, rows along z, columns along x, two triangles a cell; solid below. The last two collide with particles only, not
+  /// with edges and triangles, of the objects that groups and mask permit. Their cost does not depend on the mesh; they cannot deform.
   enum class As { triangles, distance_grid, heightfield };
 
   std::string name = "mesh";

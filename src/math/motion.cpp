@@ -57,7 +57,8 @@ Quatf rotation(const Vec3f& axis, float degrees) {
   const double size = length(direction);
   if (!(size > 0 && size < 1e300))
     throw Error({}, "the axis of a rotation has no direction", "give one of finite length > 0");
-  if (!(abs(degrees) < 1e30f)) throw Error({}, "the angle of a rotation is not a number of degrees", "give a finite one");
+  if (!(abs(degrees) < 1e30f))
+    throw Error({}, "the angle of a rotation is not finite, or beyond 1e30 degrees", "give a finite number of degrees");
   const SineCosine half = sine_cosine_of_degrees(0.5 * static_cast<double>(degrees));
   const Vec3d imaginary = direction * (half.sine / size);
   return convert<float>(Quatd{imaginary.x, imaginary.y, imaginary.z, half.cosine});

@@ -59,7 +59,7 @@ PLIANT_HD int lane_place(int row) {
   return row - within + within / 4 + 4 * (within % 4);
 }
 
-/// The spring stiffness of a distance constraint with this limit at its ends: 1 / compliance, at most the limit.
+/// The spring stiffness of a distance constraint [N/m]: 1 / compliance, at most the larger stiffness limit of its particles.
 PLIANT_HD float spring_stiffness(float compliance, float limit) { return compliance * limit > 1 ? 1 / compliance : limit; }
 
 /// `positions` are in storage order, with inverse masses in w; `gravity` is the magnitude [m/s^2].

@@ -24,7 +24,7 @@ using ContactLog = std::map<std::pair<int, int>, ContactSum>;
 
 struct Substep;
 
-/// Adds the active contacts of a substep: by tile, then edges and triangles with colliders, then between surfaces.
+/// Adds a substep's active contacts in a fixed order: of tiles, of edges and triangles with colliders, among surfaces.
 void log_contacts(const Substep& s, ContactLog& log);
 
 }  // namespace pliant

@@ -26,7 +26,7 @@ std::vector<std::array<int, 2>> edges_of(const CompiledObject& object) {
   return edges;
 }
 
-/// Excludes the targets of attachments, which are fixed but no pins.
+/// For each particle, 1 if the user fixed it. The fixed particles that attachments add as targets do not count.
 std::vector<char> pinned(const CompiledObject& object) {
   std::vector<char> is_pinned(object.positions.size(), 0);
   for (std::size_t i = 0; i < is_pinned.size(); ++i)

@@ -1,4 +1,4 @@
-// A World of which things came and went, made anew with the same ids.
+// Recreates a World in which objects and colliders were added and removed, with the same ids (WorldLayout).
 #include <limits>
 #include <set>
 #include <string>
@@ -14,7 +14,8 @@ namespace pliant {
 namespace {
 
 [[noreturn]] void refuse(const std::string& problem) {
-  throw Error({}, "the layout does not fit the scene: " + problem, "give layout() of the World that the scene describes");
+  throw Error({}, "the layout does not fit the scene: " + problem,
+              "take the scene and layout() from the same World at the same moment");
 }
 
 /// So many are numbered, and so often is a slot used, at most: counting on from there stays far from the end of the integers.
@@ -33,7 +34,8 @@ std::vector<int> numbers_in(const std::vector<WorldLayout::Slot>& slots, std::si
     numbers.push_back(slot.number);
   }
   if (numbers.size() != count)
-    refuse("it has " + std::to_string(numbers.size()) + " of what the scene has " + std::to_string(count));
+    refuse("it has " + std::to_string(numbers.size()) + " slots in use, and the scene " + std::to_string(count) +
+           " things for them");
   return numbers;
 }
 

@@ -29,7 +29,7 @@ void require_closed(const std::vector<Triangle>& triangles, int vertices) {
       throw Error(Location{.element = "edge " + std::to_string(edge.a) + "-" + std::to_string(edge.b)},
                   "it has " + std::to_string(edge.triangle_count) +
                       (edge.triangle_count == 1 ? " triangle" : " triangles") + ", so the mesh is not closed",
-                  "close it, since signed distances need an inside, or let it be met as triangles, which need none");
+                  "close it, since signed distances need an inside, or collide with the mesh itself, as triangles");
 }
 
 namespace {

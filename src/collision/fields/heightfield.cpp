@@ -54,8 +54,9 @@ bool Heightfield::column(const Vec3f& p, Vec3f& corner, Vec3f& normal) const {
 namespace {
 
 [[noreturn]] void fail_not_even(std::size_t vertex) {
-  throw Error(Location{.element = "vertex " + std::to_string(vertex)}, "it does not continue rows of evenly spaced heights",
-              "give a grid with rows along z and columns along x, not turned, or let the mesh be met as triangles");
+  throw Error(
+      Location{.element = "vertex " + std::to_string(vertex)}, "it does not continue rows of evenly spaced heights",
+      "give a grid with rows along z and columns along x, not turned, or collide with the mesh itself, as triangles");
 }
 
 }  // namespace
@@ -77,8 +78,11 @@ Heightfield heightfield_of(const TriangleMesh& mesh) {
     heights.push_back(p[i].y);
   }
   if (mesh.triangles.size() != 2 * (columns - 1) * (rows - 1))
-    throw Error({}, "its " + std::to_string(mesh.triangles.size()) + " triangles do not cover a grid",
-                "give two for each cell, or let the mesh be met as triangles");
+    throw Error({},
+                "it has " + std::to_string(mesh.triangles.size()) + " triangles, and a heightfield of " +
+                    std::to_string(columns) + " x " + std::to_string(rows) + " vertices has " +
+                    std::to_string(2 * (columns - 1) * (rows - 1)),
+                "give two for each cell, or collide with the mesh itself, as triangles");
   return {static_cast<int>(columns), static_cast<int>(rows), width, depth, {p[0].x, 0, p[0].z}, std::move(heights)};
 }
 

@@ -15,7 +15,7 @@ class CoveredPairs {
  public:
   explicit CoveredPairs(const ContactElements& elements);
 
-  /// True if another pair of the same two surfaces covers pair `lane` of the batch.
+  /// True if another pair of the same two surfaces has closer or equal closest points, so that pair `lane` needs no contact.
   bool covers(const PairStencil& pair, const PairBatch& at, int lane, const Record* positions) const;
 
  private:

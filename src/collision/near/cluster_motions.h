@@ -22,7 +22,7 @@ class ClusterMotions {
   const ClusterMotion& operator[](int cluster) const { return motions_[static_cast<std::size_t>(cluster)]; }
   /// The mean displacement of dynamic vertices [m]. Boxes are fitted in a frame that moves with it.
   const Vec3f& mean() const { return mean_; }
-  /// The swept box of a cluster in that frame.
+  /// The box that a cluster sweeps in this substep, in the frame that moves with mean().
   BoxBounds path_box(int cluster) const;
   /// The largest absolute coordinate of a cluster at the last broad-phase rebuild [m].
   float extent(int cluster) const { return extent_[static_cast<std::size_t>(cluster)]; }

@@ -30,7 +30,7 @@ void move_to(const Vec3d& target, int particle, const AdvanceArguments& a) {
   v = {(d.x - r.x) * a.inverse_h, (d.y - r.y) * a.inverse_h, (d.z - r.z) * a.inverse_h, 0};
 }
 
-/// What the user moves, at even speed; it overrides keyframes.
+/// Moves particles with targets of the user, linearly over the frame's substeps. Called after keyframes, which it overrides.
 void move_to_targets(const Substep& s, const std::vector<Target>& targets, const AdvanceArguments& a) {
   const double share = static_cast<double>(s.number + 1) / s.context.substeps;
   auto target = std::lower_bound(targets.begin(), targets.end(), a.first,
