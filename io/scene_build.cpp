@@ -263,7 +263,8 @@ PairProperties pair_of(const JsonDocument& document, const JsonValue& at, const 
   };
   for (const JsonValue& name : between.items)
     if (!exists(name.text))
-      document.fail(name, "there is no object or mesh collider '" + printable(name.text) + "'", "use the name of one");
+      document.fail(name, "there is no object or mesh collider '" + printable(name.text) + "'",
+                    "use the name of one; friction, restitution and thickness of any other collider are its own fields");
   pair.first = between.items[0].text;
   pair.second = between.items[1].text;
   set(at, "thickness", pair.thickness);

@@ -121,7 +121,7 @@ struct Report {
   std::vector<std::string> warnings;
 
   bool ok() const { return !nonfinite; }
-  std::string explain() const;  ///< problems in words, empty if there are none
+  std::string explain() const;  ///< problems and warnings in words; says so too if nothing moved, as for a refused dt
 };
 
 }  // namespace pliant

@@ -58,7 +58,7 @@ void check_masses(Problems& problems, const Object& object) {
     else if (!std::isinf(mass) && (mass > largest_quantity || mass < 1 / largest_quantity))
       extreme.add(static_cast<std::int64_t>(i));
   }
-  problems.grave(none, "particle", "has no mass", "give more than 0 kg, or infinity for a fixed one");
+  problems.grave(none, "particle", "has a mass that is not above 0", "give more than 0 kg, or infinity for a fixed one");
   problems.grave(extreme, "particle", "has a mass outside 1e-20 to 1e20 kg",
                  "give masses in kg, or infinity for a fixed one");
 }

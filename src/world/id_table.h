@@ -63,7 +63,11 @@ class IdTable {
     const bool existed =
         id.slot >= 0 && id.slot < static_cast<int>(slots_.size()) && id.generation < slots_[id.slot].generation;
     throw Error({}, "there is no " + kind_ + " " + words(id) + (existed ? " any more" : ""),
-                existed ? "it was removed; use the id of one that exists" : "use an id that this World returned");
+                !existed ? "use an id that this World returned"
+                : slots_[id.slot].number == none
+                    ? "it was removed; use the id of one that exists"
+                    : "it was removed, and its slot has generation " + std::to_string(slots_[id.slot].generation) +
+                          " now; use the id that add returned for that one");
   }
 
   /// The id of the slot's occupant; an invalid id if the slot is free.
