@@ -88,7 +88,7 @@ struct Thing {
   Thing(MeshColliderId id)  // NOLINT(google-explicit-constructor)
       : kind(Kind::mesh_collider), slot(id.slot), generation(id.generation) {}
   friend bool operator==(const Thing&, const Thing&) = default;
-  friend auto operator<=>(const Thing&, const Thing&) = default;
+  friend auto operator<=>(const Thing&, const Thing&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// A contact between two things at the end of a frame. Only active contacts count.
