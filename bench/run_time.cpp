@@ -43,7 +43,7 @@ void add_and_remove(benchmark::State& loop) {
   }
 }
 
-/// With the step that follows, which prepares contact anew where objects may meet; to be compared with `step`.
+/// With the step that follows, which rebuilds surface contact where objects may collide; compare with `step`.
 void add_remove_and_step(benchmark::State& loop) {
   const bool collide = loop.range(0) != 0;
   World world = many_sheets(collide);

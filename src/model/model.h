@@ -37,7 +37,7 @@ struct Model {
   std::vector<CompiledObject> objects;
   std::vector<int> first;        ///< first[o] is object o's first particle in a State
   std::vector<int> first_frame;  ///< likewise of frames
-  std::vector<int> generation;   ///< of each number: how many objects had it before, or it was compiled anew
+  std::vector<int> generation;   ///< of each number: how many objects had it before, and recompilations
   std::set<int> free_numbers;    ///< those of removed objects
   BlockAllocator blocks, frame_blocks;
   /// In the order in which an iteration visits them. The first is that of tiles, and what is filled in each substep is always there.
@@ -47,7 +47,7 @@ struct Model {
   int add(CompiledObject object);
   /// Empties an object and takes out its tasks. Its place in a State becomes a hole.
   void remove(int object);
-  /// Compiles an object anew under its old number.
+  /// Replaces an object by a newly compiled one with the same number.
   void replace(int object, CompiledObject by);
 
   /// All tiles of all objects: what predict, update and contacts with colliders go by, too.

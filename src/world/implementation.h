@@ -32,7 +32,7 @@ void move_to_present(const CompiledObject& object, double time, Record* position
 /// What particles meet of a mesh collider; null where that is its triangles. Throws Error where the mesh does not suit.
 std::shared_ptr<const SolidField> field_of(const MeshCollider& collider);
 
-// More than fifteen members: it is the one place where what a World consists of comes together.
+// Over thirty members: each file named below holds one part's functions; all of them share the Model, State and Workspace.
 struct World::Implementation {
   Implementation(const Scene& scene, const Settings& with);
   Implementation(const Scene& scene, const WorldLayout& layout);  ///< layout.cpp
@@ -63,9 +63,9 @@ struct World::Implementation {
   void forget_pose(bool is_mesh, int slot);
   /// Takes it out of model, State and workspace.
   void remove(int number);
-  /// Room in the workspace for an object that came, went or was compiled anew.
+  /// Makes room in the workspace for an object that was added, removed or recompiled.
   void prepare(int number);
-  /// Whether an object has a surface that could touch something; then contact is prepared anew.
+  /// Whether an object has a surface that could touch something; then contact is rebuilt.
   void note_surfaces(int number);
   void prepare_shape_contacts();
   void prepare_pairs(const Records& rest);

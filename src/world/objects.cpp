@@ -1,5 +1,5 @@
 // Objects come and go. Each has a number in the model, a block in the State and its own part of the workspace, so that adding or
-// removing one costs what that one costs. Contact among surfaces is prepared anew, once, before the next step.
+// removing one costs what that one costs. Contact among surfaces is rebuilt once before the next step.
 #include <algorithm>
 #include <array>
 #include <limits>

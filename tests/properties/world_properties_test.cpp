@@ -1,13 +1,11 @@
 // What any World keeps: the same bits however it is run, put back or loaded.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "generators.h"
+#include "io/write_support.h"
 #include "pliant/save.h"
 
 namespace pliant::properties {
@@ -45,15 +43,11 @@ RC_GTEST_PROP(Worlds, GoOnFromAStateThatWasPutBack, ()) {
 
 RC_GTEST_PROP(Worlds, GoOnFromTheirFile, ()) {
   const Scene scene = small_scene();
-  char path[] = "/tmp/pliant_property_XXXXXX";
-  const int file = mkstemp(path);
-  RC_ASSERT(file >= 0);
-  close(file);
+  const test::Folder folder;
   World world(scene);
   for (int frame = *rc::gen::inRange(0, 4); frame > 0; --frame) world.step(dt);
-  save(path, world, scene);
-  LoadedWorld loaded = load_world(path);
-  std::remove(path);
+  save(folder / "world", world, scene);
+  LoadedWorld loaded = load_world(folder / "world");
   for (int frame = 0; frame < 2; ++frame) {
     world.step(dt);
     loaded.world.step(dt);

@@ -24,16 +24,6 @@ Scene free_sheet() {
   return scene;
 }
 
-Vec3<double> momentum(const World& world, ObjectId object) {
-  Vec3<double> sum{};
-  const auto positions = world.positions_in_storage_order(object), velocities = world.velocities_in_storage_order(object);
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    if (positions[i].w > 0)
-      sum += Vec3<double>{double(velocities[i].x), double(velocities[i].y), double(velocities[i].z)} *
-             (1 / double(positions[i].w));
-  return sum;
-}
-
 void expect_near(const Vec3<double>& found, const Vec3<double>& expected, double tolerance) {
   EXPECT_NEAR(found.x, expected.x, tolerance);
   EXPECT_NEAR(found.y, expected.y, tolerance);

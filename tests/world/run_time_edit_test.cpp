@@ -22,16 +22,6 @@ std::vector<int> middle_column() {
   return path;
 }
 
-Vec3<double> momentum(const World& world, ObjectId object) {
-  Vec3<double> sum{};
-  const auto positions = world.positions_in_storage_order(object), velocities = world.velocities_in_storage_order(object);
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    if (positions[i].w > 0)
-      sum += Vec3<double>{double(velocities[i].x), double(velocities[i].y), double(velocities[i].z)} *
-             (1 / double(positions[i].w));
-  return sum;
-}
-
 double mass_of(const Object& object) {
   double sum = 0;
   for (const float mass : object.masses) sum += double(mass);

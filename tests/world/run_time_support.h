@@ -16,4 +16,15 @@ inline TriangleMesh box_mesh(const Vec3f& size) {
   return mesh;
 }
 
+/// Of all particles that can move [kg m/s].
+inline Vec3<double> momentum(const World& world, ObjectId object) {
+  Vec3<double> sum{};
+  const auto positions = world.positions_in_storage_order(object), velocities = world.velocities_in_storage_order(object);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (positions[i].w > 0)
+      sum += Vec3<double>{double(velocities[i].x), double(velocities[i].y), double(velocities[i].z)} *
+             (1 / double(positions[i].w));
+  return sum;
+}
+
 }  // namespace pliant::testing_support

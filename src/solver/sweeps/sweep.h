@@ -33,7 +33,7 @@ struct SweepSetup {
 class SweepScratch {
  public:
   virtual ~SweepScratch() = default;
-  /// Makes room after an object came, went or was compiled anew. One that is not of the group takes none of its own, and what
+  /// Makes room after an object was added, removed or recompiled. One that is not of the group takes none of its own, and what
   /// was kept under its number goes.
   virtual void prepare(const SweepSetup& setup, int object) = 0;
 };
