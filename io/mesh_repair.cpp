@@ -150,7 +150,7 @@ std::vector<Side> find_sides(const std::vector<Triangle>& triangles, const std::
   return sides;
 }
 
-/// Calls visit(a, b, count, joined_anew) for each edge a-b of the merged mesh:
+/// Calls visit(a, b, count, was_joined) for each edge a-b of the merged mesh:
 /// its number of triangles, and whether several edges were merged into it.
 template <class Visit>
 void for_each_edge(const std::vector<Side>& sides, const Visit& visit) {
@@ -166,13 +166,13 @@ void for_each_edge(const std::vector<Side>& sides, const Visit& visit) {
 std::vector<bool> find_branching(const std::vector<Triangle>& triangles, const std::vector<int>& merged) {
   const std::vector<Side> sides = find_sides(triangles, merged);
   std::vector<bool> branching(merged.size(), false), beside(merged.size(), false), on_seam(merged.size(), false);
-  for_each_edge(sides, [&](std::size_t a, std::size_t b, std::size_t count, bool joined_anew) {
-    if (count > 2 && joined_anew) branching[a] = branching[b] = true;
+  for_each_edge(sides, [&](std::size_t a, std::size_t b, std::size_t count, bool was_joined) {
+    if (count > 2 && was_joined) branching[a] = branching[b] = true;
   });
-  for_each_edge(sides, [&](std::size_t a, std::size_t b, std::size_t, bool joined_anew) {
+  for_each_edge(sides, [&](std::size_t a, std::size_t b, std::size_t, bool was_joined) {
     if (branching[a]) beside[b] = true;
     if (branching[b]) beside[a] = true;
-    if (joined_anew && !branching[a] && !branching[b]) on_seam[a] = on_seam[b] = true;
+    if (was_joined && !branching[a] && !branching[b]) on_seam[a] = on_seam[b] = true;
   });
   for (std::size_t i = 0; i < branching.size(); ++i)
     if (beside[i] && !on_seam[i]) branching[i] = true;

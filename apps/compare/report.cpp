@@ -57,7 +57,7 @@ std::string table_head(const Result& result) {
       format("residual: root mean square error of the %s constraints%s, %.3g before the first iteration\n",
              result.residual_type.c_str(), result.residual_type == "distance" ? " [m]" : "", first.residuals.front()) +
       "stretch: the most beyond rest length [%]\n" +
-      (times_next(result) ? "ms: of the substep after it, since one from a state put back lists near pairs anew\n" : "") +
+      (times_next(result) ? "ms: of the substep after it, since the first one after a restore rebuilds near lists\n" : "") +
       "\n";
   std::string above = format("%-18s %9s ", "", "ms an"), below = format("%-18s %9s ", "sweep", "iteration");
   for (const char* what : {"residual", "stretch"}) {

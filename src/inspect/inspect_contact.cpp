@@ -103,7 +103,7 @@ double estimated_pairs(const Object& object, double kept) {
   return pairs;
 }
 
-/// A thickness of n edges, on the whole mesh or its finest part, makes a frame n^2 times as expensive.
+/// Warns of a large thickness: n edges, on the whole mesh or its finest part, make a frame n^2 times as expensive.
 void doubt_cost(Problems& problems, const Object& object) {
   if (!object.self_collision || object.triangles.empty()) return;
   const double kept = 2 * static_cast<double>(object.thickness),
@@ -141,7 +141,7 @@ bool masks_allow(const A& a, const B& b) {
   return (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
 }
 
-/// Warns of an object that is set to collide but that can meet no other: it would pass through everything.
+/// Warns of an object that is set to collide but can meet nothing: it would pass through everything.
 void doubt_company(Problems& problems, const Object& object, const Scene& scene) {
   if (!object.collides) return;
   const auto is_met_by_object = [&](const Object& other) {

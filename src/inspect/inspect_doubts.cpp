@@ -113,7 +113,7 @@ void doubt_places(const Doubts& d) {
 
 // ------------------------------------------------------------------------------------------------ constraints
 
-/// True if half of its own mass, hung on the constraint, would stretch it more than tenfold.
+/// True if half of the object's mass, hung on the constraint, would stretch it more than tenfold.
 bool does_nothing(const Doubts& d, const ConstraintGroup& group, std::size_t c) {
   const double alpha = group.compliances.empty() ? group.stiffness.value : group.compliances[c];
   const int* pair = &group.particles[2 * c];

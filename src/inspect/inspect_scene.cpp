@@ -1,4 +1,4 @@
-// The whole of a scene looked through: settings, air, colliders, and each object in turn.
+// Inspects a whole scene: settings, air, colliders, and each object in turn.
 #include "inspect/inspect_scene.h"
 #include "constraints/registry.h"
 
@@ -86,7 +86,7 @@ void check_forces(Problems& problems, const Scene& scene) {
     if (!scene.forces[i]) problems.grave("force " + std::to_string(i), "is an empty function", "leave it out");
 }
 
-/// Sizes of a collider's shape, each with the least that it may be.
+/// Checks the sizes of a collider's shape, each against its lower limit.
 struct CheckShape {
   Problems& problems;
 
@@ -174,7 +174,7 @@ void doubt_names(Problems& problems, const Scene& scene) {
   }
 }
 
-/// Everything but what depends on where surfaces begin. Returns whether all but objects is sound.
+/// Checks everything except initial intersections and contact cost. Returns true if all parts except objects are valid.
 bool look_at_parts(Problems& problems, const Scene& scene) {
   check_settings(problems, scene);
   check_forces(problems, scene);
@@ -193,7 +193,7 @@ bool look_at_parts(Problems& problems, const Scene& scene) {
     problems.at(object.name);
     const int before = problems.grave_count();
     check_object(problems, object);
-    // Doubts are measured, which needs indices and numbers that are sound.
+    // The warnings compute with the object's data, so these must be valid.
     const bool sound = surroundings_are_sound && problems.grave_count() == before;
     if (sound && problems.wants_doubts()) doubt_object(problems, object, scene);
   }

@@ -27,7 +27,7 @@ struct Crossings {
 };
 using CrossingsOfParts = std::map<std::pair<int, int>, Crossings>;
 
-/// Between parts that meet. Of one part only what crosses: its seams may lie on one another.
+/// Crossing and touching pairs of parts that meet. Within one part only crossings count, because its seams may coincide.
 struct Meetings {
   CrossingsOfParts crossing, touching;
 };
@@ -74,7 +74,7 @@ void name_crossings(Problems& problems, const Surfaces& all, const Crossings& cr
     problems.doubtful(edge, problem, "contact leaves them out until they are apart: move one of them, or mend the mesh");
 }
 
-/// What lies at distance 0 has no side that contact could keep it on.
+/// Rejects surfaces at distance 0: contact cannot tell on which side to keep them.
 void refuse_touching(Problems& problems, const Surfaces& all, const Crossings& touching) {
   const Intersection& first = touching.first;
   const Triangle& t = all.triangles[static_cast<std::size_t>(first.triangle)];

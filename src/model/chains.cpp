@@ -40,7 +40,7 @@ std::vector<Vec3f> places_of(const CompiledObject& object) {
   return places;
 }
 
-/// Link number `step` of up to sixteen paths: one batch and one segment.
+/// Appends link number `step` of up to sixteen paths as one batch and one segment.
 void append_step(const ConstraintList& list, const std::vector<Row>& rows, const Path* paths, int count, int step,
                  int pool_number, CompiledObject& out) {
   Pool& pool = out.pools[pool_number];
@@ -64,9 +64,9 @@ void append_step(const ConstraintList& list, const std::vector<Row>& rows, const
   ++pool.batches;
 }
 
-/// The inverse of all the mass that a path moves: how easily it gives way as a whole. Softness in proportion to it lets a
-/// link stretch by the same small part of g h^2 under the path's own weight, however many links there are and whatever
-/// hangs at its end.
+/// The inverse of a path's total mass. Regularisation in proportion to it lets each link stretch by the
+/// same small share of g h^2 under the path's own weight, whatever the number of links and the load at its
+/// end.
 float mobility_of(const Path& path, const CompiledObject& object) {
   double mass = 0;
   for (int v : path.vertices) mass += object.positions[v].w > 0 ? 1 / double(object.positions[v].w) : 0.0;
@@ -92,11 +92,12 @@ void append_colour(const ConstraintList& list, const PathColour& colour, float s
 }
 
 struct Tether {
-  int anchor = -1;  ///< number among the anchors
+  int anchor = -1;  ///< index in Tethers::anchors
   float length = no_tether;
 };
 
-/// Tethers by particle, `slots` each, in the order of their anchors so that neighbours' are alike.
+/// The tethers of each particle, `slots` each, sorted by anchor so that neighbouring particles have equal anchors in
+/// equal slots.
 std::vector<Tether> tethers_of(const CompiledObject& object, const std::vector<std::vector<NearSource>>& near,
                                const std::vector<int>& anchors, float slack, int slots) {
   std::vector<Tether> tethers(object.positions.size() * slots);

@@ -1,4 +1,4 @@
-// From a description to a schedule: tiles, numbering, colours, batches.
+// Compiles a description to a schedule: tiles, storage order, colours, batches.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -68,7 +68,7 @@ void fill_kinematics(const Object& object, CompiledObject& out) {
     if (!attachment.motion.moves()) continue;
     out.kinematics.push_back({out.place[object.positions.size() + i], attachment.target, attachment.motion});
   }
-  // By storage, so that a tile finds its own; of two pins on one particle the later one holds.
+  // Sorted by storage index, so that a tile finds its own. Of two pins on one particle the later one wins.
   std::stable_sort(out.kinematics.begin(), out.kinematics.end(),
                    [](const Kinematic& a, const Kinematic& b) { return a.particle < b.particle; });
 }
@@ -88,7 +88,7 @@ void number_particles(const std::vector<Vec3f>& positions, const std::vector<Con
 
 // ---------------------------------------------------------------- constraints
 
-/// Renumbers particles by their storage and brings each stencil into the type's canonical order.
+/// Renumbers particles in storage order and brings each stencil into the type's canonical order.
 void renumber(ConstraintList& list, const std::vector<int>& place) {
   const int particles = static_cast<int>(place.size());
   std::vector<int>& stencils = list.stencils.own();
@@ -104,9 +104,9 @@ void renumber(ConstraintList& list, const std::vector<int>& place) {
   }
 }
 
-/// Constraints of a list by the tile that holds all their particles; those of no tile come last.
+/// The constraints of a list, grouped by the tile that contains all their particles; inter-tile constraints come last.
 struct ByTile {
-  std::vector<int> begin;  ///< of each tile and of those of no tile; one more at the end
+  std::vector<int> begin;  ///< start of each tile's members, then that of the inter-tile ones; one more at the end
   std::vector<int> members;
 
   std::vector<int> of(int tile) const { return {members.begin() + begin[tile], members.begin() + begin[tile + 1]}; }
@@ -132,8 +132,8 @@ ByTile split_by_tile(ConstraintList& list, const std::vector<int>& tile_of, int 
   return split;
 }
 
-/// The constraint in a lane of a batch: fours interleave, lane 4 l + j being member l of four j (math/wide.h says why). Lanes
-/// past the end repeat the first, which is then read but never written.
+/// The constraint in a lane of a batch. In groups of four, lane 4 l + j holds member l of group j (see math/wide.h).
+/// Lanes past the end repeat the first constraint, which is then read but never written.
 int member_in_lane(const Colour& colour, int batch, int lane, bool& valid) {
   const int position = colour.runs != 0 ? batch * batch_width + 4 * (lane % 4) + lane / 4 : batch * batch_width + lane;
   valid = position < static_cast<int>(colour.members.size());
@@ -176,7 +176,7 @@ Segment append_segment(const ConstraintList& list, const Colour& colour, int fir
   return segment;
 }
 
-/// Appends a colour in segments of at most `largest` batches: threads share the segments of inter-tile constraints.
+/// Appends a colour in segments of at most `largest` batches, because threads share inter-tile constraints by segment.
 void append_colour(const ConstraintList& list, const Colour& colour, int largest, int pool_number, Pool& pool,
                    std::vector<Segment>& segments) {
   const int batches = (static_cast<int>(colour.members.size()) + batch_width - 1) / batch_width;
@@ -187,7 +187,7 @@ void append_colour(const ConstraintList& list, const Colour& colour, int largest
   }
 }
 
-/// Each constraint its own colour: the order of the list.
+/// Gives each constraint a colour of its own, which keeps the order of the list.
 std::vector<Colour> one_by_one(const std::vector<int>& members) {
   std::vector<Colour> colours;
   colours.reserve(members.size());
@@ -195,13 +195,13 @@ std::vector<Colour> one_by_one(const std::vector<int>& members) {
   return colours;
 }
 
-/// The segments of one list by tiles, and of what lies in no tile by colours.
+/// The segments of one list: tile by tile, then inter-tile constraints by colour.
 struct ListSchedule {
   std::vector<Segment> segments;
-  std::vector<int> tile_end, colour_end;  ///< in `segments`
+  std::vector<int> tile_end, colour_end;  ///< index one past the last segment of each
 };
 
-/// Memory that is reserved and never written costs nothing; growing an array holds it twice.
+/// Reserves generously: reserved pages that are never written cost no memory, but growing an array copies it.
 void reserve(const ConstraintList& list, Pool& pool) {
   const std::size_t lanes = static_cast<std::size_t>(list.count()) * 5 / 4 + batch_width;
   pool.indices.reserve(lanes * static_cast<std::size_t>(list.size));
@@ -225,11 +225,11 @@ ListSchedule schedule_list(ConstraintList& list, const std::vector<int>& tile_of
     }
     if (!inter_tile) out.tile_end.push_back(static_cast<int>(out.segments.size()));
   }
-  if (pool.indices.capacity() > 2 * pool.indices.size()) pool.indices.shrink_to_fit();  // in runs it has a quarter
+  if (pool.indices.capacity() > 2 * pool.indices.size()) pool.indices.shrink_to_fit();  // most slots are contiguous
   return out;
 }
 
-/// One sequence of segments from those of all lists: tile after tile, then inter-tile colours, in each the lists in turn.
+/// Interleaves the segments of all lists: tile by tile, then colour by colour, with the lists in turn within each.
 void merge(const std::vector<ListSchedule>& schedules, CompiledObject& out) {
   std::vector<int> next(schedules.size(), 0);
   const auto append_to = [&](std::size_t i, int end) {
@@ -253,15 +253,15 @@ void merge(const std::vector<ListSchedule>& schedules, CompiledObject& out) {
   }
 }
 
-/// Whether what is made after the sweeps' schedule still asks for the constraints themselves.
+/// True if later steps of compile() still read the list: chains, stencils, tethers or multigrid.
 bool is_needed_later(const ConstraintList& list, const CompileOptions& options) {
   return list.chained || !list.in_lanes || (is_length(list.type) && (options.tethers || options.sweep == Sweep::multigrid));
 }
 
-/// One list after the other, so that only one is held in storage order besides what it becomes.
+/// Processes one list at a time and frees it if possible, to limit the peak of memory.
 void schedule(std::vector<ConstraintList>& lists, const std::vector<int>& tile, const CompileOptions& options,
               CompiledObject& out) {
-  std::vector<int> tile_of(tile.size());  // by storage
+  std::vector<int> tile_of(tile.size());  // by storage index
   for (std::size_t storage = 0; storage < tile.size(); ++storage) tile_of[storage] = tile[out.order[storage]];
   const bool in_given_order = options.sweep == Sweep::natural;
   std::vector<ListSchedule> schedules(lists.size());
@@ -278,8 +278,8 @@ void schedule(std::vector<ConstraintList>& lists, const std::vector<int>& tile, 
   merge(schedules, out);
 }
 
-/// What is projected one constraint at a time, in colours over the whole object, one list after another. Frames count as particles
-/// behind the others.
+/// Schedules constraints that are projected one at a time, coloured over the whole object, list by list. Frames are
+/// numbered after all particles.
 void schedule_stencils(std::vector<ConstraintList>& lists, bool in_given_order, CompiledObject& out) {
   Colouring colouring(out.particles + static_cast<int>(out.frames.size()));
   for (std::size_t i = 0; i < lists.size(); ++i) {
@@ -339,7 +339,7 @@ void fill_volume(const Object& object, int passes, CompiledObject& out) {
   }
 }
 
-/// Volumes and tethers, and all phases in the order of their drivers.
+/// Adds the phases of volume and tethers, and sorts all phases by driver.
 void add_whole_object_phases(CompiledObject& out) {
   if (out.has_volume) out.phases.push_back({Driver::volume, 0, 1});
   if (out.tethers.slots > 0) out.phases.push_back({Driver::tether, 0, 1});
@@ -347,8 +347,8 @@ void add_whole_object_phases(CompiledObject& out) {
                    [](const ObjectPhase& a, const ObjectPhase& b) { return a.driver < b.driver; });
 }
 
-/// What an object without a surface is made of, as contacts see it: its first group of distances. In a rope those are its links;
-/// a later group is bending, whose lines lie on the links themselves and would never be apart from them.
+/// The contact lines of an object without triangles: its first group of distance constraints, as the links of a rope.
+/// Later groups are bending; their lines would lie on the links and always touch them.
 std::vector<std::array<int, 2>> lines_of(const Object& object, const std::vector<int>& place) {
   std::vector<std::array<int, 2>> lines;
   const auto group = std::find_if(object.constraints.begin(), object.constraints.end(),
@@ -415,7 +415,7 @@ std::vector<Vec3f> in_storage_order(const std::vector<Vec3f>& places, const Comp
   return out;
 }
 
-/// It begins where it is at time 0.
+/// Sets the motion of a mesh collider, and its vertex positions at time 0.
 void fill_carrier(const MeshCollider& collider, CompiledObject& out) {
   Carrier& carrier = out.carrier;
   carrier.motion = collider.motion;
@@ -444,7 +444,7 @@ CompiledObject compile(const MeshCollider& collider) {
   object.static_friction = collider.static_friction;
   object.kinetic_friction = collider.kinetic_friction;
   object.collides = true;
-  const bool meets = collider.as == MeshCollider::As::triangles;  // else particles alone do, elsewhere
+  const bool meets = collider.as == MeshCollider::As::triangles;  // otherwise only particles collide with it
   object.groups = meets ? collider.groups : 0;
   object.mask = meets ? collider.mask : 0;
   object.restitution = collider.restitution;

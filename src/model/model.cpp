@@ -10,10 +10,10 @@ namespace pliant {
 
 namespace {
 
-/// The orientation that stands where no object has a frame: it stays finite when predicted.
+/// The orientation of unused frame records: the identity, which stays finite when predicted.
 constexpr Record unrotated{0, 0, 0, 1};
 
-/// Batches or steps of an item.
+/// The cost of an item, in batches or steps.
 int work_of(const CompiledObject& object, Driver driver, int item) {
   switch (driver) {
     case Driver::inter_tile:
@@ -26,7 +26,7 @@ int work_of(const CompiledObject& object, Driver driver, int item) {
   }
 }
 
-/// An object's tasks in a phase stand side by side.
+/// The range of an object's tasks in a phase: they are contiguous, because tasks are sorted by object.
 auto tasks_of(std::vector<Task>& tasks, int object) {
   const auto before = [](const Task& task, int number) { return task.object < number; };
   const auto after = [](int number, const Task& task) { return number < task.object; };
@@ -34,7 +34,7 @@ auto tasks_of(std::vector<Task>& tasks, int object) {
                         std::upper_bound(tasks.begin(), tasks.end(), object, after));
 }
 
-/// The phase of a driver and colour, made where it is not there yet.
+/// Finds the phase of a driver and colour, or inserts it.
 Phase& phase_of(Driver driver, int colour, std::vector<Phase>& phases) {
   const auto at = std::find_if(phases.begin(), phases.end(), [&](const Phase& phase) {
     return std::pair(phase.driver, phase.colour) >= std::pair(driver, colour);
@@ -59,7 +59,7 @@ void add_tasks(Model& model, int number) {
   }
 }
 
-/// Those of tiles and of contacts are there without tasks, too.
+/// The phases of tiles and contacts stay even if they are empty.
 bool is_to_stay(const Phase& phase) {
   return !phase.tasks.empty() || phase.driver == Driver::tile || phase.driver == Driver::surface_contact ||
          phase.driver == Driver::collider_contact;
@@ -78,7 +78,7 @@ struct Range {
   int first = 0, size = 0, owner = 0;
 };
 
-/// Takes blocks where they are given: what lies between them is held until the last has its own.
+/// Allocates blocks at given positions. Gaps between them are allocated too, and released at the end.
 void occupy(std::vector<Range> ranges, BlockAllocator& blocks) {
   std::erase_if(ranges, [](const Range& range) { return range.size == 0; });
   std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.first < b.first; });

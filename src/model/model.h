@@ -1,5 +1,5 @@
-// Everything of a World that does not change as time passes: objects compiled, colliders, the field they are in, and one
-// list of phases over all objects. It changes only when objects come, go or are edited, at the cost of those objects.
+// The constant part of a World: compiled objects, colliders, external fields, and one list of phases over all objects.
+// It changes only when objects are added, removed or edited, at a cost that depends on these objects alone.
 #pragma once
 
 #include <memory>
@@ -16,16 +16,16 @@ namespace pliant {
 
 class SolidField;
 
-/// A mesh collider that particles meet as a distance grid or as ground.
+/// A mesh collider that particles meet as a distance grid or as terrain.
 struct FieldCollider {
-  int object = 0;  ///< that of the mesh collider in the model
+  int object = 0;  ///< index of the mesh collider in Model::objects
   std::shared_ptr<const SolidField> field;
   Motion motion;
   float thickness = 0, static_friction = 0, kinetic_friction = 0, restitution = 0;
   std::uint32_t groups = 1, mask = ~0u;
 };
 
-/// All that a step needs besides the State. Over fifteen members: one list for each kind of thing that a scene holds.
+/// All input of a step except the State. It has over fifteen members: one list for each kind of thing in a scene.
 struct Model {
   Vec3f gravity{};
   Wind wind;
@@ -33,26 +33,26 @@ struct Model {
   std::vector<Collider> colliders;
   std::vector<FieldCollider> fields;
   std::vector<PairProperties> pairs;
-  /// Objects, and mesh colliders among them. A number whose object was removed has an empty one until it is given out again.
+  /// Objects and mesh colliders by number. The number of a removed object holds an empty one until it is reused.
   std::vector<CompiledObject> objects;
   std::vector<int> first;        ///< first[o] is object o's first particle in a State
-  std::vector<int> first_frame;  ///< likewise of frames
-  std::vector<int> generation;   ///< of each number: how many objects had it before, and recompilations
-  std::set<int> free_numbers;    ///< those of removed objects
+  std::vector<int> first_frame;  ///< first_frame[o] is its first frame
+  std::vector<int> generation;   ///< of each number: counts removals and recompilations
+  std::set<int> free_numbers;    ///< the numbers of removed objects
   BlockAllocator blocks, frame_blocks;
-  /// In the order in which an iteration visits them. The first is that of tiles, and what is filled in each substep is always there.
+  /// In the order of execution. The phases of tiles and of contacts always exist; that of tiles is the first.
   std::vector<Phase> phases{{Driver::tile}, {Driver::surface_contact}, {Driver::collider_contact}};
 
   /// Adds an object and its tasks under the lowest free number, which it returns.
   int add(CompiledObject object);
-  /// Empties an object and takes out its tasks. Its place in a State becomes a hole.
+  /// Removes an object and its tasks. Its block in a State becomes a hole.
   void remove(int object);
   /// Replaces an object by a newly compiled one with the same number.
   void replace(int object, CompiledObject by);
 
-  /// All tiles of all objects: what predict, update and contacts with colliders go by, too.
+  /// All tiles of all objects. Prediction, velocity update and contacts with colliders also run by tile.
   const std::vector<Task>& tiles() const { return phases.front().tasks; }
-  /// Of a State: one past the last that an object has; there may be holes before it.
+  /// One past the last particle in a State; holes are included.
   int particles() const { return blocks.end(); }
   int frames() const { return frame_blocks.end(); }
   int end_of(int object) const { return first[object] + objects[object].particles; }
@@ -60,15 +60,15 @@ struct Model {
   int object_of(int particle) const { return blocks.owner_of(particle); }
 };
 
-/// The state in which a model's objects begin.
+/// The State at time 0.
 State initial_state(const Model& model);
 
-/// Gives a State as many frames as the model has.
+/// Resizes the frame records of a State to the model's number of frames.
 void resize_frames(const Model& model, FrameRecords& frames);
-/// Makes `count` frames from `first` on those of nobody.
+/// Resets `count` frames from `first` on to unused ones.
 void clear_frames(int first, int count, FrameRecords& frames);
 
-/// Puts one object into a State where it begins; the State grows as needed.
+/// Copies an object's initial state into a State, which grows as needed.
 void put_at_start(const Model& model, int object, State& state);
 
 }  // namespace pliant

@@ -12,13 +12,13 @@ namespace pliant {
 
 namespace {
 
-// A spring with this stiffness, over that which carries the object's weight across its width, stretches by about 0.1 %.
+// A stiffness this many times that needed to carry the object's weight over its width stretches edges by about 0.1 %.
 constexpr double stiffness_over_weight = 1700;
 constexpr double least_acceleration = 9.81;  // lower bound: without gravity, something else stops the motion [m/s^2]
-// Edges across a load's path, by which the edges at a single pin carry more than those in the middle.
+// Edges across the load's path, by which the edges at a single pin carry more than those in the middle.
 constexpr double crowding_at_pins = 0.125;
 
-// A coarser level with a larger share of rows, as around a hub joined to all, is not worth its visits.
+// Limit of a level's rows over the finer level's. Coarsening a hub joined to all exceeds it, and is not worth its cost.
 constexpr double largest_share = 0.75;
 
 struct Spring {
@@ -35,7 +35,7 @@ std::vector<Spring> springs_of(const std::vector<ConstraintList>& lists) {
     if (!is_length(list.type)) continue;
     for (std::size_t i = 0; i < list.response.size(); ++i) {
       const int a = list.stencils[2 * i], b = list.stencils[2 * i + 1];
-      const bool shares = list.law == Law::pbd && list.response[i] < 1;  // no spring: a share of the error per sweep
+      const bool shares = list.law == Law::pbd && list.response[i] < 1;  // a share of the error per sweep: no spring
       if (a != b && !shares) springs.push_back({a, b, list.rest[i], list.law == Law::pbd ? 0 : list.response[i]});
     }
   }

@@ -23,9 +23,9 @@ struct SweepArguments {
 
   // For sweep_general only:
   float relaxation = 1;                  ///< omega, factor of every multiplier change
-  Record* const* corrections = nullptr;  ///< one array per pool, size x 16 records a batch: replaces writing displacements
+  Record* const* corrections = nullptr;  ///< one array per pool, size x 16 records per batch: replaces displacements
   const float* const* shares =
-      nullptr;  ///< one array a pool: what part of a change reaches the multiplier; null: all of it
+      nullptr;  ///< one array per pool: the share of a change that reaches the multiplier; null: the whole change
 };
 
 /// The frames of one object in the current substep. Pointers are to its first frame.

@@ -23,9 +23,9 @@ CandidateFinder::CandidateFinder(ContactElements elements) : elements_(std::move
 }
 
 void CandidateFinder::find(Executor& executor, const std::vector<Vec3f>& from, const std::vector<Vec3f>& to, float radius,
-                           bool anew) {
+                           bool rebuild) {
   fit_boxes(executor, from, to, radius);
-  fit_trees(executor, anew || !built_);
+  fit_trees(executor, rebuild || !built_);
   built_ = true;
   find_lists(executor, vertex_tree_, triangle_tree_, elements_.vertices.data(), vertex_triangles_,
              [&](int vertex, int triangle) {
@@ -65,13 +65,13 @@ void CandidateFinder::fit_boxes(Executor& executor, const std::vector<Vec3f>& fr
   each(triangle_boxes_.size(), [&](std::size_t i) { triangle_boxes_[i] = box_of(elements_.triangles[i]); });
 }
 
-void CandidateFinder::fit_trees(Executor& executor, bool anew) {
+void CandidateFinder::fit_trees(Executor& executor, bool rebuild) {
   const struct {
     Tree<BoxBounds>& tree;
     const std::vector<BoxBounds>& boxes;
   } all[3] = {{edge_tree_, edge_boxes_}, {triangle_tree_, triangle_boxes_}, {vertex_tree_, vertex_boxes_}};
   executor.parallel_for("candidate trees", 3, [&](int i) {
-    if (anew) {
+    if (rebuild) {
       all[i].tree.build(all[i].boxes);
     } else {
       all[i].tree.refit(all[i].boxes);

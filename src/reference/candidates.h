@@ -21,10 +21,10 @@ class CandidateFinder {
  public:
   explicit CandidateFinder(ContactElements elements);
 
-  /// Finds all pairs that can come within `radius` [m] while vertices move linearly from `from` to `to`. All positions must
-  /// be finite and below 1e15 m. `anew` rebuilds the trees, as the first call does; use it after large motions.
+  /// Finds all pairs that can come within `radius` [m] while vertices move linearly from `from` to `to`. All positions
+  /// must be finite and below 1e15 m. `rebuild` builds new trees, as the first call does; use it after large motions.
   void find(Executor& executor, const std::vector<Vec3f>& from, const std::vector<Vec3f>& to, float radius,
-            bool anew = false);
+            bool rebuild = false);
 
   /// For each vertex the triangles without it as a corner, ascending.
   const IntLists& vertex_triangles() const { return vertex_triangles_; }
@@ -43,7 +43,7 @@ class CandidateFinder {
   };
 
   void fit_boxes(Executor& executor, const std::vector<Vec3f>& from, const std::vector<Vec3f>& to, float radius);
-  void fit_trees(Executor& executor, bool anew);
+  void fit_trees(Executor& executor, bool rebuild);
   template <class Wanted>
   void find_lists(Executor& executor, const Tree<BoxBounds>& owners, const Tree<BoxBounds>& others,
                   const int* owner_of_leaf, IntLists& lists, const Wanted& wanted);

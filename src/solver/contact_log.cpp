@@ -11,7 +11,7 @@ namespace {
 struct Push {
   int on = 0, by = 0;  ///< bodies
   double impulse = 0;  ///< [N s]
-  Vec3f normal{};      ///< in which `on` is pushed
+  Vec3f normal{};      ///< direction of the push on `on`, unit
   Vec3d at{};          ///< [m]
 };
 
@@ -28,20 +28,20 @@ Vec3d place_of(const Record& position, const Record& displacement) {
   return {double(position.x) + displacement.x, double(position.y) + displacement.y, double(position.z) + displacement.z};
 }
 
-/// Particles as a contact's points number them.
+/// The particles that a contact's point indices refer to.
 struct PointReader {
   const Record *positions, *displacements;
   float h;
-  int object;  ///< whose particles they are, or -1: those of all objects
+  int object;  ///< the object to which the indices are local; -1: they are indices into the State
 };
 
-/// What is in the way of a particle: a primitive collider, or a mesh collider that it meets as a solid.
+/// The body of a contact's second side: a primitive collider, or a mesh collider that acts as a solid.
 int body_of(const Substep& s, std::int32_t collider) {
   const auto colliders = static_cast<std::int32_t>(s.model.colliders.size());
   return collider < colliders ? body_of_collider(collider) : s.model.fields[collider - colliders].object;
 }
 
-/// The push, and the restitution that the end of the substep adds, change the relative velocity by so much along the normal [m/s].
+/// The change of the relative normal velocity in this substep: by the projections, and by restitution at its end [m/s].
 double change_of(const Contact& contact, const PointReader& of, float slow) {
   const Vec3f motion = relative(contact, of.displacements) - contact.carried - contact.surface_motion;
   const float separating = dot(contact.normal, motion) / of.h;

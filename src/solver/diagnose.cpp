@@ -56,7 +56,7 @@ std::optional<std::string> replay(const StepContext& context, const CompiledObje
   return std::nullopt;
 }
 
-/// Likewise for what is projected one constraint at a time, from the orientations that the failed substep has left.
+/// The same for stencil segments. The replay starts from the orientations that the failed substep left.
 std::optional<std::string> replay_stencils(const StepContext& context, const CompiledObject& object,
                                            const ObjectPhase& colour, const SweepArguments& arguments) {
   const auto number = static_cast<std::size_t>(&object - context.model.objects.data());
@@ -73,7 +73,8 @@ std::optional<std::string> replay_stencils(const StepContext& context, const Com
   return std::nullopt;
 }
 
-/// Replays an object's phase; nothing where its driver does not say which constraint it was, or its tasks are replayed one by one.
+/// Replays one phase of an object. Returns nothing for tiles, which are replayed singly, and for drivers that name no
+/// constraint.
 std::optional<std::string> replay_phase(const StepContext& context, const CompiledObject& object, const ObjectPhase& phase,
                                         const SweepArguments& arguments) {
   if (phase.driver == Driver::inter_tile) return replay(context, object, phase.first, phase.last, arguments);
@@ -94,7 +95,7 @@ std::string first_bad_particle(const CompiledObject& object, const Tile& tile, c
   return "a particle";
 }
 
-/// The tasks of the first object that has tiles which are not finite.
+/// The non-finite tiles of the first object that has any, as tasks.
 std::vector<int> bad_tasks(const StepContext& context) {
   const Model& model = context.model;
   std::vector<int> bad;
@@ -105,8 +106,8 @@ std::vector<int> bad_tasks(const StepContext& context) {
   return bad;
 }
 
-/// The name of what went wrong in the tiles of one object that are not finite. They are replayed together, since an
-/// inter-tile constraint needs both tiles as they were: one that makes its particles non-finite spoils each of their tiles.
+/// Names the origin of non-finite values in the given tiles of one object. These tiles are replayed together, because a
+/// faulty inter-tile constraint makes all tiles of its particles non-finite.
 std::string explain(const Substep& s, const CompiledObject& object, const std::vector<int>& bad, SweepArguments arguments) {
   const StepContext& context = s.context;
   const std::string particle = first_bad_particle(object, tile_of(s, bad.front()), arguments.displacements);
@@ -114,7 +115,7 @@ std::string explain(const Substep& s, const CompiledObject& object, const std::v
   for (int task : bad) {
     AdvanceArguments again = particles(s, task);
     again.displacements = displacements.data();
-    again.gravity_begun = again.gravity_finished;  // the substep that failed, not the one after it
+    again.gravity_begun = again.gravity_finished;  // the gravity of the failed substep, not of the next one
     context.kernels.predict(again, nullptr);
     for (int i = again.first; i < again.last; ++i) {
       if (is_finite(displacements[i])) continue;
@@ -137,7 +138,7 @@ std::string explain(const Substep& s, const CompiledObject& object, const std::v
 
 bool is_finite_orientation(const Record& r) { return is_finite(r) && r.w - r.w == 0; }
 
-/// The first frame that is not finite.
+/// Names the first frame that is not finite.
 void name_bad_frame(const StepContext& context, NonFinite& found) {
   const FrameRecords& frames = context.state.frames;
   for (std::size_t o = 0; o < context.model.objects.size(); ++o) {
@@ -150,7 +151,7 @@ void name_bad_frame(const StepContext& context, NonFinite& found) {
   }
 }
 
-/// Finite again: no displacement, no velocity where there is no number.
+/// Replaces non-finite values: zero displacement, velocity and residue, and the identity rotation.
 void make_finite(const StepContext& context) {
   for (Record& d : context.workspace.displacements) d = is_finite(d) ? d : Record{};
   for (Record& v : context.state.velocities) v = is_finite(v) ? v : Record{};

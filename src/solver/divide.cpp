@@ -21,7 +21,7 @@ bool come_near(const CarrierBox& a, const CarrierBox& b, double margin) {
 
 CarrierBox joined(const CarrierBox& a, const CarrierBox& b) { return {min(a.low, b.low), max(a.high, b.high)}; }
 
-/// The swept box of a collider in the frame, and its largest displacement in a planned substep [m].
+/// The box that a collider sweeps in the frame, and its largest displacement in a planned substep [m].
 struct Swept {
   CarrierBox box{};
   double largest = 0;
@@ -43,7 +43,7 @@ void follow(const Vec3d& from, const Vec3d& to, Swept& out) {
   out.largest = std::max(out.largest, static_cast<double>(length(to - from)));
 }
 
-/// For a collider that the user moves to a pose.
+/// The same for a collider that the user moves to a pose.
 Swept swept(const Carrier& carrier, const PoseDrive& drive, const PlannedFrame& frame) {
   Swept out{{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}}, 0};
   for (int substep = 0; substep < frame.substeps; ++substep) {
@@ -55,7 +55,7 @@ Swept swept(const Carrier& carrier, const PoseDrive& drive, const PlannedFrame& 
   return out;
 }
 
-/// For a collider whose vertices the user moves.
+/// The same for a collider whose vertices the user moves.
 Swept swept(const std::vector<Target>& targets, const PlannedFrame& frame) {
   Swept out{{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}}, 0};
   for (const Target& target : targets) follow(target.from, target.to, out);
@@ -63,7 +63,7 @@ Swept swept(const std::vector<Target>& targets, const PlannedFrame& frame) {
   return out;
 }
 
-/// For mesh collider `c`; empty if it is static.
+/// The same for mesh collider `c`, moved by its keyframes or the user; empty if it is static.
 Swept swept(const Model& model, const Control& control, int c, const PlannedFrame& frame) {
   const Carrier& carrier = model.objects[c].carrier;
   if (const ObjectControl* given = control.object(c); given != nullptr && !given->targets.empty())

@@ -40,7 +40,7 @@ void apply_air(const Model& model, State& state, Workspace& workspace, Executor&
 
 bool is_finite(const Vec3f& v) { return (v.x - v.x) + (v.y - v.y) + (v.z - v.z) == 0; }
 
-/// A rejected force: its field, and its particle in the user's order.
+/// A non-finite force that was skipped: the index of its field, and its particle in the user's order.
 struct LeftOut {
   int particle = -1, field = -1;
 };

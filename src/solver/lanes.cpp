@@ -1,6 +1,6 @@
-// The sweeps in sixteen lanes. This unit is compiled once for each instruction set (cmake/PliantLanes.cmake), with the
-// name of the table telling them apart. It uses nothing but always-inlined functions and the inline namespace of its instruction
-// set, so that no code of one build is ever linked into another.
+// The sweeps in sixteen lanes. This unit is compiled once for each instruction set level (cmake/PliantLanes.cmake); the
+// macro PLIANT_LEVEL gives each table its own name. It uses only always-inlined functions and the inline namespace of
+// its level, so that the linker never mixes code of two levels.
 #include "constraints/all.h"
 #include "math/wide.h"
 #include "solver/kernels.h"

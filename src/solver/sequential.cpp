@@ -133,7 +133,7 @@ void advance(const AdvanceArguments& a, PointBounds* bounds) {
   predict(a, bounds);
 }
 
-/// The reference reports every particle.
+/// The scalar reference does not cull: every particle counts as near.
 int find_near(const NearQuery& q, std::int32_t* near) {
   for (int i = q.first; i < q.last; ++i) near[i - q.first] = i;
   return q.last - q.first;

@@ -9,13 +9,14 @@ namespace pliant {
 
 namespace {
 
-/// A pivot that elimination leaves less of than this is rounding: its row says what others have said.
+/// A pivot below this share of its diagonal entry is rounding error: the row depends linearly on earlier rows and is
+/// dropped.
 constexpr float least_pivot = 1e-6f;
 
 Vec3f xyz(const Record& r) { return {r.x, r.y, r.z}; }
 Quatf quaternion(const Record& r) { return {r.x, r.y, r.z, r.w}; }
 
-/// W of one slot: what turns a gradient into a displacement or a rotation.
+/// The generalised inverse mass W of one slot: it maps a gradient to a displacement or a rotation.
 struct SlotMass {
   bool is_frame = false;
   float inverse_mass = 0;

@@ -1,6 +1,6 @@
-// The stencil driver for every constraint type that is not in lanes: types with frame slots, with several rows, and those that users
-// register. One constraint at a time through its function over plain arrays, in colours that all threads share; scalar code
-// alone, so that any machine gives the same bits.
+// The stencil driver: every constraint type that is not projected in SIMD lanes, that is types with frame slots, with
+// several rows, or registered by users. Constraints are projected one at a time, in colours that all threads share.
+// Only scalar code is used, so every machine gives the same bits.
 //
 //   A = sum over slots of G W G^T             G the gradients by row, W the inverse mass, or the inverse inertia in world axes
 //   PBD:   A dlambda = -k' C

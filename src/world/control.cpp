@@ -1,7 +1,7 @@
-// What the user moves and pushes between steps, as spans over an object's particles in the user's own numbers.
+// User control between steps: motions, velocities and forces as spans over an object's particles, in the user's order.
 //
-// Velocities and impulses change the State at once. Targets, poses and forces are for the next frame: they wait in
-// Workspace::control and are gone after it, but for poses of colliders without keyframes, which the State holds.
+// Velocities and impulses change the State at once. Targets, poses and forces apply to the next frame:
+// Workspace::control holds them until its end. Only poses of colliders without keyframes persist, in the State.
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +21,7 @@ bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y)
   throw Error({.object = object, .element = element}, problem, advice);
 }
 
-/// One value a particle, all finite.
+/// Throws an Error unless there is one finite vector per particle.
 void require(const CompiledObject& object, std::span<const Vec3f> values, const char* what) {
   if (values.size() != static_cast<std::size_t>(object.user_particles)) {
     refuse(object.name, what,
@@ -36,8 +36,8 @@ void require(const CompiledObject& object, std::span<const Vec3f> values, const 
 struct Listed {
   const CompiledObject& object;
   const char* kind;  ///< "particle", "attachment"
-  int count;         ///< how many of them there are
-  int first;         ///< the first one's number in CompiledObject::place
+  int count;         ///< their number in the object
+  int first;         ///< index of the first one in CompiledObject::place
 };
 
 void require(const Listed& of, std::span<const int> numbers, std::span<const Vec3f> places) {
@@ -60,7 +60,7 @@ Vec3d place_of(const State& state, int particle) {
   return {double(x.x) + r.x, double(x.y) + r.y, double(x.z) + r.z};
 }
 
-/// Ascending; of two targets of one particle the later one holds.
+/// Appends targets sorted by particle. Of two targets of one particle the later one wins.
 void put_targets(const Listed& of, std::span<const int> numbers, std::span<const Vec3f> places, int first,
                  const State& state, std::vector<Target>& targets) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -74,7 +74,7 @@ void put_targets(const Listed& of, std::span<const int> numbers, std::span<const
   targets.erase(targets.begin(), last.base());
 }
 
-/// Whether one of a list is of a particle; they ascend by particle.
+/// True if a list, sorted by particle, contains this particle.
 template <class OfParticle>
 bool lists(const std::vector<OfParticle>& list, int particle) {
   const auto at = std::lower_bound(list.begin(), list.end(), particle,
@@ -148,7 +148,7 @@ void World::Implementation::begin_control(double dt) {
   may_drift = !control.objects.empty() || !control.meshes.empty();
 }
 
-/// What was moved in an earlier frame and is not in this one stands still.
+/// Stops particles and colliders that the user moved in an earlier frame and does not move in this one.
 void World::Implementation::stop_fixed() {
   for (int number = 0; number < static_cast<int>(model.objects.size()); ++number) {
     const CompiledObject& object = model.objects[number];

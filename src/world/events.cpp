@@ -1,4 +1,4 @@
-// Contact events: the contacts between bodies in a step, compared with the step before.
+// Contact events: compares the contacts between bodies in this step with those of the previous step.
 #include <algorithm>
 
 #include "math/vector.h"
@@ -59,7 +59,7 @@ void World::Implementation::make_events() {
   events = std::move(all);
 }
 
-/// Removal causes no end event, because the id is no longer valid.
+/// Forgets the contacts of a removed thing. There is no end event, because its id is no longer valid.
 void World::Implementation::forget_touching(const Thing& thing) {
   std::erase_if(touching, [&](const auto& pair) { return pair.first == thing || pair.second == thing; });
 }

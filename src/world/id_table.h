@@ -10,7 +10,7 @@
 
 namespace pliant {
 
-/// An internal number for each valid id.
+/// Maps each valid id to its internal number.
 template <class Kind>
 class IdTable {
  public:
@@ -33,7 +33,7 @@ class IdTable {
     return slots;
   }
 
-  /// Uses the lowest free slot.
+  /// Adds an id in the lowest free slot.
   Id<Kind> add(int number) {
     if (free_.empty()) {
       slots_.push_back({number, 0});

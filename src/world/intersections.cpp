@@ -1,4 +1,4 @@
-// What is added to a World that refuses initial intersections, against the surfaces that are there.
+// Tests an addition for intersections with present surfaces, if the settings reject initial intersections.
 #include <utility>
 
 #include "inspect/inspect_scene.h"
@@ -8,7 +8,7 @@ namespace pliant {
 
 namespace {
 
-/// Groups in the scene that is checked: what is there meets what comes, and not one another.
+/// Collision groups of the temporary scene: the added surface meets the present ones, which do not meet one another.
 constexpr std::uint32_t of_present = 1, of_new = 2;
 
 /// Positions and triangles of a compiled object in the user's order.
@@ -66,7 +66,7 @@ void World::Implementation::refuse_intersections(const CompiledObject& added, co
       if (field.object != number) continue;
       of_other = {field.groups, field.mask};
       other_is_grid = !field.field->is_ground();
-      if (!other_is_grid) of_other = {0, 0};  // terrain encloses nothing
+      if (!other_is_grid) of_other = {0, 0};  // terrain has no inside
     }
     if ((of_other.groups & masks.mask) == 0 || (masks.groups & of_other.mask) == 0) continue;
     add_part({other, mesh_of(other, &state.positions[model.first[number]]), of_present, of_new}, false, as(other_is_grid),

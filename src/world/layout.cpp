@@ -18,10 +18,10 @@ namespace {
               "take the scene and layout() from the same World at the same moment");
 }
 
-/// So many are numbered, and so often is a slot used, at most: counting on from there stays far from the end of the integers.
+/// Limit of numbers and generations in a layout: far below the integer limit, so that later counting cannot overflow.
 constexpr int most = std::numeric_limits<int>::max() / 4;
 
-/// Numbers of the slots that are in use, one for each of `count` things; each below `numbers` and taken once.
+/// The numbers of the occupied slots. Throws an Error unless there are `count`, each within `taken` and used once.
 std::vector<int> numbers_in(const std::vector<WorldLayout::Slot>& slots, std::size_t count, std::vector<char>& taken) {
   std::vector<int> numbers;
   for (const WorldLayout::Slot& slot : slots) {
@@ -39,7 +39,7 @@ std::vector<int> numbers_in(const std::vector<WorldLayout::Slot>& slots, std::si
   return numbers;
 }
 
-/// What the World has besides things that come and go.
+/// The scene without its objects and colliders.
 Scene without_things(const Scene& scene) {
   Scene rest;
   rest.gravity = scene.gravity;
@@ -50,7 +50,7 @@ Scene without_things(const Scene& scene) {
   return rest;
 }
 
-/// A pair of what was removed waits for a thing of that name to come again.
+/// Removes pairs that name a missing object: World keeps such pairs for an object of that name added later.
 Scene without_pairs_of_others(const Scene& scene) {
   std::set<std::string> names;
   for (const Object& object : scene.objects) names.insert(object.name);

@@ -12,7 +12,7 @@ namespace pliant::golden {
 
 inline const char* const hash_file = PLIANT_SOURCE_DIR "/tests/golden/hashes.txt";
 
-/// PLIANT_UPDATE_GOLDEN=1 writes hashes.txt anew.
+/// PLIANT_UPDATE_GOLDEN=1 rewrites hashes.txt.
 inline bool updating() { return std::getenv("PLIANT_UPDATE_GOLDEN") != nullptr; }
 
 /// PLIANT_THOROUGH=1 runs everything three times, in case threads give the same bits only mostly.

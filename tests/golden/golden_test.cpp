@@ -1,7 +1,7 @@
 // One hash a scene, whatever runs it: threads, lanes, sweep, compiler, build type. The hashes are kept in hashes.txt; every
 // build of every compiler compares itself with them, so that they compare the builds with one another.
 //
-// A change of a hash is a decision: PLIANT_UPDATE_GOLDEN=1 writes hashes.txt anew, and the commit says why. The hashes of the
+// A change of a hash is a decision: PLIANT_UPDATE_GOLDEN=1 rewrites hashes.txt, and the commit says why. The hashes of the
 // sweeps (sweeps_golden_test.cpp) stand in the same file.
 #include <gtest/gtest.h>
 

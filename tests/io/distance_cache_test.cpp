@@ -45,7 +45,7 @@ TEST(DistanceCache, TakesWhatIsThere) {
   cached_distances(mesh, 0.3f, folder.path());
   const auto before = std::filesystem::last_write_time(only_file(folder));
   cached_distances(mesh, 0.3f, folder.path());
-  EXPECT_EQ(std::filesystem::last_write_time(only_file(folder)), before) << "not made anew";
+  EXPECT_EQ(std::filesystem::last_write_time(only_file(folder)), before) << "not made again";
   EXPECT_EQ(folder.names().size(), 1u);
 }
 

@@ -117,7 +117,7 @@ TEST(Compare, ASampleIsWhatARunGives) {
   }
 }
 
-/// A sheet that lies on another, which is held: their pairs are listed anew in every World that was put back.
+/// A sheet that lies on a fixed one: every World rebuilds their near lists after a State is restored.
 Scene touching() {
   Scene scene;
   scene.frames = 4;

@@ -50,7 +50,7 @@ TEST(ReferenceSolver, CompliantProjectionIsTheSameHoweverManyIterations) {
   }
 }
 
-// Only with a multiplier that starts anew in each substep does a spring hold its load where it balances it.
+// A spring balances its load at the right length only if its multiplier restarts at zero in each substep.
 TEST(ReferenceSolver, AHangingMassStaysAtItsStaticStretch) {
   Solver solver;
   solver.gravity = {0, -10, 0};

@@ -36,7 +36,7 @@ TEST(Snapshot, ResumesInTheSameBits) {
   another.restore(middle);
   for (const std::string& expected : hashes) {
     another.step(dt);
-    EXPECT_EQ(another.state_hash(), expected) << "in a World made anew";
+    EXPECT_EQ(another.state_hash(), expected) << "in a new World";
   }
 }
 

@@ -93,7 +93,7 @@ DistanceGrid::DistanceGrid(std::shared_ptr<const DistanceField> field) : field_(
   if (!sizes || double(f.nodes[0]) * f.nodes[1] * f.nodes[2] > most_nodes || f.distances.size() != at(f, 0, 0, f.nodes[2]))
     throw Error({}, "the distance field is not whole", "give one that measure_distances has made");
   for (const float distance : f.distances)
-    if (!(abs(distance) < 1e15f)) throw Error({}, "the distance field has values that are not finite", "measure it anew");
+    if (!(abs(distance) < 1e15f)) throw Error({}, "the distance field has values that are not finite", "measure it again");
   bounds_ = bounds_of(f);
 }
 

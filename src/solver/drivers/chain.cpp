@@ -1,4 +1,4 @@
-// Paths of distances, each solved directly (solver/sweeps/chains.h).
+// The driver of chains: direct solves along paths of distance constraints (solver/sweeps/chains.h).
 #include <algorithm>
 
 #include "solver/drivers/driver.h"
@@ -8,7 +8,7 @@ namespace pliant {
 
 namespace {
 
-/// Below this many links of sixteen lanes, waking other threads costs more than solving a colour.
+/// A colour with fewer steps (a link of sixteen paths each) runs on one thread: waking others would cost more.
 constexpr int fewest_steps_to_share = 96;
 
 void solve_one(const Model& model, const ChainKernels& kernels, const Task& task, const SweepArguments& a, float* scratch) {

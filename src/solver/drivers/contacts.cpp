@@ -8,11 +8,11 @@ namespace pliant {
 
 namespace {
 
-/// A contact found during the solve counts from this share of the thickness on. A shallower one is pushed out in the next
-/// substep: pushed at once, cloth at rest on a floor moves two to four times as much.
+/// Contacts found during the solve are ignored while shallower than this share of the thickness. The next substep
+/// resolves them; resolved at once, cloth at rest on a floor would move two to four times as much.
 constexpr float least_depth = 0.25f;
 
-/// Grows the tile's bounds by where its particles are now.
+/// Extends a tile's bounds to the current positions of its particles.
 void grow_bounds(const AdvanceArguments& a, PointBounds& bounds) {
   for (int i = a.first; i < a.last; ++i) {
     const Record &x = a.positions[i], &d = a.displacements[i];
@@ -39,8 +39,8 @@ void find_more_in_tile(Substep& s, int task) {
   std::swap(scratch.contacts, scratch.all_contacts);
 }
 
-/// Particles that end below a plane though no contact was predicted: constraints moved them there. They go to the surface, not to their
-/// thickness: pushed that far at once, cloth at rest on a floor moves two to four times as much.
+/// Projects particles that constraints moved below a plane without a predicted contact. They move to the surface, not
+/// to the thickness: cloth at rest on a floor would otherwise move two to four times as much.
 void hold_tile_at_surfaces(Substep& s, int task) {
   TileScratch& scratch = s.work.tiles[task];
   scratch.more_contacts.clear();
@@ -61,7 +61,8 @@ void project_collider_contacts(Substep& s, const Phase& /*phase*/, const Pass& /
 
 namespace {
 
-/// Those of the objects that are swept: objects share no contact here, so each gets the bits that it gets alone.
+/// Projects the shape contacts of the swept objects. Each object gets the same bits as alone, because no contact joins
+/// two.
 void sweep_shape_contacts(Substep& s) {
   constexpr const char* name = "solve: contacts";
   std::vector<Contact>& contacts = s.work.shape_contacts.contacts();

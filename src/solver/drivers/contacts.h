@@ -1,22 +1,22 @@
-// Contacts, which are found in each substep: with colliders by tiles, among surfaces once for all objects.
+// Projects contacts: with colliders tile by tile, between surfaces for all objects at once.
 #pragma once
 
 #include "solver/substep.h"
 
 namespace pliant {
 
-/// One projection of every contact with a collider: of edges and triangles, then of particles of the objects that are swept
-/// (is_swept in substep.h).
+/// Projects every contact with a collider once: contacts of edges and triangles first, then contacts of particles. Only
+/// for objects of the current group (is_swept in substep.h).
 void sweep_contacts(Substep& s);
 
-/// One projection of every contact among surfaces.
+/// Projects every contact between surfaces once.
 void sweep_pairs(Substep& s);
 
-/// Finds contacts with colliders along what particles have moved since the prediction, beside those found then; for a sweep
-/// that moves particles far.
+/// Adds contacts with colliders along the displacements since the prediction. For sweeps that move particles far from
+/// it, such as multigrid.
 void find_more_contacts(Substep& s);
 
-/// After the last iteration: finds contacts of particles that constraints moved below a plane, and projects them.
+/// Call after the last iteration: finds particles that constraints moved below a plane, and projects them onto it.
 void hold_at_surfaces(Substep& s);
 
 }  // namespace pliant

@@ -1,5 +1,5 @@
-// The walk over a model's phases (model/phase.h), and what a driver is: a function that projects the tasks of one phase. Drivers are a
-// file each; drivers.cpp has their table. A new one is a value of Driver, a file and a line of the table.
+// Walks a model's phases (model/phase.h). A driver is a function that projects the tasks of one phase; each has its own
+// file. A new driver needs a value of Driver, a file, and a line in the table of drivers.cpp.
 #pragma once
 
 #include "model/phase.h"
@@ -7,36 +7,36 @@
 
 namespace pliant {
 
-/// Which way the list is walked.
+/// The direction of a walk over the phases.
 enum class Order { forward, backward };
 
-/// Where in an iteration a driver has its turn (stages/solve.cpp).
+/// The part of an iteration in which a driver runs (stages/solve.cpp).
 enum class Turn {
-  sweep,    ///< for each group of objects, as its sweep method has it
+  sweep,    ///< once or more per group of objects, as its sweep method requires
   stencil,  ///< after all groups
-  last,     ///< tethers, then contacts, so that constraints pull no particle into a collider
+  last,     ///< at the end: tethers, then contacts, so that no constraint pulls a particle into a collider afterwards
 };
 
 struct Pass {
-  bool first = false;  ///< multipliers start at zero
+  bool first = false;  ///< the first pass of a substep: multipliers start at zero
   Order order = Order::forward;
-  int number = 0;  ///< of the passes over stencils in this iteration
+  int number = 0;  ///< index of this pass over the stencils in the iteration
 };
 
 struct PhaseDriver {
   Turn turn;
-  bool has_order;  ///< a backward walk projects its phases, too, in the reverse order
+  bool has_order;  ///< a backward walk includes its phases, in reverse order; otherwise it skips them
   void (*project)(Substep& s, const Phase& phase, const Pass& pass);
 };
 
 const PhaseDriver& driver_of(const Phase& phase);
 
-/// Projects all phases whose drivers have that turn once; or those of one driver.
+/// Projects all phases whose drivers run in this part of the iteration once, or those of one driver.
 void walk(Substep& s, Turn turn, const Pass& pass);
 void walk(Substep& s, Driver driver, const Pass& pass);
 
-/// Calls body(task) for the tasks of objects that are swept (is_swept), on all threads where the phase has `fewest_to_share` batches or
-/// steps: with less, waking them takes longer.
+/// Calls body(task) for the tasks of swept objects (is_swept). Uses all threads if the phase has at least
+/// `fewest_to_share` batches or steps of work; with less, waking them takes longer than the work.
 void for_tasks(Substep& s, const Phase& phase, const char* name, int fewest_to_share, FunctionRef<void(const Task&)> body);
 
 void project_tiles(Substep& s, const Phase& phase, const Pass& pass);              // lanes.cpp

@@ -6,7 +6,7 @@ namespace pliant {
 
 namespace {
 
-/// In the order of the enumeration.
+/// One row per value of Driver, in the same order.
 constexpr std::array<PhaseDriver, driver_count> drivers{{
     {Turn::sweep, true, &project_tiles},
     {Turn::sweep, true, &project_inter_tile},

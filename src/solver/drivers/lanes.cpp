@@ -4,7 +4,7 @@ namespace pliant {
 
 namespace {
 
-/// Below this many batches waking other threads takes longer than a colour of inter-tile constraints.
+/// Inter-tile colours with fewer batches run on one thread: waking others takes longer.
 constexpr int fewest_batches_to_share = 96;
 
 void project_segments(const Substep& s, int object, int first, int last, bool first_pass) {
@@ -21,7 +21,8 @@ void for_segments(Substep& s, const Phase& phase, FunctionRef<void(int, const Se
 
 }  // namespace
 
-/// The constraints of a segment share no particle and have no order.
+/// Backward: segments in reverse order. The order inside a segment is irrelevant, because its constraints share no
+/// particle.
 void project_tile(const Substep& s, int task, bool first_pass, Order order) {
   const int object = s.model.tiles()[task].object;
   const Tile& tile = tile_of(s, task);
@@ -30,7 +31,7 @@ void project_tile(const Substep& s, int task, bool first_pass, Order order) {
 }
 
 void project_tiles(Substep& s, const Phase& /*phase*/, const Pass& pass) {
-  if (pass.first && s.sweeps_on_entry) return;  // stages/advance.cpp has done so
+  if (pass.first && s.sweeps_on_entry) return;  // the first pass ran when each tile was entered (stages/advance.cpp)
   for_swept_tiles(s, "solve: tiles", [&](int task) { project_tile(s, task, pass.first, pass.order); });
 }
 

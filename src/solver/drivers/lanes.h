@@ -1,11 +1,11 @@
-// Constraints in lanes: inside tiles, and between them.
+// The drivers of constraints that are projected in SIMD lanes: inside tiles, and between tiles.
 #pragma once
 
 #include "solver/drivers/driver.h"
 
 namespace pliant {
 
-/// One projection of the constraints inside a tile.
+/// Projects the constraints inside a tile once.
 void project_tile(const Substep& s, int task, bool first_pass, Order order);
 
 /// Calls body(object, segment) for every segment of inter-tile constraints, colour after colour.

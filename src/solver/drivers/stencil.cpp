@@ -1,4 +1,4 @@
-// Constraints one at a time, in colours over each object (solver/stencil.h), as often as the sweep of the object projects any other.
+// The driver of constraints that are projected one at a time, in colours over each object (solver/stencil.h).
 #include "solver/stencil.h"
 
 #include "solver/drivers/driver.h"
@@ -8,7 +8,7 @@ namespace pliant {
 
 namespace {
 
-/// Below this many batches a colour is done sooner than other threads can be told of it.
+/// Colours with fewer batches run on one thread: waking others takes longer.
 constexpr int fewest_batches_to_share = 8;
 
 }  // namespace

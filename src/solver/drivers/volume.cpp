@@ -1,4 +1,4 @@
-// Volumes, all of a phase at once: sums over the tiles of each object, then corrections (solver/volume.h).
+// The driver of volume constraints, for all objects of a phase at once (solver/volume.h).
 #include "solver/volume.h"
 
 #include "solver/drivers/driver.h"

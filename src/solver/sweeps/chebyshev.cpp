@@ -10,19 +10,20 @@ namespace pliant {
 
 namespace {
 
-/// The estimate from the plain iterations is lowered by this much.
+/// Safety factor on the estimate of rho from plain iterations, because an overestimate costs more.
 constexpr double caution = 0.999;
-/// No rho above this: with floats as iterates nothing nearer to one can be told from it.
+/// Upper limit of rho: float iterates cannot resolve values closer to 1.
 constexpr double largest_radius = 0.99999;
-/// Corrections that have grown by this since acceleration began say that it does not converge.
+/// Acceleration ends if corrections grow by this factor since it began: it diverges.
 constexpr double largest_growth = 4;
-/// Corrections that have come down to this share of the substep's first are mere rounding.
+/// Acceleration ends when corrections fall to this share of the substep's first one: the rest is rounding error.
 constexpr double smallest_share = 1e-7;
-/// After so many steps and more with a rho that was estimated, corrections that are not down to this share of where they
-/// began are mere rounding too.
+/// With an estimated rho, acceleration also ends after this many steps if corrections are still above `least_progress`
+/// of their initial size: they stagnate at rounding error.
 constexpr int patience = 32;
 constexpr double least_progress = 0.95;
-/// rho is judged when the number of steps is a power of two, from this on, and while the polynomial is below its bound.
+/// rho is checked at step counts that are powers of two, from this one on, while the Chebyshev polynomial is below its
+/// bound.
 constexpr int first_judgement = 8;
 constexpr double largest_polynomial = 1e10;
 
@@ -40,14 +41,14 @@ void start(double radius, double norm, ChebyshevRecurrence& c) {
   c.polynomial_before = 1 / radius;  // T_(-1) = T_1
 }
 
-/// The lambda for which T_n(lambda / rho) = excess, n = steps a power of two: rho cosh(acosh(excess) / n).
+/// Solves T_n(lambda / rho) = excess for lambda, n = steps a power of two: rho cosh(acosh(excess) / n).
 double judged_radius(const ChebyshevRecurrence& c, double excess) {
   double root = excess + std::sqrt(excess * excess - 1);
   for (int i = 1; i < c.steps; i *= 2) root = std::sqrt(root);
   return min(c.spectral_radius * (root + 1 / root) / 2, largest_radius);
 }
 
-/// Whether a larger rho explains how slowly corrections came down, and is worth starting over for.
+/// Restarts with a larger rho if that explains the slow decrease of corrections. Returns true if it did.
 bool raise_radius(double norm, ChebyshevRecurrence& c) {
   if (c.steps < first_judgement || !is_power_of_two(c.steps) || c.polynomial > largest_polynomial) return false;
   const double excess = norm / c.start_norm * c.polynomial;
@@ -58,14 +59,14 @@ bool raise_radius(double norm, ChebyshevRecurrence& c) {
   return true;
 }
 
-/// The weight of the iterate whose plain correction, that of the sweep just made, has this norm.
+/// The weight omega for the next extrapolation. `norm` is that of the plain correction of the sweep just made.
 double next_weight(const SweepOptions& options, int iteration, double norm, ChebyshevRecurrence& c) {
   const bool estimates = options.spectral_radius == 0;
   const double ratio = iteration > 0 && c.last_norm > 0 ? norm / c.last_norm : 1;
   c.last_norm = norm;
   if (iteration == 0) c.plain_norm = norm;
   if (c.given_up || iteration + 1 < options.plain_iterations) return 1;
-  if (c.steps < 0) {  // the last plain iteration is the recurrence's first
+  if (c.steps < 0) {  // the last plain iteration counts as the first of the recurrence
     if (!estimates) start(static_cast<double>(options.spectral_radius), norm, c);
     if (estimates && ratio < 1 && norm > 0) start(min(caution * ratio, largest_radius), norm, c);
     c.first_norm = norm;
@@ -105,7 +106,7 @@ void extrapolate(float weight, const Record* older, Record* displacements, int f
   }
 }
 
-/// All particles of a tile but those that touch something.
+/// Extrapolates all particles of a tile except those in contact.
 void extrapolate_tile(float weight, const Tile& tile, const Record* older, Record* displacements,
                       const std::vector<Contact>& contacts, std::vector<Record>& touching) {
   touching.clear();
@@ -118,8 +119,8 @@ void extrapolate_tile(float weight, const Tile& tile, const Record* older, Recor
 
 // ---------------------------------------------------------------- multipliers
 
-/// Of every pool whole, whichever way its constraints are scheduled. Like keep_multipliers on one thread: it moves a float
-/// where a sweep does a projection.
+/// Extrapolates the multipliers of all pools, however their constraints are scheduled. On one thread, because a pass
+/// over the multipliers is cheap compared with a sweep.
 void extrapolate_multipliers(const Substep& s, float weight, const LaneValues& older) {
   LaneValues& multipliers = s.work.multipliers;
   for (std::size_t o = 0; o < multipliers.size(); ++o) {
@@ -148,7 +149,8 @@ void extrapolate_everything(Substep& s, float weight) {
       volumes[o] = c.older.volumes[o] + static_cast<double>(weight) * (volumes[o] - c.older.volumes[o]);
 }
 
-/// Multipliers are those of the last substep until the first sweep: an iterate of zeros.
+/// Stores the multipliers. Before the first sweep of a substep they are stale values of the last one, so zeros are
+/// stored.
 void keep_multipliers(const Substep& s, bool first, ChebyshevScratch& c) {
   const Workspace& work = s.work;
   for (std::size_t o = 0; o < work.multipliers.size(); ++o) {
@@ -178,7 +180,7 @@ double correction_norm(Substep& s) {
                                 tile.first_particle, tile.last_particle);
   });
   double sum = 0;
-  for (double tile : c.tile_sums) sum += tile;  // in the tiles' order, whichever thread had them
+  for (double tile : c.tile_sums) sum += tile;  // in the order of tiles, independent of threads
   return std::sqrt(sum);
 }
 

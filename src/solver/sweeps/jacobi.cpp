@@ -7,7 +7,8 @@ namespace pliant {
 
 namespace {
 
-/// Positions whose w is that of one of n parts, for the substep under way.
+/// Copies positions with each inverse mass multiplied by the particle's number of constraints n: each acts on an n-th
+/// of the mass.
 void split_masses(const Tile& tile, const Record* positions, JacobiObject& object) {
   for (int i = tile.first_particle; i < tile.last_particle; ++i) {
     object.positions[i] = positions[i];
@@ -15,7 +16,7 @@ void split_masses(const Tile& tile, const Record* positions, JacobiObject& objec
   }
 }
 
-/// Each particle's displacement grows by the mean of its corrections, added up in ascending order.
+/// Adds the mean of its corrections to each particle's displacement, summed in ascending order.
 void gather(const Tile& tile, const JacobiObject& object, Record* displacements) {
   for (int i = tile.first_particle; i < tile.last_particle; ++i) {
     const int count = object.incidence.count(i);

@@ -14,7 +14,7 @@ namespace {
 void move(Substep& s, int o, bool first) {
   const SweepArguments a = arguments(s, o, first);
   MultigridObject& work = multigrid_of(s).objects[o];
-  // What is not sound is left to the sweeps, which may cope with it or name what does not.
+  // Rejected corrections are left to the sweeps, which may converge, or whose failure is diagnosed.
   work.is_made = is_multigrid_change_sound(s, o);
   if (!work.is_made) return std::fill(work.change.begin(), work.change.end(), Record{});
   for (int i = 0; i < s.model.objects[o].particles; ++i) {
@@ -71,7 +71,8 @@ void correct_multigrid(Substep& s, bool first) {
 void iterate_multigrid(Substep& s, bool first) {
   correct_multigrid(s, first);
   if (first) find_more_contacts(s);
-  // There and back: distances, first of all types, have the last word, and what bending pulls apart is put right again.
+  // Forward, then backward: the backward pass ends with distances, the first type, and so restores what bending
+  // stretched.
   walk(s, Turn::sweep, {});
   sweep_pairs(s);
   sweep_contacts(s);

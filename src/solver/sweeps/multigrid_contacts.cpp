@@ -1,12 +1,13 @@
-// Contacts in the multigrid correction: a stiff spring along the normal and, against sliding, one no stiffer than Coulomb
-// allows, so that what lies on something does not first fall into it and then be torn out of it.
+// Contacts in the multigrid correction. Each becomes a spring along its normal and a tangential spring limited by
+// Coulomb friction. Otherwise the correction would move objects into what they rest on, and contacts would push them
+// back out.
 //
-// A spring is no friction: what it held too much is given back by the contacts' own projection, which goes on from the pushes
-// and the friction that are read off the solution here.
+// Springs only approximate friction. So the contacts start from the pushes and the friction of this solution, and their
+// own projection corrects any excess.
 //
-// A contact with a primitive touches one row. A contact among surfaces couples objects, and far parts of one, which no hierarchy
-// knows: there each side sees the other held where it is predicted. Conjugate gradients see the contact as it is (couple_pair), and put
-// right what that gets wrong.
+// A contact with a primitive adds to one matrix row. A contact between surfaces couples objects, or distant parts of
+// one, which the hierarchy does not represent: each row treats the other side as fixed at its prediction. Conjugate
+// gradients use the true coupling (couple_pair), which corrects this approximation.
 #include <algorithm>
 
 #include "solver/substep.h"
@@ -16,16 +17,16 @@ namespace pliant {
 
 namespace {
 
-/// Stiffness of a contact with a primitive, over that of the springs beside it.
+/// Stiffness of a contact with a primitive, over the stiffness limit of the particle's springs.
 constexpr float contact_stiffness = 10;
-/// The same among surfaces. Enough to tell the correction that there is something; where contacts are stiffer, the few steps go
-/// into them, and cloth in folds stretches more and comes to rest later.
+/// The same between surfaces. Stiffer contacts would dominate the few conjugate gradient steps: folded cloth would then
+/// stretch more and come to rest later.
 constexpr float pair_stiffness = 0.2f;
 
 Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
 
-/// The springs of a contact whose relative displacement is `moved`; both are 0 where it does not touch. Friction holds mu m depth / h^2
-/// at most, m = 1 / inverse_mass being the mass that the contact moves.
+/// The two springs of a contact at the relative displacement `moved`; both have stiffness 0 if the contact is inactive.
+/// The tangential force is at most mu m depth / h^2, with the effective mass m = 1 / inverse_mass.
 ContactSpring spring_of(const Contact& contact, const Vec3f& moved, float inverse_mass, float inverse_h2, float stiffness) {
   ContactSpring s;
   s.depth = contact.gap + dot(contact.normal, moved);
@@ -38,7 +39,7 @@ ContactSpring spring_of(const Contact& contact, const Vec3f& moved, float invers
   return s;
 }
 
-/// along n n^T + across (I - n n^T): xx yy zz xy xz yz.
+/// The stiffness block along n n^T + across (I - n n^T), as xx yy zz xy xz yz.
 std::array<float, 6> block_of(const ContactSpring& s, const Vec3f& n) {
   const float k = s.along - s.across;
   return {k * n.x * n.x + s.across,
@@ -51,7 +52,7 @@ std::array<float, 6> block_of(const ContactSpring& s, const Vec3f& n) {
 
 Vec3f force_of(const ContactSpring& s, const Vec3f& n) { return n * (-s.along * s.depth) - s.slip * s.across; }
 
-/// Adds a particle's part of a spring to its row: the block that holds it where the other side is held, and the force.
+/// Adds a particle's share of a spring to its row: the diagonal block, as if the other side were fixed, and the force.
 void add_to_row(MultigridObject& work, int particle, float weight, const std::array<float, 6>& block, const Vec3f& force) {
   const int at = lane_place(particle), batch = at / batch_width;
   if (work.extra.empty()) work.extra.resize(work.has_extra.size() * 9 * batch_width);
@@ -65,7 +66,8 @@ void add_to_row(MultigridObject& work, int particle, float weight, const std::ar
   extra[8 * batch_width] += weight * force.z;
 }
 
-/// What the springs have done once the relative displacement has changed `by`, as the corrections that projections would have made.
+/// Adds what the springs exert after the relative displacement has changed `by`, as the equivalent corrections of
+/// projections.
 void keep_push(const ContactSpring& s, const Vec3f& by, float inverse_mass, float inverse_h2, Contact& contact) {
   const float moves = inverse_mass / inverse_h2, deeper = dot(contact.normal, by);
   contact.push += max(0.f, -(s.depth + deeper) * s.along * moves);
@@ -76,7 +78,7 @@ void keep_push(const ContactSpring& s, const Vec3f& by, float inverse_mass, floa
 
 // ---------------------------------------------------------------- with primitives
 
-/// visit(contact, stiffness, object) for every contact of objects that are corrected.
+/// Calls visit(contact, stiffness, object) for every particle contact of objects with a multigrid hierarchy.
 template <class Visit>
 void for_contacts(Substep& s, const Visit& visit) {
   const Model& model = s.model;
@@ -113,11 +115,12 @@ void keep_point_pushes(Substep& s) {
   });
 }
 
-// ---------------------------------------------------------------- of several points
+// ---------------------------------------------------------------- with several points
 
 float inverse_h2_of(const PairParticles& all) { return (1 / all.h) * (1 / all.h); }
 
-/// Whose particles they are, and how stiff the springs beside the contact are: the softer side's.
+/// Fills in the spring's particles and their objects. The softer side decides `stiffness`. Returns false if nothing can
+/// move.
 bool place(const Model& model, const Contact& contact, const Record* positions, PairSpring& spring, float& stiffness) {
   float limit[2] = {0, 0};
   for (int i = 0; i < 4; ++i) {
@@ -136,7 +139,7 @@ bool place(const Model& model, const Contact& contact, const Record* positions, 
   return stiffness > 0;
 }
 
-/// Contacts of several points: those of edges and triangles with primitives, then those among surfaces.
+/// Contacts with several points: edges and triangles against primitives first, then contacts between surfaces.
 std::size_t count_contacts(const Substep& s) {
   return s.work.shape_contacts.contacts().size() + (s.has_pairs() ? s.work.pairs->contacts().size() : 0);
 }

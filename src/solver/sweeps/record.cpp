@@ -38,7 +38,7 @@ void load_slots(const View& view, const Pool& pool, const std::int32_t* particle
   }
 }
 
-/// Adds one row of C: its residual, and the displacements that its multiplier explains.
+/// Adds one row of C to the displacements that multipliers explain; returns the row's residual.
 double look_at(const View& view, const ConstraintPlace& at, const std::int32_t* particle,
                const StencilArrays<double>& arrays, int component) {
   const bool has =

@@ -1,9 +1,9 @@
-// The ways to visit constraints, one file each. None is known to a constraint, and none knows a constraint's type: all work
-// on the pools and the schedule of the compiled model, through the kernels.
+// The sweep methods: the orders in which constraints are visited, one file each. Methods are independent of constraint
+// types: they work on the pools and the schedule of the compiled model, through the kernels.
 //
-// Each object is solved by the method that it was compiled for (CompiledObject::sweep). Objects of one method are a group: an
-// iteration visits group after group. Volumes are part of a sweep; tethers and contacts come after all of them
-// (stages/solve.cpp), so that constraints pull no particle into a collider.
+// Each object is solved by the method that it was compiled for (CompiledObject::sweep). Objects of one method form a
+// group, and an iteration visits the groups in turn. Volumes are part of a sweep. Tethers and contacts follow after all
+// groups (stages/solve.cpp), so that constraints pull no particle into a collider.
 #pragma once
 
 #include <map>
@@ -17,53 +17,53 @@ struct Model;
 struct Substep;
 struct Workspace;
 
-/// What the scratch of a method is made from.
+/// The input from which a method makes its scratch.
 struct SweepSetup {
   const Model& model;
-  const Workspace& workspace;  ///< with the multipliers that are kept
+  const Workspace& workspace;  ///< provides the stored multipliers
   const SweepOptions& options;
   Sweep sweep = Sweep::tiled;  ///< of the group
   int threads = 1;
 
-  /// Whether an object is of the group.
+  /// True if an object belongs to the group.
   bool has(int object) const;
 };
 
-/// What a method keeps between the passes of a substep. Nothing of it outlives a substep: a State put back gives the same bits.
+/// Data of a method within one substep. None persists to the next, so a restored State gives the same bits.
 class SweepScratch {
  public:
   virtual ~SweepScratch() = default;
-  /// Makes room after an object was added, removed or recompiled. One that is not of the group takes none of its own, and what
-  /// was kept under its number goes.
+  /// Call after an object was added, removed or recompiled: clears the data under its number, and allocates new data if
+  /// the object belongs to the group.
   virtual void prepare(const SweepSetup& setup, int object) = 0;
 };
 
 struct SweepMethod {
-  /// Its first pass over the constraints of a tile may be made when the tile is entered, while it is in the cache.
+  /// True if the first pass over a tile may run when the tile is entered, while it is in the cache.
   bool begins_on_entry;
-  /// Projections of a constraint in one iteration.
+  /// Number of projections of each constraint per iteration.
   int passes;
-  /// Null where it keeps nothing.
+  /// Null if the method needs no scratch.
   std::unique_ptr<SweepScratch> (*make_scratch)();
-  /// One iteration: every constraint of the objects in `s.group` `passes` times. In the first of a substep the multipliers
-  /// start at zero.
+  /// Runs one iteration: projects every constraint of the objects in `s.group` `passes` times. `first`: the first
+  /// iteration of a substep, in which multipliers start at zero.
   void (*iterate)(Substep& s, bool first);
 };
 
-/// Objects of one method, and what the method and its acceleration keep of them.
+/// The objects of one method, with the scratch of the method and of its acceleration.
 struct SweepGroup {
   Sweep sweep = Sweep::tiled;
   const SweepMethod* method = nullptr;
   std::unique_ptr<SweepScratch> scratch, acceleration;
 };
 
-/// In the order of the enumeration, whatever objects came first.
+/// Ordered by the enumeration, independent of the order of objects.
 using SweepGroups = std::map<Sweep, SweepGroup>;
 
-/// What stands behind a Sweep; `automatic` is `tiled` here.
+/// The method of a Sweep. `automatic` gives that of `tiled`.
 const SweepMethod& sweep_method(Sweep sweep);
 
-void iterate_tiled(Substep& s, bool first);      // tiled.cpp; chains too, which are phases of their own
+void iterate_tiled(Substep& s, bool first);      // tiled.cpp; also for `chains`, which are phases of their own
 void iterate_symmetric(Substep& s, bool first);  // symmetric.cpp
 void iterate_jacobi(Substep& s, bool first);     // jacobi.cpp
 void iterate_multigrid(Substep& s, bool first);  // multigrid.cpp
