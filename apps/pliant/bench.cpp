@@ -60,11 +60,11 @@ std::string bench_memory(const BenchOptions& options) {
   const GiveBackMemory as_run_does;
   pliant::bench::MemoryOptions wanted;
   if (!options.sizes.empty()) wanted.sizes = options.sizes;
-  print("size  sweep      bytes a particle: peak  scene  scene peak   world\n");
+  print("size  sweep      bytes a particle: peak  given away  scene  scene peak   world\n");
   wanted.on_row = [](const pliant::bench::MemoryRow& row) {
     throw_if_interrupted();
-    print(fmt::format("{:4}  {:<10} {:22.0f} {:6.0f} {:11.0f} {:7.0f}\n", row.size, sweep_name(row.sweep), row.peak,
-                      row.scene, row.scene_peak, row.world));
+    print(fmt::format("{:4}  {:<10} {:22.0f} {:11.0f} {:6.0f} {:11.0f} {:7.0f}\n", row.size, sweep_name(row.sweep),
+                      row.peak, row.peak_given_away, row.scene, row.scene_peak, row.world));
   };
   return to_json(pliant::bench::measure_memory(wanted));
 }

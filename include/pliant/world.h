@@ -75,6 +75,9 @@ class World {
   /// Compiles a scene. Throws an Error that names object, element and remedy if it cannot be simulated.
   explicit World(const Scene& scene);
   World(const Scene& scene, const Settings& settings);
+  /// The same for a scene that is not needed any more, in less memory: each object's description is freed once it is compiled.
+  explicit World(Scene&& scene);
+  World(Scene&& scene, const Settings& settings);
   /// Recreates a World after additions and removals. The scene describes the existing objects in the order of objects(),
   /// colliders() and mesh_colliders(), with that World's settings. Throws an Error also if the two are inconsistent.
   World(const Scene& scene, const WorldLayout& layout);

@@ -47,6 +47,13 @@ class Column {
     size_ += values.size();
   }
 
+  /// Appends an array that is given away: the first is kept without a copy.
+  void append(std::vector<T>&& values) {
+    if (size_ > 0 || values.empty()) return append(static_cast<const std::vector<T>&>(values));
+    size_ = values.size();
+    own_ = std::move(values);
+  }
+
   void set(std::size_t i, T value) {
     if (std::memcmp(&(*this)[i], &value, sizeof value) != 0) own()[i] = value;
   }

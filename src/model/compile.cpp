@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "constraints/registry.h"
 #include "math/quat.h"
@@ -361,9 +362,8 @@ std::vector<std::array<int, 2>> lines_of(const Object& object, const std::vector
   return lines;
 }
 
-}  // namespace
-
-CompiledObject compile(const Object& object, const CompileOptions& options) {
+/// `given_away` is the object or null.
+CompiledObject compile(const Object& object, Object* given_away, const CompileOptions& options) {
   CompiledObject out;
   out.name = object.name;
   out.sweep = options.sweep;
@@ -372,7 +372,8 @@ CompiledObject compile(const Object& object, const CompileOptions& options) {
   out.particles = static_cast<int>(positions.size());
   out.user_particles = static_cast<int>(object.positions.size());
 
-  std::vector<ConstraintList> lists = gather_constraints(object, options.passes);
+  std::vector<ConstraintList> lists = given_away != nullptr ? gather_constraints(std::move(*given_away), options.passes)
+                                                            : gather_constraints(object, options.passes);
   const bool in_given_order = options.sweep == Sweep::natural;
   if (options.sweep == Sweep::chains) split_off_chains(lists);
   std::vector<int> tile;
@@ -406,8 +407,6 @@ CompiledObject compile(const Object& object, const CompileOptions& options) {
   return out;
 }
 
-namespace {
-
 std::vector<Vec3f> in_storage_order(const std::vector<Vec3f>& places, const CompiledObject& object) {
   std::vector<Vec3f> out;
   out.reserve(places.size());
@@ -433,6 +432,13 @@ void fill_carrier(const MeshCollider& collider, CompiledObject& out) {
 }
 
 }  // namespace
+
+CompiledObject compile(const Object& object, const CompileOptions& options) { return compile(object, nullptr, options); }
+
+CompiledObject compile(Object&& object, const CompileOptions& options) {
+  const bool is_surface = !object.triangles.empty();  // lines are found again among the constraints
+  return compile(object, is_surface ? &object : nullptr, options);
+}
 
 CompiledObject compile(const MeshCollider& collider) {
   Object object;

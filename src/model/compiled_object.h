@@ -121,5 +121,7 @@ CompiledObject compile(const MeshCollider& collider);
 /// Compiles an object for which inspect() reports nothing grave. Throws an Error that names an unknown constraint type,
 /// or a stencil or rest data of the wrong size.
 CompiledObject compile(const Object& object, const CompileOptions& options);
+/// The same in less memory: the object may lose its constraints.
+CompiledObject compile(Object&& object, const CompileOptions& options);
 
 }  // namespace pliant

@@ -40,12 +40,13 @@ class Gatherer {
  public:
   Gatherer(const Object& object, int passes) : object_(object), passes_(passes) {}
 
-  void add(const ConstraintGroup& group) {
+  /// Moves the arrays of a group that is given away: `given_away` is that group or null.
+  void add(const ConstraintGroup& group, ConstraintGroup* given_away) {
     const int type = find_constraint_type(group.type);
     if (type < 0)
       throw Error({.object = object_.name}, "unknown constraint type '" + group.type + "'",
                   "use one of " + constraint_type_names());
-    add_group(group, type);
+    add_group(group, given_away, type);
   }
 
   void add_attachments() {
@@ -88,9 +89,12 @@ class Gatherer {
     return pbd ? static_cast<float>(stiffness_per_projection(value, passes_)) : value;
   }
 
-  void append_stencils(const ConstraintGroup& group, const ConstraintDefinition& type, ConstraintList& list) const {
+  void append_stencils(const ConstraintGroup& group, ConstraintGroup* given_away, const ConstraintDefinition& type,
+                       ConstraintList& list) const {
     const std::vector<SlotKind>& slots = type.slots;
-    if (std::find(slots.begin(), slots.end(), SlotKind::frame) == slots.end()) return list.stencils.append(group.particles);
+    if (std::find(slots.begin(), slots.end(), SlotKind::frame) == slots.end())
+      return given_away != nullptr ? list.stencils.append(std::move(given_away->particles))
+                                   : list.stencils.append(group.particles);
     for (std::size_t i = 0; i < group.particles.size(); ++i) {
       const bool is_frame = slots[i % slots.size()] == SlotKind::frame;
       list.stencils.push_back(is_frame ? first_frame() + group.particles[i] : group.particles[i]);
@@ -118,12 +122,11 @@ class Gatherer {
     }
   }
 
-  void add_group(const ConstraintGroup& group, int type) {
+  void add_group(const ConstraintGroup& group, ConstraintGroup* given_away, int type) {
     const ConstraintDefinition& definition = constraint_type(type);
     require_sizes(group, definition);
     ConstraintList& list = list_of(type, law_of(group.stiffness));
     const std::size_t size = definition.slots.size(), count = group.particles.size() / size;
-    append_stencils(group, definition, list);
     list.rest.append(group.rest);
     const bool has_own = !group.compliances.empty();
     const bool as_given = has_own && group.stiffness.kind == Stiffness::Kind::compliance;
@@ -135,6 +138,7 @@ class Gatherer {
       list.damping.push_back(group.stiffness.damping);
       list.origin.push_back(next_origin_[type]++);
     }
+    append_stencils(group, given_away, definition, list);  // last: it may move them
   }
 
   /// Frames are numbered after all particles, including attachment targets.
@@ -162,7 +166,14 @@ ConstraintList ConstraintList::empty() const {
 
 std::vector<ConstraintList> gather_constraints(const Object& object, int passes) {
   Gatherer gatherer(object, passes);
-  for (const ConstraintGroup& group : object.constraints) gatherer.add(group);
+  for (const ConstraintGroup& group : object.constraints) gatherer.add(group, nullptr);
+  gatherer.add_attachments();
+  return gatherer.take();
+}
+
+std::vector<ConstraintList> gather_constraints(Object&& object, int passes) {
+  Gatherer gatherer(object, passes);
+  for (ConstraintGroup& group : object.constraints) gatherer.add(group, &group);
   gatherer.add_attachments();
   return gatherer.take();
 }

@@ -32,5 +32,7 @@ struct ConstraintList {
 /// distances of rest length zero to extra particles. Missing rest data are measured from
 /// the positions in double. The lists refer to the object, which must outlive them.
 std::vector<ConstraintList> gather_constraints(const Object& object, int passes);
+/// The same in less memory: arrays are moved out of the object.
+std::vector<ConstraintList> gather_constraints(Object&& object, int passes);
 
 }  // namespace pliant

@@ -34,7 +34,8 @@ std::shared_ptr<const SolidField> field_of(const MeshCollider& collider);
 
 // Over thirty members: each file named below holds one part's functions; all of them share the Model, State and Workspace.
 struct World::Implementation {
-  Implementation(const Scene& scene, const Settings& with);
+  /// Objects of a scene that is given away are freed as soon as they are compiled; it is `scene` or null.
+  Implementation(const Scene& scene, const Settings& with, Scene* given_away = nullptr);
   Implementation(const Scene& scene, const WorldLayout& layout);  ///< layout.cpp
 
   // ---- objects.cpp

@@ -23,7 +23,7 @@ constexpr int default_division = 8;
 
 }  // namespace
 
-World::Implementation::Implementation(const Scene& scene, const Settings& with)
+World::Implementation::Implementation(const Scene& scene, const Settings& with, Scene* given_away)
     : settings(with), suggested(suggest(scene, with)), executor(with.threads), kernels(kernels_for(with)) {
   model.gravity = scene.gravity;
   model.wind = scene.wind;
@@ -31,9 +31,13 @@ World::Implementation::Implementation(const Scene& scene, const Settings& with)
   model.pairs = scene.pairs;
   model.colliders = scene.colliders;
   for (int c = 0; c < static_cast<int>(scene.colliders.size()); ++c) collider_ids.add(c);
-  for (int o = 0; o < static_cast<int>(scene.objects.size()); ++o)
-    object_ids.add(
-        model.add(compile(scene.objects[static_cast<std::size_t>(o)], compile_options(chosen_sweep(scene, with, o)))));
+  std::vector<Sweep> sweeps;  // they depend on all objects
+  for (int o = 0; o < static_cast<int>(scene.objects.size()); ++o) sweeps.push_back(chosen_sweep(scene, with, o));
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const CompileOptions options = compile_options(sweeps[o]);
+    object_ids.add(model.add(given_away != nullptr ? compile(std::exchange(given_away->objects[o], {}), options)
+                                                   : compile(scene.objects[o], options)));
+  }
   for (const MeshCollider& collider : scene.mesh_colliders)
     mesh_collider_ids.add(add_to_model(collider, compile(collider)));
   state = initial_state(model);
@@ -64,6 +68,17 @@ World::World(const Scene& scene, const Settings& settings) {
     return chosen_settings(checked);
   };
   self_ = std::make_unique<Implementation>(scene, checked_settings());
+}
+
+World::World(Scene&& scene) {
+  refuse_grave(scene);
+  self_ = std::make_unique<Implementation>(scene, chosen_settings(scene), &scene);
+}
+
+World::World(Scene&& scene, const Settings& settings) {
+  scene.settings = settings;
+  refuse_grave(scene);
+  self_ = std::make_unique<Implementation>(scene, chosen_settings(scene), &scene);
 }
 
 World::~World() = default;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace pliant {
 namespace {
@@ -48,6 +49,17 @@ TEST(Column, DoesNotCopyTheFirstArrayUntilItChanges) {
   column.push_back(7);
   EXPECT_EQ(values_of(column), (std::vector<float>{1, 2, 30, 4, 5, 6, 7}));
   EXPECT_EQ(given, (std::vector<float>{1, 2, 3, 4}));
+}
+
+TEST(Column, KeepsAnArrayThatIsGivenAway) {
+  std::vector<float> given{1, 2, 3};
+  const float* first = given.data();
+  Column<float> column;
+  column.append(std::move(given));
+  EXPECT_EQ(&column[0], first);
+  EXPECT_EQ(column.own().data(), first);
+  column.append(std::vector<float>{4, 5});
+  EXPECT_EQ(values_of(column), (std::vector<float>{1, 2, 3, 4, 5}));
 }
 
 TEST(Column, AppendsAnArrayToEqualNumbers) {

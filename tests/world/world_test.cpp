@@ -92,6 +92,25 @@ TEST(World, OfFixedParticlesAloneStaysWhereItIs) {
   EXPECT_EQ(world.positions(0), before);
 }
 
+TEST(World, OfASceneGivenAwayIsTheSame) {
+  for (const Sweep sweep : {Sweep::automatic, Sweep::multigrid, Sweep::chains}) {
+    Scene scene = hanging_cloth();
+    scene.add(make_rope({{0, 0, 1}, {1, 0, 1}}, {}));
+    scene.settings.sweep = sweep;
+    World kept(scene);
+    Scene same = scene;
+    World given(std::move(same));
+    World with_settings(Scene(scene), scene.settings);
+    for (int frame = 0; frame < 3; ++frame) {
+      kept.step(dt);
+      given.step(dt);
+      with_settings.step(dt);
+    }
+    EXPECT_EQ(given.state_hash(), kept.state_hash());
+    EXPECT_EQ(with_settings.state_hash(), kept.state_hash());
+  }
+}
+
 TEST(World, CanBeMovedFromAndToAnother) {
   World first(hanging_cloth());
   first.step(dt);
