@@ -47,6 +47,48 @@ TEST(WorldSweeps, ChebyshevOverNaturalOrderIsRefusedWithTheReason) {
   }
 }
 
+/// A stretched square that lies on a fixed one, so that all four corners touch.
+Scene square_on_square(const SweepOptions& options) {
+  Scene scene;
+  scene.settings = settings_of(1, 20);
+  scene.settings.sweep = Sweep::tiled;
+  scene.settings.sweep_options = options;
+  ClothOptions rigid;
+  rigid.stretch = Stiffness::rigid();
+  rigid.bending_model = ClothOptions::Bending::none;
+  for (const float height : {0.f, 0.005f}) {
+    Object square = make_cloth(grid_mesh(2, 2, 0.5f, 0.5f), rigid);
+    for (Vec3f& p : square.positions) p = {p.x * (height > 0 ? 1.1f : 2.f), height, p.z * (height > 0 ? 1.1f : 2.f)};
+    square.collides = true;
+    square.thickness = 0.01f;
+    scene.add(square);
+  }
+  scene.pin(0, {0, 1, 2, 3});
+  return scene;
+}
+
+/// Nothing is extrapolated: the bits are those of the plain sweep.
+TEST(WorldSweeps, ChebyshevDoesNotExtrapolateWhatTouchesASurface) {
+  const auto end_of = [](const SweepOptions& options) {
+    World world(square_on_square(options));
+    EXPECT_GT(world.step(1.f / 60).pairs.contacts, 3);
+    return world.state();
+  };
+  SweepOptions options = chebyshev();
+  options.spectral_radius = 0.9f;
+  options.plain_iterations = 3;
+  EXPECT_EQ(hash(end_of(options)), hash(end_of({})));
+}
+
+/// No multiplier explains what contacts moved: the dual residual is of the particles that do not touch.
+TEST(WorldSweeps, DualResidualLeavesOutWhatTouchesASurface) {
+  Scene scene = square_on_square({});
+  scene.settings.record_residuals = true;
+  const Report report = World(scene).step(1.f / 60);
+  ASSERT_EQ(report.convergence.size(), 21U);
+  EXPECT_EQ(report.convergence.back().dual_largest, 0);
+}
+
 TEST(WorldSweeps, OptionsOutOfRangeAreRefusedByName) {
   for (float relaxation : {0.f, -1.f, 2.f, std::numeric_limits<float>::quiet_NaN()}) {
     SweepOptions options;

@@ -93,6 +93,16 @@ void sweep_pairs(Substep& s) {
                                   s.work.displacements.data());
 }
 
+void for_touching_points(const Substep& s, FunctionRef<void(int)> visit) {
+  const auto visit_points = [&](const std::vector<Contact>& contacts) {
+    for (const Contact& contact : contacts)
+      for (std::size_t i = 0; i < contact.point.size(); ++i)
+        if (contact.push > 0 && contact.weight[i] != 0) visit(contact.point[i]);
+  };
+  if (!s.work.colliders.empty()) visit_points(s.work.shape_contacts.contacts());
+  if (s.has_pairs()) visit_points(s.work.pairs->contacts());
+}
+
 void find_more_contacts(Substep& s) {
   if (s.work.colliders.empty()) return;
   for_swept_tiles(s, "solve: contacts", [&](int task) { find_more_in_tile(s, task); });

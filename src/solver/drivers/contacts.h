@@ -12,6 +12,10 @@ void sweep_contacts(Substep& s);
 /// Projects every contact between surfaces once.
 void sweep_pairs(Substep& s);
 
+/// Calls visit(particle) for each point of the contacts with several points that push: of edges and triangles with colliders,
+/// and between surfaces. Particles are numbered over all objects; one may come more than once.
+void for_touching_points(const Substep& s, FunctionRef<void(int particle)> visit);
+
 /// Adds contacts with colliders along the displacements since the prediction. For sweeps that move particles far from
 /// it, such as multigrid.
 void find_more_contacts(Substep& s);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/drivers/contacts.h"
 #include "solver/substep.h"
 
 namespace pliant {
@@ -106,7 +107,7 @@ void extrapolate(float weight, const Record* older, Record* displacements, int f
   }
 }
 
-/// Extrapolates all particles of a tile except those in contact.
+/// Extrapolates all particles of a tile except those that touch a collider.
 void extrapolate_tile(float weight, const Tile& tile, const Record* older, Record* displacements,
                       const std::vector<Contact>& contacts, std::vector<Record>& touching) {
   touching.clear();
@@ -136,12 +137,17 @@ void extrapolate_multipliers(const Substep& s, float weight, const LaneValues& o
 void extrapolate_everything(Substep& s, float weight) {
   const Model& model = s.model;
   ChebyshevScratch& c = chebyshev_of(s);
+  c.touching_points.clear();
+  for_touching_points(s, [&](int particle) {
+    if (is_swept(s, model.object_of(particle))) c.touching_points.emplace_back(particle, s.work.displacements[particle]);
+  });
   for_swept_tiles(s, "solve: chebyshev", [&](int task) {
     const int o = model.tiles()[task].object;
     extrapolate_tile(weight, model.objects[o].tiles[model.tiles()[task].item],
                      c.older.displacements.data() + model.first[o], arguments(s, o, false).displacements,
                      s.work.tiles[task].contacts, c.touching[task]);
   });
+  for (const auto& [particle, displacement] : c.touching_points) s.work.displacements[particle] = displacement;
   extrapolate_multipliers(s, weight, c.older.multipliers);
   std::vector<double>& volumes = s.work.volume_multipliers;
   for (std::size_t o = 0; o < volumes.size(); ++o)

@@ -16,6 +16,7 @@
 // so far from normal that rounding errors grow without bound; World rejects it.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "model/model.h"
@@ -52,6 +53,7 @@ struct ChebyshevScratch : SweepScratch {
   std::vector<double> tile_sums;  ///< sum of m |correction|^2 by tile
   std::vector<std::vector<Record>>
       touching;  ///< by tile: displacements of particles in contact, while others are extrapolated
+  std::vector<std::pair<int, Record>> touching_points;  ///< the same for contacts of edges, triangles and surfaces
 
   void prepare(const SweepSetup& setup, int object) override;
 };

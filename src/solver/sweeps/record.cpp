@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "constraints/registry.h"
+#include "solver/drivers/contacts.h"
 #include "solver/substep.h"
 #include "solver/visit.h"
 #include "solver/volume.h"
@@ -105,6 +106,10 @@ void leave_out_contacts(Substep& s, std::vector<std::vector<char>>& left_out) {
       if (contact.push > 0) left_out[s.model.tiles()[task].object][contact.point[0]] = 1;
     }
   }
+  for_touching_points(s, [&](int particle) {
+    const int o = s.model.object_of(particle);
+    left_out[o][particle - s.model.first[o]] = 1;
+  });
 }
 
 }  // namespace
