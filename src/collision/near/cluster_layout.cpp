@@ -14,6 +14,24 @@ void pad(std::vector<std::int32_t>& list) {
   while (list.size() % 16 != 0) list.push_back(list.back());
 }
 
+/// Sorts the items of each body along a Morton curve through that body alone, so that no other body changes their order.
+template <class Corner>
+std::vector<int> order_by_body(const PairModel& model, const std::vector<std::int32_t>& items,
+                               const std::vector<Vec3f>& middles, Corner corner) {
+  std::vector<std::vector<int>> of_body(static_cast<std::size_t>(model.rules.bodies()));
+  for (std::size_t i = 0; i < items.size(); ++i)
+    of_body[static_cast<std::size_t>(model.vertex_body[corner(items[i], 0)])].push_back(static_cast<int>(i));
+  std::vector<int> all, order;
+  std::vector<Vec3f> places;
+  for (const std::vector<int>& own : of_body) {
+    places.clear();
+    for (const int i : own) places.push_back(middles[i]);
+    MortonSorter().sort(places, order);
+    for (const int k : order) all.push_back(own[static_cast<std::size_t>(k)]);
+  }
+  return all;
+}
+
 ClusterElements lay_out_elements(const PairModel& model, ElementKind kind) {
   const ContactElements& from = model.elements;
   const int corners = kind == vertex_kind ? 1 : kind == edge_kind ? 2 : 3;
@@ -30,13 +48,12 @@ ClusterElements lay_out_elements(const PairModel& model, ElementKind kind) {
       middles[i] += Vec3f{x.x, x.y, x.z};
     }
   }
-  std::vector<int> order;
-  MortonSorter().sort(middles, order);
   std::vector<std::vector<std::int32_t>> of_cluster(static_cast<std::size_t>(model.clusters));
   const std::vector<int>& cluster = kind == vertex_kind ? model.vertex_cluster
                                     : kind == edge_kind ? model.edge_cluster
                                                         : model.triangle_cluster;
-  for (const int i : order) of_cluster[static_cast<std::size_t>(cluster[items[i]])].push_back(items[i]);
+  for (const int i : order_by_body(model, items, middles, corner))
+    of_cluster[static_cast<std::size_t>(cluster[items[i]])].push_back(items[i]);
   ClusterElements to;
   to.corners = corners;
   to.start.push_back(0);
