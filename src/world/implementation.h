@@ -66,10 +66,13 @@ struct World::Implementation {
   void remove(int number);
   /// Makes room in the workspace for an object that was added, removed or recompiled.
   void prepare(int number);
-  /// Whether an object has a surface that could touch something; then contact is rebuilt.
+  /// Notes an object that comes or goes if its surface could touch something.
   void note_surfaces(int number);
   void prepare_shape_contacts();
-  void prepare_pairs(const Records& rest);
+  /// Makes contact among surfaces from all objects.
+  void prepare_pairs();
+  /// Brings what was noted into it.
+  void update_pairs();
   /// Before a step: what only needs to be done once for all that came and went since the last.
   void bring_up_to_date();
 
@@ -128,8 +131,9 @@ struct World::Implementation {
   float last_h = 1;
   bool stopped = false;
   const std::atomic<bool>* stop = nullptr;  ///< of stop_when
-  bool may_drift = false;  ///< fixed particles may have a velocity from a frame in which the user moved them
-  bool surfaces_changed = false, objects_changed = false;  ///< since the last step
+  bool may_drift = false;             ///< fixed particles may have a velocity from a frame in which the user moved them
+  std::vector<int> changed_surfaces;  ///< numbers of objects that came, went or were edited since the last step
+  bool objects_changed = false;       ///< since the last step
 };
 
 }  // namespace pliant

@@ -107,7 +107,7 @@ World::Implementation::Implementation(const Scene& scene, const WorldLayout& lay
     if (taken[number] == 0) state.blocks[number] = {0, 0, model.generation[number]};
     prepare(static_cast<int>(number));
   }
-  prepare_pairs(state.positions);
+  prepare_pairs();
   bring_up_to_date();
 }
 

@@ -1,5 +1,5 @@
 // Objects come and go. Each has a number in the model, a block in the State and its own part of the workspace, so that adding or
-// removing one costs what that one costs. Contact among surfaces is rebuilt once before the next step.
+// removing one costs what that one costs. Contact among surfaces is brought up to date once before the next step.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -145,9 +145,9 @@ void World::Implementation::prepare_shape_contacts() {
 void World::Implementation::note_surfaces(int number) {
   const CompiledObject& object = model.objects[number];
   const auto is_mesh = [](const CompiledObject& one) { return one.is_collider && one.groups != 0; };
-  surfaces_changed = surfaces_changed || pair_model != nullptr || object.self_collision ||
-                     (object.collides && object.groups != 0) ||
-                     std::any_of(model.objects.begin(), model.objects.end(), is_mesh);
+  if (pair_model != nullptr || object.self_collision || (object.collides && object.groups != 0) ||
+      std::any_of(model.objects.begin(), model.objects.end(), is_mesh))
+    changed_surfaces.push_back(number);
 }
 
 void World::Implementation::require_origins(int number, const Edit& edit) const {
@@ -241,10 +241,10 @@ void World::Implementation::forget_pose(bool is_mesh, int slot) {
   std::erase_if(state.held_poses, [&](const HeldPose& pose) { return pose.is_mesh == is_mesh && pose.slot == slot; });
 }
 
-void World::Implementation::prepare_pairs(const Records& rest) {
+void World::Implementation::prepare_pairs() {
   workspace.pairs = nullptr;
-  pair_model = make_pair_model(model, rest);
-  surfaces_changed = false;
+  changed_surfaces.clear();
+  pair_model = make_pair_model(model);
   if (pair_model == nullptr) return;
   pair_model->filter = settings.contact_filter;
   if (settings.initial_intersections == Settings::Intersections::untangle)
@@ -253,8 +253,17 @@ void World::Implementation::prepare_pairs(const Records& rest) {
   workspace.look_for_tangles = true;
 }
 
+void World::Implementation::update_pairs() {
+  if (changed_surfaces.empty()) return;
+  if (pair_model == nullptr || pair_model->untangling_speed > 0) return prepare_pairs();
+  const std::optional<PairChanges> changes = update_pair_model(model, changed_surfaces, *pair_model);
+  if (!changes) return prepare_pairs();
+  changed_surfaces.clear();
+  workspace.pairs->change(*changes);
+}
+
 void World::Implementation::bring_up_to_date() {
-  if (surfaces_changed) prepare_pairs(initial_state(model).positions);
+  update_pairs();
   if (!objects_changed) return;
   for (TileScratch& tile : workspace.tiles) tile.contacts.clear();  // tasks have moved up
   if (settings.tolerance > 0) prepare_residual(model, workspace.residual);

@@ -42,7 +42,7 @@ World::Implementation::Implementation(const Scene& scene, const Settings& with, 
     mesh_collider_ids.add(add_to_model(collider, compile(collider)));
   state = initial_state(model);
   for (int number = 0; number < static_cast<int>(model.objects.size()); ++number) prepare(number);
-  prepare_pairs(state.positions);
+  prepare_pairs();
   bring_up_to_date();
 }
 

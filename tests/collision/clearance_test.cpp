@@ -52,7 +52,7 @@ class Sheet {
       std::sort(part.vertices.begin(), part.vertices.end());
       part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()), part.vertices.end());
     }
-    clearance_ = Clearance(parts, rest, joined);
+    clearance_.add(0, 0, parts, rest, {0, side * side}, joined);
     fill_pairs();
   }
 
@@ -170,7 +170,9 @@ TEST(Clearance, IsTheDistanceWhereCornersAreEquallyFar) {
                                  {5 + side / 2, 0, 0, 1},
                                  {5, height, -side / 2, 1},
                                  {5, height, side / 2, 1}};
-  Clearance clearance({{{0}, {}}, {{1, 2, 3}, {{1, 2}, {2, 3}, {1, 3}}}, {{4, 5}, {{4, 5}}}, {{6, 7}, {{6, 7}}}}, rest, {});
+  Clearance clearance;
+  clearance.add(0, 0, {{{0}, {}}, {{1, 2, 3}, {{1, 2}, {2, 3}, {1, 3}}}, {{4, 5}, {{4, 5}}}, {{6, 7}, {{6, 7}}}}, rest,
+                {0, 8}, {});
   std::vector<std::int32_t> scratch;
   for (const PairKernels* kernels : all_kernels()) {
     for (int piece = 0; piece < 4; ++piece) clearance.place(*kernels, piece, rest.data());

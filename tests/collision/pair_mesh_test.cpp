@@ -37,6 +37,7 @@ PairModel wheel() {
   model.elements = make_contact_elements(triangles, {}, {}, static_cast<int>(model.rest.size()));
   model.edge_cluster.assign(model.elements.edges.size(), 0);
   model.triangle_cluster.assign(triangles.size(), 0);
+  index_bodies(model);
   return model;
 }
 
@@ -81,6 +82,7 @@ PairModel strip() {
   model.elements = make_contact_elements(triangles, {}, {}, 30);
   for (const auto& edge : model.elements.edges) model.edge_cluster.push_back(model.vertex_cluster[edge[0]]);
   for (const Triangle& t : triangles) model.triangle_cluster.push_back(model.vertex_cluster[t[0]]);
+  index_bodies(model);
   return model;
 }
 

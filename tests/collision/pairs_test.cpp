@@ -79,6 +79,7 @@ PairModel model_of(const std::vector<Body>& bodies, bool filter) {
     edges += double(length(Vec3f{p.x - q.x, p.y - q.y, p.z - q.z})) / static_cast<double>(model.elements.edges.size());
   }
   model.radius = model.largest_thickness + 0.5f * static_cast<float>(edges);
+  index_bodies(model);
   return model;
 }
 

@@ -229,7 +229,7 @@ struct Corrected {
     state = initial_state(model);
     prepare(model, Multipliers::all, workspace);
     prepare_sweeps(model, run.settings, 1, workspace);
-    pairs = make_pair_model(model, state.positions);
+    pairs = make_pair_model(model);
     if (pairs) workspace.pairs = std::make_unique<SurfaceContact>(*pairs);
     Executor executor(1);
     Report report;

@@ -47,11 +47,11 @@ void StepFilter::Round::plan_group(const StaticGroup& group, Scratch& scratch) c
   if (group.least.after(odometer) > margin || is_too_far(near, group)) return;
   const float spent = group.least.spent(odometer) + odometer.next;
   PairLanes lanes;
-  for (int b = group.first_block; b < group.last_block; ++b) {
-    if (near.static_pairs.value[b] - spent > margin) continue;
-    lanes.stencils = near.static_pairs.blocks[b];
+  for (std::size_t b = 0; b < group.blocks.size(); ++b) {
+    if (group.value[b] - spent > margin) continue;
+    lanes.stencils = group.blocks[b];
     find_paths(near, group, particles, lanes);
-    for (int lane = 0; lane < StaticPairs::pairs_in(group, b); ++lane) plan_pair(group, lanes, lane, margin, scratch);
+    for (int lane = 0; lane < group.pairs_in(b); ++lane) plan_pair(group, lanes, lane, margin, scratch);
   }
 }
 
@@ -73,6 +73,8 @@ void StepFilter::Round::plan_pair(const ClusterSides& sides, const PairLanes& la
   for (int i = 0; i < 4; ++i)
     if (shares[i] < 1) scratch.shares.emplace_back(pair.vertex[i], shares[i]);
 }
+
+void StepFilter::fit_to_model() { share_.resize(model_.rest.size(), 1.f); }
 
 void StepFilter::forget_counts() {
   truncated_ = unresolvable_count_ = 0;
@@ -105,7 +107,7 @@ void StepFilter::plan(Executor& executor, Neighbourhood& near, const PairParticl
     scratch.shares.clear();
     scratch.unresolvable.clear();
     for (int g = task.first_group; g < task.last_group; ++g) round.plan_group(near.static_pairs.groups[g], scratch);
-    for (int i = task.first; i < task.last; ++i) round.plan_list(near.lists[i], scratch);
+    for (int i = task.first; i < task.last; ++i) round.plan_list(near.lists[near.order[i]], scratch);
   });
 }
 

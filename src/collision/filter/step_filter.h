@@ -21,6 +21,8 @@ class StepFilter {
  public:
   explicit StepFilter(const PairModel& model) : model_(model), share_(model.rest.size(), 1.f) {}
 
+  /// Call it after bodies came or went.
+  void fit_to_model();
   /// Call at a frame's start.
   void forget_counts();
   /// Truncates displacements so that no pair crosses, unless `is_exempt` holds for it. Measures the motion again after each

@@ -77,12 +77,11 @@ void detect_list(const Detection& d, NearList& list, std::vector<std::int32_t>& 
   }
 }
 
-void detect_block(const Detection& d, const StaticGroup& group, int block, std::vector<Contact>& contacts) {
+void detect_block(const Detection& d, const StaticGroup& group, std::size_t block, std::vector<Contact>& contacts) {
   PairLanes lanes;
-  lanes.stencils = d.near.static_pairs.blocks[block];
+  lanes.stencils = group.blocks[block];
   measure(d, group, lanes);
-  for (int lane = 0; lane < StaticPairs::pairs_in(group, block); ++lane)
-    detect_pair(d, group, lanes, lane, nullptr, contacts);
+  for (int lane = 0; lane < group.pairs_in(block); ++lane) detect_pair(d, group, lanes, lane, nullptr, contacts);
 }
 
 /// Measures all blocks of a group that are due within some substeps, so that the next ones need not revisit them.
@@ -90,17 +89,16 @@ void detect_group(const Detection& d, StaticGroup& group, std::vector<Contact>& 
   const ClusterPair& clusters = d.near.pair_of(group);
   const float within = cull_slack * clusters.material.thickness, next = clusters.odometer.next;
   if (group.least.after(clusters.odometer) > within || is_too_far(d.near, group)) return;
-  StaticPairs& pairs = d.near.static_pairs;
-  pairs.rebase(group, clusters.odometer);
+  group.rebase(clusters.odometer);
   const float due = within + (1 + substeps_of_rest) * next;
   group.least.value = out_of_reach;
-  for (int b = group.first_block; b < group.last_block; ++b) {
-    if (pairs.value[b] <= due) {
-      const float least = d.near.kernels.least_distance(pairs.blocks[b], group.of_vertices ? 1 : 2, d.particles.positions);
-      pairs.value[b] = least * sum_slack;
+  for (std::size_t b = 0; b < group.blocks.size(); ++b) {
+    if (group.value[b] <= due) {
+      const float least = d.near.kernels.least_distance(group.blocks[b], group.of_vertices ? 1 : 2, d.particles.positions);
+      group.value[b] = least * sum_slack;
       if (least - next <= within) detect_block(d, group, b, contacts);
     }
-    group.least.value = min(group.least.value, pairs.value[b]);
+    group.least.value = min(group.least.value, group.value[b]);
   }
 }
 
@@ -118,7 +116,7 @@ std::size_t ContactDetector::detect(Executor& executor, Neighbourhood& near, con
     scratch.of_lists.clear();
     for (int g = task.first_group; g < task.last_group; ++g)
       detect_group(d, near.static_pairs.groups[g], scratch.of_groups);
-    for (int i = task.first; i < task.last; ++i) detect_list(d, near.lists[i], scratch.near, scratch.of_lists);
+    for (int i = task.first; i < task.last; ++i) detect_list(d, near.lists[near.order[i]], scratch.near, scratch.of_lists);
   });
   for (const Scratch& scratch : scratch_)
     contacts.insert(contacts.end(), scratch.of_groups.begin(), scratch.of_groups.end());

@@ -12,7 +12,7 @@ namespace pliant {
 
 class ContactDetector {
  public:
-  explicit ContactDetector(const ContactElements& elements) : covered_(elements) {}
+  explicit ContactDetector(const PairModel& model) : covered_(model.elements, model.triangles_around) {}
 
   /// Finds the contacts of the substep, static pairs first, each in cluster order, and returns the number of static ones.
   /// Pairs for which `is_exempt` holds are skipped.

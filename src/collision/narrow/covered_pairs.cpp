@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "collision/proxies/triangles_around.h"
 #include "math/vector.h"
 
 namespace pliant {
@@ -34,8 +33,6 @@ bool is_well_conditioned(const PairStencil& pair, const Record* positions) {
 }
 
 }  // namespace
-
-CoveredPairs::CoveredPairs(const ContactElements& elements) : elements_(elements), around_(triangles_around(elements)) {}
 
 bool CoveredPairs::has_triangle_without(int a, int b, int vertex) const {
   return std::any_of(around_.begin(a), around_.end(a), [&](int number) {

@@ -6,14 +6,14 @@
 #pragma once
 
 #include "collision/narrow/pair_contact.h"
-#include "collision/proxies/contact_elements.h"
+#include "collision/proxies/triangles_around.h"
 #include "model/substep.h"
 
 namespace pliant {
 
 class CoveredPairs {
  public:
-  explicit CoveredPairs(const ContactElements& elements);
+  CoveredPairs(const ContactElements& elements, const TrianglesAround& around) : elements_(elements), around_(around) {}
 
   /// True if another pair of the same two surfaces has closer or equal closest points, so that pair `lane` needs no contact.
   bool covers(const PairStencil& pair, const PairBatch& at, int lane, const Record* positions) const;
@@ -29,7 +29,7 @@ class CoveredPairs {
   bool has_triangle_without(int a, int b, int vertex) const;
 
   const ContactElements& elements_;
-  IntLists around_;  ///< the triangles incident to each vertex
+  const TrianglesAround& around_;
 };
 
 }  // namespace pliant

@@ -13,12 +13,14 @@ BoxRows BoxSearch::Boxes::rows() {
 }
 
 BoxSearch::BoxSearch(const PairModel& model, const PairKernels& kernels, const ClusterLayout& layout)
-    : model_(model), kernels_(kernels), layout_(layout) {
+    : model_(model), kernels_(kernels), layout_(layout) {}
+
+void BoxSearch::fit_to_layout() {
   for (int kind = 0; kind < 3; ++kind) {
-    const std::size_t size = layout.elements[kind].item.size();
+    const std::size_t size = layout_.elements[kind].item.size();
     for (std::vector<float>& row : boxes_[kind].side) row.resize(size);
     boxes_[kind].batch.resize(size / 16);
-    boxes_[kind].wanted.resize(static_cast<std::size_t>(model.clusters));
+    boxes_[kind].wanted.resize(static_cast<std::size_t>(model_.clusters));
   }
 }
 
@@ -38,7 +40,7 @@ void BoxSearch::fit(Executor& executor, const ClusterMotions& motions, const Pai
 void BoxSearch::fit_cluster(int kind, int cluster, const Vec3f& drift, const PairParticles& particles) {
   const ClusterElements& of = layout_.elements[kind];
   Boxes& boxes = boxes_[kind];
-  const int first = of.start[cluster], last = of.start[cluster + 1];
+  const int first = of.start[cluster], last = of.end(cluster);
   kernels_.fit_boxes({{of.corner[0].data(), of.corner[1].data(), of.corner[2].data()}, of.corners}, first, last, particles,
                      drift, boxes.rows());
   for (int i = first; i < last; i += 16) {
@@ -57,8 +59,8 @@ void BoxSearch::find(const ClusterSides& sides, const BoxBounds& far, float reac
   Boxes &row_boxes = boxes_[row], &column_boxes = boxes_[column];
   const bool once = !sides.of_vertices && sides.first == sides.second;
   const float far_box[6] = {far.low.x, far.low.y, far.low.z, far.high.x, far.high.y, far.high.z};
-  const int last = columns.start[sides.second + 1] / 16;
-  for (int sixteen = rows.start[sides.first] / 16; sixteen < rows.start[sides.first + 1] / 16; ++sixteen) {
+  const int last = columns.end(sides.second) / 16;
+  for (int sixteen = rows.start[sides.first] / 16; sixteen < rows.end(sides.first) / 16; ++sixteen) {
     const BoxBounds own = row_boxes.batch[sixteen].grown(reach);
     if (!overlap(row_boxes.batch[sixteen], far)) continue;
     scratch.batches.clear();
@@ -85,7 +87,7 @@ void BoxSearch::add_pair(bool of_vertices, std::int32_t a, std::int32_t b, std::
   } else {
     const auto &e = all.edges[a], &f = all.edges[b];
     if (e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1]) return;
-    if (b < a) std::swap(a, b);
+    if (f < e) std::swap(a, b);  // the lower corners first: numbers say nothing where bodies came and went
   }
   found.push_back({stencil_of(all, of_vertices, a, b).vertex, -1});
 }

@@ -12,6 +12,8 @@ class BoxSearch {
  public:
   BoxSearch(const PairModel& model, const PairKernels& kernels, const ClusterLayout& layout);
 
+  /// Makes room for the primitives of the layout; call it after the layout changed.
+  void fit_to_layout();
   /// Requests boxes for the primitives of these two sides.
   void want(const ClusterSides& sides);
   /// Fits all requested boxes.

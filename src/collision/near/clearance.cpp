@@ -22,11 +22,11 @@ void fill_up(std::vector<T>& list) {
   while (list.size() % 16 != 0) list.push_back(list.back());
 }
 
-/// The rank of each vertex along a Morton curve.
-std::vector<int> ranks(const std::vector<Record>& rest) {
+/// The rank of each vertex along a Morton curve, by numbers from the first on.
+std::vector<int> ranks(const std::vector<Record>& rest, const Block& vertices) {
   std::vector<Vec3f> places;
-  places.reserve(rest.size());
-  for (const Record& x : rest) places.push_back({x.x, x.y, x.z});
+  places.reserve(static_cast<std::size_t>(vertices.size));
+  for (int v = vertices.first; v < vertices.end(); ++v) places.push_back({rest[v].x, rest[v].y, rest[v].z});
   std::vector<int> order, rank(places.size());
   MortonSorter().sort(places, order);
   for (std::size_t i = 0; i < order.size(); ++i) rank[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
@@ -35,45 +35,74 @@ std::vector<int> ranks(const std::vector<Record>& rest) {
 
 }  // namespace
 
-Clearance::Clearance(const std::vector<Piece>& pieces, const std::vector<Record>& rest, const std::vector<Line>& joined) {
-  const std::vector<int> rank = ranks(rest);
-  start_.push_back(0);
-  line_start_.push_back(0);
-  for (Piece piece : pieces) {
-    std::sort(piece.vertices.begin(), piece.vertices.end(), [&](int a, int b) { return rank[a] < rank[b]; });
+void Clearance::add(int body, int first_piece, std::vector<Piece> pieces, const std::vector<Record>& rest,
+                    const Block& vertices, const std::vector<Line>& joined) {
+  const std::vector<int> rank = ranks(rest, vertices);
+  int vertex_count = 0, line_count = 0;
+  for (Piece& piece : pieces) {
+    std::sort(piece.vertices.begin(), piece.vertices.end(),
+              [&](int a, int b) { return rank[a - vertices.first] < rank[b - vertices.first]; });
     fill_up(piece.vertices);
     fill_up(piece.lines);
-    vertex_.insert(vertex_.end(), piece.vertices.begin(), piece.vertices.end());
-    for (const Line& line : piece.lines)
-      for (std::size_t end = 0; end < 2; ++end) line_[end].push_back(line[end]);
-    start_.push_back(static_cast<int>(vertex_.size()));
-    line_start_.push_back(static_cast<int>(line_[0].size()));
+    vertex_count += static_cast<int>(piece.vertices.size());
+    line_count += static_cast<int>(piece.lines.size());
+  }
+  int vertex = vertex_blocks_.take(body, vertex_count).first, line = line_blocks_.take(body, line_count).first;
+  vertex_.resize(vertex_blocks_.end());
+  for (std::vector<std::int32_t>& ends : line_) ends.resize(line_blocks_.end());
+  pieces_.resize(std::max(pieces_.size(), static_cast<std::size_t>(first_piece) + pieces.size()));
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    Stored& stored = pieces_[static_cast<std::size_t>(first_piece) + i];
+    stored = {vertex, vertex, line, line};
+    for (const std::int32_t v : pieces[i].vertices) vertex_[stored.last++] = v;
+    for (const Line& ends : pieces[i].lines) {
+      for (std::size_t end = 0; end < 2; ++end) line_[end][stored.last_line] = ends[end];
+      ++stored.last_line;
+    }
+    vertex = stored.last;
+    line = stored.last_line;
   }
   for (std::vector<float>& row : place_) row.resize(vertex_.size());
   batch_box_.resize(vertex_.size() / 16);
-  longest_.resize(pieces.size());
-  leave_out(joined, rest.size());
+  longest_.resize(pieces_.size());
+  leave_out(body, vertices, joined);
 }
 
-void Clearance::leave_out(const std::vector<Line>& joined, std::size_t vertices) {
-  std::vector<std::vector<std::int32_t>> places(vertices);
-  for (std::size_t i = 0; i < vertex_.size(); ++i) places[vertex_[i]].push_back(static_cast<std::int32_t>(i));
+void Clearance::remove(int body) {
+  vertex_blocks_.release(body);
+  line_blocks_.release(body);
+  left_out_blocks_.release(body);
+}
+
+void Clearance::leave_out(int body, const Block& vertices, const std::vector<Line>& joined) {
+  const Block stored = vertex_blocks_[body];
+  std::vector<std::vector<std::int32_t>> places(static_cast<std::size_t>(vertices.size));
+  for (int i = stored.first; i < stored.end(); ++i) places[vertex_[i] - vertices.first].push_back(i);
   std::vector<std::vector<std::int32_t>> near = places;
-  for (const auto& [v, u] : joined) near[v].insert(near[v].end(), places[u].begin(), places[u].end());
-  for (std::vector<std::int32_t>& list : near) std::sort(list.begin(), list.end());
-  for (const std::int32_t v : vertex_) {
-    const std::size_t start = left_out_.size();
-    left_out_start_.push_back(static_cast<std::int32_t>(start));
-    for (const std::int32_t place : near[v]) {
-      if (left_out_.size() == start || left_out_.back().batch != place / 16) left_out_.push_back({place / 16, 0});
-      left_out_.back().bits |= 1U << (place % 16);
-    }
-    left_out_.push_back({std::numeric_limits<std::int32_t>::max(), 0});
+  for (const auto& [v, u] : joined) {
+    const std::vector<std::int32_t>& others = places[u - vertices.first];
+    near[v - vertices.first].insert(near[v - vertices.first].end(), others.begin(), others.end());
   }
+  for (std::vector<std::int32_t>& list : near) std::sort(list.begin(), list.end());
+  left_out_start_.resize(vertex_.size());
+  std::vector<LeftOut> own;
+  for (int i = stored.first; i < stored.end(); ++i) {
+    const std::size_t start = own.size();
+    left_out_start_[i] = static_cast<std::int32_t>(start);
+    for (const std::int32_t place : near[vertex_[i] - vertices.first]) {
+      if (own.size() == start || own.back().batch != place / 16) own.push_back({place / 16, 0});
+      own.back().bits |= 1U << (place % 16);
+    }
+    own.push_back({std::numeric_limits<std::int32_t>::max(), 0});
+  }
+  const int first = left_out_blocks_.take(body, static_cast<int>(own.size())).first;
+  left_out_.resize(left_out_blocks_.end());
+  std::copy(own.begin(), own.end(), left_out_.begin() + first);
+  for (int i = stored.first; i < stored.end(); ++i) left_out_start_[i] += first;
 }
 
 void Clearance::place(const PairKernels& kernels, int piece, const Record* positions) {
-  const int first = start_[piece], last = start_[piece + 1];
+  const auto [first, last, first_line, last_line] = pieces_[piece];
   kernels.gather_places(vertex_.data(), first, last, positions, rows_of(place_));
   const auto at = [&](int i) { return Vec3f{place_[0][i], place_[1][i], place_[2][i]}; };
   for (int i = first; i < last; i += 16) {
@@ -81,18 +110,18 @@ void Clearance::place(const PairKernels& kernels, int piece, const Record* posit
     for (int k = i + 1; k < i + 16; ++k) box = {min(box.low, at(k)), max(box.high, at(k))};
     batch_box_[i / 16] = box;
   }
-  longest_[piece] = kernels.longest_squared({{line_[0].data(), line_[1].data(), nullptr}, 2}, line_start_[piece],
-                                            line_start_[piece + 1], positions);
+  longest_[piece] =
+      kernels.longest_squared({{line_[0].data(), line_[1].data(), nullptr}, 2}, first_line, last_line, positions);
 }
 
 float Clearance::between(const PairKernels& kernels, int a, int b, float wanted, std::vector<std::int32_t>& scratch) {
   const float sizes = max(0.25f * (longest_[a] + longest_[b]), max(longest_[a], longest_[b]) / 3) * (1 + squared_slack),
               beyond = (wanted * wanted + sizes) * (1 + 8 * squared_slack), reach = sqrt(beyond) * (1 + squared_slack);
-  const int first = start_[b] / 16, last = start_[b + 1] / 16;
+  const int first = pieces_[b].first / 16, last = pieces_[b].last / 16;
   const BoxBounds far = BoxBounds::merged(&batch_box_[first], last - first).grown(reach);
   const float far_box[6] = {far.low.x, far.low.y, far.low.z, far.high.x, far.high.y, far.high.z};
   float least = beyond;
-  for (int rows = start_[a] / 16; rows < start_[a + 1] / 16; ++rows) {
+  for (int rows = pieces_[a].first / 16; rows < pieces_[a].last / 16; ++rows) {
     if (!overlap(batch_box_[rows], far)) continue;
     const BoxBounds own = batch_box_[rows].grown(reach);
     scratch.clear();

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "collision/broad/bounds.h"
+#include "collision/proxies/body_blocks.h"
 #include "collision/proxies/pair_kernels.h"
 
 namespace pliant {
@@ -29,8 +30,11 @@ class Clearance {
   };
 
   Clearance() = default;
-  /// `joined`: adjacent vertices, in both directions. Primitive pairs with adjacent corners are excluded.
-  Clearance(const std::vector<Piece>& pieces, const std::vector<Record>& rest, const std::vector<Line>& joined);
+  /// Adds the pieces of a body, numbered from `first_piece` on, whose vertices are in `vertices`. `joined`: adjacent
+  /// vertices, in both directions. Primitive pairs with adjacent corners are excluded.
+  void add(int body, int first_piece, std::vector<Piece> pieces, const std::vector<Record>& rest, const Block& vertices,
+           const std::vector<Line>& joined);
+  void remove(int body);
 
   /// Stores the positions of a piece; different pieces may be stored concurrently.
   void place(const PairKernels& kernels, int piece, const Record* positions);
@@ -39,10 +43,13 @@ class Clearance {
   float between(const PairKernels& kernels, int a, int b, float wanted, std::vector<std::int32_t>& scratch);
 
  private:
-  void leave_out(const std::vector<Line>& joined, std::size_t vertices);
+  void leave_out(int body, const Block& vertices, const std::vector<Line>& joined);
 
-  // By piece, along a Morton curve, padded to a multiple of sixteen by repetition.
-  std::vector<int> start_, line_start_;
+  /// By piece, along a Morton curve, padded to a multiple of sixteen by repetition.
+  struct Stored {
+    int first = 0, last = 0, first_line = 0, last_line = 0;
+  };
+  std::vector<Stored> pieces_;
   std::vector<std::int32_t> vertex_;
   std::array<std::vector<std::int32_t>, 2> line_;  ///< first and second ends
   std::array<std::vector<float>, 3> place_;        ///< stored by coordinate [m]
@@ -51,6 +58,7 @@ class Clearance {
   // For each stored vertex: itself and its neighbours.
   std::vector<std::int32_t> left_out_start_;
   std::vector<LeftOut> left_out_;
+  BodyBlocks vertex_blocks_, line_blocks_, left_out_blocks_;
 };
 
 }  // namespace pliant

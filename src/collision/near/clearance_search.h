@@ -11,8 +11,9 @@ namespace pliant {
 
 class ClearanceSearch {
  public:
-  ClearanceSearch(Clearance clearance, int clusters)
-      : clearance_(std::move(clearance)), is_placed_(static_cast<std::size_t>(clusters)) {}
+  /// Its pieces are the clusters.
+  Clearance& clearance() { return clearance_; }
+  void resize(std::size_t clusters) { is_placed_.resize(clusters); }
 
   /// Clears all queries and sets the number of cluster pairs.
   void begin(std::size_t pairs);

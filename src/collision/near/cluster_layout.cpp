@@ -14,83 +14,115 @@ void pad(std::vector<std::int32_t>& list) {
   while (list.size() % 16 != 0) list.push_back(list.back());
 }
 
-/// Sorts the items of each body along a Morton curve through that body alone, so that no other body changes their order.
-template <class Corner>
-std::vector<int> order_by_body(const PairModel& model, const std::vector<std::int32_t>& items,
-                               const std::vector<Vec3f>& middles, Corner corner) {
-  std::vector<std::vector<int>> of_body(static_cast<std::size_t>(model.rules.bodies()));
-  for (std::size_t i = 0; i < items.size(); ++i)
-    of_body[static_cast<std::size_t>(model.vertex_body[corner(items[i], 0)])].push_back(static_cast<int>(i));
-  std::vector<int> all, order;
-  std::vector<Vec3f> places;
-  for (const std::vector<int>& own : of_body) {
-    places.clear();
-    for (const int i : own) places.push_back(middles[i]);
-    MortonSorter().sort(places, order);
-    for (const int k : order) all.push_back(own[static_cast<std::size_t>(k)]);
-  }
-  return all;
-}
+/// The primitives of one kind of a model.
+struct Elements {
+  const PairModel& model;
+  ElementKind kind;
 
-ClusterElements lay_out_elements(const PairModel& model, ElementKind kind) {
-  const ContactElements& from = model.elements;
-  const int corners = kind == vertex_kind ? 1 : kind == edge_kind ? 2 : 3;
-  const std::size_t size[3] = {from.vertices.size(), from.edges.size(), from.triangles.size()};
-  const auto corner = [&](int item, int k) {
-    return kind == vertex_kind ? item : kind == edge_kind ? from.edges[item][k] : from.triangles[item][k];
-  };
-  std::vector<std::int32_t> items(size[kind]);
-  std::vector<Vec3f> middles(size[kind]);
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    items[i] = kind == vertex_kind ? from.vertices[i] : static_cast<int>(i);
+  int corner(int item, int k) const {
+    if (kind == vertex_kind) return item;
+    return kind == edge_kind ? model.elements.edges[item][k] : model.elements.triangles[item][k];
+  }
+  int cluster(int item) const {
+    if (kind == vertex_kind) return model.vertex_cluster[item];
+    return kind == edge_kind ? model.edge_cluster[item] : model.triangle_cluster[item];
+  }
+  Block of(int body) const {
+    const BodyElements& all = model.bodies[body];
+    return kind == vertex_kind ? all.vertices : kind == edge_kind ? all.edges : all.triangles;
+  }
+};
+
+/// The primitives of a body by cluster. The Morton curve is that of the body alone, so that no other body changes the order.
+std::vector<std::vector<std::int32_t>> items_of(const Elements& from, int body, int corners) {
+  std::vector<std::int32_t> items;
+  std::vector<Vec3f> middles;
+  for (int item = from.of(body).first; item < from.of(body).end(); ++item) {
+    if (from.cluster(item) < 0) continue;
+    Vec3f middle{};
     for (int k = 0; k < corners; ++k) {
-      const Record& x = model.rest[corner(items[i], k)];
-      middles[i] += Vec3f{x.x, x.y, x.z};
+      const Record& x = from.model.rest[from.corner(item, k)];
+      middle += Vec3f{x.x, x.y, x.z};
     }
+    items.push_back(item);
+    middles.push_back(middle);
   }
-  std::vector<std::vector<std::int32_t>> of_cluster(static_cast<std::size_t>(model.clusters));
-  const std::vector<int>& cluster = kind == vertex_kind ? model.vertex_cluster
-                                    : kind == edge_kind ? model.edge_cluster
-                                                        : model.triangle_cluster;
-  for (const int i : order_by_body(model, items, middles, corner))
-    of_cluster[static_cast<std::size_t>(cluster[items[i]])].push_back(items[i]);
-  ClusterElements to;
-  to.corners = corners;
-  to.start.push_back(0);
-  for (std::vector<std::int32_t>& list : of_cluster) {
-    to.count.push_back(static_cast<int>(list.size()));
-    pad(list);
-    to.item.insert(to.item.end(), list.begin(), list.end());
-    to.start.push_back(static_cast<int>(to.item.size()));
-  }
-  for (const std::int32_t item : to.item)
-    for (int k = 0; k < corners; ++k) to.corner[k].push_back(corner(item, k));
-  return to;
+  std::vector<int> order;
+  MortonSorter().sort(middles, order);
+  const Block clusters = from.model.bodies[body].clusters;
+  std::vector<std::vector<std::int32_t>> of_cluster(static_cast<std::size_t>(clusters.size));
+  for (const int i : order)
+    of_cluster[static_cast<std::size_t>(from.cluster(items[i]) - clusters.first)].push_back(items[i]);
+  return of_cluster;
 }
 
-void lay_out_vertices(ClusterLayout& layout, int clusters) {
-  layout.vertex_start.assign(1, 0);
-  for (int c = 0; c < clusters; ++c) {
-    std::vector<std::int32_t> all;
+void lay_out_elements(const Elements& from, int body, ClusterElements& to) {
+  std::vector<std::vector<std::int32_t>> of_cluster = items_of(from, body, to.corners);
+  const std::size_t clusters = from.model.cluster_body.size();
+  to.start.resize(clusters);
+  to.count.resize(clusters);
+  const int first_cluster = from.model.bodies[body].clusters.first;
+  std::vector<std::int32_t> items;
+  for (std::size_t c = 0; c < of_cluster.size(); ++c) {
+    to.start[first_cluster + c] = static_cast<int>(items.size());
+    to.count[first_cluster + c] = static_cast<int>(of_cluster[c].size());
+    pad(of_cluster[c]);
+    items.insert(items.end(), of_cluster[c].begin(), of_cluster[c].end());
+  }
+  const int first = to.row_blocks.take(body, static_cast<int>(items.size())).first;
+  for (std::size_t c = 0; c < of_cluster.size(); ++c) to.start[first_cluster + c] += first;
+  to.item.resize(to.row_blocks.end());
+  to.left_out_start.resize(to.row_blocks.end());
+  std::copy(items.begin(), items.end(), to.item.begin() + first);
+  for (int k = 0; k < to.corners; ++k) {
+    to.corner[k].resize(to.row_blocks.end());
+    for (std::size_t i = 0; i < items.size(); ++i) to.corner[k][first + i] = from.corner(items[i], k);
+  }
+}
+
+void lay_out_vertices(const PairModel& model, int body, ClusterLayout& layout) {
+  const Block clusters = model.bodies[body].clusters;
+  layout.vertex_start.resize(model.cluster_body.size());
+  layout.vertex_count.resize(model.cluster_body.size());
+  std::vector<std::int32_t> together, all;
+  for (int c = clusters.first; c < clusters.end(); ++c) {
+    all.clear();
     for (const ClusterElements& of : layout.elements)
       for (int k = 0; k < of.corners; ++k)
-        all.insert(all.end(), of.corner[k].begin() + of.start[c], of.corner[k].begin() + of.start[c + 1]);
+        all.insert(all.end(), of.corner[k].begin() + of.start[c], of.corner[k].begin() + of.end(c));
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
     pad(all);
-    layout.vertices.insert(layout.vertices.end(), all.begin(), all.end());
-    layout.vertex_start.push_back(static_cast<int>(layout.vertices.size()));
+    layout.vertex_start[c] = static_cast<int>(together.size());
+    layout.vertex_count[c] = static_cast<int>(all.size());
+    together.insert(together.end(), all.begin(), all.end());
   }
+  const int first = layout.vertex_blocks.take(body, static_cast<int>(together.size())).first;
+  for (int c = clusters.first; c < clusters.end(); ++c) layout.vertex_start[c] += first;
+  layout.vertices.resize(layout.vertex_blocks.end());
+  std::copy(together.begin(), together.end(), layout.vertices.begin() + first);
 }
 
 }  // namespace
 
-ClusterLayout lay_out_clusters(const PairModel& model) {
-  ClusterLayout layout;
+ClusterLayout::ClusterLayout() {
+  for (const ElementKind kind : {vertex_kind, edge_kind, triangle_kind}) elements[kind].corners = 1 + kind;
+}
+
+void ClusterLayout::add(const PairModel& model, int body) {
   for (const ElementKind kind : {vertex_kind, edge_kind, triangle_kind})
-    layout.elements[kind] = lay_out_elements(model, kind);
-  lay_out_vertices(layout, model.clusters);
-  return layout;
+    lay_out_elements({model, kind}, body, elements[kind]);
+  lay_out_vertices(model, body, *this);
+}
+
+void ClusterLayout::remove(int body, const Block& clusters) {
+  for (ClusterElements& of : elements) {
+    std::fill_n(of.count.begin() + clusters.first, clusters.size, 0);
+    of.row_blocks.release(body);
+    of.left_out_blocks.release(body);
+  }
+  std::fill_n(vertex_count.begin() + clusters.first, clusters.size, 0);
+  vertex_blocks.release(body);
 }
 
 }  // namespace pliant

@@ -12,24 +12,30 @@ constexpr float place_roundings = 16;
 
 }  // namespace
 
-ClusterMotions::ClusterMotions(const PairKernels& kernels, int clusters)
-    : kernels_(kernels),
-      motions_(static_cast<std::size_t>(clusters)),
-      travel_(static_cast<std::size_t>(clusters)),
-      extent_(static_cast<std::size_t>(clusters)) {}
+void ClusterMotions::resize(std::size_t clusters) {
+  motions_.resize(clusters);
+  travel_.resize(clusters);
+  extent_.resize(clusters);
+}
 
-bool ClusterMotions::measure(Executor& executor, const ClusterLayout& layout, const PairParticles& particles) {
+void ClusterMotions::reset(int cluster) {
+  motions_[static_cast<std::size_t>(cluster)] = {};
+  travel_[static_cast<std::size_t>(cluster)] = extent_[static_cast<std::size_t>(cluster)] = 0;
+}
+
+bool ClusterMotions::measure(Executor& executor, const ClusterLayout& layout, const std::vector<int>& order,
+                             const PairParticles& particles) {
   const int clusters = static_cast<int>(motions_.size()), tasks = (clusters + clusters_in_a_task - 1) / clusters_in_a_task;
-  const std::vector<int>& start = layout.vertex_start;
   executor.parallel_for("contact bounds", tasks, [&](int task) {
     for (int c = task * clusters_in_a_task; c < std::min(clusters, (task + 1) * clusters_in_a_task); ++c)
-      if (const int count = start[c + 1] - start[c]; count > 0)
-        kernels_.measure_cluster(layout.vertices.data() + start[c], count, particles, motions_[c]);
+      if (const int count = layout.vertex_count[c]; count > 0)
+        kernels_.measure_cluster(layout.vertices.data() + layout.vertex_start[c], count, particles, motions_[c]);
   });
   Vec3d sum{};
   double count = 0;
   bool is_bounded = true;
-  for (const ClusterMotion& motion : motions_) {
+  for (const int c : order) {
+    const ClusterMotion& motion = motions_[static_cast<std::size_t>(c)];
     sum += convert<double>(motion.sum);
     count += double(motion.movable);
     is_bounded = is_bounded && motion.is_bounded;
@@ -73,6 +79,10 @@ void ClusterMotions::begin_travel() { std::fill(travel_.begin(), travel_.end(), 
 
 void ClusterMotions::keep_extents() {
   for (std::size_t c = 0; c < motions_.size(); ++c) extent_[c] = motions_[c].extent;
+}
+
+void ClusterMotions::keep_extent(int cluster) {
+  extent_[static_cast<std::size_t>(cluster)] = motions_[static_cast<std::size_t>(cluster)].extent;
 }
 
 }  // namespace pliant

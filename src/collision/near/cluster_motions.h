@@ -12,10 +12,16 @@ namespace pliant {
 
 class ClusterMotions {
  public:
-  ClusterMotions(const PairKernels& kernels, int clusters);
+  explicit ClusterMotions(const PairKernels& kernels) : kernels_(kernels) {}
+
+  void resize(std::size_t clusters);
+  /// Forgets the motion of one cluster, which was removed or is new.
+  void reset(int cluster);
 
   /// Measures the motion of all clusters in this substep. Returns true if all end positions are finite and below 1e14 m.
-  bool measure(Executor& executor, const ClusterLayout& layout, const PairParticles& particles);
+  /// `order`: all clusters in use.
+  bool measure(Executor& executor, const ClusterLayout& layout, const std::vector<int>& order,
+               const PairParticles& particles);
   /// Adds the measured motion to the distance travelled; call it after the substep.
   void advance();
 
@@ -33,6 +39,7 @@ class ClusterMotions {
   bool has_gone_far() const;
   void begin_travel();
   void keep_extents();
+  void keep_extent(int cluster);
 
  private:
   float travel_next(int cluster) const;

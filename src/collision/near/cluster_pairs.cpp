@@ -1,7 +1,8 @@
 #include "collision/near/cluster_pairs.h"
 
 #include <algorithm>
-#include <tuple>
+#include <numeric>
+#include <utility>
 
 namespace pliant {
 
@@ -9,8 +10,6 @@ namespace {
 
 /// How far clusters may travel between rebuilds, over the radius: trades near lists against searches.
 constexpr float travel_over_radius = 2;
-
-bool is_before(const ClusterPair& x, const ClusterPair& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); }
 
 }  // namespace
 
@@ -29,39 +28,105 @@ void ClusterPair::measure(const ClusterMotions& motions) {
 
 float ClusterPairs::travel() const { return travel_over_radius * model_.radius; }
 
-void ClusterPairs::find(const ClusterMotions& motions, const std::vector<StaticGroup>& groups) {
-  for (int c = 0; c < model_.clusters; ++c)
-    boxes_[static_cast<std::size_t>(c)] = motions.path_box(c).grown((0.5f + travel_over_radius) * model_.radius);
-  tree_.build(boxes_);
-  pairs_.clear();
-  const auto add = [&](int a, int b) {
-    if (model_.rules.meet(model_.cluster_body[a], model_.cluster_body[b]))
-      pairs_.push_back({std::min(a, b), std::max(a, b)});
-  };
-  for (int c = 0; c < model_.clusters; ++c) add(c, c);
-  tree_.self_pairs(add);
-  for (const StaticGroup& group : groups) add(group.first, group.second);
-  std::sort(pairs_.begin(), pairs_.end(), is_before);
-  const auto same = [](const ClusterPair& x, const ClusterPair& y) { return x.a == y.a && x.b == y.b; };
-  pairs_.erase(std::unique(pairs_.begin(), pairs_.end(), same), pairs_.end());
+bool ClusterPairs::is_before(const Clusters& one, const Clusters& other) const {
+  return std::pair(model_.key_of(one.first), model_.key_of(one.second)) <
+         std::pair(model_.key_of(other.first), model_.key_of(other.second));
+}
+
+void ClusterPairs::add_if_they_meet(int a, int b, std::vector<Clusters>& to) const {
+  if (!model_.rules.meet(model_.cluster_body[a], model_.cluster_body[b])) return;
+  to.push_back(model_.is_before(b, a) ? Clusters{b, a} : Clusters{a, b});
+}
+
+void ClusterPairs::sort(std::vector<Clusters>& pairs) const {
+  std::sort(pairs.begin(), pairs.end(), [&](const Clusters& x, const Clusters& y) { return is_before(x, y); });
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+ClusterPair ClusterPairs::make(const Clusters& clusters) const {
+  ClusterPair pair{clusters.first, clusters.second};
+  pair.material = model_.rules.material(model_.cluster_body[pair.a], model_.cluster_body[pair.b]);
+  return pair;
+}
+
+void ClusterPairs::fit_boxes(const ClusterMotions& motions) {
+  boxes_.clear();
+  for (const int c : model_.cluster_order)
+    boxes_.push_back(motions.path_box(c).grown((0.5f + travel_over_radius) * model_.radius));
+}
+
+void ClusterPairs::mark_joined(const std::vector<StaticGroup>& groups, const std::vector<int>& among, bool only_new) {
   for (const StaticGroup& group : groups)
-    pairs_[static_cast<std::size_t>(number_of(group.first, group.second))].is_joined = true;
-  for (ClusterPair& pair : pairs_)
-    pair.material = model_.rules.material(model_.cluster_body[pair.a], model_.cluster_body[pair.b]);
+    if (!only_new || group.pair < 0) pairs_[static_cast<std::size_t>(number_of(group, among))].is_joined = true;
+}
+
+void ClusterPairs::find(const ClusterMotions& motions, const std::vector<StaticGroup>& groups) {
+  const std::vector<int>& order = model_.cluster_order;
+  fit_boxes(motions);
+  tree_.build(boxes_);
+  std::vector<Clusters> found;
+  for (const int c : order) add_if_they_meet(c, c, found);
+  tree_.self_pairs([&](int i, int k) { add_if_they_meet(order[i], order[k], found); });
+  for (const StaticGroup& group : groups) add_if_they_meet(group.first, group.second, found);
+  sort(found);
+  pairs_.clear();
+  for (const Clusters& clusters : found) pairs_.push_back(make(clusters));
+  mark_joined(groups, numbers(), false);
   measure(motions);
 }
 
+std::vector<int> ClusterPairs::find_of_new(const std::vector<int>& clusters, const ClusterMotions& motions,
+                                           const std::vector<StaticGroup>& groups) {
+  const std::vector<int>& order = model_.cluster_order;
+  fit_boxes(motions);
+  std::vector<Clusters> found;
+  for (const int c : clusters) {
+    const BoxBounds box = motions.path_box(c).grown((0.5f + travel_over_radius) * model_.radius);
+    for (std::size_t i = 0; i < order.size(); ++i)
+      if (order[i] == c || overlap(box, boxes_[i])) add_if_they_meet(c, order[i], found);
+  }
+  for (const StaticGroup& group : groups)
+    if (group.pair < 0) add_if_they_meet(group.first, group.second, found);
+  sort(found);
+  std::vector<int> added;
+  std::size_t slot = 0;
+  for (const Clusters& of : found) {
+    while (slot < pairs_.size() && pairs_[slot].a >= 0) ++slot;
+    if (slot == pairs_.size()) pairs_.emplace_back();
+    pairs_[slot] = make(of);
+    pairs_[slot].measure(motions);
+    added.push_back(static_cast<int>(slot));
+  }
+  mark_joined(groups, added, true);
+  return added;
+}
+
+void ClusterPairs::remove(const std::vector<char>& is_removed) {
+  for (ClusterPair& pair : pairs_)
+    if (pair.a >= 0 && (is_removed[pair.a] != 0 || is_removed[pair.b] != 0)) pair = {-1, -1};
+}
+
 void ClusterPairs::measure(const ClusterMotions& motions) {
-  for (ClusterPair& pair : pairs_) pair.measure(motions);
+  for (ClusterPair& pair : pairs_)
+    if (pair.a >= 0) pair.measure(motions);
 }
 
 void ClusterPairs::advance() {
   for (ClusterPair& pair : pairs_) pair.odometer.advance();
 }
 
-int ClusterPairs::number_of(int a, int b) const {
-  const ClusterPair wanted{std::min(a, b), std::max(a, b)};
-  return static_cast<int>(std::lower_bound(pairs_.begin(), pairs_.end(), wanted, is_before) - pairs_.begin());
+std::vector<int> ClusterPairs::numbers() const {
+  std::vector<int> all(pairs_.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+int ClusterPairs::number_of(const StaticGroup& group, const std::vector<int>& among) const {
+  const auto before = [&](int number, const Clusters& wanted) {
+    return is_before({pairs_[number].a, pairs_[number].b}, wanted);
+  };
+  const auto [a, b] = std::minmax(group.first, group.second);  // of one body, so lower numbers are before
+  return *std::lower_bound(among.begin(), among.end(), Clusters{a, b}, before);
 }
 
 }  // namespace pliant

@@ -12,7 +12,7 @@ namespace pliant {
 
 /// Two near clusters, or one with itself.
 struct ClusterPair {
-  int a, b;  ///< a <= b
+  int a, b;  ///< in the order of PairModel::is_before, or the same; -1: not in use
   PairMaterial material{};
   float rigid = 0;  ///< how much the rigid motions of both can reduce a distance in this substep [m]
   Odometer odometer{};
@@ -24,26 +24,43 @@ struct ClusterPair {
 
 class ClusterPairs {
  public:
-  explicit ClusterPairs(const PairModel& model) : model_(model), boxes_(static_cast<std::size_t>(model.clusters)) {}
+  explicit ClusterPairs(const PairModel& model) : model_(model) {}
 
   /// Finds pairs that can come within the radius before a cluster travels travel(), and those of all static groups.
   void find(const ClusterMotions& motions, const std::vector<StaticGroup>& groups);
+  /// Finds the pairs of new clusters with each other and all others, and those of groups without a pair. Returns their
+  /// indices. The others may have travelled up to travel(), the new ones not at all.
+  std::vector<int> find_of_new(const std::vector<int>& clusters, const ClusterMotions& motions,
+                               const std::vector<StaticGroup>& groups);
+  /// Drops the pairs of removed clusters.
+  void remove(const std::vector<char>& is_removed);
   void measure(const ClusterMotions& motions);
   /// Advances the odometers; call it after the substep.
   void advance();
 
   /// How far a cluster may travel before the next broad-phase rebuild [m].
   float travel() const;
+  /// Ascending after find(); later ones stand where there is room.
   const std::vector<ClusterPair>& pairs() const { return pairs_; }
   const ClusterPair& operator[](int number) const { return pairs_[static_cast<std::size_t>(number)]; }
-  /// The index of an existing pair, in either order.
-  int number_of(int a, int b) const;
+  /// Among indices of pairs, ascending by clusters: the index of an existing pair.
+  int number_of(const StaticGroup& group, const std::vector<int>& among) const;
+  /// The indices of all pairs after find().
+  std::vector<int> numbers() const;
 
  private:
+  using Clusters = std::pair<int, int>;
+  bool is_before(const Clusters& one, const Clusters& other) const;
+  void add_if_they_meet(int a, int b, std::vector<Clusters>& to) const;
+  void sort(std::vector<Clusters>& pairs) const;
+  void fit_boxes(const ClusterMotions& motions);
+  void mark_joined(const std::vector<StaticGroup>& groups, const std::vector<int>& among, bool only_new);
+  ClusterPair make(const Clusters& clusters) const;
+
   const PairModel& model_;
-  std::vector<BoxBounds> boxes_;
+  std::vector<BoxBounds> boxes_;  ///< of the clusters in use, grown; in their order
   Tree<BoxBounds> tree_;
-  std::vector<ClusterPair> pairs_;  ///< ascending
+  std::vector<ClusterPair> pairs_;
 };
 
 }  // namespace pliant

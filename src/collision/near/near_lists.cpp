@@ -1,8 +1,10 @@
 #include "collision/near/near_lists.h"
 
 #include <algorithm>
-#include <tuple>
+#include <numeric>
 #include <utility>
+
+#include "collision/near/near_order.h"
 
 namespace pliant {
 
@@ -20,54 +22,21 @@ float distance_between(const BoxBounds& a, const BoxBounds& b) {
   return max(max(apart.x, apart.y), apart.z);
 }
 
-Neighbourhood make_neighbourhood(const PairModel& model, const PairKernels& kernels, std::vector<Clearance::Line>& joined) {
-  Neighbourhood near{
-      model, kernels, lay_out_clusters(model), ClusterMotions(kernels, model.clusters), ClusterPairs(model), {}, {}, {}};
-  near.static_pairs = find_static_pairs(model, near.layout, joined);
-  return near;
-}
-
-/// The order of near lists: kind, then clusters. An added or removed list does not change the order of contacts.
-auto key_of(const ClusterSides& sides) { return std::make_tuple(!sides.of_vertices, sides.first, sides.second); }
-
-/// The sides of all near lists, ascending by key_of.
-std::vector<ClusterSides> sides_of(const Neighbourhood& near) {
-  std::vector<ClusterSides> all;
-  const auto add = [&](bool of_vertices, int first, int second, int pair) {
-    if (near.layout.elements[row_kind(of_vertices)].count[first] == 0 ||
-        near.layout.elements[column_kind(of_vertices)].count[second] == 0)
-      return;
-    ClusterSides sides;
-    sides.first = first;
-    sides.second = second;
-    sides.of_vertices = of_vertices;
-    sides.pair = pair;
-    all.push_back(sides);
-  };
-  const std::vector<ClusterPair>& pairs = near.pairs.pairs();
-  for (int i = 0; i < static_cast<int>(pairs.size()); ++i) {
-    const auto [a, b] = std::make_pair(pairs[i].a, pairs[i].b);
-    add(true, a, b, i);
-    if (a != b) add(true, b, a, i);
-    add(false, a, b, i);
-  }
-  std::sort(all.begin(), all.end(), [](const ClusterSides& x, const ClusterSides& y) { return key_of(x) < key_of(y); });
-  return all;
-}
-
 }  // namespace
 
-NearLists::NearLists(const PairModel& model, const PairKernels& kernels) : NearLists(model, kernels, {}) {}
-
-NearLists::NearLists(const PairModel& model, const PairKernels& kernels, std::vector<Clearance::Line> joined)
-    : near_(make_neighbourhood(model, kernels, joined)),
-      clearance_(Clearance(clearance_pieces(model, near_.layout), model.rest, joined), model.clusters),
-      search_(model, kernels, near_.layout) {}
+NearLists::NearLists(const PairModel& model, const PairKernels& kernels)
+    : near_(model, kernels), search_(model, kernels, near_.layout) {
+  std::vector<int> bodies;
+  for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body)
+    if (model.bodies[body].clusters.size > 0) bodies.push_back(body);
+  resize();
+  add(bodies);
+}
 
 float NearLists::skin() const { return skin_share * (near_.model.radius - near_.model.largest_thickness); }
 
 bool NearLists::measure(Executor& executor, const PairParticles& particles) {
-  const bool is_bounded = near_.motions.measure(executor, near_.layout, particles);
+  const bool is_bounded = near_.motions.measure(executor, near_.layout, near_.model.cluster_order, particles);
   if (!is_bounded) is_listed_ = false;
   near_.pairs.measure(near_.motions);
   return is_bounded;
@@ -79,8 +48,13 @@ void NearLists::advance() {
 }
 
 void NearLists::update(Executor& executor, const PairParticles& particles) {
+  for (const int cluster : new_clusters_) near_.motions.keep_extent(cluster);
   if (is_listed_ && near_.motions.has_gone_far()) is_listed_ = false;
-  if (!is_listed_ || !near_.motions.stay_within(near_.pairs.travel())) pair_clusters();
+  if (!is_listed_ || must_pair_ || !near_.motions.stay_within(near_.pairs.travel())) {
+    pair_clusters();
+  } else if (!new_clusters_.empty()) {
+    pair_new_clusters();
+  }
   find_stale();
   const auto is_stale = [](const Scratch& scratch) { return !scratch.stale.empty(); };
   if (std::none_of(scratch_.begin(), scratch_.end(), is_stale)) return;
@@ -91,8 +65,8 @@ void NearLists::update(Executor& executor, const PairParticles& particles) {
   executor.parallel_for("list pairs", static_cast<int>(scratch_.size()), [&](int task) {
     for (const std::int32_t list : scratch_[task].stale) refresh(near_.lists[list], scratch_[task].search, particles);
   });
-  candidates_ = near_.static_pairs.count;
-  for (const NearList& list : near_.lists) candidates_ += static_cast<std::int64_t>(list.pairs.size());
+  listed_ = 0;
+  for (const std::int32_t list : near_.order) listed_ += static_cast<std::int64_t>(near_.lists[list].pairs.size());
 }
 
 // ---------------------------------------------------------------- pairs of clusters
@@ -106,29 +80,34 @@ void NearLists::pair_clusters() {
   near_.motions.begin_travel();
   if (!is_listed_) near_.motions.keep_extents();
   is_listed_ = true;
+  must_pair_ = false;
+  new_clusters_.clear();
   ++rebuilds_;
 }
 
 /// Static groups keep their bounds, less the odometers' counts, unless forget() was called.
 void NearLists::carry_groups(const std::vector<ClusterPair>& old) {
+  const std::vector<int> all = near_.pairs.numbers();
   for (StaticGroup& group : near_.static_pairs.groups) {
-    if (is_listed_) group.least.since -= old[group.pair].odometer.total;
-    if (!is_listed_) group.least.value = not_measured;
-    group.pair = near_.pairs.number_of(group.first, group.second);
+    if (!is_listed_) group.forget();
+    if (is_listed_ && group.pair >= 0) group.least.since -= old[group.pair].odometer.total;
+    group.pair = near_.pairs.number_of(group, all);
   }
-  if (!is_listed_) std::fill(near_.static_pairs.value.begin(), near_.static_pairs.value.end(), not_measured);
 }
 
 /// Keeps the lists of pairs that stay near, unless forget() was called.
 void NearLists::make_lists(const std::vector<ClusterPair>& old) {
-  std::vector<NearList> before = std::move(near_.lists);
+  std::vector<NearList> before;
+  before.reserve(near_.order.size());
+  for (const std::int32_t list : near_.order) before.push_back(std::move(near_.lists[list]));
   near_.lists.clear();
+  unused_lists_.clear();
   std::size_t next = 0;
-  for (const ClusterSides& sides : sides_of(near_)) {
+  for (const ClusterSides& sides : sides_of(near_, near_.pairs.numbers())) {
     NearList list;
     static_cast<ClusterSides&>(list) = sides;
-    while (next < before.size() && key_of(before[next]) < key_of(sides)) ++next;
-    if (is_listed_ && next < before.size() && key_of(before[next]) == key_of(sides)) {
+    while (next < before.size() && is_before(near_.model, before[next], sides)) ++next;
+    if (is_listed_ && next < before.size() && !is_before(near_.model, sides, before[next])) {
       NearList& same = before[next];
       const float counted = old[same.pair].odometer.total;
       same.pair = sides.pair;
@@ -138,12 +117,14 @@ void NearLists::make_lists(const std::vector<ClusterPair>& old) {
     }
     near_.lists.push_back(std::move(list));
   }
+  near_.order.resize(near_.lists.size());
+  std::iota(near_.order.begin(), near_.order.end(), 0);
 }
 
 void NearLists::cut_into_tasks() {
   const auto pieces = [](std::size_t size, int of) { return (static_cast<int>(size) + of - 1) / of; };
-  const int lists = static_cast<int>(near_.lists.size()), groups = static_cast<int>(near_.static_pairs.groups.size()),
-            tasks = pieces(near_.lists.size(), lists_in_a_task),
+  const int lists = static_cast<int>(near_.order.size()), groups = static_cast<int>(near_.static_pairs.groups.size()),
+            tasks = pieces(near_.order.size(), lists_in_a_task),
             share = std::max(1, pieces(near_.static_pairs.groups.size(), std::max(1, tasks)));
   near_.tasks.resize(static_cast<std::size_t>(tasks));
   scratch_.resize(near_.tasks.size());
@@ -159,7 +140,8 @@ void NearLists::find_stale() {
     std::vector<std::int32_t>& stale = scratch_[task].stale;
     stale.clear();
     for (int i = near_.tasks[task].first; i < near_.tasks[task].last; ++i)
-      if (const NearList& list = near_.lists[i]; !list.complete.lasts(near_.odometer(list))) stale.push_back(i);
+      if (const NearList& list = near_.lists[near_.order[i]]; !list.complete.lasts(near_.odometer(list)))
+        stale.push_back(near_.order[i]);
   }
 }
 

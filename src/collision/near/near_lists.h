@@ -19,6 +19,9 @@ class NearLists {
   NearLists(const NearLists&) = delete;
   NearLists& operator=(const NearLists&) = delete;
 
+  /// Takes out removed bodies, whose clusters are given, and brings in new ones. What is known of all others is kept.
+  void change(const PairChanges& changes);
+
   /// Forces a broad-phase rebuild; needed after positions change other than by the measured motion.
   void forget() { is_listed_ = false; }
   /// Measures the substep's motion. Returns true if every end position is finite
@@ -31,7 +34,7 @@ class NearLists {
 
   Neighbourhood& neighbourhood() { return near_; }
   const Neighbourhood& neighbourhood() const { return near_; }
-  std::int64_t candidates() const { return candidates_; }
+  std::int64_t candidates() const { return near_.static_pairs.count + listed_; }
   /// The number of broad-phase rebuilds.
   std::int64_t rebuilds() const { return rebuilds_; }
 
@@ -42,8 +45,12 @@ class NearLists {
     BoxSearch::Scratch search;
   };
 
-  NearLists(const PairModel& model, const PairKernels& kernels, std::vector<Clearance::Line> joined);
   float skin() const;
+  void remove(const std::vector<int>& bodies, const std::vector<Block>& clusters);
+  void add(const std::vector<int>& bodies);
+  void resize();
+  void pair_new_clusters();
+  void add_lists(const std::vector<int>& pairs);
   void pair_clusters();
   void carry_groups(const std::vector<ClusterPair>& old);
   void make_lists(const std::vector<ClusterPair>& old);
@@ -58,8 +65,10 @@ class NearLists {
   ClearanceSearch clearance_;
   BoxSearch search_;
   std::vector<Scratch> scratch_;
-  bool is_listed_ = false;
-  std::int64_t candidates_ = 0, rebuilds_ = 0;
+  std::vector<int> new_clusters_;           ///< not paired yet
+  std::vector<std::int32_t> unused_lists_;  ///< of Neighbourhood::lists
+  bool is_listed_ = false, must_pair_ = false;
+  std::int64_t listed_ = 0, rebuilds_ = 0;
 };
 
 }  // namespace pliant

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <tuple>
 
@@ -14,22 +15,21 @@ constexpr int most_neighbours = 24;
 
 using Numbers = std::array<std::int32_t, 2>;
 
-/// The elements incident to each vertex, ascending.
-template <class ListOfCorners>
-IntLists elements_around(const ListOfCorners& elements, int vertex_count) {
+/// The edges incident to each vertex of a body, in local numbers of vertices; ascending.
+IntLists edges_around(const PairModel& model, const BodyElements& body) {
   IntLists out;
-  out.start.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
-  for (const auto& corners : elements)
-    for (const int v : corners) ++out.start[static_cast<std::size_t>(v) + 1];
+  out.start.assign(static_cast<std::size_t>(body.vertices.size) + 1, 0);
+  const auto each = [&](auto visit) {
+    for (int e = body.edges.first; e < body.edges.end(); ++e)
+      for (const int v : model.elements.edges[e]) visit(e, static_cast<std::size_t>(v - body.vertices.first));
+  };
+  each([&](int, std::size_t v) { ++out.start[v + 1]; });
   for (std::size_t i = 1; i < out.start.size(); ++i) out.start[i] += out.start[i - 1];
   out.items.resize(static_cast<std::size_t>(out.start.back()));
   std::vector<int> next(out.start.begin(), out.start.end() - 1);
-  for (std::size_t e = 0; e < elements.size(); ++e)
-    for (const int v : elements[e]) out.items[static_cast<std::size_t>(next[v]++)] = static_cast<int>(e);
+  each([&](int e, std::size_t v) { out.items[static_cast<std::size_t>(next[v]++)] = e; });
   return out;
 }
-
-int count_of(const IntLists& lists, int i) { return static_cast<int>(lists.end(i) - lists.begin(i)); }
 
 /// Packed into one integer, which compares faster; both numbers are >= 0.
 std::uint64_t key(const Numbers& pair) {
@@ -52,92 +52,105 @@ struct MeshPairs {
   std::vector<Numbers> joined;      ///< adjacent vertices
 };
 
-/// The elements incident to the vertices of one mesh.
+/// The elements incident to the vertices of one body.
 struct Mesh {
-  const ContactElements& all;
-  IntLists edges_at = elements_around(all.edges, all.vertex_count),
-           triangles_at = elements_around(all.triangles, all.vertex_count);
+  const PairModel& model;
+  const BodyElements& body;
+  IntLists edges_at = edges_around(model, body);
 
-  bool has_few(int v) const { return count_of(edges_at, v) <= most_neighbours; }
-  int other_end(int edge, int v) const { return all.edges[edge][0] == v ? all.edges[edge][1] : all.edges[edge][0]; }
+  const int* edges_begin(int v) const { return edges_at.begin(v - body.vertices.first); }
+  const int* edges_end(int v) const { return edges_at.end(v - body.vertices.first); }
+  bool has_few(int v) const { return edges_end(v) - edges_begin(v) <= most_neighbours; }
+  int other_end(int edge, int v) const {
+    const auto [a, b] = model.elements.edges[edge];
+    return a == v ? b : a;
+  }
 };
 
 /// Adds the pairs of an element at v and one at u, where v-u is an edge.
 void add_near(const Mesh& mesh, int v, int u, MeshPairs& out) {
-  const ContactElements& all = mesh.all;
+  const ContactElements& all = mesh.model.elements;
+  const TrianglesAround& around = mesh.model.triangles_around;
   out.joined.push_back({v, u});
-  for (const int* t = mesh.triangles_at.begin(u); t != mesh.triangles_at.end(u); ++t) {
+  for (const int* t = around.begin(u); t != around.end(u); ++t) {
     const Triangle& c = all.triangles[*t];
     if (c[0] != v && c[1] != v && c[2] != v) out.near[0].push_back({v, *t});
   }
-  for (const int* mine = mesh.edges_at.begin(v); mine != mesh.edges_at.end(v); ++mine)
-    for (const int* other = mesh.edges_at.begin(u); other != mesh.edges_at.end(u); ++other)
+  for (const int* mine = mesh.edges_begin(v); mine != mesh.edges_end(v); ++mine)
+    for (const int* other = mesh.edges_begin(u); other != mesh.edges_end(u); ++other)
       if (*mine < *other && !share_vertex(all.edges[*mine], all.edges[*other])) out.near[1].push_back({*mine, *other});
 }
 
-MeshPairs find_mesh_pairs(const PairModel& model) {
-  const Mesh mesh{model.elements};
+MeshPairs find_mesh_pairs(const PairModel& model, int body) {
   MeshPairs out;
-  for (const int v : model.elements.vertices) {
-    if (!model.rules.meet(model.vertex_body[v], model.vertex_body[v]) || !mesh.has_few(v)) continue;
-    for (const int* t = mesh.triangles_at.begin(v); t != mesh.triangles_at.end(v); ++t) out.sharing[0].push_back({v, *t});
-    for (const int* e = mesh.edges_at.begin(v); e != mesh.edges_at.end(v); ++e) {
-      for (const int* f = mesh.edges_at.begin(v); f != mesh.edges_at.end(v); ++f) out.sharing[1].push_back({*e, *f});
+  if (!model.rules.meet(body, body)) return out;
+  const Mesh mesh{model, model.bodies[body]};
+  const TrianglesAround& around = model.triangles_around;
+  for (int v = mesh.body.vertices.first; v < mesh.body.vertices.end(); ++v) {
+    if (model.vertex_cluster[v] < 0 || !mesh.has_few(v)) continue;
+    for (const int* t = around.begin(v); t != around.end(v); ++t) out.sharing[0].push_back({v, *t});
+    for (const int* e = mesh.edges_begin(v); e != mesh.edges_end(v); ++e) {
+      for (const int* f = mesh.edges_begin(v); f != mesh.edges_end(v); ++f) out.sharing[1].push_back({*e, *f});
       if (const int u = mesh.other_end(*e, v); mesh.has_few(u)) add_near(mesh, v, u, out);
     }
   }
   return out;
 }
 
-/// The row or column of each primitive in its layout; -1 if it has none.
-std::vector<std::int32_t> places_of(const ClusterElements& of, std::size_t items) {
-  std::vector<std::int32_t> at(items, -1);
-  for (std::size_t c = 0; c < of.count.size(); ++c)
-    for (int i = of.start[c]; i < of.start[c] + of.count[c]; ++i) at[of.item[i]] = i;
+/// The row or column of each primitive of a body in its layout, -1 if it has none; by numbers from the body's first on.
+std::vector<std::int32_t> places_of(const ClusterElements& of, const Block& clusters, const Block& items) {
+  std::vector<std::int32_t> at(static_cast<std::size_t>(items.size), -1);
+  for (int c = clusters.first; c < clusters.end(); ++c)
+    for (int i = of.start[c]; i < of.start[c] + of.count[c]; ++i) at[of.item[i] - items.first] = i;
   return at;
 }
 
-/// The columns that each row excludes, sixteen per word.
-void leave_out(ClusterLayout& layout, const PairModel& model, bool of_vertices, std::vector<Numbers>& pairs) {
+/// The columns that each row of a body excludes, sixteen per word.
+void leave_out(ClusterLayout& layout, const PairModel& model, int body, bool of_vertices, std::vector<Numbers>& pairs) {
+  const BodyElements& all = model.bodies[body];
   ClusterElements &rows = layout.elements[row_kind(of_vertices)], &columns = layout.elements[column_kind(of_vertices)];
-  const std::vector<std::int32_t> row_at = places_of(rows, of_vertices ? model.rest.size() : rows.item.size()),
-                                  column_at = places_of(columns, columns.item.size());
-  for (Numbers& pair : pairs) pair = {row_at[pair[0]], column_at[pair[1]]};
+  const Block of_rows = of_vertices ? all.vertices : all.edges, of_columns = of_vertices ? all.triangles : all.edges;
+  const std::vector<std::int32_t> row_at = places_of(rows, all.clusters, of_rows),
+                                  column_at = places_of(columns, all.clusters, of_columns);
+  for (Numbers& pair : pairs) pair = {row_at[pair[0] - of_rows.first], column_at[pair[1] - of_columns.first]};
   sort_unique(pairs);
+  const Block block = rows.row_blocks[body];
+  std::vector<LeftOut> own;
   std::size_t next = 0;
-  for (std::int32_t row = 0; row < static_cast<std::int32_t>(rows.item.size()); ++row) {
-    rows.left_out_start.push_back(static_cast<std::int32_t>(rows.left_out.size()));
+  for (std::int32_t row = block.first; row < block.end(); ++row) {
+    const std::size_t start = own.size();
+    rows.left_out_start[row] = static_cast<std::int32_t>(start);
     for (; next < pairs.size() && pairs[next][0] == row; ++next) {
       const std::int32_t batch = pairs[next][1] / 16;
-      const bool begins = rows.left_out_start.back() == static_cast<std::int32_t>(rows.left_out.size());
-      if (begins || rows.left_out.back().batch != batch) rows.left_out.push_back({batch, 0});
-      rows.left_out.back().bits |= 1U << (pairs[next][1] % 16);
+      if (own.size() == start || own.back().batch != batch) own.push_back({batch, 0});
+      own.back().bits |= 1U << (pairs[next][1] % 16);
     }
-    rows.left_out.push_back({std::numeric_limits<std::int32_t>::max(), 0});
+    own.push_back({std::numeric_limits<std::int32_t>::max(), 0});
   }
+  const int first = rows.left_out_blocks.take(body, static_cast<int>(own.size())).first;
+  rows.left_out.resize(rows.left_out_blocks.end());
+  std::copy(own.begin(), own.end(), rows.left_out.begin() + first);
+  for (int row = block.first; row < block.end(); ++row) rows.left_out_start[row] += first;
 }
 
 /// Appends a group's pairs in blocks of sixteen, nearest at rest first, so that often measured pairs share blocks.
-void add_group(StaticGroup group, const std::vector<PairStencil>& pairs, const PairModel& model, StaticPairs& to) {
+void add_group(StaticGroup group, const std::vector<PairStencil>& pairs, const PairModel& model,
+               std::vector<StaticGroup>& to) {
   std::vector<std::pair<double, std::size_t>> order;
+  order.reserve(pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) order.emplace_back(pair_distance(pairs[i], model.rest.data()).distance, i);
   std::sort(order.begin(), order.end());
-  group.first_block = static_cast<int>(to.blocks.size());
   group.pairs = static_cast<int>(pairs.size());
-  to.count += group.pairs;
-  for (std::size_t i = 0; i < order.size(); i += 16) {
-    to.blocks.emplace_back();
-    to.value.push_back(not_measured);
-    for (std::size_t lane = 0; lane < 16; ++lane)
-      for (int k = 0; k < 4; ++k)
-        to.blocks.back().vertex[k][lane] = pairs[order[std::min(i + lane, order.size() - 1)].second].vertex[k];
-  }
-  group.last_block = static_cast<int>(to.blocks.size());
-  to.groups.push_back(group);
+  group.blocks.resize((order.size() + 15) / 16);
+  group.value.assign(group.blocks.size(), not_measured);
+  for (std::size_t i = 0; i < 16 * group.blocks.size(); ++i)
+    for (int k = 0; k < 4; ++k)
+      group.blocks[i / 16].vertex[k][i % 16] = pairs[order[std::min(i, order.size() - 1)].second].vertex[k];
+  to.push_back(std::move(group));
 }
 
 /// Groups pairs by their clusters.
-void add_groups(const PairModel& model, bool of_vertices, const std::vector<Numbers>& pairs, StaticPairs& to) {
+void add_groups(const PairModel& model, bool of_vertices, const std::vector<Numbers>& pairs, std::vector<StaticGroup>& to) {
   struct Placed {
     int first, second;
     PairStencil four;
@@ -166,45 +179,13 @@ void add_groups(const PairModel& model, bool of_vertices, const std::vector<Numb
   }
 }
 
-}  // namespace
-
-void StaticPairs::rebase(StaticGroup& group, const Odometer& odometer) {
-  const float spent = group.least.spent(odometer);
-  for (int b = group.first_block; b < group.last_block; ++b) value[b] -= spent + 1e-6f * (abs(value[b]) + spent);
-  group.least.since = odometer.total;
-}
-
-PairStencil stencil_of(const ContactElements& elements, bool of_vertices, std::int32_t a, std::int32_t b) {
-  if (of_vertices) {
-    const Triangle& t = elements.triangles[b];
-    return {{a, t[0], t[1], t[2]}, 1};
-  }
-  const auto &e = elements.edges[a], &f = elements.edges[b];
-  return {{e[0], e[1], f[0], f[1]}, 2};
-}
-
-StaticPairs find_static_pairs(const PairModel& model, ClusterLayout& layout, std::vector<Clearance::Line>& joined) {
-  MeshPairs pairs = find_mesh_pairs(model);
-  StaticPairs out;
-  for (const bool of_vertices : {true, false}) {
-    std::vector<Numbers>&near = pairs.near[of_vertices ? 0 : 1], &sharing = pairs.sharing[of_vertices ? 0 : 1];
-    sort_unique(near);
-    add_groups(model, of_vertices, near, out);
-    sharing.insert(sharing.end(), near.begin(), near.end());
-    if (!of_vertices)
-      for (const Numbers& pair : near) sharing.push_back({pair[1], pair[0]});
-    leave_out(layout, model, of_vertices, sharing);
-  }
-  joined = std::move(pairs.joined);
-  return out;
-}
-
-std::vector<Clearance::Piece> clearance_pieces(const PairModel& model, const ClusterLayout& layout) {
-  std::vector<Clearance::Piece> pieces(static_cast<std::size_t>(model.clusters));
-  for (int c = 0; c < model.clusters; ++c) {
-    Clearance::Piece& piece = pieces[static_cast<std::size_t>(c)];
-    piece.vertices.assign(layout.vertices.begin() + layout.vertex_start[c],
-                          layout.vertices.begin() + layout.vertex_start[c + 1]);
+/// The clusters of a body as pieces for Clearance.
+std::vector<Clearance::Piece> clearance_pieces(const ClusterLayout& layout, const Block& clusters) {
+  std::vector<Clearance::Piece> pieces(static_cast<std::size_t>(clusters.size));
+  for (int c = clusters.first; c < clusters.end(); ++c) {
+    Clearance::Piece& piece = pieces[static_cast<std::size_t>(c - clusters.first)];
+    const auto first = layout.vertices.begin() + layout.vertex_start[c];
+    piece.vertices.assign(first, first + layout.vertex_count[c]);
     for (const ElementKind kind : {edge_kind, triangle_kind}) {
       const ClusterElements& of = layout.elements[kind];
       for (int i = of.start[c]; i < of.start[c] + of.count[c]; ++i)
@@ -216,6 +197,71 @@ std::vector<Clearance::Piece> clearance_pieces(const PairModel& model, const Clu
     sort_unique(piece.lines);
   }
   return pieces;
+}
+
+void add_pairs_of(const PairModel& model, int body, ClusterLayout& layout, std::vector<StaticGroup>& groups,
+                  Clearance& clearance) {
+  MeshPairs pairs = find_mesh_pairs(model, body);
+  for (const bool of_vertices : {true, false}) {
+    std::vector<Numbers>&near = pairs.near[of_vertices ? 0 : 1], &sharing = pairs.sharing[of_vertices ? 0 : 1];
+    sort_unique(near);
+    add_groups(model, of_vertices, near, groups);
+    sharing.insert(sharing.end(), near.begin(), near.end());
+    if (!of_vertices)
+      for (const Numbers& pair : near) sharing.push_back({pair[1], pair[0]});
+    leave_out(layout, model, body, of_vertices, sharing);
+  }
+  if (!model.rules.meet(body, body)) return;
+  const BodyElements& all = model.bodies[body];
+  clearance.add(body, all.clusters.first, clearance_pieces(layout, all.clusters), model.rest, all.vertices, pairs.joined);
+}
+
+}  // namespace
+
+void StaticGroup::rebase(const Odometer& odometer) {
+  const float spent = least.spent(odometer);
+  for (float& bound : value) bound -= spent + 1e-6f * (abs(bound) + spent);
+  least.since = odometer.total;
+}
+
+void StaticGroup::forget() {
+  least.value = not_measured;
+  std::fill(value.begin(), value.end(), not_measured);
+}
+
+void StaticPairs::remove(const std::vector<char>& is_removed) {
+  std::erase_if(groups, [&](const StaticGroup& group) {
+    if (is_removed[group.first] == 0) return false;
+    count -= group.pairs;
+    return true;
+  });
+}
+
+PairStencil stencil_of(const ContactElements& elements, bool of_vertices, std::int32_t a, std::int32_t b) {
+  if (of_vertices) {
+    const Triangle& t = elements.triangles[b];
+    return {{a, t[0], t[1], t[2]}, 1};
+  }
+  const auto &e = elements.edges[a], &f = elements.edges[b];
+  return {{e[0], e[1], f[0], f[1]}, 2};
+}
+
+void add_static_pairs(const PairModel& model, const std::vector<int>& bodies, ClusterLayout& layout, StaticPairs& to,
+                      Clearance& clearance) {
+  std::vector<StaticGroup> added;
+  for (const int body : bodies) add_pairs_of(model, body, layout, added, clearance);
+  for (const StaticGroup& group : added) to.count += group.pairs;
+  const auto is_before = [&](const StaticGroup& x, const StaticGroup& y) {
+    return std::tuple(!x.of_vertices, model.key_of(x.first), model.key_of(x.second)) <
+           std::tuple(!y.of_vertices, model.key_of(y.first), model.key_of(y.second));
+  };
+  std::sort(added.begin(), added.end(), is_before);
+  std::vector<StaticGroup> merged;
+  merged.reserve(to.groups.size() + added.size());
+  std::merge(std::make_move_iterator(to.groups.begin()), std::make_move_iterator(to.groups.end()),
+             std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()), std::back_inserter(merged),
+             is_before);
+  to.groups = std::move(merged);
 }
 
 }  // namespace pliant

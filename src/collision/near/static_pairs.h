@@ -4,6 +4,7 @@
 // blocks of sixteen, and the search excludes them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -23,30 +24,31 @@ struct ClusterSides {
 
 /// The static pairs of two clusters.
 struct StaticGroup : ClusterSides {
-  int first_block = 0, last_block = 0, pairs = 0;
-  Bound least;  ///< least bound of all blocks
+  int pairs = 0;
+  std::vector<PairStencils, CacheLineAllocator<PairStencils>> blocks{};
+  std::vector<float> value{};  ///< the bound of each block, relative to the since of `least` [m]
+  Bound least{};               ///< least bound of all blocks
+
+  /// Rebases all bounds to the odometer's current total.
+  void rebase(const Odometer& odometer);
+  /// Forgets all bounds.
+  void forget();
+  /// The number of valid pairs in a block; the remaining lanes repeat the last.
+  int pairs_in(std::size_t block) const { return std::min(16, pairs - 16 * static_cast<int>(block)); }
 };
 
 struct StaticPairs {
-  std::vector<StaticGroup> groups;
-  std::vector<PairStencils, CacheLineAllocator<PairStencils>> blocks;
-  std::vector<float> value;  ///< the bound of each block, relative to the since of its group's `least` [m]
+  std::vector<StaticGroup> groups;  ///< those of vertices and triangles first, each by clusters
   std::int64_t count = 0;
 
-  /// Rebases all bounds of a group to the odometer's current total.
-  void rebase(StaticGroup& group, const Odometer& odometer);
-  /// The number of valid pairs in a block; the remaining lanes repeat the last.
-  static int pairs_in(const StaticGroup& group, int block) {
-    const int left = group.pairs - 16 * (block - group.first_block);
-    return left < 16 ? left : 16;
-  }
+  /// Drops the groups of removed clusters.
+  void remove(const std::vector<char>& is_removed);
 };
 
-/// Also fills the layout's exclusions, and `joined` with adjacent vertices in both directions, for Clearance.
-StaticPairs find_static_pairs(const PairModel& model, ClusterLayout& layout, std::vector<Clearance::Line>& joined);
-
-/// The clusters as pieces for Clearance.
-std::vector<Clearance::Piece> clearance_pieces(const PairModel& model, const ClusterLayout& layout);
+/// Finds the static pairs of bodies, which have none yet, and their clusters' exclusions. Also adds to `clearance` those that meet
+/// themselves.
+void add_static_pairs(const PairModel& model, const std::vector<int>& bodies, ClusterLayout& layout, StaticPairs& to,
+                      Clearance& clearance);
 
 /// The stencil of a vertex and a triangle, or of two edges.
 PairStencil stencil_of(const ContactElements& elements, bool of_vertices, std::int32_t a, std::int32_t b);

@@ -7,6 +7,11 @@
 
 namespace pliant {
 
+void ContactRules::set(int body, const ContactBody& by) {
+  if (body == bodies()) bodies_.emplace_back();
+  bodies_[static_cast<std::size_t>(body)] = by;
+}
+
 bool ContactRules::meet(int a, int b) const {
   const ContactBody &p = bodies_[static_cast<std::size_t>(a)], &q = bodies_[static_cast<std::size_t>(b)];
   if (a == b) return p.meets_itself;
@@ -28,26 +33,34 @@ std::vector<int> ContactRules::find_classes(std::vector<Class>& classes) const {
   std::vector<int> alone(bodies_.size(), -1);
   for (const auto& [pair, material] : exceptions_)
     for (const int body : {pair.first, pair.second}) alone[static_cast<std::size_t>(body)] = body;
-  std::map<std::tuple<std::uint32_t, std::uint32_t, int, int>, int> numbers;
-  std::vector<int> class_of;
+  using Key = std::tuple<std::uint32_t, std::uint32_t, int, int>;
+  std::map<Key, int> numbers;
+  const std::pair<const Key, int>* last = nullptr;  // most bodies are like the one before
+  std::vector<int> class_of(bodies_.size());
   for (int i = 0; i < bodies(); ++i) {
     const ContactBody& body = bodies_[static_cast<std::size_t>(i)];
     const int flags = (body.collides ? 1 : 0) + (body.is_collider ? 2 : 0) + (body.is_immovable ? 4 : 0);
-    const auto next = static_cast<int>(classes.size());
-    const int number =
-        numbers.try_emplace({body.groups, body.mask, flags, alone[static_cast<std::size_t>(i)]}, next).first->second;
-    if (number == next) classes.emplace_back();
-    class_of.push_back(number);
-    Class& of = classes[static_cast<std::size_t>(number)];
-    const auto thickness = [&](int b) { return bodies_[static_cast<std::size_t>(b)].thickness; };
-    if (of.thickest < 0 || body.thickness > thickness(of.thickest)) {
-      of.second = of.thickest;
-      of.thickest = i;
-    } else if (of.second < 0 || body.thickness > thickness(of.second)) {
-      of.second = i;
-    }
+    const Key key{body.groups, body.mask, flags, alone[static_cast<std::size_t>(i)]};
+    if (last == nullptr || last->first != key) last = &*numbers.try_emplace(key, static_cast<int>(classes.size())).first;
+    if (static_cast<std::size_t>(last->second) == classes.size()) classes.emplace_back();
+    class_of[static_cast<std::size_t>(i)] = last->second;
+    find_thickest(i, classes[static_cast<std::size_t>(last->second)]);
   }
   return class_of;
+}
+
+/// Makes a body the thickest of its class, or the second, if it is.
+void ContactRules::find_thickest(int body, Class& of) const {
+  const auto is_thicker = [&](int than) {
+    return than < 0 ||
+           bodies_[static_cast<std::size_t>(body)].thickness > bodies_[static_cast<std::size_t>(than)].thickness;
+  };
+  if (is_thicker(of.thickest)) {
+    of.second = of.thickest;
+    of.thickest = body;
+  } else if (is_thicker(of.second)) {
+    of.second = body;
+  }
 }
 
 float ContactRules::largest_thickness() const {

@@ -25,6 +25,8 @@ struct ContactBody {
 class ContactRules {
  public:
   void add(const ContactBody& body) { bodies_.push_back(body); }
+  /// Replaces a body, or adds it as the next one.
+  void set(int body, const ContactBody& by);
   /// Overrides the combined material of two bodies.
   void set_material(int a, int b, const PairMaterial& material) { exceptions_[std::minmax(a, b)] = material; }
 
@@ -44,6 +46,7 @@ class ContactRules {
     int thickest = -1, second = -1;  ///< bodies; -1: none
   };
   std::vector<int> find_classes(std::vector<Class>& classes) const;
+  void find_thickest(int body, Class& of) const;
 
   std::vector<ContactBody> bodies_;
   std::map<std::pair<int, int>, PairMaterial> exceptions_;  ///< lower body first

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <string>
 
-#include "math/vector.h"
+#include "collision/proxies/body_clusters.h"
 
 namespace pliant {
 
@@ -14,7 +15,11 @@ namespace {
 /// Beyond the largest thickness, pairs are listed within this share of the median edge, so that lists last for a while.
 constexpr float skin_over_edge = 0.5f;
 
-constexpr std::size_t vertices_in_a_cluster = 64;
+/// Of a cluster without edges, whose size says nothing about rounding.
+constexpr float no_limit = 1e30f;
+
+/// The search radius is kept while the median edge is within this factor of the one it was made for.
+constexpr float radius_slack = 1.5f;
 
 bool is_immovable(const CompiledObject& object) {
   for (const Record& p : object.positions)
@@ -22,25 +27,15 @@ bool is_immovable(const CompiledObject& object) {
   return true;
 }
 
-/// Distance constraints that are no side of a triangle: ropes.
-std::vector<std::array<int, 2>> lines_of(const CompiledObject& object, int first) {
-  std::vector<std::array<int, 2>> lines;
-  if (!object.surface.triangles.empty()) return lines;
-  for (const auto& [a, b] : object.lines) lines.push_back({first + a, first + b});
-  return lines;
-}
-
-/// What neither a triangle nor a line holds, targets of attachments left out: it meets triangles as a vertex.
-void add_loose(const CompiledObject& object, int first, const std::vector<std::array<int, 2>>& lines,
-               std::vector<int>& loose) {
-  std::vector<char> held(static_cast<std::size_t>(object.particles), 0);
-  for (const auto& t : object.surface.triangles)
-    for (const int corner : t) held[static_cast<std::size_t>(corner)] = 1;
-  for (const auto& [a, b] : lines)
-    held[static_cast<std::size_t>(a - first)] = held[static_cast<std::size_t>(b - first)] = 1;
+/// The elements of one object, in the numbers of its own particles. Targets of attachments are left out.
+ContactElements elements_of(const CompiledObject& object) {
+  std::vector<Triangle> triangles(object.surface.triangles.begin(), object.surface.triangles.end());
+  // Distance constraints are lines where there are no triangles: ropes.
+  const std::vector<std::array<int, 2>> lines = triangles.empty() ? object.lines : std::vector<std::array<int, 2>>{};
+  std::vector<int> all;
   for (int i = 0; i < object.particles; ++i)
-    if (held[static_cast<std::size_t>(i)] == 0 && object.order[static_cast<std::size_t>(i)] < object.user_particles)
-      loose.push_back(first + i);
+    if (object.order[static_cast<std::size_t>(i)] < object.user_particles) all.push_back(i);
+  return make_contact_elements(triangles, lines, all, object.particles);
 }
 
 ContactBody body_of(const CompiledObject& object) {
@@ -66,13 +61,10 @@ void apply(const PairProperties& said, PairMaterial& material) {
   material.restitution = said.restitution.value_or(material.restitution);
 }
 
-ContactRules make_rules(const Model& model) {
-  ContactRules rules;
+/// Overrides the materials of pairs that the scene names.
+void set_exceptions(const Model& model, ContactRules& rules) {
   std::map<std::string, std::vector<int>> named;
-  for (const CompiledObject& object : model.objects) {
-    named[object.name].push_back(rules.bodies());
-    rules.add(body_of(object));
-  }
+  for (int o = 0; o < rules.bodies(); ++o) named[model.objects[o].name].push_back(o);
   for (const PairProperties& pair : model.pairs)
     for (const int a : named[pair.first])
       for (const int b : named[pair.second]) {
@@ -80,57 +72,21 @@ ContactRules make_rules(const Model& model) {
         apply(pair, material);
         rules.set_material(a, b, material);
       }
-  return rules;
 }
 
-/// Cuts vertices, `from` to `to` - 1, across where they extend farthest until so many as make a cluster are left.
-void split(PairModel& model, std::vector<int>& vertices, std::size_t from, std::size_t to) {
-  const std::size_t pieces = (to - from + vertices_in_a_cluster - 1) / vertices_in_a_cluster;
-  if (pieces <= 1) {
-    for (std::size_t i = from; i < to; ++i) model.vertex_cluster[vertices[i]] = static_cast<int>(model.cluster_body.size());
-    if (from < to) model.cluster_body.push_back(model.vertex_body[vertices[from]]);
-    return;
-  }
-  const auto place = [&](int v, int axis) {
-    return axis == 0 ? model.rest[v].x : axis == 1 ? model.rest[v].y : model.rest[v].z;
-  };
-  int longest = 0;
-  float extent = -1;
-  for (int axis = 0; axis < 3; ++axis) {
-    float low = place(vertices[from], axis), high = low;
-    for (std::size_t i = from; i < to; ++i) {
-      low = min(low, place(vertices[i], axis));
-      high = max(high, place(vertices[i], axis));
-    }
-    if (high - low > extent) {
-      extent = high - low;
-      longest = axis;
-    }
-  }
-  const std::size_t middle = from + (to - from) * (pieces / 2) / pieces;
-  const auto at = [&](std::size_t i) { return vertices.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(from), at(middle), at(to), [&](int a, int b) {
-    return std::make_pair(place(a, longest), a) < std::make_pair(place(b, longest), b);
-  });
-  split(model, vertices, from, middle);
-  split(model, vertices, middle, to);
+/// A new table if the scene names pairs, whose exceptions belong to names.
+void update_rules(const Model& model, const std::vector<int>& changed, ContactRules& rules) {
+  if (!model.pairs.empty()) rules = {};
+  for (int o = rules.bodies(); o < static_cast<int>(model.objects.size()); ++o) rules.add(body_of(model.objects[o]));
+  if (!model.pairs.empty()) return set_exceptions(model, rules);
+  for (const int o : changed) rules.set(o, body_of(model.objects[o]));
 }
 
-/// Vertices of each body in compact clusters.
-void make_clusters(PairModel& model) {
-  std::vector<std::vector<int>> of_body(static_cast<std::size_t>(model.rules.bodies()));
-  for (const int v : model.elements.vertices) of_body[model.vertex_body[v]].push_back(v);
-  model.vertex_cluster.assign(model.rest.size(), -1);
-  for (std::vector<int>& vertices : of_body) split(model, vertices, 0, vertices.size());
-  model.clusters = static_cast<int>(model.cluster_body.size());
-  for (const Triangle& t : model.elements.triangles) model.triangle_cluster.push_back(model.vertex_cluster[t[0]]);
-  for (const auto& edge : model.elements.edges) model.edge_cluster.push_back(model.vertex_cluster[edge[0]]);
-}
-
-float median_edge(const PairModel& model) {
+float median_edge(const std::vector<std::array<int, 2>>& edges, const std::vector<Record>& positions) {
   std::vector<float> lengths;
-  for (const auto& [a, b] : model.elements.edges) {
-    const Record &p = model.rest[a], &q = model.rest[b];
+  lengths.reserve(edges.size());
+  for (const auto& [a, b] : edges) {
+    const Record &p = positions[a], &q = positions[b];
     lengths.push_back(length(Vec3f{p.x - q.x, p.y - q.y, p.z - q.z}));
   }
   if (lengths.empty()) return 0;
@@ -139,30 +95,114 @@ float median_edge(const PairModel& model) {
   return *middle;
 }
 
-/// About the length of a cluster's edges: a cluster of compact shape is some eight edges wide.
-std::vector<float> coarsest_roundings(const PairModel& model, float edge) {
-  std::vector<Vec3f> low(static_cast<std::size_t>(model.clusters), Vec3f{1e30f, 1e30f, 1e30f}), high = low;
-  for (Vec3f& corner : high) corner = -corner;
-  for (const int v : model.elements.vertices) {
-    const Record& r = model.rest[v];
-    const auto c = static_cast<std::size_t>(model.vertex_cluster[v]);
-    low[c] = min(low[c], Vec3f{r.x, r.y, r.z});
-    high[c] = max(high[c], Vec3f{r.x, r.y, r.z});
+/// The median of the bodies' median edges, each as often as the body has edges.
+float median_edge(const PairModel& model) {
+  std::vector<std::pair<float, int>> medians;
+  std::int64_t count = 0;
+  for (const BodyElements& body : model.bodies) {
+    if (body.edges.size == 0) continue;
+    medians.emplace_back(body.median_edge, body.edges.size);
+    count += body.edges.size;
   }
-  std::vector<float> coarsest;
-  for (std::size_t c = 0; c < low.size(); ++c) {
-    const Vec3f size = high[c] - low[c];
-    coarsest.push_back(max(edge, max(size.x, max(size.y, size.z)) / 8));
+  std::sort(medians.begin(), medians.end());
+  std::int64_t below = 0;
+  for (const auto& [edge, edges] : medians) {
+    below += edges;
+    if (2 * below > count) return edge;
   }
-  return coarsest;
+  return 0;
 }
 
-}  // namespace
+/// Returns true if the radius changed. It only decides how much is searched at once.
+bool update_radius(PairModel& model) {
+  const float thickness = model.rules.largest_thickness(), edge = median_edge(model),
+              before = (model.radius - model.largest_thickness) / skin_over_edge;
+  const bool is_kept =
+      thickness == model.largest_thickness && edge <= before * radius_slack && before <= edge * radius_slack;
+  model.largest_thickness = thickness;
+  if (!is_kept) model.radius = thickness + skin_over_edge * edge;
+  return !is_kept;
+}
 
-namespace {
+template <class T>
+void fit(std::vector<T>& list, std::size_t size, const T& hole) {
+  list.resize(size, hole);
+}
+
+void fit_arrays(std::size_t particles, PairModel& model) {
+  ContactElements& all = model.elements;
+  all.vertex_count = static_cast<int>(particles);
+  fit(model.rest, particles, Record{});
+  fit(model.vertex_body, particles, -1);
+  fit(model.vertex_cluster, particles, -1);
+  fit(all.edges, model.edge_blocks.end(), {-1, -1});
+  fit(model.edge_cluster, all.edges.size(), -1);
+  fit(all.triangles, model.triangle_blocks.end(), {-1, -1, -1});
+  fit(model.triangle_cluster, all.triangles.size(), -1);
+  model.clusters = static_cast<int>(model.cluster_blocks.end());
+  fit(model.cluster_body, model.cluster_blocks.end(), -1);
+  fit(model.coarsest, model.cluster_blocks.end(), 0.f);
+}
+
+template <class T>
+void clear(std::vector<T>& list, const Block& block, const T& hole) {
+  std::fill_n(list.begin() + block.first, block.size, hole);
+}
+
+void remove_body(int body, PairModel& model) {
+  const BodyElements had = model.bodies[body];
+  clear(model.rest, had.vertices, Record{});
+  clear(model.vertex_body, had.vertices, -1);
+  clear(model.vertex_cluster, had.vertices, -1);
+  clear(model.elements.edges, had.edges, {-1, -1});
+  clear(model.edge_cluster, had.edges, -1);
+  clear(model.elements.triangles, had.triangles, {-1, -1, -1});
+  clear(model.triangle_cluster, had.triangles, -1);
+  clear(model.cluster_body, had.clusters, -1);
+  model.edge_blocks.release(body);
+  model.triangle_blocks.release(body);
+  model.cluster_blocks.release(body);
+  model.bodies[body] = {};
+}
+
+/// Particles, and for a body that meets any, elements and clusters.
+void add_body(const Model& model, int body, bool meets, PairModel& out) {
+  const CompiledObject& object = model.objects[body];
+  BodyElements& of = out.bodies[body];
+  of.vertices = {model.first[body], object.particles};
+  std::copy(object.positions.begin(), object.positions.end(), out.rest.begin() + of.vertices.first);
+  clear(out.vertex_body, of.vertices, body);
+  if (!meets) return;
+  const ContactElements own = elements_of(object);
+  const Clusters clusters = find_clusters(own, object.positions);
+  of.median_edge = median_edge(own.edges, object.positions);
+  of.edges = out.edge_blocks.take(body, static_cast<int>(own.edges.size()));
+  of.triangles = out.triangle_blocks.take(body, static_cast<int>(own.triangles.size()));
+  of.clusters = out.cluster_blocks.take(body, clusters.count);
+  fit_arrays(out.rest.size(), out);
+  const int first = of.vertices.first;
+  const auto number = [&](int vertex) { return clusters.of[vertex] < 0 ? -1 : of.clusters.first + clusters.of[vertex]; };
+  for (int v = 0; v < of.vertices.size; ++v) out.vertex_cluster[first + v] = number(v);
+  for (int e = 0; e < of.edges.size; ++e) {
+    const auto [a, b] = own.edges[e];
+    out.elements.edges[of.edges.first + e] = {first + a, first + b};
+    out.edge_cluster[of.edges.first + e] = number(a);
+  }
+  for (int t = 0; t < of.triangles.size; ++t) {
+    const Triangle& corners = own.triangles[t];
+    out.elements.triangles[of.triangles.first + t] = {first + corners[0], first + corners[1], first + corners[2]};
+    out.triangle_cluster[of.triangles.first + t] = number(corners[0]);
+  }
+  for (int c = 0; c < of.clusters.size; ++c) {
+    out.cluster_body[of.clusters.first + c] = body;
+    out.coarsest[of.clusters.first + c] = of.edges.size > 0 ? max(of.median_edge, clusters.extent[c] / 8) : no_limit;
+  }
+  out.triangles_around.add(out.elements, of.triangles, of.vertices);
+}
 
 /// Free particles that may meet others: those of bodies that meet themselves, and of all where there are several such bodies.
-void add_free_points(const Model& model, PairModel& out, const std::vector<char>& meets_some) {
+void find_free_points(const Model& model, const std::vector<char>& meets_some, PairModel& out) {
+  out.free_points.clear();
   std::vector<int> bodies;
   for (int o = 0; o < out.rules.bodies(); ++o) {
     const CompiledObject& object = model.objects[o];
@@ -175,37 +215,86 @@ void add_free_points(const Model& model, PairModel& out, const std::vector<char>
         out.free_points.push_back(model.first[o] + i);
 }
 
+void order_clusters(PairModel& model) {
+  model.cluster_order.clear();
+  for (const BodyElements& body : model.bodies)
+    for (int c = body.clusters.first; c < body.clusters.end(); ++c) model.cluster_order.push_back(c);
+}
+
+bool takes_part(const PairModel& model, int body) { return model.bodies[body].clusters.size > 0; }
+
 }  // namespace
 
-std::unique_ptr<PairModel> make_pair_model(const Model& model, const Records& positions) {
-  auto out = std::make_unique<PairModel>();
-  out->rules = make_rules(model);
-  out->largest_thickness = out->rules.largest_thickness();
-  const std::vector<char> meets_some = out->rules.meeting();
-  if (std::find(meets_some.begin(), meets_some.end(), 1) == meets_some.end()) return nullptr;
-  out->rest.assign(positions.begin(), positions.end());
-  out->vertex_body.assign(positions.size(), -1);
-  std::vector<Triangle> triangles;
-  std::vector<std::array<int, 2>> lines;
-  std::vector<int> loose;
-  for (int o = 0; o < out->rules.bodies(); ++o) {
-    const int first = model.first[o];
-    std::fill(out->vertex_body.begin() + first, out->vertex_body.begin() + model.end_of(o), o);
-    if (meets_some[o] == 0) continue;
-    for (const auto& t : model.objects[o].surface.triangles)
-      triangles.push_back({first + t[0], first + t[1], first + t[2]});
-    const auto more = lines_of(model.objects[o], first);
-    lines.insert(lines.end(), more.begin(), more.end());
-    add_loose(model.objects[o], first, more, loose);
+std::optional<PairChanges> update_pair_model(const Model& model, const std::vector<int>& changed, PairModel& out) {
+  update_rules(model, changed, out.rules);
+  const std::vector<char> meets_some = out.rules.meeting();
+  std::vector<int> affected = changed;
+  out.bodies.resize(meets_some.size());
+  for (int o = 0; o < out.rules.bodies(); ++o) {
+    const bool has_particles = model.objects[o].particles > 0;
+    if ((meets_some[o] != 0 && has_particles) != takes_part(out, o)) affected.push_back(o);
   }
-  add_free_points(model, *out, meets_some);
-  if (triangles.empty() && lines.empty() && out->free_points.empty()) return nullptr;
-  out->elements = make_contact_elements(triangles, lines, loose, static_cast<int>(positions.size()));
-  make_clusters(*out);
-  const float edge = median_edge(*out);
-  out->radius = out->largest_thickness + skin_over_edge * edge;
-  if (edge > 0) out->coarsest = coarsest_roundings(*out, edge);
-  return out;
+  std::sort(affected.begin(), affected.end());
+  affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
+  PairChanges changes;
+  for (const int o : affected) {
+    if (takes_part(out, o)) {
+      changes.removed.push_back(o);
+      changes.clusters.push_back(out.bodies[o].clusters);
+    }
+    remove_body(o, out);
+  }
+  fit_arrays(static_cast<std::size_t>(model.particles()), out);
+  for (const int o : affected) {
+    add_body(model, o, meets_some[o] != 0, out);
+    if (takes_part(out, o)) changes.added.push_back(o);
+  }
+  fit_arrays(static_cast<std::size_t>(model.particles()), out);
+  order_clusters(out);
+  find_free_points(model, meets_some, out);
+  changes.radius = update_radius(out);
+  if (out.edge_blocks.end() == 0 && out.free_points.empty()) return std::nullopt;
+  return changes;
+}
+
+std::unique_ptr<PairModel> make_pair_model(const Model& model) {
+  auto out = std::make_unique<PairModel>();
+  std::vector<int> all(model.objects.size());
+  std::iota(all.begin(), all.end(), 0);
+  return update_pair_model(model, all, *out) ? std::move(out) : nullptr;
+}
+
+namespace {
+
+/// Gives each body the entries whose body is its own; they stand side by side.
+template <class BodyOf>
+void index_entries(std::size_t count, BodyOf body_of, BodyBlocks& blocks, Block BodyElements::*block, PairModel& model) {
+  std::size_t first = 0;
+  while (first < count) {
+    const int body = body_of(first);
+    std::size_t last = first;
+    while (last < count && body_of(last) == body) ++last;
+    model.bodies[body].*block = blocks.take(body, static_cast<int>(last - first));
+    first = last;
+  }
+}
+
+}  // namespace
+
+void index_bodies(PairModel& model) {
+  ContactElements& all = model.elements;
+  model.bodies.assign(static_cast<std::size_t>(model.rules.bodies()), {});
+  BodyBlocks vertex_blocks;
+  const auto body_at = [&](std::size_t i) { return model.vertex_body[i]; };
+  index_entries(model.rest.size(), body_at, vertex_blocks, &BodyElements::vertices, model);
+  const auto body_of_edge = [&](std::size_t i) { return model.vertex_body[all.edges[i][0]]; };
+  index_entries(all.edges.size(), body_of_edge, model.edge_blocks, &BodyElements::edges, model);
+  const auto body_of_triangle = [&](std::size_t i) { return model.vertex_body[all.triangles[i][0]]; };
+  index_entries(all.triangles.size(), body_of_triangle, model.triangle_blocks, &BodyElements::triangles, model);
+  const auto body_of_cluster = [&](std::size_t i) { return model.cluster_body[i]; };
+  index_entries(model.cluster_body.size(), body_of_cluster, model.cluster_blocks, &BodyElements::clusters, model);
+  for (const BodyElements& body : model.bodies) model.triangles_around.add(all, body.triangles, body.vertices);
+  order_clusters(model);
 }
 
 }  // namespace pliant

@@ -1,18 +1,26 @@
 #include "collision/proxies/triangles_around.h"
 
+#include <algorithm>
+
 namespace pliant {
 
-IntLists triangles_around(const ContactElements& elements) {
-  IntLists out;
-  out.start.assign(static_cast<std::size_t>(elements.vertex_count) + 1, 0);
-  for (const Triangle& t : elements.triangles)
-    for (const int v : t) ++out.start[static_cast<std::size_t>(v) + 1];
-  for (std::size_t i = 1; i < out.start.size(); ++i) out.start[i] += out.start[i - 1];
-  out.items.resize(3 * elements.triangles.size());
-  std::vector<int> next(out.start.begin(), out.start.end() - 1);
-  for (std::size_t t = 0; t < elements.triangles.size(); ++t)
-    for (const int v : elements.triangles[t]) out.items[next[v]++] = static_cast<int>(t);
-  return out;
+void TrianglesAround::add(const ContactElements& elements, const Block& triangles, const Block& vertices) {
+  first_.resize(static_cast<std::size_t>(elements.vertex_count));
+  last_.resize(first_.size());
+  numbers_.resize(3 * elements.triangles.size());
+  std::fill_n(last_.begin() + vertices.first, vertices.size, 0);
+  for (int t = triangles.first; t < triangles.end(); ++t)
+    for (const int v : elements.triangles[static_cast<std::size_t>(t)]) ++last_[static_cast<std::size_t>(v)];
+  int next = 3 * triangles.first;
+  for (int v = vertices.first; v < vertices.end(); ++v) {
+    const auto at = static_cast<std::size_t>(v);
+    first_[at] = next;
+    next += last_[at];
+    last_[at] = first_[at];
+  }
+  for (int t = triangles.first; t < triangles.end(); ++t)
+    for (const int v : elements.triangles[static_cast<std::size_t>(t)])
+      numbers_[static_cast<std::size_t>(last_[static_cast<std::size_t>(v)]++)] = t;
 }
 
 }  // namespace pliant

@@ -1,11 +1,23 @@
-// Vertex-triangle incidence, which untangling uses to find neighbourhoods.
+// The triangles incident to each vertex.
 #pragma once
 
+#include "collision/proxies/body_blocks.h"
 #include "collision/proxies/contact_elements.h"
 
 namespace pliant {
 
-/// The triangles incident to each vertex, ascending.
-IntLists triangles_around(const ContactElements& elements);
+class TrianglesAround {
+ public:
+  /// Adds the triangles of one body, which have the corners `vertices`.
+  void add(const ContactElements& elements, const Block& triangles, const Block& vertices);
+
+  /// The numbers of the triangles at a vertex, ascending.
+  const int* begin(int vertex) const { return numbers_.data() + first_[static_cast<std::size_t>(vertex)]; }
+  const int* end(int vertex) const { return numbers_.data() + last_[static_cast<std::size_t>(vertex)]; }
+
+ private:
+  std::vector<int> first_, last_;  ///< for each vertex: its part of `numbers_`
+  std::vector<int> numbers_;       ///< those of triangle t's body begin at 3 x the body's first triangle
+};
 
 }  // namespace pliant

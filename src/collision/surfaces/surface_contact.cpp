@@ -23,13 +23,16 @@ bool is_driven(const Contact& contact, const PairParticles& particles) {
 }  // namespace
 
 SurfaceContact::SurfaceContact(const PairModel& model, const PairKernels& kernels)
-    : model_(model),
-      lists_(model, kernels),
-      detector_(model.elements),
-      points_(model),
-      filter_(model),
-      intersections_(model) {
+    : model_(model), lists_(model, kernels), detector_(model), points_(model), filter_(model), intersections_(model) {
   if (model.untangling_speed > 0) untangler_ = std::make_unique<Untangler>(model);
+}
+
+void SurfaceContact::change(const PairChanges& changes) {
+  contacts_.clear();
+  static_contacts_ = 0;
+  lists_.change(changes);
+  filter_.fit_to_model();
+  intersections_.change(changes.removed, changes.added);
 }
 
 PairCounts SurfaceContact::counts() const {
@@ -53,7 +56,10 @@ void SurfaceContact::begin_frame(const Record* positions, bool rebuild) {
   pushing_ = 0;
   deepest_ = 0;
   rebuilds_before_ = lists_.rebuilds();
-  if (!rebuild && intersections_.found().empty() && kept_apart && !untangles) return;
+  if (!rebuild && intersections_.found().empty() && kept_apart && !untangles) {
+    intersections_.find_of_new(positions);
+    return;
+  }
   intersections_.find(positions, rebuild);
   if (untangler_) untangler_->begin_frame(positions, intersections_.found());
   if (rebuild) lists_.forget();

@@ -36,6 +36,10 @@ class SurfaceContact {
   /// `kernels` must be of an instruction set level that this machine runs; all give the same bits.
   explicit SurfaceContact(const PairModel& model, const PairKernels& kernels = pair_kernels_generic());
 
+  /// Call it between frames after update_pair_model, unless initial intersections are moved apart. All that is known of other
+  /// bodies is kept.
+  void change(const PairChanges& changes);
+
   /// Call at a frame's start: resets counts and updates the initially intersecting pairs. `rebuild` tests all pairs; needed
   /// at the first frame and after a restored State.
   void begin_frame(const Record* positions, bool rebuild);

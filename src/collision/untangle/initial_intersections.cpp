@@ -1,30 +1,138 @@
 #include "collision/untangle/initial_intersections.h"
 
 #include <algorithm>
+#include <tuple>
 
-#include "collision/proxies/triangles_around.h"
+#include "collision/broad/bounds.h"
 
 namespace pliant {
 
-InitialIntersections::InitialIntersections(const PairModel& model)
-    : model_(model), finder_(model.elements.triangles, model.elements.vertex_count) {}
+namespace {
+
+/// The box around a body's particles.
+BoxBounds box_of(const Block& vertices, const Record* positions) {
+  const auto at = [&](int v) { return Vec3f{positions[v].x, positions[v].y, positions[v].z}; };
+  BoxBounds box{at(vertices.first), at(vertices.first)};
+  for (int v = vertices.first; v < vertices.end(); ++v) box = {min(box.low, at(v)), max(box.high, at(v))};
+  return box;
+}
+
+/// Some of a model's triangles as a mesh of their own.
+struct Extract {
+  std::vector<int> numbers, vertices;  ///< of the model; ascending
+  std::vector<Triangle> triangles;     ///< in the indices of `vertices`
+
+  void add(int number, const Triangle& t) {
+    numbers.push_back(number);
+    triangles.push_back(t);
+    vertices.insert(vertices.end(), t.begin(), t.end());
+  }
+  void renumber() {
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    for (Triangle& t : triangles)
+      for (int& v : t) v = static_cast<int>(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin());
+  }
+};
+
+/// The triangles of a body that are in a box.
+void add_triangles_in(const BoxBounds& box, const PairModel& model, const Block& triangles, const Record* positions,
+                      Extract& out) {
+  for (int number = triangles.first; number < triangles.end(); ++number) {
+    const Triangle& t = model.elements.triangles[number];
+    const auto at = [&](int k) { return Vec3f{positions[t[k]].x, positions[t[k]].y, positions[t[k]].z}; };
+    const Vec3f corners[3] = {at(0), at(1), at(2)};
+    if (overlap(BoxBounds::of(corners, 3), box)) out.add(number, t);
+  }
+}
+
+/// All triangles of a body, and those of others that it may meet within its box.
+Extract around_body(const PairModel& model, int body, const Record* positions) {
+  const BodyElements& own = model.bodies[body];
+  Extract out;
+  if (own.triangles.size == 0) return out;
+  const BoxBounds box = box_of(own.vertices, positions);
+  for (int other = 0; other < static_cast<int>(model.bodies.size()); ++other) {
+    const BodyElements& of = model.bodies[other];
+    if (of.triangles.size == 0 || (other != body && !model.rules.meet(body, other))) continue;
+    if (other == body || overlap(box_of(of.vertices, positions), box))
+      add_triangles_in(box, model, of.triangles, positions, out);
+  }
+  out.renumber();
+  return out;
+}
+
+}  // namespace
+
+void InitialIntersections::change(const std::vector<int>& removed, const std::vector<int>& added) {
+  finder_ = nullptr;
+  std::erase_if(new_bodies_, [&](int body) { return std::binary_search(removed.begin(), removed.end(), body); });
+  new_bodies_.insert(new_bodies_.end(), added.begin(), added.end());
+  std::sort(new_bodies_.begin(), new_bodies_.end());
+}
 
 void InitialIntersections::find(const Record* positions, bool forget) {
+  const ContactElements& all = model_.elements;
+  if (finder_ == nullptr) {
+    std::vector<Triangle> in_use;
+    triangles_.clear();
+    for (int number = 0; number < static_cast<int>(all.triangles.size()); ++number) {
+      if (all.triangles[number][0] < 0) continue;
+      triangles_.push_back(number);
+      in_use.push_back(all.triangles[number]);
+    }
+    finder_ = std::make_unique<IntersectionFinder>(in_use, all.vertex_count);
+  }
   counts_before_.clear();
   if (!forget) counts_before_.swap(counts_);
-  counts_.clear();
   std::vector<Vec3f> places(model_.rest.size());
   for (std::size_t i = 0; i < places.size(); ++i) places[i] = {positions[i].x, positions[i].y, positions[i].z};
-  found_.clear();
-  for (const Intersection& found : finder_.find(places)) {
-    const int a = model_.vertex_body[found.a], b = model_.vertex_body[model_.elements.triangles[found.triangle][0]];
-    if (!model_.rules.meet(a, b)) continue;
-    found_.push_back(found);
-    ++counts_[std::minmax(a, b)];
+  std::vector<Intersection> found = finder_->find(places);
+  for (Intersection& one : found) one.triangle = triangles_[one.triangle];
+  keep(std::move(found));
+}
+
+void InitialIntersections::find_of_new(const Record* positions) {
+  if (new_bodies_.empty()) return;
+  counts_before_.clear();
+  std::vector<Intersection> found;
+  for (const int body : new_bodies_) {
+    const Extract near = around_body(model_, body, positions);
+    std::vector<Vec3f> places;
+    for (const int v : near.vertices) places.push_back({positions[v].x, positions[v].y, positions[v].z});
+    IntersectionFinder finder(near.triangles, static_cast<int>(places.size()));
+    for (const Intersection& one : finder.find(places)) {
+      const Intersection in_model{near.vertices[one.a], near.vertices[one.b], near.numbers[one.triangle], one.kind};
+      const int a = model_.vertex_body[in_model.a], b = model_.vertex_body[model_.elements.triangles[in_model.triangle][0]];
+      const bool is_found_before =
+          std::min(a, b) < body && std::binary_search(new_bodies_.begin(), new_bodies_.end(), std::min(a, b));
+      if ((a == body || b == body) && !is_found_before) found.push_back(in_model);
+    }
   }
+  std::sort(found.begin(), found.end(), [](const Intersection& x, const Intersection& y) {
+    return std::tie(x.a, x.b, x.triangle) < std::tie(y.a, y.b, y.triangle);
+  });
+  keep(std::move(found));
+}
+
+/// Those between bodies that meet.
+void InitialIntersections::keep(std::vector<Intersection> found) {
+  new_bodies_.clear();
+  const auto bodies_of = [&](const Intersection& one) {
+    return std::pair(model_.vertex_body[one.a], model_.vertex_body[model_.elements.triangles[one.triangle][0]]);
+  };
+  std::erase_if(found, [&](const Intersection& one) {
+    const auto [a, b] = bodies_of(one);
+    return !model_.rules.meet(a, b);
+  });
+  found_ = std::move(found);
+  counts_.clear();
   exempt_.clear();
-  const IntLists triangles_at = found_.empty() ? IntLists{} : triangles_around(model_.elements);
-  for (const Intersection& found : found_) exempt(found, triangles_at);
+  for (const Intersection& one : found_) {
+    const auto [a, b] = bodies_of(one);
+    ++counts_[std::minmax(a, b)];
+    exempt(one);
+  }
   std::sort(exempt_.begin(), exempt_.end());
 }
 
@@ -34,7 +142,8 @@ bool InitialIntersections::are_no_fewer(std::pair<int, int> bodies) const {
 }
 
 /// Exempts all stencils formed by the edge and the triangle.
-void InitialIntersections::exempt(const Intersection& found, const IntLists& triangles_at) {
+void InitialIntersections::exempt(const Intersection& found) {
+  const TrianglesAround& triangles_at = model_.triangles_around;
   const auto exempt_corner = [&](int vertex, const Triangle& t) { exempt_.push_back({vertex, t[0], t[1], t[2], 1}); };
   const Triangle& t = model_.elements.triangles[found.triangle];
   exempt_corner(found.a, t);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -16,10 +17,15 @@ namespace pliant {
 
 class InitialIntersections {
  public:
-  explicit InitialIntersections(const PairModel& model);
+  explicit InitialIntersections(const PairModel& model) : model_(model) {}
+
+  /// Call it after bodies came or went.
+  void change(const std::vector<int>& removed, const std::vector<int>& added);
 
   /// Finds all intersections between bodies that meet. `forget`: the positions do not continue those of the previous call.
   void find(const Record* positions, bool forget);
+  /// Finds only those of bodies that are new since the last call of either. Call it if no others intersect.
+  void find_of_new(const Record* positions);
   const std::vector<Intersection>& found() const { return found_; }
   /// True if two bodies, the lower one first, had intersections at the previous call, and no more than now.
   bool are_no_fewer(std::pair<int, int> bodies) const;
@@ -27,10 +33,13 @@ class InitialIntersections {
   bool hold(const PairStencil& pair) const;
 
  private:
-  void exempt(const Intersection& found, const IntLists& triangles_at);
+  void keep(std::vector<Intersection> found);
+  void exempt(const Intersection& found);
 
   const PairModel& model_;
-  IntersectionFinder finder_;
+  std::unique_ptr<IntersectionFinder> finder_;  ///< of all triangles in use; null: not made since bodies changed
+  std::vector<int> triangles_;                  ///< their numbers
+  std::vector<int> new_bodies_;                 ///< ascending
   std::vector<Intersection> found_;
   std::map<std::pair<int, int>, std::size_t> counts_, counts_before_;  ///< by bodies, the lower one first
   std::vector<std::array<std::int32_t, 5>> exempt_;  ///< stencils, with the size of their first side; ascending

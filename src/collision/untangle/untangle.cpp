@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "collision/proxies/pair_model.h"
-#include "collision/proxies/triangles_around.h"
 #include "math/vector.h"
 
 namespace pliant {
@@ -63,7 +62,8 @@ std::vector<Patch> patches_of(const PairModel& model, const std::vector<int>& ve
 }
 
 /// The mean normal of the triangles at a patch; zero if the normals differ too much.
-Vec3f mean_normal(const PairModel& model, const IntLists& around, const Patch& patch, const Record* positions) {
+Vec3f mean_normal(const PairModel& model, const Patch& patch, const Record* positions) {
+  const TrianglesAround& around = model.triangles_around;
   std::vector<int> at_patch;
   for (const int v : patch) at_patch.insert(at_patch.end(), around.begin(v), around.end(v));
   std::sort(at_patch.begin(), at_patch.end());
@@ -95,7 +95,6 @@ Untangler::Untangler(const PairModel& model)
     closed_.push_back(
         {body, part_of(first), first, std::make_unique<MeshQuery>(places_of(model.rest.data(), first, count), triangles)});
   }
-  if (!closed_.empty()) around_ = triangles_around(model.elements);
 }
 
 Untangler::PartPair Untangler::parts_of(const Intersection& found) const {
@@ -111,8 +110,8 @@ void Untangler::begin_frame(const Record* positions, const std::vector<Intersect
   inside_ = 0;
   find_inside(positions);
   find_pieces(positions, found);
-  for (const int v : model_.elements.vertices)
-    if (positions[v].w > 0 && is_led(part_of(v))) speeds_.emplace_back(v, 0.f);
+  for (int v = 0; v < static_cast<int>(model_.rest.size()); ++v)
+    if (model_.vertex_cluster[v] >= 0 && positions[v].w > 0 && is_led(part_of(v))) speeds_.emplace_back(v, 0.f);
 }
 
 bool Untangler::leads_apart(const Intersection& found) const {
@@ -162,7 +161,8 @@ void Untangler::find_inside(const Record* positions) {
     MeshQuery& query = *closed.query;
     query.move(places_of(positions, closed.first, static_cast<int>(query.positions().size())));
     std::vector<int> inside;
-    for (const int v : model_.elements.vertices) {
+    for (int v = 0; v < static_cast<int>(model_.rest.size()); ++v) {
+      if (model_.vertex_cluster[v] < 0) continue;
       const bool meets = model_.rules.meet(model_.vertex_body[static_cast<std::size_t>(v)], closed.body);
       if (positions[v].w > 0 && meets && query.is_inside(place(positions[v]))) inside.push_back(v);
     }
@@ -207,7 +207,7 @@ void Untangler::lead_out(const Patch& patch, const Closed& closed, const Record*
   const MeshQuery& query = *closed.query;
   std::vector<Depth> depths;
   float across = 0, all = 0;
-  const Vec3f normal = mean_normal(model_, around_, patch, positions);
+  const Vec3f normal = mean_normal(model_, patch, positions);
   for (const int v : patch) {
     const Vec3f from = place(positions[v]);
     const SurfacePoint near = query.closest(from);
@@ -297,7 +297,8 @@ Pieces pieces_of(const PairModel& model, const std::vector<Intersection>& cuts, 
     const int from = pieces.root(a), to = pieces.root(b);
     pieces.of[static_cast<std::size_t>(std::max(from, to))] = std::min(from, to);
   }
-  for (const int v : model.elements.vertices) {
+  for (int v = 0; v < static_cast<int>(model.rest.size()); ++v) {
+    if (model.vertex_cluster[v] < 0) continue;
     const int root = pieces.of[static_cast<std::size_t>(v)] = pieces.root(v);
     if (part_of[static_cast<std::size_t>(v)] == part) ++pieces.size[static_cast<std::size_t>(root)];
   }
@@ -325,7 +326,8 @@ void Untangler::lead_back(const Record* positions, const std::vector<Intersectio
       ways[piece] += unit_or(with ? normal : -normal, Vec3f{});
     }
   }
-  for (const int v : model_.elements.vertices) {
+  for (int v = 0; v < static_cast<int>(model_.rest.size()); ++v) {
+    if (model_.vertex_cluster[v] < 0) continue;
     const auto way = ways.find(pieces.of[static_cast<std::size_t>(v)]);
     if (way == ways.end() || !(positions[v].w > 0)) continue;
     out.push_back({{v, unit_or(way->second, Vec3f{0, 1, 0}), 1e30f}, through, way->first});

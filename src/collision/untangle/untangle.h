@@ -89,7 +89,6 @@ class Untangler {
   IntersectionFinder finder_;
   Parts parts_;
   std::vector<Closed> closed_;
-  IntLists around_;                 ///< the triangles incident to each vertex, ascending; empty: no body is closed
   std::vector<int> wrong_side_of_;  ///< for each vertex the part, or -1; empty: none at all
   std::vector<int> piece_;          ///< for each vertex on a wrong side, the index of its piece; as long as wrong_side_of_
   std::vector<Push> pushes_;
