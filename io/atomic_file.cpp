@@ -33,11 +33,11 @@ const char* advice(int code) {
       return "free some space, or write somewhere else";
     case ENOENT:
     case ENOTDIR:
-      return "make the folder first, or write somewhere else";
+      return "create the folder first, or write somewhere else";
     case EACCES:
     case EPERM:
     case EROFS:
-      return "write somewhere you are allowed to";
+      return "choose a path with write permission";
     case EISDIR:
       return "name a file, not a folder";
     default:
@@ -89,8 +89,8 @@ int open_nameless(const std::string& folder) {
 }  // namespace
 
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(path_) {
-  if (path_.empty()) throw Error({}, "there is no name to write a file under", "give a path");
-  if (path_.find('\0') != std::string::npos) throw Error({}, "a path holds a zero byte", "give another path");
+  if (path_.empty()) throw Error({}, "the output path is empty", "give a path");
+  if (path_.find('\0') != std::string::npos) throw Error({}, "the path contains a zero byte", "give another path");
   buffer_.reserve(buffer_size);
   struct stat status {};
   const bool exists = ::stat(path_.c_str(), &status) == 0;
@@ -152,7 +152,7 @@ void AtomicFile::name_temporary() {
     const int code = errno;
     forget_unfinished(temporary_.c_str());
     temporary_.clear();
-    if (code != EEXIST) fail("cannot put the file in place", code);
+    if (code != EEXIST) fail("cannot rename the temporary file", code);
   }
 }
 
@@ -178,7 +178,8 @@ void AtomicFile::write(const void* bytes, std::size_t count) {
 
 void AtomicFile::overwrite(std::size_t offset, const void* bytes, std::size_t count) {
   if (offset + count > size())
-    throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "overwrites what is not there");
+    throw Error({.file = path_, .line = 0, .object = {}, .element = {}},
+                "cannot overwrite bytes beyond the end of the file");
   flush();
   const char* next = static_cast<const char*>(bytes);
   while (count > 0) {
@@ -203,13 +204,13 @@ void AtomicFile::close_checked() {
 }
 
 void AtomicFile::commit() {
-  if (descriptor_ < 0) throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "was committed before");
+  if (descriptor_ < 0) throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "has already been committed");
   flush();
   if (direct_) return close_checked();
   if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail("cannot write", errno);
   name_temporary();
   close_checked();
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot put the file in place", errno);
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot rename the temporary file", errno);
   forget_unfinished(temporary_.c_str());
   temporary_.clear();
   // The rename is stored in the folder. If the folder cannot be synced, the file is complete anyway.

@@ -94,7 +94,8 @@ std::shared_ptr<const DistanceField> cached_distances(const TriangleMesh& mesh, 
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   if (failed)
-    throw Error({folder}, "can't be made a folder for distances: " + failed.message(), "name a folder that may be written");
+    throw Error({folder}, "cannot be created as a folder for distance grids: " + failed.message(),
+                "name a writable folder");
   const std::string path = (std::filesystem::path(folder) / name_of(mesh, spacing)).string();
   if (auto kept = read(path)) return kept;
   auto measured = measure_distances(mesh, spacing);

@@ -44,19 +44,19 @@ class Descriptor {
 void refuse_what_is_no_file(const struct stat& status, const std::string& path) {
   if (S_ISREG(status.st_mode)) return;
   if (S_ISDIR(status.st_mode)) fail(path, "is a folder", "name a file");
-  fail(path, "is a pipe, socket or device, not a regular file", "copy what it gives into a file first");
+  fail(path, "is a pipe, socket or device, not a regular file", "copy its content into a file first");
 }
 
 void refuse_large(std::uint64_t size, std::uint64_t most, const std::string& path) {
   if (size <= most) return;
-  fail(path, "is larger than " + std::to_string(most) + " bytes, the most that is read", "split it or simplify it");
+  fail(path, "is larger than " + std::to_string(most) + " bytes, the limit of the reader", "split it or simplify it");
 }
 
 }  // namespace
 
 std::string read_file_bytes(const std::string& path, std::uint64_t most, AtMost at_most) {
-  if (path.empty()) throw Error({}, "there is no name of a file to read", "give a path");
-  if (path.find('\0') != std::string::npos) throw Error({}, "a path holds a zero byte", "give another path");
+  if (path.empty()) throw Error({}, "the input path is empty", "give a path");
+  if (path.find('\0') != std::string::npos) throw Error({}, "the path contains a zero byte", "give another path");
   const Descriptor file(path);
   struct stat status {};
   if (::fstat(file.number(), &status) != 0) fail(path, "cannot be examined", "check its permissions");

@@ -10,14 +10,15 @@ namespace {
 [[noreturn]] void refuse(const std::string& path, const std::string& object, const std::string& element,
                          const std::string& problem) {
   throw Error({.file = path, .line = 0, .object = object, .element = element}, problem,
-              "give the scene that the world was made from");
+              "pass the scene from which the World was made");
 }
 
 /// Writers use the scene's indices for the World's data, so the sizes must match for any scene passed in.
 void require_fitting(const std::string& path, const Object& object, int particles) {
   if (object.positions.size() != static_cast<std::size_t>(particles))
     refuse(path, object.name, "",
-           "the world has " + std::to_string(particles) + " particles for its " + std::to_string(object.positions.size()));
+           "the World has " + std::to_string(particles) + " particles, but the scene has " +
+               std::to_string(object.positions.size()));
   const auto exists = [&](int particle) { return particle >= 0 && particle < particles; };
   for (std::size_t t = 0; t < object.triangles.size(); ++t)
     for (const int corner : object.triangles[t])
@@ -54,7 +55,7 @@ class WorldWriter final : public FrameWriter {
 
 std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Scene& scene, const World& world) {
   if (world.object_count() != static_cast<int>(scene.objects.size()))
-    refuse(path, "", "", "the world was made from another scene");
+    refuse(path, "", "", "the scene has another number of objects than the World");
   for (int o = 0; o < world.object_count(); ++o)
     require_fitting(path, scene.objects[static_cast<std::size_t>(o)], world.info(o).particles);
   const output::Objects objects = output::describe(scene);

@@ -83,14 +83,14 @@ class ObjParser {
     const std::string_view keyword = take_word(rest);
     if (keyword.empty() || keyword.front() == '#') return;
     if (statement_.find('\0') != std::string_view::npos)
-      fail(line_, "holds a zero byte, so this is no text", "export it again");
+      fail(line_, "contains a zero byte, so it is not a text file", "export it again");
     if (keyword == "v") return vertex(rest);
     if (keyword == "f" || keyword == "fo") return face(rest);
     if (note(keyword)) return;
     if (std::find(std::begin(silent_keywords), std::end(silent_keywords), keyword) != std::end(silent_keywords)) return;
     if (note_unknown(keyword)) return;
     fail(line_, "unknown keyword " + quoted(keyword),
-         "this is no OBJ file, or the line is damaged; delete it if it is not needed");
+         "the file is not OBJ, or the line is damaged; delete the line if it is not needed");
   }
 
   /// The next word of a statement, which ends at a comment.
@@ -141,7 +141,7 @@ class ObjParser {
       std::int64_t value = 0;
       const bool may_be_empty = part > 0;
       if (!(may_be_empty && number.empty()) && !parse_integer(number, value))
-        fail(line_, quoted(whole) + " is no corner of a face", "write V, V/VT, V//VN or V/VT/VN");
+        fail(line_, quoted(whole) + " is not a face corner", "write V, V/VT, V//VN or V/VT/VN");
       if (part == 0) vertex = value;
       if (slash == std::string_view::npos) return resolve(vertex);
       word.remove_prefix(slash + 1);
@@ -162,7 +162,7 @@ class ObjParser {
 
   [[noreturn]] void out_of_range(int line, std::int64_t index, std::int64_t count) const {
     fail(line, "vertex index " + std::to_string(index) + " but there are " + std::to_string(count) + " vertices",
-         "the file is cut off or its faces belong to another mesh");
+         "the file is truncated, or its faces belong to another mesh");
   }
 
   void check_forward_references() const {

@@ -31,7 +31,7 @@ class TextSource {
   void begin_row() {
     std::string_view word;
     do {
-      if (!lines_.next()) fail("the file ends before its last row", "it is cut off or its header is wrong");
+      if (!lines_.next()) fail("the file ends before its last row", "it is truncated, or its header is wrong");
       row_ = word = lines_.line();
       word = take_word(word);
     } while (word.empty());
@@ -40,7 +40,7 @@ class TextSource {
   void end_row() {
     std::string_view rest = row_;
     const std::string_view word = take_word(rest);
-    if (!word.empty()) fail("a row goes on with " + quoted(word) + " where the header says that it ends");
+    if (!word.empty()) fail("a row continues with " + quoted(word) + " beyond the properties in the header");
   }
 
   void skip(PlyType) { word(); }
@@ -57,7 +57,7 @@ class TextSource {
   std::int64_t integer(PlyType) {
     std::int64_t value = 0;
     const std::string_view text = word();
-    if (!parse_integer(text, value)) fail(quoted(text) + " is no whole number");
+    if (!parse_integer(text, value)) fail(quoted(text) + " is not an integer");
     return value;
   }
 
@@ -122,7 +122,7 @@ class BinarySource {
   std::uint64_t raw(PlyType type) {
     const std::size_t size = size_of(type);
     start_ = position_;
-    if (bytes_.size() - position_ < size) fail("the file ends inside a row", "it is cut off or its header is wrong");
+    if (bytes_.size() - position_ < size) fail("the file ends inside a row", "it is truncated, or its header is wrong");
     std::uint64_t bits = 0;
     for (std::size_t i = 0; i < size; ++i) {
       const std::size_t at = big_ ? i : size - 1 - i;
@@ -174,7 +174,7 @@ class RowReader {
     }
     const std::size_t left = source_.left_behind();
     if (left > 0)
-      mesh_.notes.push_back("ignored " + std::to_string(left) + " " + Source::unit() + " behind the last element");
+      mesh_.notes.push_back("ignored " + std::to_string(left) + " " + Source::unit() + " after the last element");
     return std::move(mesh_);
   }
 
@@ -249,7 +249,7 @@ class RowReader {
 
 Roles find_coordinates(const PlyHeader& header, const std::string& name) {
   const PlyElement* const vertex = header.find("vertex");
-  if (vertex == nullptr) fail(name, 0, "the header declares no element 'vertex'", "this is no mesh");
+  if (vertex == nullptr) fail(name, 0, "the header declares no element 'vertex'", "this is not a mesh");
   Roles roles;
   constexpr std::string_view axes[] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) {
@@ -275,7 +275,7 @@ Roles find_polygons(const PlyHeader& header, const std::string& name) {
   if (roles.polygon < 0) fail(name, face->line, "the faces have no list 'vertex_indices'", "export it with that name");
   const PlyProperty& list = face->properties[static_cast<std::size_t>(roles.polygon)];
   if (!list.is_list || !is_integer(list.type))
-    fail(name, face->line, "'" + list.name + "' of the faces is not a list of whole numbers", "export it as such");
+    fail(name, face->line, "'" + list.name + "' of the faces is not a list of integers", "export it as a list of integers");
   return roles;
 }
 

@@ -33,12 +33,12 @@ class HeaderParser {
 
   PlyHeader parse() {
     std::string_view rest = lines_.next() ? lines_.line() : std::string_view();
-    if (take_word(rest) != "ply") fail("does not start with 'ply'", "this is no PLY file");
+    if (take_word(rest) != "ply") fail("does not start with 'ply'", "this is not a PLY file");
     const std::size_t end_of_first = lines_.line().size();
     const bool lone_return =
         end_of_first + 1 < bytes_.size() && bytes_[end_of_first] == '\r' && bytes_[end_of_first + 1] != '\n';
     while (!done_) {
-      if (!lines_.next()) fail("the header has no 'end_header'", "the file is cut off");
+      if (!lines_.next()) fail("the header has no 'end_header'", "the file is truncated");
       header_line();
     }
     if (!has_format_) fail("the header has no 'format' line");
@@ -93,9 +93,9 @@ class HeaderParser {
     const std::string_view count = take_word(rest);
     std::int64_t value = 0;
     if (element_name.empty() || !parse_integer(count, value) || value < 0)
-      fail("an element needs a name and a count, and " + quoted(count) + " is no count");
+      fail("an element needs a name and a count, and " + quoted(count) + " is not a count");
     if (value > std::numeric_limits<int>::max())
-      fail("claims " + std::to_string(value) + " elements " + quoted(element_name) + ", more than can be counted");
+      fail("claims " + std::to_string(value) + " elements " + quoted(element_name) + ", more than the limit");
     if (header_.find(element_name) != nullptr) fail("a second element " + quoted(element_name));
     if (header_.elements.size() == most_names) fail("more than " + std::to_string(most_names) + " elements");
     PlyElement made;
@@ -142,7 +142,7 @@ class HeaderParser {
       if (least > room)
         fail("claims " + std::to_string(element.count) + " elements " + quoted(element.name) + ", at least " +
                  std::to_string(least) + " bytes, but " + std::to_string(room) + " bytes are left",
-             "the file is cut off or its header is wrong", element.line);
+             "the file is truncated, or its header is wrong", element.line);
       room -= least;
     }
   }

@@ -100,7 +100,7 @@ PolygonMesh parse(std::string_view bytes, const std::string& name) {
     case Format::unknown:
       break;
   }
-  fail(name, "is of no known mesh format", "give an OBJ, PLY or STL file");
+  fail(name, "has an unknown mesh format", "give an OBJ, PLY or STL file");
 }
 
 }  // namespace
@@ -113,7 +113,7 @@ MeshFile parse_mesh(std::string_view bytes, const std::string& name, const MeshR
   file.mesh.positions = std::move(polygons.positions);
   repair(file, polygons.is_soup, options);
   if (!file.mesh.triangles.empty()) return file;
-  fail(name, "has no triangle with an area", "all its corners lie on one line or in one place; check its scale");
+  fail(name, "has only degenerate triangles", "the corners of each lie on one line or coincide; check the scale");
 }
 
 MeshFile read_mesh_file(const std::string& path, const MeshReadOptions& options) {

@@ -200,10 +200,10 @@ std::vector<bool> merge_vertices(Work& work, const std::vector<int>& connected, 
   for (Triangle& t : mesh.triangles) t = {merged[index(t[0])], merged[index(t[1])], merged[index(t[2])]};
   if (joined.count > 0)
     work.repairs.push_back("merged " + counted(joined.count, "vertex", "vertices") +
-                           " into another in the same place, the first " + std::to_string(joined.first));
+                           " with others at the same position, the first " + std::to_string(joined.first));
   if (apart.count > 0)
     work.repairs.push_back("kept " + counted(apart.count, "vertex", "vertices") +
-                           " apart from another in the same place, the first " + std::to_string(apart.first) +
+                           " separate from others at the same position, the first " + std::to_string(apart.first) +
                            ", because merging would join more than two triangles at an edge there");
   return emptied;
 }

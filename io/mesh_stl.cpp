@@ -93,7 +93,7 @@ class TextStl {
   }
 
   void need_line(const char* inside) {
-    if (!next_line()) fail(std::string("the file ends inside a ") + inside, "it is cut off");
+    if (!next_line()) fail(std::string("the file ends inside a ") + inside, "it is truncated");
   }
 
   void expect(std::string_view word) const {
@@ -131,7 +131,7 @@ class TextStl {
       const NumberProblem problem = parse_float(word, value);
       if (problem != NumberProblem::none) fail(quoted(word) + " " + describe(problem), "give three finite coordinates");
     }
-    if (const std::string_view word = take_word(rest_); !word.empty()) fail("a vertex goes on with " + quoted(word));
+    if (const std::string_view word = take_word(rest_); !word.empty()) fail("a vertex continues with " + quoted(word));
     add_corner(mesh_, {values[0], values[1], values[2]});
   }
 
@@ -157,13 +157,13 @@ float coordinate(std::string_view bytes, std::size_t at, const std::string& name
 PolygonMesh parse_binary(std::string_view bytes, const std::string& name) {
   if (bytes.size() < head_size)
     fail_at(name, bytes.size(), "is neither a text STL (it does not begin with 'solid') nor long enough for a binary one",
-            "the file is cut off or no STL file");
+            "the file is truncated or not STL");
   const std::uint64_t claimed = claimed_size(bytes);
   if (claimed > bytes.size())
     fail_at(name, 80,
             "claims " + std::to_string(read_u32(bytes, 80)) + " triangles, " + std::to_string(claimed) +
                 " bytes, but holds " + std::to_string(bytes.size()) + " bytes",
-            "the file is cut off or no STL file");
+            "the file is truncated or not STL");
   PolygonMesh mesh;
   mesh.is_soup = true;
   const std::size_t count = read_u32(bytes, 80);
@@ -177,7 +177,7 @@ PolygonMesh parse_binary(std::string_view bytes, const std::string& name) {
     mesh.close_polygon();
   }
   if (claimed < bytes.size())
-    mesh.notes.push_back("ignored " + std::to_string(bytes.size() - claimed) + " bytes behind the last triangle");
+    mesh.notes.push_back("ignored " + std::to_string(bytes.size() - claimed) + " bytes after the last triangle");
   return mesh;
 }
 

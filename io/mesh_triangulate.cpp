@@ -204,7 +204,8 @@ bool cut_up(const std::vector<Point>& points, std::size_t polygon, const std::st
   }
   if (is_large)
     throw Error({.file = name, .line = 0, .object = {}, .element = "polygon " + std::to_string(polygon)},
-                "is concave and has " + std::to_string(count) + " corners", "triangulate it in the program that made it");
+                "is concave and has " + std::to_string(count) + " corners",
+                "triangulate it in the program that created it");
   const bool has_ears = EarClipper(points).clip(emit);
   return has_ears && !crosses_itself(points);
 }
@@ -247,9 +248,9 @@ std::vector<std::array<int, 3>> triangulate(const PolygonMesh& mesh, const std::
     else if (!cut_up(flatten(mesh, corners, count), polygon, name, emit))
       crossing.add(polygon);
   }
-  note(winding, " polygon that goes", " polygons that go", " round several times taken once", notes);
+  note(winding, " polygon that goes", " polygons that go", " round its corners several times counted once", notes);
   note(crossing, " polygon that crosses or touches itself", " polygons that cross or touch themselves",
-       " cut up as well as could be", notes);
+       " triangulated as well as possible", notes);
   return triangles;
 }
 

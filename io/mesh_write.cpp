@@ -33,7 +33,7 @@ void check(const std::string& path, const TriangleMesh& mesh) {
     const Vec3f& p = mesh.positions[i];
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
       fail(path, "vertex " + std::to_string(i), "is not finite, so nothing was written",
-           "look for where the simulation went wrong");
+           "find where the simulation diverged");
   }
   const std::size_t count = mesh.positions.size();
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
@@ -87,8 +87,7 @@ void write_ply(AtomicFile& file, const TriangleMesh& mesh) {
 
 void write_mesh(const std::string& path, const TriangleMesh& mesh) {
   const bool is_obj = ends_with(path, ".obj", 4);
-  if (!is_obj && !ends_with(path, ".ply", 4))
-    fail(path, {}, "has a suffix that no mesh is written under", "name it .obj or .ply");
+  if (!is_obj && !ends_with(path, ".ply", 4)) fail(path, {}, "has a suffix without a mesh format", "name it .obj or .ply");
   check(path, mesh);
   AtomicFile file(path);
   if (is_obj)

@@ -48,7 +48,7 @@ T read_bytes(const Contents& from, std::string_view name) {
   T of;
   Input in(from.text(name));
   in(of);
-  if (!in.complete()) from.fail(fmt::format("is malformed: its block '{}' does not read", name), "use an earlier file");
+  if (!in.complete()) from.fail(fmt::format("is malformed: its block '{}' cannot be read", name), "use an earlier file");
   return of;
 }
 
@@ -93,7 +93,8 @@ void read(const Contents& from, std::string_view name, Records& column) {
 template <class T>
 void read(const Contents& from, std::string_view name, Type type, T& value) {
   const Block& block = from.block(name, type, sizeof value);
-  if (block.count != 1) from.fail(fmt::format("is malformed: it has {} of '{}'", block.count, name), "use an earlier file");
+  if (block.count != 1)
+    from.fail(fmt::format("is malformed: it has {} values in '{}'", block.count, name), "use an earlier file");
   std::memcpy(&value, block.data, sizeof value);
 }
 
@@ -142,7 +143,7 @@ std::string hash_of(const T& of, const More&... more) {
 
 void refuse_other_scene(const World& world, const Scene& scene) {
   const auto refuse = [](const Location& where, const std::string& problem) {
-    throw Error(where, problem, "give save() a scene of what the World holds now, in the order of its ids");
+    throw Error(where, problem, "pass a scene of the World's current contents, in the order of its ids");
   };
   const auto require = [&](std::size_t in_world, std::size_t in_scene, const char* what) {
     if (in_world != in_scene) refuse({}, fmt::format("the World has {} {} and the scene {}", in_world, what, in_scene));
@@ -198,7 +199,7 @@ State load_state(const std::string& path, const Fingerprint& of) {
   if (!contents.has(fingerprint_blocks[0]) || !contents.has(fingerprint_blocks[1]))
     contents.fail("does not say which scene it was saved with", "save it with its scene, or load it without one");
   if (contents.text(fingerprint_blocks[0]) != of.scene)
-    contents.fail("was saved with another scene, or this one has changed since", "use the scene that it was saved with");
+    contents.fail("was saved with another scene, or this scene has changed since", "use the scene that it was saved with");
   if (contents.text(fingerprint_blocks[1]) != of.settings) {
     contents.fail("was saved with other settings of this scene: substeps, iterations, the sweep or contact settings differ",
                   "use the settings that it was saved with");

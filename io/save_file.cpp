@@ -119,7 +119,7 @@ void Contents::check_header(Content expected) const {
   if (bytes_.empty()) fail("is empty", advice_damaged);
   const std::string_view bytes = bytes_;
   if (bytes.substr(0, magic.size()) != magic.substr(0, bytes.size()))
-    fail("is not a file that Pliant saved", "name one written by save() or pliant run --checkpoint");
+    fail("is not a file saved by Pliant", "name one written by save() or pliant run --checkpoint");
   if (bytes.size() < header_size)
     fail(fmt::format("is incomplete: it has {} bytes of a header of {}", bytes.size(), header_size), advice_damaged);
   if (const auto found = value_at<std::uint32_t>(bytes, 8); found != version) {
@@ -164,7 +164,7 @@ void Contents::find_blocks() {
     at += padded(block.count * block.element_size);
     blocks_.push_back(block);
   }
-  if (at != bytes.size()) fail("is malformed: it has bytes behind its last block", advice_damaged);
+  if (at != bytes.size()) fail("is malformed: it has bytes after its last block", advice_damaged);
 }
 
 const Block* Contents::find(std::string_view name) const {

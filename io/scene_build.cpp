@@ -95,7 +95,7 @@ void set_pins(const JsonDocument& document, const JsonValue& at, BuiltObject& bu
     const JsonValue& particles = *item.find("particles");
     for (const int particle : selected(document, particles, built)) {
       if (taken[static_cast<std::size_t>(particle)])
-        document.fail(particles, "particle " + std::to_string(particle) + " is pinned already", "pin it once");
+        document.fail(particles, "particle " + std::to_string(particle) + " is already pinned", "pin it once");
       taken[static_cast<std::size_t>(particle)] = true;
       pin.particle = particle;
       built.object.pins.push_back(pin);
@@ -135,7 +135,7 @@ void set_properties(const JsonDocument& document, const JsonValue& at, Object& o
   Vec3f velocity;
   if (!set(at, "velocity", velocity)) return;
   if (!object.velocities.empty())
-    document.fail_key(*at.find("velocity"), "this object has a velocity for each particle already", "give one of the two");
+    document.fail_key(*at.find("velocity"), "this object already has a velocity per particle", "give one of the two");
   object.velocities.assign(object.positions.size(), velocity);
 }
 
@@ -189,7 +189,7 @@ Collider collider_of(const JsonDocument& document, const JsonValue& at, Names& n
 }
 
 [[noreturn]] void fail_too_large(const JsonDocument& document, const JsonValue& at) {
-  document.fail(at, "more than " + std::to_string(largest_scene) + " particles so far", "make it smaller");
+  document.fail(at, "more than " + std::to_string(largest_scene) + " particles so far", "use fewer particles");
 }
 
 void set_representation(const JsonDocument& document, const JsonValue& at, MeshCollider& collider) {
@@ -209,7 +209,7 @@ void set_frames(const JsonDocument& document, const JsonValue& at, const MeshFol
     MeshFrame frame;
     set(item, "time", frame.time);
     if (!collider.frames.empty() && !(frame.time > collider.frames.back().time))
-      document.fail(*item.find("time"), "this time is not after the one before", "frames go forward in time");
+      document.fail(*item.find("time"), "this time is not after the previous one", "times must increase");
     frame.positions = make_frame(document, item, folder, surface);
     collider.frames.push_back(std::move(frame));
   }
@@ -263,8 +263,9 @@ PairProperties pair_of(const JsonDocument& document, const JsonValue& at, const 
   };
   for (const JsonValue& name : between.items)
     if (!exists(name.text))
-      document.fail(name, "there is no object or mesh collider '" + printable(name.text) + "'",
-                    "use the name of one; friction, restitution and thickness of any other collider are its own fields");
+      document.fail(
+          name, "there is no object or mesh collider '" + printable(name.text) + "'",
+          "use the name of one; for a primitive collider set friction, restitution and thickness in the collider itself");
   pair.first = between.items[0].text;
   pair.second = between.items[1].text;
   set(at, "thickness", pair.thickness);
@@ -273,7 +274,7 @@ PairProperties pair_of(const JsonDocument& document, const JsonValue& at, const 
   const bool has_kinetic = set(at, "kinetic_friction", pair.kinetic_friction);
   if (has_kinetic && pair.static_friction && *pair.kinetic_friction > *pair.static_friction)
     document.fail(*at.find("kinetic_friction"), "kinetic friction is larger than static friction",
-                  "it is at most as large");
+                  "reduce it to the static one or less");
   return pair;
 }
 

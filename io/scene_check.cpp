@@ -154,7 +154,7 @@ class Checker {
       for (std::size_t k = 0; k < i;
            ++k)  // all earlier members are known and distinct, so that there are at most as many as fields
         if (at.items[k].key == member.key)
-          document_.fail_key(member, "'" + member.key + "' is there twice", "keep one of the two");
+          document_.fail_key(member, "'" + member.key + "' occurs twice", "keep one of the two");
       value(member, field->type);
     }
     presence(at, record);
@@ -177,7 +177,7 @@ class Checker {
     if (at.text.empty()) document_.fail(at, "this string is empty");
     const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
     if (type.single_line && std::any_of(at.text.begin(), at.text.end(), control))
-      document_.fail(at, "this string has control characters in it", "write it in one line");
+      document_.fail(at, "this string contains control characters", "write it on one line");
   }
 
   void choice(const JsonValue& at, const Type& type) const {
@@ -216,7 +216,7 @@ class Checker {
         document_.fail(at, "'" + field.name + "' is missing", "expected " + expected(field.type));
     const auto given = std::count_if(record.exactly_one.begin(), record.exactly_one.end(), there);
     if (record.exactly_one.empty() || given == 1) return;
-    document_.fail(at, given == 0 ? "it isn't said what this " + record.name + " is" : "more than one of a kind",
+    document_.fail(at, given == 0 ? "the kind of this " + record.name + " is missing" : "more than one kind is given",
                    "give exactly one of " + joined(record.exactly_one, " and "));
   }
 

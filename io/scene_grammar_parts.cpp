@@ -13,14 +13,12 @@ namespace {
 const Record& stiffness_record() {
   static const Record result{
       "stiffness",
-      "How strongly constraints are enforced. Prefer `compliance`: it means the same whatever the time step, the substeps "
-      "and "
-      "the iterations.",
+      "How strongly constraints are enforced. Prefer `compliance`: its effect is independent of time step, substeps and "
+      "iterations.",
       {either("compliance", number("inverse of stiffness; m/N for a distance", 0),
               "XPBD: the inverse stiffness alpha in the unit of the constraint's type; 0 is rigid."),
-       either(
-           "stiffness", share(),
-           "PBD: the share k of the error that is removed in a step. The result depends on the time step and the masses."),
+       either("stiffness", share(),
+              "PBD: the share k of the error that a step removes. The result depends on the time step and the masses."),
        field("damping", number("N s/m for a distance", 0), Stiffness{}.damping,
              "XPBD damping beta; only together with `compliance`.")},
       {"compliance", "stiffness"}};
@@ -45,9 +43,9 @@ namespace {
 
 const Record& keyframe_record() {
   static const Record result{"keyframe",
-                             "A rigid pose at a moment.",
-                             {needed("time", number("s", 0, 1e9), "Increases along the motion."),
-                              field("position", place(), Keyframe{}.position, "Translation away from where it is at rest."),
+                             "A rigid pose at a time.",
+                             {needed("time", number("s", 0, 1e9), "Time of the pose; increases along the list."),
+                              field("position", place(), Keyframe{}.position, "Translation from the rest position."),
                               field("rotation", record(rotation_record()), "none", "Rotation about the motion's `pivot`.")},
                              {}};
   return result;
@@ -56,22 +54,23 @@ const Record& keyframe_record() {
 }  // namespace
 
 const Record& motion_record() {
-  static const Record result{"motion",
-                             "A rigid motion by keyframes, linear between them, held before the first and after the last.",
-                             {needed("keyframes", list(record(keyframe_record()), 1), "The poses."),
-                              field("pivot", place(), Motion{}.pivot, "The point that rotations leave in place."),
-                              field("repeat", boolean(), Motion{}.repeat, "Start again after the last keyframe.")},
-                             {}};
+  static const Record result{
+      "motion",
+      "A rigid motion by keyframes: linear between them, constant before the first and after the last.",
+      {needed("keyframes", list(record(keyframe_record()), 1), "The poses."),
+       field("pivot", place(), Motion{}.pivot, "Centre of rotation."),
+       field("repeat", boolean(), Motion{}.repeat, "Restart after the last keyframe.")},
+      {}};
   return result;
 }
 
 const Record& volume_record() {
   static const Record result{
       "volume",
-      "The volume inside a closed surface, held at a pressure: what makes a balloon.",
+      "A volume constraint: holds the volume inside a closed surface, as in a balloon.",
       {field("pressure", number("-", 0, 1000), Volume{}.pressure,
-             "Rest volume over the volume of the mesh as given: above 1 inflates, below 1 deflates."),
-       field("stiffness", stiffness(), "\"rigid\"", "Compliance in m^5/N, of six times the volume.")},
+             "Rest volume over the volume of the given mesh: above 1 inflates, below 1 deflates."),
+       field("stiffness", stiffness(), "\"rigid\"", "Compliance of the constraint on six times the volume, in m^5/N.")},
       {}};
   return result;
 }
@@ -103,27 +102,28 @@ const Record& sphere_mesh_record() {
 }
 
 const Record& tube_record() {
-  static const Record result{"tube",
-                             "An open tube around the y-axis, its upper rim at y = 0 and its lower one at y = -length: a "
-                             "sleeve, a skirt. Vertex (row r, "
-                             "column c) has index r * columns + c, row 0 being the upper rim.",
-                             {needed("columns", integer(3, largest_grid), "Vertices around."),
-                              needed("rows", integer(2, largest_grid), "Vertices along the length, both rims included."),
-                              needed("length", positive("m", largest_place), "Height."),
-                              needed("top_radius", positive("m", largest_place), "Radius of the upper rim."),
-                              needed("bottom_radius", positive("m", largest_place), "Radius of the lower rim."),
-                              field("folds", integer(0, 256), 0, "Waves around the tube; 0 for none."),
-                              field("fold_depth", number("-", 0, 0.9), 0.f,
-                                    "Height of the waves as a share of the radius at the lower rim; it grows evenly from "
-                                    "nothing at the upper one.")},
-                             {}};
+  static const Record result{
+      "tube",
+      "An open tube around the y-axis, its upper rim at y = 0 and its lower one at y = -length: a "
+      "sleeve, a skirt. Vertex (row r, "
+      "column c) has index r * columns + c, row 0 being the upper rim.",
+      {needed("columns", integer(3, largest_grid), "Vertices around."),
+       needed("rows", integer(2, largest_grid), "Vertices along the length, both rims included."),
+       needed("length", positive("m", largest_place), "Height."),
+       needed("top_radius", positive("m", largest_place), "Radius of the upper rim."),
+       needed("bottom_radius", positive("m", largest_place), "Radius of the lower rim."),
+       field("folds", integer(0, 256), 0, "Waves around the tube; 0 for none."),
+       field(
+           "fold_depth", number("-", 0, 0.9), 0.f,
+           "Height of the waves at the lower rim as a share of its radius; it decreases linearly to 0 at the upper rim.")},
+      {}};
   return result;
 }
 
 const Record& box_mesh_record() {
   static const Record result{"box mesh",
                              "A closed box about the origin with sides along the axes.",
-                             {needed("size", positive_vector("m", largest_place), "Its sizes."),
+                             {needed("size", positive_vector("m", largest_place), "Sizes along x, y and z."),
                               field("segments", integer(1, 256), 1, "Squares along each edge; a square is two triangles.")},
                              {}};
   return result;
@@ -133,8 +133,8 @@ const Record& rabbit_record() {
   static const Record result{
       "rabbit",
       "A closed animal shape to drape things over, sitting on y = 0 and looking along +z.",
-      {field("height", positive("m", largest_place), 0.3f, "From the ground to the tips of its ears."),
-       field("cells", integer(16, 128), 40, "Of the grid that it is made on, along its height.")},
+      {field("height", positive("m", largest_place), 0.3f, "Height from the ground to the tips of the ears."),
+       field("cells", integer(16, 128), 40, "Resolution: grid cells along the height.")},
       {}};
   return result;
 }
@@ -142,7 +142,7 @@ const Record& rabbit_record() {
 const Record& waves_record() {
   static const Record result{"waves",
                              "Heights h = height sin(2 pi along_x x / width) sin(2 pi along_z z / depth).",
-                             {needed("height", number("m", 0, largest_place), "Of the tops."),
+                             {needed("height", number("m", 0, largest_place), "Amplitude of the waves."),
                               field("along_x", number("-", 0, 1000), 1.f, "Waves along x."),
                               field("along_z", number("-", 0, 1000), 1.f, "Waves along z.")},
                              {}};
@@ -152,14 +152,14 @@ const Record& waves_record() {
 const Record& heightfield_record() {
   static const Record result{
       "heightfield",
-      "A landscape: a grid with a height at every vertex.",
+      "Terrain: a grid with a height at every vertex.",
       {needed("columns", integer(2, largest_grid), "Vertices along x."),
        needed("rows", integer(2, largest_grid), "Vertices along z."),
        needed("width", positive("m", largest_place), "Size along x."),
        needed("depth", positive("m", largest_place), "Size along z."),
        either("heights", list(number("m", -largest_place, largest_place), 4),
               "Height of each vertex, row after row: vertex (row r, column c) has index r * columns + c."),
-       either("waves", record(waves_record()), "Hills and hollows.")},
+       either("waves", record(waves_record()), "Heights by a formula.")},
       {"heights", "waves"}};
   return result;
 }
@@ -169,22 +169,21 @@ const Record& heightfield_record() {
 const Record& mesh_record() {
   static const Record result{
       "mesh",
-      "Where a surface comes from, and where it is put: fitted, then scaled, then rotated, then moved. This is also its "
-      "rest "
-      "shape.",
+      "The source of a surface and its placement: fitted, then scaled, then rotated, then moved. The result is also the "
+      "rest shape.",
       {either(
            "file", string(),
            "Path of an .obj, .ply or .stl file, relative to the folder of the scene. URLs, devices and pipes are refused."),
        either("grid", record(grid_record()), "A rectangle."),
        either("sphere", record(sphere_mesh_record()), "A closed sphere."),
        either("tube", record(tube_record()), "An open tube."), either("box", record(box_mesh_record()), "A closed box."),
-       either("heightfield", record(heightfield_record()), "A landscape."),
+       either("heightfield", record(heightfield_record()), "Terrain."),
        either("rabbit", record(rabbit_record()), "A closed animal shape."),
        field("fit", positive("m", largest_place), "none",
-             "First scaled and moved so that its longest side is this, its middle above the origin and its lowest point at "
-             "y = 0: for meshes of unknown units."),
+             "Scales and moves the mesh so that its longest side has this length, its centre lies above the origin and its "
+             "lowest point at y = 0. For meshes in unknown units."),
        field("scale", any_of({positive("-", 1e6), positive_vector("-", 1e6)}), 1,
-             "Factor, the same along all axes or one each."),
+             "Scale factor, one for all axes or one per axis."),
        field("rotate", record(rotation_record()), "none", "Rotation about the origin."),
        field("translate", place(), Vec3f{}, "Translation.")},
       {"file", "grid", "sphere", "tube", "box", "heightfield", "rabbit"}};
@@ -200,10 +199,9 @@ std::vector<std::string> fabric_names() {
 const Record& fabric_record() {
   static const Record result{
       "fabric",
-      "A fabric in SI units, independent of the mesh. What is left out comes from `base`, and without a base from the "
-      "defaults.",
+      "A fabric in SI units, independent of the mesh. Missing members come from `base`, or else from the defaults.",
       {field("base", choice(fabric_names()), "none", "A built-in fabric to start from."),
-       field("name", string(), "none", "Its name."), field("source", text(), "none", "Where the numbers come from."),
+       field("name", string(), "none", "Its name."), field("source", text(), "none", "Source of the numbers."),
        field("area_density", positive("kg/m^2"), Fabric{}.area_density, "Mass per area."),
        field("thickness", positive("m", largest_place), Fabric{}.thickness,
              "Thickness; also the distance kept from colliders."),
@@ -211,9 +209,9 @@ const Record& fabric_record() {
              "Membrane stiffness: force per width and strain."),
        field("bending_stiffness", number("N m", 0), Fabric{}.bending_stiffness, "Flexural rigidity per width."),
        field("bending_damping", share(), Fabric{}.bending_damping, "Fraction of critical damping of bending."),
-       field("static_friction", number("-", 0, 1000), Fabric{}.static_friction, "Coefficient of friction at rest."),
-       field("kinetic_friction", number("-", 0, 1000), "0.3, or the static one where that is less",
-             "Coefficient of friction in motion; at most the static one.")},
+       field("static_friction", number("-", 0, 1000), Fabric{}.static_friction, "Coefficient of static friction."),
+       field("kinetic_friction", number("-", 0, 1000), "0.3; at most the static one",
+             "Coefficient of kinetic friction, at most the static one.")},
       {}};
   return result;
 }

@@ -55,7 +55,7 @@ std::vector<Reached> reached_from(const Record& first) {
 std::string home_of(const std::string& wanted, const std::vector<Reached>& reached) {
   for (const Reached& one : reached) {
     if (one.record->find(wanted) == nullptr) continue;
-    return "it belongs into " + one.record->name + (one.path.empty() ? "" : ", as '" + one.path + "." + wanted + "'");
+    return "it is a member of " + one.record->name + (one.path.empty() ? "" : ", as '" + one.path + "." + wanted + "'");
   }
   return {};
 }
@@ -100,7 +100,7 @@ std::string hint_for(const std::string& wanted, const Record& record) {
       for (const auto* reached : {&below, &all})
         if (std::string hint = look(wanted, *reached); !hint.empty()) return hint;
   }
-  return names.empty() ? "nothing is expected here" : "known are " + joined(names);
+  return names.empty() ? "this record has no members" : "known are " + joined(names);
 }
 
 std::size_t edit_distance(const std::string& a, const std::string& b) {

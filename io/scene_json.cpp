@@ -75,7 +75,7 @@ std::string word_around(const std::string& text, std::size_t at) {
 std::string word_advice(std::string word) {
   for (char& c : word) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   for (const char* number : {"nan", "-nan", "inf", "-inf", "infinity", "-infinity"})
-    if (word == number) return "a scene has finite numbers only";
+    if (word == number) return "scenes contain only finite numbers";
   for (const char* literal : {"true", "false", "null"})
     if (word == literal) return std::string("write ") + literal;
   const bool is_name = !word.empty() && (word[0] == '_' || (word[0] >= 'a' && word[0] <= 'z'));
@@ -86,7 +86,7 @@ std::string word_advice(std::string word) {
 std::string syntax_advice(const std::string& text, std::size_t last, const std::string& problem) {
   const auto says = [&](const char* words) { return problem.find(words) != std::string::npos; };
   if (says("unexpected end of input"))
-    return text.empty() ? "the file is empty" : "the file is cut off, or a bracket is not closed";
+    return text.empty() ? "the file is empty" : "the file is truncated, or a bracket is not closed";
   if (last >= text.size()) return {};
   const char c = text[last];
   const std::size_t before = last == 0 ? std::string::npos : text.find_last_not_of(" \t\r\n", last - 1);
@@ -95,9 +95,9 @@ std::string syntax_advice(const std::string& text, std::size_t last, const std::
   if ((c == '}' || c == ']') && before != std::string::npos && text[before] == ',') return "remove the comma before it";
   if (literal && (c == '/' || c == '#')) return "JSON has no comments: remove this one";
   if (literal && c == '\'') return "write names and text in double quotes";
-  if (literal && (c == '.' || c == '+')) return "a number begins with a digit or a minus, as 0.5";
+  if (literal && (c == '.' || c == '+')) return "a number starts with a digit or a minus, such as 0.5";
   if (says("expected end of input")) return "nothing may follow the last bracket";
-  if (word.size() > 1 && word[0] == '0' && word[1] >= '0' && word[1] <= '9') return "a number has no zeros in front";
+  if (word.size() > 1 && word[0] == '0' && word[1] >= '0' && word[1] <= '9') return "a number has no leading zeros";
   if (literal || says("after '-'")) return word_advice(word);
   if (says("expected '}'") || says("expected ']'")) return "a comma is missing before it";
   return {};
@@ -152,7 +152,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     JsonValue& value = add(kind);
     if (static_cast<int>(open_.size()) == deepest_nesting)
       throw Error(document_.locate_byte(value.offset), "nested more than " + std::to_string(deepest_nesting) + " deep",
-                  "no part of a scene needs that");
+                  "scenes never need so many levels");
     open_.push_back(&value);
     return true;
   }

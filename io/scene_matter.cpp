@@ -62,7 +62,7 @@ std::vector<float> masses_of(const JsonDocument& document, const JsonValue& at, 
   if (at.kind == JsonValue::Kind::number) return std::vector<float>(particles, static_cast<float>(at.number));
   if (at.items.size() != particles)
     document.fail(at, std::to_string(at.items.size()) + " masses for " + std::to_string(particles) + " particles",
-                  "give one number for all, or one each");
+                  "give one number for all, or one per particle");
   std::vector<float> masses;
   for (const JsonValue& item : at.items) {
     const bool fixed = item.kind == JsonValue::Kind::string;
@@ -90,7 +90,8 @@ void check_width(const JsonDocument& document, const JsonValue& row, std::size_t
 
 void check_rows(const JsonDocument& document, const JsonValue& at, std::size_t found, std::size_t wanted) {
   if (found == wanted) return;
-  document.fail(at, std::to_string(found) + " elements for " + std::to_string(wanted) + " constraints", "give one each");
+  document.fail(at, std::to_string(found) + " elements for " + std::to_string(wanted) + " constraints",
+                "give one per constraint");
 }
 
 int frame_of(const JsonDocument& document, const JsonValue& at, std::size_t frames) {
@@ -134,7 +135,7 @@ ConstraintGroup constraints_of(const JsonDocument& document, const JsonValue& at
   if (const JsonValue* compliances = at.find("compliances")) {
     check_rows(document, *compliances, compliances->items.size(), stencils.size());
     if (group.stiffness.kind == Stiffness::Kind::pbd)
-      document.fail_key(*compliances, "compliances beside a PBD stiffness", "give one of the two");
+      document.fail_key(*compliances, "compliances cannot be combined with a PBD stiffness", "give one of the two");
     for (const JsonValue& item : compliances->items) group.compliances.push_back(static_cast<float>(item.number));
   }
   return group;
@@ -150,7 +151,7 @@ BuiltObject particles_of(const JsonDocument& document, const JsonValue& at, cons
     if (velocities->items.size() != count)
       document.fail(*velocities,
                     std::to_string(velocities->items.size()) + " velocities for " + std::to_string(count) + " particles",
-                    "give one each, or the object's velocity");
+                    "give one per particle, or the object's velocity");
     for (const JsonValue& item : velocities->items) object.velocities.push_back(vector_of(item));
   }
   for (const JsonValue& item : elements(at, "frames")) object.frames.push_back(object_frame_of(document, item));

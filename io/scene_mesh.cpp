@@ -42,7 +42,7 @@ std::string allowed_path(const JsonDocument& document, const JsonValue& at, cons
   if (is_url(at.text)) document.fail(at, "this is a URL", "name a file beside the scene");
   const fs::path home = folder.path.empty() ? fs::path(".") : fs::path(folder.path);
   const fs::path path = folder.path.empty() ? fs::path(at.text) : home / at.text;
-  const char* advice = "put the mesh into the scene's folder, or allow the scene to read files outside of it";
+  const char* advice = "put the mesh into the scene's folder, or permit files outside it";
   if (!folder.allow_outside && leaves_folder(at.text)) document.fail(at, "this path leaves the scene's folder", advice);
   std::error_code unknown;
   const fs::file_status status = fs::status(path, unknown);
@@ -128,7 +128,7 @@ TriangleMesh heightfield_of(const JsonDocument& document, const JsonValue& at, S
     document.fail(
         *heights,
         std::to_string(heights->items.size()) + " heights for " + std::to_string(mesh.positions.size()) + " vertices",
-        "give columns times rows of them");
+        "give columns x rows heights");
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     mesh.positions[i].y = static_cast<float>(heights->items[i].number);
   return mesh;
@@ -225,7 +225,7 @@ std::vector<Vec3f> make_frame(const JsonDocument& document, const JsonValue& at,
     document.fail(at,
                   "this frame has " + std::to_string(frame.positions.size()) + " vertices, the mesh " +
                       std::to_string(mesh.mesh.positions.size()),
-                  "give one for each vertex of the mesh, in its order");
+                  "give one position per vertex of the mesh, in its order");
   for (Vec3f& p : frame.positions) p = mesh.placement.place(p);
   check_places(document, at, frame);
   return frame.positions;

@@ -29,17 +29,18 @@ std::string text_of(const std::string& path) {
   std::error_code unknown;
   const fs::file_status status = fs::status(path, unknown);
   if (!fs::exists(status))
-    throw Error({path, 0, {}, {}}, "there is no such file", "check the path; a relative one starts at the current folder");
+    throw Error({path, 0, {}, {}}, "the file does not exist",
+                "check the path; a relative one starts at the current folder");
   if (!fs::is_regular_file(status)) throw Error({path, 0, {}, {}}, "not a regular file", "name a scene in JSON");
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw Error({path, 0, {}, {}}, "can't be opened", "check its permissions");
+  if (!stream) throw Error({path, 0, {}, {}}, "cannot be opened", "check its permissions");
   std::string text;
   std::string block(1 << 16, '\0');
   while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) || stream.gcount() > 0) {
     text.append(block, 0, static_cast<std::size_t>(stream.gcount()));
     if (text.size() > scene_file::largest_text + 3) break;  // too long; parse_json rejects it
   }
-  if (stream.bad()) throw Error({path, 0, {}, {}}, "can't be read");
+  if (stream.bad()) throw Error({path, 0, {}, {}}, "cannot be read");
   return text;
 }
 

@@ -35,7 +35,7 @@ std::vector<int> by_index(const JsonDocument& document, const JsonValue& at, con
       document.fail(item, "there is no particle " + std::to_string(static_cast<long long>(item.number)),
                     "the object has " + std::to_string(count) + ", counted from 0");
     const auto index = static_cast<std::size_t>(item.number);
-    if (taken[index]) document.fail(item, "particle " + std::to_string(index) + " is there twice", "name it once");
+    if (taken[index]) document.fail(item, "particle " + std::to_string(index) + " occurs twice", "name it once");
     taken[index] = true;
     result.push_back(static_cast<int>(index));
   }
@@ -54,7 +54,7 @@ std::vector<int> by_box(const JsonDocument& document, const JsonValue& at, const
   set(at, "min", low);
   set(at, "max", high);
   if (low.x > high.x || low.y > high.y || low.z > high.z)
-    document.fail(at, "the box ends before it begins", "no part of min may be larger than that of max");
+    document.fail(at, "the box is empty", "each coordinate of min must be at most that of max");
   const auto inside = [](float x, float a, float b) { return x >= a && x <= b; };
   std::vector<int> result;
   for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -66,7 +66,7 @@ std::vector<int> by_box(const JsonDocument& document, const JsonValue& at, const
   const int near = nearest(0.5f * (low + high), positions);
   const Vec3f& p = positions[static_cast<std::size_t>(near)];
   document.fail(at, "there is no particle in this box",
-                "the one nearest to its middle is " + std::to_string(near) + " at " + std::to_string(p.x) + ", " +
+                "the one nearest to its centre is " + std::to_string(near) + " at " + std::to_string(p.x) + ", " +
                     std::to_string(p.y) + ", " + std::to_string(p.z));
 }
 

@@ -65,7 +65,7 @@ bool set(const JsonDocument& document, const JsonValue& at, const char* name, Qu
   // Scaled to a largest component of 1, because the square of a tiny axis underflows.
   const float largest = std::max({axis.x, -axis.x, axis.y, -axis.y, axis.z, -axis.z});
   if (largest < std::numeric_limits<float>::min())
-    document.fail(*value->find("axis"), "this axis has no direction", "[0, 1, 0] is upright");
+    document.fail(*value->find("axis"), "this axis has length 0", "[0, 1, 0] is upright");
   target = rotation({axis.x / largest, axis.y / largest, axis.z / largest}, degrees);
   return true;
 }
@@ -80,7 +80,7 @@ bool set(const JsonDocument& document, const JsonValue& at, const char* name, St
   if (!set(*value, "stiffness", target.value)) return true;
   target.kind = Stiffness::Kind::pbd;
   if (const JsonValue* damping = value->find("damping"))
-    document.fail_key(*damping, "damping goes with compliance, not with a PBD stiffness",
+    document.fail_key(*damping, "damping needs a compliance; a PBD stiffness has none",
                       "remove it, or give a compliance instead of the stiffness");
   return true;
 }
@@ -94,7 +94,7 @@ bool set(const JsonDocument& document, const JsonValue& at, const char* name, Mo
     set(item, "position", keyframe.position);
     set(document, item, "rotation", keyframe.rotation);
     if (!target.keyframes.empty() && !(keyframe.time > target.keyframes.back().time))
-      document.fail(*item.find("time"), "this time is not after the one before", "keyframes go forward in time");
+      document.fail(*item.find("time"), "this time is not after the previous one", "times must increase");
     target.keyframes.push_back(keyframe);
   }
   set(*value, "pivot", target.pivot);
@@ -136,7 +136,7 @@ void set_friction(const JsonDocument& document, const JsonValue& at, float& stat
   const bool has_kinetic = set(at, "kinetic_friction", kinetic_friction);
   if (!has_kinetic || kinetic_friction <= static_friction) return;
   document.fail(*at.find("kinetic_friction"), "kinetic friction is larger than static friction",
-                has_static ? "it is at most as large" : "give static_friction too");
+                has_static ? "reduce it to the static one or less" : "give static_friction too");
 }
 
 Vec3f rotated(const Quatf& q, const Vec3f& v) {

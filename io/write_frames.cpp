@@ -118,7 +118,7 @@ std::vector<FrameObject> describe(const Scene& scene) {
 }
 
 void check_frame(const std::string& path, const std::vector<FrameObject>& objects, const Frame& frame, double last_time) {
-  if (!(frame.time > last_time)) refuse(path, {}, {}, "a frame does not come after the one before it");
+  if (!(frame.time > last_time)) refuse(path, {}, {}, "the time of a frame is not after that of the previous one");
   if (frame.positions.size() != objects.size())
     refuse(path, {}, {}, "a frame has another number of objects than the scene");
   for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -129,7 +129,7 @@ void check_frame(const std::string& path, const std::vector<FrameObject>& object
     const auto bad = std::find_if_not(positions.begin(), positions.end(), finite);
     if (bad != positions.end())
       refuse(path, objects[i].name, "particle " + std::to_string(bad - positions.begin()),
-             "is at a place that is not finite");
+             "has a position that is not finite");
   }
 }
 
@@ -188,8 +188,7 @@ std::unique_ptr<FormatWriter> make_format_writer(const std::string& path, const 
   if (suffix == ".usda") return make_usda_writer(path, objects, frame_time);
   if (suffix == ".pc2") return make_pc2_writer(path, objects, frame_time);
   if (suffix == ".pvd") return make_pvd_writer(path, objects);
-  throw Error({.file = path, .line = 0, .object = {}, .element = {}},
-              "'" + suffix + "' is no format that geometry is written in",
+  throw Error({.file = path, .line = 0, .object = {}, .element = {}}, "'" + suffix + "' is not a geometry format",
               "end it in .obj, .ply, .glb, .usda, .pc2 or .pvd");
 }
 

@@ -181,7 +181,7 @@ class GlbWriter final : public FormatWriter {
     check_frame(path_, objects_, frame, last_time_);
     // Times are floats in the file and must increase there too.
     if (!times_.empty() && !(static_cast<float>(frame.time) > times_.back()))
-      refuse("has frames too close together in time for floats");
+      refuse("has frames too close in time for float precision");
     for (std::size_t o = 0; o < parts_.size(); ++o) parts_[o].add(frame.positions[o]);
     times_.push_back(static_cast<float>(frame.time));
     last_time_ = frame.time;
@@ -190,7 +190,7 @@ class GlbWriter final : public FormatWriter {
 
   void finish() override {
     if (std::exchange(finished_, true)) return;
-    if (times_.empty()) refuse("there is no frame to write");
+    if (times_.empty()) refuse("there are no frames to write");
     Document document;
     json nodes = json::array();
     std::vector<int> moving;

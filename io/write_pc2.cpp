@@ -30,7 +30,7 @@ void refuse_foreign_mesh(const std::string& path, const std::string& mesh) {
   in.read(found.data(), static_cast<std::streamsize>(found.size()));
   if (in.gcount() == 0 || found == expected) return;
   throw Error({.file = path, .line = 0, .object = {}, .element = {}},
-              "its mesh would replace " + mesh + ", which is none that belongs to a point cache",
+              "its mesh would overwrite " + mesh + ", which does not belong to a point cache",
               "give the cache another name");
 }
 
@@ -62,7 +62,7 @@ class Pc2Writer final : public FormatWriter {
   void finish() override {
     if (std::exchange(finished_, true)) return;
     if (samples_ == 0)
-      throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "there is no frame to write",
+      throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "there are no frames to write",
                   "add one before finishing");
     file_.overwrite(samples_at_, &samples_, sizeof samples_);
     AtomicFile mesh(mesh_path_);

@@ -38,10 +38,10 @@ Spool::Spool(Spool&& other) noexcept
 
 void Spool::fail(int code) const {
   throw Error({.file = beside_, .line = 0, .object = {}, .element = {}},
-              "cannot keep the frames beside it: " + std::generic_category().message(code),
+              "cannot create a temporary file for its frames: " + std::generic_category().message(code),
               code == EMFILE || code == ENFILE
-                  ? "each object keeps a file open: allow more (ulimit -n), or write .ply or .pvd"
-                  : "check that its folder is there, writable and has space");
+                  ? "each object keeps one file open: raise the limit (ulimit -n), or write .ply or .pvd"
+                  : "check that its folder exists, is writable and has space");
 }
 
 void Spool::write(const void* bytes, std::size_t count) {

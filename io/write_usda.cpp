@@ -145,7 +145,7 @@ class UsdaWriter final : public FormatWriter {
   void finish() override {
     if (std::exchange(finished_, true)) return;
     if (first_code_.empty())
-      throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "there is no frame to write",
+      throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "there are no frames to write",
                   "add one before finishing");
     std::string rate;
     append(rate, frames_per_second(frame_time_));

@@ -106,7 +106,7 @@ class PvdWriter final : public FormatWriter {
     if (folder_ == path_) folder_ += "_frames";
     if (::mkdir(folder_.c_str(), 0777) != 0 && errno != EEXIST)
       throw Error({.file = folder_, .line = 0, .object = {}, .element = {}},
-                  "cannot make the folder of the frames: " + std::generic_category().message(errno),
+                  "cannot create the folder of the frames: " + std::generic_category().message(errno),
                   "write somewhere else");
     const std::vector<std::string> names = identifiers(objects_);
     for (std::size_t o = 0; o < objects_.size(); ++o) pieces_.emplace_back(names[o], objects_[o]);

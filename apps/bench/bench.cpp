@@ -155,7 +155,7 @@ void check(const Options& options) {
                 "choose one of " + names + ", contact, W3, W3-ball, W3-cloth");
   for (int size : options.sizes)
     if (size < smallest || size > largest)
-      throw Error({}, "a cloth of " + std::to_string(size) + " x " + std::to_string(size) + " can't be measured",
+      throw Error({}, "a cloth of " + std::to_string(size) + " x " + std::to_string(size) + " cannot be measured",
                   "choose a size in " + std::to_string(smallest) + ".." + std::to_string(largest));
   if (options.frames < 1 || options.warm_up < 0) throw Error({}, "there are no frames to measure", "measure at least 1");
   if (options.against_bullet && !has_bullet())
@@ -168,11 +168,12 @@ const std::vector<Workload>& workloads() {
   static const std::vector<Workload> frames{
       {"W1-stretching", "N x N cloth hung by two corners, edges only, 10 substeps of 1 iteration"},
       {"W1-bending", "the same with a dihedral bending constraint for each inner edge"},
-      {"W1-stretching-alternating", "as W1-stretching, each cell's diagonal the other way than its neighbours'"},
-      {"W1-bending-alternating", "as W1-bending, on the same mesh"},
-      {"W1-1x10", "edges only, 1 step of 10 iterations, where Bullet is fastest; last the engine at 10 substeps of 1"},
-      {"W1-1x10-alternating", "the same on alternating diagonals"},
-      {"W1-set-up", "making and compiling the cloth with bending (once, not a frame)"},
+      {"W1-stretching-alternating", "as W1-stretching, but with alternating diagonals"},
+      {"W1-bending-alternating", "as W1-bending, but with alternating diagonals"},
+      {"W1-1x10",
+       "edges only, 1 substep of 10 iterations, at which Bullet is fastest; the last row is Pliant with 10 substeps of 1"},
+      {"W1-1x10-alternating", "the same with alternating diagonals"},
+      {"W1-set-up", "time to make and compile the cloth with bending, once"},
   };
   static const std::vector<Workload> all = [] {
     std::vector<Workload> list = frames;

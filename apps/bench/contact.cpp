@@ -86,7 +86,7 @@ std::vector<ContactRow> measure_contact(const ContactOptions& options) {
   if (options.frames < 1) throw Error({}, "there are no frames to measure", "measure at least 1");
   for (const int size : options.sizes)
     if (size < 2 || size > 4096)
-      throw Error({}, "a cloth of " + std::to_string(size) + " vertices a side can't be measured",
+      throw Error({}, "a cloth of " + std::to_string(size) + " vertices per side cannot be measured",
                   "choose a size in 2..4096");
   std::vector<ContactRow> rows;
   for (const int size : options.sizes) {

@@ -172,7 +172,7 @@ std::vector<LandingRow> measure_landings(const LandingOptions& options) {
   if (options.frames < 1 || !(options.limit > 0)) throw Error({}, "there are no frames to measure", "measure at least 1");
   for (const int size : options.sizes)
     if (size < 2 || size > 4096)
-      throw Error({}, "a cloth of " + std::to_string(size) + " vertices a side can't be measured",
+      throw Error({}, "a cloth of " + std::to_string(size) + " vertices per side cannot be measured",
                   "choose a size in 2..4096");
   if (options.against_bullet && !has_bullet())
     throw Error({}, "this program was built without Bullet", "install libbullet-dev and configure again");

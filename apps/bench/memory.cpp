@@ -58,7 +58,7 @@ MemoryRow measure_here(int size, Sweep sweep, bool is_given_away) {
 /// Measures in a separate process, so that the high-water mark covers this cloth alone.
 MemoryRow measure(int size, Sweep sweep, bool is_given_away) {
   int ends[2];
-  if (pipe(ends) != 0) throw Error({}, "no process can be started to measure memory in");
+  if (pipe(ends) != 0) throw Error({}, "cannot start a process in which to measure memory");
   const pid_t child = fork();
   if (child == 0) {
     const MemoryRow row = measure_here(size, sweep, is_given_away);
@@ -71,19 +71,18 @@ MemoryRow measure(int size, Sweep sweep, bool is_given_away) {
   close(ends[0]);
   int status = 0;
   if (child > 0) waitpid(child, &status, 0);
-  if (!is_read) throw Error({}, "the process that memory is measured in came to no end", "try a smaller size");
+  if (!is_read) throw Error({}, "the measuring process did not finish", "try a smaller size");
   return row;
 }
 
 }  // namespace
 
 std::vector<MemoryRow> measure_memory(const MemoryOptions& options) {
-  if (resident("VmHWM") == 0)
-    throw Error({}, "this system does not say how much memory a process takes", "measure on Linux");
+  if (resident("VmHWM") == 0) throw Error({}, "this system does not report the memory of a process", "measure on Linux");
   std::vector<MemoryRow> rows;
   for (const int size : options.sizes) {
     if (size < 2 || size > 4096)
-      throw Error({}, "a cloth of " + std::to_string(size) + " vertices a side can't be measured",
+      throw Error({}, "a cloth of " + std::to_string(size) + " vertices per side cannot be measured",
                   "choose a size in 2..4096");
     for (const Sweep sweep : options.sweeps) {
       rows.push_back(measure(size, sweep, false));

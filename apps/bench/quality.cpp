@@ -101,14 +101,13 @@ const std::vector<QualityWorkload>& quality_workloads() {
   static const std::vector<QualityWorkload> all{
       {Kind::hung,
        {"W1-quality",
-        "with bending: the substeps that keep p99 of stretch <= 1.02 and the largest <= 1.10 in every frame; minutes, so "
-        "by "
-        "name alone"},
+        "with bending: the substeps needed for p99 of stretch <= 1.02 and maximum <= 1.10 in every frame; takes minutes, "
+        "so only by name"},
        1.02,
        1.10},
-      {Kind::irregular, {"W1-quality-irregular", "the same on an irregular mesh: p99 <= 1.03; by name alone"}, 1.03, any},
+      {Kind::irregular, {"W1-quality-irregular", "the same on an irregular mesh: p99 <= 1.03; only by name"}, 1.03, any},
       {Kind::draped,
-       {"W1-quality-draped", "the irregular mesh draped over a ball, pinned nowhere: p99 <= 1.03; by name alone"},
+       {"W1-quality-draped", "the irregular mesh draped over a ball without pins: p99 <= 1.03; only by name"},
        1.03,
        any},
   };

@@ -105,10 +105,11 @@ std::optional<Budgeted> fit(const Scene& scene, const Method& method, int iterat
 [[noreturn]] void refuse(const Misses& misses, const Options& options) {
   const std::string budget = figure(options.budget, 4) + " ms a frame";
   if (misses.not_finite == 0) {
-    throw Error({}, "nothing fits into " + budget + ": the least tried takes about " + figure(misses.fastest, 2) + " ms",
-                "give more milliseconds");
+    throw Error({}, "nothing fits into " + budget + ": the cheapest trial takes about " + figure(misses.fastest, 2) + " ms",
+                "increase the budget");
   }
-  throw Error({}, "what fits into " + budget + " does not stay finite", "give more milliseconds, for more substeps");
+  throw Error({}, "every combination that fits into " + budget + " diverges",
+              "increase the budget, so that more substeps fit");
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ plot::Chart stretch_panel(const Result& result, const std::string& title, const 
 }  // namespace
 
 std::vector<plot::Chart> to_charts(const Result& result) {
-  const std::string time = times_next(result) ? "milliseconds of the substep after" : "milliseconds of the substep",
+  const std::string time = times_next(result) ? "milliseconds of the next substep" : "milliseconds of the substep",
                     count = "iterations";
   const auto iteration = [](const Curve&, int number) { return static_cast<double>(number); };
   return {residual_panel(result, "iterations", count, iteration),

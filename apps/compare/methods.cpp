@@ -43,7 +43,7 @@ void apply_option(const std::string& name, SweepOptions& options) {
   for (const NamedOption& one : named_options)
     if (one.name == name) return one.apply(options);
   throw Error({}, "there is no option '" + name + "' of a sweep",
-              "write a sweep and after it, with a plus sign each, any of " + joined(option_names()));
+              "write a sweep, then options after plus signs: " + joined(option_names()));
 }
 
 /// True if the scene has fixed points, which tethers need.

@@ -52,11 +52,11 @@ std::vector<std::size_t> shown_samples(const Curve& curve) {
 std::string table_head(const Result& result) {
   const Curve& first = result.curves.front();
   std::string head =
-      format("after %d frames: the substep of %s ms that comes next, from one and the same state\n", result.frame,
+      format("after %d frames: the next substep, of %s ms, solved by each sweep from the same state\n", result.frame,
              figure(1000 * result.substep, 4).c_str()) +
       format("residual: root mean square error of the %s constraints%s, %.3g before the first iteration\n",
              result.residual_type.c_str(), result.residual_type == "distance" ? " [m]" : "", first.residuals.front()) +
-      "stretch: the most beyond rest length [%]\n" +
+      "stretch: largest elongation beyond rest length [%]\n" +
       (times_next(result) ? "ms: of the substep after it, since the first one after a restore rebuilds near lists\n" : "") +
       "\n";
   std::string above = format("%-18s %9s ", "", "ms an"), below = format("%-18s %9s ", "sweep", "iteration");
@@ -80,7 +80,7 @@ std::string curve_row(const Curve& curve) {
 
 std::string budget_table(const Result& result) {
   if (result.budgeted.empty()) return {};
-  std::string table = format("\nwithin %s ms a frame, %d frames from the start; stretch: the worst of all frames [%%]\n",
+  std::string table = format("\nwithin %s ms per frame, %d frames from the start; stretch: worst of all frames [%%]\n",
                              figure(result.budget, 4).c_str(), result.frames) +
                       format("%-18s %8s x %-10s %8s %9s %9s %9s\n", "sweep", "substeps", "iterations", "ms/frame", "mean",
                              "p99", "largest");

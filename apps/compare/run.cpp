@@ -68,7 +68,7 @@ Result run(const Scene& given, const Options& options) {
     for (std::size_t i = 0; i < measured.size(); ++i) time_again(scene, start, measured[i], options, result.curves[i]);
   if (result.curves.empty())
     throw Error(
-        {}, "every sweep was refused, the first, " + result.refused.front().name + ": " + result.refused.front().reason);
+        {}, "every sweep was rejected, the first, " + result.refused.front().name + ": " + result.refused.front().reason);
   result.residual_type = type_of(result.curves);
   return result;
 }

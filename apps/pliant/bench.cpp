@@ -33,7 +33,7 @@ void print_row(const pliant::bench::Row& row) {
   for (const PhaseTime& phase : row.phases)
     phases += fmt::format("{}{} {:.3f}", phases.empty() ? "" : ", ", phase.name, phase.milliseconds);
   if (!phases.empty()) print("  by phase, ms: " + phases + "\n");
-  if (!row.met) print("  the bounds were not kept; more substeps than this were not tried\n");
+  if (!row.met) print("  the bounds were exceeded at the largest number of substeps that is tried\n");
   if (row.energy_lost != 0) {
     std::snprintf(text, sizeof text, "  energy lost by frame 40: %.3g J\n", row.energy_lost);
     print(text);

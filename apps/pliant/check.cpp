@@ -54,9 +54,9 @@ bool print_findings(const std::vector<Finding>& findings, const std::string& les
 std::vector<Finding> check_mesh(const std::string& path) {
   const MeshFile file = read_mesh_file(path);
   print(one_line(path) + ": " + std::to_string(file.mesh.positions.size()) + " vertices, " +
-        counted(file.mesh.triangles.size(), "triangle") + extent(file.mesh.positions) + "; numbers count from 0\n");
+        counted(file.mesh.triangles.size(), "triangle") + extent(file.mesh.positions) + "; indices count from 0\n");
   print_repairs(file.repairs);
-  if (!file.repairs.empty()) print("from here on, numbers are those of the mesh as mended\n");
+  if (!file.repairs.empty()) print("the indices below refer to the repaired mesh\n");
   return inspect(file.mesh);
 }
 
@@ -81,7 +81,7 @@ void try_out(const Scene& scene, double seconds, std::vector<Finding>& findings)
   const bool is_fine = advice.words.empty() && advice.cut_short;
   if (is_fine)
     print("tried " + std::to_string(advice.own.frames) + " of " +
-          counted(static_cast<std::size_t>(advice.frames), "frame") + " in the time there was; --seconds " +
+          counted(static_cast<std::size_t>(advice.frames), "frame") + " within the time limit; --seconds " +
           compare::figure(more_seconds(advice, seconds), 3) + " gives more\n");
 }
 
@@ -120,7 +120,7 @@ int check(const CheckOptions& options) {
   if (!grave) return 0;
   Location where;
   where.file = options.path;
-  throw Error(where, "can't be simulated as it is", "mend what is called wrong above");
+  throw Error(where, "can't be simulated as it is", "correct the errors listed above");
 }
 
 }  // namespace pliant::command

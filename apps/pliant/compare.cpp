@@ -29,7 +29,7 @@ Outputs open_outputs(const std::vector<std::string>& paths) {
     const bool is_json = has_suffix(path, ".json"), is_picture = has_suffix(path, ".png");
     if (!is_json && !is_picture) throw Error(where, "is neither .png nor .json", "name a picture or a JSON file");
     if (is_json ? outputs.json != nullptr : !outputs.picture.empty())
-      throw Error(where, "is the second of its kind", "name one picture and one JSON file at most");
+      throw Error(where, "is a second file of its kind", "name at most one picture and one JSON file");
     if (is_json) outputs.json = std::make_unique<AtomicFile>(path);
     if (is_picture) outputs.picture = path;
   }
@@ -45,7 +45,7 @@ pliant::compare::Options options_of(const CompareOptions& options, const Scene& 
   wanted.budget = options.budget;
   wanted.pause = throw_if_interrupted;
   if (options.budget > 0 && scene.frames == 0)
-    throw Error({}, "the scene has no frames to keep a budget in", "give it --frames");
+    throw Error({}, "the scene has no frames, which a budget needs", "set --frames");
   return wanted;
 }
 

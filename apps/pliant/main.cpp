@@ -29,33 +29,33 @@ CLI::Validator range(Number least, Number largest) {
 
 /// The options common to run and render.
 void add_settings(CLI::App& app, Overrides& overrides) {
-  app.add_option("--mesh", overrides.meshes,
-                 "a mesh file for the object or collider of that name; may be given more than once")
+  app.add_option("--mesh", overrides.meshes, "replace the mesh of the object or collider NAME; repeatable")
       ->type_name("NAME=FILE")
       ->allow_extra_args(false);
-  app.add_option("--cache", overrides.cache, "a folder where distance grids are kept from run to run")->type_name("FOLDER");
-  app.add_option("--threads", overrides.threads, "threads; 0: as many as the machine has")
+  app.add_option("--cache", overrides.cache, "folder for distance grids, which later runs reuse")->type_name("FOLDER");
+  app.add_option("--threads", overrides.threads, "number of threads; 0: all hardware threads")
       ->type_name("N")
       ->check(range(0, most_threads));
-  app.add_option("--substeps", overrides.substeps, "substeps a frame, instead of the scene's")
+  app.add_option("--substeps", overrides.substeps, "substeps per frame (default: the scene's)")
       ->type_name("N")
       ->check(range(1, 10000));
-  app.add_option("--iterations", overrides.iterations, "iterations a substep, instead of the scene's")
+  app.add_option("--iterations", overrides.iterations, "iterations per substep (default: the scene's)")
       ->type_name("N")
       ->check(range(1, 10000));
-  app.add_option("--sweep", overrides.sweep, "the sweep, instead of the scene's, as chains or chains+tethers")
+  app.add_option("--sweep", overrides.sweep, "sweep and options, such as chains or chains+tethers (default: the scene's)")
       ->type_name("NAME");
 }
 
 void add_overrides(CLI::App& app, Overrides& overrides) {
   add_settings(app, overrides);
-  app.add_option("--frames", overrides.frames, "frames to simulate, instead of the scene's number")
+  app.add_option("--frames", overrides.frames, "number of frames (default: the scene's)")
       ->type_name("N")
       ->check(range(0, most));
-  app.add_option("--isa", overrides.isa, "code path; the same bits at another speed")
+  app.add_option("--isa", overrides.isa, "instruction set; changes the speed, never the result")
       ->type_name("NAME")
       ->check(CLI::IsMember({"x86-64-v2", "x86-64-v3", "x86-64-v4", "generic"}));
-  app.add_flag("--sequential", overrides.sequential, "in plain code; the same bits, slowly")->excludes("--sweep");
+  app.add_flag("--sequential", overrides.sequential, "use the scalar reference code: slow, with the same bits")
+      ->excludes("--sweep");
 }
 
 // Each subcommand sets `chosen`, which main then calls.
@@ -63,45 +63,45 @@ using Chosen = std::function<int()>;
 
 void add_run(CLI::App& app, RunOptions& options, Chosen& chosen) {
   CLI::App* run_app = app.add_subcommand("run", "Simulate a scene");
-  run_app->add_option("SCENE", options.scene, "scene file, JSON")->required();
+  run_app->add_option("SCENE", options.scene, "scene file (JSON)")->required();
   add_overrides(*run_app, options.overrides);
-  run_app->add_option("--out", options.out, "geometry: .obj, .ply, .glb, .usda, .pc2 or .pvd; may be given more than once")
+  run_app->add_option("--out", options.out, "geometry file (.obj, .ply, .glb, .usda, .pc2 or .pvd); repeatable")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  run_app->add_option("--report", options.report, "write hashes, times, residuals and stretch as JSON")->type_name("FILE");
+  run_app->add_option("--report", options.report, "write hashes, times, residuals and stretch to this JSON file")
+      ->type_name("FILE");
   CLI::Option* checkpoint =
-      run_app->add_option("--checkpoint", options.checkpoint, "save the state there, to go on from with --resume")
+      run_app->add_option("--checkpoint", options.checkpoint, "save the state to this file, from which --resume continues")
           ->type_name("FILE");
-  run_app->add_option("--every", options.every, "frames from one --checkpoint to the next; also at the end and on Ctrl-C")
+  run_app->add_option("--every", options.every, "frames between checkpoints; the end and Ctrl-C also save one")
       ->type_name("N")
       ->check(range(1, most))
       ->capture_default_str()
       ->needs(checkpoint);
-  run_app->add_option("--resume", options.resume, "go on from this checkpoint of the scene")->type_name("FILE");
-  run_app->add_flag("--hash-frames", options.hash_frames, "the state's hash of every frame in the report");
+  run_app->add_option("--resume", options.resume, "continue from this checkpoint of the scene")->type_name("FILE");
+  run_app->add_flag("--hash-frames", options.hash_frames, "add the hash of the state after every frame to the report");
   run_app->add_flag("--quiet", options.quiet, "print nothing unless something goes wrong");
   run_app->callback([&] { chosen = [&] { return run(options); }; });
 }
 
 void add_render(CLI::App& app, RenderOptions& options, Chosen& chosen) {
-  CLI::App* render_app = app.add_subcommand("render", "Draw a scene, without a screen");
-  render_app->add_option("SCENE", options.scene, "scene file, JSON")->required();
+  CLI::App* render_app = app.add_subcommand("render", "Draw a scene as a picture or movie, without a display");
+  render_app->add_option("SCENE", options.scene, "scene file (JSON)")->required();
   render_app->add_option("--out", options.out, "picture (.png) or movie (.mp4)")->type_name("FILE")->required();
-  render_app->add_option("--frame", options.frame, "the frame drawn, the last by default; a movie ends with it")
+  render_app->add_option("--frame", options.frame, "frame to draw, or last frame of a movie (default: the scene's last)")
       ->type_name("N")
       ->check(range(0, most));
-  render_app->add_option("--size", options.size, "width and height in pixels, as 1280x720")
-      ->type_name("WxH")
-      ->capture_default_str();
-  render_app->add_option("--azimuth", options.azimuth, "camera from the front to the right, -360 to 360 [degrees]")
+  render_app->add_option("--size", options.size, "width and height in pixels")->type_name("WxH")->capture_default_str();
+  render_app
+      ->add_option("--azimuth", options.azimuth, "camera angle from the front towards the right, -360 to 360 [degrees]")
       ->type_name("A")
       ->check(range(-360.f, 360.f))
       ->capture_default_str();
-  render_app->add_option("--elevation", options.elevation, "camera above the horizon, -89 to 89 [degrees]")
+  render_app->add_option("--elevation", options.elevation, "camera angle above the horizon, -89 to 89 [degrees]")
       ->type_name("A")
       ->check(range(-89.f, 89.f))
       ->capture_default_str();
-  render_app->add_option("--strip", options.strip, "frames drawn side by side in one picture by one camera, as 0,30,60")
+  render_app->add_option("--strip", options.strip, "frames to draw side by side in one picture, such as 0,30,60")
       ->type_name("FRAMES")
       ->delimiter(',')
       ->check(range(0, most));
@@ -111,10 +111,9 @@ void add_render(CLI::App& app, RenderOptions& options, Chosen& chosen) {
 }
 
 void add_check(CLI::App& app, CheckOptions& options, Chosen& chosen) {
-  CLI::App* check_app = app.add_subcommand("check", "Say what is wrong or doubtful in a scene or a mesh");
+  CLI::App* check_app = app.add_subcommand("check", "Report errors and doubtful settings of a scene or a mesh");
   check_app->add_option("FILE", options.path, "scene (.json) or mesh (.obj, .ply, .stl)")->required();
-  check_app
-      ->add_option("--seconds", options.seconds, "for running a scene to see whether its solve keeps up; 0: not at all")
+  check_app->add_option("--seconds", options.seconds, "time for trial runs that test whether the solver converges; 0: none")
       ->type_name("S")
       ->check(range(0.0, 86400.0))
       ->capture_default_str();
@@ -122,74 +121,80 @@ void add_check(CLI::App& app, CheckOptions& options, Chosen& chosen) {
 }
 
 void add_validate(CLI::App& app, ValidateOptions& options, Chosen& chosen) {
-  CLI::App* validate_app = app.add_subcommand("validate", "Compare with known answers of mechanics");
-  validate_app->add_option("NAME", options.group, "the group of answers, all by default");
-  validate_app->add_flag("--slow", options.slow, "also what takes minutes");
-  validate_app->add_option("--queries", options.queries, "a folder of query sets for the continuous tests of `collision`")
+  CLI::App* validate_app = app.add_subcommand("validate", "Compare the engine with known answers of mechanics");
+  validate_app->add_option("NAME", options.group, "group of answers (default: all)");
+  validate_app->add_flag("--slow", options.slow, "include rows that take minutes");
+  validate_app
+      ->add_option("--queries", options.queries, "folder of query sets for continuous collision tests (group `collision`)")
       ->type_name("FOLDER");
-  validate_app->add_option("--json", options.json, "write the rows as JSON; without a file in place of the table")
+  validate_app
+      ->add_option("--json", options.json,
+                   "write the rows to this JSON file; without FILE, print JSON instead of the table")
       ->type_name("FILE")
       ->expected(0, 1)
       ->default_str("-");
-  validate_app->add_option("--plot", options.plot, "draw the curves as a picture (.png)")->type_name("FILE");
+  validate_app->add_option("--plot", options.plot, "draw the curves to this picture (.png)")->type_name("FILE");
   validate_app->callback([&] { chosen = [&] { return validate(options); }; });
 }
 
 void add_bench(CLI::App& app, BenchOptions& options, Chosen& chosen) {
-  CLI::App* bench_app = app.add_subcommand("bench", "Measure whole frames, beside plain loops and another engine");
-  bench_app->add_option("NAME", options.workload, "the workload, all by default");
-  bench_app->add_option("--against", options.against, "another engine in the same run")
+  CLI::App* bench_app =
+      app.add_subcommand("bench", "Measure the time of frames, compared with a plain loop and another engine");
+  bench_app->add_option("NAME", options.workload, "workload (default: all)");
+  bench_app->add_option("--against", options.against, "also measure this engine")
       ->type_name("NAME")
       ->check(CLI::IsMember({"bullet"}));
-  bench_app->add_option("--sizes", options.sizes, "particles along a side, as 64,128")
+  bench_app->add_option("--sizes", options.sizes, "particles per side, such as 64,128")
       ->type_name("SIZES")
       ->delimiter(',')
       ->check(range(2, 4096));
-  bench_app->add_option("--frames", options.frames, "frames measured, after 20 that are not")
+  bench_app->add_option("--frames", options.frames, "measured frames, after 20 unmeasured ones")
       ->type_name("N")
       ->check(range(1, 1000000))
       ->capture_default_str();
-  bench_app->add_option("--limit", options.limit, "of W3: seconds that a row may take")
+  bench_app->add_option("--limit", options.limit, "time limit for a row of W3 [s]")
       ->type_name("S")
       ->check(range(1.0, 86400.0))
       ->capture_default_str();
-  bench_app->add_option("--threads", options.threads, "of the run beside that with one thread; 0: all")
+  bench_app
+      ->add_option("--threads", options.threads,
+                   "threads of a second run, after one with a single thread; 0: all hardware threads")
       ->type_name("N")
       ->check(range(0, most_threads));
-  bench_app->add_option("--json", options.json, "write the rows as JSON")->type_name("FILE");
+  bench_app->add_option("--json", options.json, "write the rows to this JSON file")->type_name("FILE");
   bench_app->callback([&] { chosen = [&] { return bench(options); }; });
 }
 
 void add_compare(CLI::App& app, CompareOptions& options, Chosen& chosen) {
-  CLI::App* compare_app = app.add_subcommand("compare", "Show how fast each sweep solves a scene");
-  compare_app->add_option("SCENE", options.scene, "scene file, JSON")->required();
+  CLI::App* compare_app = app.add_subcommand("compare", "Compare how fast sweeps solve a scene");
+  compare_app->add_option("SCENE", options.scene, "scene file (JSON)")->required();
   compare_app
       ->add_option("--sweeps", options.sweeps,
-                   "sweeps compared, as tiled,chains,tiled+chebyshev,chains+tethers; all by default")
+                   "sweeps to compare, such as tiled,chains,tiled+chebyshev,chains+tethers (default: all)")
       ->type_name("NAMES")
       ->delimiter(',')
       ->allow_extra_args(false);
-  compare_app
-      ->add_option("--frame", options.frame, "frames before the substep that is solved; by default half of the scene's")
+  compare_app->add_option("--frame", options.frame, "frames before the measured substep (default: half of the scene's)")
       ->type_name("N")
       ->check(range(0, most));
-  compare_app->add_option("--iterations", options.iterations, "the most iterations of the curves")
+  compare_app->add_option("--iterations", options.iterations, "maximum number of iterations in the curves")
       ->type_name("N")
       ->check(range(1, 10000))
       ->capture_default_str();
-  compare_app->add_option("--budget-ms", options.budget, "also say what each sweep reaches in so many milliseconds a frame")
+  compare_app
+      ->add_option("--budget-ms", options.budget, "also compare the stretch that sweeps reach in this time per frame [ms]")
       ->type_name("T")
       ->check(range(1e-3, 1e6));
-  compare_app->add_option("--frames", options.overrides.frames, "the scene's frames, instead of its own number")
+  compare_app->add_option("--frames", options.overrides.frames, "number of frames of the scene (default: its own)")
       ->type_name("N")
       ->check(range(0, most));
-  compare_app->add_option("--substeps", options.substeps, "substeps a frame in the curves, instead of the scene's")
+  compare_app->add_option("--substeps", options.substeps, "substeps per frame for the curves (default: the scene's)")
       ->type_name("N")
       ->check(range(1, 10000));
-  compare_app->add_option("--threads", options.overrides.threads, "threads; 0: as many as the machine has")
+  compare_app->add_option("--threads", options.overrides.threads, "number of threads; 0: all hardware threads")
       ->type_name("N")
       ->check(range(0, most_threads));
-  compare_app->add_option("--out", options.out, "picture (.png) or all numbers (.json); may be given twice")
+  compare_app->add_option("--out", options.out, "picture (.png) or all numbers (.json); repeatable")
       ->type_name("FILE")
       ->allow_extra_args(false);
   compare_app->callback([&] { chosen = [&] { return compare(options); }; });
@@ -253,7 +258,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   if (!chosen) {
-    complain("name what to do, as pliant run; " + usage_advice(app));
+    complain("no subcommand is given; " + usage_advice(app));
     return 2;
   }
   return run_guarded(chosen);

@@ -33,7 +33,7 @@ std::string size_in_words(std::uint64_t bytes) {
   return compare::figure(size, 2) + units[unit];
 }
 
-constexpr const char* elsewhere = "write somewhere you are allowed to";
+constexpr const char* elsewhere = "choose a path with write permission";
 
 [[noreturn]] void fail(const std::string& path, const std::string& problem, const std::string& advice) {
   Location where;
@@ -68,15 +68,15 @@ void refuse_same_file_twice(const std::vector<std::string>& read, const std::vec
     if (seen.insert(file_itself(file)).second) continue;
     Location where;
     where.file = file;
-    throw Error(where, "is named twice", "give every file a name of its own");
+    throw Error(where, "is named twice", "give every file a different name");
   }
 }
 
 void refuse_unwritable(const std::string& path) {
   std::error_code unknown;
   std::filesystem::path place = std::filesystem::absolute(path, unknown);
-  if (unknown || path.empty()) fail(path, "is no path of a file", "name another");
-  if (std::filesystem::is_directory(place, unknown)) fail(path, "cannot write: it is a folder", "name a file");
+  if (unknown || path.empty()) fail(path, "is not a path of a file", "name another");
+  if (std::filesystem::is_directory(place, unknown)) fail(path, "cannot write, because it is a folder", "name a file");
   if (std::filesystem::exists(place, unknown)) {
     if (::access(place.c_str(), W_OK) != 0) fail(path, cannot_write(errno), elsewhere);
     if (!std::filesystem::is_regular_file(place, unknown)) return;  // a device or pipe needs no folder
@@ -84,7 +84,7 @@ void refuse_unwritable(const std::string& path) {
   do place = place.parent_path();
   while (!std::filesystem::exists(place, unknown) && place.has_relative_path());
   if (!std::filesystem::is_directory(place, unknown))
-    fail(path, fmt::format("cannot write: '{}' is no folder", place.string()), elsewhere);
+    fail(path, fmt::format("cannot write, because '{}' is not a folder", place.string()), elsewhere);
   if (::access(place.c_str(), W_OK | X_OK) != 0) fail(path, cannot_write(errno), elsewhere);
 }
 
@@ -93,7 +93,7 @@ void make_folder_of(const std::string& path) {
   if (folder.empty()) return;
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
-  if (failed) fail(path, "cannot make its folder: " + failed.message(), elsewhere);
+  if (failed) fail(path, "cannot create its folder: " + failed.message(), elsewhere);
 }
 
 void print(const std::string& text) {
@@ -101,7 +101,7 @@ void print(const std::string& text) {
   if (!written) {
     Location where;
     where.file = "standard output";
-    throw Error(where, "could not be written", "see whether the disk is full or the pipe's other end has closed");
+    throw Error(where, "could not be written", "check whether the disk is full or the other end of the pipe was closed");
   }
 }
 

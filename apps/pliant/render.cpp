@@ -36,7 +36,7 @@ Size parse_size(const std::string& text) {
     const auto [after_height, height_error] = std::from_chars(after_width + 1, end, size.height);
     if (height_error == std::errc() && after_height == end) return size;
   }
-  throw Error({}, "--size " + text + " is no size", "give width and height in pixels, as 1280x720");
+  throw Error({}, "--size " + text + " is not a size", "give width and height in pixels, such as 1280x720");
 }
 
 void draw_picture(const RenderOptions& options, const Scene& scene, Size size) {
@@ -121,10 +121,10 @@ int render(const RenderOptions& options) {
   if (!is_movie && !has_suffix(options.out, ".png")) {
     Location where;
     where.file = options.out;
-    throw Error(where, "is neither .png nor .mp4", "give --out one of these suffixes; geometry is what pliant run writes");
+    throw Error(where, "is neither .png nor .mp4", "give --out one of these suffixes; for geometry use pliant run");
   }
   if (!options.strip.empty() && (is_movie || options.frame)) {
-    throw Error({}, std::string("--strip goes with ") + (is_movie ? "a picture, not with a movie" : "no --frame"),
+    throw Error({}, std::string("--strip makes ") + (is_movie ? "a picture, not a movie" : "no --frame"),
                 "give --out a name that ends in .png, and the frames to --strip alone");
   }
   const Size size = parse_size(options.size);

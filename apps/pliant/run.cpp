@@ -55,7 +55,7 @@ void resume(World& world, const std::string& path, const Scene& scene) {
   throw Error(where,
               fmt::format("is of frame {}, beyond the {} to be simulated", world.state().frame,
                           counted(static_cast<std::size_t>(scene.frames), "frame")),
-              "give --frames a larger number");
+              "set --frames to a larger number");
 }
 
 /// Steps to the end. After a signal the checkpoint holds the last complete frame.

@@ -39,7 +39,7 @@ SceneReadOptions options_of(const std::vector<std::string>& meshes) {
   for (const std::string& one : meshes) {
     const std::size_t sign = one.find('=');
     if (sign == 0 || sign == std::string::npos || sign + 1 == one.size())
-      throw Error({}, "'" + one + "' is no mesh for an object", "give name=path, as --mesh body=bunny.obj");
+      throw Error({}, "'" + one + "' does not name an object and a mesh", "write name=path, such as --mesh body=bunny.obj");
     const bool is_new = options.meshes.emplace(one.substr(0, sign), one.substr(sign + 1)).second;
     if (!is_new) throw Error({}, "'" + one.substr(0, sign) + "' is given two meshes", "give it one");
   }

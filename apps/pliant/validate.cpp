@@ -20,7 +20,7 @@ void refuse_bad_plot_name(const std::string& path) {
   if (path.empty() || has_suffix(path, ".png")) return;
   Location where;
   where.file = path;
-  throw Error(where, "is no .png", "give --plot a name that ends in .png");
+  throw Error(where, "is not a .png", "give --plot a name that ends in .png");
 }
 
 void write_or_print(const std::string& text, AtomicFile* file) {
@@ -51,8 +51,8 @@ int validate(const ValidateOptions& options) {
   const auto failed = std::count_if(result.rows.begin(), result.rows.end(), [](const auto& row) { return !row.pass; });
   if (failed == 0) return 0;
   const auto first = std::find_if(result.rows.begin(), result.rows.end(), [](const auto& row) { return !row.pass; });
-  throw Error({}, std::to_string(failed) + " of " + std::to_string(result.rows.size()) +
-                      " known answers are missed, the first: " + first->name);
+  throw Error(
+      {}, std::to_string(failed) + " of " + std::to_string(result.rows.size()) + " rows fail, the first: " + first->name);
 }
 
 }  // namespace pliant::command

@@ -245,7 +245,7 @@ void check(const RenderScene& scene) {
   for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
     const RenderMesh& mesh = scene.meshes[m];
     if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), finite))
-      refuse("mesh", m, "has a vertex at a place that is not finite");
+      refuse("mesh", m, "has a vertex with a position that is not finite");
     const int count = static_cast<int>(mesh.positions.size());
     for (const auto& triangle : mesh.triangles)
       for (const int i : triangle)
@@ -255,13 +255,13 @@ void check(const RenderScene& scene) {
   for (std::size_t t = 0; t < scene.tubes.size(); ++t) {
     const RenderTube& tube = scene.tubes[t];
     const bool fine = std::all_of(tube.points.begin(), tube.points.end(), finite) && std::isfinite(tube.radius);
-    if (!fine) refuse("tube", t, "is at a place that is not finite");
+    if (!fine) refuse("tube", t, "has a position that is not finite");
   }
   for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
     const Quatf& q = scene.colliders[c].rotation;
     const bool fine = finite(scene.colliders[c].position) && finite({q.x, q.y, q.z}) && std::isfinite(q.w) &&
                       finite(half_size(scene.colliders[c].shape));
-    if (!fine) refuse("collider", c, "is at a place that is not finite");
+    if (!fine) refuse("collider", c, "has a position that is not finite");
   }
 }
 

@@ -18,7 +18,7 @@ GLuint compile(GLenum kind, const std::string& source) {
   std::array<char, 2048> log{};
   glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
   glDeleteShader(shader);
-  throw Error({}, std::string("the OpenGL driver refuses a shader: ") + log.data(), "update the driver");
+  throw Error({}, std::string("the OpenGL driver rejects a shader: ") + log.data(), "update the driver");
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ Program::Program(const std::string& vertex, const std::string& fragment) : name_
   if (fine) return;
   std::array<char, 2048> log{};
   glGetProgramInfoLog(name_.get(), static_cast<GLsizei>(log.size()), nullptr, log.data());
-  throw Error({}, std::string("the OpenGL driver refuses a program: ") + log.data(), "update the driver");
+  throw Error({}, std::string("the OpenGL driver rejects a program: ") + log.data(), "update the driver");
 }
 
 Texture make_texture(GLint internal, int width, int height, GLenum format, GLenum type, GLint filter) {
@@ -54,7 +54,7 @@ Texture make_texture(GLint internal, int width, int height, GLenum format, GLenu
 
 void require_complete() {
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw Error({}, "the OpenGL driver cannot draw into a picture of this size", "ask for a smaller one");
+    throw Error({}, "the OpenGL driver cannot draw into a picture of this size", "choose a smaller size");
 }
 
 Framebuffer make_framebuffer(GLuint colour, GLuint depth) {

@@ -44,14 +44,14 @@ struct MovieWriter::Implementation {
     descriptor = ::mkostemp(name.data(), O_CLOEXEC);
     if (descriptor < 0)
       fail("cannot write: " + std::generic_category().message(errno),
-           "check that its folder is there, writable and has space");
+           "check that its folder exists, is writable and has space");
     return name;
   }
 
   void start(int width, int height, double rate) {
     struct stat status {};
     if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
-      fail("cannot write: it is no ordinary file", "name a file");
+      fail("cannot write, because it is not a regular file", "name a file");
     int descriptor = -1;
     temporary = make_beside(descriptor);
     remember_unfinished(temporary.c_str());
@@ -60,13 +60,12 @@ struct MovieWriter::Implementation {
     const std::string name = make_beside(words);
     ::unlink(name.c_str());
     std::array<int, 2> ends{-1, -1};
-    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-      fail("cannot reach ffmpeg: no socket is to be had");
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) fail("cannot create a socket to ffmpeg");
     socket = ends[0];
     const int code = spawn(ends[1], width, height, rate);
     ::close(ends[1]);
     if (code != 0)
-      fail("movies need the program ffmpeg, which can't be started: " + std::generic_category().message(code),
+      fail("movies need the program ffmpeg, which cannot be started: " + std::generic_category().message(code),
            "install the Debian package ffmpeg");
   }
 
@@ -116,7 +115,7 @@ struct MovieWriter::Implementation {
     const ssize_t size = words < 0 ? 0 : ::pread(words, text.data(), text.size(), 0);
     std::string result(text.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
     while (!result.empty() && (result.back() == '\n' || result.back() == ' ')) result.pop_back();
-    return result.empty() ? "ffmpeg gave up without a word" : "ffmpeg gave up: " + result;
+    return result.empty() ? "ffmpeg failed without a message" : "ffmpeg failed: " + result;
   }
 
   void send_all(const std::uint8_t* bytes, std::size_t count) {
@@ -165,7 +164,7 @@ void MovieWriter::finish() {
   if (std::exchange(self_->finished, true)) return;
   if (!self_->wait()) self_->fail(self_->complaint(), "check the space on the disk");
   if (std::rename(self_->temporary.c_str(), self_->path.c_str()) != 0)
-    self_->fail("cannot put the file in place: " + std::generic_category().message(errno));
+    self_->fail("cannot rename the temporary file: " + std::generic_category().message(errno));
   forget_unfinished(self_->temporary.c_str());
   self_->temporary.clear();
 }

@@ -337,7 +337,7 @@ std::vector<std::uint8_t> Renderer::Implementation::read_back() const {
   std::vector<std::uint8_t> upside_down(row * rows), result(row * rows);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, upside_down.data());
-  if (glGetError() != GL_NO_ERROR) throw Error({}, "the OpenGL driver failed while it drew", "ask for a smaller picture");
+  if (glGetError() != GL_NO_ERROR) throw Error({}, "the OpenGL driver failed while drawing", "choose a smaller picture");
   for (std::size_t y = 0; y < rows; ++y) std::memcpy(&result[y * row], &upside_down[(rows - 1 - y) * row], row);
   return result;
 }
@@ -377,8 +377,8 @@ std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scen
 Renderer::Renderer(int width, int height) {
   constexpr int smallest = 16, largest = 8192;
   if (width < smallest || height < smallest || width > largest || height > largest)
-    throw Error({}, "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels can't be drawn",
-                "ask for 16 to 8192 pixels either way");
+    throw Error({}, "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels cannot be drawn",
+                "choose 16 to 8192 pixels for width and height");
   self_ = std::make_unique<Implementation>(width, height);
 }
 

@@ -54,18 +54,17 @@ int judged(const Advice& advice) {
 
 /// The advice if no setting is good.
 std::string of_the_nearest(const Advice& advice) {
-  const std::string in_time = advice.cut_short ? " in the time there was" : "";
-  if (judged(advice) == 0) return "no other setting could be tried" + in_time;
+  const std::string in_time = advice.cut_short ? " within the time limit" : "";
+  if (judged(advice) == 0) return "no other setting was tried" + in_time;
   const int count = judged(advice);
   const std::string tried = std::to_string(count) + " other setting" + (count == 1 ? "" : "s") + " tried" + in_time;
   if (advice.best < 0)
     return "of " + tried +
-           " none is clearly better: what holds it or pushes it may leave it no other way, or it needs more " +
-           "substeps still";
+           " none is clearly better: its pins or colliders may force this stretch, or it needs even more substeps";
   const Trial& best = advice.others[advice.best];
   return "of " + tried + " none brings it under " + percent(tolerated_overstretch) + "; the best of them, " +
          setting_and_cost(advice, advice.best) + ", brings it to " + percent(best.worst.largest) + ", 1 edge in 100 to " +
-         percent(best.worst.p99) + "; as it is it takes " + cost_in_words(advice.own) + "; " + json_of_best(advice);
+         percent(best.worst.p99) + "; the present settings take " + cost_in_words(advice.own) + "; " + json_of_best(advice);
 }
 
 /// The cheapest good setting, and the cheapest of another kind.
@@ -73,8 +72,8 @@ std::string of_the_good(const Advice& advice) {
   const int other = runner_up(advice);
   const bool one = other < 0 && advice.others[advice.best].settings.substeps == 1;
   return setting_and_cost(advice, advice.best) + (other < 0 ? "" : " or " + setting_and_cost(advice, other)) +
-         (one ? " brings" : " bring") + " it under " + percent(tolerated_overstretch) + "; as it is it takes " +
-         cost_in_words(advice.own) + (advice.cut_short ? "; there was no time to look for cheaper ones" : "") +
+         (one ? " brings" : " bring") + " it under " + percent(tolerated_overstretch) + "; the present settings take " +
+         cost_in_words(advice.own) + (advice.cut_short ? "; there was no time to search for cheaper ones" : "") +
          (other < 0 ? "; " : "; for the first, ") + json_of_best(advice);
 }
 
@@ -84,7 +83,7 @@ std::string remedy(const Advice& advice) {
   const int ran = advice.own.frames;
   const std::string first = ran == 1 ? "first" : "first " + std::to_string(ran);
   const std::string part = "only the " + first + " of " + std::to_string(advice.frames) +
-                           " frames could be run in the time there was: what follows holds for " +
+                           " frames were run within the time limit: the following holds for " +
                            (ran == 1 ? "that one" : "those") + ", and later ones may be worse, with any settings; ";
   const bool good = advice.best >= 0 && is_good(advice.others[advice.best]);
   return (knows_all(advice) ? "" : part) + (good ? of_the_good(advice) : of_the_nearest(advice));

@@ -41,7 +41,7 @@ Registry& registry() {
 }
 
 void require_complete(const ConstraintDefinition& definition) {
-  if (definition.name.empty()) refuse(definition, "has no name", "give it one");
+  if (definition.name.empty()) refuse(definition, "has no name", "set its `name`");
   if (definition.slots.empty() || definition.slots.size() > 8)
     refuse(definition, "has " + std::to_string(definition.slots.size()) + " slots", "a type has one to eight");
   if (definition.rows < 1 || definition.rows > 6)
@@ -49,7 +49,7 @@ void require_complete(const ConstraintDefinition& definition) {
   if (definition.rest_fields.size() > 32)
     refuse(definition, "has " + std::to_string(definition.rest_fields.size()) + " rest data", "a type has up to 32");
   if (definition.evaluate == nullptr || definition.evaluate_double == nullptr)
-    refuse(definition, "has no function", "use register_constraint<Type>()");
+    refuse(definition, "has no evaluation function", "use register_constraint<Type>()");
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ void register_constraint(const ConstraintDefinition& definition) {
   const std::lock_guard<std::mutex> lock(all.growing);
   if (const int same = find_constraint_type(definition.name); same >= 0) {
     if (constraint_type(same).evaluate == definition.evaluate) return;
-    refuse(definition, "is there already, and is another", "give yours a name of its own");
+    refuse(definition, "is already registered with another definition", "choose another name");
   }
   all.add(definition);
   all.definitions.back().is_compiled = all.definitions.back().is_length = false;  // only built-in types have kernels

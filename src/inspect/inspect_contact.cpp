@@ -115,25 +115,25 @@ void doubt_cost(Problems& problems, const Object& object) {
   while (fitting > 1e-9 && estimated_pairs(object, fitting) > 2 * usual) fitting *= 0.8;
   problems.doubtful("thickness",
                     "is " + words(object.thickness) + " m: about " + words(pairs / 1e6) +
-                        " million pairs of it are looked at, " + words(std::round(pairs / usual)) +
-                        " times as many as usual, and a frame takes as many times longer",
-                    "give at most about " + words(fitting / 2) + " m, or a coarser or more even mesh");
+                        " million pairs of its primitives are tested, " + words(std::round(pairs / usual)) +
+                        " times as many as usual, and a frame takes longer by the same factor",
+                    "reduce it to about " + words(fitting / 2) + " m, or use a coarser or more even mesh");
 }
 
 void doubt_thickness(Problems& problems, const Object& object) {
   if (!object.self_collision && !object.collides) return;
   const double edge = median_edge(object), kept = 2 * static_cast<double>(object.thickness);
   if (edge == 0)
-    return problems.doubtful("", "has neither triangles nor links: its particles touch surfaces, but not one another",
-                             "leave out self_collision");
+    return problems.doubtful("", "is set, but without triangles and links particles never collide with each other",
+                             "remove self_collision");
   if (kept > edge && !object.triangles.empty())  // not for ropes, which bend no more sharply than they are thick
     problems.doubtful("thickness",
                       "is " + words(object.thickness) +
-                          " m: two layers keep twice that apart, more than the median edge, " + words(edge) + " m",
-                      "folds will be pushed open: give less, or a coarser mesh");
+                          " m: two layers keep twice this distance, more than the median edge, " + words(edge) + " m",
+                      "contact will push folds open: reduce it, or use a coarser mesh");
   if (object.thickness == 0)
-    problems.doubtful("thickness", "is 0: layers would rest on the filter's separating margin alone",
-                      "give about a tenth of an edge");
+    problems.doubtful("thickness", "is 0: only the filter's separating margin would keep layers apart",
+                      "set it to about a tenth of an edge");
 }
 
 template <class A, class B>
@@ -153,10 +153,9 @@ void doubt_company(Problems& problems, const Object& object, const Scene& scene)
   if (std::any_of(scene.objects.begin(), scene.objects.end(), is_met_by_object) ||
       std::any_of(scene.mesh_colliders.begin(), scene.mesh_colliders.end(), is_met_by_mesh))
     return;
-  problems.doubtful(
-      "collides", "is set, and no other object or mesh collider is met",
-      "let another collide too, and each one's mask have a group of the other's; planes, spheres, capsules and boxes are "
-      "met without it");
+  problems.doubtful("collides", "is set, but the object can collide with no other object or mesh collider",
+                    "set `collides` on another object too, and let the mask of each contain a group of the other; "
+                    "primitive colliders need no `collides`");
 }
 
 }  // namespace
@@ -170,11 +169,11 @@ void check_frames(Problems& problems, const MeshCollider& collider) {
     const std::string name = "frame " + std::to_string(k);
     require_range(problems, name + ", time", frame.time, -largest_place, largest_place);
     if (k > 0 && !(frame.time > collider.frames[k - 1].time))
-      problems.grave(name, "is at " + words(frame.time) + " s, not after the one before it", "sort frames by time");
+      problems.grave(name, "is at " + words(frame.time) + " s, but times must increase", "sort frames by time");
     if (frame.positions.size() != vertices)
       problems.grave(name,
                      "has " + counted(frame.positions.size(), "vertex position") + ", the mesh " + std::to_string(vertices),
-                     "give one for each vertex of the mesh, in its order");
+                     "give one position per vertex of the mesh, in its order");
     Tally not_places;
     for (std::size_t i = 0; i < frame.positions.size(); ++i)
       if (!is_place(frame.positions[i])) not_places.add(static_cast<std::int64_t>(i));
@@ -182,8 +181,8 @@ void check_frames(Problems& problems, const MeshCollider& collider) {
                    "give finite coordinates in metres, near the origin");
   }
   if (!collider.frames.empty() && collider.as != MeshCollider::As::triangles)
-    problems.grave("frames", "deform a distance grid or a heightfield, which can't deform",
-                   "leave them out, or use the mesh as triangles");
+    problems.grave("frames", "are given for a distance grid or a heightfield, which cannot deform",
+                   "remove them, or use the mesh as triangles");
 }
 
 /// Checks a mesh collider as a solid, after its mesh has passed.

@@ -63,12 +63,13 @@ void doubt_masses(const Doubts& d) {
     if (heaviest == d.count() || d.object.masses[i] > d.object.masses[heaviest]) heaviest = i;
   }
   if (lightest == d.count())
-    return d.problems.doubtful("", "all particles are pinned or fixed, so nothing of it moves by itself", "pin fewer");
+    return d.problems.doubtful("", "all particles are pinned or fixed, so the object only moves with its pins",
+                               "pin fewer particles");
   const double ratio = static_cast<double>(d.object.masses[heaviest]) / static_cast<double>(d.object.masses[lightest]);
   if (ratio > large_mass_ratio)
     d.problems.doubtful("particle " + std::to_string(heaviest),
                         "is " + words(ratio) + " times as heavy as particle " + std::to_string(lightest),
-                        "use more substeps, or even out the masses (slivers in a mesh make light particles)");
+                        "use more substeps, or make the masses more equal (slivers in a mesh make light particles)");
 }
 
 void doubt_pins(const Doubts& d) {
@@ -78,7 +79,7 @@ void doubt_pins(const Doubts& d) {
     if (seen[static_cast<std::size_t>(pin.particle)]) twice.add(pin.particle);
     seen[static_cast<std::size_t>(pin.particle)] = true;
   }
-  d.problems.doubtful(twice, "particle", "is pinned more than once", "one of the motions will be ignored: pin it once");
+  d.problems.doubtful(twice, "particle", "is pinned more than once", "only the last motion has an effect: pin it once");
 }
 
 void doubt_references(const Doubts& d) {
@@ -131,15 +132,15 @@ void doubt_distances(const Doubts& d, const ConstraintGroup& group) {
     if (group.stiffness.kind == Stiffness::Kind::compliance && does_nothing(d, group, c))
       idle.add(static_cast<std::int64_t>(c));
   }
-  d.problems.doubtful(strained, "distance constraint", "starts more than half its rest length away from it",
-                      "it will jump; check rest lengths and units");
-  d.problems.doubtful(idle, "distance constraint", "is so compliant that its own weight stretches it tenfold",
+  d.problems.doubtful(strained, "distance constraint", "has a length that differs from its rest length by more than half",
+                      "the object will jump at the start: check rest lengths and units");
+  d.problems.doubtful(idle, "distance constraint", "is so compliant that the weight of its particles stretches it tenfold",
                       "compliance is the inverse of stiffness, in m/N: 0 is rigid");
   const double most = d.object.triangles.empty() ? 10 * shortest : shortest;  // short links let a thick rope bend smoothly
   if (static_cast<double>(d.object.thickness) > most)
     d.problems.doubtful("thickness",
                         "is " + words(d.object.thickness) + " m, more than the shortest edge, " + words(shortest) + " m",
-                        "it will hover above colliders: lengths are in metres");
+                        "the object will hover above colliders: lengths are in metres");
 }
 
 void doubt_hinges(const Doubts& d, const ConstraintGroup& group) {
@@ -154,10 +155,10 @@ void doubt_hinges(const Doubts& d, const ConstraintGroup& group) {
       curved.add(static_cast<std::int64_t>(c));
   }
   const std::string kind = group.type + " constraint";
-  d.problems.doubtful(flat, kind, "has a triangle without area", "it can't measure an angle: leave it out");
+  d.problems.doubtful(flat, kind, "has a degenerate triangle", "its angle is undefined: remove the constraint");
   if (is_flat_hinge(group.type))
-    d.problems.doubtful(curved, kind, "is curved at rest, but this type knows only flat sheets",
-                        "it will flatten: use dihedral bending");
+    d.problems.doubtful(curved, kind, "is curved at rest, but this type supports only flat rest shapes",
+                        "the surface will flatten: use dihedral bending");
 }
 
 void doubt_surface(const Doubts& d) {
@@ -168,12 +169,13 @@ void doubt_surface(const Doubts& d) {
     if (edge.triangle_count > 2) torn.add(edge.triangles[0]);
     if (!edge.is_wound_consistently()) against.add(edge.triangles[1]);
   }
-  d.problems.doubtful(torn, "triangle", "shares an edge with two others or more", "the surface is no manifold there");
+  d.problems.doubtful(torn, "triangle", "shares an edge with two or more other triangles",
+                      "the surface is not a manifold there");
   if (against.count == 0) return;
   const bool one_sided = !find_pieces(edges, static_cast<int>(d.object.triangles.size())).one_sided_edges.empty();
   d.problems.doubtful(
-      against, "triangle", "is wound against its neighbour",
-      one_sided ? "the surface has but one side: pictures will show a seam" : "turn it, so that pictures are smooth there");
+      against, "triangle", "has the opposite winding of its neighbour",
+      one_sided ? "the surface is one-sided: pictures will show a seam" : "flip it, so that pictures are smooth there");
 }
 
 void doubt_volume(const Doubts& d) {
@@ -184,7 +186,7 @@ void doubt_volume(const Doubts& d) {
     six_volumes += dot(cross(d.at(t[0]) - origin, d.at(t[1]) - origin), d.at(t[2]) - origin);
   if (six_volumes < 0)
     d.problems.doubtful("volume", "is inside out: its triangles face inward",
-                        "turn them all; make_cloth does it by itself");
+                        "flip all triangles; make_cloth does so itself");
 }
 
 // ------------------------------------------------------------------------------------------------ surroundings
@@ -200,15 +202,15 @@ void doubt_overlaps(const Doubts& d) {
       if (signed_distance(shape, local).distance < -1e-4) inside.add(static_cast<std::int64_t>(i));
     }
     d.problems.doubtful(inside, "particle", "is inside of collider '" + collider.name + "' at the start",
-                        "it will be pushed out: move one of them");
+                        "contact will push it out: move one of them");
   }
 }
 
 void doubt_air(const Doubts& d) {
   const Wind& wind = d.scene.wind;
   if (length_squared(wind.velocity) > 0 && wind.air_density == 0 && !d.object.triangles.empty())
-    d.problems.doubtful("", "will not feel the wind, because the air weighs nothing",
-                        "set the wind's air_density: 1.2 kg/m^3");
+    d.problems.doubtful("", "has no effect from wind, because the air density is 0",
+                        "set the wind's air_density, for example to 1.2 kg/m^3");
 }
 
 std::vector<bool> fixed_particles(const Object& object) {

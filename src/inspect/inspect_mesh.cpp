@@ -117,13 +117,13 @@ class Inspector {
         twice.add(i);
     }
     if (outside.count > 0)
-      grave(counted(outside.count, "triangle uses", "triangles use") + " vertices that are not there, the first " +
+      grave(counted(outside.count, "triangle uses", "triangles use") + " vertices that do not exist, the first " +
                 std::to_string(outside.first),
             "correct the indices; there are " + counted(mesh_.positions.size(), "vertex", "vertices"));
     if (twice.count > 0)
       grave(counted(twice.count, "triangle uses", "triangles use") + " a vertex twice, the first " +
                 std::to_string(twice.first),
-            "drop them, as read_mesh does");
+            "remove them, as read_mesh does");
   }
 
   void check_shapes() {
@@ -143,11 +143,11 @@ class Inspector {
     }
     if (flat.count > 0)
       tell(counted(flat.count, "triangle has", "triangles have") + " no area, the first " + std::to_string(flat.first),
-           "they bear neither mass nor wind; drop them, as read_mesh does");
+           "they have no mass and catch no wind; remove them, as read_mesh does");
     if (sliver.count > 0)
       tell(counted(sliver.count, "sliver triangle", "sliver triangles") + ", the first " + std::to_string(sliver.first) +
                " (worst aspect 1:" + std::to_string(static_cast<long long>(std::min(worst, 1e15) + 0.5)) + ")",
-           "they make light vertices that jitter; remesh there");
+           "they give their vertices little mass, which causes jitter; remesh there");
   }
 
   void check_places() {
@@ -168,9 +168,9 @@ class Inspector {
         shared.first = shared.count == 1 ? index(order[i]) : std::min(shared.first, index(order[i]));
       }
     if (shared.count > 0)
-      tell(counted(shared.count, "vertex lies", "vertices lie") + " in the place of another, the first " +
+      tell(counted(shared.count, "vertex lies", "vertices lie") + " at the position of another, the first " +
                std::to_string(shared.first),
-           "the surface is not joined there; merge them, as read_mesh does, unless a seam is meant to be open");
+           "the surface is not connected there; merge them, as read_mesh does, unless the seam is meant to be open");
   }
 
   void check_repeated() {
@@ -189,8 +189,8 @@ class Inspector {
     if (repeated.count > 0)
       tell(counted(repeated.count, "triangle has", "triangles have") + " the vertices of another, the first " +
                std::to_string(repeated.first),
-           "they count twice for mass and stiffness, and no cloth is made of a pair that stands alone; drop one of each "
-           "pair");
+           "they count twice for mass and stiffness, and make_cloth rejects two triangles that are connected only to each "
+           "other; remove one of each pair");
   }
 
   void check_isolated() {
@@ -203,7 +203,7 @@ class Inspector {
     if (isolated.count > 0)
       tell(counted(isolated.count, "vertex belongs", "vertices belong") + " to no triangle, the first " +
                std::to_string(isolated.first),
-           "they have no mass; drop them, as read_mesh does");
+           "they have no mass; remove them, as read_mesh does");
   }
 
   void check_edges() {
@@ -215,7 +215,7 @@ class Inspector {
     if (branching.count > 0)
       tell(counted(branching.count, "edge has", "edges have") + " more than two triangles, the first " +
                name_of(edges_[branching.first]),
-           "the surface is no manifold: no bending is made there and it encloses no volume; split it there");
+           "the surface is not a manifold: it gets no bending constraint there and encloses no volume; split it there");
     if (turned.count == 0) return;
     const Pieces pieces = find_pieces(edges_, static_cast<int>(mesh_.triangles.size()));
     tell(counted(turned.count, "edge joins", "edges join") + " triangles that are wound differently, the first " +
@@ -223,7 +223,7 @@ class Inspector {
          pieces.one_sided_edges.empty()
              ? "turn " + counted(pieces.flipped.size(), "triangle", "triangles") + " over, the first " +
                    std::to_string(pieces.flipped.front())
-             : "the surface has but one side, like a Moebius band; it can be a cloth but no balloon");
+             : "the surface is one-sided, like a Moebius band; it can be cloth, but not a balloon");
   }
 
   /// Finds non-manifold vertices, whose triangles form several fans. Corners are nodes, joined across edges.
@@ -251,9 +251,9 @@ class Inspector {
     for (std::size_t i = 0; i < fans.size(); ++i)
       if (fans[i] > 1) pinched.add(i);
     if (pinched.count > 0)
-      tell(counted(pinched.count, "vertex joins", "vertices join") + " parts of the surface in a point alone, the first " +
+      tell(counted(pinched.count, "vertex joins", "vertices join") + " parts of the surface in a single point, the first " +
                std::to_string(pinched.first),
-           "the surface turns freely about it; split the vertex or close the gap");
+           "the parts rotate freely about it; split the vertex or close the gap");
   }
 
   /// The number of parts without a common vertex. Parts joined by non-manifold edges or in one point count as one, because
@@ -276,13 +276,13 @@ class Inspector {
     const Pieces pieces = find_pieces(edges_, static_cast<int>(mesh_.triangles.size()));
     if (const std::size_t apart = pieces_apart(); apart > 1)
       tell(counted(apart, "piece", "pieces") + " that share no vertex",
-           "each moves by itself; merge their vertices if they belong together");
+           "each part moves separately; merge their vertices if they belong together");
     const std::size_t border = static_cast<std::size_t>(
         std::count_if(edges_.begin(), edges_.end(), [](const Edge& edge) { return edge.is_border(); }));
     if (border > 0) {
       const std::size_t loops = boundary_loops(edges_, static_cast<int>(mesh_.positions.size())).size();
       tell("open, with " + counted(loops, "border", "borders") + " of " + counted(border, "edge", "edges"),
-           "right for a cloth; a balloon needs a closed surface");
+           "this is fine for cloth, but a balloon needs a closed surface");
       return;
     }
     if (is_closed(edges_) && is_wound_consistently(edges_)) check_volume(pieces);
@@ -304,7 +304,7 @@ class Inspector {
              std::to_string(
                  std::find(pieces.of_triangle.begin(), pieces.of_triangle.end(), static_cast<int>(inside_out.first)) -
                  pieces.of_triangle.begin()),
-         "swap two corners of every triangle, unless it is the wall of a hollow");
+         "swap two corners of every triangle, unless it encloses a cavity");
   }
 
   void check_self_intersections() {
@@ -312,12 +312,12 @@ class Inspector {
     if (mesh_.triangles.size() <= most_triangles_to_intersect)
       found = find_self_intersections(mesh_.positions, mesh_.triangles, edges_);
     if (!found.complete)
-      tell("was not searched for self-intersections, being large", "check it in the program that made it");
+      tell("is too large for the search for self-intersections", "check it in the program that created it");
     else if (found.count > 0)
       tell("passes through itself: an edge pierces a triangle in " + counted(found.count, "place", "places") +
                ", the first edge " + std::to_string(found.edge[0]) + "-" + std::to_string(found.edge[1]) +
                " and triangle " + std::to_string(found.triangle),
-           "self-collision cannot mend what starts crossed; move the parts apart");
+           "self-collision cannot separate parts that intersect at the start; move them apart");
   }
 
   const TriangleMesh& mesh_;

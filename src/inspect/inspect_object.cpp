@@ -39,7 +39,7 @@ void check_velocities(Problems& problems, const Object& object) {
   if (object.velocities.empty()) return;
   if (object.velocities.size() != object.positions.size())
     problems.grave("velocities", of(object.velocities.size()) + " for " + of(object.positions.size()) + " particles",
-                   "give one a particle, or none");
+                   "give one per particle, or none");
   Tally bad;
   for (std::size_t i = 0; i < object.velocities.size(); ++i)
     if (!is_place(object.velocities[i])) bad.add(static_cast<std::int64_t>(i));
@@ -49,7 +49,7 @@ void check_velocities(Problems& problems, const Object& object) {
 void check_masses(Problems& problems, const Object& object) {
   if (object.masses.size() != object.positions.size())
     problems.grave("masses", of(object.masses.size()) + " for " + of(object.positions.size()) + " particles",
-                   "give one a particle; infinity for a fixed one");
+                   "give one per particle; infinity for a fixed one");
   Tally none, extreme;
   for (std::size_t i = 0; i < object.masses.size(); ++i) {
     const float mass = object.masses[i];
@@ -114,7 +114,7 @@ void check_stencils(Problems& problems, const Object& object, const ConstraintGr
                  "indices count from 0");
   problems.grave(no_frame, kind, "uses a frame that does not exist; there are " + of(object.frames.size()),
                  "indices count from 0");
-  problems.grave(repeated, kind, "uses a particle twice", "give different particles, or leave it out");
+  problems.grave(repeated, kind, "uses a particle twice", "use different particles, or remove it");
 }
 
 void check_rest(Problems& problems, const ConstraintGroup& group, const ConstraintType& type, std::size_t count,
@@ -122,13 +122,13 @@ void check_rest(Problems& problems, const ConstraintGroup& group, const Constrai
   const std::size_t fields = type.rest_fields.size();
   if (group.rest.empty()) {
     if (fields > 0 && count > 0 && constraint_type(find_constraint_type(type.name)).measure == nullptr)
-      problems.grave("rest of " + group.type + " constraints", "can't be measured by this type", "give `rest`");
+      problems.grave("rest of " + group.type + " constraints", "cannot be measured by this constraint type", "give `rest`");
     return;
   }
   if (group.rest.size() != count * fields) {
     problems.grave("rest of " + group.type + " constraints",
                    of(group.rest.size()) + " values where " + of(count * fields) + " are needed",
-                   "give all of them, or none to have them measured");
+                   "give rest data for all constraints, or none to have them measured");
     return;
   }
   Tally bad;
@@ -137,21 +137,22 @@ void check_rest(Problems& problems, const ConstraintGroup& group, const Constrai
     if (!std::isfinite(group.rest[i]) || (is_length && group.rest[i] < 0)) bad.add(static_cast<std::int64_t>(i / fields));
   }
   problems.grave(bad, kind, "has rest data that is not finite, or a negative length",
-                 "leave `rest` empty to have it measured");
+                 "leave `rest` empty to have it measured from the positions");
 }
 
 void check_compliances(Problems& problems, const ConstraintGroup& group, std::size_t count, const std::string& kind) {
   if (group.compliances.empty()) return;
   if (group.stiffness.kind == Stiffness::Kind::pbd)
     problems.grave("compliances of " + group.type + " constraints", "cannot be combined with a PBD stiffness",
-                   "give one or the other");
+                   "give only one of the two");
   if (group.compliances.size() != count)
     problems.grave("compliances of " + group.type + " constraints",
-                   of(group.compliances.size()) + " for " + of(count) + " constraints", "give one each, or none");
+                   of(group.compliances.size()) + " for " + of(count) + " constraints", "give one per constraint, or none");
   Tally bad;
   for (std::size_t i = 0; i < group.compliances.size(); ++i)
     if (!(group.compliances[i] >= 0 && group.compliances[i] <= largest_quantity)) bad.add(static_cast<std::int64_t>(i));
-  problems.grave(bad, kind, "has a compliance outside 0 to 1e20", "0 is rigid; leave out what should do nothing");
+  problems.grave(bad, kind, "has a compliance outside 0 to 1e20",
+                 "0 is rigid; remove constraints that should have no effect");
 }
 
 void check_group(Problems& problems, const Object& object, const ConstraintGroup& group) {
@@ -202,19 +203,19 @@ double enclosed(const Object& object) {
 
 void check_closed(Problems& problems, const Object& object) {
   if (object.triangles.empty()) {
-    problems.grave("volume", "needs triangles that enclose it", "give the object a closed surface");
+    problems.grave("volume", "needs triangles that enclose a volume", "give the object a closed surface");
     return;
   }
   for (const Edge& edge : find_edges(object.triangles, static_cast<int>(object.positions.size()))) {
     const std::string name = "edge " + std::to_string(edge.a) + "-" + std::to_string(edge.b);
     if (!edge.is_inner())
       return problems.grave(name, "has " + std::to_string(edge.triangle_count) + " triangles where a closed surface has 2",
-                            "close the surface, or leave the volume out");
+                            "close the surface, or remove the volume");
     if (!edge.is_wound_consistently())
-      return problems.grave(name, "joins triangles that are wound against each other",
-                            "turn one of them; make_cloth does it by itself");
+      return problems.grave(name, "joins triangles of opposite winding", "flip one of them; make_cloth does so itself");
   }
-  if (enclosed(object) == 0) problems.grave("volume", "is 0 at rest", "leave the volume out, or start from a full shape");
+  if (enclosed(object) == 0)
+    problems.grave("volume", "is 0 at rest", "remove the volume, or start from a shape with volume");
 }
 
 void check_volume(Problems& problems, const Object& object, bool triangles_are_sound) {

@@ -29,7 +29,7 @@ void check_sweep(Problems& problems, const Settings& settings, bool uses_natural
   const SweepOptions& options = settings.sweep_options;
   if (!(options.relaxation > 0 && options.relaxation < 2))
     problems.grave("settings, sweep_options, relaxation", "is " + words(options.relaxation),
-                   "give a number above 0 and below 2; 1 is plain");
+                   "give a number above 0 and below 2; 1 is no relaxation");
   require_range(problems, "settings, sweep_options, tether_slack", options.tether_slack, 0, 1000);
   require_range(problems, "settings, sweep_options, chain_softness", options.chain_softness, 0, 1000);
   require_range(problems, "settings, sweep_options, multigrid_cycles", options.multigrid_cycles, 1, 100);
@@ -40,14 +40,13 @@ void check_sweep(Problems& problems, const Settings& settings, bool uses_natural
                    "give a number above 0 and below 1, or 0 to have it estimated");
   if (options.spectral_radius == 0 && options.plain_iterations < 2)
     problems.grave("settings, sweep_options, plain_iterations",
-                   "is 1, and the spectral radius is estimated from two or more",
-                   "give 2 or more, or the spectral_radius itself");
+                   "is 1, but the estimate of the spectral radius needs at least 2",
+                   "set it to 2 or more, or give spectral_radius");
   if (uses_natural)
-    problems.grave(
-        "settings, sweep_options, acceleration",
-        "is Chebyshev over Gauss-Seidel in natural order: one sweep carries rounding along the whole order, its matrix "
-        "is far from symmetric, and the extrapolation grows without bound instead of converging",
-        "accelerate the tiled, the symmetric or the Jacobi sweep");
+    problems.grave("settings, sweep_options, acceleration",
+                   "is Chebyshev over Gauss-Seidel in natural order, which diverges: its iteration matrix is far from "
+                   "symmetric, so the extrapolation amplifies rounding errors without bound",
+                   "use it with the tiled, the symmetric or the Jacobi sweep");
 }
 
 void check_settings(Problems& problems, const Scene& scene) {
@@ -59,7 +58,7 @@ void check_settings(Problems& problems, const Scene& scene) {
   require_range(problems, "settings, most_substeps", settings.most_substeps, 0, 10000);
   if (!(settings.untangling_speed > 0 && settings.untangling_speed <= 1000))
     problems.grave("settings, untangling_speed", "is " + words(settings.untangling_speed) + " m/s",
-                   "give one above 0, up to 1000");
+                   "give a speed above 0 and up to 1000 m/s");
   check_sweep(problems, settings, has_natural(scene));
   require_range(problems, "frames", scene.frames, 0, std::numeric_limits<int>::max());
   if (!(scene.frame_time > 0) || std::isinf(scene.frame_time))
@@ -83,7 +82,7 @@ void check_forces(Problems& problems, const Scene& scene) {
   if (scene.wind.gust > 0 && !(scene.wind.gust_period > 0 && scene.wind.gust_period <= largest_place))
     problems.grave("wind, gust_period", "is " + words(scene.wind.gust_period) + " s", "give a positive, finite time");
   for (std::size_t i = 0; i < scene.forces.size(); ++i)
-    if (!scene.forces[i]) problems.grave("force " + std::to_string(i), "is an empty function", "leave it out");
+    if (!scene.forces[i]) problems.grave("force " + std::to_string(i), "is an empty function", "remove it");
 }
 
 /// Checks the sizes of a collider's shape, each against its lower limit.
@@ -122,7 +121,7 @@ void check_count(Problems& problems, const Scene& scene) {
   for (const Object& object : scene.objects) particles += object.positions.size() + object.attachments.size();
   for (const MeshCollider& collider : scene.mesh_colliders) particles += collider.mesh.positions.size();
   if (particles > std::numeric_limits<int>::max() / 4)
-    problems.grave("", std::to_string(particles) + " particles are more than can be numbered", "make the scene smaller");
+    problems.grave("", std::to_string(particles) + " particles exceed the limit of 536870911", "use fewer particles");
 }
 
 void doubt_settings(Problems& problems, const Scene& scene) {
@@ -133,17 +132,18 @@ void doubt_settings(Problems& problems, const Scene& scene) {
   if (gravity > 1000)
     problems.doubtful("gravity", "is " + words(gravity) + " m/s^2", "lengths are in metres: 9.81 on earth");
   if (scene.frame_time > 0.1f || scene.frame_time < 1e-4f)
-    problems.doubtful("frame_time", "is " + words(scene.frame_time) + " s", "films have 1/24 s, games 1/60 s");
+    problems.doubtful("frame_time", "is " + words(scene.frame_time) + " s", "films use 1/24 s, games 1/60 s");
   if (substep < 1e-6)
-    problems.doubtful("settings, substeps", "make substeps of " + words(substep) + " s, where floats begin to lose motion",
+    problems.doubtful("settings, substeps",
+                      "make substeps of " + words(substep) + " s, in which float precision loses small motions",
                       "use fewer");
   const bool solves_at_once = settings.sweep == Sweep::chains || settings.sweep == Sweep::multigrid;
   if (!solves_at_once && settings.substeps * static_cast<std::int64_t>(settings.iterations) < 5)
-    problems.doubtful("settings, substeps", "and iterations together visit each constraint fewer than 5 times a frame",
-                      "stiff things will look like rubber: 10 to 20 substeps are usual");
+    problems.doubtful("settings, substeps", "times iterations project each constraint fewer than 5 times per frame",
+                      "stiff objects will stretch like rubber: 10 to 20 substeps are usual");
   if (settings.iterations > 10 && settings.iterations > settings.substeps)
     problems.doubtful("settings, iterations", "are more than substeps",
-                      "the same work spent on substeps converges far better");
+                      "more substeps with fewer iterations converge far better at the same cost");
 }
 
 bool has_distances(const Scene& scene) {
@@ -157,20 +157,22 @@ bool has_distances(const Scene& scene) {
 void doubt_tolerance(Problems& problems, const Scene& scene) {
   if (!(scene.settings.tolerance > 0)) return;
   if (scene.settings.iterations == 1)
-    problems.doubtful("settings, tolerance", "ends no iterations where a substep has only one",
-                      "give the most that it may make as iterations");
+    problems.doubtful("settings, tolerance", "has no effect, because a substep has only one iteration",
+                      "set iterations to the largest permitted number");
   if (!has_distances(scene))
-    problems.doubtful("settings, tolerance", "judges distance constraints, and the scene has none",
-                      "leave it out: every substep makes all its iterations");
+    problems.doubtful("settings, tolerance", "applies to distance constraints, but the scene has none",
+                      "remove it: every substep runs all its iterations");
 }
 
 void doubt_names(Problems& problems, const Scene& scene) {
   std::map<std::string, int> count;
   for (const Object& object : scene.objects) ++count[object.name];
   for (const auto& [name, times] : count) {
-    if (name.empty()) problems.doubtful("", std::to_string(times) + " objects have no name", "messages can't name them");
+    if (name.empty())
+      problems.doubtful("", std::to_string(times) + " objects have no name",
+                        "give each a name, so that messages can name it");
     if (!name.empty() && times > 1)
-      problems.doubtful("", std::to_string(times) + " objects are called '" + name + "'", "give each a name of its own");
+      problems.doubtful("", std::to_string(times) + " objects are called '" + name + "'", "give each a unique name");
   }
 }
 

@@ -18,7 +18,7 @@ namespace {
 using Intersections = Settings::Intersections;
 
 constexpr const char* what_to_do =
-    "move one of them or mend the mesh, or set initial_intersections to \"untangle\" or \"leave\"";
+    "move one of them or repair the mesh, or set initial_intersections to \"untangle\" or \"leave\"";
 
 /// The intersections between two parts: the first, and their number.
 struct Crossings {
@@ -67,11 +67,12 @@ void name_crossings(Problems& problems, const Surfaces& all, const Crossings& cr
     problems.grave(edge, problem, what_to_do);
   else if (what == Intersections::untangle)
     problems.doubtful(edge, problem,
-                      "what is cut off, or inside of a closed collider, will be drawn apart at untangling_speed; a slit "
-                      "from border to border is left: "
-                      "move one of them, or mend the mesh");
+                      "parts that are cut off or inside a closed collider will be moved apart at untangling_speed; a slit "
+                      "from border to border remains: move one of them, or repair the mesh");
   else
-    problems.doubtful(edge, problem, "contact leaves them out until they are apart: move one of them, or mend the mesh");
+    problems.doubtful(
+        edge, problem,
+        "contact ignores these intersections until the surfaces are apart: move one of them, or repair the mesh");
 }
 
 /// Rejects surfaces at distance 0: contact cannot tell on which side to keep them.
@@ -83,8 +84,8 @@ void refuse_touching(Problems& problems, const Surfaces& all, const Crossings& t
                  "touches triangle (" + all.local(t[0]) + ", " + all.local(t[1]) + ", " + all.local(t[2]) + ") of " +
                      all.name(all.part_of(t[0])) + " at the start, at a distance of 0, one of " +
                      std::to_string(touching.count) + (touching.count == 1 ? " place" : " places"),
-                 "it has no side to be kept on and may pass through: move one of them by their thickness, or set "
-                 "initial_intersections to \"leave\"");
+                 "contact cannot tell on which side to keep it, so it may pass through: move one of them by their "
+                 "thickness, or set initial_intersections to \"leave\"");
 }
 
 // ---------------------------------------------------------------- inside
@@ -151,9 +152,10 @@ void name_inside(Problems& problems, const Scene& scene, const Surfaces& all, co
         problems.grave(inside, "particle", problem, what_to_do);
       else if (what == Intersections::leave)
         problems.doubtful(inside, "particle", problem,
-                          "move one of them, or set initial_intersections to untangle, which brings it out");
+                          "move one of them, or set initial_intersections to \"untangle\", which moves it out");
       else
-        problems.doubtful(inside, "particle", problem, "it will be brought out at untangling_speed: move one of them");
+        problems.doubtful(inside, "particle", problem,
+                          "it will be moved out at untangling_speed: move one of them to avoid this");
     }
   }
 }
@@ -213,7 +215,7 @@ void doubt_touching(Problems& problems, const Scene& scene, const Surfaces& all,
       problems.doubtful(near, "particle",
                         "starts nearer to " + all.name(b) + " than the " + words(kept) +
                             " m that the two keep, the nearest " + words(least) + " m from it",
-                        "it is pushed away in the first frames: start further apart, or give less thickness");
+                        "contact pushes it away in the first frames: start farther apart, or reduce the thickness");
     }
   }
 }

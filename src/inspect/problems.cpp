@@ -75,14 +75,14 @@ void check_stiffness(Problems& problems, const std::string& element, const Stiff
   }
   require_range(problems, element + ", stiffness k", stiffness.value, 0, 1);
   if (!(stiffness.damping == 0))
-    problems.grave(element + ", damping", "can't be had with a PBD stiffness",
-                   "give a compliance instead (compliance_from_stiffness translates)");
+    problems.grave(element + ", damping", "cannot be combined with a PBD stiffness",
+                   "give a compliance instead (compliance_from_stiffness converts)");
 }
 
 void check_rotation(Problems& problems, const std::string& element, const Quatf& q) {
   const float squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
   if (!(std::fabs(squared - 1) < 1e-3f))
-    problems.grave(element, "is no unit quaternion: the sum of its squares is " + words(squared),
+    problems.grave(element, "is not a unit quaternion: the sum of its squares is " + words(squared),
                    "divide it by its length, or make it with rotation(axis, degrees)");
 }
 
@@ -95,7 +95,7 @@ void check_motion(Problems& problems, const std::string& element, const Motion& 
     require_place(problems, name + ", position", keyframe.position);
     check_rotation(problems, name + ", rotation", keyframe.rotation);
     if (k > 0 && !(keyframe.time > motion.keyframes[k - 1].time))
-      problems.grave(name, "is at " + words(keyframe.time) + " s, not after the one before it", "sort keyframes by time");
+      problems.grave(name, "is at " + words(keyframe.time) + " s, but times must increase", "sort keyframes by time");
   }
   if (motion.repeat && motion.keyframes.size() < 2)
     problems.doubtful(element, "repeats " + std::to_string(motion.keyframes.size()) + " keyframes", "give two or more");

@@ -56,7 +56,7 @@ Quatf rotation(const Vec3f& axis, float degrees) {
   const Vec3d direction = convert<double>(axis);
   const double size = length(direction);
   if (!(size > 0 && size < 1e300))
-    throw Error({}, "the axis of a rotation has no direction", "give one of finite length > 0");
+    throw Error({}, "the axis of a rotation has length 0 or is not finite", "give a finite axis with a length above 0");
   if (!(abs(degrees) < 1e30f))
     throw Error({}, "the angle of a rotation is not finite, or beyond 1e30 degrees", "give a finite number of degrees");
   const SineCosine half = sine_cosine_of_degrees(0.5 * static_cast<double>(degrees));

@@ -22,7 +22,7 @@ constexpr int fewest_particles = 32;
 constexpr double stiff_share = 0.25;
 /// Lower bound of the acceleration that bends the sheet: under less gravity, other forces bend it [m/s^2].
 constexpr double least_acceleration = 9.81;
-constexpr const char* too_coarse = "nothing so fine that it needs more";
+constexpr const char* too_coarse = "only objects with fewer than 32 linked particles";
 constexpr int substeps_of_multigrid = 10, substeps_of_others = 20;
 
 /// Zero for a missing particle, because this runs before the scene is validated.
@@ -152,7 +152,7 @@ Choice choose(const Scene& scene, const Settings& settings, const Object& object
     return {Sweep::tiled, name + ", a sheet whose bending length is more than a quarter of its size"};
   const std::size_t particles = springs == 0 ? 0 : std::min(object.positions.size(), springs + 1);  // a path has one more
   if (particles < fewest_particles) return {Sweep::tiled, too_coarse};
-  if (can_touch(scene, object)) return {Sweep::tiled, name + ", a surface that others or itself can touch"};
+  if (can_touch(scene, object)) return {Sweep::tiled, name + ", a surface that can touch itself or others"};
   return {Sweep::multigrid, "cloth or rope, the largest of " + std::to_string(particles) + " particles"};
 }
 

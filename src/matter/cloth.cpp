@@ -89,7 +89,7 @@ void require_distinct_triangles(const Piece& piece) {
   for (const Edge& edge : piece.edges) {
     if (edge.is_inner() && edge.opposites[0] == edge.opposites[1])
       piece.refuse("triangle " + std::to_string(edge.triangles[1]),
-                   "has the same corners as triangle " + std::to_string(edge.triangles[0]), "leave one of them out");
+                   "has the same corners as triangle " + std::to_string(edge.triangles[0]), "remove one of them");
   }
 }
 
@@ -112,7 +112,7 @@ void wind_alike(Piece& piece) {
   const Pieces pieces = find_pieces(piece.edges, static_cast<int>(piece.triangles.size()));
   if (piece.options.volume && !pieces.one_sided_edges.empty())
     piece.refuse(name_of(piece.edges[static_cast<std::size_t>(pieces.one_sided_edges.front())]),
-                 "can't be wound like its neighbours: the surface has but one side", "a balloon needs an inside");
+                 "cannot have the winding of its neighbours: the surface is one-sided", "a balloon needs an inside");
   flip(piece.triangles, pieces.flipped);
   piece.find_edges_again();
 }
@@ -121,13 +121,13 @@ void wind_alike(Piece& piece) {
 void require_balloon(Piece& piece) {
   for (const Edge& edge : piece.edges) {
     if (edge.is_border())
-      piece.refuse(name_of(edge), "is open", "a balloon needs a closed mesh: fill the hole or leave the volume out");
+      piece.refuse(name_of(edge), "is open", "a balloon needs a closed mesh: fill the hole or remove the volume");
     if (edge.triangle_count > 2)
       piece.refuse(name_of(edge), "joins " + std::to_string(edge.triangle_count) + " triangles",
-                   "a balloon has two triangles at every edge: split the mesh there");
+                   "a balloon needs two triangles at every edge: split the mesh there");
   }
   const double volume = six_volumes(piece);
-  if (!(std::fabs(volume) > 0)) piece.refuse("", "the mesh encloses no volume", "leave the volume out");
+  if (!(std::fabs(volume) > 0)) piece.refuse("", "the mesh encloses no volume", "remove the volume");
   if (volume > 0) return;
   for (Triangle& t : piece.triangles) std::swap(t[1], t[2]);
   piece.find_edges_again();
@@ -144,7 +144,7 @@ void measure_areas(Piece& piece) {
     const double area = std::sqrt(length_squared(normal)) / 2;
     if (!(area > 0) || !std::isfinite(area))
       piece.refuse("triangle " + std::to_string(t), area > 0 ? "is too large" : "has no area",
-                   area > 0 ? "scale the mesh to metres" : "drop it, or let read_mesh do so");
+                   area > 0 ? "scale the mesh to metres" : "remove it, or let read_mesh do so");
     piece.areas.push_back(area);
   }
 }

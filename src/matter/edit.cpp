@@ -27,8 +27,8 @@ bool holds(const Corners& t, int particle) { return t[0] == particle || t[1] == 
 int slots_of(const ConstraintGroup& group, const Object& object) {
   for (const ConstraintType& type : constraint_types())
     if (type.name == group.type) return type.stencil_size;
-  throw Error({.object = object.name, .element = group.type + " constraints"}, "are of no type that there is",
-              "constraint_types() lists them");
+  throw Error({.object = object.name, .element = group.type + " constraints"}, "have an unknown type",
+              "constraint_types() lists the known ones");
 }
 
 /// The triangles incident to each particle.
@@ -234,7 +234,7 @@ std::set<Edge> edges_of(const Object& object, std::span<const int> path) {
     const Edge cut = edge(path[i], path[i + 1]);
     if (all.count(cut) == 0)
       throw Error({.object = object.name, .element = "edge " + std::to_string(path[i]) + "-" + std::to_string(path[i + 1])},
-                  "is no edge of a triangle, so it can't be cut", "give a path along edges");
+                  "is not an edge of a triangle, so it cannot be cut", "give a path along edges of triangles");
     edges.insert(cut);
   }
   return edges;

@@ -30,7 +30,7 @@ void Scene::pin(int object, const std::vector<int>& particles, const Motion& mot
   if (object < 0 || object >= static_cast<int>(objects.size()))
     throw Error({"", 0, "", "object " + std::to_string(object)},
                 "does not exist; the scene has " + std::to_string(objects.size()) + " objects",
-                "pin what add() or add_cloth() returned");
+                "use an index that add() or add_cloth() returned");
   Object& pinned = objects[static_cast<std::size_t>(object)];
   // All are validated before the first is pinned, so that an error leaves the scene unchanged.
   for (int particle : particles)

@@ -85,7 +85,7 @@ void occupy(std::vector<Range> ranges, BlockAllocator& blocks) {
   std::vector<Range> gaps;
   for (const Range& range : ranges) {
     if (range.first < blocks.end())
-      throw Error({}, "two of its objects overlap in the State", "lay out each in a place of its own");
+      throw Error({}, "two of its objects overlap in the State", "give each a range of its own");
     if (range.first > blocks.end()) gaps.push_back({blocks.end(), range.first - blocks.end()});
     if (range.first > blocks.end()) blocks.allocate(range.first - blocks.end(), -1);
     blocks.allocate(range.size, range.owner);

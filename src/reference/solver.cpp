@@ -67,7 +67,7 @@ void with_name(const std::string& type, const Visit& visit) {
       visit(tag);
     }
   });
-  require(found, "'" + type + "'", "is of no type that has one row over particles");
+  require(found, "'" + type + "'", "is not a type with one row over particles");
 }
 
 template <class T>

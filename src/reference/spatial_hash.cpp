@@ -24,7 +24,7 @@ int floor_to_int(double x) {
 
 SpatialHash::SpatialHash(float cell_size) : inverse_size_(1 / static_cast<double>(cell_size)) {
   if (!(cell_size > 0) || !(inverse_size_ > 0))
-    throw Error({}, "a cell of " + std::to_string(cell_size) + " m can't hold anything", "choose a size above 0");
+    throw Error({}, "a cell of " + std::to_string(cell_size) + " m are impossible", "give a cell size above 0");
   start_.assign(2, 0);
 }
 

@@ -87,10 +87,11 @@ CarrierBox foreseen(const Model& model, const State& state, int object, double d
 std::string too_fast(const CompiledObject& collider, const CompiledObject& object, double move, double thickness,
                      int substeps) {
   char text[160];
-  std::snprintf(text, sizeof text, "moves %.3g m in a substep, %d of them in this frame, and keeps %.3g m from object '",
-                move, substeps, thickness);
+  std::snprintf(text, sizeof text,
+                "moves %.3g m per substep, with %d substeps in this frame, and keeps %.3g m from object '", move, substeps,
+                thickness);
   return "collider '" + collider.name + "': " + text + object.name +
-         "': it may pass through; give a greater thickness or more of the setting most_substeps";
+         "': it may pass through; increase the thickness or the setting most_substeps";
 }
 
 /// The pair that requires the most substeps.
@@ -104,7 +105,8 @@ std::string divides(const Model& model, const Demand& demand, int planned, int s
   std::snprintf(text, sizeof text, "the frame has %d substeps instead of %d and takes about %.1f times as long", substeps,
                 planned, static_cast<double>(substeps) / planned);
   return "collider '" + model.objects[demand.collider].name + "' moves fast near object '" +
-         model.objects[demand.object].name + "': " + text + "; a slower collider or a greater thickness needs fewer";
+         model.objects[demand.object].name + "': " + text +
+         "; a slower collider or a greater thickness needs fewer substeps";
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ LeftOut apply_fields(const Model& model, const Record& x, const Vec3f& gravity, 
 void warn_of(const LeftOut& force, const CompiledObject& object, std::vector<std::string>& warnings) {
   if (force.field < 0 || !warnings.empty()) return;
   warnings.push_back("force field " + std::to_string(force.field) + " is not finite at particle " +
-                     std::to_string(force.particle) + " of object '" + object.name + "' and was left out there");
+                     std::to_string(force.particle) + " of object '" + object.name + "' and was skipped there");
 }
 
 /// In the user's order, on one thread.

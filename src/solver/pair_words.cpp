@@ -36,11 +36,11 @@ std::string words_of(const Model& model, const Triangle& triangle, const Between
   std::string text = name_of(model, a) + ": edge " + number_of(model, found.a) + "-" + number_of(model, found.b) +
                      " passes through triangle (" + corners + ") of " + (a == b ? "the same" : name_of(model, b));
   if (count > 1) text += " and " + std::to_string(count - 1) + " more";
-  text += ": they intersect since the start and have no contact until they are apart";
-  if (between.stalls) text += "; untangling made them no fewer in the frame before";
+  text += ": they have intersected since the start and have no contact until they are apart";
+  if (between.stalls) text += "; untangling did not reduce their number in the previous frame";
   if (between.given_up > 0)
     text += "; " + std::to_string(between.given_up) +
-            " of them are not led apart in this frame, since they cut nothing off or moving would make more";
+            " of them are not moved apart in this frame, because they cut nothing off or a move would cause more";
   return text + (between.stalls || between.given_up > 0 ? ": move the two apart in the scene" : "");
 }
 

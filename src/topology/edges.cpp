@@ -70,7 +70,7 @@ void add_triangle(Edge& edge, const std::vector<Triangle>& triangles, std::uint3
 
 void require_indices(const std::vector<Triangle>& triangles, int vertex_count) {
   if (triangles.size() > 0x55555555u)
-    throw Error({}, std::to_string(triangles.size()) + " triangles are more than can be counted", "split the mesh");
+    throw Error({}, std::to_string(triangles.size()) + " triangles exceed the limit", "split the mesh");
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (int vertex : triangles[t])
       if (vertex < 0 || vertex >= vertex_count)

@@ -15,7 +15,7 @@ namespace {
 
 void require_grid(int columns, int rows, float width, float depth) {
   if (columns < 2 || rows < 2)
-    throw Error({}, "a grid of " + std::to_string(columns) + " x " + std::to_string(rows) + " vertices has no triangle",
+    throw Error({}, "a grid of " + std::to_string(columns) + " x " + std::to_string(rows) + " vertices has no triangles",
                 "give at least 2 columns and 2 rows");
   if (static_cast<std::int64_t>(columns) * rows > std::numeric_limits<std::int32_t>::max() / 6)
     throw Error({}, "a grid of " + std::to_string(columns) + " x " + std::to_string(rows) + " vertices is too large");
@@ -94,7 +94,7 @@ TriangleMesh grid_mesh(int columns, int rows, float width, float depth) {
 
 TriangleMesh sphere_mesh(int subdivisions) {
   if (subdivisions < 0 || subdivisions > 7)
-    throw Error({}, "a sphere can't be split " + std::to_string(subdivisions) + " times", "give 0 to 7 subdivisions");
+    throw Error({}, "a sphere cannot be subdivided " + std::to_string(subdivisions) + " times", "give 0 to 7 subdivisions");
   SphereInDouble sphere = icosahedron();
   for (int i = 0; i < subdivisions; ++i) sphere = subdivided(sphere);
   TriangleMesh mesh;

@@ -26,7 +26,7 @@ void require(const CompiledObject& object, std::span<const Vec3f> values, const 
   if (values.size() != static_cast<std::size_t>(object.user_particles)) {
     refuse(object.name, what,
            "are " + std::to_string(values.size()) + " for " + std::to_string(object.user_particles) + " particles",
-           "give one a particle");
+           "give one per particle");
   }
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!is_finite(values[i]))
@@ -45,7 +45,7 @@ void require(const Listed& of, std::span<const int> numbers, std::span<const Vec
   if (numbers.size() != places.size()) {
     refuse(of.object.name, kind + "s",
            "are " + std::to_string(numbers.size()) + " for " + std::to_string(places.size()) + " positions",
-           "give one position a " + kind);
+           "give one position per " + kind);
   }
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const std::string element = kind + " " + std::to_string(numbers[i]);
@@ -194,8 +194,8 @@ void World::set_targets(ObjectId object, std::span<const int> particles, std::sp
   require(listed, particles, positions);
   for (const int particle : particles) {
     if (self_->state.positions[first + of.place[particle]].w > 0)
-      refuse(of.name, "particle " + std::to_string(particle), "moves freely, so it can't be given a target",
-             "pin it first (World::edit), or attach it");
+      refuse(of.name, "particle " + std::to_string(particle), "is dynamic, so it cannot have a target",
+             "pin it first (World::edit), or use an attachment");
   }
   put_targets(listed, particles, positions, first, self_->state, self_->workspace.control.objects[number].targets);
 }
@@ -231,8 +231,7 @@ void World::set_positions(MeshColliderId collider, std::span<const Vec3f> positi
   const CompiledObject& of = self_->model.objects[number];
   require(of, positions, "positions");
   if (of.groups == 0 && of.mask == 0)
-    refuse(of.name, "", "stands for a distance grid or a heightfield, which can't deform",
-           "give it as triangles, or set its pose");
+    refuse(of.name, "", "is a distance grid or a heightfield, which cannot deform", "use it as triangles, or set its pose");
   self_->forget_pose(true, collider.slot);
   self_->workspace.control.meshes.erase(number);
   std::vector<int> all(positions.size());

@@ -15,7 +15,7 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& problem) {
   throw Error({}, "the layout does not fit the scene: " + problem,
-              "take the scene and layout() from the same World at the same moment");
+              "use the scene and the layout() of the same World at the same time");
 }
 
 /// Limit of numbers and generations in a layout: far below the integer limit, so that later counting cannot overflow.
@@ -35,7 +35,7 @@ std::vector<int> numbers_in(const std::vector<WorldLayout::Slot>& slots, std::si
   }
   if (numbers.size() != count)
     refuse("it has " + std::to_string(numbers.size()) + " slots in use, and the scene " + std::to_string(count) +
-           " things for them");
+           " objects or colliders for them");
   return numbers;
 }
 
@@ -66,7 +66,7 @@ void require_place(const StateBlock& block, int first_frame, const CompiledObjec
   if (!is_in_range(block.first) || !is_in_range(block.generation) || !is_in_range(first_frame))
     refuse("the place of object '" + object.name + "' is out of range");
   if (block.particles != object.particles)
-    refuse("object '" + object.name + "' has " + std::to_string(object.particles) + " particles and a place for " +
+    refuse("object '" + object.name + "' has " + std::to_string(object.particles) + " particles, but a block of " +
            std::to_string(block.particles));
 }
 

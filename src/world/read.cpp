@@ -48,9 +48,9 @@ namespace {
 void read(const CompiledObject& from, const Record* records, std::span<Vec3f> into) {
   if (into.size() != static_cast<std::size_t>(from.user_particles)) {
     throw Error({.object = from.name},
-                "has " + std::to_string(from.user_particles) + " particles, the span that is read into " +
+                "has " + std::to_string(from.user_particles) + " particles, but the span has room for " +
                     std::to_string(into.size()),
-                "give one of the same size");
+                "give a span of that size");
   }
   for (int user = 0; user < from.user_particles; ++user) {
     const Record& r = records[from.place[user]];

@@ -64,7 +64,7 @@ TEST(Inspect, FindsWhatIsGraveAndStopsThere) {
   EXPECT_EQ(told({}), "GRAVE the mesh has no triangles\n");
   EXPECT_EQ(told({square, {}}), "GRAVE the mesh has no triangles\n");
   EXPECT_EQ(told({square, {{0, 1, 2}, {0, 2, 4}, {-1, 2, 3}}}),
-            "GRAVE 2 triangles use vertices that are not there, the first 1\n");
+            "GRAVE 2 triangles use vertices that do not exist, the first 1\n");
   EXPECT_EQ(told({square, {{0, 1, 2}, {2, 3, 3}}}), "GRAVE 1 triangle uses a vertex twice, the first 1\n");
   for (const float bad : {std::nanf(""), INFINITY, -INFINITY}) {
     TriangleMesh mesh{square, {{0, 1, 2}, {0, 2, 3}}};
@@ -92,7 +92,7 @@ TEST(Inspect, FindsWhatIsThereTwice) {
   EXPECT_TRUE(tells(mesh, "2 triangles have the vertices of another, the first 2"));
   mesh = {square, {{0, 1, 2}, {0, 2, 3}}};
   mesh.positions.push_back({1, 0, -0.0f});
-  EXPECT_TRUE(tells(mesh, "1 vertex lies in the place of another, the first 4"));
+  EXPECT_TRUE(tells(mesh, "1 vertex lies at the position of another, the first 4"));
   EXPECT_TRUE(tells(mesh, "1 vertex belongs to no triangle, the first 4"));
 }
 
@@ -122,7 +122,7 @@ TEST(Inspect, FindsTrianglesThatAreTurnedOver) {
 
 TEST(Inspect, FindsVerticesThatJoinInAPointAlone) {
   const TriangleMesh bow{{{0, 0, 0}, {1, 1, 0}, {-1, 1, 0}, {1, -1, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 4, 3}}};
-  EXPECT_TRUE(tells(bow, "1 vertex joins parts of the surface in a point alone, the first 0"));
+  EXPECT_TRUE(tells(bow, "1 vertex joins parts of the surface in a single point, the first 0"));
   EXPECT_FALSE(tells(bow, "pieces")) << "the point holds them together";
   EXPECT_TRUE(tells(bow, "open, with 2 borders of 6 edges"));
 }
@@ -194,7 +194,7 @@ TEST(SelfIntersection, GivesUpRatherThanTakeForEver) {
   const std::vector<Edge> edges = find_edges(mesh.triangles, static_cast<int>(mesh.positions.size()));
   EXPECT_FALSE(find_self_intersections(mesh.positions, mesh.triangles, edges, 1000).complete);
   EXPECT_TRUE(find_self_intersections(mesh.positions, mesh.triangles, edges).complete);
-  EXPECT_TRUE(tells(grid_mesh(150, 150, 1, 1), "was not searched for self-intersections"));
+  EXPECT_TRUE(tells(grid_mesh(150, 150, 1, 1), "too large for the search for self-intersections"));
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ const std::map<std::string, std::string> refused = {
     {"nasty_mesh/trimesh/ply_points_bin.ply", ":11: has 8 vertices but no faces"},
     {"nasty_mesh/trimesh/stl_empty_ascii.stl", "has no triangles"},
     {"nasty_mesh/trimesh/stl_empty_bin.stl", "has no triangles"},
-    {"nasty_mesh/trimesh/whitespace.off", "is of no known mesh format"},
+    {"nasty_mesh/trimesh/whitespace.off", "has an unknown mesh format"},
     {"nasty_mesh/warp-lfs-pointers/bunny.usd", "is a pointer of Git LFS"},
 };
 

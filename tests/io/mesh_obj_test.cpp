@@ -71,12 +71,12 @@ TEST(MeshObj, RefusesWhatIsNoFace) {
       {"f 0 1 2", "vertex index 0"},
       {"f 1 2 4", "vertex index 4 but"},
       {"f -4 -2 -1", "vertex index -4 but"},
-      {"f 1 2 x", "'x' is no corner"},
-      {"f 1 2 3.5", "'3.5' is no corner"},
-      {"f 1/a 2 3", "'1/a' is no corner"},
+      {"f 1 2 x", "'x' is not a face corner"},
+      {"f 1 2 3.5", "'3.5' is not a face corner"},
+      {"f 1/a 2 3", "'1/a' is not a face corner"},
       {"f 1/1/1/1 2 3", "more than three parts"},
-      {"f /1 2 3", "'/1' is no corner"},
-      {"f 1 2 99999999999999999999", "is no corner"},
+      {"f /1 2 3", "'/1' is not a face corner"},
+      {"f 1 2 99999999999999999999", "is not a face corner"},
       {"f 1 2 3000000000", "vertex index 3000000000 but"},
   };
   for (const auto& [face, problem] : cases) {
@@ -132,7 +132,7 @@ TEST(MeshObj, TellsFormatsApartByTheirContent) {
   EXPECT_TRUE(contains(error_of("\xff\xfev", "a.obj"), "UTF-16"));
   EXPECT_TRUE(contains(error_of("PK\x03\x04zip", "a.obj"), "zip archive"));
   EXPECT_TRUE(contains(error_of("version https://git-lfs.github.com/spec/v1\n", "a.ply"), "Git LFS"));
-  EXPECT_TRUE(contains(error_of("hello", "a.txt"), "is of no known mesh format"));
+  EXPECT_TRUE(contains(error_of("hello", "a.txt"), "has an unknown mesh format"));
   EXPECT_EQ(mesh_of("\xef\xbb\xbf" + three + "f 1 2 3", "A.OBJ").triangles.size(), 1u) << "a UTF-8 mark is no harm";
   EXPECT_EQ(mesh_of("# mesh\n" + three + "f 1 2 3", "mesh").triangles.size(), 1u) << "no suffix";
   EXPECT_EQ(mesh_of("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"

@@ -137,7 +137,7 @@ TEST(MeshPly, RefusesDamagedHeaders) {
        "have no list 'vertex_indices'"},
       {"ply\nformat ascii 1.0\nelement vertex 1\n" + xyz +
            "element face 1\nproperty list uchar float vertex_index\nend_header\n0 0 0\n0\n",
-       "is not a list of whole numbers"},
+       "is not a list of integers"},
   };
   for (const auto& [text, problem] : cases) EXPECT_TRUE(contains(error_of(text, "a.ply"), problem)) << text;
   std::string many = "ply\nformat ascii 1.0\nelement vertex 0\n";
@@ -149,12 +149,12 @@ TEST(MeshPly, RefusesDamagedRowsByLineOrByte) {
   const std::string start = header("ascii", xyz, "uchar int");
   const std::pair<const char*, const char*> cases[] = {
       {"0 0 0\n1 0\n0 1 0 0 0\n3 0 1 2\n", "ply:11: a row is shorter"},
-      {"0 0 0\n1 0 0 7\n0 1 0\n3 0 1 2\n", "ply:11: a row goes on with '7'"},
+      {"0 0 0\n1 0 0 7\n0 1 0\n3 0 1 2\n", "ply:11: a row continues with '7'"},
       {"0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "ply:11: 'nan' is not finite"},
       {"0 0 0\n1 1e40 0\n0 1 0\n3 0 1 2\n", "ply:11: '1e40' is too large"},
       {"0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "ply:13: face 0 uses vertex 3 but there are 3"},
       {"0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "ply:13: face 0 uses vertex -1"},
-      {"0 0 0\n1 0 0\n0 1 0\n3 0 1 1.5\n", "ply:13: '1.5' is no whole number"},
+      {"0 0 0\n1 0 0\n0 1 0\n3 0 1 1.5\n", "ply:13: '1.5' is not an integer"},
       {"0 0 0\n1 0 0\n0 1 0\n2 0 1 \n", "ply:13: face 0 has 2 corners"},
       {"0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n", "ply:13: a list of -3 entries"},
       {"0 0 0\n1 0 0\n0 1 0\n999999999999 0 1 2\n", "ply:13: a row is shorter"},
@@ -181,9 +181,9 @@ TEST(MeshPly, RefusesDamagedRowsByLineOrByte) {
 
 TEST(MeshPly, SaysWhatIsBehindTheLastRow) {
   EXPECT_TRUE(contains(joined(parse_mesh(text_mesh + "\n1 2\n\n3 4\n", "a.ply").repairs),
-                       "ignored 2 lines behind the last element"));
+                       "ignored 2 lines after the last element"));
   const std::string bytes = binary_mesh<float, std::uint8_t, std::int32_t>(false, "float", "uchar int");
-  EXPECT_TRUE(contains(joined(parse_mesh(bytes + "12345", "a.ply").repairs), "ignored 5 bytes behind the last element"));
+  EXPECT_TRUE(contains(joined(parse_mesh(bytes + "12345", "a.ply").repairs), "ignored 5 bytes after the last element"));
 }
 
 }  // namespace

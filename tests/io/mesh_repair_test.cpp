@@ -11,7 +11,7 @@ TEST(MeshRepair, MergesTwoHalvesAlongTheirSeam) {
   const MeshFile file = read(text);
   EXPECT_EQ(file.mesh.positions.size(), 4u);
   EXPECT_EQ(file.mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {1, 3, 2}}));
-  EXPECT_EQ(joined(file.repairs), "merged 2 vertices into another in the same place, the first 3\n");
+  EXPECT_EQ(joined(file.repairs), "merged 2 vertices with others at the same position, the first 3\n");
   EXPECT_EQ(read(text, as_it_is).mesh.positions.size(), 6u);
   EXPECT_TRUE(read(text, as_it_is).repairs.empty());
 }
@@ -24,7 +24,7 @@ TEST(MeshRepair, DropsTrianglesWithoutArea) {
     EXPECT_TRUE(contains(joined(file.repairs), "dropped 1 triangle without area, the first 1")) << face;
   }
   EXPECT_EQ(read(start + "f 1 2 4", {true, false, true}).mesh.triangles.size(), 2u);
-  EXPECT_TRUE(contains(error_of("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3", "a.obj"), "has no triangle with an area"));
+  EXPECT_TRUE(contains(error_of("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3", "a.obj"), "has only degenerate triangles"));
 }
 
 TEST(MeshRepair, KeepsATriangleThatIsMerelySmall) {
@@ -82,7 +82,7 @@ TEST(MeshRepair, LeavesTwoSheetsInOnePlaceApart) {
   const MeshFile file = read(sheet(4, 4, 1) + reversed_sheet(4, 4, 17));
   EXPECT_EQ(file.mesh.positions.size(), 32u);
   EXPECT_EQ(file.mesh.triangles.size(), 36u);
-  EXPECT_TRUE(contains(joined(file.repairs), "kept 16 vertices apart from another in the same place, the first 16"));
+  EXPECT_TRUE(contains(joined(file.repairs), "kept 16 vertices separate from others at the same position, the first 16"));
 }
 
 TEST(MeshRepair, TakesASheetThatIsThereTwiceForOne) {

@@ -37,7 +37,7 @@ TEST(MeshStl, ReadsTextAndBytesAlike) {
     const MeshFile file = parse_mesh(bytes, "a.stl");
     EXPECT_EQ(file.mesh.positions.size(), 4u);
     EXPECT_EQ(file.mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {1, 3, 2}}));
-    EXPECT_EQ(joined(file.repairs), "merged 2 vertices into another in the same place, the first 3\n");
+    EXPECT_EQ(joined(file.repairs), "merged 2 vertices with others at the same position, the first 3\n");
   }
 }
 
@@ -61,7 +61,7 @@ TEST(MeshStl, RefusesDamagedTextByLine) {
        "stl:7: 'vertex' where 'endloop'"},
       {"solid\nfacet normal 0 0 1\nvertex 0 0 0\n", "stl:3: 'vertex' where 'outer'"},
       {"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n", "stl:4: a vertex has fewer than 3"},
-      {"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0 0\n", "stl:4: a vertex goes on with '0'"},
+      {"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0 0\n", "stl:4: a vertex continues with '0'"},
       {"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 inf 0\n", "stl:4: 'inf' is not finite"},
       {"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 1e60 0\n", "stl:4: '1e60' is too large"},
       {"solid\n" + facet("0 0 0;1 0 0;0 1 0;"), "stl:8: the file ends inside a solid"},
@@ -83,7 +83,7 @@ TEST(MeshStl, RefusesDamagedBytes) {
                        "byte 146: a coordinate of triangle 1 is not finite"));
   EXPECT_TRUE(contains(error_of(std::string(bytes).replace(80, 4, std::string(4, '\0')).substr(0, 84), "a.stl"),
                        "has no triangles"));
-  EXPECT_TRUE(contains(joined(parse_mesh(bytes + "xyz", "a.stl").repairs), "ignored 3 bytes behind the last triangle"));
+  EXPECT_TRUE(contains(joined(parse_mesh(bytes + "xyz", "a.stl").repairs), "ignored 3 bytes after the last triangle"));
 }
 
 TEST(MeshStl, IsRecognisedWithoutASuffix) {

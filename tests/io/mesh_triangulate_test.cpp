@@ -116,11 +116,12 @@ TEST(MeshTriangulate, KeepsNeedlesAwayWhereItCan) {
 TEST(MeshTriangulate, SaysWhereAPolygonIsNotSimple) {
   const std::string corners = "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nv 5 5 0\n";
   const MeshFile file = parse_mesh(corners + "f 1 3 2\nf 1 2 3 4\n", "a.obj", as_it_is);
-  EXPECT_TRUE(
-      contains(joined(file.repairs), "1 polygon that crosses or touches itself cut up as well as could be, the first 1"));
+  EXPECT_TRUE(contains(joined(file.repairs),
+                       "1 polygon that crosses or touches itself triangulated as well as possible, the first 1"));
   EXPECT_EQ(file.mesh.triangles.size(), 3u);
   const MeshFile round = parse_mesh(corners + "f 1 3 2 4 1 3 2 4 1 3 2 4\n", "a.obj", as_it_is);
-  EXPECT_TRUE(contains(joined(round.repairs), "1 polygon that goes round several times taken once, the first 0"));
+  EXPECT_TRUE(
+      contains(joined(round.repairs), "1 polygon that goes round its corners several times counted once, the first 0"));
   EXPECT_EQ(round.mesh.triangles.size(), 2u);
   const std::string star = "v 0 1 0\nv -.6 -.8 0\nv .95 .3 0\nv -.95 .3 0\nv .6 -.8 0\nf 1 2 3 4 5\n";
   EXPECT_TRUE(contains(joined(parse_mesh(star, "a.obj", as_it_is).repairs), "crosses"))

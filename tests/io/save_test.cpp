@@ -280,7 +280,7 @@ TEST(Save, TheReasonIsNamed) {
   changed[8] = 3;
   says(why(changed), "has format version 3, and this Pliant reads version 2; use the Pliant that wrote it");
   says(why(""), "is empty");
-  says(why("o cloth\nv 0 0 0\n"), "is not a file that Pliant saved");
+  says(why("o cloth\nv 0 0 0\n"), "is not a file saved by Pliant");
   says(why(whole.substr(0, 100)),
        "is incomplete or damaged: its header says " + std::to_string(whole.size()) + " bytes, it has 100");
   changed = whole;

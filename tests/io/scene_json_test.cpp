@@ -84,20 +84,20 @@ TEST(SceneJson, SaysWhatToDoAboutTheUsualSlips) {
   EXPECT_EQ(advice("{# one\n}"), "JSON has no comments: remove this one");
   EXPECT_EQ(advice("{'a': 1}"), "write names and text in double quotes");
   EXPECT_EQ(advice("{a: 1}"), "write names and text in double quotes");
-  EXPECT_EQ(advice("[.5]"), "a number begins with a digit or a minus, as 0.5");
+  EXPECT_EQ(advice("[.5]"), "a number starts with a digit or a minus, such as 0.5");
   for (const char* number : {"NaN", "nan", "-Infinity", "inf"})
-    EXPECT_EQ(advice(std::string("[") + number + "]"), "a scene has finite numbers only") << number;
+    EXPECT_EQ(advice(std::string("[") + number + "]"), "scenes contain only finite numbers") << number;
   EXPECT_EQ(advice("[True]"), "write true");
-  EXPECT_EQ(advice("[007]"), "a number has no zeros in front");
+  EXPECT_EQ(advice("[007]"), "a number has no leading zeros");
   EXPECT_EQ(advice("{\"a\": 1, # one\n \"b\": 2}"), "JSON has no comments: remove this one");
-  EXPECT_EQ(advice("[{\"a\": 1"), "the file is cut off, or a bracket is not closed");
+  EXPECT_EQ(advice("[{\"a\": 1"), "the file is truncated, or a bracket is not closed");
   EXPECT_EQ(advice(""), "the file is empty");
 }
 
 TEST(SceneJson, CapsTheDepth) {
   const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
   EXPECT_EQ(json_message(nested(64)), "");
-  EXPECT_EQ(json_message(nested(65)), "x.json:1:65: nested more than 64 deep; no part of a scene needs that");
+  EXPECT_EQ(json_message(nested(65)), "x.json:1:65: nested more than 64 deep; scenes never need so many levels");
   EXPECT_NE(json_message(std::string(1000000, '[')), "");
 }
 

@@ -25,7 +25,7 @@ TEST(SceneRefusal, SaysWhatIsWrongAndWhatToDo) {
   EXPECT_EQ(scene_message(R"({"objects": [], "frames": 1.5})"),
             "x.json:1:27: /frames: expected an integer from 0 to 10000000, found 1.5");
   EXPECT_EQ(scene_message(R"({"objects": [], "objects": []})"),
-            "x.json:1:17: /objects: 'objects' is there twice; keep one of the two");
+            "x.json:1:17: /objects: 'objects' occurs twice; keep one of the two");
   EXPECT_EQ(scene_message("{}"), "x.json:1:1: /: 'objects' is missing; expected an array");
   EXPECT_EQ(scene_message("[]"), "x.json:1:1: /: expected an object (scene, with 'objects'), found an array");
   EXPECT_EQ(scene_message(R"({"objects": [], "wind": [5, 0, 0]})"),
@@ -36,13 +36,13 @@ TEST(SceneRefusal, SaysWhatIsWrongAndWhatToDo) {
             "x.json:1:36: /objects/0/cloth/stretch: expected 'rigid', or an object (stiffness, with 'compliance' or "
             "'stiffness'), found a number");
   EXPECT_EQ(scene_message(R"({"objects": [{}]})"),
-            "x.json:1:14: /objects/0: it isn't said what this object is; "
+            "x.json:1:14: /objects/0: the kind of this object is missing; "
             "give exactly one of 'cloth', 'rope' and 'particles'");
   EXPECT_EQ(scene_message(R"({"objects": [], "colliders": [{"box": {}, "plane": {}}]})"),
-            "x.json:1:31: /colliders/0: more than one of a kind; "
+            "x.json:1:31: /colliders/0: more than one kind is given; "
             "give exactly one of 'plane', 'sphere', 'capsule', 'box' and 'mesh'");
   EXPECT_EQ(scene_message(R"({"objects": [], "settings": {"gravity": 1}})"),
-            "x.json:1:30: /settings/gravity: 'gravity' is unknown in settings; it belongs into scene");
+            "x.json:1:30: /settings/gravity: 'gravity' is unknown in settings; it is a member of scene");
 }
 
 /// Names that are right, or nearly, somewhere else.
@@ -51,16 +51,16 @@ TEST(SceneRefusal, KnowsWhereANameBelongs) {
     const std::string message = scene_message(scene);
     return message.substr(std::min(message.size(), message.rfind("; ") + 2));
   };
-  EXPECT_EQ(hint(R"({"objects": [], "substeps": 10})"), "it belongs into settings, as 'settings.substeps'");
+  EXPECT_EQ(hint(R"({"objects": [], "substeps": 10})"), "it is a member of settings, as 'settings.substeps'");
   EXPECT_EQ(hint(R"({"objects": [], "substps": 10})"), "did you mean 'settings.substeps'?");
   EXPECT_EQ(hint(R"({"objects": [], "thethers": true})"), "did you mean 'settings.sweep_options.tethers'?");
   EXPECT_EQ(hint(R"({"objects": [{"substep": 10}]})"), "did you mean 'settings.substeps'?");
   EXPECT_EQ(hint(R"({"objects": [{"materail": "silk"}]})"), "did you mean 'cloth.material'?") << "below comes first";
-  EXPECT_EQ(hint(R"({"objects": [{"material": "silk"}]})"), "it belongs into cloth, as 'cloth.material'");
+  EXPECT_EQ(hint(R"({"objects": [{"material": "silk"}]})"), "it is a member of cloth, as 'cloth.material'");
   EXPECT_EQ(hint(R"({"objects": [], "self_colision": true})"), "did you mean 'objects[].self_collision'?");
   EXPECT_EQ(hint(R"({"objects": [], "settings": {"gravty": [0, 0, 0]}})"), "did you mean 'gravity' of the scene?");
   EXPECT_EQ(hint(R"({"objects": [], "settings": {"substep": 10}})"), "did you mean 'substeps'?") << "here comes before all";
-  EXPECT_EQ(hint(R"({"objects": [], "sphere": {}})").rfind("it belongs into collider, as 'colliders[].sphere'", 0), 0U);
+  EXPECT_EQ(hint(R"({"objects": [], "sphere": {}})").rfind("it is a member of collider, as 'colliders[].sphere'", 0), 0U);
   EXPECT_EQ(hint(R"({"objects": [], "wind": {"qzx": 1}})"),
             "known are 'velocity', 'air_density', 'gust' and 'gust_period'");
   EXPECT_EQ(hint(R"({"objects": [], "wind": {")" + std::string(65, 's') + R"(": 1}})").rfind("known are ", 0), 0U);
@@ -180,15 +180,15 @@ std::string cloth_with(const std::string& members) {
 TEST(SceneRefusal, NamesValuesThatContradictEachOther) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {cloth_with(R"("pins": [{"particles": [0, 9]}])"), "/objects/0/pins/0/particles/1: there is no particle 9"},
-      {cloth_with(R"("pins": [{"particles": [1, 1]}])"), "/objects/0/pins/0/particles/1: particle 1 is there twice"},
+      {cloth_with(R"("pins": [{"particles": [1, 1]}])"), "/objects/0/pins/0/particles/1: particle 1 occurs twice"},
       {cloth_with(R"("pins": [{"particles": [1]}, {"particles": "all"}])"),
        "/objects/0/pins/1/particles: particle 1 is pinned"},
       {cloth_with(R"("pins": [{"particles": {"box": {"min": [5, 5, 5], "max": [6, 6, 6]}}}])"),
-       "/objects/0/pins/0/particles/box: there is no particle in this box; the one nearest to its middle is 8 at 0.5"},
+       "/objects/0/pins/0/particles/box: there is no particle in this box; the one nearest to its centre is 8 at 0.5"},
       {cloth_with(R"("pins": [{"particles": {"box": {"min": [1, 0, 0], "max": [0, 0, 0]}}}])"),
        "/box: the box ends before"},
       {cloth_with(R"("pins": [{"particles": [0], "motion": {"keyframes": [{"time": 1}, {"time": 1}]}}])"),
-       "/objects/0/pins/0/motion/keyframes/1/time: this time is not after the one before"},
+       "/objects/0/pins/0/motion/keyframes/1/time: this time is not after the previous one"},
       {cloth_with(R"("static_friction": 0.2, "kinetic_friction": 0.3)"),
        "/objects/0/kinetic_friction: kinetic friction is larger"},
       {R"({"rope": {"points": [[0, 0, 0], [1, 0, 0]]}, "pins": [{"particles": "corners"}]})", "only a grid has corners"},
@@ -208,7 +208,7 @@ TEST(SceneRefusal, NamesValuesThatContradictEachOther) {
        "/rest: 0 elements for 1 constraints"},
       {R"({"particles": {"positions": [[0, 0, 0], [1, 0, 0]], "masses": 1, "constraints": [
            {"type": "distance", "particles": [[0, 1]], "stiffness": {"stiffness": 1}, "compliances": [1]}]}})",
-       "/compliances: compliances beside a PBD stiffness"},
+       "/compliances: compliances cannot be combined with a PBD stiffness"},
       {R"({"particles": {"positions": [[0, 0, 0], [1, 0, 0]], "masses": 1, "constraints": [
            {"type": "distence", "particles": []}]}})",
        "there is no 'distence' here; did you mean 'distance'?"},
@@ -217,7 +217,7 @@ TEST(SceneRefusal, NamesValuesThatContradictEachOther) {
       {R"({"rope": {"points": [[0, 0, 0], [1, 0, 0]], "stretch": {"stiffness": 1, "damping": 1}}})",
        "/stretch/damping: damping goes"},
       {R"({"cloth": {"mesh": {"sphere": {"subdivisions": 0}, "rotate": {"axis": [0, 0, 0], "degrees": 1}}}})",
-       "/rotate/axis: this axis has no direction"},
+       "/rotate/axis: this axis has length 0"},
       {R"({"cloth": {"mesh": {"sphere": {"subdivisions": 0, "radius": 1e6}, "scale": 10}}})",
        "vertex 0 lies more than 1000 km"},
       {R"({"cloth": {"mesh": {"sphere": {"subdivisions": 0, "radius": 1e-60}}}})", "/radius: 1e-60 is out of range"},
@@ -331,7 +331,7 @@ TEST_F(SceneFiles, AreRefusedAsScenesUnlessRegular) {
   EXPECT_EQ(message(folder / "pipe.json"), (folder / "pipe.json").string() + ": not a regular file; name a scene in JSON");
   EXPECT_EQ(message(folder / "none.json"),
             (folder / "none.json").string() +
-                ": there is no such file; check the path; a relative one starts at the current folder");
+                ": the file does not exist; check the path; a relative one starts at the current folder");
   EXPECT_NE(message("/dev/zero"), "");
   EXPECT_NE(message(folder), "");
 }

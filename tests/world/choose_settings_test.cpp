@@ -103,7 +103,7 @@ TEST(ChosenSettings, ArePlainWhereSurfacesMeet) {
   scene.objects[0].collides = true;
   expect_chosen(scene, Sweep::multigrid, 10, "particles");  // nobody else does
   scene.objects[0].self_collision = true;
-  expect_chosen(scene, Sweep::tiled, 20, "'shirt', a surface that others or itself can touch");
+  expect_chosen(scene, Sweep::tiled, 20, "'shirt', a surface that can touch itself or others");
   scene.objects[0].self_collision = false;
   Object other = scene.objects[0];
   other.name = "trousers";

@@ -197,7 +197,7 @@ TEST(InspectScene, GraveSurfacesAndVolumes) {
     s.objects[0].triangles.clear();
   });
   const auto turn = [](Scene& s) { std::swap(s.objects[0].triangles[4][0], s.objects[0].triangles[4][1]); };
-  expect_grave("against each other", turn, balloon_scene());
+  expect_grave("opposite winding", turn, balloon_scene());
   const auto flatten = [](Scene& s) {
     for (Vec3f& p : s.objects[0].positions) p.y = 0;
   };
@@ -249,15 +249,15 @@ TEST(InspectScene, DoubtfulSettings) {
   for (float odd : {1.f, 1e-5f}) expect_doubt("frame_time", [&](Scene& s) { s.frame_time = odd; });
   expect_doubt("substeps of", [](Scene& s) { s.frame_time = 0.001f, s.settings.substeps = 10000; });
   expect_doubt("rubber", [](Scene& s) { s.settings.substeps = 2, s.settings.sweep = Sweep::tiled; });
-  expect_doubt("converges far better", [](Scene& s) { s.settings.substeps = 1, s.settings.iterations = 40; });
+  expect_doubt("converge far better", [](Scene& s) { s.settings.substeps = 1, s.settings.iterations = 40; });
   expect_doubt("are called 'sheet'", [](Scene& s) { s.add(s.objects[0]); });
   expect_doubt("have no name", [](Scene& s) { s.objects[0].name.clear(); });
-  expect_doubt("feel the wind", [](Scene& s) { s.wind.velocity = {3, 0, 0}; });
+  expect_doubt("no effect from wind", [](Scene& s) { s.wind.velocity = {3, 0, 0}; });
 }
 
 TEST(InspectScene, DoubtfulParticles) {
   expect_doubt("as heavy as", [](Scene& s) { s.objects[0].masses[7] = 1000; });
-  expect_doubt("nothing of it moves", [](Scene& s) {
+  expect_doubt("only moves with its pins", [](Scene& s) {
     for (int i = 0; i < 30; ++i) s.objects[0].pins.push_back({i, {}});
   });
   expect_doubt("pinned more than once", [](Scene& s) { s.pin(0, {5}); });
@@ -274,16 +274,16 @@ TEST(InspectScene, DoubtfulConstraintsAndSurfaces) {
   expect_doubt("shortest edge", [](Scene& s) { s.objects[0].thickness = 1; });
   expect_doubt("so compliant",
                [](Scene& s) { std::fill(stretch(s).compliances.begin(), stretch(s).compliances.end(), 1e6f); });
-  expect_doubt("starts more than half", [](Scene& s) { stretch(s).rest[3] *= 3; });
+  expect_doubt("differs from its rest length by more than half", [](Scene& s) { stretch(s).rest[3] *= 3; });
   const auto isometric = [](Scene& s) { s.objects[0].constraints[1].type = "isometric_bending"; };
-  expect_doubt("it will flatten", isometric, balloon_scene());
-  expect_doubt("without area", [](Scene& s) {
+  expect_doubt("will flatten", isometric, balloon_scene());
+  expect_doubt("degenerate triangle", [](Scene& s) {
     ConstraintGroup& bending = s.objects[0].constraints[1];
     const int* v = bending.particles.data();
     s.objects[0].positions[static_cast<std::size_t>(v[2])] = s.objects[0].positions[static_cast<std::size_t>(v[0])];
   });
-  expect_doubt("wound against", [](Scene& s) { std::swap(s.objects[0].triangles[3][0], s.objects[0].triangles[3][1]); });
-  expect_doubt("no manifold", [](Scene& s) { s.objects[0].triangles.push_back({0, 7, 20}); });
+  expect_doubt("opposite winding", [](Scene& s) { std::swap(s.objects[0].triangles[3][0], s.objects[0].triangles[3][1]); });
+  expect_doubt("not a manifold", [](Scene& s) { s.objects[0].triangles.push_back({0, 7, 20}); });
   const auto inside_out = [](Scene& s) {
     for (auto& t : s.objects[0].triangles) std::swap(t[0], t[1]);
   };

@@ -228,10 +228,10 @@ TEST(SolidField, IsRefusedWhereTheMeshIsNone) {
   EXPECT_NE(refusal(bent).find("object 'ramp', vertex 20: it does not continue rows"), std::string::npos) << refusal(bent);
   MeshCollider alive = ball(1, 1);
   alive.frames = {{0, alive.mesh.positions}};
-  EXPECT_NE(refusal(alive).find("which can't deform"), std::string::npos);
+  EXPECT_NE(refusal(alive).find("which cannot deform"), std::string::npos);
   MeshCollider broken = ball(1, 1);
   broken.field = std::make_shared<DistanceField>();
-  EXPECT_NE(refusal(broken).find("not whole"), std::string::npos);
+  EXPECT_NE(refusal(broken).find("incomplete"), std::string::npos);
 }
 
 }  // namespace

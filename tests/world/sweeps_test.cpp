@@ -40,7 +40,7 @@ TEST(WorldSweeps, ChebyshevOverNaturalOrderIsRefusedWithTheReason) {
   const Error error = refusal(hanging_chain(Sweep::natural, chebyshev()));
   const std::string text = error.what();
   EXPECT_NE(text.find("natural order"), std::string::npos) << text;
-  EXPECT_NE(text.find("grows without bound"), std::string::npos) << text;
+  EXPECT_NE(text.find("without bound"), std::string::npos) << text;
   EXPECT_NE(error.advice().find("symmetric"), std::string::npos);
   for (Sweep sweep : {Sweep::tiled, Sweep::sequential, Sweep::symmetric, Sweep::jacobi}) {
     EXPECT_STREQ(refusal(hanging_chain(sweep, chebyshev())).what(), Error({}, "").what());

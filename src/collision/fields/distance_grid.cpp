@@ -15,21 +15,21 @@ constexpr double most_nodes = 1 << 27;
 void require_sizes(float spacing, float padding) {
   if (!(spacing > 0) || !(spacing < 1e15f) || !(padding >= 0) || !(padding < 1e15f))
     throw Error({},
-                "a grid with " + std::to_string(spacing) + " m between nodes and " + std::to_string(padding) +
-                    " m about it can't be made",
+                "a grid with " + std::to_string(spacing) + " m between nodes and a padding of " + std::to_string(padding) +
+                    " m is impossible",
                 "choose a spacing above 0 and a padding of at least 0");
 }
 
 }  // namespace
 
 void require_closed(const std::vector<Triangle>& triangles, int vertices) {
-  if (triangles.empty()) throw Error({}, "a mesh without triangles has no inside", "give it some");
+  if (triangles.empty()) throw Error({}, "a mesh without triangles has no inside", "give a closed triangle mesh");
   for (const Edge& edge : find_edges(triangles, vertices))
     if (edge.triangle_count != 2)
       throw Error(Location{.element = "edge " + std::to_string(edge.a) + "-" + std::to_string(edge.b)},
                   "it has " + std::to_string(edge.triangle_count) +
                       (edge.triangle_count == 1 ? " triangle" : " triangles") + ", so the mesh is not closed",
-                  "close it, since signed distances need an inside, or collide with the mesh itself, as triangles");
+                  "close the mesh, because signed distances need an inside, or use it as triangles");
 }
 
 namespace {
@@ -74,7 +74,7 @@ DistanceGrid::DistanceGrid(const MeshQuery& mesh, float spacing, float padding, 
   const double cells[3] = {size.x / static_cast<double>(spacing), size.y / static_cast<double>(spacing),
                            size.z / static_cast<double>(spacing)};
   if ((cells[0] + 2) * (cells[1] + 2) * (cells[2] + 2) > most_nodes)
-    throw Error({}, "a grid of " + std::to_string(spacing) + " m would have more than 2^27 nodes",
+    throw Error({}, "a grid with a spacing of " + std::to_string(spacing) + " m would have more than 2^27 nodes",
                 "choose a larger spacing");
   auto field = std::make_shared<DistanceField>();
   field->low = box.low;
@@ -91,7 +91,7 @@ DistanceGrid::DistanceGrid(std::shared_ptr<const DistanceField> field) : field_(
   const DistanceField& f = *field_;
   const bool sizes = f.nodes[0] >= 2 && f.nodes[1] >= 2 && f.nodes[2] >= 2 && f.spacing > 0 && f.spacing < 1e15f;
   if (!sizes || double(f.nodes[0]) * f.nodes[1] * f.nodes[2] > most_nodes || f.distances.size() != at(f, 0, 0, f.nodes[2]))
-    throw Error({}, "the distance field is not whole", "give one that measure_distances has made");
+    throw Error({}, "the distance field is incomplete", "use the result of measure_distances");
   for (const float distance : f.distances)
     if (!(abs(distance) < 1e15f)) throw Error({}, "the distance field has values that are not finite", "measure it again");
   bounds_ = bounds_of(f);

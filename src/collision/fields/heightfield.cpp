@@ -24,10 +24,11 @@ Heightfield::Heightfield(int columns, int rows, float cell_width, float cell_dep
       heights_(std::move(heights)) {
   const std::string size = std::to_string(columns) + " x " + std::to_string(rows);
   if (columns < 2 || rows < 2 || !positive_and_finite(cell_width) || !positive_and_finite(cell_depth))
-    throw Error({}, "a heightfield of " + size + " vertices can't be made", "give at least 2 x 2, and cells of a size");
+    throw Error({}, "a heightfield of " + size + " vertices is impossible, or its cells have no size",
+                "give at least 2 x 2 vertices, and cell sizes above 0");
   if (heights_.size() != static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows))
     throw Error({}, "there are " + std::to_string(heights_.size()) + " heights for " + size + " vertices",
-                "give one for each");
+                "give one per vertex");
   for (std::size_t i = 0; i < heights_.size(); ++i)
     if (!(abs(heights_[i]) < 1e15f))
       throw Error(Location{.element = "height " + std::to_string(i)}, "it is not finite", "give heights in metres");
@@ -54,9 +55,9 @@ bool Heightfield::column(const Vec3f& p, Vec3f& corner, Vec3f& normal) const {
 namespace {
 
 [[noreturn]] void fail_not_even(std::size_t vertex) {
-  throw Error(
-      Location{.element = "vertex " + std::to_string(vertex)}, "it does not continue rows of evenly spaced heights",
-      "give a grid with rows along z and columns along x, not turned, or collide with the mesh itself, as triangles");
+  throw Error(Location{.element = "vertex " + std::to_string(vertex)},
+              "its x and z are not on the regular grid of the first vertices",
+              "give an evenly spaced, unrotated grid with rows along z and columns along x, or use the mesh as triangles");
 }
 
 }  // namespace
@@ -79,10 +80,10 @@ Heightfield heightfield_of(const TriangleMesh& mesh) {
   }
   if (mesh.triangles.size() != 2 * (columns - 1) * (rows - 1))
     throw Error({},
-                "it has " + std::to_string(mesh.triangles.size()) + " triangles, and a heightfield of " +
+                "it has " + std::to_string(mesh.triangles.size()) + " triangles, but a heightfield of " +
                     std::to_string(columns) + " x " + std::to_string(rows) + " vertices has " +
                     std::to_string(2 * (columns - 1) * (rows - 1)),
-                "give two for each cell, or collide with the mesh itself, as triangles");
+                "give two triangles per cell, or use the mesh as triangles");
   return {static_cast<int>(columns), static_cast<int>(rows), width, depth, {p[0].x, 0, p[0].z}, std::move(heights)};
 }
 
