@@ -48,7 +48,7 @@ class WorldWriter final : public FrameWriter {
 
  private:
   std::unique_ptr<output::FormatWriter> format_;
-  std::vector<ObjectId> objects_;  ///< those that there were at first
+  std::vector<ObjectId> objects_;  ///< the objects at the start of the run
 };
 
 }  // namespace

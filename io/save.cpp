@@ -52,7 +52,7 @@ T read_bytes(const Contents& from, std::string_view name) {
   return of;
 }
 
-/// Columns of structs as bytes.
+/// Owns the bytes of those columns whose elements are structs.
 struct Columns {
   std::string blocks, channels, held_poses;
 };

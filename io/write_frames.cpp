@@ -62,7 +62,7 @@ class LineWalk {
   const std::vector<std::array<int, 2>>& edges_;
   std::vector<bool> used_;
   std::vector<std::vector<std::size_t>> at_;
-  std::vector<std::size_t> next_;  // all earlier edges of the particle are used
+  std::vector<std::size_t> next_;  // per particle: the edges before this index are used
 };
 
 bool finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }

@@ -30,7 +30,7 @@ struct Options {
   std::string workload;  ///< empty: all of them
   std::vector<int> sizes{64, 128, 256, 512};
   int warm_up = 20, frames = 120;  ///< unmeasured and measured frames
-  int threads = 0;                 ///< of the engine's second run, beside the one with one thread; 0: all
+  int threads = 0;                 ///< threads of the engine's second run; the first run has one; 0: all
   bool against_bullet = false;
   std::function<void(const Row&)> on_row;  ///< called as soon as a row is complete
 };

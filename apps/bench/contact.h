@@ -13,9 +13,9 @@ struct ContactRow {
   int size =
       0;  ///< N of an N x N cloth with edges of 1 cm, over a ball as wide; multiples of 100: several cloths, N x N in sum
   int particles = 0;
-  double without_ms = 0, with_ms = 0;  ///< per frame
-  double ratio = 0;                    ///< with over without
-  double largest_ms = 0;               ///< with self-collision, the slowest frame
+  double without_ms = 0, with_ms = 0;  ///< milliseconds per frame without and with self-collision
+  double ratio = 0;                    ///< with_ms over without_ms
+  double largest_ms = 0;               ///< slowest frame with self-collision
   double with_us_per_particle = 0;
   double candidates_per_particle = 0;  ///< pairs stored in lists
   double lists = 0;                    ///< near-list rebuilds per frame, mean

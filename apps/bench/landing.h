@@ -46,7 +46,7 @@ struct LandingRow {
   double mean_ms = 0, median_ms = 0, largest_ms = 0;
   std::size_t crossings =
       0;  ///< edges that intersect a triangle after the last frame; not counted if a position is not finite
-  double stretch_mean = 0, stretch_p99 = 0;  ///< length over rest length after it; NaN if a position is
+  double stretch_mean = 0, stretch_p99 = 0;  ///< length over rest length after the last frame; NaN if a position is
   double ratio = 0;                          ///< speedup over the first row of the same landing and size
 };
 
@@ -54,7 +54,7 @@ struct LandingOptions {
   std::vector<std::string> on{"ball", "cloth"};  ///< landings
   std::vector<int> sizes{64, 128};
   int frames = 120;    ///< from the start: fall, landing and draping
-  double limit = 120;  ///< of each row's time [s]
+  double limit = 120;  ///< time limit of each row [s]
   bool against_bullet = false;
   std::function<void(const LandingRow&)> on_row;
 };

@@ -13,10 +13,10 @@ namespace pliant::compare {
 namespace {
 
 constexpr int iterations_tried[] = {1, 2, 4, 10, 30};
-constexpr int probe_frames = 6;      // for the first estimate
-constexpr int probe_substeps = 2;    // of the probe
-constexpr int most_substeps = 2000;  // more do not help
-constexpr int most_corrections = 3;  // of a wrong estimate
+constexpr int probe_frames = 6;      // frames of the probe run, which gives the first estimate
+constexpr int probe_substeps = 2;    // substeps of the probe run
+constexpr int most_substeps = 2000;  // upper limit: more substeps do not help
+constexpr int most_corrections = 3;  // maximum number of corrections of the estimate
 constexpr double well_used = 1.2;    // accept if budget over time used is below this
 
 Settings settings_of(const Scene& scene, const Method& method, int substeps, int iterations) {

@@ -76,9 +76,9 @@ struct Options {
 
 struct Result {
   int frame = 0, iterations = 0, frames = 0;
-  double substep = 0;         ///< of the curves [s]
+  double substep = 0;         ///< length of the curves' substep [s]
   double budget = 0;          ///< milliseconds per frame
-  std::string residual_type;  ///< of Sample::residual: "distance" if the scene has any
+  std::string residual_type;  ///< constraint type of Sample::residual: "distance" if the scene has any
   std::vector<Curve> curves;
   std::vector<Budgeted> budgeted;
   std::vector<Refusal> refused;

@@ -18,9 +18,9 @@ namespace pliant::compare {
 
 namespace {
 
-constexpr int repeats = 3;  // of a run in one round, because the first finds the caches cold
+constexpr int repeats = 3;  // repetitions of a run in one round, because the first one has cold caches
 constexpr int most_rounds = 20;
-constexpr double enough_milliseconds = 10;  // of all rounds of a run
+constexpr double enough_milliseconds = 10;  // time to spend on all rounds of a run
 
 /// 1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100 and so on, and `last`.
 std::vector<int> sampled_iterations(int last) {

@@ -60,7 +60,7 @@ std::vector<Finding> check_mesh(const std::string& path) {
   return inspect(file.mesh);
 }
 
-/// The time needed for the scene itself, which gets a part of it, or else for more alternative settings.
+/// The time limit to suggest: enough for all frames with the scene's own settings, or else for more trials of others.
 double more_seconds(const Advice& advice, double seconds) {
   const double missing = static_cast<double>(advice.frames) / std::max(1, advice.own.frames);
   return std::min(86400., seconds * std::max(10., std::ceil(1.5 * missing)));

@@ -38,8 +38,8 @@ int run(const RunOptions& options);
 
 struct RenderOptions {
   std::string scene;
-  Overrides overrides;                 ///< without `frames`
-  std::optional<int> frame;            ///< of a picture, or the length of a movie; default: the scene's last
+  Overrides overrides;                 ///< all except `frames`
+  std::optional<int> frame;            ///< frame of a picture, or length of a movie; default: the scene's last
   std::string out;                     ///< .png or .mp4
   std::string size = "1280x720";       ///< WxH in pixels
   float azimuth = 28, elevation = 18;  ///< camera direction [degrees]
@@ -75,7 +75,7 @@ struct BenchOptions {
   std::vector<int> sizes;  ///< empty: 64, 128, 256, 512
   int frames = 120;        ///< measured, after 20 unmeasured ones
   double limit = 120;      ///< of W3: the time limit of a row [s]
-  int threads = 0;         ///< of the second run, beside the one with one thread; 0: all
+  int threads = 0;         ///< threads of the second run; the first run has one; 0: all
   std::string json;        ///< file for the rows as JSON, empty: none
 };
 
@@ -86,7 +86,7 @@ struct CompareOptions {
   std::string scene;
   Overrides overrides;              ///< only `frames` and `threads`
   std::vector<std::string> sweeps;  ///< as "chains" or "tiled+chebyshev"; empty: all that the scene permits
-  std::optional<int> frame;         ///< before the curves' substep; default: half of the scene's
+  std::optional<int> frame;         ///< frames before the curves' substep; default: half of the scene's
   int substeps = 0;                 ///< per frame, for the curves' substep; 0: the scene's own
   int iterations = 100;             ///< maximum of the curves
   double budget = 0;                ///< milliseconds per frame; 0: curves only

@@ -12,7 +12,7 @@ namespace pliant::command {
 
 namespace {
 
-/// From a signal to the forced end of the program [us].
+/// Time from a signal to the forced end of the program [us].
 constexpr suseconds_t patience = 700000;
 
 std::atomic<int> received{0};

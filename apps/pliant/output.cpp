@@ -76,7 +76,7 @@ void refuse_unwritable(const std::string& path) {
   std::error_code unknown;
   std::filesystem::path place = std::filesystem::absolute(path, unknown);
   if (unknown || path.empty()) fail(path, "is not a path of a file", "name another");
-  if (std::filesystem::is_directory(place, unknown)) fail(path, "cannot write, because it is a folder", "name a file");
+  if (std::filesystem::is_directory(place, unknown)) fail(path, "cannot write: it is a folder", "name a file");
   if (std::filesystem::exists(place, unknown)) {
     if (::access(place.c_str(), W_OK) != 0) fail(path, cannot_write(errno), elsewhere);
     if (!std::filesystem::is_regular_file(place, unknown)) return;  // a device or pipe needs no folder
@@ -84,7 +84,7 @@ void refuse_unwritable(const std::string& path) {
   do place = place.parent_path();
   while (!std::filesystem::exists(place, unknown) && place.has_relative_path());
   if (!std::filesystem::is_directory(place, unknown))
-    fail(path, fmt::format("cannot write, because '{}' is not a folder", place.string()), elsewhere);
+    fail(path, fmt::format("cannot write: '{}' is not a folder", place.string()), elsewhere);
   if (::access(place.c_str(), W_OK | X_OK) != 0) fail(path, cannot_write(errno), elsewhere);
 }
 

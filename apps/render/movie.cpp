@@ -51,7 +51,7 @@ struct MovieWriter::Implementation {
   void start(int width, int height, double rate) {
     struct stat status {};
     if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
-      fail("cannot write, because it is not a regular file", "name a file");
+      fail("cannot write: it is not a regular file", "name a file");
     int descriptor = -1;
     temporary = make_beside(descriptor);
     remember_unfinished(temporary.c_str());

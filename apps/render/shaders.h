@@ -33,9 +33,9 @@ uniform sampler2D depth;
 uniform vec2 slope;        // half the picture's extent at distance 1
 uniform vec2 near_far;
 uniform vec2 texel;
-uniform float reach;       // how far others are looked for [m]
+uniform float reach;       // search radius for occluders [m]
 vec3 seen(vec2 near_by) {
-  // Depth belongs to the middle of its own pixel.
+  // Depths are exact at pixel centres.
   vec2 size = vec2(textureSize(depth, 0)), at = (floor(near_by * size) + 0.5) / size;
   float d = texture(depth, at).r * 2.0 - 1.0;
   float distance = 2.0 * near_far.x * near_far.y / (near_far.y + near_far.x - d * (near_far.y - near_far.x));
@@ -136,12 +136,12 @@ uniform sampler2DShadow shadow;
 uniform sampler2D shadow_depth;
 uniform sampler2D occlusion;
 uniform vec2 picture;      // width, height
-uniform vec2 spiral[16];   // places in the unit disc, evenly spread
-uniform float widest, softness;  // of shadows' edges [texel], [texel per depth]
+uniform vec2 spiral[16];   // points evenly distributed over the unit disc
+uniform float widest, softness;  // largest shadow blur [texel]; its growth [texel per depth]
 uniform float bias, radius, spacing;
 float lit(vec3 normal) {
   vec3 place = (light * vec4(at + normal * bias, 1.0)).xyz;
-  // Loops of no rounds where all or nothing is in the way; a branch would not save software rendering anything.
+  // No probes outside the shadow map, by a zero loop count: a branch would not speed up software rendering.
   int probes = any(greaterThan(abs(place - 0.5), vec3(0.5))) ? 0 : 10;
   float gap = 0.0, found = 0.0, texels = float(textureSize(shadow_depth, 0).x);
   for (int i = 0; i < probes; ++i) {
@@ -150,7 +150,7 @@ float lit(vec3 normal) {
     gap += (place.z - blocker) * covers;
     found += covers;
   }
-  // The further what casts it, the softer a shadow (Fernando 2005).
+  // Shadows get softer with the distance of the caster (Fernando 2005).
   float wide = clamp(gap / max(found, 1.0) * softness, 1.2, widest) / texels;
   int taps = found > 0.0 && found < 9.5 ? 16 : 0;
   float sum = 0.0;
@@ -173,7 +173,7 @@ void main() {
   }
   float toward = dot(normal, sun), across = max(dot(normal, view), 0.0);
   float seen = lit(toward < 0.0 && material == 0 ? -normal : normal);
-  // Where a surface turns from the sun its own shadow begins, in steps as large as the mesh's; fading hides them.
+  // Near the terminator self-shadowing would show steps of the mesh's size; fading hides them.
   float direct = max(toward, 0.0) * smoothstep(0.0, 0.3, toward);
   vec3 sunlight = vec3(1.90, 1.80, 1.62);
   vec3 above = vec3(0.32, 0.365, 0.44), below = vec3(0.19, 0.175, 0.16);

@@ -62,7 +62,7 @@ Box path_of(const std::vector<Vec3f>& from, const std::vector<Vec3f>& to, std::s
   return box;
 }
 
-/// Counts links that meet on linear paths, and finds the least distance of near pairs at the end.
+/// Audits a rope: counts links that meet while particles move linearly, and finds the least distance of near pairs.
 class Links {
  public:
   explicit Links(std::vector<Vec3f> start) : from_(std::move(start)), paths_(from_.size() - 1) {}

@@ -25,8 +25,8 @@ struct Trial {
   bool complete = false;    ///< false if it was stopped as worse, or for lack of time
   bool worse = false;       ///< worse than the best trial before it
   double milliseconds = 0;  ///< mean of a frame
-  Overstretch worst;        ///< p99 and largest of any frame, and where the largest was
-  std::int64_t frame = 0;   ///< in which the largest was, from 1
+  Overstretch worst;        ///< overstretch: p99 and largest of any frame, and the place of the largest
+  std::int64_t frame = 0;   ///< frame of the largest overstretch, from 1
 };
 
 /// The result of all trials.

@@ -87,7 +87,7 @@ class FrameWriter {
   virtual ~FrameWriter() = default;
   virtual void add(const World& world) = 0;  ///< call once a frame, the initial state first
   virtual void finish() = 0;
-  virtual std::vector<WrittenFile> written() const = 0;  ///< so far, in their order; all of them after finish()
+  virtual std::vector<WrittenFile> written() const = 0;  ///< files written so far, in order; all files after finish()
 };
 
 /// A writer by suffix: NAME.obj and NAME.ply (one file per frame, NAME_0000.obj for State::frame 0, ...), .glb (morph

@@ -79,7 +79,7 @@ struct PairReport {
 struct Thing {
   enum class Kind { object, collider, mesh_collider };
   Kind kind = Kind::object;
-  int slot = -1, generation = 0;  ///< of its id
+  int slot = -1, generation = 0;  ///< slot and generation of its id
 
   Thing() = default;
   Thing(ObjectId id) : slot(id.slot), generation(id.generation) {}  // NOLINT(google-explicit-constructor)

@@ -100,8 +100,8 @@ struct Object {
   float thickness = 0.001f;        ///< distance kept from colliders; two surfaces keep the sum of both [m]
   bool self_collision = false;     ///< the surface does not pass through itself; without triangles, the links do not
   bool collides = false;           ///< the surface does not pass through other objects with `collides`
-  std::uint32_t groups = 1;        ///< bit mask of its groups. Two objects can meet if the groups of each
-  std::uint32_t mask = ~0u;        ///< share a bit with the other's mask
+  std::uint32_t groups = 1;        ///< bit mask of the groups that it belongs to
+  std::uint32_t mask = ~0u;        ///< groups that it meets: each one's mask must contain a group of the other
   float static_friction = 0.4f;    ///< [-]
   float kinetic_friction = 0.3f;   ///< [-], <= static_friction
   float restitution = 0;           ///< 0..1 [-]
@@ -163,7 +163,7 @@ struct Collider {
   Vec3f position{};  ///< [m]
   Quatf rotation{};
   Motion motion{};               ///< applied after position and rotation
-  float thickness = 0;           ///< added to the particle's [m]
+  float thickness = 0;           ///< added to the thickness of objects [m]
   float static_friction = 0.4f;  ///< a pair has the geometric mean of both
   float kinetic_friction = 0.3f;
   float restitution = 0;  ///< a pair has the larger of both
@@ -201,11 +201,11 @@ struct MeshCollider {
   As as = As::triangles;
   float grid_spacing = 0;                        ///< of a distance grid; 0: a 48th of the longest side [m]
   std::shared_ptr<const DistanceField> field{};  ///< of a distance grid, from measure_distances; null: measured at compile
-  float thickness = 0;                           ///< added to the object's [m]
+  float thickness = 0;                           ///< added to the thickness of objects [m]
   float static_friction = 0.4f;                  ///< a pair has the geometric mean of both
   float kinetic_friction = 0.3f;
   float restitution = 0;                 ///< a pair has the larger of both
-  std::uint32_t groups = 1, mask = ~0u;  ///< as of Object
+  std::uint32_t groups = 1, mask = ~0u;  ///< as in Object
   Vec3f colour{0.45f, 0.48f, 0.52f};
 };
 

@@ -111,7 +111,7 @@ class World {
   ColliderId add(const Collider& collider);
   MeshColliderId add(const MeshCollider& collider);
 
-  /// Removes it. Other ids stay valid. Throws an Error if the id is stale.
+  /// Removes an object. Other ids stay valid. Throws an Error if the id is stale.
   void remove(ObjectId object);
   void remove(ColliderId collider);
   void remove(MeshColliderId collider);
@@ -129,7 +129,7 @@ class World {
 
   WorldLayout layout() const;
 
-  /// The existing ones, by slot.
+  /// The ids of the existing objects, by slot.
   std::vector<ObjectId> objects() const;
   std::vector<ColliderId> colliders() const;
   std::vector<MeshColliderId> mesh_colliders() const;
@@ -170,20 +170,21 @@ class World {
   std::string isa() const;  ///< the code path in use: "x86-64-v2", "-v3", "-v4" or "generic"
   int threads() const;
 
-  /// In the user's particle order.
+  /// The positions in the user's particle order [m].
   std::vector<Vec3f> positions(ObjectId object) const;
   std::vector<Vec3f> velocities(ObjectId object) const;
-  /// Of the object's frames, in the order of Object::frames.
+  /// The orientations of the object's frames, in the order of Object::frames.
   std::vector<Quatf> orientations(ObjectId object) const;
   std::vector<Vec3f> angular_velocities(ObjectId object) const;  ///< in world axes [rad/s]
   TriangleMesh mesh(ObjectId object) const;
-  /// The same into the caller's memory, one entry per particle. Throws an Error if the size differs.
+  /// Copies positions into the caller's memory, one entry per particle. Throws an Error if the size differs.
   void read_positions(ObjectId object, std::span<Vec3f> into) const;
   void read_velocities(ObjectId object, std::span<Vec3f> into) const;
   void read_mesh_collider_positions(MeshColliderId collider, std::span<Vec3f> into) const;
 
-  /// Without a copy, in storage order: (x, y, z) and inverse mass, and velocities with w zero. Valid until the next step or
-  /// change. Record i is particle storage_order(object)[i]; indices beyond the object's particles are attachment targets.
+  /// Views in storage order: (x, y, z) with inverse mass, and velocities with w zero. Valid until the next step or
+  /// change. Record i is particle storage_order(object)[i]; indices beyond the object's particles are attachment
+  /// targets.
   std::span<const Record> positions_in_storage_order(ObjectId object) const;
   std::span<const Record> velocities_in_storage_order(ObjectId object) const;
   std::span<const int> storage_order(ObjectId object) const;
@@ -202,7 +203,8 @@ class World {
   double potential_energy() const;
   std::vector<Residual> residuals() const;
   Stretch stretch() const;
-  /// Compliant constraints count in full if their multipliers are stored, as with Settings::measure.
+  /// The current overstretch. Compliant constraints count in full if multipliers are stored
+  /// (Settings::measure).
   Overstretch overstretch() const;
   /// "object 'sheet': stretched 14 % too far at its pins (edge 12-13), 1 edge in 100 by 3 % or more"; empty without object.
   std::string describe(const Overstretch& found) const;

@@ -54,14 +54,14 @@ class Trials {
         own_end_(after(own_share * options.seconds)),
         stops_(options.stops) {}
 
-  /// Runs the scene's own settings. If time runs out first, other trials have as many frames.
+  /// Runs the scene's own settings. If time runs out, later trials run only as many frames as this one did.
   Trial run_own(std::string& words) {
     Trial trial = run(scene_.settings, std::numeric_limits<double>::infinity(), own_end_, &words);
     if (std::isfinite(trial.worst.largest)) frames_ = trial.frames;
     return trial;
   }
 
-  /// Stops when it is worse than both `bound` and the tolerance.
+  /// Runs other settings until they are done, or worse than both `bound` and the tolerance.
   Trial run_other(const Settings& settings, double bound) const { return run(settings, bound, end_, nullptr); }
 
   bool out_of_time() const { return is_over(end_); }
@@ -103,7 +103,7 @@ class Trials {
 
 /// Settings of one kind with increasing substeps.
 struct Family {
-  Settings settings;  ///< of the next trial
+  Settings settings;  ///< settings of the next trial
   bool open = true;   ///< not good yet, but possibly with more substeps
   int good = -1;      ///< index of its last good trial
 };

@@ -9,7 +9,7 @@ namespace pliant {
 
 int constraint_type_count();
 
-/// `type` from 0 to constraint_type_count() - 1. The reference stays valid.
+/// The definition of type number `type`, from 0 to constraint_type_count() - 1. The reference stays valid.
 const ConstraintDefinition& constraint_type(int type);
 
 /// The number of a type, or -1.
@@ -27,9 +27,9 @@ bool is_length(const std::string& name);
 
 /// True if the type bends two triangles about their shared edge (points: the edge's ends, then the tips).
 bool is_hinge(const std::string& name);
-/// True if such a type has a flat rest shape regardless of its rest data.
+/// True if a hinge of this type always has a flat rest shape, whatever its rest data.
 bool is_flat_hinge(const std::string& name);
-/// The dihedral angle of two such triangles, 0 if flat [rad].
+/// The dihedral angle of a hinge, given by the ends of its edge and then its tips; 0 if flat [rad].
 double fold_angle(const Vec3d (&x)[4]);
 
 }  // namespace pliant

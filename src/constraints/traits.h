@@ -12,7 +12,7 @@ inline constexpr int slot_count = T::slots::count;
 template <class T>
 inline constexpr int rest_fields = static_cast<int>(T::fields.size());
 
-/// True if sixteen are projected together: one row, points only. Others are projected singly (solver/stencil.cpp).
+/// True if constraints are projected sixteen at a time: one row, points only. Others go singly (solver/stencil.cpp).
 template <class T>
 inline constexpr bool in_lanes = T::slots::frames == 0 && T::rows == 1;
 

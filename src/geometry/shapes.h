@@ -100,7 +100,7 @@ PLIANT_HD FirstHit<R> first_hit(const LocalShape& shape, const Vec3<R>& a, const
   const R path_size = abs(path.x) + abs(path.y) + abs(path.z);
   if (!(path_size + abs(a.x) + abs(a.y) + abs(a.z) < R(1e38f))) return {};
   FirstHit<R> at{false, R(0), a, {}, R(0)};
-  R travelled = R(0);  // of the last step
+  R travelled = R(0);  // advance of the last step
   // Convergence is quadratic if the path crosses the surface. If it
   // grazes, the gap shrinks fourfold per step: 64 steps suffice from 1e38.
   for (int step = 0; step < 96; ++step) {

@@ -124,8 +124,8 @@ void doubt_thickness(Problems& problems, const Object& object) {
   if (!object.self_collision && !object.collides) return;
   const double edge = median_edge(object), kept = 2 * static_cast<double>(object.thickness);
   if (edge == 0)
-    return problems.doubtful("", "is set, but without triangles and links particles never collide with each other",
-                             "remove self_collision");
+    return problems.doubtful("", "has neither triangles nor links: its particles collide as spheres of its thickness",
+                             "add triangles or links if it is meant as a surface or a rope");
   if (kept > edge && !object.triangles.empty())  // not for ropes, which bend no more sharply than they are thick
     problems.doubtful("thickness",
                       "is " + words(object.thickness) +

@@ -253,7 +253,7 @@ PLIANT_HD Quad load_quad(const Record* from) {
   return q;
 }
 
-/// Part i of the register with records at[0], at[4], at[8], at[12]. By intrinsics: from shuffles g++ makes twice as many.
+/// Part i of the register with records at[0], at[4], at[8], at[12]. Intrinsics, because g++ needs twice as many shuffles.
 PLIANT_HD Part gather_part(const Record* base, const std::int32_t* at, int i) {
 #if PLIANT_PART_WIDTH == 16
   (void)i;
@@ -261,7 +261,7 @@ PLIANT_HD Part gather_part(const Record* base, const std::int32_t* at, int i) {
     return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(&base[at[k]].x)), _mm_loadu_ps(&base[at[k + 4]].x), 1);
   };
   const __m512d low = _mm512_castpd256_pd512(_mm256_castps_pd(pair(0)));
-  return (Part)_mm512_maskz_insertf64x4(0xff, low, _mm256_castps_pd(pair(8)), 1);  // masked, as for the square root
+  return (Part)_mm512_maskz_insertf64x4(0xff, low, _mm256_castps_pd(pair(8)), 1);  // masked as above, against a warning
 #elif PLIANT_PART_WIDTH == 8
   const __m256 low = _mm256_castps128_ps256(_mm_loadu_ps(&base[at[8 * i]].x));
   return (Part)_mm256_insertf128_ps(low, _mm_loadu_ps(&base[at[8 * i + 4]].x), 1);

@@ -170,8 +170,8 @@ struct SweepsInUse {
     int objects = 0;
   };
   std::map<Sweep, Use> uses;
-  std::string reason = too_coarse;  ///< of the largest object with multigrid, else of the first
-  std::size_t particles = 0;        ///< of that object
+  std::string reason = too_coarse;  ///< reason of the largest object with multigrid, else of the first object
+  std::size_t particles = 0;        ///< number of its particles
 
   void add(const Object& object, const Choice& choice) {
     Use& use = uses[choice.sweep];

@@ -106,7 +106,8 @@ double six_volumes(const Piece& piece) {
   return sum;
 }
 
-/// Neither distances nor hinges need it (a hinge's corners define its sign), but pictures and balloons do.
+/// Makes the winding consistent, for pictures and balloons. Distances and hinges do not need
+/// it.
 void wind_alike(Piece& piece) {
   if (is_wound_consistently(piece.edges)) return;
   const Pieces pieces = find_pieces(piece.edges, static_cast<int>(piece.triangles.size()));

@@ -25,7 +25,7 @@ struct Carrier {
 class CarrierPose {
  public:
   CarrierPose(const Carrier& carrier, double time);
-  /// With another pose than that of its motion.
+  /// The same with a given pose instead of that of its motion.
   CarrierPose(const Carrier& carrier, double time, const Posed& pose);
   Vec3d place(int particle) const;
 

@@ -36,9 +36,9 @@ struct SlotIndices {
   }
 };
 
-/// Positions relative to the stencil's first particle: x_i = ((position_i - position_0) + displacement_i) - displacement_0,
-/// so x_0 is zero. Differences between neighbours are small and nearly exact, and constraints are translation-invariant.
-/// Subtracted before the transpose, so that of the first particle only w needs one.
+/// Positions relative to the stencil's first particle: x_i = ((position_i - position_0) + displacement_i) -
+/// displacement_0, so x_0 is zero. Differences between neighbours are small and nearly exact, and constraints are
+/// translation-invariant. The subtraction precedes the transpose, so that for the first particle only w is transposed.
 template <int size, std::int32_t fixed>
 PLIANT_HD void load_stencil(const SweepArguments& a, const SlotIndices<size, fixed>& slots, const std::int32_t* index,
                             Registers (&moved)[size], Vec3<Wide> (&x)[size], Wide (&w)[size]) {
@@ -78,7 +78,7 @@ struct RowPointers {
 /// The extra data of a general sweep for one batch.
 struct Aside {
   Record* corrections = nullptr;  ///< written instead of displacements, sixteen per slot
-  const float* share = nullptr;   ///< of a change that reaches the multiplier, one per lane
+  const float* share = nullptr;   ///< share of a change that reaches the multiplier, one per lane
 
   PLIANT_HD Aside(const SweepArguments& a, const Segment& segment, int size) {
     const std::int64_t first = static_cast<std::int64_t>(segment.first_batch) * batch_width;

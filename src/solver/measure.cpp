@@ -103,7 +103,7 @@ void add_lengths(const View& view, int number, int type, Lengths& lengths, doubl
   });
 }
 
-/// The 99th percentile. Leaves the larger values behind it.
+/// Returns the 99th percentile. Reorders the values.
 double take_p99(std::vector<float>& values) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());

@@ -58,7 +58,7 @@ struct ConstraintResponse {
   R softness;        ///< alpha, or k'
   R damping;         ///< beta
   R multiplier;      ///< lambda of this substep; updated by project
-  R share = R(1.f);  ///< of a change that reaches the multiplier, in general sweeps
+  R share = R(1.f);  ///< share of a change that reaches the multiplier, in general sweeps
 };
 
 /// The corrections of one constraint (in each lane).

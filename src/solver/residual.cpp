@@ -52,7 +52,7 @@ void add_batch(const SweepArguments& a, const Pool& pool, std::int64_t batch, co
 
 double sum_of(const SweepArguments& a, const Pool& pool, const Segment& segment) {
   const bool has = a.multipliers != nullptr && pool.law != Law::pbd;
-  const float* multipliers = has ? a.multipliers[segment.pool] : nullptr;  // rigid ones may have none
+  const float* multipliers = has ? a.multipliers[segment.pool] : nullptr;  // pools of rigid constraints may have none
   const std::int32_t* index = pool.indices.data() + segment.index_offset;
   double sums[batch_width] = {};
   for (int batch = 0; batch < segment.batches; ++batch, index += indices_per_batch(pool, segment)) {

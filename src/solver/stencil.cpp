@@ -31,7 +31,7 @@ struct SlotMass {
   }
 };
 
-/// One constraint under way.
+/// Scratch for the projection of one constraint.
 struct Work {
   StencilArrays<float> arrays;
   SlotMass mass[most_slots];
@@ -69,7 +69,7 @@ void load(const CompiledObject& object, const SweepArguments& a, const FrameArgu
   }
 }
 
-/// A of rows i and j.
+/// Element (i, j) of the matrix A in stencil.h.
 float coupling(const Pool& pool, const Work& work, int i, int j) {
   float sum = 0;
   for (int slot = 0; slot < pool.stencil; ++slot) {
@@ -87,7 +87,7 @@ float motion_along(const Pool& pool, const Work& work, int row) {
   return sum;
 }
 
-/// The matrix and the right-hand side of the law.
+/// Fills in the matrix and the right-hand side for the pool's law.
 void assemble(const ConstraintPlace& at, const float* multipliers, const SweepArguments& a, Work& work) {
   const Pool& pool = at.pool;
   const float softness = at.value(pool.fields);
@@ -125,7 +125,7 @@ void solve(int rows, float (&m)[most_components][most_components], float (&x)[mo
     for (int j = i + 1; j < rows; ++j) x[i] = x[i] - m[j][i] * x[j];
 }
 
-/// Where one row would change C by more than its linearisation is good for, the diagonal grows (`largest_change`).
+/// Limits the change of C by a single row to `largest_change`, by increasing the diagonal.
 void hold_to_trust(const ConstraintDefinition& type, const Pool& pool, Work& work) {
   if (!(type.largest_change > 0) || pool.components != 1) return;
   const float mass = coupling(pool, work, 0, 0), numerator = work.change[0];

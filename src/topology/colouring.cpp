@@ -129,7 +129,7 @@ int Colouring::first_free(const int* particles, int count) {
   return colour;
 }
 
-/// First fit; a group of four is coloured as a whole. Opens new colours only.
+/// First-fit colouring into new colours only. A group of four gets one colour as a whole.
 void Colouring::append(const std::vector<int>& stencils, int size, const std::vector<Four>& fours,
                        const std::vector<int>& singles, std::vector<Colour>& colours) {
   std::vector<Class> classes;

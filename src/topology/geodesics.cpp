@@ -129,7 +129,7 @@ class Search {
     double to_other, to_target, across;  ///< distances from the vertex to each, and between them
   };
 
-  /// Extends distances to `target`: from a vertex at `distance` and from `other`, reached from the same source, across.
+  /// Shortens the distance of `target` by a straight path across its triangle with `other`, if both have the same source.
   void cross_to(int target, int other, double distance, int source, const Sides& sides,
                 const std::vector<std::vector<NearSource>>& found, int most) {
     for (const NearSource& reached : found[other]) {

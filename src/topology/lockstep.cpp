@@ -19,7 +19,7 @@ namespace pliant {
 namespace {
 
 constexpr int patches = 4;
-constexpr int most_corners = 2;  // opposite an edge that are considered, in each patch
+constexpr int most_corners = 2;  // considered per patch, opposite an edge
 // These limits bound the cost of hubs with very many links: only the last links of a rank are evaluated again, and only the
 // first neighbours of a particle are considered.
 constexpr int most_links_seen = 16, most_neighbours_seen = 32;
@@ -68,7 +68,7 @@ struct Proposal {
   Rank rank{};
 };
 
-/// Grows one tile. `members` hold the particles of each patch, ascending.
+/// Numbers one tile by growing its four patches in the same order. `members` hold the particles of each patch, ascending.
 class Growth {
  public:
   Growth(const Neighbours& neighbours, const std::array<std::vector<int>, patches>& members, std::vector<int>& rank_of,

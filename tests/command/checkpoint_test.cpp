@@ -126,7 +126,7 @@ TEST_F(Checkpoint, WhatDoesNotFitIsRefusedWithTheReason) {
   refused({"small.json", "--resume", "a", "--report", "a"}, "a: is named twice");
   refused({"small.json", "--resume", "small.json"}, "small.json: is not a file saved by Pliant");
   refused({"small.json", "--resume", "."}, "is a folder");
-  refused({"small.json", "--checkpoint", "."}, "cannot write, because it is a folder");
+  refused({"small.json", "--checkpoint", "."}, "cannot write: it is a folder");
   refused({"small.json", "--checkpoint", "small.json/a"}, "is not a folder");
   fs::resize_file(folder_ / "a", 1000);
   refused({"small.json", "--resume", "a"}, "pliant: a: is incomplete");

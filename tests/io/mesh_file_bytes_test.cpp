@@ -36,7 +36,7 @@ TEST(FileBytes, RefusesWhatIsNoFile) {
   EXPECT_TRUE(contains(error_of_reading("/dev/zero"), "/dev/zero: is a pipe, socket or device"));
   EXPECT_TRUE(contains(error_of_reading(folder.path()), folder.path() + ": is a folder"));
   EXPECT_TRUE(contains(error_of_reading(folder / "none.obj"), folder / "none.obj: cannot open: No such file"));
-  EXPECT_TRUE(contains(error_of_reading(""), "no name"));
+  EXPECT_TRUE(contains(error_of_reading(""), "path is empty"));
   EXPECT_TRUE(contains(error_of_reading(std::string("a\0b", 3)), "zero byte"));
 }
 

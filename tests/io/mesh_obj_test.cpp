@@ -123,7 +123,7 @@ TEST(MeshObj, RefusesWhatItDoesNotKnow) {
                        "a.obj:1: unknown keyword '?"
                        "?"
                        "?'"));
-  EXPECT_TRUE(contains(error_of(three + std::string("f 1 2 3\0\n", 9), "a.obj"), "a.obj:4: holds a zero byte"));
+  EXPECT_TRUE(contains(error_of(three + std::string("f 1 2 3\0\n", 9), "a.obj"), "a.obj:4: contains a zero byte"));
   EXPECT_TRUE(contains(error_of(std::string(1000, 'z'), "a.obj"), "zzz...'"));
 }
 

@@ -201,7 +201,7 @@ TEST(Company, WhatCollidesWithNobodyIsDoubted) {
   EXPECT_EQ(doubts(), 2) << "solids are met by particles, whether they collide or not";
 }
 
-TEST(Thickness, WhatHasNeitherTrianglesNorLinksCannotTouch) {
+TEST(Thickness, ParticlesWithoutTrianglesAndLinksAreNamed) {
   Scene scene;
   Object dust;
   dust.name = "dust";

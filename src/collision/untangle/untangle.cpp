@@ -155,7 +155,7 @@ void Untangler::mark_led(int vertex) {
 
 // ---------------------------------------------------------------- inside closed bodies
 
-/// They move to where the thickness is met.
+/// Finds vertices inside closed bodies. They move out to where the thickness is met.
 void Untangler::find_inside(const Record* positions) {
   for (Closed& closed : closed_) {
     MeshQuery& query = *closed.query;

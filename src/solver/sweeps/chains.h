@@ -14,7 +14,7 @@
 namespace pliant {
 
 struct ChainScratch : SweepScratch {
-  std::vector<AlignedVector<float>> of_thread;  ///< room for the longest chain, for each thread
+  std::vector<AlignedVector<float>> of_thread;  ///< scratch for the longest chain, one per thread
 
   void prepare(const SweepSetup& setup, int object) override;
 };

@@ -40,9 +40,9 @@ struct ChebyshevRecurrence {
   double weight = 1;                             ///< omega
   double polynomial = 1, polynomial_before = 1;  ///< T_n(1 / rho), the Chebyshev polynomial, n = steps; and T_(n-1)
   int steps = -1;                                ///< since its start; -1: not started
-  double plain_norm = 0;                         ///< at the substep's start
-  double first_norm = 0;                         ///< when acceleration started
-  double start_norm = 0, last_norm = 0;          ///< when the recurrence was started, and last
+  double plain_norm = 0;                         ///< norm of the first correction of the substep
+  double first_norm = 0;                         ///< norm when acceleration started
+  double start_norm = 0, last_norm = 0;          ///< norm when the recurrence was started, and the latest norm
   bool given_up = false;                         ///< plain for the rest of the substep: diverged, or at rounding
 };
 

@@ -19,9 +19,9 @@ struct JacobiObject {
   Incidence incidence;
   Records corrections;                       ///< of all constraints' particles, by pool
   std::vector<Record*> correction_pointers;  ///< one per pool
-  std::vector<AlignedVector<float>> shares;  ///< one per lane: see averaging_shares; if corrections are averaged
+  std::vector<AlignedVector<float>> shares;  ///< one per lane, from averaging_shares; empty if masses are split
   std::vector<const float*> share_pointers;
-  Records positions;  ///< with w times the particle's number of constraints; if masses are split
+  Records positions;  ///< positions with w times the number of constraints; empty if corrections are averaged
 };
 
 struct JacobiScratch : SweepScratch {

@@ -63,7 +63,7 @@ struct MultigridGroup {
 struct MultigridGroups {
   std::vector<MultigridGroup> all;  ///< the first `count` are in use
   int count = 0;
-  std::vector<int> root, of_root;  ///< of each object: a connected object; of a root: its group
+  std::vector<int> root, of_root;  ///< union-find over objects: parent of each; of a root: its group
 };
 
 struct MultigridScratch : SweepScratch {
