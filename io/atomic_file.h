@@ -55,7 +55,7 @@ class AtomicFile {
   void flush();
   void close_checked();
 
-  std::string path_;       // as given by the caller, for errors
+  std::string path_;       // the path as given by the caller, for errors
   std::string target_;     // path_ with symbolic links followed
   std::string temporary_;  // empty while the file has no name
   bool direct_ = false;    // a device or pipe, written directly

@@ -16,9 +16,9 @@ bool is_integer(PlyType type);
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::float32;  ///< of the value, or of list entries
+  PlyType type = PlyType::float32;  ///< type of the value, or of list entries
   bool is_list = false;
-  PlyType count_type = PlyType::uint8;  ///< of the list length
+  PlyType count_type = PlyType::uint8;  ///< type of the list's length
 };
 
 struct PlyElement {

@@ -19,7 +19,7 @@ namespace pliant {
 /// more corners, and every coordinate is finite.
 struct PolygonMesh {
   std::vector<Vec3f> positions;
-  std::vector<int> corners;        ///< of all polygons, concatenated
+  std::vector<int> corners;        ///< corners of all polygons, concatenated
   std::vector<std::size_t> ends;   ///< end of each polygon in `corners`
   std::vector<std::string> notes;  ///< messages about ignored content
   bool is_soup = false;            ///< triangles without shared vertices (STL): vertices must be merged by position

@@ -14,7 +14,7 @@ SceneFile build(const JsonDocument& document, const MeshFolder& folder);
 /// An object's particles, with the data that selections need.
 struct BuiltObject {
   Object object;
-  int columns = 0, rows = 0;  ///< of a grid, else 0
+  int columns = 0, rows = 0;  ///< size of a grid in vertices, else 0
 };
 
 /// The object without pins and attachments. `what` is the member "cloth", "rope" or "particles".

@@ -19,13 +19,13 @@ struct Type {
   double minimum = 0, maximum = 0;   ///< of an integer, a number or each part of a vector
   bool above_minimum = false;        ///< excludes the minimum itself
   std::string unit;                  ///< of a number or vector; "-" for a ratio
-  std::vector<std::string> choices;  ///< of a choice
+  std::vector<std::string> choices;  ///< permitted words of a choice
   std::vector<std::string> (*choices_now)() =
       nullptr;                     ///< of a choice that can grow at run time, read at each use instead of `choices`
-  std::string choices_documented;  ///< stands for such a list in the reference, which must not change with it
-  bool single_line = true;         ///< of a string: excludes control characters
-  std::size_t minimum_items = 0;   ///< of a list
-  std::size_t maximum_items = 0;   ///< of a list; 0: unlimited
+  std::string choices_documented;  ///< replaces a list that can grow in the reference, which must not change with it
+  bool single_line = true;         ///< excludes control characters in a string
+  std::size_t minimum_items = 0;   ///< minimum number of items of a list
+  std::size_t maximum_items = 0;   ///< maximum number of items of a list; 0: unlimited
   const Record* record = nullptr;
   std::vector<Type> parts;  ///< the item of a list, or the alternatives of any_of, which must differ in JSON kind
 };

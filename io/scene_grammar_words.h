@@ -13,7 +13,7 @@
 namespace pliant::scene_file {
 
 constexpr double largest_velocity = 1e5;   // [m/s]
-constexpr double largest_quantity = 1e30;  // of other values: products of two still fit a double
+constexpr double largest_quantity = 1e30;  // limit of other quantities: products of two still fit a double
 
 // ------------------------------------------------------------------------------------------------ types
 

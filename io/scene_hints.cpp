@@ -8,7 +8,7 @@ namespace pliant::scene_file {
 
 namespace {
 
-constexpr std::size_t longest_name = 64;  // of compared names: all names of the format are shorter
+constexpr std::size_t longest_name = 64;  // limit of compared names: all names of the format are shorter
 
 std::string nearest_spelling(const std::string& wanted, const std::vector<std::string>& names) {
   std::string best;

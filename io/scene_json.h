@@ -17,13 +17,13 @@ namespace pliant::scene_file {
 struct JsonValue {
   enum class Kind : std::uint8_t { null, boolean, number, string, array, object };
   Kind kind = Kind::null;
-  bool truth = false;            ///< of a boolean
+  bool truth = false;            ///< value of a boolean
   mutable bool used = false;     ///< set when a reader requests the member; unrequested members are errors
   std::uint32_t offset = 0;      ///< first byte of the value
   std::uint32_t key_offset = 0;  ///< first byte of the member's name
   double number = 0;
   std::string key;               ///< name of a member of an object
-  std::string text;              ///< of a string
+  std::string text;              ///< value of a string
   std::vector<JsonValue> items;  ///< elements of an array or members of an object
 
   /// Returns the first member of that name and marks it as used; null if there is none.

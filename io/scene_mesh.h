@@ -31,7 +31,7 @@ struct Placement {
 struct SceneMesh {
   TriangleMesh mesh;
   std::vector<std::string> repairs;
-  int columns = 0, rows = 0;  ///< of a grid, else 0
+  int columns = 0, rows = 0;  ///< size of a grid in vertices, else 0
   Placement placement{};      ///< already applied
 };
 

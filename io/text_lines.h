@@ -18,8 +18,8 @@ class LineReader {
   /// Advances. Returns false at the end.
   bool next();
 
-  std::string_view line() const { return line_; }   ///< without its line end
-  int number() const { return number_; }            ///< of line(), from 1
+  std::string_view line() const { return line_; }   ///< the current line without its line end
+  int number() const { return number_; }            ///< number of line(), from 1
   std::size_t offset() const { return position_; }  ///< byte after line() and its line end
 
  private:

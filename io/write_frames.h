@@ -24,7 +24,7 @@ namespace pliant::output {
 struct FrameObject {
   std::string name;
   Vec3f colour{};       ///< linear RGB
-  float width = 0.01f;  ///< of lines and points [m]
+  float width = 0.01f;  ///< width of lines and points [m]
   int particles = 0;
   std::vector<std::array<int, 3>> triangles;
   std::vector<std::vector<int>> lines;  ///< each the particles along a line; a closed one ends at its start
@@ -33,9 +33,9 @@ struct FrameObject {
 /// The data of one time.
 struct Frame {
   double time = 0;                             ///< [s]
-  std::vector<std::vector<Vec3f>> positions;   ///< of each object's particles [m]
-  std::vector<std::vector<Vec3f>> velocities;  ///< as above, or empty [m/s]
-  std::int64_t number = 0;                     ///< in the run; names the file in formats with one file per frame
+  std::vector<std::vector<Vec3f>> positions;   ///< positions of each object's particles [m]
+  std::vector<std::vector<Vec3f>> velocities;  ///< velocities of each object's particles, or empty [m/s]
+  std::int64_t number = 0;                     ///< number of the frame in the run, used in names of single-frame files
 };
 
 /// Writes one format. Frames must come in time order; finish() completes the files.

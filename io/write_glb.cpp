@@ -92,8 +92,8 @@ class Part {
 
   FrameObject object_;
   Spool spool_;
-  std::vector<Vec3f> positions_, normals_;  // of frame 0
-  std::vector<Bounds> bounds_;              // of each frame's block
+  std::vector<Vec3f> positions_, normals_;  // positions and normals of frame 0
+  std::vector<Bounds> bounds_;              // bounds of each frame's positions
 };
 
 /// The JSON of the file and the layout of its binary part.
@@ -254,7 +254,7 @@ class GlbWriter final : public FormatWriter {
     commit(file_);
   }
 
-  /// In the order of the document's views.
+  /// Writes the buffers in the order of the document's views.
   void write_binary(bool animated) {
     for (Part& part : parts_) {
       if (part.blocks().empty()) continue;

@@ -143,7 +143,7 @@ class Bench {
 
   const Options& options_;
   std::vector<Row> rows_;
-  double first_ms_ = 0;  // of the reference row of its workload and size
+  double first_ms_ = 0;  // milliseconds of the reference row, the first of its workload and size
 };
 
 void check(const Options& options) {

@@ -19,7 +19,7 @@ struct Row {
   double ms_per_frame = 0;       ///< median over the frames; the total time if a workload has no frames
   double ns_per_projection = 0;  ///< whole frame, including prediction and velocity update
   double stretch_mean = 0, stretch_p99 = 0, stretch_max = 0;  ///< length over rest length after the last frame
-  double energy_lost = 0;                                     ///< by frame 40 [J]; W1-quality only
+  double energy_lost = 0;                                     ///< energy lost by frame 40 [J]; W1-quality only
   bool met = true;                                            ///< W1-quality only: the bounds were met
   std::vector<PhaseTime>
       phases{};      ///< of "pliant": milliseconds per frame and phase, from a separate run that times phases
@@ -27,7 +27,7 @@ struct Row {
 };
 
 struct Options {
-  std::string workload;  ///< empty: all of them
+  std::string workload;  ///< name of the workload; empty: all
   std::vector<int> sizes{64, 128, 256, 512};
   int warm_up = 20, frames = 120;  ///< unmeasured and measured frames
   int threads = 0;                 ///< threads of the engine's second run; the first run has one; 0: all

@@ -26,9 +26,9 @@ struct Hinge {
 
 /// The workload in an engine-independent form.
 struct Cloth {
-  Object object;              ///< as Pliant takes it, with pins
+  Object object;              ///< the cloth as an object of Pliant, with pins
   std::vector<Edge> edges;    ///< the object's edges, in the order of their first use by triangles
-  std::vector<Hinge> hinges;  ///< in the same order; empty without bending
+  std::vector<Hinge> hinges;  ///< hinges in the order of their edges; empty without bending
   std::array<int, 2> pins{};
 };
 
@@ -67,7 +67,7 @@ std::unique_ptr<Engine> make_pliant(const Cloth& cloth, Steps steps, int threads
 
 /// The order in which Bullet solves its links.
 enum class BulletOrder {
-  shuffled,  ///< as its helper that converts a mesh leaves them
+  shuffled,  ///< in the order in which its mesh helper leaves them
   spread,    ///< as its ReoptimizeLinkOrder leaves them: neighbours are not adjacent in order; the faster one
 };
 

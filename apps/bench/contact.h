@@ -23,7 +23,7 @@ struct ContactRow {
 
 struct ContactOptions {
   std::vector<int> sizes{100};
-  int frames = 60;  ///< from the start: fall, landing and draping
+  int frames = 60;  ///< measured frames from the start: fall, landing and draping
   std::function<void(const ContactRow&)> on_row;
 };
 

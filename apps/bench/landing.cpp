@@ -45,7 +45,7 @@ class PliantLanding final : public LandingEngine {
     Scene scene;
     scene.settings.substeps = steps.substeps;
     scene.settings.iterations = steps.iterations;
-    scene.settings.sweep = Sweep::tiled;  // as many projections as Bullet
+    scene.settings.sweep = Sweep::tiled;  // with as many projections as Bullet makes
     scene.settings.threads = 1;
     for (const Object& cloth : landing.cloths) scene.add(cloth);
     if (landing.radius > 0) {

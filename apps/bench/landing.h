@@ -15,10 +15,10 @@ namespace pliant::bench {
 struct Landing {
   std::string on;                        ///< "ball" or "cloth"
   int size = 0;                          ///< N
-  std::vector<Object> cloths;            ///< as Pliant takes them; of two, the lower has pinned corners
-  std::vector<std::vector<Edge>> edges;  ///< of each cloth
+  std::vector<Object> cloths;            ///< the cloths as objects of Pliant; of two, the lower has pinned corners
+  std::vector<std::vector<Edge>> edges;  ///< edges of each cloth
   Vec3f ball{};                          ///< centre [m]
-  float radius = 0;                      ///< of the ball [m]; 0: no ball
+  float radius = 0;                      ///< radius of the ball [m]; 0: no ball
 };
 
 /// Throws an Error if `on` is neither.
@@ -53,7 +53,7 @@ struct LandingRow {
 struct LandingOptions {
   std::vector<std::string> on{"ball", "cloth"};  ///< landings
   std::vector<int> sizes{64, 128};
-  int frames = 120;    ///< from the start: fall, landing and draping
+  int frames = 120;    ///< measured frames from the start: fall, landing and draping
   double limit = 120;  ///< time limit of each row [s]
   bool against_bullet = false;
   std::function<void(const LandingRow&)> on_row;

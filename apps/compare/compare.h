@@ -36,7 +36,7 @@ std::vector<std::string> default_methods(const Scene& scene);
 /// The state of a substep after a number of iterations.
 struct Sample {
   int iterations = 0;
-  double milliseconds = 0;  ///< of the whole substep, the fastest of several; monotonic in iterations
+  double milliseconds = 0;  ///< time of the whole substep, the fastest of several; monotonic in iterations
   double residual = 0;      ///< root mean square |C + alpha~ lambda| of the curve's type, in the unit of C
   Stretch stretch;
   bool of_next =
@@ -46,18 +46,18 @@ struct Sample {
 /// The convergence of one method in the substep.
 struct Curve {
   std::string name;
-  std::vector<IterationResidual> record;  ///< after every iteration, from 0, the prediction
+  std::vector<IterationResidual> record;  ///< residuals after every iteration, from 0, the prediction
   std::vector<double> residuals;          ///< the same for the plotted type
-  std::vector<Sample> samples;            ///< at some numbers of iterations, including 1 and the last
+  std::vector<Sample> samples;            ///< measurements at some numbers of iterations, including 1 and the last
 };
 
 /// The best result of one method within the budget.
 struct Budgeted {
   std::string name;
   int substeps = 0, iterations = 0;  ///< the combination within the budget with the least `worst` stretch at p99
-  double milliseconds = 0;           ///< per frame, median
+  double milliseconds = 0;           ///< median of the milliseconds per frame
   Stretch worst;                     ///< maximum over all frames, for each figure separately
-  Stretch last;                      ///< after the last frame
+  Stretch last;                      ///< stretch after the last frame
 };
 
 /// A rejected method and the reason.
@@ -68,7 +68,7 @@ struct Refusal {
 struct Options {
   std::vector<std::string> methods;  ///< empty: default_methods()
   int frame = -1;                    ///< frames before the curves' substep; -1: half of the scene's
-  int substeps = 0;                  ///< per frame, for the curves' substep only; 0: the scene's own
+  int substeps = 0;                  ///< substeps per frame, for the curves' substep only; 0: the scene's own
   int iterations = 100;              ///< maximum of the curves, 1..10000
   double budget = 0;                 ///< milliseconds per frame; 0: curves only
   std::function<void()> pause;       ///< called between measurements; its exceptions pass through

@@ -26,7 +26,7 @@ class Checkpoint {
   std::string path_;
   int every_;
   Fingerprint fingerprint_;
-  State last_;               ///< after the last complete frame
+  State last_;               ///< the State after the last complete frame
   std::int64_t saved_ = -1;  ///< the frame in the file; -1: none
 };
 

@@ -14,7 +14,7 @@ namespace pliant::command {
 /// Changes to a scene's settings for run, render and other commands that simulate.
 struct Overrides {
   std::optional<int> frames, threads, substeps, iterations;
-  std::string sweep;                ///< as "chains" or "chains+tethers"; empty: the scene's own
+  std::string sweep;                ///< name of a sweep with options, "chains+tethers"; empty: the scene's own
   std::string isa;                  ///< empty: the best available
   bool sequential = false;          ///< the scalar reference sweep
   std::vector<std::string> meshes;  ///< "name=path": mesh files for objects and colliders
@@ -74,7 +74,7 @@ struct BenchOptions {
   std::string against;     ///< "bullet", or empty
   std::vector<int> sizes;  ///< empty: 64, 128, 256, 512
   int frames = 120;        ///< measured, after 20 unmeasured ones
-  double limit = 120;      ///< of W3: the time limit of a row [s]
+  double limit = 120;      ///< time limit of a row of W3 [s]
   int threads = 0;         ///< threads of the second run; the first run has one; 0: all
   std::string json;        ///< file for the rows as JSON, empty: none
 };
@@ -84,10 +84,10 @@ int bench(const BenchOptions& options);
 
 struct CompareOptions {
   std::string scene;
-  Overrides overrides;              ///< only `frames` and `threads`
-  std::vector<std::string> sweeps;  ///< as "chains" or "tiled+chebyshev"; empty: all that the scene permits
+  Overrides overrides;              ///< only `frames` and `threads` are used
+  std::vector<std::string> sweeps;  ///< names such as "tiled+chebyshev"; empty: all that the scene permits
   std::optional<int> frame;         ///< frames before the curves' substep; default: half of the scene's
-  int substeps = 0;                 ///< per frame, for the curves' substep; 0: the scene's own
+  int substeps = 0;                 ///< substeps per frame, for the curves' substep; 0: the scene's own
   int iterations = 100;             ///< maximum of the curves
   double budget = 0;                ///< milliseconds per frame; 0: curves only
   std::vector<std::string> out;     ///< a .png, a .json, or both

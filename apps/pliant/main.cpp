@@ -17,7 +17,7 @@ namespace {
 using namespace pliant::command;
 
 constexpr int most = std::numeric_limits<int>::max();
-constexpr int most_threads = 1024;  // as in a scene
+constexpr int most_threads = 1024;  // the limit of scene files, too
 
 void complain(const std::string& message) { std::fprintf(stderr, "pliant: %s\n", one_line(message).c_str()); }
 

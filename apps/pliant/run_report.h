@@ -34,7 +34,7 @@ class RunReport {
  private:
   bool hash_frames_;
   Report last_;
-  IterationCount iterations_;  ///< its mean holds the sum over frames until it is written
+  IterationCount iterations_;  ///< the `mean` member holds the sum over frames until it is written
   PairReport pairs_;           ///< candidates, contacts and intersections of the last frame, the rest summed
   std::vector<double> milliseconds_;
   std::map<std::string, double> phase_sums_;

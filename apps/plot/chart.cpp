@@ -59,8 +59,8 @@ Range padded(Range range, double share) {
 // The layout of a chart.
 struct Layout {
   const Chart& chart;
-  Point upper_left, lower_right;  // of the plot area
-  Range x, y;                     // in linear units
+  Point upper_left, lower_right;  // corners of the plot area
+  Range x, y;                     // ranges of the axes, logarithms on a logarithmic axis
 
   Point place(double px, double py) const {
     const double u = (even(px, chart.logarithmic_x) - x.low) / (x.high - x.low);

@@ -11,7 +11,7 @@ namespace pliant::plot {
 /// One curve. Points that are not finite (or not positive on a logarithmic axis) leave a gap.
 struct Series {
   enum class Style { line, dashed, points };
-  std::string name;  ///< for the legend
+  std::string name;  ///< name in the legend
   std::vector<double> x, y;
   Style style = Style::line;
   int colour = -1;  ///< palette index, so that a curve has the same colour in several charts; -1: its index in the chart

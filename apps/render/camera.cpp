@@ -10,7 +10,7 @@ namespace pliant::render {
 
 namespace {
 constexpr float degree = 3.14159265f / 180;
-constexpr float used_share = 0.86f;  // of the picture's width and height
+constexpr float used_share = 0.86f;  // share of the picture's width and height that the scene fills
 
 /// In one picture direction, a point at (x, z) is visible if |x - eye_x| <= (eye_z - z) * slope. The nearest eye that sees
 /// all points follows from the largest x + z slope and the largest -x + z slope.

@@ -31,7 +31,7 @@ struct Bounds {
   void include(const Vec3f& point, float margin = 0);
   void include(const Bounds& other);
   Vec3f centre() const { return (low + high) * 0.5f; }
-  float radius() const;  ///< of the box's circumscribed sphere
+  float radius() const;  ///< radius of the box's circumscribed sphere
 };
 
 /// Every point that a picture should show: surfaces, tubes, and colliders not much larger than those.

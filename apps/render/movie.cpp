@@ -29,7 +29,7 @@ namespace pliant::render {
 struct MovieWriter::Implementation {
   std::string path, temporary, words_path;
   std::size_t frame_size = 0;
-  int socket = -1, words = -1;  // to ffmpeg; its messages
+  int socket = -1, words = -1;  // descriptors: frames to ffmpeg, and messages from it
   pid_t process = -1;
   bool finished = false;
 

@@ -31,7 +31,7 @@ struct Range {
 struct Eye {
   Camera camera;
   ViewFrame frame;
-  float half_width = 1, half_height = 1;  // of the picture at distance 1
+  float half_width = 1, half_height = 1;  // half sizes of the picture at distance 1
   float near = 0.1f, far = 100;
   Matrix view_projection;
 };

@@ -131,7 +131,7 @@ in vec3 at, facing;
 out vec4 colour;
 uniform vec3 albedo, sun, centre;
 uniform int material;      // 0 cloth, 1 solid, 2 ground
-uniform mat4 light;        // from the world into the shadow map, 0..1
+uniform mat4 light;        // transform from the world into the shadow map, 0..1
 uniform sampler2DShadow shadow;
 uniform sampler2D shadow_depth;
 uniform sampler2D occlusion;

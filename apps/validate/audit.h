@@ -12,7 +12,7 @@ namespace pliant::validate {
 /// The result of an audit.
 struct Audit {
   int frames = 0;
-  int vertices = 0;      ///< of all surfaces, including mesh colliders
+  int vertices = 0;      ///< number of vertices of all surfaces, including mesh colliders
   std::size_t most = 0;  ///< largest number of any frame: edges that cross a triangle or touch one without a common vertex
   int first = -1;        ///< the first frame with an intersection; -1: none
   std::int64_t unresolvable = 0;  ///< summed over all frames
@@ -26,7 +26,7 @@ class Surfaces {
  public:
   explicit Surfaces(const Scene& scene);
 
-  /// Its current state; valid until the next call.
+  /// The surfaces in the World's current state; valid until the next call.
   const TriangleMesh& at(const World& world);
   const TriangleMesh& at_start() const { return mesh_; }
 

@@ -24,7 +24,7 @@ void impact_rows(Result& result) {
   int missed[2] = {0, 0}, false_alarms[2] = {0, 0};
   for (int i = 0; i < queries; ++i) {
     const bool edges = i % 2 == 1, hits = i % 4 < 2;
-    std::array<Vec3f, 4> at, from, to;  // at contact: in the plane z = 0, crossing or 0.1 apart
+    std::array<Vec3f, 4> at, from, to;  // `at`: corners at contact, in the plane z = 0, crossing or 0.1 apart
     const float s = static_cast<float>(random.uniform(0.05, 0.95)), past = hits ? 0.f : 0.1f;
     if (edges) {
       at[0] = {-1, 0, past}, at[1] = {1, 0, past};

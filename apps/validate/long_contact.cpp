@@ -12,7 +12,7 @@ namespace pliant::validate {
 namespace {
 
 constexpr float pi = 3.14159265f;
-constexpr float thickness_of_edge = 0.1f;  // as docs/guide/contact.md advises
+constexpr float thickness_of_edge = 0.1f;  // thickness over edge length, as docs/guide/contact.md advises
 
 /// Self-colliding cotton, for a sheet with edges of length `edge`.
 Object sheet_of(const TriangleMesh& mesh, float edge, const std::string& name = "sheet") {

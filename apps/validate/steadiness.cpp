@@ -12,7 +12,7 @@ constexpr int first_swing = 60;  // frames
 constexpr double speed_limit = 20;
 
 struct Swing {
-  double fastest = 0;      // after the first swing [m/s]
+  double fastest = 0;      // largest speed after the first swing [m/s]
   double energy_gain = 0;  // highest energy over the initial energy [J]
   bool finite = true;
   double mean_stretch = 1, largest_stretch = 1;

@@ -56,7 +56,7 @@ double sinking(const SweepWay& way, int substeps, int iterations) {
   options.material.stretch_stiffness = 25;
   options.bending_model = ClothOptions::Bending::none;
   TriangleMesh mesh = grid_mesh(9, 9, 1, 1);
-  for (Vec3f& x : mesh.positions) x = {x.x, -x.z, 0};  // its first row on top
+  for (Vec3f& x : mesh.positions) x = {x.x, -x.z, 0};  // stands upright, the first row on top
   Object object = make_cloth(mesh, options);
   object.damping = 6;
   for (int i = 0; i < 9; ++i) object.pins.push_back({i, {}});

@@ -50,7 +50,7 @@ class Solver {
   Vec3d gravity{};     ///< [m/s^2]
   double damping = 0;  ///< velocity is multiplied by exp(-damping) per second [1/s]
   int substeps = 1;    ///< >= 1
-  int iterations = 1;  ///< per substep, >= 1
+  int iterations = 1;  ///< iterations per substep, >= 1
   std::vector<Particle> particles;
 
   Solver();
@@ -75,7 +75,7 @@ class Solver {
   /// Advances by dt > 0 [s].
   void step(double dt);
 
-  double kinetic_energy() const;    ///< of all particles except pins [J]
+  double kinetic_energy() const;    ///< kinetic energy of all particles except pins [J]
   double potential_energy() const;  ///< gravitational, relative to the origin [J]
 
  private:

@@ -54,7 +54,7 @@ struct Overstretch {
 struct NonFinite {
   std::string object, element;  ///< "distance constraint 17 (particles 3, 4)", "particle 12"; no object: see World::step
   std::int64_t frame = 0;       ///< complete frames before it
-  int substep = 0;              ///< in the frame after those, from 0
+  int substep = 0;              ///< substep of the frame in which it occurred, from 0
 };
 
 /// The iterations of a step's substeps, which differ only if Settings::tolerance ends some early.
@@ -107,17 +107,17 @@ struct Report {
   std::int64_t frame = 0;
   double time = 0;
   double milliseconds = 0;
-  int substeps = 0;  ///< of this frame (Settings::most_substeps)
+  int substeps = 0;  ///< number of substeps of this frame (Settings::most_substeps)
   std::vector<PhaseTime> phases;
   std::int64_t contacts = 0;  ///< active in the last substep
   PairReport pairs;
   std::vector<Residual> residuals;             ///< if Settings::measure
   std::optional<Stretch> stretch;              ///< if Settings::measure
-  IterationCount iterations;                   ///< of each substep
+  IterationCount iterations;                   ///< iterations per substep
   std::optional<Overstretch> overstretch;      ///< if Settings::measure; World::advice describes it
-  std::vector<IterationResidual> convergence;  ///< of the last substep, if Settings::record_residuals
+  std::vector<IterationResidual> convergence;  ///< of the last substep by iteration, if Settings::record_residuals
   std::optional<NonFinite> nonfinite;
-  bool stopped = false;  ///< by World::stop_when, before the frame was complete
+  bool stopped = false;  ///< stopped by World::stop_when before the frame was complete
   std::vector<std::string> warnings;
 
   bool ok() const { return !nonfinite; }

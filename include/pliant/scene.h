@@ -29,7 +29,7 @@ struct ConstraintGroup {
   std::string type;            ///< "distance", "dihedral_bending", "isometric_bending", ...
   std::vector<int> particles;  ///< stencil after stencil: slots x number of constraints; a frame slot holds a frame's index
   std::vector<float> rest;     ///< rest data, fields x number of constraints; empty: measured from the positions
-  Stiffness stiffness{};       ///< of every constraint in the group
+  Stiffness stiffness{};       ///< stiffness of every constraint in the group
   std::vector<float> compliances;  ///< one alpha per constraint instead of stiffness.value; empty: all equal
 };
 
@@ -61,7 +61,7 @@ struct Pin {
 /// Ties a particle to a moving target by a distance constraint of rest length 0.
 struct Attachment {
   int particle = 0;
-  Vec3f target{};  ///< at time 0 [m]
+  Vec3f target{};  ///< position of the target at time 0 [m]
   Motion motion{};
   Stiffness stiffness{};
 };
@@ -80,8 +80,8 @@ enum class Sweep {
 
 /// An orientation with inertia. A particle and a frame make a rigid body; constraints join frames by their frame slots.
 struct ObjectFrame {
-  Quatf orientation{};       ///< from its principal axes to the world, of unit length
-  Vec3f angular_velocity{};  ///< in world axes [rad/s]
+  Quatf orientation{};       ///< rotation from the principal axes to the world, of unit length
+  Vec3f angular_velocity{};  ///< initial angular velocity in world axes [rad/s]
   Vec3f inertia{1, 1, 1};    ///< moments about its principal axes, > 0; infinity locks that axis [kg m^2]
 };
 
@@ -195,7 +195,7 @@ struct MeshCollider {
 
   std::string name = "mesh";
   TriangleMesh mesh;              ///< [m]
-  Motion motion{};                ///< of the whole mesh
+  Motion motion{};                ///< motion of the whole mesh
   std::vector<MeshFrame> frames;  ///< deformation, linear between frames, constant outside; `motion` is applied after it
   bool repeat_frames = false;     ///< restart after the last frame
   As as = As::triangles;
@@ -322,7 +322,7 @@ struct Scene {
   Wind wind;
   std::vector<ForceField> forces;
   Settings settings;
-  float frame_time = 1.f / 60;  ///< of one frame [s]
+  float frame_time = 1.f / 60;  ///< duration of one frame [s]
   int frames = 120;             ///< the default length of a run
   std::vector<Object> objects;
   std::vector<Collider> colliders;

@@ -80,7 +80,7 @@ struct FrameRecords {
 /// A number or vector per particle that a kind of matter owns, such as a temperature.
 struct Channel {
   std::string name;
-  int components = 1;         ///< per particle
+  int components = 1;         ///< numbers per particle
   std::vector<float> values;  ///< components x particles, in the order of the State
 };
 
@@ -94,7 +94,7 @@ struct State {
   Records positions;               ///< (x, y, z) [m], w the inverse mass [1/kg]
   Records remainders;              ///< rounding residues: the part of the motion below float precision [m]
   Records velocities;              ///< [m/s]
-  FrameRecords frames;             ///< by object, like particles; mostly empty
+  FrameRecords frames;             ///< frames by object, as particles are; mostly none
   std::vector<Channel> channels;   ///< mostly none
   std::vector<HeldPose> held_poses;
 };

@@ -19,7 +19,7 @@ namespace pliant {
 struct ObjectInfo {
   std::string name;
   int particles = 0;
-  std::vector<std::pair<std::string, std::int64_t>> constraints;  ///< by type, "volume" included
+  std::vector<std::pair<std::string, std::int64_t>> constraints;  ///< number of constraints by type, including "volume"
 };
 
 /// The solve counts as good if no distance is longer by more than this share than its force explains [-].
@@ -61,7 +61,7 @@ Edit cut(const Object& object, std::span<const int> path);
 struct WorldLayout {
   struct Slot {
     int number = -1;     ///< of an object or mesh collider in `blocks`, or of a primitive collider; -1: the slot is free
-    int generation = 0;  ///< of the current occupant, or of the next
+    int generation = 0;  ///< generation of the current occupant, or of the next
   };
   std::vector<Slot> objects, colliders, mesh_colliders;  ///< by slot
   std::vector<StateBlock> blocks;                        ///< by index

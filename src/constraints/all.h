@@ -10,7 +10,7 @@
 
 namespace pliant {
 
-/// In the order in which a sweep visits them.
+/// The order of the list is the order of visits in a sweep.
 using AllConstraints = TypeList<Distance, DihedralBending, IsometricBending>;
 
 }  // namespace pliant

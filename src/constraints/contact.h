@@ -31,7 +31,7 @@ struct alignas(64) Contact {
   float static_friction = 0, kinetic_friction = 0, restitution = 0;
   float thickness = 0;                  ///< distance to maintain [m]
   std::array<std::int32_t, 4> point{};  ///< indices into the arrays of the contact's owner
-  std::array<float, 4> weight{};        ///< of each point; 0 in unused slots
+  std::array<float, 4> weight{};        ///< weight of each point; 0 in unused slots
   std::array<float, 4> share{};         ///< displacement of a point per change of r: weight_i w_i / sum_j w_j weight_j^2
   Vec3f surface_motion{};               ///< of the static or kinematic side during the substep [m]
   std::int32_t collider = -1;           ///< index of that side; -1 if the second side has points

@@ -41,7 +41,7 @@ template <class R>
 struct ClosestOnTriangle {
   Vec3<R> point;       ///< weights.x a + weights.y b + weights.z c [m]
   Vec3<R> weights;     ///< barycentric: each in [0, 1], their sum 1 within rounding
-  R distance_squared;  ///< to the given point [m^2]
+  R distance_squared;  ///< squared distance to the given point [m^2]
 };
 
 namespace detail {

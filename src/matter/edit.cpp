@@ -189,7 +189,7 @@ class Cut {
     for (int c = 0; c < static_cast<int>(group.particles.size()) / slots; ++c) {
       const std::vector<int> stencil = stencil_of(group, slots, c);
       const std::vector<int> triangles = triangles_of(stencil, object_, around_);
-      std::map<std::vector<int>, double> sides;  // by copies: the area of the constraint's triangles
+      std::map<std::vector<int>, double> sides;  // triangle area of each side, by the stencil of copies
       double whole = 0;
       for (const int t : triangles) {
         sides[copies(stencil, t, triangles)] += area_of(object_, t);

@@ -26,7 +26,7 @@ class BlockAllocator {
 
  private:
   int end_ = 0;
-  std::map<int, int> owners_;  ///< by the first particle of each non-empty block
+  std::map<int, int> owners_;  ///< owner of each non-empty block, by its first particle
   std::map<int, int> holes_;   ///< size by first particle; no two touch, and none ends at end_
 };
 

@@ -12,9 +12,9 @@ namespace pliant {
 
 struct Carrier {
   Motion motion;
-  std::vector<Vec3f> rest;                 ///< in storage order [m]
+  std::vector<Vec3f> rest;                 ///< rest positions in storage order [m]
   std::vector<float> times;                ///< of the frames [s]; empty: no deformation
-  std::vector<std::vector<Vec3f>> frames;  ///< in storage order [m]
+  std::vector<std::vector<Vec3f>> frames;  ///< positions in each frame, in storage order [m]
   bool repeat = false;
 
   bool deforms() const { return !times.empty(); }

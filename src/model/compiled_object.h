@@ -65,7 +65,7 @@ struct Surface {
 /// The global volume constraint of one object.
 struct CompiledVolume {
   double target = 0;  ///< pressure times six rest volumes [m^3]
-  double mass = 0;    ///< of the surface's free particles [kg]
+  double mass = 0;    ///< total mass of the surface's dynamic particles [kg]
   Law law = Law::compliant;
   float response = 0;  ///< alpha or k'
   float damping = 0;

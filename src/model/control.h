@@ -24,7 +24,7 @@ struct Target {
 };
 
 struct ObjectControl {
-  std::vector<Target> targets;  ///< by particle, ascending
+  std::vector<Target> targets;  ///< targets in ascending order of particles
   std::vector<Vec3f> forces;    ///< in storage order [N]; empty: none
 };
 

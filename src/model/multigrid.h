@@ -31,7 +31,7 @@ struct MultigridLevel {
   // Coarser levels: each block is a sum of blocks of the finer level, given as 16 x slot + lane there. Lane l of slot s
   // starts at sources[source_begin[16 s + l]]. Anchors are blocks between a row and a fixed particle.
   std::vector<std::int32_t> source_begin, sources;
-  std::vector<std::int32_t> anchor_begin, anchors;  ///< by 16 x batch + lane
+  std::vector<std::int32_t> anchor_begin, anchors;  ///< blocks to fixed particles: ranges by 16 x batch + lane, and list
   std::vector<std::int32_t> children;  ///< by batch, largest_group x 16: rows of the finer level, or its `nothing`
 
   std::vector<std::int32_t> parent;  ///< by 16 x batch + lane: row of the next level, or its `nothing`

@@ -39,7 +39,7 @@ struct Phase {
   Driver driver = Driver::tile;
   int colour = 0;             ///< index among the phases of this driver
   std::vector<Task> tasks{};  ///< ordered by object
-  int work = 0;               ///< of all tasks
+  int work = 0;               ///< sum of the work of all tasks
 };
 
 }  // namespace pliant

@@ -25,7 +25,7 @@ inline constexpr int most_slots = 8, most_components = 6, most_rest_fields = 32;
 struct Segment {
   std::int32_t pool = 0;
   std::int32_t runs = 0;         ///< bit s: slot s is contiguous, with four base indices per batch, not sixteen indices
-  std::int32_t first_batch = 0;  ///< in the pool
+  std::int32_t first_batch = 0;  ///< index of its first batch in the pool
   std::int32_t batches = 0;
   std::int32_t last_count =
       0;  ///< in the last batch: valid lanes (1..16), or groups of four (1..4) if a slot is contiguous; the rest is padding

@@ -14,12 +14,12 @@ namespace pliant {
 
 /// The data that a sweep needs of the current substep. Pointers are to the object's first particle.
 struct SweepArguments {
-  const Record* positions = nullptr;    ///< at the substep's start, w is the inverse mass
-  Record* displacements = nullptr;      ///< since then, w is zero
+  const Record* positions = nullptr;    ///< positions at the substep's start, w is the inverse mass
+  Record* displacements = nullptr;      ///< displacements since the substep's start, w is zero
   const Record* remainders = nullptr;   ///< the initial displacements of the substep
   float* const* multipliers = nullptr;  ///< one array per pool, or null if none are stored
   float h = 0, inverse_h = 0, inverse_h2 = 0;
-  bool first_pass = true;  ///< of the substep; multipliers then start at zero
+  bool first_pass = true;  ///< true in the first pass of a substep, in which multipliers start at zero
 
   // For sweep_general only:
   float relaxation = 1;                  ///< omega, factor of every multiplier change

@@ -50,8 +50,8 @@ struct AirOnTriangle {
 
 /// Adds a third of the force of each incident triangle to a particle's velocity.
 struct AirOnParticle {
-  const int *corner_begin, *corners;  ///< of Surface
-  const Vec3f* forces;                ///< per triangle [N]
+  const int *corner_begin, *corners;  ///< Surface::corner_begin and corners
+  const Vec3f* forces;                ///< force on each triangle [N]
   const Record* positions;
   float h;
   Record* velocities;

@@ -19,7 +19,7 @@ struct ContactSum {
   Vec3d moment{};                    ///< sum of impulse x position [N s m]
 };
 
-/// By pairs of bodies, the lower one first.
+/// Sums by pair of bodies, the lower one first.
 using ContactLog = std::map<std::pair<int, int>, ContactSum>;
 
 struct Substep;

@@ -32,7 +32,7 @@ class ContactColours {
 
  private:
   std::vector<std::uint64_t> taken_;  ///< colours of each point; all 0 between calls
-  std::vector<std::uint8_t> colour_;  ///< of each contact
+  std::vector<std::uint8_t> colour_;  ///< colour of each contact
   std::vector<std::int32_t> order_, start_;
 };
 

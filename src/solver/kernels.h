@@ -51,7 +51,7 @@ const StepKernels& step_kernels_sequential();
 
 /// All kernels of one instruction set level. A World picks one.
 struct Kernels : StepKernels {
-  const char* isa;  ///< its name
+  const char* isa;  ///< name of the instruction set level
   const ChainKernels& chains;
   const MultigridKernels& multigrid;
   const ContactKernels& contacts;

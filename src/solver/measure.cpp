@@ -15,7 +15,7 @@ namespace {
 struct View {
   const CompiledObject& object;
   const Record *positions, *velocities, *orientations;
-  const std::vector<AlignedVector<float>>& multipliers;  ///< by pool, empty if not stored
+  const std::vector<AlignedVector<float>>& multipliers;  ///< multipliers by pool, empty if not stored
   double h;
 
   double multiplier(const ConstraintPlace& at, int component = 0) const {

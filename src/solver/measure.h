@@ -16,7 +16,7 @@ std::vector<Residual> measure_residuals(const Model& model, const State& state, 
 /// The results of measure_lengths and its scratch memory, kept so that only the first frame allocates.
 struct Lengths {
   Stretch stretch;          ///< of all distance constraints with a rest length
-  Overstretch overstretch;  ///< of those except PBD; multipliers and h as in measure_residuals
+  Overstretch overstretch;  ///< of the same except PBD ones; multipliers and h as in measure_residuals
   std::vector<float> ratios, excesses;
 };
 

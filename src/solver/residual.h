@@ -21,7 +21,7 @@ struct ResidualScratch {
   };
   std::vector<Task> tasks;
   std::vector<double> squares;   ///< sum of squared residuals, one per task [m^2]
-  std::int64_t constraints = 0;  ///< of all tasks
+  std::int64_t constraints = 0;  ///< number of constraints of all tasks
 };
 
 /// Collects the segments of all objects.

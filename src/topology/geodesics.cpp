@@ -18,7 +18,7 @@ struct Neighbour {
 /// A triangle as seen from one of its corners.
 struct Corner {
   int next, last;                   ///< the other two corners
-  double to_next, to_last, across;  ///< lengths: from the corner to each of them, and between them
+  double to_next, to_last, across;  ///< distances from the corner to the other two, and between those
 };
 
 /// The distance from the source to a triangle's third corner in the plane of the unfolded triangle. The source is `da` and

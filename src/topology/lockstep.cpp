@@ -219,7 +219,7 @@ class Growth {
 
   const Neighbours& neighbours_;
   const std::array<std::vector<int>, patches>& members_;
-  std::vector<int>& rank_of_;  // of every particle; -1 if it is not numbered yet
+  std::vector<int>& rank_of_;  // rank of every particle; -1 if it is not numbered yet
   std::vector<int>& passed_;   // how many leading neighbours of each particle are known to be numbered
   std::vector<Rank> ranks_;
   std::vector<std::vector<int>> links_;  // the linked ranks of each rank

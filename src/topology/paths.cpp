@@ -203,7 +203,7 @@ class PathColouring {
   }
 
   std::vector<Path> paths_;
-  std::vector<Vec3d> along_;  // from the first to the last vertex
+  std::vector<Vec3d> along_;  // vector from the first to the last vertex of each path
   std::vector<int> left_;     // longest first
   std::vector<int> taken_by_;
   int colour_ = 0;

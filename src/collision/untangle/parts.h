@@ -8,7 +8,7 @@
 namespace pliant {
 
 struct Parts {
-  std::vector<int> of;  ///< of each vertex; numbered by first vertices
+  std::vector<int> of;  ///< part of each vertex; parts are numbered by their first vertices
   int count = 0;
 };
 

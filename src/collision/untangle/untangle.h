@@ -93,7 +93,7 @@ class Untangler {
   std::vector<int> piece_;          ///< for each vertex on a wrong side, the index of its piece; as long as wrong_side_of_
   std::vector<Push> pushes_;
   std::vector<char> led_;                      ///< parts with a speed limit; empty: none
-  std::vector<std::pair<int, float>> speeds_;  ///< predicted speeds of all vertices of those parts [m/s]
+  std::vector<std::pair<int, float>> speeds_;  ///< predicted speed of each vertex of parts with a speed limit [m/s]
   std::int64_t inside_ = 0;
 };
 

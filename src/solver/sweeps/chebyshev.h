@@ -39,7 +39,7 @@ struct ChebyshevRecurrence {
   double spectral_radius = 0;                    ///< rho in use
   double weight = 1;                             ///< omega
   double polynomial = 1, polynomial_before = 1;  ///< T_n(1 / rho), the Chebyshev polynomial, n = steps; and T_(n-1)
-  int steps = -1;                                ///< since its start; -1: not started
+  int steps = -1;                                ///< steps since the recurrence's start; -1: not started
   double plain_norm = 0;                         ///< norm of the first correction of the substep
   double first_norm = 0;                         ///< norm when acceleration started
   double start_norm = 0, last_norm = 0;          ///< norm when the recurrence was started, and the latest norm

@@ -17,7 +17,7 @@ namespace pliant {
 /// The Jacobi sweep of one object.
 struct JacobiObject {
   Incidence incidence;
-  Records corrections;                       ///< of all constraints' particles, by pool
+  Records corrections;                       ///< corrections of all slots of all constraints, by pool
   std::vector<Record*> correction_pointers;  ///< one per pool
   std::vector<AlignedVector<float>> shares;  ///< one per lane, from averaging_shares; empty if masses are split
   std::vector<const float*> share_pointers;

@@ -22,8 +22,8 @@ struct MultigridObject {
   std::vector<MultigridValues> levels;
   Records direction, change;    ///< vectors of conjugate gradients: p, x
   AlignedVector<float> extra;   ///< of contacts: nine rows of sixteen per batch; empty before the first contact
-  std::vector<char> has_extra;  ///< by batch
-  std::vector<double> sums;     ///< by task
+  std::vector<char> has_extra;  ///< by batch: true if its rows have contacts
+  std::vector<double> sums;     ///< partial sums of reductions, by task
   /// Per connected piece: its stiffness against the world (xx yy zz xy xz yz), and the remaining force on it.
   struct Piece {
     double held[6], force[3];
@@ -43,14 +43,14 @@ struct ContactSpring {
 
 /// A contact between surfaces (constraints/contact.h) as springs between the closest points of its two sides.
 struct PairSpring : ContactSpring {
-  std::int32_t contact = 0;              ///< its index
+  std::int32_t contact = 0;              ///< index of the contact
   std::array<std::int32_t, 4> object{};  ///< of each particle; -1: not moved by this correction
   std::array<std::int32_t, 4> particle{};
   std::array<float, 4> weight{};
   Vec3f normal{};
 };
 
-/// Its stiffness, normal and tangential, as xx yy zz xy xz yz [N/m].
+/// The stiffness of a spring, normal and tangential, as xx yy zz xy xz yz [N/m].
 std::array<float, 6> block_of(const PairSpring& spring);
 
 /// Objects connected by contacts, and these contacts.

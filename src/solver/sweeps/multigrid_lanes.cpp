@@ -14,7 +14,7 @@ constexpr float damping = 0.65f;
 constexpr float coarse_stiffness = 0.5f;
 /// Regularisation of a diagonal block's inverse against rounding, as a share of its trace.
 constexpr float least_share = 1e-6f;
-/// Of a block divided by its trace: below this it is a rounding error.
+/// Least determinant of a block divided by its trace; below it is a rounding error.
 constexpr float least_determinant = 1e-20f;
 
 /// A symmetric 3 x 3 block.

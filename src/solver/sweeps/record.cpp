@@ -17,7 +17,7 @@ namespace {
 struct View {
   const CompiledObject& object;
   SweepArguments arguments;
-  const Record* orientations;                            ///< of the object's frames
+  const Record* orientations;                            ///< orientations of the object's frames
   const std::vector<AlignedVector<float>>* multipliers;  ///< null: all are still zero
   std::vector<Vec3d>& explained;                         ///< w grad C^T lambda of each particle
   std::vector<char>& left_out;                           ///< particles moved by a constraint without a multiplier

@@ -22,7 +22,7 @@ struct SweepSetup {
   const Model& model;
   const Workspace& workspace;  ///< provides the stored multipliers
   const SweepOptions& options;
-  Sweep sweep = Sweep::tiled;  ///< of the group
+  Sweep sweep = Sweep::tiled;  ///< sweep of the group
   int threads = 1;
 
   /// True if an object belongs to the group.
