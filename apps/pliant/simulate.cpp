@@ -25,7 +25,7 @@ void set_sweep(const std::string& name, Settings& settings) {
   settings.sweep_options = method.options;
 }
 
-/// `tiled` has the reference `sequential`; other sweeps run their scalar code path.
+/// Selects scalar code: the sweep `sequential` in place of `tiled`, or the scalar code path of other sweeps.
 void set_plain(Scene& scene) {
   scene.settings = chosen_settings(scene);
   if (scene.settings.sweep == Sweep::tiled)

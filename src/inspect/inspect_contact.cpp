@@ -220,7 +220,7 @@ void check_pairs(Problems& problems, const Scene& scene) {
     const std::string name = "pair " + std::to_string(i);
     for (const std::string& one : {pair.first, pair.second})
       if (!exists(one))
-        problems.grave(name, "is of '" + one + "', which is no object or mesh collider", "use the name of one");
+        problems.grave(name, "names '" + one + "', which is not an object or mesh collider", "use the name of one");
     require_range(problems, name + ", thickness", pair.thickness.value_or(0), 0, largest_place);
     require_range(problems, name + ", static_friction", pair.static_friction.value_or(0), 0, largest_place);
     require_range(problems, name + ", kinetic_friction", pair.kinetic_friction.value_or(0), 0, largest_place);

@@ -182,7 +182,7 @@ struct SweepsInUse {
     particles = object.positions.size();
   }
 
-  /// Returns automatic if the sweeps differ.
+  /// The sweep of all objects, or automatic if the sweeps differ.
   Sweep common(Sweep of_none) const {
     return uses.empty() ? of_none : uses.size() == 1 ? uses.begin()->first : Sweep::automatic;
   }

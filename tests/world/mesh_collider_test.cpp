@@ -229,7 +229,7 @@ TEST(Pairs, AreRefusedWhereTheyNameNobody) {
     World world(scene);
     FAIL() << "was made";
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "pair 0: is of 'nobody', which is no object or mesh collider; use the name of one");
+    EXPECT_STREQ(error.what(), "pair 0: names 'nobody', which is not an object or mesh collider; use the name of one");
   }
 }
 

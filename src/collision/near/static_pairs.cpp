@@ -47,9 +47,9 @@ bool share_vertex(const std::array<int, 2>& e, const std::array<int, 2>& f) {
 
 /// Pairs by kind: vertex-triangle and edge-edge.
 struct MeshPairs {
-  std::vector<Numbers> near[2];     ///< connected by one edge
-  std::vector<Numbers> sharing[2];  ///< with a common vertex
-  std::vector<Numbers> joined;      ///< adjacent vertices
+  std::vector<Numbers> near[2];     ///< pairs of primitives connected by one edge
+  std::vector<Numbers> sharing[2];  ///< pairs with a common vertex
+  std::vector<Numbers> joined;      ///< pairs of adjacent vertices
 };
 
 /// The elements incident to the vertices of one body.
