@@ -67,8 +67,8 @@ std::unique_ptr<Engine> make_pliant(const Cloth& cloth, Steps steps, int threads
 
 /// The order in which Bullet solves its links.
 enum class BulletOrder {
-  shuffled,  ///< in the order in which its mesh helper leaves them
-  spread,    ///< as its ReoptimizeLinkOrder leaves them: neighbours are not adjacent in order; the faster one
+  shuffled,  ///< in the order in which Bullet's mesh helper leaves them
+  spread,    ///< as Bullet's ReoptimizeLinkOrder leaves them: consecutive links share no particle; the faster one
 };
 
 /// Null if this build lacks Bullet. Edges only.

@@ -225,7 +225,7 @@ struct Wind {
   Vec3f velocity{};       ///< [m/s]
   float gust = 0;         ///< 0..1: amplitude of the gust as a share of the wind [-]
   float gust_period = 2;  ///< [s]
-  float air_density = 0;  ///< 0: no air at all; 1.2 at sea level [kg/m^3]
+  float air_density = 0;  ///< density of the air; 0: no air; 1.2 at sea level [kg/m^3]
 };
 
 /// A force on a particle [N] from its position [m], velocity [m/s], mass [kg] and the time [s]. It must not use libm if a

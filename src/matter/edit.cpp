@@ -223,7 +223,7 @@ class Cut {
   const Object& object_;
   const std::set<Edge>& edges_;
   Around around_;
-  std::map<std::pair<int, int>, int> copies_;  ///< by particle and triangle
+  std::map<std::pair<int, int>, int> copies_;  ///< index of the copy that a triangle uses, by particle and triangle
   std::vector<int> origins_;                   ///< original particle of each copy
 };
 

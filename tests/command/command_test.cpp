@@ -125,8 +125,8 @@ TEST_F(Command, ErrorsGiveOneAndOneLine) {
   expect_refused("run missing.json", 1, "missing.json");
   expect_refused("run small.json --out cloth.doc", 1, "cloth.doc");
   expect_refused("run small.json --out small.json/cloth.glb", 1, "small.json/cloth.glb: cannot write: ");
-  expect_refused("run small.json --report small.json/report.json", 1, "small.json' is no folder");
-  expect_refused("render small.json --out small.json/a.png", 1, "small.json' is no folder");
+  expect_refused("run small.json --report small.json/report.json", 1, "small.json' is not a folder");
+  expect_refused("render small.json --out small.json/a.png", 1, "small.json' is not a folder");
   expect_refused("render small.json --out small.json", 1, "neither .png nor .mp4");
   expect_refused("run small.json --report /proc/self/nowhere/report.json", 1, "/proc/self/nowhere/report.json: cannot");
   expect_refused("run small.json --report small.json", 1, "twice");
@@ -401,7 +401,7 @@ TEST_F(Command, CompareShowsEverySweepAndWritesPictureAndNumbers) {
       pliant("compare small.json --iterations 2 --sweeps tiled,natural+chebyshev --frame 1 --frames 2 --budget-ms 100000");
   EXPECT_EQ(few.status, 0) << few.err;
   EXPECT_NE(few.out.find("left out: natural+chebyshev: "), std::string::npos) << few.out;
-  EXPECT_NE(few.out.find("within 100000 ms a frame, 2 frames"), std::string::npos) << few.out;
+  EXPECT_NE(few.out.find("within 100000 ms per frame, 2 frames"), std::string::npos) << few.out;
 }
 
 TEST_F(Command, CompareRefusesWhatItCannotDo) {

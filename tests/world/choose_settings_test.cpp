@@ -35,9 +35,9 @@ void expect_chosen(const Scene& scene, Sweep sweep, int substeps, const std::str
 TEST(ChosenSettings, AreMultigridForCloth) { expect_chosen(sheet(40, 1), Sweep::multigrid, 10, "1600 particles"); }
 
 TEST(ChosenSettings, ArePlainForWhatIsCoarse) {
-  expect_chosen(sheet(5, 1), Sweep::tiled, 20, "so fine");
+  expect_chosen(sheet(5, 1), Sweep::tiled, 20, "fewer than 32");
   expect_chosen(sheet(6, 1), Sweep::multigrid, 10, "36 particles");
-  expect_chosen(Scene{}, Sweep::tiled, 20, "so fine");
+  expect_chosen(Scene{}, Sweep::tiled, 20, "fewer than 32");
 }
 
 TEST(ChosenSettings, ArePlainForVolumes) {
@@ -75,7 +75,7 @@ TEST(ChosenSettings, ArePlainWherePbdStiffnessOrIterationsSaySo) {
   expect_chosen(sheet(20, 1, options), Sweep::tiled, 20, "a quarter of its size");
   options.bending.reset();
   options.stretch = Stiffness::pbd(0.9f);
-  expect_chosen(sheet(20, 1, options), Sweep::tiled, 20, "so fine");
+  expect_chosen(sheet(20, 1, options), Sweep::tiled, 20, "fewer than 32");
   Scene scene = sheet(20, 1);
   scene.settings.iterations = 2;
   expect_chosen(scene, Sweep::tiled, 20, "more than one iteration");
@@ -158,7 +158,7 @@ TEST(ChosenSettings, AreNotDecidedByAFewStiffHingesOrLooseParticles) {
   Object loose = chain(40, 0.1f);
   loose.constraints[0].particles.resize(2);
   scene.add(loose);
-  expect_chosen(scene, Sweep::tiled, 20, "so fine");
+  expect_chosen(scene, Sweep::tiled, 20, "fewer than 32");
 }
 
 TEST(ChosenSettings, AreFoundForScenesThatWillBeRefused) {

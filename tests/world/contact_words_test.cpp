@@ -122,7 +122,7 @@ TEST(Cost, OfAThicknessOfManyEdgesIsSaid) {
       << dear;
   scene.objects[0].thickness = 4.5f / 30;  // nine edges kept: 1.33 million pairs were counted at 30 x 30, 1480 a vertex
   const std::string refused = words_of(scene);
-  EXPECT_TRUE(says(refused, "wrong: object 'sheet', thickness: is 0.15 m, and the median edge 0.0333 m")) << refused;
+  EXPECT_TRUE(says(refused, "wrong: object 'sheet', thickness: is 0.15 m, and the median edge is 0.0333 m")) << refused;
 }
 
 TEST(Cost, OfAMeshThatIsFineInOnePlaceIsSaid) {
@@ -136,7 +136,7 @@ TEST(Cost, OfAMeshThatIsFineInOnePlaceIsSaid) {
   cloth.self_collision = true;
   cloth.thickness = 0.01f;
   scene.add(cloth);
-  EXPECT_TRUE(says(words_of(scene), "contact would look at some 3692 pairs a vertex")) << words_of(scene);
+  EXPECT_TRUE(says(words_of(scene), "contact would test about 3692 pairs per vertex")) << words_of(scene);
 }
 
 TEST(Start, NearerThanTheTwoKeepIsDoubted) {
