@@ -171,7 +171,7 @@ void refuse_force_fields(const Scene& scene) {
 
 }  // namespace
 
-// ---------------------------------------------------------------- for users
+// ---------------------------------------------------------------- public functions
 
 Fingerprint fingerprint(const Scene& scene) {
   Settings settings = chosen_settings(scene);

@@ -33,7 +33,7 @@ struct FrameArguments {
   Record* orientations = nullptr;
   const Record* inverse_inertias = nullptr;
   const Record* predicted = nullptr;  ///< rotation vectors of the prediction, in world axes [rad]
-  Record* corrections = nullptr;      ///< sum of the constraints' corrections since then [rad]
+  Record* corrections = nullptr;      ///< rotation vectors: sums of the constraints' corrections since the prediction [rad]
 };
 
 /// The data needed to advance particles from one substep to the next.

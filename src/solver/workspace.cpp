@@ -8,7 +8,7 @@ namespace pliant {
 
 namespace {
 
-/// Rigid constraints move the same whatever their multipliers are, and PBD has none.
+/// Rigid constraints move the same whatever their multipliers are, and PBD constraints have none.
 bool needs_multipliers(const Pool& pool) {
   const std::size_t response = pool.row_offset.size() - (pool.law == Law::damped ? 2 : 1);
   const bool rigid = pool.row_offset[response] < 0 && *pool.row(static_cast<int>(response), 0) == 0;
@@ -27,7 +27,7 @@ void prepare_multipliers(const CompiledObject& object, Multipliers kept, std::ve
   for (AlignedVector<float>& values : multipliers) pointers.push_back(values.empty() ? nullptr : values.data());
 }
 
-/// What is indexed by objects, particles and tiles.
+/// Resizes everything that is indexed by objects, particles and tiles.
 void resize(const Model& model, Workspace& workspace) {
   const std::size_t objects = model.objects.size();
   workspace.displacements.resize(model.particles());

@@ -29,7 +29,7 @@ struct alignas(64) TileScratch {
 
 /// The time for which gravity of the current frame has acted on an object's particles, reduced by damping [s].
 struct FrameGravity {
-  double finished = 0, begun = 0, settled = 0;  ///< in the ending substep, in the starting one, and between them
+  double finished = 0, begun = 0, settled = 0;  ///< of the ending substep, the starting one, and already in velocities
   float kept = 1;                               ///< factor of the velocity after damping in a substep
 
   void next(float h) {
@@ -47,7 +47,7 @@ struct FrameScratch {
 
 /// Memory that a World reuses from step to step. Over fifteen members: one buffer for each stage of a substep.
 struct Workspace {
-  Records displacements;                                       ///< since the substep's start [m]
+  Records displacements;                                       ///< displacements since the substep's start [m]
   std::vector<std::vector<AlignedVector<float>>> multipliers;  ///< [object][pool], one float per lane; empty if not stored
   std::vector<std::vector<float*>> multiplier_pointers;
   FrameScratch frames;
@@ -56,21 +56,21 @@ struct Workspace {
   std::vector<std::vector<Vec3f>> triangle_forces;  ///< [object], if there is air
   std::vector<TileScratch> tiles;                   ///< one per tile task
   std::vector<MovingCollider> colliders;
-  std::unique_ptr<ContactLog> contact_log;  ///< of the current frame; null if not requested
-  Control control;                          ///< of the current frame
+  std::unique_ptr<ContactLog> contact_log;  ///< contact sums of the current frame; null if not requested
+  Control control;                          ///< user control of the current frame
   std::vector<FrameGravity> gravity;        ///< one per object
   std::vector<Records> anchors;             ///< [object], position and displacement of each tether anchor
   SweepGroups sweeps;                       ///< the sweeps in use
   Records predicted;                        ///< predicted displacements, if residuals are recorded
   std::unique_ptr<SurfaceContact> pairs;    ///< null if no dynamic surface can touch another
-  ContactSolver contact_solver;             ///< of the contacts of `pairs`
-  ShapeContacts shape_contacts;             ///< of edges and triangles with primitive colliders
+  ContactSolver contact_solver;             ///< solver of the contacts of `pairs`
+  ShapeContacts shape_contacts;             ///< contacts of edges and triangles with primitive colliders
   ContactSolver shape_contact_solver;
-  bool look_for_tangles = true;  ///< in the next frame: the first, or after a restored State
-  ResidualScratch residual;      ///< for stopping at a tolerance
+  bool look_for_tangles = true;  ///< search for initial intersections in the next frame: the first, or after a restore
+  ResidualScratch residual;      ///< data of the residual for stopping at a tolerance
 };
 
-/// Which multipliers are stored: those that a second iteration needs, or all.
+/// Which multipliers are stored: none, those that a second iteration needs, or all.
 enum class Multipliers { none, needed, all };
 
 /// Resizes everything for a model except its sweeps.

@@ -1,4 +1,4 @@
-// A State put back, and its hash.
+// Restores a State, and computes its hash.
 #include <algorithm>
 #include <cmath>
 
@@ -10,10 +10,10 @@ namespace pliant {
 
 namespace {
 
-/// So many frames no run takes; counting on from there stays far from the end of the integers.
+/// Limit of the frame number, far from the integer limit, so that later counting cannot overflow.
 constexpr std::int64_t largest_frame = std::int64_t{1} << 60;
 
-/// They belong to the last substep, and a restored state has none: what is read then is the same in any World.
+/// Clears multipliers: they belong to the last substep, which a restored State does not have.
 void forget_multipliers(Workspace& workspace) {
   for (auto& object : workspace.multipliers)
     for (auto& values : object) std::fill(values.begin(), values.end(), 0.f);
@@ -52,7 +52,7 @@ void require_channels(const State& state) {
   }
 }
 
-/// Whether blocks are as in a World of which nothing was removed or edited.
+/// True if blocks are contiguous, as in a World without removals and edits.
 bool follow_one_another(const std::vector<StateBlock>& blocks) {
   int first = 0;
   for (const StateBlock& block : blocks) {

@@ -24,7 +24,7 @@ Vec3d start_of(const Record& x, const Record& origin) {
 /// Heights of the four particles along the normal, at the start and at the end.
 struct Heights {
   double start[4], end[4];
-  double lowest_first = 1e300, highest_second = -1e300;  // at the start
+  double lowest_first = 1e300, highest_second = -1e300;  // heights at the substep's start
   double lowest_first_ever = 1e300, highest_second_ever = -1e300;
   double first_sinks = 0, second_rises = 0;                    // largest approach of each side
   bool first_moves = false, second_moves = false;              // the filter can limit their steps

@@ -33,7 +33,7 @@ class StepFilter {
   /// Counts of this frame: vertices with a truncated step, once per substep; and unresolvable pairs.
   std::int64_t truncated() const { return truncated_; }
   std::int64_t unresolvable_count() const { return unresolvable_count_; }
-  /// By bodies, the lower one first.
+  /// Unresolvable pairs by bodies, the lower one first.
   const std::map<std::pair<int, int>, UnresolvablePairs>& unresolvable() const { return unresolvable_; }
 
  private:
@@ -55,8 +55,8 @@ class StepFilter {
 
   const PairModel& model_;
   std::vector<Scratch> scratch_;
-  std::vector<float> share_;                          ///< of each vertex's step, in a round
-  std::vector<std::int32_t> touched_, truncated_in_;  ///< vertices, in a round and in a substep
+  std::vector<float> share_;                          ///< permitted share of each vertex's step in the current round
+  std::vector<std::int32_t> touched_, truncated_in_;  ///< vertices changed in the current round; truncated in the substep
   std::int64_t truncated_ = 0, unresolvable_count_ = 0;
   std::map<std::pair<int, int>, UnresolvablePairs> unresolvable_;
 };

@@ -10,7 +10,7 @@ namespace pliant {
 
 namespace {
 
-/// What overlaps at the start separates at this speed at most, so that it neither explodes nor tears its own constraints
+/// Limit of the depenetration speed, so that deep overlaps neither explode nor tear the object's own constraints
 /// [m/s].
 constexpr float largest_separation_speed = 2;
 
@@ -26,12 +26,13 @@ bool overlap(const PointBounds& a, const BoundingBox<float>& b, float margin) {
 /// A plane that a particle must stay above.
 struct SurfacePlane {
   bool found = false;
-  Vec3f normal{};  // in the collider's frame, like the point
-  Vec3f point{};   // of the surface
+  Vec3f normal{};  // unit normal in the collider's frame
+  Vec3f point{};   // a point of the surface in the collider's frame
   float offset = 0;
 };
 
-/// A path that meets a solid ends no farther from it than it is long; ground is measured along its columns, which may end anywhere.
+/// False if a path cannot meet a solid, because its end is farther away than its length. Distances to terrain jump, so
+/// it may always.
 bool may_meet(const LocalShape&, const SurfaceDistance<float>& end, float thickness, float path) {
   return end.distance < thickness + path;
 }
@@ -39,8 +40,9 @@ bool may_meet(const SolidField&, const SurfaceDistance<float>&, float, float) { 
 
 SurfaceDistance<float> signed_distance(const SolidField& field, const Vec3f& p) { return field.distance(p); }
 
-/// How far from a solid a path began: of ground, whose distance jumps at its open sides and from column to column, no farther than
-/// its end allows. Else what comes in deep below would be taken for something that has just crossed the surface, and thrown up.
+/// The distance to a solid at a path's start. Distances to terrain jump at its open sides and between columns, so they
+/// are limited by the distance at the end. Otherwise a particle that enters deep below would seem to have just crossed
+/// the surface.
 float distance_before(const LocalShape& shape, const Vec3f& a, const SurfaceDistance<float>&, float) {
   return signed_distance(shape, a).distance;
 }
@@ -51,15 +53,15 @@ FirstHit<float> first_hit(const SolidField& field, const Vec3f& a, const Vec3f& 
   return field.first_hit(a, b, margin);
 }
 
-/// The plane for a particle on its way from a to b, in the collider's frame. Continuous where the path is long: the surface
-/// where it enters, or where it begins if that is within the thickness or inside, since the side that a particle is on is
-/// the side it stays on. Else static: the closest point of the surface.
+/// The contact plane for a particle on its way from a to b, in the collider's frame. On a long path (continuous): the
+/// plane at the entry point, or at the start if that is within the thickness or inside, because a particle stays on its
+/// side. On a short path (static): the plane at the closest surface point.
 template <class Solid>
 SurfacePlane surface_plane(const Solid& solid, const Vec3f& a, const Vec3f& b, float thickness, float h) {
   const SurfaceDistance<float> end = signed_distance(solid, b);
   const float path = length(b - a);
   if (!may_meet(solid, end, thickness, path)) return {};
-  // From inside, out no faster than the cap; from outside, this is the thickness itself.
+  // Limits depenetration from inside; for a start outside this is the thickness itself.
   const auto kept = [&](float start) { return min(thickness, start + largest_separation_speed * h); };
   if (path > 0.25f * thickness) {
     const FirstHit<float> hit = first_hit(solid, a, b, 0.5f * thickness);
@@ -77,7 +79,7 @@ SurfacePlane surface_plane(const Solid& solid, const Vec3f& a, const Vec3f& b, f
 
 namespace {
 
-/// A box in a pose, grown.
+/// The bounding box of a field's box in a pose, grown by a margin.
 BoundingBox<float> bounding_box(const SolidField& field, const Pose<float>& pose, float margin) {
   const BoxBounds box = field.bounds();
   Vec3f low{3e38f, 3e38f, 3e38f}, high{-3e38f, -3e38f, -3e38f};
@@ -91,7 +93,7 @@ BoundingBox<float> bounding_box(const SolidField& field, const Pose<float>& pose
   return {low - Vec3f{grown, grown, grown}, high + Vec3f{grown, grown, grown}};
 }
 
-/// Where a collider is at a time, and whether it moves at all.
+/// Sets a collider's poses at the start and the end of a substep, and whether it moves.
 template <class From, class MotionPose>
 void move(const From& from, const PoseDrive* drive, const MotionPose& motion_pose, double time_before, double time_after,
           MovingCollider& to) {
@@ -135,7 +137,7 @@ void move_colliders(const Model& model, const Control& control, double time_befo
 
 namespace {
 
-/// A contact of particle i, appended where there is one.
+/// Appends a contact of particle i with a collider, if there is one.
 void find_contact(const ContactSearch& search, int i, int number, float thickness, std::vector<Contact>& contacts) {
   const MovingCollider& collider = search.colliders[number];
   const AdvanceArguments& a = search.particles;
@@ -153,7 +155,7 @@ void find_contact(const ContactSearch& search, int i, int number, float thicknes
   contact.thickness = thickness;
   contact.collider = number;
   contact.normal = rotate(collider.after.rotation, plane.normal);
-  // The plane in the world: through the same point, at the same distance from it.
+  // The plane in world coordinates, with the same point and the same offset from it.
   const float above = plane.offset - dot(plane.normal, plane.point);
   contact.gap = dot(contact.normal, position - to_world(collider.after, plane.point)) - above;
   if (collider.moves)
@@ -168,8 +170,8 @@ void find_contact(const ContactSearch& search, int i, int number, float thicknes
   contacts.push_back(contact);
 }
 
-/// Particles that need a closer look at a collider: all of the tile's where the collider moves, since its motion counts
-/// too.
+/// Finds the particles to test against a collider: all particles of the tile if the collider moves, because its motion
+/// counts too.
 int find_near(const ContactSearch& search, const MovingCollider& collider, float thickness,
               std::vector<std::int32_t>& near) {
   const AdvanceArguments& a = search.particles;
@@ -178,7 +180,7 @@ int find_near(const ContactSearch& search, const MovingCollider& collider, float
     for (int i = a.first; i < a.last; ++i) near[i - a.first] = i;
     return a.last - a.first;
   }
-  // More than the rounding by which the two ways to a distance differ.
+  // Exceeds the rounding difference between the two distance computations.
   const PointBounds& b = search.bounds;
   const float reach = max(largest(Vec3f{b.low.x, b.low.y, b.low.z}), largest(Vec3f{b.high.x, b.high.y, b.high.z}));
   const float slack = 1e-6f + 1e-5f * (reach + largest(collider.after.position) + thickness);
@@ -190,7 +192,7 @@ int find_near(const ContactSearch& search, const MovingCollider& collider, float
 
 namespace {
 
-/// Primitives are met by everything.
+/// True if an object and a collider can meet. Primitive colliders meet every object.
 bool meet(const CompiledObject& object, const MovingCollider& collider) {
   if (object.is_collider) return false;
   return collider.field == nullptr || ((object.groups & collider.mask) != 0 && (collider.groups & object.mask) != 0);
@@ -210,7 +212,7 @@ void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near,
 
 void find_breaches(const ContactSearch& search, const std::vector<Contact>& known, std::vector<std::int32_t>& near,
                    std::vector<Contact>& contacts) {
-  // Constraints move what they move by less than this beyond the bounds of the prediction.
+  // Constraints rarely move particles farther than this beyond the bounds of the prediction.
   const PointBounds& b = search.bounds;
   const float margin =
       search.object.thickness + 0.1f * largest(Vec3f{b.high.x - b.low.x, b.high.y - b.low.y, b.high.z - b.low.z});

@@ -16,7 +16,7 @@ inline float least_dip(float radius, float thickness) { return max(0.5f * thickn
 
 /// About thirty neighbouring vertices, the elements whose lowest vertex is one of them, and those elements' other vertices.
 struct ElementCluster {
-  std::vector<int> vertices;              ///< in the object's order, ascending
+  std::vector<int> vertices;              ///< indices in the object, ascending
   std::vector<std::array<int, 2>> edges;  ///< indices into `vertices`
   std::vector<Triangle> triangles;
 };

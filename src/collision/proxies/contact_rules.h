@@ -14,11 +14,11 @@ namespace pliant {
 /// The contact settings of a body.
 struct ContactBody {
   std::uint32_t groups = 1, mask = ~0u;
-  bool collides = true;       ///< with other bodies that collide
+  bool collides = true;       ///< true if it collides with other bodies that have `collides`
   bool is_collider = false;   ///< also meets bodies that do not collide
   bool is_immovable = false;  ///< static or kinematic: two such bodies never meet
   bool meets_itself = false;
-  float thickness = 0;  ///< two bodies maintain the sum of theirs [m]
+  float thickness = 0;  ///< thickness; two bodies keep the sum of theirs [m]
   float static_friction = 0, kinetic_friction = 0, restitution = 0;
 };
 
@@ -35,7 +35,7 @@ class ContactRules {
   bool meet(int a, int b) const;
   PairMaterial material(int a, int b) const;
 
-  /// Of any two bodies that meet [m].
+  /// The largest thickness of any two bodies that meet [m].
   float largest_thickness() const;
   /// For each body: true if it meets any other or itself.
   std::vector<char> meeting() const;
@@ -43,13 +43,13 @@ class ContactRules {
  private:
   /// Bodies that meet the same others; a body with an exception has a class of its own.
   struct Class {
-    int thickest = -1, second = -1;  ///< bodies; -1: none
+    int thickest = -1, second = -1;  ///< the bodies of largest and second largest thickness; -1: none
   };
   std::vector<int> find_classes(std::vector<Class>& classes) const;
   void find_thickest(int body, Class& of) const;
 
   std::vector<ContactBody> bodies_;
-  std::map<std::pair<int, int>, PairMaterial> exceptions_;  ///< lower body first
+  std::map<std::pair<int, int>, PairMaterial> exceptions_;  ///< overrides by pair of bodies, the lower one first
 };
 
 }  // namespace pliant

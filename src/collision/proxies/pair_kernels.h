@@ -52,7 +52,7 @@ struct LeftOut {
 /// Sixteen rows and the batches of columns to test them against, minus the columns that a row excludes.
 struct BoxComparison {
   BoxRows rows;
-  int first_row;     ///< a multiple of sixteen
+  int first_row;     ///< index of the first row, a multiple of sixteen
   float reach;       ///< margin by which rows are grown [m]
   const float* far;  ///< rows that do not overlap this box are skipped: low x, y, z, high x, y, z
   BoxRows columns;
@@ -75,7 +75,7 @@ struct PlaceRows {
 /// Sixteen vertices and the batches of other vertices to test against, minus those that a vertex excludes.
 struct VertexComparison {
   PlaceRows rows;
-  int first_row;     ///< a multiple of sixteen
+  int first_row;     ///< index of the first row, a multiple of sixteen
   const float* far;  ///< rows outside this box are skipped: low x, y, z, high x, y, z
   PlaceRows columns;
   const std::int32_t* batch;  ///< column batches, ascending

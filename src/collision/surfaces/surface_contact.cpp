@@ -89,7 +89,7 @@ void SurfaceContact::detect(Executor& executor, const PairParticles& particles) 
   points_.detect(executor, particles, contacts_);
 }
 
-/// Contacts behind the driven one count too: a vertex that the filter truncates for one of them cannot move out of the way.
+/// Counts contacts farther away too: a vertex whose step the filter truncates for one of them cannot move out of the way.
 bool SurfaceContact::is_overrun(const PairParticles& particles) const {
   const auto lacks = [&](const Contact& contact) {
     return overlap_of(contact, particles.displacements) > (1 - least_share_kept) * contact.thickness;
@@ -105,7 +105,7 @@ void SurfaceContact::measure_overlaps(const PairParticles& particles) {
     deepest_ = std::max(deepest_, static_cast<double>(overlap_of(contact, particles.displacements)));
 }
 
-/// What the relative velocity of a contact lacks of gravity.
+/// The gravity of this frame that a contact's relative velocity does not include yet.
 Vec3f SurfaceContact::missing_of(const Contact& contact, const Record* positions,
                                  FunctionRef<Vec3f(int body)> gravity) const {
   Vec3f missing{};

@@ -58,11 +58,11 @@ class SurfaceContact {
   /// Removes the remaining approach speed of an impact after a substep, and returns it [m/s].
   float end_impact(const Contact& contact, const Record* positions, Record* velocities,
                    FunctionRef<Vec3f(int body)> gravity) const;
-  /// Then applies restitution to one of contacts(). `gravity` is the gravity of the frame not yet included in a body's
-  /// velocities [m/s]. Approaches slower than `slow` count as rest [m/s].
+  /// Call after end_impact: applies restitution to one of contacts(). `gravity` is the gravity of the frame not yet
+  /// included in a body's velocities [m/s]. Approaches slower than `slow` count as rest [m/s].
   void respond(const Contact& contact, const Record* positions, Record* velocities, float slow,
                FunctionRef<Vec3f(int body)> gravity) const;
-  /// Then limits the untangling speed.
+  /// Call after respond: limits the speed of surfaces that are being untangled.
   void limit_untangling(Record* velocities, FunctionRef<Vec3f(int body)> gravity) const;
 
   /// True if initial intersections are moved apart in this frame; contacts must then be found before the projection.
@@ -75,7 +75,7 @@ class SurfaceContact {
 
   PairCounts counts() const;
   const std::vector<Contact>& contacts() const { return contacts_; }
-  /// How many of contacts(), from the first on, are of static neighbour pairs.
+  /// The number of contacts of static neighbour pairs, which come first in contacts().
   std::size_t static_contacts() const { return static_contacts_; }
   std::vector<Contact>& contacts() { return contacts_; }
   /// Intersecting edges and triangles, which are exempt until they are apart.
@@ -83,7 +83,7 @@ class SurfaceContact {
   const Triangle& triangle(int number) const { return model_.elements.triangles[number]; }
   /// Bodies that are partly too far from the origin for contact (is_too_far), ascending.
   std::vector<int> too_far() const;
-  /// Of this frame, by bodies, the lower one first.
+  /// Unresolvable pairs of this frame, by bodies, the lower one first.
   const std::map<std::pair<int, int>, UnresolvablePairs>& unresolvable() const { return filter_.unresolvable(); }
 
  private:
@@ -98,7 +98,7 @@ class SurfaceContact {
   PointContacts points_;
   StepFilter filter_;
   InitialIntersections intersections_;
-  std::unique_ptr<Untangler> untangler_;  ///< if the model requests it
+  std::unique_ptr<Untangler> untangler_;  ///< null unless the model requests untangling
   std::vector<Contact> contacts_;
   std::size_t static_contacts_ = 0;
   bool is_bounded_ = true, has_impacts_ = false;
