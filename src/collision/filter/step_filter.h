@@ -21,7 +21,7 @@ class StepFilter {
  public:
   explicit StepFilter(const PairModel& model) : model_(model), share_(model.rest.size(), 1.f) {}
 
-  /// Call it after bodies came or went.
+  /// Call after bodies were added or removed.
   void fit_to_model();
   /// Call at a frame's start.
   void forget_counts();

@@ -12,7 +12,7 @@ class BoxSearch {
  public:
   BoxSearch(const PairModel& model, const PairKernels& kernels, const ClusterLayout& layout);
 
-  /// Makes room for the primitives of the layout; call it after the layout changed.
+  /// Allocates memory for the primitives of the layout. Call it after the layout changed.
   void fit_to_layout();
   /// Requests boxes for the primitives of these two sides.
   void want(const ClusterSides& sides);

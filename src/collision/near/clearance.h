@@ -45,7 +45,7 @@ class Clearance {
  private:
   void leave_out(int body, const Block& vertices, const std::vector<Line>& joined);
 
-  /// By piece, along a Morton curve, padded to a multiple of sixteen by repetition.
+  /// Vertices by piece, along a Morton curve, padded to a multiple of sixteen by repetition.
   struct Stored {
     int first = 0, last = 0, first_line = 0, last_line = 0;
   };

@@ -11,7 +11,7 @@ namespace pliant {
 
 class ClearanceSearch {
  public:
-  /// Its pieces are the clusters.
+  /// The bounds from vertex distances; its pieces are the clusters.
   Clearance& clearance() { return clearance_; }
   void resize(std::size_t clusters) { is_placed_.resize(clusters); }
 

@@ -21,7 +21,7 @@ struct ClusterElements {
   /// For each row of a comparison: the columns to exclude, which share a vertex or are static neighbours.
   std::vector<std::int32_t> left_out_start;
   std::vector<LeftOut> left_out;
-  BodyBlocks row_blocks, left_out_blocks;  ///< of `item` and `left_out`
+  BodyBlocks row_blocks, left_out_blocks;  ///< each body's part of `item` and of `left_out`
 
   /// One past the last padded entry of a cluster.
   int end(int cluster) const { return start[cluster] + (count[cluster] + 15) / 16 * 16; }
@@ -37,7 +37,7 @@ struct ClusterLayout {
   ClusterLayout();
   /// Lays out the clusters of a body. Leaves `left_out` empty; add_static_pairs fills it.
   void add(const PairModel& model, int body);
-  /// `clusters`: those that the body had.
+  /// Removes a body, which had these `clusters`.
   void remove(int body, const Block& clusters);
 };
 

@@ -15,11 +15,11 @@ class ClusterMotions {
   explicit ClusterMotions(const PairKernels& kernels) : kernels_(kernels) {}
 
   void resize(std::size_t clusters);
-  /// Forgets the motion of one cluster, which was removed or is new.
+  /// Discards the motion of a cluster that was removed or is new.
   void reset(int cluster);
 
   /// Measures the motion of all clusters in this substep. Returns true if all end positions are finite and below 1e14 m.
-  /// `order`: all clusters in use.
+  /// `order` lists all clusters in use.
   bool measure(Executor& executor, const ClusterLayout& layout, const std::vector<int>& order,
                const PairParticles& particles);
   /// Adds the measured motion to the distance travelled; call it after the substep.

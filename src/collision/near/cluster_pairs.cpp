@@ -125,7 +125,7 @@ int ClusterPairs::number_of(const StaticGroup& group, const std::vector<int>& am
   const auto before = [&](int number, const Clusters& wanted) {
     return is_before({pairs_[number].a, pairs_[number].b}, wanted);
   };
-  const auto [a, b] = std::minmax(group.first, group.second);  // of one body, so lower numbers are before
+  const auto [a, b] = std::minmax(group.first, group.second);  // within one body, clusters are ordered by number
   return *std::lower_bound(among.begin(), among.end(), Clusters{a, b}, before);
 }
 

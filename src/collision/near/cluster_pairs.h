@@ -12,7 +12,7 @@ namespace pliant {
 
 /// Two near clusters, or one with itself.
 struct ClusterPair {
-  int a, b;  ///< in the order of PairModel::is_before, or the same; -1: not in use
+  int a, b;  ///< clusters in the order of PairModel::is_before, or equal; -1: not in use
   PairMaterial material{};
   float rigid = 0;  ///< how much the rigid motions of both can reduce a distance in this substep [m]
   Odometer odometer{};
@@ -40,10 +40,10 @@ class ClusterPairs {
 
   /// How far a cluster may travel before the next broad-phase rebuild [m].
   float travel() const;
-  /// Ascending after find(); later ones stand where there is room.
+  /// Sorted after find(); pairs added later take unused places.
   const std::vector<ClusterPair>& pairs() const { return pairs_; }
   const ClusterPair& operator[](int number) const { return pairs_[static_cast<std::size_t>(number)]; }
-  /// Among indices of pairs, ascending by clusters: the index of an existing pair.
+  /// Finds an existing pair among indices sorted by clusters.
   int number_of(const StaticGroup& group, const std::vector<int>& among) const;
   /// The indices of all pairs after find().
   std::vector<int> numbers() const;
@@ -58,7 +58,7 @@ class ClusterPairs {
   ClusterPair make(const Clusters& clusters) const;
 
   const PairModel& model_;
-  std::vector<BoxBounds> boxes_;  ///< of the clusters in use, grown; in their order
+  std::vector<BoxBounds> boxes_;  ///< grown boxes of the clusters in use, in their order
   Tree<BoxBounds> tree_;
   std::vector<ClusterPair> pairs_;
 };

@@ -1,4 +1,4 @@
-// Near lists while bodies come and go: only what belongs to a body that changed is looked at.
+// Updates near lists after bodies were added or removed. Only lists of changed bodies are touched.
 #include <algorithm>
 
 #include "collision/near/near_lists.h"
@@ -8,7 +8,7 @@ namespace pliant {
 
 namespace {
 
-/// Above this share of new clusters, all are paired again.
+/// If more than this share of clusters is new, all clusters are paired again.
 constexpr std::size_t most_new_clusters = 8;
 
 }  // namespace
@@ -58,7 +58,7 @@ void NearLists::resize() {
   clearance_.resize(near_.model.cluster_body.size());
 }
 
-/// The motion of the new clusters is known by now.
+/// Pairs the new clusters. Their motion must have been measured.
 void NearLists::pair_new_clusters() {
   const std::vector<int> pairs = near_.pairs.find_of_new(new_clusters_, near_.motions, near_.static_pairs.groups);
   for (StaticGroup& group : near_.static_pairs.groups)
@@ -68,7 +68,7 @@ void NearLists::pair_new_clusters() {
   new_clusters_.clear();
 }
 
-/// Adds empty lists of new cluster pairs where they stand in the order.
+/// Inserts empty lists of the new cluster pairs at their places in the order.
 void NearLists::add_lists(const std::vector<int>& pairs) {
   const auto before = [&](std::int32_t x, const ClusterSides& y) { return is_before(near_.model, near_.lists[x], y); };
   std::vector<std::int32_t> order;

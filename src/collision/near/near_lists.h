@@ -19,7 +19,7 @@ class NearLists {
   NearLists(const NearLists&) = delete;
   NearLists& operator=(const NearLists&) = delete;
 
-  /// Takes out removed bodies, whose clusters are given, and brings in new ones. What is known of all others is kept.
+  /// Removes bodies, given by their clusters, and adds new ones. Lists and bounds of all others are kept.
   void change(const PairChanges& changes);
 
   /// Forces a broad-phase rebuild; needed after positions change other than by the measured motion.
@@ -65,8 +65,8 @@ class NearLists {
   ClearanceSearch clearance_;
   BoxSearch search_;
   std::vector<Scratch> scratch_;
-  std::vector<int> new_clusters_;           ///< not paired yet
-  std::vector<std::int32_t> unused_lists_;  ///< of Neighbourhood::lists
+  std::vector<int> new_clusters_;           ///< clusters that are not paired yet
+  std::vector<std::int32_t> unused_lists_;  ///< unused indices in Neighbourhood::lists
   bool is_listed_ = false, must_pair_ = false;
   std::int64_t listed_ = 0, rebuilds_ = 0;
 };

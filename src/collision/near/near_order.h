@@ -7,7 +7,7 @@
 
 namespace pliant {
 
-/// True if a list stands before another.
+/// True if a list comes before another one.
 bool is_before(const PairModel& model, const ClusterSides& list, const ClusterSides& other);
 
 /// The sides of all near lists of these cluster pairs, in order.

@@ -32,7 +32,7 @@ struct NearList : ClusterSides {
 
 /// A unit of work for threads.
 struct NearTask {
-  int first = 0, last = 0;  ///< of Neighbourhood::order
+  int first = 0, last = 0;  ///< range in Neighbourhood::order
   int first_group = 0, last_group = 0;
 };
 
@@ -44,7 +44,7 @@ struct Neighbourhood {
   ClusterPairs pairs;
   StaticPairs static_pairs;
   std::vector<NearList> lists;
-  std::vector<std::int32_t> order;  ///< the lists in use: those of vertices and triangles first, each by clusters
+  std::vector<std::int32_t> order;  ///< lists in use: of vertices and triangles first, then of edges, each by clusters
   std::vector<NearTask> tasks;
 
   Neighbourhood(const PairModel& of, const PairKernels& with) : model(of), kernels(with), motions(with), pairs(of) {}

@@ -31,14 +31,14 @@ struct StaticGroup : ClusterSides {
 
   /// Rebases all bounds to the odometer's current total.
   void rebase(const Odometer& odometer);
-  /// Forgets all bounds.
+  /// Resets all bounds to not measured.
   void forget();
   /// The number of valid pairs in a block; the remaining lanes repeat the last.
   int pairs_in(std::size_t block) const { return std::min(16, pairs - 16 * static_cast<int>(block)); }
 };
 
 struct StaticPairs {
-  std::vector<StaticGroup> groups;  ///< those of vertices and triangles first, each by clusters
+  std::vector<StaticGroup> groups;  ///< groups of vertices and triangles first, then of edges, each sorted by clusters
   std::int64_t count = 0;
 
   /// Drops the groups of removed clusters.

@@ -1,5 +1,5 @@
-// Gives each body a contiguous part of an array in which bodies come and go: the part of a removed body becomes a hole, and no
-// other body moves.
+// Gives each body a contiguous block of an array. A removed body leaves a hole for later blocks, and no other body's
+// block moves.
 #pragma once
 
 #include <vector>
@@ -18,12 +18,12 @@ struct Block {
 
 class BodyBlocks {
  public:
-  /// `body` must have no block.
+  /// Allocates a block for a body that has none.
   Block take(int body, int size) {
     if (blocks_.size() <= static_cast<std::size_t>(body)) blocks_.resize(static_cast<std::size_t>(body) + 1);
     return blocks_[static_cast<std::size_t>(body)] = {allocator_.allocate(size, body), size};
   }
-  /// Returns the block that the body had.
+  /// Releases a body's block and returns it.
   Block release(int body) {
     if (static_cast<std::size_t>(body) >= blocks_.size()) return {};
     const Block had = blocks_[static_cast<std::size_t>(body)];
@@ -31,7 +31,7 @@ class BodyBlocks {
     blocks_[static_cast<std::size_t>(body)] = {};
     return had;
   }
-  /// Size 0 for a body without a block.
+  /// The block of a body; of size 0 if it has none.
   Block operator[](int body) const {
     return static_cast<std::size_t>(body) < blocks_.size() ? blocks_[static_cast<std::size_t>(body)] : Block{};
   }

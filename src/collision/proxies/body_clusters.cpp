@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t vertices_in_a_cluster = 64;
 
-/// Cuts vertices `from` to `to` - 1 across where they extend farthest, until as few as a cluster has are left.
+/// Splits vertices [from, to) along their longest extent until each part fits a cluster.
 void split(const std::vector<Record>& positions, std::vector<int>& vertices, std::size_t from, std::size_t to,
            Clusters& out) {
   const auto place = [&](int v, int axis) {

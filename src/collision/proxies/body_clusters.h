@@ -1,4 +1,4 @@
-// Cuts one body into clusters of neighbouring vertices.
+// Divides one body into clusters of neighbouring vertices.
 #pragma once
 
 #include <vector>
@@ -10,11 +10,11 @@ namespace pliant {
 
 struct Clusters {
   int count = 0;
-  std::vector<int> of;        ///< for each vertex; -1: in none
+  std::vector<int> of;        ///< cluster of each vertex; -1: none
   std::vector<float> extent;  ///< for each cluster: the longest side of its bounding box [m]
 };
 
-/// `elements.vertices` in compact clusters of at most 64.
+/// Divides `elements.vertices` into compact clusters of at most 64.
 Clusters find_clusters(const ContactElements& elements, const std::vector<Record>& positions);
 
 }  // namespace pliant

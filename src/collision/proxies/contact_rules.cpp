@@ -35,7 +35,7 @@ std::vector<int> ContactRules::find_classes(std::vector<Class>& classes) const {
     for (const int body : {pair.first, pair.second}) alone[static_cast<std::size_t>(body)] = body;
   using Key = std::tuple<std::uint32_t, std::uint32_t, int, int>;
   std::map<Key, int> numbers;
-  const std::pair<const Key, int>* last = nullptr;  // most bodies are like the one before
+  const std::pair<const Key, int>* last = nullptr;  // cached, because most bodies equal the previous one
   std::vector<int> class_of(bodies_.size());
   for (int i = 0; i < bodies(); ++i) {
     const ContactBody& body = bodies_[static_cast<std::size_t>(i)];
@@ -49,7 +49,7 @@ std::vector<int> ContactRules::find_classes(std::vector<Class>& classes) const {
   return class_of;
 }
 
-/// Makes a body the thickest of its class, or the second, if it is.
+/// Updates the two thickest bodies of a class by one of its bodies.
 void ContactRules::find_thickest(int body, Class& of) const {
   const auto is_thicker = [&](int than) {
     return than < 0 ||

@@ -8,7 +8,7 @@ namespace pliant {
 
 class TrianglesAround {
  public:
-  /// Adds the triangles of one body, which have the corners `vertices`.
+  /// Adds the triangles of one body, whose corners are among `vertices`.
   void add(const ContactElements& elements, const Block& triangles, const Block& vertices);
 
   /// The numbers of the triangles at a vertex, ascending.
@@ -16,7 +16,7 @@ class TrianglesAround {
   const int* end(int vertex) const { return numbers_.data() + last_[static_cast<std::size_t>(vertex)]; }
 
  private:
-  std::vector<int> first_, last_;  ///< for each vertex: its part of `numbers_`
+  std::vector<int> first_, last_;  ///< range of each vertex in `numbers_`
   std::vector<int> numbers_;       ///< those of triangle t's body begin at 3 x the body's first triangle
 };
 
