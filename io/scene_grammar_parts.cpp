@@ -8,7 +8,7 @@ namespace pliant::scene_file {
 
 namespace {
 
-// ------------------------------------------------------------------------------------------------ what many share
+// ------------------------------------------------------------------------------------------------ used by several records
 
 const Record& stiffness_record() {
   static const Record result{

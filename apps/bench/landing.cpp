@@ -66,7 +66,7 @@ double quantile(std::vector<double> values, double q) {
   return *at;
 }
 
-// ---------------------------------------------------------------- what is left at the end
+// ---------------------------------------------------------------- the state at the end
 
 std::size_t crossings_of(const Landing& landing, const LandingEngine& engine) {
   TriangleMesh all;

@@ -191,7 +191,8 @@ void engine_rows(Result& result) {
   };
   add("Gauss-Seidel, natural order", 1741, engine_sweeps(Sweep::natural, {}, 2500));
   add("Gauss-Seidel, red-black", 2094, engine_sweeps(Sweep::tiled, {}, 2500));
-  // Two constraints share each inner particle, which halves every step and so 1 - rho; Chebyshev's rate goes with its root.
+  // Two constraints share each inner particle, which halves every step and thus 1 - rho; the rate of Chebyshev depends
+  // on its square root.
   add("Jacobi, half steps", 2 * 3495, engine_sweeps(Sweep::jacobi, {}, 9000));
   // Forward and backward over two colours merges repeated colours: the second colour twice in a row, then the first.
   add("Gauss-Seidel, symmetric over red-black", 2094, engine_sweeps(Sweep::symmetric, {}, 2500));

@@ -28,7 +28,7 @@ void step(World& world, int frames) {
   for (int i = 0; i < frames; ++i) world.step(1.f / 60);
 }
 
-// ---------------------------------------------------------------- what is measured
+// ---------------------------------------------------------------- the measurements
 
 double static_stretch(const SweepWay& way) {
   Object object = hanging_line(2, 1, 2, 2, Stiffness::compliance(0.01f));

@@ -51,7 +51,7 @@ struct AdvanceArguments {
   Vec3f gravity_step{};      ///< h times gravity [m/s]
   Vec3f gravity_finished{};  ///< this frame's gravity in the velocity of the ending substep [m/s]
   Vec3f gravity_begun{};     ///< the same for the starting substep
-  Vec3f gravity_settled{};   ///< added permanently to velocities by update
+  Vec3f gravity_settled{};   ///< gravity that update adds permanently to velocities [m/s]
 };
 
 /// A query for particles that a solid could touch in the current substep.

@@ -8,7 +8,7 @@ namespace pliant {
 
 namespace {
 
-/// Rigid constraints move the same whatever their multipliers are, and PBD constraints have none.
+/// True if the multipliers are needed. Rigid constraints move the same without them, and PBD constraints have none.
 bool needs_multipliers(const Pool& pool) {
   const std::size_t response = pool.row_offset.size() - (pool.law == Law::damped ? 2 : 1);
   const bool rigid = pool.row_offset[response] < 0 && *pool.row(static_cast<int>(response), 0) == 0;
@@ -78,7 +78,7 @@ void prepare_sweep(const Model& model, int object, const Settings& settings, int
   if (settings.record_residuals) workspace.predicted.resize(model.particles());
   const CompiledObject& of = model.objects[object];
   const bool accelerates = settings.sweep_options.acceleration == SweepOptions::Acceleration::chebyshev;
-  if (!of.is_collider && of.particles > 0) {  // a collider has no constraints, and a removed object nothing
+  if (!of.is_collider && of.particles > 0) {  // colliders and removed objects have no constraints
     SweepGroup& group = group_of(of.sweep, workspace);
     if (accelerates && !group.acceleration) group.acceleration = std::make_unique<ChebyshevScratch>();
   }

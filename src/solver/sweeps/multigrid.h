@@ -29,7 +29,7 @@ struct MultigridObject {
     double held[6], force[3];
   };
   std::vector<Piece> pieces;
-  /// A p, in memory that only preconditioning uses as scratch.
+  /// The product A p of conjugate gradients, in scratch memory of the preconditioner.
   Records& image() { return levels[0].y; }
   bool is_made = true;  ///< false if the correction was rejected: it then leaves no multipliers and no pushes
 };
