@@ -57,7 +57,7 @@ void force_rows(Result& result) {
     int iterations;
     double tolerance;
   } cases[] = {{50, 0.06}, {100, 0.02}, {1000, 0.005}};
-  const std::string note = "lambda/h^2, the farthest from it in 300 frames after 600; alpha 1e-8 m/N, dt 1/60 s, 1 substep";
+  const std::string note = "lambda/h^2, the farthest value in 300 frames after 600; alpha 1e-8 m/N, dt 1/60 s, 1 substep";
   for (const auto& [iterations, tolerance] : cases) {
     const std::string name = "force at the top of 20 particles, " + brief(iterations) + " iterations";
     result.rows.push_back(relative("chain: " + name, 190, reference_force(iterations), tolerance, "N", note));
@@ -232,7 +232,7 @@ void nail_rows(Result& result) {
   const std::string note = "20 links, 1.5 m on a span of 1 m";
   auto& rows = result.rows;
   rows.push_back(relative("chain: funicular polygon, m g / H", step, farthest_slope_step(exact, step), 1e-6, "",
-                          "tan(theta) grows by it from link to link; the farthest; " + note));
+                          "tan(theta) increases by this per link; the farthest value; " + note));
   rows.push_back(relative("chain: funicular polygon, sag", sag, -exact[nail_links / 2].y, 1e-6, "m", note));
   rows.push_back(relative("chain: engine, funicular polygon, m g / H", step, farthest_slope_step(engine, step), 1e-2, "",
                           note + ", 100 substeps, float"));

@@ -48,7 +48,7 @@ void impact_rows(Result& result) {
   }
   for (int edges = 0; edges < 2; ++edges) {
     const std::string name = std::string("collision: continuous, ") + (edges == 1 ? "two edges" : "vertex and triangle");
-    result.rows.push_back(at_most(name + ", missed", 0, missed[edges], "", "5000 that meet in between, float"));
+    result.rows.push_back(at_most(name + ", missed", 0, missed[edges], "", "5000 that meet during the motion, float"));
     result.rows.push_back(at_most(name + ", false alarms", 0.01 * queries / 4, false_alarms[edges], "",
                                   "1 % of 5000 that pass at 0.1 m, float"));
   }
@@ -219,7 +219,7 @@ void filter_rows(Result& result) {
   const std::string name = "collision: engine, sheets thrown at 20 m/s, edges through triangles";
   result.rows.push_back(at_most(name, 0, static_cast<double>(thrown_sheets(true)), "", "exact signs, 2 substeps"));
   result.rows.push_back(
-      at_least(name + with(false), 1, static_cast<double>(thrown_sheets(false)), "", "the filter has something to do"));
+      at_least(name + with(false), 1, static_cast<double>(thrown_sheets(false)), "", "shows that the filter is needed"));
 }
 
 }  // namespace

@@ -137,7 +137,7 @@ void reference_rows(Result& result) {
   result.charts.push_back(chart);
   const std::vector<double> refused = curve_of(natural, gauss_seidel_radius);
   result.rows.push_back(relative("convergence: Chebyshev over natural order diverges", 1, refused.back() > 1e3 ? 1 : 0, 0,
-                                 "", "which is why it is refused; its residual grew a thousandfold and on"));
+                                 "", "the reason why it is rejected; its residual grew more than a thousandfold"));
 }
 
 // ---- the engine
@@ -204,10 +204,10 @@ void engine_rows(Result& result) {
   add("Chebyshev over Jacobi, relaxation 1.999", 232, engine_sweeps(Sweep::jacobi, whole, 400));
   add("Chebyshev over red-black", 199, engine_sweeps(Sweep::tiled, chebyshev(gauss_seidel_radius, 1), 300));
   add("Chebyshev over red-black after 10", 116, engine_sweeps(Sweep::tiled, chebyshev(gauss_seidel_radius, 10), 300));
-  const std::string note = "rho estimated from the run; no more than what Chebyshev over Jacobi needs when told";
-  result.rows.push_back(at_most("convergence: engine, Chebyshev over red-black, nothing told", 232,
+  const std::string note = "rho estimated; at most the sweeps of Chebyshev over Jacobi with known rho";
+  result.rows.push_back(at_most("convergence: engine, Chebyshev over red-black, rho estimated", 232,
                                 engine_sweeps(Sweep::tiled, chebyshev(0, 10), 400), "sweeps", note));
-  result.rows.push_back(at_most("convergence: engine, Chebyshev over symmetric, nothing told", 232,
+  result.rows.push_back(at_most("convergence: engine, Chebyshev over symmetric, rho estimated", 232,
                                 engine_sweeps(Sweep::symmetric, chebyshev(0, 10), 400), "sweeps", note));
   result.rows.push_back(relative("convergence: engine refuses Chebyshev over natural order", 1, refusals(), 0, "",
                                  "a World throws an Error that says why"));

@@ -224,7 +224,7 @@ void long_contact_rows(Result& result) {
        {Long{"100 x 100 cloth folded over itself and dropped", folded_scene(100), audit_surfaces},
         Long{"ten layers of 33 x 33 over a sphere", layered_scene(33), audit_surfaces},
         Long{"200 x 50 cloth twisted through two turns", twisted_scene(100), audit_surfaces},
-        Long{"ball at 10 m/s to and fro through 64 x 64 cloth", ball_scene(64), audit_surfaces},
+        Long{"ball at 10 m/s back and forth through 64 x 64 cloth", ball_scene(64), audit_surfaces},
         Long{"knot pulled tight", knot_scene(), audit_rope}}) {
     const Audit audit = look(scene, frames);
     const bool rope = look == audit_rope;

@@ -102,7 +102,7 @@ void type_rows(Result& result, const ConstraintType& type) {
     compare_gradients(sample, at.gradients, worst);
     compare_momenta(sample, random, worst);
   }
-  const std::string name = type.name + ", ", note = "largest of 1000 random places";
+  const std::string name = type.name + ", ", note = "largest of 1000 random positions";
   auto& rows = result.rows;
   rows.push_back(absolute("momentum: " + name + "gradient against differences", 0, worst.gradient, 1e-9, "", note));
   rows.push_back(absolute("momentum: " + name + "net force", 0, worst.force, 1e-9, "", note));

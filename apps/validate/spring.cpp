@@ -121,7 +121,7 @@ void backward_euler_rows(Result& result) {
                           note + ", b = 6 N s/m, float"));
   rows.push_back(absolute("spring: engine, damped, 20 iterations", 0,
                           largest_difference(by_engine(damped, 20), backward_euler(damped)), 1e-5, "m",
-                          "the multiplier is kept"));
+                          "multipliers persist over iterations"));
   using Style = plot::Series::Style;
   result.charts.push_back(
       {"A mass on a spring is backward Euler",

@@ -220,7 +220,7 @@ Row no_more(std::string name, double bound, double measured, double, std::string
 const Answer answers[] = {
     {"static stretch, 2 kg on 100 N/m", static_stretch, {false, true}, 0.2, 1e-4, relative, "m", "10 x 20"},
     {"force at the top of 20 particles", top_force, {true, true}, 190, 5e-3, relative, "N", "1 x 100, alpha 1e-8 m/N"},
-    {"sinking of a rubber sheet, over converged", sinking_share, {true, true}, 1, 0.01, relative, "", "20 x 10"},
+    {"sag of a rubber sheet over the converged one", sinking_share, {true, true}, 1, 0.01, relative, "", "20 x 10"},
     {"V / V0 of a balloon at k = 1.5", inflation, {}, 1.5, 0.01, relative, "", "10 x 4"},
     {"period over T0 at 90 degrees", period, {}, 1.18034, 5e-3, relative, "", "h = 1/6000 s, 4 iterations"},
     {"linear momentum of a flying sheet", linear_momentum, {true}, 0, 1e-4, absolute, "", "10 x 4, 0.5 s"},
@@ -239,11 +239,10 @@ const Answer answers[] = {
 
 /// Why a variant cannot give an answer; null if it can.
 const char* excuse(const SweepWay& way, const Answer& answer) {
-  if (answer.asks.pairs && way.lacks == Lacks::pairs)
-    return "what neighbours exert on one another is averaged, and no pair";
-  if (answer.asks.give && way.lacks == Lacks::give) return "tethers hold back what is meant to stretch (tether_slack)";
+  if (answer.asks.pairs && way.lacks == Lacks::pairs) return "averaging violates Newton's third law between neighbours";
+  if (answer.asks.give && way.lacks == Lacks::give) return "tethers limit objects that are meant to stretch (tether_slack)";
   if (answer.asks.speed && way.sweep == Sweep::jacobi)
-    return "its steps are a fraction of Gauss-Seidel's: it needs more of them";
+    return "its steps are smaller than those of Gauss-Seidel, so it needs more";
   return nullptr;
 }
 

@@ -51,16 +51,16 @@ const std::vector<Group>& groups() {
   static const std::vector<Group> all{
       {"spring", "a mass on a spring: backward Euler step by step, static stretch, free fall"},
       {"chain", "a hanging chain, a chain with a heavy end, a chain between two nails"},
-      {"momentum", "what internal constraints must not change; their gradients"},
+      {"momentum", "momentum, which internal constraints conserve; gradients"},
       {"pendulum", "period against amplitude, energy"},
       {"contact", "incline, stopping distance, bounce"},
       {"collision", "pairs, continuous tests, surfaces on surfaces, with the filter and without"},
-      {"stiffness", "one rest shape whatever the iterations, the time step and the mesh"},
+      {"stiffness", "a rest shape that is independent of iterations, time step and mesh"},
       {"balloon", "volume against pressure"},
       {"steadiness", "the inextensible cloth hung by two corners stays bounded"},
-      {"convergence", "how many sweeps each method needs on a free chain"},
+      {"convergence", "number of sweeps of each method on a free chain"},
       {"heavy_chain", "a load 100 000 times as heavy as a link, by exact chains"},
-      {"sweeps", "the same known answers by every sweep, and which of them it can't give"},
+      {"sweeps", "the same known answers with every sweep, and the exceptions"},
   };
   return all;
 }
@@ -76,7 +76,7 @@ Result run_validation(const Options& options) {
     if (groups()[i].name == "collision" && !options.queries.empty()) query_set_rows(result, options.queries);
     adders[i](result, options.slow);
   }
-  if (!found) throw Error({}, "there is nothing called '" + *options.name + "' to validate", "choose one of " + names);
+  if (!found) throw Error({}, "there is no group '" + *options.name + "' to validate", "choose one of " + names);
   return result;
 }
 

@@ -154,7 +154,7 @@ void InitialIntersections::exempt(const Intersection& found) {
     const auto &e = std::min(crossing, side), &f = std::max(crossing, side);
     exempt_.push_back({e[0], e[1], f[0], f[1], 2});
   }
-  // The triangle's corners against the triangles at the edge.
+  // Pairs of the triangle's corners with the triangles at the edge.
   for (const int* other = triangles_at.begin(found.a); other != triangles_at.end(found.a); ++other) {
     const Triangle& o = model_.elements.triangles[*other];
     if (o[0] != found.b && o[1] != found.b && o[2] != found.b) continue;
