@@ -52,11 +52,30 @@ void ContactColours::colour(const std::vector<Contact>& contacts, std::size_t fi
     for (const std::int32_t point : contacts[i].point) taken_[point] = 0;
 }
 
+ContactColours ContactColours::only(FunctionRef<bool(std::int32_t)> is_kept) const {
+  ContactColours out;
+  out.start_.assign(start_.size(), 0);
+  for (std::size_t c = 0; c + 1 < start_.size(); ++c) {
+    for (std::int32_t i = start_[c]; i < start_[c + 1]; ++i)
+      if (is_kept(order_[i])) out.order_.push_back(order_[i]);
+    out.start_[c + 1] = static_cast<std::int32_t>(out.order_.size());
+  }
+  return out;
+}
+
 void ContactSolver::begin(const ContactKernels& kernels, const std::vector<Contact>& contacts, std::size_t leading,
                           const Record* positions, std::size_t points) {
   kernels_ = &kernels;
   sections_[0].colour(contacts, 0, leading, positions, points);
   sections_[1].colour(contacts, leading, contacts.size(), positions, points);
+}
+
+ContactSolver ContactSolver::only(const std::vector<Contact>& contacts, FunctionRef<bool(const Contact&)> is_kept) const {
+  ContactSolver out;
+  out.kernels_ = kernels_;
+  for (std::size_t k = 0; k < sections_.size(); ++k)
+    out.sections_[k] = sections_[k].only([&](std::int32_t i) { return is_kept(contacts[static_cast<std::size_t>(i)]); });
+  return out;
 }
 
 void ContactSolver::for_ranges(Executor& executor, const char* name, const ContactColours& colours,

@@ -24,6 +24,8 @@ class ContactColours {
   /// Colours contacts [first, last), with point indices below `points`. Points of infinite mass may be shared.
   void colour(const std::vector<Contact>& contacts, std::size_t first, std::size_t last, const Record* positions,
               std::size_t points);
+  /// Those of the same contacts for which `is_kept(index)` holds, in the same order.
+  ContactColours only(FunctionRef<bool(std::int32_t)> is_kept) const;
 
   /// Contact indices by colour, ascending within each; the tail is last.
   const std::vector<std::int32_t>& order() const { return order_; }
@@ -42,6 +44,8 @@ class ContactSolver {
   /// Replaces the contacts of the previous substep and colours the new ones. The first `leading` are projected first.
   void begin(const ContactKernels& kernels, const std::vector<Contact>& contacts, std::size_t leading,
              const Record* positions, std::size_t points);
+  /// Of the same contacts, those for which `is_kept` holds, in the same order.
+  ContactSolver only(const std::vector<Contact>& contacts, FunctionRef<bool(const Contact&)> is_kept) const;
   /// Projects each contact once.
   void project(Executor& executor, const char* name, std::vector<Contact>& contacts, Record* displacements) const;
   /// Calls answer(contact) once for each contact; concurrent calls share no dynamic point.

@@ -25,8 +25,8 @@ struct StepFilter::Round {
 };
 
 void StepFilter::Round::plan_list(NearList& list, Scratch& scratch) const {
-  if (is_too_far(near, list)) return;
   const float margin = filter_margin(near, list);
+  if (list.least.after(near.odometer(list)) > margin || is_too_far(near, list)) return;
   collect_near(near, list, margin, scratch.near);
   PairLanes lanes;
   for (std::size_t i = 0; i < scratch.near.size(); i += 16) {

@@ -137,37 +137,55 @@ void move_colliders(const Model& model, const Control& control, double time_befo
 
 namespace {
 
+/// An object and a collider, with what all their contacts share.
+struct Meeting {
+  const ContactSearch& search;
+  const MovingCollider& collider;
+  int number;       ///< index of the collider
+  float thickness;  ///< of both [m]
+  Vec3f gravity;    ///< added to a velocity: that before this substep's gravity [m/s]
+  float static_friction, kinetic_friction, restitution;
+
+  Meeting(const ContactSearch& in, int of, float both)
+      : search(in),
+        collider(in.colliders[static_cast<std::size_t>(of)]),
+        number(of),
+        thickness(both),
+        gravity(in.particles.gravity_begun - in.particles.gravity_step),
+        static_friction(sqrt(in.object.static_friction * collider.static_friction)),
+        kinetic_friction(sqrt(in.object.kinetic_friction * collider.kinetic_friction)),
+        restitution(max(in.object.restitution, collider.restitution)) {}
+};
+
 /// Appends a contact of particle i with a collider, if there is one.
-void find_contact(const ContactSearch& search, int i, int number, float thickness, std::vector<Contact>& contacts) {
-  const MovingCollider& collider = search.colliders[number];
-  const AdvanceArguments& a = search.particles;
-  const Record &x = a.positions[i], &d = a.displacements[i], &v = a.velocities[i];
+void find_contact(const Meeting& m, int i, std::vector<Contact>& contacts) {
+  const MovingCollider& collider = m.collider;
+  const AdvanceArguments& a = m.search.particles;
+  const Record &x = a.positions[i], &d = a.displacements[i], &v = a.velocities[i], &r = a.remainders[i];
   if (x.w == 0) return;
   const Vec3f position{x.x, x.y, x.z};
   const Vec3f to = to_local(collider.after, position + Vec3f{d.x, d.y, d.z});
   const Vec3f from = to_local(collider.before, position);
-  const SurfacePlane plane = collider.field != nullptr ? surface_plane(*collider.field, from, to, thickness, a.h)
-                                                       : surface_plane(collider.shape, from, to, thickness, a.h);
+  const SurfacePlane plane = collider.field != nullptr ? surface_plane(*collider.field, from, to, m.thickness, a.h)
+                                                       : surface_plane(collider.shape, from, to, m.thickness, a.h);
   if (!plane.found) return;
-  Contact contact;
+  Contact& contact = contacts.emplace_back();
   contact.point = {i, i, i, i};
   contact.weight = contact.share = {1, 0, 0, 0};
-  contact.thickness = thickness;
-  contact.collider = number;
+  contact.thickness = m.thickness;
+  contact.collider = m.number;
   contact.normal = rotate(collider.after.rotation, plane.normal);
   // The plane in world coordinates, with the same point and the same offset from it.
   const float above = plane.offset - dot(plane.normal, plane.point);
   contact.gap = dot(contact.normal, position - to_world(collider.after, plane.point)) - above;
   if (collider.moves)
     contact.surface_motion = to_world(collider.after, plane.point) - to_world(collider.before, plane.point);
-  contact.static_friction = sqrt(search.object.static_friction * collider.static_friction);
-  contact.kinetic_friction = sqrt(search.object.kinetic_friction * collider.kinetic_friction);
-  contact.restitution = max(search.object.restitution, collider.restitution);
-  const Record& r = a.remainders[i];
+  contact.static_friction = m.static_friction;
+  contact.kinetic_friction = m.kinetic_friction;
+  contact.restitution = m.restitution;
   contact.carried = {r.x, r.y, r.z};
-  const Vec3f velocity = Vec3f{v.x, v.y, v.z} + (a.gravity_begun - a.gravity_step);  // before this substep's gravity
+  const Vec3f velocity = Vec3f{v.x, v.y, v.z} + m.gravity;
   contact.approach = dot(contact.normal, velocity - contact.surface_motion * a.inverse_h);
-  contacts.push_back(contact);
 }
 
 /// Finds the particles to test against a collider: all particles of the tile if the collider moves, because its motion
@@ -206,7 +224,8 @@ void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near,
     if (!overlap(search.bounds, collider.swept, search.object.thickness) || !meet(search.object, collider)) continue;
     const float thickness = search.object.thickness + collider.thickness;
     const int count = find_near(search, collider, thickness, near);
-    for (int k = 0; k < count; ++k) find_contact(search, near[k], c, thickness, contacts);
+    const Meeting meeting(search, c, thickness);
+    for (int k = 0; k < count; ++k) find_contact(meeting, near[k], contacts);
   }
 }
 
@@ -230,11 +249,12 @@ void find_breaches(const ContactSearch& search, const std::vector<Contact>& know
     if (!overlap(b, collider.swept, margin) || !meet(search.object, collider)) continue;
     const int count =
         search.find_near({a.positions, a.displacements, a.first, a.last, collider.shape, collider.after, 0}, near.data());
+    const Meeting meeting(search, c, 0);
     for (int k = 0; k < count; ++k) {
       if (is_known(c, near[k])) continue;
       const Record &x = a.positions[near[k]], &d = a.displacements[near[k]];
       const Vec3f end = to_local(collider.after, Vec3f{x.x + d.x, x.y + d.y, x.z + d.z});
-      if (signed_distance(collider.shape, end).distance < 0) find_contact(search, near[k], c, 0, contacts);
+      if (signed_distance(collider.shape, end).distance < 0) find_contact(meeting, near[k], contacts);
     }
   }
 }

@@ -36,18 +36,29 @@ void add_contact(const PairStencil& pair, const PairBatch& at, int lane, const P
   contacts.push_back(contact);
 }
 
-/// A pair becomes a contact if its distance, minus the possible decrease, is below its contact distance.
+/// The lanes that can become contacts: a pair does if its distance, minus the possible decrease, is below its contact distance.
+unsigned find_candidates(const PairLanes& lanes, const ClusterPair& clusters) {
+  const float thickness = clusters.material.thickness, next = clusters.odometer.next;
+  std::int32_t bits[16];
+  for (int lane = 0; lane < 16; ++lane) {
+    const float distance = lanes.at.distance[lane] * (1 - 1e-5f);
+    const bool rules_out = !(lanes.at.distance[lane] > 0) | (distance - next > thickness) |
+                           (distance - lanes.paths.falls[lane] > thickness) | (lanes.paths.apart[lane] > thickness);
+    bits[lane] = rules_out ? 0 : 1 << lane;
+  }
+  std::int32_t all = 0;
+  for (const std::int32_t bit : bits) all |= bit;
+  return static_cast<unsigned>(all);
+}
+
 void detect_pair(const Detection& d, const ClusterSides& sides, const PairLanes& lanes, int lane, float* at_rest,
                  std::vector<Contact>& contacts) {
-  const ClusterPair& clusters = d.near.pair_of(sides);
-  const float thickness = clusters.material.thickness, distance = lanes.at.distance[lane] * (1 - 1e-5f),
-              nearest = distance - lanes.paths.falls[lane];
-  if (!(lanes.at.distance[lane] > 0) || distance - clusters.odometer.next > thickness || nearest > thickness) return;
   const PairStencil pair = lanes.pair(lane, sides.of_vertices);
-  if (d.is_exempt(pair)) return;
-  PairMaterial kept = clusters.material;
+  PairMaterial kept = d.near.pair_of(sides).material;
   kept.thickness = min(kept.thickness, kept_at_rest(d.near, pair, at_rest));
-  if (nearest > kept.thickness || lanes.paths.apart[lane] > kept.thickness) return;
+  const float distance = lanes.at.distance[lane] * (1 - 1e-5f);
+  if (distance - lanes.paths.falls[lane] > kept.thickness || lanes.paths.apart[lane] > kept.thickness || d.is_exempt(pair))
+    return;
   // A covered pair that does not touch yet would push sideways.
   if (distance > kept.thickness && d.covered.covers(pair, lanes.at, lane, d.particles.positions)) return;
   add_contact(pair, lanes.at, lane, kept, d.particles, contacts);
@@ -59,9 +70,11 @@ void measure(const Detection& d, const ClusterSides& sides, PairLanes& lanes) {
 }
 
 void detect_list(const Detection& d, NearList& list, std::vector<std::int32_t>& near, std::vector<Contact>& contacts) {
-  if (is_too_far(d.near, list)) return;
-  collect_near(d.near, list, cull_slack * d.near.pair_of(list).material.thickness, near);
-  const float spent = list.least.spent(d.near.odometer(list));
+  const ClusterPair& clusters = d.near.pair_of(list);
+  const float within = cull_slack * clusters.material.thickness;
+  if (list.least.after(clusters.odometer) > within || is_too_far(d.near, list)) return;
+  collect_near(d.near, list, within, near);
+  const float spent = list.least.spent(clusters.odometer);
   PairLanes lanes;
   for (std::size_t i = 0; i < near.size(); i += 16) {
     const std::size_t count = std::min<std::size_t>(16, near.size() - i);
@@ -72,7 +85,11 @@ void detect_list(const Detection& d, NearList& list, std::vector<std::int32_t>& 
       const float value = (lanes.at.at_least[lane] + spent) * sum_slack;
       list.value[number] = value;
       list.least.value = min(list.least.value, value);
-      detect_pair(d, list, lanes, static_cast<int>(lane), &list.pairs[number].kept, contacts);
+    }
+    const unsigned valid = (1U << count) - 1;
+    for (unsigned left = find_candidates(lanes, clusters) & valid; left != 0; left &= left - 1) {
+      const int lane = __builtin_ctz(left);
+      detect_pair(d, list, lanes, lane, &list.pairs[near[i + static_cast<std::size_t>(lane)]].kept, contacts);
     }
   }
 }
@@ -81,7 +98,9 @@ void detect_block(const Detection& d, const StaticGroup& group, std::size_t bloc
   PairLanes lanes;
   lanes.stencils = group.blocks[block];
   measure(d, group, lanes);
-  for (int lane = 0; lane < group.pairs_in(block); ++lane) detect_pair(d, group, lanes, lane, nullptr, contacts);
+  const unsigned valid = (1U << group.pairs_in(block)) - 1;
+  for (unsigned left = find_candidates(lanes, d.near.pair_of(group)) & valid; left != 0; left &= left - 1)
+    detect_pair(d, group, lanes, __builtin_ctz(left), nullptr, contacts);
 }
 
 /// Measures all blocks of a group that are due within some substeps, so that the next ones need not revisit them.

@@ -4,8 +4,27 @@
 
 namespace pliant {
 
-BoxBounds BoxSearch::Boxes::at(int i) const {
-  return {{side[0][i], side[1][i], side[2][i]}, {side[3][i], side[4][i], side[5][i]}};
+namespace {
+
+/// The extreme of sixteen numbers, by halves, which compilers do in SIMD registers.
+template <class Extreme>
+float extreme_of_sixteen(const float* values, const Extreme& extreme) {
+  float eight[8], four[4];
+  for (int i = 0; i < 8; ++i) eight[i] = extreme(values[i], values[i + 8]);
+  for (int i = 0; i < 4; ++i) four[i] = extreme(eight[i], eight[i + 4]);
+  return extreme(extreme(four[0], four[2]), extreme(four[1], four[3]));
+}
+
+}  // namespace
+
+BoxBounds BoxSearch::Boxes::around_sixteen(int first) const {
+  const auto low = [&](int k) {
+    return extreme_of_sixteen(side[k].data() + first, [](float a, float b) { return min(a, b); });
+  };
+  const auto high = [&](int k) {
+    return extreme_of_sixteen(side[k].data() + first, [](float a, float b) { return max(a, b); });
+  };
+  return {{low(0), low(1), low(2)}, {high(3), high(4), high(5)}};
 }
 
 BoxRows BoxSearch::Boxes::rows() {
@@ -43,11 +62,7 @@ void BoxSearch::fit_cluster(int kind, int cluster, const Vec3f& drift, const Pai
   const int first = of.start[cluster], last = of.end(cluster);
   kernels_.fit_boxes({{of.corner[0].data(), of.corner[1].data(), of.corner[2].data()}, of.corners}, first, last, particles,
                      drift, boxes.rows());
-  for (int i = first; i < last; i += 16) {
-    BoxBounds all = boxes.at(i);
-    for (int k = i + 1; k < i + 16; ++k) all = {min(all.low, boxes.at(k).low), max(all.high, boxes.at(k).high)};
-    boxes.batch[i / 16] = all;
-  }
+  for (int i = first; i < last; i += 16) boxes.batch[i / 16] = boxes.around_sixteen(i);
   for (int k = 0; k < 6; ++k)  // padding boxes overlap nothing
     std::fill(boxes.side[k].begin() + first + of.count[cluster], boxes.side[k].begin() + last, k < 3 ? 3e38f : -3e38f);
 }
@@ -72,24 +87,34 @@ void BoxSearch::find(const ClusterSides& sides, const BoxBounds& far, float reac
         kernels_.find_overlaps({row_boxes.rows(), 16 * sixteen, reach, far_box, column_boxes.rows(), scratch.batches.data(),
                                 static_cast<int>(scratch.batches.size()), rows.left_out.data(), rows.left_out_start.data()},
                                scratch.hits.data());
-    for (int k = 0; k < count; ++k)
-      if (const auto [i, j] = scratch.hits[k]; !once || j > i)
-        add_pair(sides.of_vertices, rows.item[i], columns.item[j], scratch.found);
+    add_pairs({rows, columns, sides.of_vertices, once}, scratch.hits.data(), count, scratch.found);
   }
 }
 
-/// Skips pairs with a common vertex.
-void BoxSearch::add_pair(bool of_vertices, std::int32_t a, std::int32_t b, std::vector<NearPair>& found) const {
-  const ContactElements& all = model_.elements;
-  if (of_vertices) {
-    const Triangle& t = all.triangles[b];
-    if (t[0] == a || t[1] == a || t[2] == a) return;
-  } else {
-    const auto &e = all.edges[a], &f = all.edges[b];
-    if (e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1]) return;
-    if (f < e) std::swap(a, b);  // the lower corners first: numbers say nothing where bodies came and went
+/// Skips pairs with a common vertex. Whether a hit is kept is unpredictable, so each is written and the last one overwritten.
+void BoxSearch::add_pairs(const Compared& of, const BoxHit* hits, int count, std::vector<NearPair>& found) {
+  std::size_t kept = found.size();
+  found.resize(kept + static_cast<std::size_t>(count));
+  NearPair* to = found.data();
+  const std::int32_t* row_item = of.rows.item.data();
+  const std::array<const std::int32_t*, 3> corner{of.columns.corner[0].data(), of.columns.corner[1].data(),
+                                                  of.columns.corner[2].data()};
+  for (int k = 0; k < count; ++k) {
+    const auto [i, j] = hits[k];
+    const std::int32_t f0 = corner[0][j], f1 = corner[1][j];
+    if (of.of_vertices) {
+      const std::int32_t vertex = row_item[i], f2 = corner[2][j];
+      to[kept] = {{vertex, f0, f1, f2}, -1};
+      kept += static_cast<std::size_t>((f0 != vertex) & (f1 != vertex) & (f2 != vertex));
+    } else {
+      const std::int32_t e0 = of.rows.corner[0][i], e1 = of.rows.corner[1][i];
+      // The lower corners first: numbers say nothing where bodies came and went.
+      const bool swaps = (f0 < e0) | ((f0 == e0) & (f1 < e1));
+      to[kept] = {{swaps ? f0 : e0, swaps ? f1 : e1, swaps ? e0 : f0, swaps ? e1 : f1}, -1};
+      kept += static_cast<std::size_t>((!of.once | (j > i)) & (e0 != f0) & (e0 != f1) & (e1 != f0) & (e1 != f1));
+    }
   }
-  found.push_back({stencil_of(all, of_vertices, a, b).vertex, -1});
+  found.resize(kept);
 }
 
 }  // namespace pliant

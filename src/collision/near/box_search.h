@@ -35,11 +35,16 @@ class BoxSearch {
     std::vector<float> side[6];    ///< low x, y, z, high x, y, z of each primitive
     std::vector<BoxBounds> batch;  ///< union of sixteen boxes
     std::vector<char> wanted;      ///< of each cluster
-    BoxBounds at(int i) const;
+    BoxBounds around_sixteen(int first) const;
     BoxRows rows();
   };
   void fit_cluster(int kind, int cluster, const Vec3f& drift, const PairParticles& particles);
-  void add_pair(bool of_vertices, std::int32_t a, std::int32_t b, std::vector<NearPair>& found) const;
+  /// The sides of a comparison; `once` if each pair of edges occurs in both orders.
+  struct Compared {
+    const ClusterElements &rows, &columns;
+    bool of_vertices, once;
+  };
+  static void add_pairs(const Compared& of, const BoxHit* hits, int count, std::vector<NearPair>& found);
 
   const PairModel& model_;
   const PairKernels& kernels_;

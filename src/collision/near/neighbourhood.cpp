@@ -4,8 +4,8 @@ namespace pliant {
 
 namespace {
 
-/// The filter's margin: this share of the thickness, and at least this many roundings of the positions.
-constexpr float least_share = 0.05f, least_roundings = 32;
+/// The filter's margin over the thickness.
+constexpr float least_share = 0.05f;
 
 }  // namespace
 
@@ -15,21 +15,15 @@ void NearList::clear(const Odometer& odometer) {
   least = {out_of_reach, odometer.total};
 }
 
-bool is_too_far(const Neighbourhood& near, int cluster) {
-  const std::vector<float>& coarsest = near.model.coarsest;
-  return !coarsest.empty() &&
-         least_roundings * one_rounding * near.motions[cluster].extent > coarsest[static_cast<std::size_t>(cluster)];
-}
-
 float filter_margin(const Neighbourhood& near, const ClusterSides& sides) {
   const float extent = max(near.motions[sides.first].extent, near.motions[sides.second].extent);
-  return max(least_share * near.pair_of(sides).material.thickness, least_roundings * one_rounding * extent);
+  return max(least_share * near.pair_of(sides).material.thickness, least_margin_roundings * one_rounding * extent);
 }
 
 float activation_distance(const Neighbourhood& near, const ClusterSides& sides) {
   const float extent = max(near.motions.extent(sides.first), near.motions.extent(sides.second));
   return max(cull_slack * near.pair_of(sides).material.thickness,
-             2 * max(filter_margin(near, sides), least_roundings * one_rounding * extent));
+             2 * max(filter_margin(near, sides), least_margin_roundings * one_rounding * extent));
 }
 
 void find_paths(const Neighbourhood& near, const ClusterSides& sides, const PairParticles& particles, PairLanes& lanes) {

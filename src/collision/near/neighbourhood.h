@@ -68,9 +68,16 @@ struct PairLanes {
   }
 };
 
+/// The filter's margin is at least this many roundings of the positions.
+inline constexpr float least_margin_roundings = 32;
+
 /// True if the cluster is so far from the origin that position rounding reaches its edge length. Contact and filter skip
 /// it, because every pair of its edges would be within the filter's margin.
-bool is_too_far(const Neighbourhood& near, int cluster);
+inline bool is_too_far(const Neighbourhood& near, int cluster) {
+  const std::vector<float>& coarsest = near.model.coarsest;
+  return !coarsest.empty() &&
+         least_margin_roundings * one_rounding * near.motions[cluster].extent > coarsest[static_cast<std::size_t>(cluster)];
+}
 inline bool is_too_far(const Neighbourhood& near, const ClusterSides& sides) {
   return is_too_far(near, sides.first) || is_too_far(near, sides.second);
 }

@@ -1,4 +1,5 @@
 #include <atomic>
+#include <vector>
 
 #include "solver/stages/stages.h"
 
@@ -17,10 +18,9 @@ void end_impacts(Substep& s, FunctionRef<Vec3f(int)> gravity, float slow) {
   SurfaceContact& pairs = *s.work.pairs;
   const Record* positions = s.state.positions.data();
   Record* velocities = s.state.velocities.data();
+  const ContactSolver impacts = s.work.contact_solver.only(pairs.contacts(), [](const Contact& c) { return is_impact(c); });
   const auto for_impacts = [&](FunctionRef<void(const Contact&)> answer) {
-    s.work.contact_solver.for_each(s.context.executor, "respond", pairs.contacts(), [&](const Contact& contact) {
-      if (is_impact(contact)) answer(contact);
-    });
+    impacts.for_each(s.context.executor, "respond", pairs.contacts(), answer);
   };
   std::atomic<bool> again{true};
   for (int round = 0; again && round < most_rounds_of_impacts; ++round) {
@@ -49,7 +49,10 @@ void respond_to_shapes(Substep& s, float slow, FunctionRef<Vec3f(int object)> gr
 
 void respond(Substep& s) {
   const float slow = 2 * length(s.model.gravity) * s.h;
-  const auto gravity = [&](int object) { return s.is_last() ? Vec3f{} : gravity_for(s, s.work.gravity[object].settled); };
+  std::vector<Vec3f> missing(s.work.gravity.size());
+  if (!s.is_last())
+    for (std::size_t o = 0; o < missing.size(); ++o) missing[o] = gravity_for(s, s.work.gravity[o].settled);
+  const auto gravity = [&](int object) { return missing[static_cast<std::size_t>(object)]; };
   respond_to_shapes(s, slow, gravity);
   if (!s.has_pairs()) return;
   Record* velocities = s.state.velocities.data();
