@@ -21,11 +21,6 @@ Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
 
 Vec3f gravity_on(const Record& x, const Vec3f& gravity) { return x.w > 0 ? gravity : Vec3f{}; }
 
-/// A particle's displacement predicted from velocities, because constraints may have changed displacements already.
-Vec3f predicted(const AdvanceArguments& a, int i) {
-  return vector_of(a.remainders[i]) + (vector_of(a.velocities[i]) + gravity_on(a.positions[i], a.gravity_begun)) * a.h;
-}
-
 /// A cluster of an object and a collider.
 struct Meeting {
   const CompiledObject& object;
@@ -56,45 +51,37 @@ struct ElementContact {
   float s = 1;
 };
 
-// ---------------------------------------------------------------- culling of elements
+// ---------------------------------------------------------------- four numbers at a time
 
-std::uint16_t beyond(const Vec3f& p, const Vec3f& half) {
-  return static_cast<std::uint16_t>((p.x > half.x ? 1 : 0) | (p.x < -half.x ? 2 : 0) | (p.y > half.y ? 4 : 0) |
-                                    (p.y < -half.y ? 8 : 0) | (p.z > half.z ? 16 : 0) | (p.z < -half.z ? 32 : 0));
+/// Four numbers that compilers keep in one register.
+typedef float Four __attribute__((vector_size(16)));
+
+Four load(const Record& r) {
+  Four out;
+  std::memcpy(&out, &r, sizeof out);
+  return out;
 }
+Four least(const Four& a, const Four& b) { return a < b ? a : b; }
+Four most(const Four& a, const Four& b) { return a > b ? a : b; }
+Four four(const Vec3f& v) { return Four{v.x, v.y, v.z, 0}; }
 
-/// The face of a box that a point is over, from 1; 0 if it is over none or inside.
-int face_under(const Vec3f& p, const Vec3f& half) {
-  const int sides = beyond(p, half);
-  if ((sides & (sides - 1)) != 0 || sides == 0) return 0;
-  return 1 + __builtin_ctz(static_cast<unsigned>(sides));
-}
-
-/// Bits 0 to 5: the sides of the collider's grown box that the whole
-/// path is beyond. From bit 6: the face of a box that it is over.
-std::uint16_t outcode(const LocalShape& shape, const Vec3f& half, float thickness, const VertexWay& way) {
-  const float margin = thickness + largest(way.to - way.from);
-  const Vec3f grown = half + Vec3f{margin, margin, margin};
-  int code = beyond(way.from, grown) & beyond(way.to, grown);
-  if (shape.kind == ShapeKind::box) {
-    const int face = face_under(way.from, half);
-    if (face != 0 && face == face_under(way.to, half)) code |= face << 6;
+/// A particle's position and its displacement predicted from velocities, because constraints may have changed displacements already.
+struct Prediction {
+  Four position, displacement;
+  Prediction(const AdvanceArguments& a, const Four& gravity, int i) : position(load(a.positions[i])) {
+    const Four gained = position[3] > 0 ? gravity : Four{};
+    displacement = load(a.remainders[i]) + (load(a.velocities[i]) + gained) * a.h;
   }
-  return static_cast<std::uint16_t>(code);
-}
+};
 
-constexpr int sides = 63;
+// ---------------------------------------------------------------- culling of elements
 
 /// False if an element lies wholly beyond one side, or over one face, where its vertices are closest.
 template <std::size_t n>
 bool may_meet(const std::array<int, n>& vertex, const std::uint16_t* codes) {
-  int all = codes[vertex[0]];
-  bool same = true;
-  for (std::size_t i = 1; i < n; ++i) {
-    same = same && codes[vertex[i]] >> 6 == codes[vertex[0]] >> 6;
-    all &= codes[vertex[i]];
-  }
-  return (all & sides) == 0 && (!same || codes[vertex[0]] >> 6 == 0);
+  int common = codes[vertex[0]];
+  for (std::size_t i = 1; i < n; ++i) common &= codes[vertex[i]];
+  return common == 0;
 }
 
 // ---------------------------------------------------------------- contacts
@@ -212,7 +199,25 @@ struct Features {
   std::array<Vec3f, 8> point;
   int count = 0;
   float radius = 0;
+
+  /// Those within `reach` of a box, along each axis.
+  Features near(const BoundingBox<float>& box, float reach) const {
+    Features out;
+    out.radius = radius;
+    for (int i = 0; i < count; ++i) {
+      const Vec3f& p = point[static_cast<std::size_t>(i)];
+      const Vec3f outside = max(box.low - p, p - box.high);
+      if (max(max(outside.x, outside.y), outside.z) <= reach) out.point[static_cast<std::size_t>(out.count++)] = p;
+    }
+    return out;
+  }
 };
+
+/// How near a triangle whose vertices move by `path` must be to a feature point to meet the solid [m].
+float reach_of(const Meeting& m, float path) {
+  const LocalShape& shape = m.collider.shape;
+  return m.thickness + path + (shape.kind == ShapeKind::box ? min(shape.a, min(shape.b, shape.c)) : shape.a);
+}
 
 Features features_of(const LocalShape& shape) {
   Features f;
@@ -297,16 +302,10 @@ void find_triangle_contacts(const Meeting& m, const Features& features, const st
   const float side = max(length_squared(ways[1].to - ways[0].to),
                          max(length_squared(ways[2].to - ways[1].to), length_squared(ways[0].to - ways[2].to)));
   if (side <= 0.75f * m.shortest_squared) return;
-  const LocalShape& shape = m.collider.shape;
-  const float path = longest(ways), depth = shape.kind == ShapeKind::box ? min(shape.a, min(shape.b, shape.c)) : shape.a,
-              within = m.thickness + path + depth;
-  const BoundingBox<float> box = swept_box(ways);
-  for (int i = 0; i < features.count; ++i) {
-    const Vec3f& p = features.point[static_cast<std::size_t>(i)];
-    const Vec3f outside = max(box.low - p, p - box.high);
-    if (max(max(outside.x, outside.y), outside.z) > within) continue;
-    find_face_contact({m, ways, p, features.radius}, triangle, path, contacts);
-  }
+  const float path = longest(ways);
+  const Features near = features.near(swept_box(ways), reach_of(m, path));
+  for (int i = 0; i < near.count; ++i)
+    find_face_contact({m, ways, near.point[static_cast<std::size_t>(i)], near.radius}, triangle, path, contacts);
 }
 
 // ---------------------------------------------------------------- clusters
@@ -322,31 +321,20 @@ SweptBox box_of(const PointBounds& bounds) { return {vector_of(bounds.low), vect
 
 SweptBox merge(const SweptBox& a, const SweptBox& b) { return {min(a.low, b.low), max(a.high, b.high)}; }
 
-/// Four numbers that compilers keep in one register.
-typedef float Four __attribute__((vector_size(16)));
-
-Four load(const Record& r) {
-  Four out;
-  std::memcpy(&out, &r, sizeof out);
-  return out;
-}
-Four least(const Four& a, const Four& b) { return a < b ? a : b; }
-Four most(const Four& a, const Four& b) { return a > b ? a : b; }
-
 /// Computes the swept box of each cluster.
 void measure_clusters(const TileElements& tile, const AdvanceArguments& a, ShapeContactScratch& scratch) {
   scratch.boxes.clear();
   scratch.paths.clear();
-  const Four gravity{a.gravity_begun.x, a.gravity_begun.y, a.gravity_begun.z, 0}, none{};
+  const Four gravity = four(a.gravity_begun), none{};
   for (const ElementCluster& cluster : tile.clusters) {
     Four low = none + 3e38f, high = -low, down = none, up = none;
     for (const int v : cluster.vertices) {
-      const Four x = load(a.positions[v]),
-                 d = load(a.remainders[v]) + (load(a.velocities[v]) + (x[3] > 0 ? gravity : none)) * a.h, to = x + d;
-      low = least(low, least(x, to));
-      high = most(high, most(x, to));
-      down = least(down, d);
-      up = most(up, d);
+      const Prediction p(a, gravity, v);
+      const Four to = p.position + p.displacement;
+      low = least(low, least(p.position, to));
+      high = most(high, most(p.position, to));
+      down = least(down, p.displacement);
+      up = most(up, p.displacement);
     }
     const Four farthest = most(-down, up);
     scratch.boxes.push_back({{low[0], low[1], low[2]}, {high[0], high[1], high[2]}});
@@ -394,20 +382,85 @@ struct ColliderFrames {
   }
 };
 
-void find_cluster_contacts(const Meeting& m, const ColliderFrames& frames, ShapeContactScratch& scratch) {
-  const LocalShape& shape = m.collider.shape;
-  const Vec3f half = half_sides<float>(shape);
-  scratch.ways.clear();
-  scratch.outcodes.clear();
-  for (const int v : m.cluster.vertices) {
-    const Vec3f x = vector_of(m.particles.positions[v]);
-    scratch.ways.push_back({frames.before.to_local(x), frames.after.to_local(x + predicted(m.particles, v))});
-    scratch.outcodes.push_back(outcode(shape, half, m.thickness, scratch.ways.back()));
+/// Axes as columns: the products and sums of Axes::to_local, in its order.
+struct Columns {
+  Four x, y, z, origin;
+  explicit Columns(const Axes& a)
+      : x{a.x.x, a.y.x, a.z.x, 0}, y{a.x.y, a.y.y, a.z.y, 0}, z{a.x.z, a.y.z, a.z.z, 0}, origin(four(a.origin)) {}
+
+  Four to_local(const Four& p) const {
+    const Four d = p - origin;
+    return x * d[0] + y * d[1] + z * d[2];
   }
+};
+
+/// Four masks: all bits set means true.
+typedef std::int32_t FourMask __attribute__((vector_size(16)));
+
+/// Bits 0 to 5: the sides of a box that a point is beyond, by masks of those above and below.
+int sides_of(const FourMask& above, const FourMask& below) {
+  const FourMask bits = (above & FourMask{1, 4, 16, 0}) | (below & FourMask{2, 8, 32, 0});
+  return bits[0] | bits[1] | bits[2];
+}
+
+/// Outcodes of the vertices of a cluster. Bits 0 to 5: the sides of the collider's grown box that the whole path is beyond.
+/// Bits 6 to 11: the face of a box that the path is over.
+struct Outcoder {
+  Four half;
+  float thickness;
+  bool is_box;
+
+  std::uint16_t operator()(const Four& from, const Four& to) const {
+    const Four path = most(to - from, from - to), grown = half + (thickness + most(path[0], most(path[1], path[2])));
+    int code = sides_of((from > grown) & (to > grown), (from < -grown) & (to < -grown));
+    if (is_box) {
+      const int over = sides_of(from > half, from < -half);
+      const bool is_one = over != 0 && (over & (over - 1)) == 0;
+      if (is_one && over == sides_of(to > half, to < -half)) code |= over << 6;
+    }
+    return static_cast<std::uint16_t>(code);
+  }
+  static float most(float a, float b) { return a > b ? a : b; }
+  static Four most(const Four& a, const Four& b) { return a > b ? a : b; }
+};
+
+/// What the ways of a cluster's vertices have in common.
+struct ClusterWays {
+  SweptBox box;
+  float longest;
+};
+
+/// The ways and outcodes of a cluster's vertices. Returns the box around all ways in the collider's frame, and a bound of their lengths.
+ClusterWays enter_frame(const Meeting& m, const ColliderFrames& frames, ShapeContactScratch& scratch) {
+  const LocalShape& shape = m.collider.shape;
+  const Outcoder outcode{four(half_sides<float>(shape)), m.thickness, shape.kind == ShapeKind::box};
+  const Columns before(frames.before), after(frames.after);
+  const Four gravity = four(m.particles.gravity_begun);
+  Four low = Four{} + 3e38f, high = -low, paths{};
+  const std::size_t count = m.cluster.vertices.size();
+  scratch.ways.resize(count);
+  scratch.outcodes.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Prediction p(m.particles, gravity, m.cluster.vertices[i]);
+    const Four from = before.to_local(p.position), to = after.to_local(p.position + p.displacement);
+    low = least(low, least(from, to));
+    high = most(high, most(from, to));
+    paths = most(paths, most(to - from, from - to));
+    const Four way[2] = {from, to};
+    static_assert(sizeof way == sizeof(VertexWay));
+    std::memcpy(static_cast<void*>(&scratch.ways[i]), way, sizeof way);
+    scratch.outcodes[i] = outcode(from, to);
+  }
+  return {{{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}, length(Vec3f{paths[0], paths[1], paths[2]})};
+}
+
+void find_cluster_contacts(const Meeting& m, const ColliderFrames& frames, ShapeContactScratch& scratch) {
+  const ClusterWays ways = enter_frame(m, frames, scratch);
   const std::uint16_t* codes = scratch.outcodes.data();
   for (const auto& edge : m.cluster.edges)
     if (may_meet(edge, codes)) find_edge_contacts(m, edge, scratch.contacts);
-  const Features features = features_of(shape);
+  const Features features = features_of(m.collider.shape).near(ways.box, reach_of(m, ways.longest));
+  if (features.count == 0) return;
   for (const auto& triangle : m.cluster.triangles)
     if (may_meet(triangle, codes)) find_triangle_contacts(m, features, triangle, scratch.contacts);
 }

@@ -25,9 +25,12 @@ struct ShapeContactSearch {
   FunctionRef<const PointBounds&(int task)> bounds;  ///< encloses the tile's particles at the substep's start and predicted
 };
 
-/// A vertex in a collider's frame, at the substep's start and as predicted.
+/// A vertex in a collider's frame, at the substep's start and as predicted: two quads of floats.
 struct VertexWay {
-  Vec3f from, to;
+  Vec3f from;
+  float unused = 0;
+  Vec3f to;
+  float unused_too = 0;
   Vec3f at(float s) const { return from + (to - from) * s; }
 };
 
