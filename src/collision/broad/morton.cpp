@@ -1,6 +1,7 @@
 // Morton codes by bit interleaving, ordered by a radix sort, which is stable: equal codes stay in index order.
 #include "collision/broad/morton.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -11,6 +12,8 @@ namespace pliant {
 namespace {
 
 constexpr int bits = 21;
+/// Below it a sort by comparisons is faster; both give the same order.
+constexpr std::size_t fewest_for_radix = 1024;
 constexpr double largest_cell = (1 << bits) - 1;
 
 /// Spreads the low 21 bits of x, with two zeros after each.
@@ -42,13 +45,24 @@ void MortonSorter::sort(const std::vector<Vec3f>& points, std::vector<int>& orde
   const double extent = max(max(high.x - low.x, high.y - low.y), max(high.z - low.z, 1e-300));
   const double scale = largest_cell / extent;
   keys_.resize(points.size());
-  spare_.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3f& p = points[i];
     const std::uint64_t code =
         spread(cell(p.x, low.x, scale)) | spread(cell(p.y, low.y, scale)) << 1 | spread(cell(p.z, low.z, scale)) << 2;
     keys_[i] = {code, static_cast<int>(i)};
   }
+  if (points.size() < fewest_for_radix) {
+    std::sort(keys_.begin(), keys_.end(),
+              [](const Key& x, const Key& y) { return x.code != y.code ? x.code < y.code : x.id < y.id; });
+  } else {
+    radix_sort();
+  }
+  order.resize(points.size());
+  for (std::size_t i = 0; i < keys_.size(); ++i) order[i] = keys_[i].id;
+}
+
+void MortonSorter::radix_sort() {
+  spare_.resize(keys_.size());
   constexpr int digit = 11;
   for (int shift = 0; shift < 3 * bits; shift += digit) {
     std::array<std::size_t, (1 << digit) + 1> start{};
@@ -58,8 +72,6 @@ void MortonSorter::sort(const std::vector<Vec3f>& points, std::vector<int>& orde
     for (const Key& key : keys_) spare_[start[digit_of(key)]++] = key;
     std::swap(keys_, spare_);
   }
-  order.resize(points.size());
-  for (std::size_t i = 0; i < keys_.size(); ++i) order[i] = keys_[i].id;
 }
 
 }  // namespace pliant

@@ -19,6 +19,8 @@ class MortonSorter {
     std::uint64_t code;
     int id;
   };
+  void radix_sort();
+
   std::vector<Key> keys_, spare_;
 };
 

@@ -31,14 +31,30 @@ IntLists edges_around(const PairModel& model, const BodyElements& body) {
   return out;
 }
 
-/// Packed into one integer, which compares faster; both numbers are >= 0.
-std::uint64_t key(const Numbers& pair) {
-  return (static_cast<std::uint64_t>(pair[0]) << 32) | static_cast<std::uint64_t>(pair[1]);
-}
+/// Second numbers by first numbers, which are in `rows`.
+struct Dealt {
+  std::vector<int> start;
+  std::vector<std::int32_t> second;
 
-void sort_unique(std::vector<Numbers>& list) {
-  std::sort(list.begin(), list.end(), [](const Numbers& x, const Numbers& y) { return key(x) < key(y); });
-  list.erase(std::unique(list.begin(), list.end()), list.end());
+  Dealt(const std::vector<Numbers>& pairs, const Block& rows)
+      : start(static_cast<std::size_t>(rows.size) + 2, 0), second(pairs.size()) {
+    for (const Numbers& pair : pairs) ++start[static_cast<std::size_t>(pair[0] - rows.first) + 2];
+    for (std::size_t i = 2; i < start.size(); ++i) start[i] += start[i - 1];
+    for (const Numbers& pair : pairs) second[start[static_cast<std::size_t>(pair[0] - rows.first) + 1]++] = pair[1];
+  }
+  auto begin(int row) { return second.begin() + start[static_cast<std::size_t>(row)]; }
+  auto end(int row) { return second.begin() + start[static_cast<std::size_t>(row) + 1]; }
+};
+
+/// Sorts pairs whose first numbers are in `rows`, and drops duplicates. Rows are short, so this is faster than one sort.
+void sort_unique(std::vector<Numbers>& list, const Block& rows) {
+  Dealt dealt(list, rows);
+  list.clear();
+  for (int row = 0; row < rows.size; ++row) {
+    std::sort(dealt.begin(row), dealt.end(row));
+    const auto last = std::unique(dealt.begin(row), dealt.end(row));
+    for (auto second = dealt.begin(row); second != last; ++second) list.push_back({rows.first + row, *second});
+  }
 }
 
 bool share_vertex(const std::array<int, 2>& e, const std::array<int, 2>& f) {
@@ -113,18 +129,20 @@ void leave_out(ClusterLayout& layout, const PairModel& model, int body, bool of_
   const std::vector<std::int32_t> row_at = places_of(rows, all.clusters, of_rows),
                                   column_at = places_of(columns, all.clusters, of_columns);
   for (Numbers& pair : pairs) pair = {row_at[pair[0] - of_rows.first], column_at[pair[1] - of_columns.first]};
-  sort_unique(pairs);
   const Block block = rows.row_blocks[body];
+  Dealt dealt(pairs, block);
   std::vector<LeftOut> own;
-  std::size_t next = 0;
-  for (std::int32_t row = block.first; row < block.end(); ++row) {
+  for (int row = 0; row < block.size; ++row) {
     const std::size_t start = own.size();
-    rows.left_out_start[row] = static_cast<std::int32_t>(start);
-    for (; next < pairs.size() && pairs[next][0] == row; ++next) {
-      const std::int32_t batch = pairs[next][1] / 16;
-      if (own.size() == start || own.back().batch != batch) own.push_back({batch, 0});
-      own.back().bits |= 1U << (pairs[next][1] % 16);
+    rows.left_out_start[block.first + row] = static_cast<std::int32_t>(start);
+    for (auto column = dealt.begin(row); column != dealt.end(row); ++column) {
+      std::size_t at = start;
+      while (at < own.size() && own[at].batch != *column / 16) ++at;
+      if (at == own.size()) own.push_back({*column / 16, 0});
+      own[at].bits |= 1U << (*column % 16);
     }
+    std::sort(own.begin() + static_cast<std::ptrdiff_t>(start), own.end(),
+              [](const LeftOut& x, const LeftOut& y) { return x.batch < y.batch; });
     own.push_back({std::numeric_limits<std::int32_t>::max(), 0});
   }
   const int first = rows.left_out_blocks.take(body, static_cast<int>(own.size())).first;
@@ -156,15 +174,17 @@ void add_groups(const PairModel& model, bool of_vertices, const std::vector<Numb
     PairStencil four;
   };
   std::vector<Placed> placed;
+  placed.reserve(pairs.size());
   for (const Numbers& p : pairs) {
     int first = of_vertices ? model.vertex_cluster[p[0]] : model.edge_cluster[p[0]],
         second = of_vertices ? model.triangle_cluster[p[1]] : model.edge_cluster[p[1]];
     if (!of_vertices && first > second) std::swap(first, second);
     placed.push_back({first, second, stencil_of(model.elements, of_vertices, p[0], p[1])});
   }
-  std::stable_sort(placed.begin(), placed.end(), [](const Placed& x, const Placed& y) {
+  const auto is_before = [](const Placed& x, const Placed& y) {
     return std::tie(x.first, x.second) < std::tie(y.first, y.second);
-  });
+  };
+  if (!std::is_sorted(placed.begin(), placed.end(), is_before)) std::stable_sort(placed.begin(), placed.end(), is_before);
   std::vector<PairStencil> together;
   for (std::size_t i = 0; i < placed.size(); ++i) {
     const Placed& p = placed[i];
@@ -194,17 +214,19 @@ std::vector<Clearance::Piece> clearance_pieces(const ClusterLayout& layout, cons
           piece.lines.push_back({a, b});
         }
     }
-    sort_unique(piece.lines);
+    std::sort(piece.lines.begin(), piece.lines.end());
+    piece.lines.erase(std::unique(piece.lines.begin(), piece.lines.end()), piece.lines.end());
   }
   return pieces;
 }
 
 void add_pairs_of(const PairModel& model, int body, ClusterLayout& layout, std::vector<StaticGroup>& groups,
                   Clearance& clearance) {
+  const BodyElements& all = model.bodies[body];
   MeshPairs pairs = find_mesh_pairs(model, body);
   for (const bool of_vertices : {true, false}) {
     std::vector<Numbers>&near = pairs.near[of_vertices ? 0 : 1], &sharing = pairs.sharing[of_vertices ? 0 : 1];
-    sort_unique(near);
+    sort_unique(near, of_vertices ? all.vertices : all.edges);
     add_groups(model, of_vertices, near, groups);
     sharing.insert(sharing.end(), near.begin(), near.end());
     if (!of_vertices)
@@ -212,7 +234,6 @@ void add_pairs_of(const PairModel& model, int body, ClusterLayout& layout, std::
     leave_out(layout, model, body, of_vertices, sharing);
   }
   if (!model.rules.meet(body, body)) return;
-  const BodyElements& all = model.bodies[body];
   clearance.add(body, all.clusters.first, clearance_pieces(layout, all.clusters), model.rest, all.vertices, pairs.joined);
 }
 
