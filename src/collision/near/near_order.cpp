@@ -1,7 +1,7 @@
 #include "collision/near/near_order.h"
 
 #include <algorithm>
-#include <tuple>
+#include <cstdint>
 
 namespace pliant {
 
@@ -12,17 +12,20 @@ bool is_before(const PairModel& model, const ClusterSides& list, const ClusterSi
 }
 
 std::vector<ClusterSides> sides_of(const Neighbourhood& near, const std::vector<int>& pairs) {
-  std::vector<ClusterSides> all;
+  std::vector<std::uint64_t> place(near.model.cluster_body.size());
+  for (std::size_t i = 0; i < near.model.cluster_order.size(); ++i) place[near.model.cluster_order[i]] = i;
+  struct Keyed {
+    std::uint64_t key;  // the order of is_before in one integer
+    ClusterSides sides;
+  };
+  std::vector<Keyed> all;
+  all.reserve(3 * pairs.size());
   const auto add = [&](bool of_vertices, int first, int second, int pair) {
     if (near.layout.elements[row_kind(of_vertices)].count[first] == 0 ||
         near.layout.elements[column_kind(of_vertices)].count[second] == 0)
       return;
-    ClusterSides sides;
-    sides.first = first;
-    sides.second = second;
-    sides.of_vertices = of_vertices;
-    sides.pair = pair;
-    all.push_back(sides);
+    const std::uint64_t kind = of_vertices ? 0 : 1;
+    all.push_back({kind << 63 | place[first] << 32 | place[second], {first, second, of_vertices, pair}});
   };
   for (const int number : pairs) {
     const int a = near.pairs[number].a, b = near.pairs[number].b;
@@ -30,9 +33,11 @@ std::vector<ClusterSides> sides_of(const Neighbourhood& near, const std::vector<
     if (a != b) add(true, b, a, number);
     add(false, a, b, number);
   }
-  std::sort(all.begin(), all.end(),
-            [&](const ClusterSides& x, const ClusterSides& y) { return is_before(near.model, x, y); });
-  return all;
+  std::sort(all.begin(), all.end(), [](const Keyed& x, const Keyed& y) { return x.key < y.key; });
+  std::vector<ClusterSides> sides;
+  sides.reserve(all.size());
+  for (const Keyed& one : all) sides.push_back(one.sides);
+  return sides;
 }
 
 }  // namespace pliant
