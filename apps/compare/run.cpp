@@ -45,6 +45,10 @@ std::string type_of(const std::vector<Curve>& curves) {
 Result run(const Scene& given, const Options& options) {
   Scene scene = given;
   scene.settings = chosen_settings(given);
+  if (scene.settings.substeps == 0) {  // curves are of one substep of all objects
+    const std::vector<int> substeps = chosen_substeps(given);
+    scene.settings.substeps = *std::max_element(substeps.begin(), substeps.end());
+  }
   const std::vector<Method> methods = methods_of(scene, options);
   Result result;
   result.frame = options.frame < 0 ? scene.frames / 2 : options.frame;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "apps/compare/compare.h"
 #include "command.h"
@@ -85,10 +88,25 @@ void try_out(const Scene& scene, double seconds, std::vector<Finding>& findings)
           compare::figure(more_seconds(advice, seconds), 3) + " gives more\n");
 }
 
+/// "20 substeps a frame", or, where objects differ, "10 substeps a frame for 'flag', 20 for 'sock' and 2 more".
+std::string substeps_in_words(const Scene& scene, const Settings& chosen) {
+  if (chosen.substeps != 0) return counted(static_cast<std::size_t>(std::max(chosen.substeps, 0)), "substep") + " a frame";
+  std::map<int, std::vector<std::string>> names;
+  const std::vector<int> substeps = chosen_substeps(scene);
+  for (std::size_t o = 0; o < substeps.size(); ++o) names[substeps[o]].push_back(scene.objects[o].name);
+  std::string text;
+  for (const auto& [number, of] : names) {
+    text +=
+        text.empty() ? counted(static_cast<std::size_t>(number), "substep") + " a frame" : ", " + std::to_string(number);
+    text += " for '" + of.front() + "'" + (of.size() > 1 ? " and " + std::to_string(of.size() - 1) + " more" : "");
+  }
+  return text;
+}
+
 std::string how_it_is_solved(const Scene& scene) {
   std::string reason;
   const Settings settings = chosen_settings(scene, &reason);
-  const std::string substeps = counted(static_cast<std::size_t>(std::max(settings.substeps, 0)), "substep") + " a frame";
+  const std::string substeps = substeps_in_words(scene, settings);
   if (settings.sweep == Sweep::automatic) return "solved with " + substeps + ": " + one_line(reason) + "\n";
   return "solved by the sweep '" + sweep_name(settings.sweep) + "' with " + substeps +
          (reason.empty() ? "" : ", since the scene leaves the sweep open and has " + one_line(reason)) + "\n";

@@ -72,6 +72,19 @@ Json nonfinite_json(const Report& report) {
           {"message", report.explain()}};
 }
 
+/// The most of any object; where objects differ, those of each, too.
+void add_substeps(const World& world, Json& json) {
+  int most = world.settings().substeps;
+  Json by_object = Json::object();
+  for (const ObjectId id : world.objects()) {
+    const ObjectInfo info = world.info(id);
+    by_object[info.name] = info.substeps;
+    most = std::max(most, info.substeps);
+  }
+  json["substeps"] = most;
+  if (world.settings().substeps == 0) json["substeps_by_object"] = by_object;
+}
+
 }  // namespace
 
 double quantile(std::vector<double> values, double q) {
@@ -108,7 +121,7 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["frames"] = world.state().frame;
   json["frame_time"] = scene.frame_time;
   json["sweep"] = sweep_name(world.settings().sweep);
-  json["substeps"] = world.settings().substeps;
+  add_substeps(world, json);
   json["iterations"] = world.settings().iterations;
   json["iterations_used"] = {
       {"smallest", iterations_.smallest}, {"largest", iterations_.largest}, {"mean", iterations_.mean / frames}};

@@ -107,7 +107,7 @@ struct Report {
   std::int64_t frame = 0;
   double time = 0;
   double milliseconds = 0;
-  int substeps = 0;  ///< number of substeps of this frame (Settings::most_substeps)
+  int substeps = 0;  ///< number of substeps of this frame (Settings::most_substeps); the largest where objects differ
   std::vector<PhaseTime> phases;
   std::int64_t contacts = 0;  ///< active in the last substep
   PairReport pairs;

@@ -285,7 +285,7 @@ struct SweepOptions {
 };
 
 struct Settings {
-  int substeps = 0;    ///< 1..10000 per frame; 0: as many as the sweep needs, see chosen_settings
+  int substeps = 0;    ///< 1..10000 per frame; 0: as many as each set of objects needs, see chosen_substeps
   int iterations = 1;  ///< 1..10000 per substep
   /// A substep stops iterating when the root mean square |C + alpha~ lambda| of distance constraints and attachments falls
   /// below this [m]; 0: never. No other type counts; a scene without distance constraints makes all iterations. PBD
@@ -346,9 +346,16 @@ struct Scene {
 /// receives the deciding fact if both leave the sweep open.
 Sweep chosen_sweep(const Scene& scene, int object, std::string* reason = nullptr);
 
+/// The substeps per frame of each object: those of the settings, or, if they are 0, those of its set. Objects and mesh
+/// colliders (as triangles) form a set if their surfaces can touch, by groups, masks and `collides`, directly or through
+/// others; an object that touches nothing is a set of its own. A set has 10 substeps if all its objects use `multigrid`,
+/// without PBD stiffness between 0 and 1, else 20 (docs/internals/convergence.md). With a tolerance or recorded residuals all
+/// objects are one set.
+std::vector<int> chosen_substeps(const Scene& scene);
+
 /// The settings of a World of this scene, with defaults chosen by its content. `Sweep::automatic`
 /// becomes the common sweep of all objects (see chosen_sweep), or stays if they differ. 0
-/// substeps become 10 if every object uses `multigrid`, else 20 (docs/internals/convergence.md).
+/// substeps become those of all objects (see chosen_substeps), or stay if these differ.
 /// `reason` receives the deciding fact if the sweep was left open.
 Settings chosen_settings(const Scene& scene, std::string* reason = nullptr);
 

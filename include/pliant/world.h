@@ -20,6 +20,7 @@ struct ObjectInfo {
   std::string name;
   int particles = 0;
   std::vector<std::pair<std::string, std::int64_t>> constraints;  ///< number of constraints by type, including "volume"
+  int substeps = 0;  ///< per frame; a frame with a fast collider may have more (Report::substeps)
 };
 
 /// The solve counts as good if no distance is longer by more than this share than its force explains [-].
@@ -92,7 +93,8 @@ class World {
   Report step(float dt);
 
   /// Polls the flag after each substep and ends the step if it is true, with Report::stopped: State and `time` are those at
-  /// the end of the substep, and the frame does not count. If it is true before a step, nothing moves. Other threads and
+  /// the end of the substep, and the frame does not count. Where objects have different substeps, it ends at the next time
+  /// that is the end of a substep of all. If it is true before a step, nothing moves. Other threads and
   /// signal handlers may set it. It must outlive the World or be reset by nullptr.
   void stop_when(const std::atomic<bool>* flag);
 
@@ -104,8 +106,8 @@ class World {
   // ---- Adding and removing, between steps. A call that throws an Error leaves the World unchanged.
 
   /// Adds an object at the current time: its keyframes act from the next frame on. The cost is that of compiling it; if it
-  /// can touch other surfaces, contact is prepared again before the next step. The World's sweep and substeps stay as
-  /// chosen when it was made. Throws an Error that names the element if it cannot be simulated, or if the settings reject
+  /// can touch other surfaces, contact is prepared again before the next step. A sweep and substeps that settings() names stay
+  /// as they are; those left open are chosen again for the sets of objects that can meet. Throws an Error that names the element if it cannot be simulated, or if the settings reject
   /// its initial intersections with present objects; that check tests all surfaces.
   ObjectId add(const Object& object);
   ColliderId add(const Collider& collider);

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "matter/advice_settings.h"
+#include "model/object_sets.h"
 #include "world/advice.h"
 
 namespace pliant {
@@ -109,7 +110,8 @@ struct Family {
 };
 
 std::vector<Family> families_of(const Scene& scene) {
-  const Settings& own = scene.settings;
+  Settings own = scene.settings;
+  own.substeps = most_substeps_of(own);  // of all objects in other settings
   const bool may = may_tether(scene);
   std::vector<Family> families;
   for (Sweep alternative : better_sweeps(scene)) {
@@ -179,7 +181,7 @@ class Search {
   /// Tries half of the good number of substeps while that is good, then three quarters of the least good number.
   void try_less(Family& family) {
     if (family.good < 0) return;
-    const bool was_doubled = family.settings.substeps > advice_.own.settings.substeps;
+    const bool was_doubled = family.settings.substeps > most_substeps_of(advice_.own.settings);
     while (!was_doubled && has_time() && halve(family)) {
     }
     Settings least = advice_.others[family.good].settings;

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "inspect/problems.h"
+#include "model/object_sets.h"
 #include "pliant/error.h"
 #include "solver/kernels.h"
 
@@ -64,7 +65,7 @@ void check_settings(Problems& problems, const Scene& scene) {
   if (!(scene.frame_time > 0) || std::isinf(scene.frame_time))
     problems.grave("frame_time", "is " + words(scene.frame_time) + " s", "give a positive, finite time, such as 1/60 s");
   else if (settings.substeps >= 0 &&
-           scene.frame_time / static_cast<double>(chosen_settings(scene).substeps) < shortest_substep)
+           scene.frame_time / static_cast<double>(most_substeps_of(chosen_settings(scene))) < shortest_substep)
     problems.grave("frame_time", "is " + words(scene.frame_time) + " s, which makes substeps too short for floats",
                    "give a longer time or fewer substeps, such as 1/60 s and 20");
   try {
@@ -126,7 +127,8 @@ void check_count(Problems& problems, const Scene& scene) {
 
 void doubt_settings(Problems& problems, const Scene& scene) {
   const Settings settings = chosen_settings(scene);
-  const double substep = static_cast<double>(scene.frame_time) / settings.substeps;
+  const int substeps = most_substeps_of(settings);
+  const double substep = static_cast<double>(scene.frame_time) / substeps;
   const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
   if (scene.objects.empty()) problems.doubtful("", "the scene has no objects, so nothing will move", "add one");
   if (gravity > 1000)
@@ -138,10 +140,10 @@ void doubt_settings(Problems& problems, const Scene& scene) {
                       "make substeps of " + words(substep) + " s, in which float precision loses small motions",
                       "use fewer");
   const bool solves_at_once = settings.sweep == Sweep::chains || settings.sweep == Sweep::multigrid;
-  if (!solves_at_once && settings.substeps * static_cast<std::int64_t>(settings.iterations) < 5)
+  if (!solves_at_once && substeps * static_cast<std::int64_t>(settings.iterations) < 5)
     problems.doubtful("settings, substeps", "times iterations project each constraint fewer than 5 times per frame",
                       "stiff objects will stretch like rubber: 10 to 20 substeps are usual");
-  if (settings.iterations > 10 && settings.iterations > settings.substeps)
+  if (settings.iterations > 10 && settings.iterations > substeps)
     problems.doubtful("settings, iterations", "are more than substeps",
                       "more substeps with fewer iterations converge far better at the same cost");
 }

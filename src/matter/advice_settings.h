@@ -23,6 +23,8 @@ Settings suggest(const Scene& scene);
 Settings suggest(const Scene& scene, const Settings& settings);
 /// As chosen_sweep in pliant/scene.h, with `settings` instead of the scene's own.
 Sweep chosen_sweep(const Scene& scene, const Settings& settings, int object, std::string* reason = nullptr);
+/// The same of all objects at once.
+std::vector<Sweep> chosen_sweeps(const Scene& scene, const Settings& settings);
 
 /// True if a sheet supports itself; multigrid, which ignores bending, would make it oscillate.
 bool has_stiff_sheet(const Scene& scene);

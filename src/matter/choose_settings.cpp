@@ -10,6 +10,7 @@
 #include "constraints/registry.h"
 #include "math/vector.h"
 #include "matter/advice_settings.h"
+#include "model/object_sets.h"
 #include "pliant/scene.h"
 
 namespace pliant {
@@ -23,7 +24,6 @@ constexpr double stiff_share = 0.25;
 /// Lower bound of the acceleration that bends the sheet: under less gravity, other forces bend it [m/s^2].
 constexpr double least_acceleration = 9.81;
 constexpr const char* too_coarse = "only objects with fewer than 32 linked particles";
-constexpr int substeps_of_multigrid = 10, substeps_of_others = 20;
 
 /// Zero for a missing particle, because this runs before the scene is validated.
 Vec3d position(const Object& object, int particle) {
@@ -198,13 +198,25 @@ struct SweepsInUse {
   }
 };
 
-SweepsInUse sweeps_in_use(const Scene& scene, const Settings& settings) {
+struct Choices {
+  std::vector<Sweep> sweeps;  ///< by object
   SweepsInUse used;
+};
+
+Choices choices_of(const Scene& scene, const Settings& settings) {
+  Choices out;
+  std::vector<std::size_t> coarse;
   for (const Object& object : scene.objects) {
     const Choice choice = choice_of(scene, settings, object);
-    if (choice.reason != too_coarse) used.add(object, choice);
+    if (choice.reason != too_coarse)
+      out.used.add(object, choice);
+    else
+      coarse.push_back(out.sweeps.size());
+    out.sweeps.push_back(choice.sweep);
   }
-  return used;
+  const Sweep common = out.used.common(Sweep::tiled);
+  for (const std::size_t o : coarse) out.sweeps[o] = common == Sweep::multigrid ? Sweep::multigrid : Sweep::tiled;
+  return out;
 }
 
 }  // namespace
@@ -223,17 +235,50 @@ Sweep chosen_sweep(const Scene& scene, const Settings& settings, int object, std
   const Choice choice = choice_of(scene, settings, scene.objects[static_cast<std::size_t>(object)]);
   if (reason != nullptr) *reason = choice.reason;
   if (choice.reason != too_coarse) return choice.sweep;
-  return sweeps_in_use(scene, settings).common(Sweep::tiled) == Sweep::multigrid ? Sweep::multigrid : Sweep::tiled;
+  return choices_of(scene, settings).sweeps[static_cast<std::size_t>(object)];
+}
+
+std::vector<Sweep> chosen_sweeps(const Scene& scene, const Settings& settings) {
+  return choices_of(scene, settings).sweeps;
+}
+
+namespace {
+
+/// Where the settings leave them open: the substeps of each object's set, or all objects'.
+std::vector<int> substeps_of_objects(const Scene& scene, const std::vector<Sweep>& sweeps) {
+  std::vector<SetMember> members;
+  for (std::size_t o = 0; o < sweeps.size(); ++o)
+    members.push_back(member_of(scene.objects[o], own_substeps(scene.objects[o], sweeps[o])));
+  for (const MeshCollider& collider : scene.mesh_colliders) members.push_back(member_of(collider));
+  std::vector<int> substeps = substeps_of_sets(members);
+  substeps.resize(scene.objects.size());
+  const bool is_one_set = scene.settings.tolerance > 0 || scene.settings.record_residuals;
+  if (is_one_set && !substeps.empty())
+    substeps.assign(substeps.size(), *std::max_element(substeps.begin(), substeps.end()));
+  return substeps;
+}
+
+}  // namespace
+
+std::vector<int> chosen_substeps(const Scene& scene) {
+  if (scene.settings.substeps != 0) return std::vector<int>(scene.objects.size(), scene.settings.substeps);
+  return substeps_of_objects(scene, chosen_sweeps(scene, scene.settings));
 }
 
 Settings chosen_settings(const Scene& scene, std::string* reason) {
   Settings settings = scene.settings;
-  const SweepsInUse used = sweeps_in_use(scene, settings);
+  const Choices choices = choices_of(scene, settings);
+  const SweepsInUse& used = choices.used;
   const bool is_open = settings.sweep == Sweep::automatic;
   const Sweep common = used.common(is_open ? Sweep::tiled : settings.sweep);
   if (is_open) settings.sweep = common;
   if (is_open && reason != nullptr) *reason = used.in_words();
-  if (settings.substeps == 0) settings.substeps = common == Sweep::multigrid ? substeps_of_multigrid : substeps_of_others;
+  if (settings.substeps != 0) return settings;
+  const std::vector<int> substeps = substeps_of_objects(scene, choices.sweeps);
+  if (substeps.empty())
+    settings.substeps = common == Sweep::multigrid ? substeps_of_multigrid : substeps_of_others;
+  else if (std::all_of(substeps.begin(), substeps.end(), [&](int other) { return other == substeps.front(); }))
+    settings.substeps = substeps.front();
   return settings;
 }
 

@@ -12,6 +12,7 @@
 #include "model/compiled_object.h"
 #include "model/fill_pool.h"
 #include "model/gather_constraints.h"
+#include "model/object_sets.h"
 #include "model/stiffness.h"
 #include "topology/colouring.h"
 #include "topology/tiles.h"
@@ -371,6 +372,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   const std::vector<Vec3f>& positions = object.attachments.empty() ? object.positions : with_targets;
   out.particles = static_cast<int>(positions.size());
   out.user_particles = static_cast<int>(object.positions.size());
+  out.own_substeps = own_substeps(object, options.sweep);
 
   std::vector<ConstraintList> lists = given_away != nullptr ? gather_constraints(std::move(*given_away), options.passes)
                                                             : gather_constraints(object, options.passes);
@@ -457,6 +459,7 @@ CompiledObject compile(const MeshCollider& collider) {
   object.drag = object.lift = 0;
   CompiledObject out = compile(object, CompileOptions{});
   out.is_collider = true;
+  out.own_substeps = 0;
   fill_carrier(collider, out);
   return out;
 }

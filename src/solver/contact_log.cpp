@@ -70,15 +70,15 @@ void log_contact(const Substep& s, const Contact& contact, const PointReader& of
 
 void log_contacts(const Substep& s, ContactLog& log) {
   const float slow = 2 * length(s.model.gravity) * s.h;
-  for (std::size_t task = 0; task < s.model.tiles().size(); ++task) {
+  for_each_tile(s, [&](int task) {
     const int object = s.model.tiles()[task].object, first = s.model.first[object];
     const PointReader of{s.state.positions.data() + first, s.work.displacements.data() + first, s.h, object};
     for (const Contact& contact : s.work.tiles[task].contacts) log_contact(s, contact, of, slow, log);
-  }
+  });
   const PointReader all{s.state.positions.data(), s.work.displacements.data(), s.h, -1};
   for (const Contact& contact : s.work.shape_contacts.contacts()) log_contact(s, contact, all, slow, log);
   if (s.has_pairs())
-    for (const Contact& contact : s.work.pairs->contacts()) log_contact(s, contact, all, slow, log);
+    for (const Contact& contact : s.pairs->contacts()) log_contact(s, contact, all, slow, log);
   for (auto& [bodies, sum] : log) {
     sum.contacts = std::max(sum.contacts, sum.in_substep);
     sum.in_substep = 0;

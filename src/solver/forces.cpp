@@ -18,10 +18,11 @@ void push(Record& velocity, const Vec3f& change) {
 }
 
 void apply_air(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h,
-               FunctionRef<Vec3f(int)> gravity) {
+               FunctionRef<Vec3f(int)> gravity, FunctionRef<bool(int)> takes_part) {
   const Vec3f air = wind_at(model.wind, time);
   for (std::size_t o = 0; o < model.objects.size(); ++o) {
     const CompiledObject& object = model.objects[o];
+    if (!takes_part(static_cast<int>(o))) continue;
     const int triangles = static_cast<int>(object.surface.triangles.size());
     std::vector<Vec3f>& forces = workspace.triangle_forces[o];
     forces.resize(triangles);
@@ -98,12 +99,12 @@ LeftOut apply_by_tiles(const Model& model, const CompiledObject& object, const R
 }
 
 void apply_fields(const Model& model, State& state, Executor& executor, double time, float h,
-                  FunctionRef<Vec3f(int)> gravity, std::vector<std::string>& warnings) {
+                  FunctionRef<Vec3f(int)> gravity, FunctionRef<bool(int)> takes_part, std::vector<std::string>& warnings) {
   const bool on_all_threads =
       std::all_of(model.forces.begin(), model.forces.end(), [](const ForceField& field) { return field.on_all_threads; });
   for (std::size_t o = 0; o < model.objects.size(); ++o) {
     const CompiledObject& object = model.objects[o];
-    if (object.is_collider) continue;
+    if (object.is_collider || !takes_part(static_cast<int>(o))) continue;
     const Vec3f gravity_so_far = gravity(static_cast<int>(o));
     const Record* positions = state.positions.data() + model.first[o];
     Record* velocities = state.velocities.data() + model.first[o];
@@ -117,9 +118,10 @@ void apply_fields(const Model& model, State& state, Executor& executor, double t
 }
 
 /// Applies the user's forces of this frame.
-void apply_given(const Model& model, const Control& control, State& state, Executor& executor, float h) {
+void apply_given(const Model& model, const Control& control, State& state, Executor& executor, float h,
+                 FunctionRef<bool(int)> takes_part) {
   for (const auto& [o, given] : control.objects) {
-    if (given.forces.empty()) continue;
+    if (given.forces.empty() || !takes_part(o)) continue;
     const CompiledObject& object = model.objects[o];
     const Record* positions = state.positions.data() + model.first[o];
     Record* velocities = state.velocities.data() + model.first[o];
@@ -145,12 +147,12 @@ Vec3f wind_at(const Wind& wind, double time) {
 }
 
 void apply_forces(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h,
-                  FunctionRef<Vec3f(int)> gravity, std::vector<std::string>& warnings) {
-  if (model.wind.air_density > 0) apply_air(model, state, workspace, executor, time, h, gravity);
+                  FunctionRef<Vec3f(int)> gravity, FunctionRef<bool(int)> takes_part, std::vector<std::string>& warnings) {
+  if (model.wind.air_density > 0) apply_air(model, state, workspace, executor, time, h, gravity, takes_part);
   if (!model.forces.empty()) {
-    apply_fields(model, state, executor, time, h, gravity, warnings);
+    apply_fields(model, state, executor, time, h, gravity, takes_part, warnings);
   }
-  if (workspace.control.has_forces()) apply_given(model, workspace.control, state, executor, h);
+  if (workspace.control.has_forces()) apply_given(model, workspace.control, state, executor, h, takes_part);
 }
 
 }  // namespace pliant

@@ -59,11 +59,12 @@ void add_residuals(const View& view, int type, ErrorSum& sum) {
   });
 }
 
-ErrorSum volume_errors(const Model& model, const State& state, const Workspace& workspace, float h) {
+ErrorSum volume_errors(const Model& model, const State& state, const Workspace& workspace, FunctionRef<float(int)> h_of) {
   ErrorSum volumes;
   for (std::size_t o = 0; o < model.objects.size(); ++o) {
     const CompiledObject& object = model.objects[o];
     if (!object.has_volume) continue;
+    const float h = h_of(static_cast<int>(o));
     const double softness = std::min(double(object.volume.response) / (double(h) * h), double(largest_compliance));
     const double compliance = object.volume.law == Law::pbd ? 0 : softness;
     volumes.add(volume_error(object, state.positions.data() + model.first[o]) +
@@ -112,11 +113,13 @@ double take_p99(std::vector<float>& values) {
 
 }  // namespace
 
-std::vector<Residual> measure_residuals(const Model& model, const State& state, const Workspace& workspace, float h) {
+std::vector<Residual> measure_residuals(const Model& model, const State& state, const Workspace& workspace,
+                                        FunctionRef<float(int)> h) {
   std::vector<Residual> residuals;
   for (int type = 0; type < constraint_type_count(); ++type) {
     ErrorSum sum;
-    for (std::size_t o = 0; o < model.objects.size(); ++o) add_residuals(view_of(model, state, workspace, o, h), type, sum);
+    for (std::size_t o = 0; o < model.objects.size(); ++o)
+      add_residuals(view_of(model, state, workspace, o, h(static_cast<int>(o))), type, sum);
     if (sum.count > 0) residuals.push_back(sum.residual(constraint_type(type).name));
   }
   const ErrorSum volumes = volume_errors(model, state, workspace, h);
@@ -124,7 +127,8 @@ std::vector<Residual> measure_residuals(const Model& model, const State& state, 
   return residuals;
 }
 
-void measure_lengths(const Model& model, const State& state, const Workspace& workspace, float h, Lengths& lengths) {
+void measure_lengths(const Model& model, const State& state, const Workspace& workspace, FunctionRef<float(int)> h,
+                     Lengths& lengths) {
   lengths.stretch = {};
   lengths.overstretch = {};
   lengths.ratios.clear();
@@ -132,7 +136,7 @@ void measure_lengths(const Model& model, const State& state, const Workspace& wo
   double sum = 0;
   for (int type = 0; type < constraint_type_count(); ++type) {
     for (std::size_t o = 0; is_length(type) && o < model.objects.size(); ++o)
-      add_lengths(view_of(model, state, workspace, o, h), static_cast<int>(o), type, lengths, sum);
+      add_lengths(view_of(model, state, workspace, o, h(static_cast<int>(o))), static_cast<int>(o), type, lengths, sum);
   }
   if (lengths.ratios.empty()) return;
   lengths.stretch.mean = sum / static_cast<double>(lengths.ratios.size());

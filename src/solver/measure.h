@@ -11,7 +11,8 @@ namespace pliant {
 
 /// |C + alpha~ lambda| of every constraint, by type in the order of AllConstraints, volumes last. Multipliers count if they
 /// are stored; `h` is the length of their substep [s].
-std::vector<Residual> measure_residuals(const Model& model, const State& state, const Workspace& workspace, float h);
+std::vector<Residual> measure_residuals(const Model& model, const State& state, const Workspace& workspace,
+                                        FunctionRef<float(int)> h);
 
 /// The results of measure_lengths and its scratch memory, kept so that only the first frame allocates.
 struct Lengths {
@@ -21,7 +22,8 @@ struct Lengths {
 };
 
 /// Measures all distance constraints with a rest length.
-void measure_lengths(const Model& model, const State& state, const Workspace& workspace, float h, Lengths& lengths);
+void measure_lengths(const Model& model, const State& state, const Workspace& workspace, FunctionRef<float(int)> h,
+                     Lengths& lengths);
 
 /// Enclosed volume of an object's triangles [m^3].
 double measure_volume(const CompiledObject& object, const Record* positions);

@@ -36,10 +36,18 @@ void predict(float h, const Vec3f& inverse, Record& orientation, Record& velocit
   velocity = record(w + change);
 }
 
-void for_frames(Substep& s, const char* name, FunctionRef<void(int)> body) {
-  const int frames = s.model.frames(), tasks = (frames + frames_a_task - 1) / frames_a_task;
+void for_range(Substep& s, const char* name, int first, int last, FunctionRef<void(int)> body) {
+  const int tasks = (last - first + frames_a_task - 1) / frames_a_task;
   for_tasks(s, name, tasks, [&](int task) {
-    for (int i = task * frames_a_task; i < std::min(frames, (task + 1) * frames_a_task); ++i) body(i);
+    const int from = first + task * frames_a_task;
+    for (int i = from; i < std::min(last, from + frames_a_task); ++i) body(i);
+  });
+}
+
+void for_frames(Substep& s, const char* name, FunctionRef<void(int)> body) {
+  if (s.part == nullptr) return for_range(s, name, 0, s.model.frames(), body);
+  for_objects(s, [&](int o) {
+    if (s.model.objects[o].frames.size() > 0) for_range(s, name, s.model.first_frame[o], s.model.end_of_frames(o), body);
   });
 }
 
@@ -59,10 +67,10 @@ void update_frames(Substep& s) {
   if (s.model.frames() == 0) return;
   FrameRecords& frames = s.state.frames;
   Records& corrections = s.work.frames.corrections;
-  for (std::size_t o = 0; o < s.model.objects.size();
-       ++o)  // the fourth component holds the factor by which damping reduces velocity
-    for (int i = s.model.first_frame[o]; i < s.model.end_of_frames(static_cast<int>(o)); ++i)
+  for_objects(s, [&](int o) {  // the fourth component holds the factor by which damping reduces velocity
+    for (int i = s.model.first_frame[o]; i < s.model.end_of_frames(o); ++i)
       corrections[i].w = 1 / (1 + s.h * s.model.objects[o].damping);
+  });
   const float inverse_h = 1 / s.h;
   for_frames(s, "update: frames", [&](int i) {
     const Record& q = frames.orientations[i];

@@ -1,6 +1,6 @@
 // The whole frame: read this file first.
 //
-//   for each substep of h = dt / substeps
+//   for each substep of h = dt / substeps, of the group of objects whose substep ends first
 //     control       kinematic colliders move to where the substep ends
 //     forces        wind and force fields on the velocities
 //     predict       v += h g, displacement = h v                            symplectic Euler
@@ -14,7 +14,9 @@
 // Mueller et al. 2007, algorithm 1, with the small steps of Macklin et al. 2019.
 #include "solver/step.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
 
 #include "solver/stages/stages.h"
 
@@ -22,21 +24,44 @@ namespace pliant {
 
 namespace {
 
+/// When a group's substep ends, compared over groups without rounding: number + 1 over planned.
+bool ends_before(const Substep& a, const Substep& b) {
+  return std::int64_t{a.number + 1} * b.planned < std::int64_t{b.number + 1} * a.planned;
+}
+
+/// The group whose next substep ends first, the first of those that end together; null if all are done.
+Substep* first_to_end(std::vector<Substep>& groups) {
+  Substep* first = nullptr;
+  for (Substep& s : groups)
+    if (s.number < s.substeps && (first == nullptr || ends_before(s, *first))) first = &s;
+  return first;
+}
+
+/// Whether the substeps under way of all groups end at the same time, `s` being the first of them. Only there can a frame be stopped.
+bool all_end_together(const std::vector<Substep>& groups, const Substep& s) {
+  return std::none_of(groups.begin(), groups.end(), [&](const Substep& other) { return ends_before(s, other); });
+}
+
 void run(const StepContext& context, double dt, Report& report) {
-  Substep s = begin_frame(context, dt, report);
-  for (; s.number < s.substeps; ++s.number) {
+  std::vector<Substep> groups = begin_frame(context, dt, report);
+  bool stops = false;
+  while (Substep* next = first_to_end(groups)) {
+    Substep& s = *next;
     control(s);
     apply_forces(s);
     if (!predict(s)) return;
     collide(s);
     solve(s);
-    if (context.stop != nullptr && *context.stop) s.substeps = s.number + 1;  // makes this substep the frame's last
+    stops = stops || (context.stop != nullptr && *context.stop && all_end_together(groups, s));
+    if (stops) s.substeps = s.number + 1;  // makes this substep the last of its group
     filter(s);
     if (s.work.contact_log != nullptr) log_contacts(s, *s.work.contact_log);
     if (!update(s)) return;
     respond(s);
+    if (s.is_last()) end_group(s);
+    ++s.number;
   }
-  end_frame(s);
+  end_frame(groups);
 }
 
 }  // namespace

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <atomic>
+#include <span>
 
 #include "model/model.h"
 #include "parallel/executor.h"
 #include "pliant/report.h"
 #include "solver/kernels.h"
+#include "solver/substep_group.h"
 #include "solver/workspace.h"
 
 namespace pliant {
@@ -18,12 +20,14 @@ struct StepContext {
   Workspace& workspace;
   Executor& executor;
   const Kernels& kernels;
-  int substeps = 1, iterations = 1;
+  int substeps = 1;  ///< of all objects, where `groups` is empty
+  int iterations = 1;
   SweepOptions options{};
   bool record_residuals = false;
-  const std::atomic<bool>* stop = nullptr;  ///< if true, the frame ends with the current substep
+  const std::atomic<bool>* stop = nullptr;  ///< if true, the frame ends when all groups reach one time
   bool separate_phases = false;             ///< of Settings
-  double tolerance = 0;                     ///< from Settings; above 0 it needs prepare_residual
+  double tolerance = 0;                     ///< from Settings; above 0 it needs prepare_residual, and one group
+  std::span<const GroupFrame> groups{};     ///< each with substeps of its own
 };
 
 /// Advances the State by dt. Never throws; the report has all problems.

@@ -2,7 +2,7 @@
 
 namespace pliant {
 
-double time_of(const Substep& s, int substep) { return s.frame_start + s.dt * substep / s.context.substeps; }
+double time_of(const Substep& s, int substep) { return s.frame_start + s.dt * substep / s.planned; }
 
 Vec3f gravity_for(const Substep& s, double seconds) { return s.model.gravity * static_cast<float>(seconds); }
 
@@ -52,7 +52,9 @@ PairParticles all_particles(const Substep& s) {
 }
 
 void for_tiles(Substep& s, const char* name, FunctionRef<void(int)> body) {
-  s.context.executor.parallel_for(name, static_cast<int>(s.model.tiles().size()), body);
+  if (s.part == nullptr) return s.context.executor.parallel_for(name, static_cast<int>(s.model.tiles().size()), body);
+  const std::vector<int>& tiles = s.part->tiles;
+  s.context.executor.parallel_for(name, static_cast<int>(tiles.size()), [&](int i) { body(tiles[i]); });
 }
 
 void for_swept_tiles(Substep& s, const char* name, FunctionRef<void(int)> body) {

@@ -11,6 +11,7 @@
 #include "pliant/world.h"
 #include "solver/kernels.h"
 #include "solver/measure.h"
+#include "solver/substep_group.h"
 #include "solver/workspace.h"
 #include "world/id_table.h"
 
@@ -73,6 +74,8 @@ struct World::Implementation {
   void prepare_pairs();
   /// Brings what was noted into it.
   void update_pairs();
+  /// Which objects share their substeps. Where not all do, contact among surfaces is made from all objects.
+  void prepare_groups();
   /// Before a step: what only needs to be done once for all that came and went since the last.
   void bring_up_to_date();
 
@@ -111,9 +114,15 @@ struct World::Implementation {
   /// In the numbering of the user, of an object or a mesh collider.
   std::vector<Vec3f> in_given_order(int number, const Records& records) const;
   void measure(Lengths& measured) const;
+  /// Of the last step's substeps; any, where an object has made none and so has no multipliers [s].
+  float h_of(int number) const {
+    return number < static_cast<int>(last_h.size()) && last_h[number] > 0 ? last_h[number] : 1.f;
+  }
 
-  /// Into how many substeps the next frame is divided.
-  int substeps_for(double dt, std::vector<std::string>& warnings) const;
+  /// Substeps of a frame: those of an object as planned, and those into which a group divides the next frame.
+  int substeps_of(int number) const;
+  int substeps_for(const SubstepGroup& group, double dt, std::vector<std::string>& warnings) const;
+  std::vector<GroupFrame> plan_frame(double dt, Report& report);
 
   Settings settings, suggested;  ///< as they are, and as measured best on scenes of this kind
   Executor executor;
@@ -125,10 +134,11 @@ struct World::Implementation {
   std::unique_ptr<PairModel> pair_model;
   State state;
   Workspace workspace;
+  std::vector<SubstepGroup> groups;
   Lengths lengths;
   std::vector<std::pair<Thing, Thing>> touching;  ///< in the last step, ascending
   std::vector<ContactEvent> events;
-  float last_h = 1;
+  std::vector<float> last_h;  ///< by object: of the substeps of the last step [s]
   bool stopped = false;
   const std::atomic<bool>* stop = nullptr;  ///< of stop_when
   bool may_drift = false;             ///< fixed particles may have a velocity from a frame in which the user moved them

@@ -107,15 +107,13 @@ World::Implementation::Implementation(const Scene& scene, const WorldLayout& lay
     if (taken[number] == 0) state.blocks[number] = {0, 0, model.generation[number]};
     prepare(static_cast<int>(number));
   }
-  prepare_pairs();
+  groups.clear();  // of the World without objects
   bring_up_to_date();
 }
 
 World::World(const Scene& scene, const WorldLayout& layout) {
   refuse_grave_but_places(without_pairs_of_others(scene));
-  Scene chosen = scene;
-  if (chosen.settings.substeps <= 0) chosen.settings = chosen_settings(scene);
-  self_ = std::make_unique<Implementation>(chosen, layout);
+  self_ = std::make_unique<Implementation>(scene, layout);
 }
 
 WorldLayout World::layout() const {

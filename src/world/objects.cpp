@@ -8,6 +8,7 @@
 #include "collision/fields/solid_fields.h"
 #include "inspect/inspect_scene.h"
 #include "math/motion.h"
+#include "model/object_sets.h"
 #include "pliant/error.h"
 #include "solver/sweeps/sweep.h"
 #include "world/implementation.h"
@@ -53,7 +54,9 @@ std::shared_ptr<const SolidField> field_of(const MeshCollider& collider) {
 CompileOptions World::Implementation::compile_options(Sweep sweep) const {
   CompileOptions options;
   options.sweep = sweep;
-  options.passes = settings.substeps * settings.iterations * sweep_method(sweep).passes;
+  const int substeps =
+      settings.substeps > 0 ? settings.substeps : substeps_of_others;  // own_substeps of all with PBD stiffness
+  options.passes = substeps * settings.iterations * sweep_method(sweep).passes;
   options.chain_softness = settings.sweep_options.chain_softness;
   options.tethers = settings.sweep_options.tethers;
   options.tether_slack = settings.sweep_options.tether_slack;
@@ -243,14 +246,29 @@ void World::Implementation::forget_pose(bool is_mesh, int slot) {
 
 void World::Implementation::prepare_pairs() {
   workspace.pairs = nullptr;
+  pair_model = nullptr;
   changed_surfaces.clear();
-  pair_model = make_pair_model(model);
-  if (pair_model == nullptr) return;
-  pair_model->filter = settings.contact_filter;
-  if (settings.initial_intersections == Settings::Intersections::untangle)
-    pair_model->untangling_speed = settings.untangling_speed;
-  workspace.pairs = std::make_unique<SurfaceContact>(*pair_model, kernels.pairs);
-  workspace.look_for_tangles = true;
+  for (SubstepGroup& group : groups) {
+    group.pairs = nullptr;
+    std::unique_ptr<PairModel>& pairs = group.has_all ? pair_model : group.pair_model;
+    pairs = make_pair_model(model, group.has);  // empty where it has all
+    if (pairs == nullptr) continue;
+    pairs->filter = settings.contact_filter;
+    if (settings.initial_intersections == Settings::Intersections::untangle)
+      pairs->untangling_speed = settings.untangling_speed;
+    (group.has_all ? workspace.pairs : group.pairs) = std::make_unique<SurfaceContact>(*pairs, kernels.pairs);
+    workspace.look_for_tangles = true;
+  }
+}
+
+void World::Implementation::prepare_groups() {
+  const bool is_first = groups.empty(), was_split = groups.size() > 1;
+  groups.clear();
+  if (settings.substeps > 0)
+    groups.push_back(group_of_all(settings.substeps));
+  else
+    groups = make_substep_groups(model);
+  if (is_first || was_split || groups.size() > 1) prepare_pairs();
 }
 
 void World::Implementation::update_pairs() {
@@ -263,6 +281,7 @@ void World::Implementation::update_pairs() {
 }
 
 void World::Implementation::bring_up_to_date() {
+  if (objects_changed || groups.empty()) prepare_groups();
   update_pairs();
   if (!objects_changed) return;
   for (TileScratch& tile : workspace.tiles) tile.contacts.clear();  // tasks have moved up

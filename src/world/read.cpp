@@ -20,13 +20,14 @@ std::vector<Vec3f> World::Implementation::in_given_order(int number, const Recor
 }
 
 void World::Implementation::measure(Lengths& measured) const {
-  measure_lengths(model, state, workspace, last_h, measured);
+  measure_lengths(
+      model, state, workspace, [&](int object) { return h_of(object); }, measured);
   if (measured.overstretch.object >= 0) measured.overstretch.object = object_ids.id_of(measured.overstretch.object).slot;
 }
 
 ObjectInfo World::info(ObjectId object) const {
   const CompiledObject& from = self_->object(object);
-  ObjectInfo info{from.name, from.user_particles, {}};
+  ObjectInfo info{from.name, from.user_particles, {}, self_->substeps_of(self_->number(object))};
   for (int type = 0; type < constraint_type_count(); ++type) {
     std::int64_t count = 0;
     for (const Pool& pool : from.pools) count += pool.type == type ? pool.constraints : 0;
@@ -162,7 +163,7 @@ double World::potential_energy() const {
 }
 
 std::vector<Residual> World::residuals() const {
-  return measure_residuals(self_->model, self_->state, self_->workspace, self_->last_h);
+  return measure_residuals(self_->model, self_->state, self_->workspace, [&](int object) { return self_->h_of(object); });
 }
 Stretch World::stretch() const {
   Lengths measured;
@@ -181,8 +182,9 @@ std::string World::describe(const Overstretch& found) const {
 
 std::string World::advice(const Report& report) const {
   if (!report.overstretch || !(report.overstretch->largest > tolerated_overstretch)) return {};
+  const int number = self_->object_ids.number(self_->object_ids.id_in(report.overstretch->object));
   const std::string sweep = in_json(self_->suggested, self_->settings);
-  return describe(*report.overstretch) + "; more than " + std::to_string(self_->settings.substeps) + " substeps" +
+  return describe(*report.overstretch) + "; more than " + std::to_string(self_->substeps_of(number)) + " substeps" +
          (sweep == "{}" ? "" : ", or \"settings\": " + sweep + " in the scene,") +
          " may bring that down: 'pliant check', or advise(), tries how many it takes";
 }

@@ -1,6 +1,7 @@
 // A World: a compiled Scene, its State, and the step.
 #include "pliant/world.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -31,8 +32,7 @@ World::Implementation::Implementation(const Scene& scene, const Settings& with, 
   model.pairs = scene.pairs;
   model.colliders = scene.colliders;
   for (int c = 0; c < static_cast<int>(scene.colliders.size()); ++c) collider_ids.add(c);
-  std::vector<Sweep> sweeps;  // they depend on all objects
-  for (int o = 0; o < static_cast<int>(scene.objects.size()); ++o) sweeps.push_back(chosen_sweep(scene, with, o));
+  const std::vector<Sweep> sweeps = chosen_sweeps(scene, with);  // they depend on all objects
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const CompileOptions options = compile_options(sweeps[o]);
     object_ids.add(model.add(given_away != nullptr ? compile(std::exchange(given_away->objects[o], {}), options)
@@ -42,17 +42,38 @@ World::Implementation::Implementation(const Scene& scene, const Settings& with, 
     mesh_collider_ids.add(add_to_model(collider, compile(collider)));
   state = initial_state(model);
   for (int number = 0; number < static_cast<int>(model.objects.size()); ++number) prepare(number);
-  prepare_pairs();
   bring_up_to_date();
 }
 
-int World::Implementation::substeps_for(double dt, std::vector<std::string>& warnings) const {
-  if (pair_model == nullptr) return settings.substeps;
+int World::Implementation::substeps_of(int number) const {
+  if (settings.substeps > 0) return settings.substeps;
+  const auto find = [&](const std::vector<SubstepGroup>& all) {
+    const auto has = [&](const SubstepGroup& group) { return group.has_all || group.has[number] != 0; };
+    return std::find_if(all.begin(), all.end(), has)->substeps;
+  };
+  return objects_changed ? find(make_substep_groups(model)) : find(groups);
+}
+
+int World::Implementation::substeps_for(const SubstepGroup& group, double dt, std::vector<std::string>& warnings) const {
+  const PairModel* pairs = group.has_all ? pair_model.get() : group.pair_model.get();
+  if (pairs == nullptr) return group.substeps;
   const double shortest = dt / shortest_substep;
-  const int wanted = settings.most_substeps > 0 ? settings.most_substeps : default_division * settings.substeps;
+  const int wanted = settings.most_substeps > 0 ? settings.most_substeps : default_division * group.substeps;
   const int most = shortest < wanted ? static_cast<int>(shortest) : wanted;
-  return divided_substeps(model, workspace.control, *pair_model, state, {state.time, dt, settings.substeps, most},
-                          warnings);
+  return divided_substeps(model, workspace.control, *pairs, state, {state.time, dt, group.substeps, most}, warnings);
+}
+
+std::vector<GroupFrame> World::Implementation::plan_frame(double dt, Report& report) {
+  std::vector<GroupFrame> frames;
+  last_h.resize(model.objects.size());
+  for (const SubstepGroup& group : groups) {
+    const int substeps = substeps_for(group, dt, report.warnings);
+    frames.push_back({&group, substeps});
+    report.substeps = std::max(report.substeps, substeps);
+    for (std::size_t o = 0; o < last_h.size(); ++o)
+      if (group.has_all || group.has[o] != 0) last_h[o] = static_cast<float>(dt / substeps);
+  }
+  return frames;
 }
 
 World::World(const Scene& scene) {
@@ -89,7 +110,8 @@ Report World::step(float dt) {
   Report report;
   report.frame = self_->state.frame;
   report.time = self_->state.time;
-  if (!(dt > 0) || !std::isfinite(dt) || double(dt) / self_->settings.substeps < shortest_substep) {
+  self_->bring_up_to_date();
+  if (!(dt > 0) || !std::isfinite(dt) || double(dt) / self_->groups.back().substeps < shortest_substep) {
     report.warnings.push_back("a time step must be finite and above zero, its substeps 1e-12 s or more; nothing moved");
     return report;
   }
@@ -101,14 +123,12 @@ Report World::step(float dt) {
     report.stopped = true;
     return report;
   }
-  self_->bring_up_to_date();
   self_->begin_control(dt);
-  report.substeps = self_->substeps_for(dt, report.warnings);
-  self_->last_h = static_cast<float>(double(dt) / report.substeps);
+  const std::vector<GroupFrame> groups = self_->plan_frame(dt, report);
   self_->stopped = true;  // stays set unless the step completes: a user's force field may throw
-  pliant::step({self_->model, self_->state, self_->workspace, self_->executor, self_->kernels, report.substeps,
+  pliant::step({self_->model, self_->state, self_->workspace, self_->executor, self_->kernels, groups.back().substeps,
                 self_->settings.iterations, self_->settings.sweep_options, self_->settings.record_residuals, self_->stop,
-                self_->settings.separate_phases, static_cast<double>(self_->settings.tolerance)},
+                self_->settings.separate_phases, static_cast<double>(self_->settings.tolerance), groups},
                dt, report);
   self_->stopped = report.nonfinite.has_value();
   self_->end_control(report.stopped);

@@ -236,7 +236,7 @@ struct Corrected {
     const StepContext context{model, state, workspace, executor, pick_kernels("generic"), 1, 1, run.settings.sweep_options,
                               false};
     executor.enter([&] {
-      Substep s = begin_frame(context, 1.0 / 360, report);
+      Substep s = begin_frame(context, 1.0 / 360, report).front();
       control(s);
       predict(s);
       predicted = workspace.displacements;

@@ -366,7 +366,7 @@ TEST(Measure, CountsAndMeasuresByType) {
   Workspace workspace;
   prepare(model, Multipliers::none, workspace);
   prepare_sweeps(model, Settings{}, 1, workspace);
-  const std::vector<Residual> residuals = measure_residuals(model, state, workspace, 0.01f);
+  const std::vector<Residual> residuals = measure_residuals(model, state, workspace, [](int) { return 0.01f; });
   ASSERT_EQ(residuals.size(), 4u);
   EXPECT_EQ(residuals[0].type, "distance");
   EXPECT_EQ(residuals[1].type, "dihedral_bending");
@@ -377,7 +377,8 @@ TEST(Measure, CountsAndMeasuresByType) {
   EXPECT_LT(residuals[1].largest, 1e-5) << "rest angles are those of the start";
   EXPECT_NEAR(residuals[0].largest, 0.31, 0.02) << "the attachment alone is off";
   Lengths lengths;
-  measure_lengths(model, state, workspace, 0.01f, lengths);
+  measure_lengths(
+      model, state, workspace, [](int) { return 0.01f; }, lengths);
   EXPECT_NEAR(lengths.stretch.largest, 1, 1e-6);
 }
 

@@ -59,7 +59,8 @@ TEST(ChosenSettings, AreEachObjectsOwn) {
   EXPECT_EQ(chosen_sweep(scene, 0), Sweep::tiled);
   EXPECT_EQ(chosen_sweep(scene, 1), Sweep::multigrid) << "whatever is beside it";
   EXPECT_EQ(chosen_sweep(scene, 2), Sweep::tiled);
-  expect_chosen(scene, Sweep::automatic, 20, "'cloth' by 'multigrid'");
+  expect_chosen(scene, Sweep::automatic, 0, "'cloth' by 'multigrid'");
+  EXPECT_EQ(chosen_substeps(scene), (std::vector<int>{20, 10, 20}));
   scene.objects[2].sweep = Sweep::chains;
   EXPECT_EQ(chosen_sweep(scene, 2), Sweep::chains) << "what it names itself";
   scene.settings.sweep = Sweep::symmetric;

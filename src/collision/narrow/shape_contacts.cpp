@@ -516,9 +516,14 @@ void ShapeContacts::detect(Executor& executor, const ShapeContactSearch& search)
   const auto has_elements = [](const ShapeElements& elements) { return !elements.tiles.empty(); };
   if (std::none_of(elements_.begin(), elements_.end(), has_elements)) return;
   scratch_.resize(search.model.tiles().size());
-  executor.parallel_for("detect contacts", static_cast<int>(scratch_.size()), [&](int task) { detect_tile(search, task); });
-  for (const ShapeContactScratch& scratch : scratch_)
-    contacts_.insert(contacts_.end(), scratch.contacts.begin(), scratch.contacts.end());
+  const std::size_t tasks = search.tasks == nullptr ? scratch_.size() : search.tasks->size();
+  const auto task_of = [&](std::size_t i) { return search.tasks == nullptr ? static_cast<int>(i) : (*search.tasks)[i]; };
+  executor.parallel_for("detect contacts", static_cast<int>(tasks),
+                        [&](int i) { detect_tile(search, task_of(static_cast<std::size_t>(i))); });
+  for (std::size_t i = 0; i < tasks; ++i) {
+    const std::vector<Contact>& found = scratch_[static_cast<std::size_t>(task_of(i))].contacts;
+    contacts_.insert(contacts_.end(), found.begin(), found.end());
+  }
 }
 
 void respond_to_shape_contact(const Contact& c, Record* velocities, const Vec3f& missing, float slow, float inverse_h) {

@@ -23,6 +23,7 @@ struct ShapeContactSearch {
   const std::vector<MovingCollider>& colliders;
   FunctionRef<AdvanceArguments(int task)> particles;  ///< of the tile of a model task
   FunctionRef<const PointBounds&(int task)> bounds;  ///< encloses the tile's particles at the substep's start and predicted
+  const std::vector<int>* tasks = nullptr;           ///< those whose tiles take part, ascending; null: all
 };
 
 /// A vertex in a collider's frame, at the substep's start and as predicted: two quads of floats.

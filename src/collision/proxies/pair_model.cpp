@@ -38,7 +38,8 @@ ContactElements elements_of(const CompiledObject& object) {
   return make_contact_elements(triangles, lines, all, object.particles);
 }
 
-ContactBody body_of(const CompiledObject& object) {
+ContactBody body_of(const Model& model, int number, const std::vector<char>& has) {
+  const CompiledObject& object = model.objects[number];
   ContactBody body;
   body.groups = object.groups;
   body.mask = object.mask;
@@ -50,6 +51,9 @@ ContactBody body_of(const CompiledObject& object) {
   body.static_friction = object.static_friction;
   body.kinetic_friction = object.kinetic_friction;
   body.restitution = object.restitution;
+  if (has.empty() || has[number] != 0) return body;
+  body.groups = body.mask = 0;
+  body.meets_itself = false;
   return body;
 }
 
@@ -75,11 +79,12 @@ void set_exceptions(const Model& model, ContactRules& rules) {
 }
 
 /// A new table if the scene names pairs, whose exceptions belong to names.
-void update_rules(const Model& model, const std::vector<int>& changed, ContactRules& rules) {
+void update_rules(const Model& model, const std::vector<int>& changed, PairModel& out) {
+  ContactRules& rules = out.rules;
   if (!model.pairs.empty()) rules = {};
-  for (int o = rules.bodies(); o < static_cast<int>(model.objects.size()); ++o) rules.add(body_of(model.objects[o]));
+  for (int o = rules.bodies(); o < static_cast<int>(model.objects.size()); ++o) rules.add(body_of(model, o, out.has));
   if (!model.pairs.empty()) return set_exceptions(model, rules);
-  for (const int o : changed) rules.set(o, body_of(model.objects[o]));
+  for (const int o : changed) rules.set(o, body_of(model, o, out.has));
 }
 
 float median_edge(const std::vector<std::array<int, 2>>& edges, const std::vector<Record>& positions) {
@@ -226,7 +231,7 @@ bool takes_part(const PairModel& model, int body) { return model.bodies[body].cl
 }  // namespace
 
 std::optional<PairChanges> update_pair_model(const Model& model, const std::vector<int>& changed, PairModel& out) {
-  update_rules(model, changed, out.rules);
+  update_rules(model, changed, out);
   const std::vector<char> meets_some = out.rules.meeting();
   std::vector<int> affected = changed;
   out.bodies.resize(meets_some.size());
@@ -257,8 +262,9 @@ std::optional<PairChanges> update_pair_model(const Model& model, const std::vect
   return changes;
 }
 
-std::unique_ptr<PairModel> make_pair_model(const Model& model) {
+std::unique_ptr<PairModel> make_pair_model(const Model& model, const std::vector<char>& has) {
   auto out = std::make_unique<PairModel>();
+  out->has = has;
   std::vector<int> all(model.objects.size());
   std::iota(all.begin(), all.end(), 0);
   return update_pair_model(model, all, *out) ? std::move(out) : nullptr;

@@ -42,6 +42,7 @@ struct PairModel {
   /// For each cluster: pairs are excluded from contact where positions round by more. Empty: no limit. [m]
   std::vector<float> coarsest;
   std::vector<BodyElements> bodies;
+  std::vector<char> has;  ///< by body: true if it may meet any; empty: all may
   BodyBlocks edge_blocks, triangle_blocks, cluster_blocks;
   TrianglesAround triangles_around;
   float radius = 0;             ///< search radius of candidates [m]
@@ -54,8 +55,8 @@ struct PairModel {
   std::pair<int, int> key_of(int cluster) const { return {cluster_body[static_cast<std::size_t>(cluster)], cluster}; }
 };
 
-/// Returns null if no two bodies can meet.
-std::unique_ptr<PairModel> make_pair_model(const Model& model);
+/// Returns null if no two bodies can meet. Bodies that `has` leaves out meet none.
+std::unique_ptr<PairModel> make_pair_model(const Model& model, const std::vector<char>& has = {});
 
 /// What update_pair_model changed.
 struct PairChanges {

@@ -89,7 +89,7 @@ void sweep_contacts(Substep& s) {
 
 void sweep_pairs(Substep& s) {
   if (s.has_pairs())
-    s.work.contact_solver.project(s.context.executor, "solve: contacts among surfaces", s.work.pairs->contacts(),
+    s.work.contact_solver.project(s.context.executor, "solve: contacts among surfaces", s.pairs->contacts(),
                                   s.work.displacements.data());
 }
 
@@ -100,7 +100,7 @@ void for_touching_points(const Substep& s, FunctionRef<void(int)> visit) {
         if (contact.push > 0 && contact.weight[i] != 0) visit(contact.point[i]);
   };
   if (!s.work.colliders.empty()) visit_points(s.work.shape_contacts.contacts());
-  if (s.has_pairs()) visit_points(s.work.pairs->contacts());
+  if (s.has_pairs()) visit_points(s.pairs->contacts());
 }
 
 void find_more_contacts(Substep& s) {

@@ -23,17 +23,18 @@ constexpr std::array<PhaseDriver, driver_count> drivers{{
 const PhaseDriver& driver_of(const Phase& phase) { return drivers[static_cast<std::size_t>(phase.driver)]; }
 
 void walk(Substep& s, Turn turn, const Pass& pass) {
-  const std::size_t count = s.model.phases.size();
+  const std::vector<Phase>& phases = s.phases();
+  const std::size_t count = phases.size();
   const bool forward = pass.order == Order::forward;
   for (std::size_t i = 0; i < count; ++i) {
-    const Phase& phase = s.model.phases[forward ? i : count - 1 - i];
+    const Phase& phase = phases[forward ? i : count - 1 - i];
     const PhaseDriver& driver = driver_of(phase);
     if (driver.turn == turn && (forward || driver.has_order)) driver.project(s, phase, pass);
   }
 }
 
 void walk(Substep& s, Driver driver, const Pass& pass) {
-  for (const Phase& phase : s.model.phases)
+  for (const Phase& phase : s.phases())
     if (phase.driver == driver) driver_of(phase).project(s, phase, pass);
 }
 

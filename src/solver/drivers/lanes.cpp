@@ -43,7 +43,7 @@ void project_inter_tile(Substep& s, const Phase& phase, const Pass& pass) {
 }
 
 void for_inter_tile(Substep& s, FunctionRef<void(int, const Segment*)> body) {
-  for (const Phase& phase : s.model.phases)
+  for (const Phase& phase : s.phases())
     if (phase.driver == Driver::inter_tile) for_segments(s, phase, body);
 }
 

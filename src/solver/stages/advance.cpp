@@ -32,7 +32,7 @@ void move_to(const Vec3d& target, int particle, const AdvanceArguments& a) {
 
 /// Moves particles with targets of the user, linearly over the frame's substeps. Called after keyframes, which it overrides.
 void move_to_targets(const Substep& s, const std::vector<Target>& targets, const AdvanceArguments& a) {
-  const double share = static_cast<double>(s.number + 1) / s.context.substeps;
+  const double share = static_cast<double>(s.number + 1) / s.planned;
   auto target = std::lower_bound(targets.begin(), targets.end(), a.first,
                                  [](const Target& t, int first) { return t.particle < first; });
   for (; target != targets.end() && target->particle < a.last; ++target)
@@ -99,9 +99,9 @@ bool advance_tile(const Substep& s, int task) {
 
 /// True where every tile and every frame is finite; else the report names what is not, in substep number `substep`.
 bool all_finite(Substep& s, int substep) {
-  const std::vector<TileScratch>& tiles = s.work.tiles;
-  const bool particles = std::all_of(tiles.begin(), tiles.end(), [](const TileScratch& tile) { return tile.finite; });
-  if (particles && s.work.frames.finite) return true;
+  bool is_finite = s.work.frames.finite;
+  for_each_tile(s, [&](int task) { is_finite = is_finite && s.work.tiles[task].finite; });
+  if (is_finite) return true;
   s.report.nonfinite = diagnose(s);
   s.report.nonfinite->frame = s.state.frame;
   s.report.nonfinite->substep = substep;
@@ -124,7 +124,7 @@ bool predict(Substep& s) {
 
 bool update(Substep& s) {
   update_frames(s);
-  for (FrameGravity& gravity : s.work.gravity) gravity.next(s.h);
+  for_objects(s, [&](int object) { s.work.gravity[object].next(s.h); });
   s.update_is_due = !velocities_are_read(s);
   if (s.update_is_due) return true;
   const auto find_non_finite = [&](int task) { s.work.tiles[task].finite = is_finite(s, task); };

@@ -7,7 +7,8 @@ void apply_forces(Substep& s) {
   if (!has_forces(s.model, s.work.control)) return;
   apply_forces(
       s.model, s.state, s.work, s.context.executor, time_of(s, s.number), s.h,
-      [&](int object) { return gravity_for(s, s.work.gravity[object].settled); }, s.report.warnings);
+      [&](int object) { return gravity_for(s, s.work.gravity[object].settled); },
+      [&](int object) { return takes_part(s, object); }, s.report.warnings);
 }
 
 }  // namespace pliant

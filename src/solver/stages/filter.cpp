@@ -13,7 +13,7 @@ constexpr int most_rounds_of_contacts = 16;
 void filter(Substep& s) {
   hold_at_surfaces(s);
   if (!s.has_pairs()) return;
-  SurfaceContact& pairs = *s.work.pairs;
+  SurfaceContact& pairs = *s.pairs;
   // The filter cannot limit kinematic colliders: whatever they meet must be out of their way first.
   for (int round = 0; round < most_rounds_of_contacts && pairs.is_overrun(all_particles(s)); ++round) {
     sweep_pairs(s);

@@ -8,49 +8,71 @@ namespace pliant {
 
 namespace {
 
-bool may_sweep_on_entry(const StepContext& context) {
-  const bool untangles = context.workspace.pairs != nullptr && context.workspace.pairs->untangles();
+bool may_sweep_on_entry(const Substep& s) {
+  const StepContext& context = s.context;
+  const bool untangles = s.has_pairs() && s.pairs->untangles();
   return !context.record_residuals && !context.separate_phases &&
          context.options.acceleration == SweepOptions::Acceleration::none && !untangles;
 }
 
-void begin_pairs(const StepContext& context) {
-  Workspace& work = context.workspace;
-  if (work.pairs == nullptr) return;
-  work.pairs->begin_frame(context.state.positions.data(), work.look_for_tangles);
-  work.look_for_tangles = false;
+Substep begin_group(const StepContext& context, const GroupFrame& of, double dt, Report& report) {
+  Substep s{context, context.model, context.state, context.workspace, context.kernels, report};
+  const bool has_all = of.group == nullptr || of.group->has_all;
+  s.part = has_all ? nullptr : of.group;
+  s.pairs = has_all ? s.work.pairs.get() : of.group->pairs.get();
+  s.frame_start = s.state.time;
+  s.dt = dt;
+  s.h = static_cast<float>(dt / of.substeps);
+  s.planned = s.substeps = of.substeps;
+  for_objects(s, [&](int o) {
+    s.work.gravity[o] = {0, static_cast<double>(s.h), 0, 1 / (1 + s.h * s.model.objects[o].damping)};
+  });
+  if (s.has_pairs()) s.pairs->begin_frame(s.state.positions.data(), s.work.look_for_tangles);
+  s.sweeps_on_entry = may_sweep_on_entry(s);
+  return s;
+}
+
+void add(const PairCounts& c, PairReport& sum) {
+  sum.candidates += c.candidates;
+  sum.contacts += c.contacts;
+  sum.truncated += c.truncated;
+  sum.unresolvable += c.unresolvable;
+  sum.initially_intersecting += c.intersecting;
+  sum.rebuilds += c.rebuilds;
+  sum.inside += c.inside;
+  sum.deepest = std::max(sum.deepest, c.deepest);
 }
 
 }  // namespace
 
-Substep begin_frame(const StepContext& context, double dt, Report& report) {
-  Substep s{context, context.model, context.state, context.workspace, context.kernels, report, context.state.time};
-  s.dt = dt;
-  s.h = static_cast<float>(dt / context.substeps);
-  s.substeps = context.substeps;
-  for (TileScratch& tile : s.work.tiles) tile.finite = true;
-  s.work.frames.finite = true;
-  for (std::size_t o = 0; o < s.work.gravity.size(); ++o)
-    s.work.gravity[o] = {0, static_cast<double>(s.h), 0, 1 / (1 + s.h * s.model.objects[o].damping)};
-  begin_pairs(context);
-  if (s.work.contact_log != nullptr) s.work.contact_log->clear();
-  s.sweeps_on_entry = may_sweep_on_entry(context);
-  return s;
+std::vector<Substep> begin_frame(const StepContext& context, double dt, Report& report) {
+  Workspace& work = context.workspace;
+  for (TileScratch& tile : work.tiles) tile.finite = true;
+  work.frames.finite = true;
+  std::vector<Substep> groups;
+  groups.reserve(std::max<std::size_t>(1, context.groups.size()));
+  for (const GroupFrame& group : context.groups) groups.push_back(begin_group(context, group, dt, report));
+  if (groups.empty()) groups.push_back(begin_group(context, {nullptr, context.substeps}, dt, report));
+  if (std::any_of(groups.begin(), groups.end(), [](const Substep& s) { return s.has_pairs(); }))
+    work.look_for_tangles = false;
+  if (work.contact_log != nullptr) work.contact_log->clear();
+  return groups;
 }
 
-void end_frame(Substep& s) {
+void end_group(Substep& s) {
   const auto count = [&](const std::vector<Contact>& contacts) {
     s.report.contacts += std::count_if(contacts.begin(), contacts.end(), [](const Contact& c) { return c.push > 0; });
   };
-  for (const TileScratch& tile : s.work.tiles) count(tile.contacts);
+  for_each_tile(s, [&](int task) { count(s.work.tiles[task].contacts); });
   count(s.work.shape_contacts.contacts());
-  if (s.has_pairs()) {
-    const PairCounts c = s.work.pairs->counts();
-    s.report.pairs = {c.candidates,   c.contacts, c.truncated, c.unresolvable,
-                      c.intersecting, c.rebuilds, c.inside,    c.deepest};
-    warn_of_pairs(s.model, *s.work.pairs, s.report.warnings);
-  }
-  s.report.stopped = s.substeps < s.context.substeps;
+  if (!s.has_pairs()) return;
+  add(s.pairs->counts(), s.report.pairs);
+  warn_of_pairs(s.model, *s.pairs, s.report.warnings);
+}
+
+void end_frame(std::vector<Substep>& groups) {
+  const Substep& s = groups.front();  // all have reached the same time
+  s.report.stopped = s.substeps < s.planned;
   s.state.time = s.report.stopped ? time_of(s, s.substeps) : s.frame_start + s.dt;
 }
 

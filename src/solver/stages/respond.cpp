@@ -15,7 +15,7 @@ constexpr float share_left = 0.1f;
 /// What is left of an impact's approach would be pushed off in the next substep, along the normals of surfaces that have crumpled by then:
 /// what was thrown straight would drift sideways.
 void end_impacts(Substep& s, FunctionRef<Vec3f(int)> gravity, float slow) {
-  SurfaceContact& pairs = *s.work.pairs;
+  SurfaceContact& pairs = *s.pairs;
   const Record* positions = s.state.positions.data();
   Record* velocities = s.state.velocities.data();
   const ContactSolver impacts = s.work.contact_solver.only(pairs.contacts(), [](const Contact& c) { return is_impact(c); });
@@ -56,11 +56,11 @@ void respond(Substep& s) {
   respond_to_shapes(s, slow, gravity);
   if (!s.has_pairs()) return;
   Record* velocities = s.state.velocities.data();
-  s.work.contact_solver.for_each(s.context.executor, "respond", s.work.pairs->contacts(), [&](const Contact& contact) {
-    s.work.pairs->respond(contact, s.state.positions.data(), velocities, slow, gravity);
+  s.work.contact_solver.for_each(s.context.executor, "respond", s.pairs->contacts(), [&](const Contact& contact) {
+    s.pairs->respond(contact, s.state.positions.data(), velocities, slow, gravity);
   });
-  if (s.work.pairs->has_impacts()) end_impacts(s, gravity, slow);
-  s.work.pairs->limit_untangling(velocities, gravity);
+  if (s.pairs->has_impacts()) end_impacts(s, gravity, slow);
+  s.pairs->limit_untangling(velocities, gravity);
 }
 
 }  // namespace pliant

@@ -17,16 +17,23 @@ bool is_met(Substep& s, int iteration) {
   return context.tolerance > 0 && iteration + 1 < context.iterations && distance_residual(s) < context.tolerance;
 }
 
+/// Whether any object that makes this substep is solved by a sweep.
+bool uses(const Substep& s, Sweep sweep) {
+  return s.part == nullptr || std::find(s.part->sweeps.begin(), s.part->sweeps.end(), sweep) != s.part->sweeps.end();
+}
+
 /// Stencils are projected as often as the sweep of their object projects any other constraint.
 void walk_stencils(Substep& s, bool first) {
   int passes = 0;
-  for (const auto& [sweep, group] : s.work.sweeps) passes = std::max(passes, group.method->passes);
+  for (const auto& [sweep, group] : s.work.sweeps)
+    if (uses(s, sweep)) passes = std::max(passes, group.method->passes);
   for (int pass = 0; pass < passes; ++pass) walk(s, Turn::stencil, {first && pass == 0, Order::forward, pass});
 }
 
 /// One iteration: the phases that belong to a sweep, group by group, then all others.
 void iterate(Substep& s, int iteration) {
   for (const auto& [sweep, group] : s.work.sweeps) {
+    if (!uses(s, sweep)) continue;
     s.group = &group;
     if (group.acceleration) keep_iterate(s, iteration);
     group.method->iterate(s, iteration == 0);

@@ -5,8 +5,8 @@
 
 namespace pliant {
 
-/// Prepares the first substep of a frame of dt seconds.
-Substep begin_frame(const StepContext& context, double dt, Report& report);
+/// Prepares the first substep of each group in a frame of dt seconds.
+std::vector<Substep> begin_frame(const StepContext& context, double dt, Report& report);
 
 /// Moves colliders to their poses at the substep's end.
 void control(Substep& s);
@@ -34,7 +34,10 @@ bool update(Substep& s);
 /// Applies restitution between surfaces.
 void respond(Substep& s);
 
-/// Counts contacts and advances the time.
-void end_frame(Substep& s);
+/// Counts the contacts of a group's last substep.
+void end_group(Substep& s);
+
+/// Advances the time to where all groups are.
+void end_frame(std::vector<Substep>& groups);
 
 }  // namespace pliant

@@ -62,8 +62,9 @@ void correct_multigrid(Substep& s, bool first) {
       if (first) MultigridSolve(s, o).linearise(arguments(s, o, true));
     solve_multigrid_group(s, groups.all[g], s.context.options.multigrid_cycles);
   }
-  for (std::size_t o = 0; o < s.model.objects.size(); ++o)
-    if (!s.model.objects[o].multigrid.levels.empty()) move(s, static_cast<int>(o), first);
+  for_objects(s, [&](int o) {
+    if (!s.model.objects[o].multigrid.levels.empty()) move(s, o, first);
+  });
   if (!first) return;
   keep_multigrid_pushes(s);
 }

@@ -82,12 +82,12 @@ void keep_push(const ContactSpring& s, const Vec3f& by, float inverse_mass, floa
 template <class Visit>
 void for_contacts(Substep& s, const Visit& visit) {
   const Model& model = s.model;
-  for (std::size_t task = 0; task < model.tiles().size(); ++task) {
+  for_each_tile(s, [&](int task) {
     const int o = model.tiles()[task].object;
-    if (model.objects[o].multigrid.levels.empty()) continue;
+    if (model.objects[o].multigrid.levels.empty()) return;
     const std::vector<float>& limits = model.objects[o].multigrid.stiffness_limit;
     for (Contact& contact : s.work.tiles[task].contacts) visit(contact, contact_stiffness * limits[contact.point[0]], o);
-  }
+  });
 }
 
 void add_point_contacts(Substep& s) {
@@ -141,11 +141,11 @@ bool place(const Model& model, const Contact& contact, const Record* positions, 
 
 /// Contacts with several points: edges and triangles against primitives first, then contacts between surfaces.
 std::size_t count_contacts(const Substep& s) {
-  return s.work.shape_contacts.contacts().size() + (s.has_pairs() ? s.work.pairs->contacts().size() : 0);
+  return s.work.shape_contacts.contacts().size() + (s.has_pairs() ? s.pairs->contacts().size() : 0);
 }
 Contact& contact_at(Substep& s, std::size_t number) {
   std::vector<Contact>& shapes = s.work.shape_contacts.contacts();
-  return number < shapes.size() ? shapes[number] : s.work.pairs->contacts()[number - shapes.size()];
+  return number < shapes.size() ? shapes[number] : s.pairs->contacts()[number - shapes.size()];
 }
 
 void add_pair_contacts(Substep& s) {

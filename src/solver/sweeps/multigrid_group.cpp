@@ -80,7 +80,7 @@ void make_multigrid_groups(Substep& s) {
   groups.of_root.assign(static_cast<std::size_t>(objects), -1);
   groups.count = 0;
   for (int o = 0; o < objects; ++o) {
-    if (s.model.objects[o].multigrid.levels.empty()) continue;
+    if (s.model.objects[o].multigrid.levels.empty() || !takes_part(s, o)) continue;
     int& number = groups.of_root[find(groups.root, o)];
     if (number < 0) {
       number = groups.count++;

@@ -1,0 +1,64 @@
+// Sets of objects that can meet: known answers, and a search over all pairs as oracle.
+#include "model/object_sets.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace pliant {
+namespace {
+
+SetMember object(std::uint32_t groups, std::uint32_t mask, int substeps = 10) {
+  return {groups, mask, true, false, substeps};
+}
+
+TEST(ObjectSets, NobodyMeetsWhatDoesNotCollide) {
+  SetMember loner = object(1, ~0u, 10);
+  loner.collides = false;
+  EXPECT_EQ(find_sets({loner, object(1, ~0u), loner, object(1, ~0u)}), (std::vector<int>{0, 1, 2, 1}));
+  EXPECT_EQ(substeps_of_sets({loner, object(1, ~0u, 20), object(1, ~0u, 10)}), (std::vector<int>{10, 20, 20}));
+}
+
+TEST(ObjectSets, CollidersJoinObjectsAndNoOtherCollider) {
+  SetMember loner = object(2, 1), other = object(4, 8);
+  loner.collides = other.collides = false;
+  const SetMember mesh{1, ~0u, false, true, 0}, far{8, 4, false, true, 0};
+  EXPECT_EQ(find_sets({mesh, far}), (std::vector<int>{0, 1}));
+  EXPECT_EQ(find_sets({mesh, far, loner, other}), (std::vector<int>{0, 1, 0, 1}));
+}
+
+TEST(ObjectSets, AreTheConnectedPartsOfAllPairs) {
+  std::mt19937 random(7);
+  int several = 0;
+  for (int round = 0; round < 500; ++round) {
+    std::vector<SetMember> members;
+    const int count = 1 + static_cast<int>(random() % 12);
+    for (int i = 0; i < count; ++i) {
+      const bool is_collider = random() % 4 == 0;
+      members.push_back({std::uint32_t(random() % 16), std::uint32_t(random() % 16), !is_collider && random() % 3 != 0,
+                         is_collider, is_collider ? 0 : 10 + 10 * static_cast<int>(random() % 2)});
+    }
+    const auto meet = [&](const SetMember& a, const SetMember& b) {
+      if ((a.groups & b.mask) == 0 || (b.groups & a.mask) == 0 || (a.is_collider && b.is_collider)) return false;
+      return a.is_collider || b.is_collider || (a.collides && b.collides);
+    };
+    std::vector<int> sets(members.size());
+    for (int i = 0; i < count; ++i) sets[i] = i;
+    for (int pass = 0; pass < count; ++pass)
+      for (int i = 0; i < count; ++i)
+        for (int j = 0; j < count; ++j)
+          if (i != j && meet(members[i], members[j])) sets[i] = sets[j] = std::min(sets[i], sets[j]);
+    ASSERT_EQ(find_sets(members), sets);
+    std::vector<int> most(members.size(), 0);
+    for (int i = 0; i < count; ++i)
+      for (int j = 0; j < count; ++j)
+        if (sets[i] == sets[j]) most[i] = std::max(most[i], members[j].substeps);
+    ASSERT_EQ(substeps_of_sets(members), most);
+    several += std::count(sets.begin(), sets.end(), 0) < count ? 1 : 0;
+  }
+  EXPECT_GT(several, 100);
+}
+
+}  // namespace
+}  // namespace pliant
