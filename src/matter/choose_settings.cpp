@@ -199,7 +199,7 @@ struct SweepsInUse {
 };
 
 struct Choices {
-  std::vector<Sweep> sweeps;  ///< by object
+  std::vector<Sweep> sweeps;  ///< sweep of each object
   SweepsInUse used;
 };
 
@@ -244,7 +244,7 @@ std::vector<Sweep> chosen_sweeps(const Scene& scene, const Settings& settings) {
 
 namespace {
 
-/// Where the settings leave them open: the substeps of each object's set, or all objects'.
+/// The substeps of each object's set, or of all objects, if the settings leave them open.
 std::vector<int> substeps_of_objects(const Scene& scene, const std::vector<Sweep>& sweeps) {
   std::vector<SetMember> members;
   for (std::size_t o = 0; o < sweeps.size(); ++o)

@@ -97,7 +97,7 @@ struct CompiledObject {
   bool has_volume = false;
   CompiledVolume volume;
   bool self_collision = false, collides = false, is_collider = false;
-  int own_substeps = 0;  ///< of model/object_sets.h; 0 for a collider
+  int own_substeps = 0;  ///< own_substeps() of model/object_sets.h; 0 for a collider
   std::uint32_t groups = 1, mask = 0xffffffffu;
   float thickness = 0, static_friction = 0, kinetic_friction = 0, restitution = 0, drag = 0, lift = 0, damping = 0;
 };

@@ -19,7 +19,7 @@ bool can_meet(const SetMember& a, const SetMember& b) {
   return by_masks && by_kind;
 }
 
-/// A forest of members: each points to an earlier one of its set, the first to itself.
+/// A union-find forest: each member points to an earlier one of its set, the first one to itself.
 class Forest {
  public:
   explicit Forest(std::size_t members) : root_(members) { std::iota(root_.begin(), root_.end(), 0); }

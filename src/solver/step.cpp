@@ -24,12 +24,12 @@ namespace pliant {
 
 namespace {
 
-/// When a group's substep ends, compared over groups without rounding: number + 1 over planned.
+/// True if a group's substep ends earlier, compared without rounding: number + 1 over planned.
 bool ends_before(const Substep& a, const Substep& b) {
   return std::int64_t{a.number + 1} * b.planned < std::int64_t{b.number + 1} * a.planned;
 }
 
-/// The group whose next substep ends first, the first of those that end together; null if all are done.
+/// The group whose next substep ends first, or the first of several; null if all are done.
 Substep* first_to_end(std::vector<Substep>& groups) {
   Substep* first = nullptr;
   for (Substep& s : groups)
@@ -37,7 +37,7 @@ Substep* first_to_end(std::vector<Substep>& groups) {
   return first;
 }
 
-/// Whether the substeps under way of all groups end at the same time, `s` being the first of them. Only there can a frame be stopped.
+/// True if the current substeps of all groups end at the same time, `s` being the first. A frame can be stopped only there.
 bool all_end_together(const std::vector<Substep>& groups, const Substep& s) {
   return std::none_of(groups.begin(), groups.end(), [&](const Substep& other) { return ends_before(s, other); });
 }

@@ -20,14 +20,14 @@ struct StepContext {
   Workspace& workspace;
   Executor& executor;
   const Kernels& kernels;
-  int substeps = 1;  ///< of all objects, where `groups` is empty
+  int substeps = 1;  ///< substeps of all objects if `groups` is empty
   int iterations = 1;
   SweepOptions options{};
   bool record_residuals = false;
   const std::atomic<bool>* stop = nullptr;  ///< if true, the frame ends when all groups reach one time
-  bool separate_phases = false;             ///< of Settings
+  bool separate_phases = false;             ///< as in Settings
   double tolerance = 0;                     ///< from Settings; above 0 it needs prepare_residual, and one group
-  std::span<const GroupFrame> groups{};     ///< each with substeps of its own
+  std::span<const GroupFrame> groups{};     ///< groups with different substeps
 };
 
 /// Advances the State by dt. Never throws; the report has all problems.

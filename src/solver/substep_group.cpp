@@ -14,7 +14,7 @@ SetMember member_of(const CompiledObject& object) {
   return {object.groups, object.mask, object.collides && !object.is_collider, object.is_collider, object.own_substeps};
 }
 
-/// The phase with the tasks of a group alone. One that is filled in each substep has none to begin with, and is kept.
+/// A phase with only the tasks of a group. Phases that are filled in each substep start empty and are kept.
 Phase part_of(const Phase& phase, const std::vector<char>& has) {
   Phase part{phase.driver, phase.colour};
   for (const Task& task : phase.tasks) {

@@ -12,14 +12,14 @@
 
 namespace pliant {
 
-/// What stages visit of a group. Its lists are parts of the model's, in the same order.
+/// The data of a group that stages visit. Its lists are subsets of the model's, in the same order.
 struct SubstepGroup {
   int substeps = 1;                     ///< per frame, unless a fast collider demands more (solver/divide.h)
   bool has_all = true;                  ///< every object: the model's own lists are used, and all below is empty
-  std::vector<char> has{};              ///< by object
+  std::vector<char> has{};              ///< true for each object of the group
   std::vector<int> objects{}, tiles{};  ///< ascending; indices of Model::objects and Model::tiles()
-  std::vector<Phase> phases{};          ///< with the tasks of its objects alone
-  std::vector<Sweep> sweeps{};          ///< of its objects
+  std::vector<Phase> phases{};          ///< phases that contain only the tasks of its objects
+  std::vector<Sweep> sweeps{};          ///< sweeps of its objects
   std::unique_ptr<PairModel> pair_model{};
   std::unique_ptr<SurfaceContact> pairs{};  ///< null if no surface of the group can touch another
 };
@@ -30,7 +30,7 @@ std::vector<SubstepGroup> make_substep_groups(const Model& model);
 /// One group of all objects.
 SubstepGroup group_of_all(int substeps);
 
-/// How many substeps a group makes of a frame.
+/// The number of substeps of a group in a frame.
 struct GroupFrame {
   const SubstepGroup* group = nullptr;
   int substeps = 1;

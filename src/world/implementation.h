@@ -1,5 +1,5 @@
-// What a World holds. Its parts are in files by concern: objects.cpp (add, remove, edit), control.cpp, events.cpp, state.cpp,
-// read.cpp, world.cpp (step).
+// The contents of a World. Its functions are in files by concern: objects.cpp (add, remove, edit), control.cpp,
+// events.cpp, state.cpp, read.cpp, world.cpp (step).
 #pragma once
 
 #include <memory>
@@ -17,20 +17,20 @@
 
 namespace pliant {
 
-/// What moves of one object, in storage order.
+/// The State of one object, in storage order.
 struct ObjectState {
   Records positions, remainders, velocities, orientations, angular_velocities;
   std::vector<std::vector<float>> channels;
 };
 
-/// Groups that a body is in and those that it meets.
+/// The groups to which a body belongs, and those that it meets.
 struct Masks {
   std::uint32_t groups = 1, mask = ~0u;
 };
 
-/// Moves what follows keyframes to where they have it at a time.
+/// Moves the particles of an object that follow keyframes to their positions at a time.
 void move_to_present(const CompiledObject& object, double time, Record* positions);
-/// What particles meet of a mesh collider; null where that is its triangles. Throws Error where the mesh does not suit.
+/// The distance field of a mesh collider; null if it collides as triangles. Throws an Error if the mesh is unsuitable.
 std::shared_ptr<const SolidField> field_of(const MeshCollider& collider);
 
 // Over thirty members: each file named below holds one part's functions; all of them share the Model, State and Workspace.
@@ -42,30 +42,30 @@ struct World::Implementation {
   // ---- objects.cpp
   /// What the schedule of an object that is compiled now depends on besides the object.
   CompileOptions compile_options(Sweep sweep) const;
-  /// The sweep of an object that is added now.
+  /// The sweep for an object that is added now.
   Sweep sweep_of(const Object& object) const;
-  /// Throws Error where the World's acceleration does not suit a sweep.
+  /// Throws an Error if the World's acceleration does not support a sweep.
   void require_accelerable(Sweep sweep, const std::string& name) const;
-  /// Adds a mesh collider to the model; its number there.
+  /// Adds a mesh collider to the model; returns its number.
   int add_to_model(const MeshCollider& collider, CompiledObject compiled);
-  /// What particles meet of a mesh collider that is no triangles. Fields stand in the order of their numbers.
+  /// Adds the distance field of a mesh collider. Fields are ordered by the collider's number.
   void add_field(const MeshCollider& collider, std::shared_ptr<const SolidField> field, int number);
-  /// Gives an object of the model, just added, a place in the State and in the workspace.
+  /// Allocates and fills the State and the workspace of an object just added to the model.
   void put(int number);
-  /// Throws Error where the origins of an edit's particles do not fit.
+  /// Throws an Error if the origins of an edit's particles are invalid.
   void require_origins(int number, const Edit& edit) const;
-  /// Puts another in its place; `from` as in Edit.
+  /// Replaces an object by another one; `from` as in Edit.
   void replace(int number, CompiledObject by, const std::vector<int>& from);
-  /// Takes what moves of an object out of the State, where zeros stay.
+  /// Returns an object's part of the State, and replaces it by zeros.
   ObjectState take(int number);
-  /// Gives particle i of an object what particle origins[i] had, -1 for none; both in storage order.
+  /// Gives particle i of an object the state of particle origins[i], or none for -1; both in storage order.
   void give_back(int number, const ObjectState& kept, const std::vector<int>& origins);
-  /// Makes the columns of the State as long as the model has particles and frames.
+  /// Resizes the State to the model's particles and frames.
   void fit_state();
   void forget_pose(bool is_mesh, int slot);
-  /// Takes it out of model, State and workspace.
+  /// Removes an object from model, State and workspace.
   void remove(int number);
-  /// Makes room in the workspace for an object that was added, removed or recompiled.
+  /// Prepares the workspace for an object that was added, removed or recompiled.
   void prepare(int number);
   /// Notes an object that comes or goes if its surface could touch something.
   void note_surfaces(int number);
@@ -76,10 +76,10 @@ struct World::Implementation {
   void update_pairs();
   /// Which objects share their substeps. Where not all do, contact among surfaces is made from all objects.
   void prepare_groups();
-  /// Before a step: what only needs to be done once for all that came and went since the last.
+  /// Call before a step: does once what all additions and removals since the last step require.
   void bring_up_to_date();
 
-  /// Numbers in the model. Throw Error where the id names nothing.
+  /// The number of an id in the model. Throws an Error if the id is stale.
   int number(ObjectId id) const { return object_ids.number(id); }
   const CompiledObject& object(ObjectId id) const { return model.objects[number(id)]; }
   const Collider& collider(ColliderId id) const { return model.colliders[collider_ids.number(id)]; }
@@ -97,11 +97,11 @@ struct World::Implementation {
   const HeldPose* held(bool is_mesh, int slot) const;
   Posed pose_now(ColliderId id) const;
   Posed pose_now(MeshColliderId id) const;
-  /// Before and after a step: times of what is driven, and poses that are held.
+  /// Call before and after a step: sets the times of driven motions, and stores held poses.
   void begin_control(double dt);
   void stop_fixed();
   void end_control(bool stopped);
-  /// What was given for an object or collider that goes.
+  /// Discards the control data of an object or collider that is removed.
   void forget_control(int number);
 
   // ---- events.cpp
@@ -111,7 +111,7 @@ struct World::Implementation {
 
   // ---- read.cpp
   const Record* positions_of(ObjectId id) const { return state.positions.data() + model.first[number(id)]; }
-  /// In the numbering of the user, of an object or a mesh collider.
+  /// Converts records to the user's order, for an object or a mesh collider.
   std::vector<Vec3f> in_given_order(int number, const Records& records) const;
   void measure(Lengths& measured) const;
   /// Of the last step's substeps; any, where an object has made none and so has no multipliers [s].
@@ -124,7 +124,7 @@ struct World::Implementation {
   int substeps_for(const SubstepGroup& group, double dt, std::vector<std::string>& warnings) const;
   std::vector<GroupFrame> plan_frame(double dt, Report& report);
 
-  Settings settings, suggested;  ///< as they are, and as measured best on scenes of this kind
+  Settings settings, suggested;  ///< the World's settings, and those that measured best on such scenes
   Executor executor;
   const Kernels& kernels;
   Model model;
@@ -136,14 +136,14 @@ struct World::Implementation {
   Workspace workspace;
   std::vector<SubstepGroup> groups;
   Lengths lengths;
-  std::vector<std::pair<Thing, Thing>> touching;  ///< in the last step, ascending
+  std::vector<std::pair<Thing, Thing>> touching;  ///< pairs in contact in the last step, ascending
   std::vector<ContactEvent> events;
   std::vector<float> last_h;  ///< by object: of the substeps of the last step [s]
   bool stopped = false;
-  const std::atomic<bool>* stop = nullptr;  ///< of stop_when
+  const std::atomic<bool>* stop = nullptr;  ///< the flag of World::stop_when
   bool may_drift = false;             ///< fixed particles may have a velocity from a frame in which the user moved them
   std::vector<int> changed_surfaces;  ///< numbers of objects that came, went or were edited since the last step
-  bool objects_changed = false;       ///< since the last step
+  bool objects_changed = false;       ///< changes since the last step
 };
 
 }  // namespace pliant

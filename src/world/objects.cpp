@@ -17,7 +17,7 @@ namespace pliant {
 
 namespace {
 
-/// Those that are asked for; else those that a second pass needs or that say how much of a length is meant.
+/// The multipliers to store: all if requested, else those that a second pass or the overstretch needs.
 Multipliers kept_multipliers(const Settings& settings, Sweep sweep) {
   if (settings.record_multipliers || settings.record_residuals) return Multipliers::all;
   const bool more_passes = settings.iterations * sweep_method(sweep).passes > 1;
@@ -68,7 +68,7 @@ CompileOptions World::Implementation::compile_options(Sweep sweep) const {
 Sweep World::Implementation::sweep_of(const Object& object) const {
   if (object.sweep != Sweep::automatic) return object.sweep;
   if (settings.sweep != Sweep::automatic) return settings.sweep;
-  Scene scene;  // of the others counts only whether it can touch them
+  Scene scene;  // of other objects it only matters whether the new one can touch them
   scene.settings = settings;
   scene.gravity = model.gravity;
   for (const CompiledObject& other : model.objects) {
@@ -95,7 +95,7 @@ void World::Implementation::require_accelerable(Sweep sweep, const std::string& 
 }
 
 int World::Implementation::add_to_model(const MeshCollider& collider, CompiledObject compiled) {
-  std::shared_ptr<const SolidField> field = field_of(collider);  // may throw: before anything changes
+  std::shared_ptr<const SolidField> field = field_of(collider);  // may throw, so it runs before anything changes
   const int number = model.add(std::move(compiled));
   add_field(collider, std::move(field), number);
   return number;
@@ -140,7 +140,7 @@ void World::Implementation::prepare(int number) {
   objects_changed = true;
 }
 
-/// Which elements an object needs depends on the colliders that it may meet by more than vertices.
+/// Recomputes the elements of each object that can collide by more than their vertices, which depend on the colliders.
 void World::Implementation::prepare_shape_contacts() {
   for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) workspace.shape_contacts.prepare(model, o);
 }
@@ -172,7 +172,7 @@ void World::Implementation::replace(int number, CompiledObject by, const std::ve
   note_surfaces(number);
   const CompiledObject& old = model.objects[number];
   const int particles = old.particles;
-  // Targets of attachments follow the particles, and are the same as far as there were as many.
+  // Targets of attachments come after the particles, and keep their order.
   const auto origin = [&](int user) {
     const int at = user < by.user_particles ? from[user] : user - by.user_particles + old.user_particles;
     return at < 0 || at >= particles ? -1 : old.place[at];
@@ -284,7 +284,7 @@ void World::Implementation::bring_up_to_date() {
   if (objects_changed || groups.empty()) prepare_groups();
   update_pairs();
   if (!objects_changed) return;
-  for (TileScratch& tile : workspace.tiles) tile.contacts.clear();  // tasks have moved up
+  for (TileScratch& tile : workspace.tiles) tile.contacts.clear();  // indices of tasks have changed
   if (settings.tolerance > 0) prepare_residual(model, workspace.residual);
   objects_changed = false;
 }
@@ -350,7 +350,7 @@ void World::remove(ColliderId collider) {
   self_->collider_ids.close_gap(number);
   self_->model.colliders.erase(self_->model.colliders.begin() + number);
   self_->prepare_shape_contacts();
-  std::map<int, PoseDrive> drives;  // of those above it the numbers are one less
+  std::map<int, PoseDrive> drives;  // colliders with larger numbers move down by one
   for (const auto& [other, drive] : self_->workspace.control.colliders)
     if (other != number) drives.emplace(other > number ? other - 1 : other, drive);
   self_->workspace.control.colliders = std::move(drives);

@@ -32,7 +32,7 @@ World::Implementation::Implementation(const Scene& scene, const Settings& with, 
   model.pairs = scene.pairs;
   model.colliders = scene.colliders;
   for (int c = 0; c < static_cast<int>(scene.colliders.size()); ++c) collider_ids.add(c);
-  const std::vector<Sweep> sweeps = chosen_sweeps(scene, with);  // they depend on all objects
+  const std::vector<Sweep> sweeps = chosen_sweeps(scene, with);  // each depends on all objects
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const CompileOptions options = compile_options(sweeps[o]);
     object_ids.add(model.add(given_away != nullptr ? compile(std::exchange(given_away->objects[o], {}), options)

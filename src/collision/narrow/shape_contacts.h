@@ -21,9 +21,9 @@ namespace pliant {
 struct ShapeContactSearch {
   const Model& model;
   const std::vector<MovingCollider>& colliders;
-  FunctionRef<AdvanceArguments(int task)> particles;  ///< of the tile of a model task
+  FunctionRef<AdvanceArguments(int task)> particles;  ///< the particles of a task's tile
   FunctionRef<const PointBounds&(int task)> bounds;  ///< encloses the tile's particles at the substep's start and predicted
-  const std::vector<int>* tasks = nullptr;           ///< those whose tiles take part, ascending; null: all
+  const std::vector<int>* tasks = nullptr;           ///< tasks whose tiles take part, ascending; null: all
 };
 
 /// A vertex in a collider's frame, at the substep's start and as predicted: two quads of floats.
@@ -38,8 +38,8 @@ struct VertexWay {
 /// Scratch memory of one thread.
 struct ShapeContactScratch {
   std::vector<BoundingBox<float>> boxes;  ///< swept box of each cluster of a tile
-  std::vector<float> paths;               ///< upper bounds of their vertices' displacements [m]
-  std::vector<VertexWay> ways;            ///< of the vertices of a cluster
+  std::vector<float> paths;               ///< upper bounds of the displacements of each cluster's vertices [m]
+  std::vector<VertexWay> ways;            ///< paths of a cluster's vertices
   std::vector<std::uint16_t> outcodes;
   std::vector<Contact> contacts;
 };

@@ -1,4 +1,4 @@
-// Which surfaces meet, and how.
+// Builds the contact model: which surfaces meet, and their contact parameters.
 #include "collision/proxies/pair_model.h"
 
 #include <algorithm>
@@ -57,7 +57,7 @@ ContactBody body_of(const Model& model, int number, const std::vector<char>& has
   return body;
 }
 
-/// What the scene says of a certain pair; a static friction given alone lowers the kinetic one where it must.
+/// Applies the overrides of a pair. A static friction given alone also limits the kinetic one.
 void apply(const PairProperties& said, PairMaterial& material) {
   material.thickness = said.thickness.value_or(material.thickness);
   material.static_friction = said.static_friction.value_or(material.static_friction);
@@ -205,7 +205,7 @@ void add_body(const Model& model, int body, bool meets, PairModel& out) {
   out.triangles_around.add(out.elements, of.triangles, of.vertices);
 }
 
-/// Free particles that may meet others: those of bodies that meet themselves, and of all where there are several such bodies.
+/// Adds the free particles that can meet others: of bodies with self-collision, or of all if there are several such bodies.
 void find_free_points(const Model& model, const std::vector<char>& meets_some, PairModel& out) {
   out.free_points.clear();
   std::vector<int> bodies;

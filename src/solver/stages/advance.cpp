@@ -1,8 +1,9 @@
-// Update and predict: what moves particles.
+// Update and predict: the stages that move particles.
 //
-// The end of a substep and the start of the next touch the same particles, and a tile's fit a core's cache. So where nothing
-// between the two needs all velocities (external forces, contacts among surfaces), `update` does nothing and the next `predict`
-// does both in one visit to each tile, contacts with colliders and mostly the first sweep included. The bits are the same.
+// The end of a substep and the start of the next access the same particles, and the particles of a tile fit a core's
+// cache. So if nothing between them reads all velocities (external forces, contacts between surfaces), `update` is
+// deferred, and the next `predict` does both in one pass over each tile, with its contacts and usually its first sweep.
+// The bits are the same.
 #include <algorithm>
 
 #include "math/motion.h"
@@ -16,13 +17,13 @@ namespace pliant {
 
 namespace {
 
-/// Whether another stage reads velocities before the next prediction, or the two are to be timed apart.
+/// True if another stage reads velocities before the next prediction, or the phases are timed separately.
 bool velocities_are_read(const Substep& s) {
   return s.is_last() || s.has_pairs() || !s.work.shape_contacts.contacts().empty() || has_forces(s.model, s.work.control) ||
          s.context.separate_phases;
 }
 
-/// A particle whose place at the substep's end is given.
+/// Moves a kinematic particle to its position at the substep's end.
 void move_to(const Vec3d& target, int particle, const AdvanceArguments& a) {
   const Record &x = a.positions[particle], &r = a.remainders[particle];
   Record &d = a.displacements[particle], &v = a.velocities[particle];
@@ -39,7 +40,7 @@ void move_to_targets(const Substep& s, const std::vector<Target>& targets, const
     move_to(s.is_last() ? target->to : target->from + (target->to - target->from) * share, target->particle, a);
 }
 
-/// Kinematic particles go where they are to be at the substep's end.
+/// Moves all kinematic particles of a tile to their positions at the substep's end.
 void move_kinematics(const Substep& s, int task, const AdvanceArguments& a) {
   const CompiledObject& object = object_of(s, task);
   const int number = s.model.tiles()[task].object;
@@ -72,7 +73,7 @@ void update_tile(const Substep& s, int task, bool ends_frame) {
   if (!contacts.empty()) respond(contacts, ends_frame ? Vec3f{} : settled, a);
 }
 
-/// Begins a tile's substep, with `move` as the kernel: predict, or advance where the last substep's update is part of it.
+/// Starts a tile's substep with the kernel `move`: predict, or advance, which includes the update of the last substep.
 void predict_tile(const Substep& s, int task, void (*move)(const AdvanceArguments&, PointBounds*)) {
   const CompiledObject& object = object_of(s, task);
   const AdvanceArguments a = particles(s, task);
@@ -86,7 +87,7 @@ void predict_tile(const Substep& s, int task, void (*move)(const AdvanceArgument
   find_contacts({object, a, *bounds, s.work.colliders, s.kernels.find_near}, scratch.near, scratch.contacts);
 }
 
-/// The end of one substep and the start of the next. False, and nothing changed, where a displacement is not finite.
+/// Ends one substep of a tile and starts the next. Returns false, and changes nothing, if a displacement is not finite.
 bool advance_tile(const Substep& s, int task) {
   TileScratch& scratch = s.work.tiles[task];
   scratch.finite = is_finite(s, task);
@@ -97,7 +98,7 @@ bool advance_tile(const Substep& s, int task) {
   return true;
 }
 
-/// True where every tile and every frame is finite; else the report names what is not, in substep number `substep`.
+/// True if every tile and every frame is finite. Otherwise the report names the first non-finite value of that substep.
 bool all_finite(Substep& s, int substep) {
   bool is_finite = s.work.frames.finite;
   for_each_tile(s, [&](int task) { is_finite = is_finite && s.work.tiles[task].finite; });

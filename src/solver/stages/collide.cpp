@@ -4,7 +4,7 @@ namespace pliant {
 
 namespace {
 
-/// Of edges and triangles with primitive colliders.
+/// Finds contacts of edges and triangles with primitive colliders.
 void collide_with_shapes(Substep& s) {
   ShapeContacts& shapes = s.work.shape_contacts;
   shapes.contacts().clear();

@@ -5,7 +5,7 @@ namespace pliant {
 
 namespace {
 
-/// Rounds of contacts beyond the iterations, each of which passes a push on by one layer.
+/// Limit of extra contact passes; each propagates a push by one layer.
 constexpr int most_rounds_of_contacts = 16;
 
 }  // namespace

@@ -7,13 +7,13 @@ namespace pliant {
 
 namespace {
 
-/// Rounds in which impacts are ended: each passes what a vertex gained from one contact on to its others.
+/// Limit of passes that end impacts; each propagates velocity changes from one contact of a vertex to its others.
 constexpr int most_rounds_of_impacts = 8;
-/// An approach of less than this share of the thickness in a substep is left to the next one.
+/// A remaining approach below this share of the thickness per substep is left to the next substep.
 constexpr float share_left = 0.1f;
 
-/// What is left of an impact's approach would be pushed off in the next substep, along the normals of surfaces that have crumpled by then:
-/// what was thrown straight would drift sideways.
+/// Removes the remaining approach velocity of impacts now. In the next substep, contact normals of crumpled surfaces
+/// would deflect it sideways.
 void end_impacts(Substep& s, FunctionRef<Vec3f(int)> gravity, float slow) {
   SurfaceContact& pairs = *s.pairs;
   const Record* positions = s.state.positions.data();
@@ -33,12 +33,12 @@ void end_impacts(Substep& s, FunctionRef<Vec3f(int)> gravity, float slow) {
   }
 }
 
-/// To contacts of edges and triangles with primitive colliders.
+/// Applies restitution to contacts of edges and triangles with primitive colliders.
 void respond_to_shapes(Substep& s, float slow, FunctionRef<Vec3f(int object)> gravity) {
   const Record* positions = s.state.positions.data();
   s.work.shape_contact_solver.for_each(
       s.context.executor, "respond", s.work.shape_contacts.contacts(), [&](const Contact& contact) {
-        float free = 0;  // the share of its points that gravity moves
+        float free = 0;  // total weight of the contact's dynamic points
         for (int i = 0; i < 4; ++i) free += positions[contact.point[i]].w > 0 ? contact.weight[i] : 0.f;
         const Vec3f missing = gravity(s.model.object_of(contact.point[0])) * free;
         respond_to_shape_contact(contact, s.state.velocities.data(), missing, slow, 1 / s.h);

@@ -11,7 +11,7 @@ namespace pliant {
 
 namespace {
 
-/// Whether a tolerance is set and met, with iterations left that it saves.
+/// True if a tolerance is set and met, and iterations are left.
 bool is_met(Substep& s, int iteration) {
   const StepContext& context = s.context;
   return context.tolerance > 0 && iteration + 1 < context.iterations && distance_residual(s) < context.tolerance;
@@ -22,7 +22,7 @@ bool uses(const Substep& s, Sweep sweep) {
   return s.part == nullptr || std::find(s.part->sweeps.begin(), s.part->sweeps.end(), sweep) != s.part->sweeps.end();
 }
 
-/// Stencils are projected as often as the sweep of their object projects any other constraint.
+/// Projects stencils as often as the sweep of their object projects its other constraints.
 void walk_stencils(Substep& s, bool first) {
   int passes = 0;
   for (const auto& [sweep, group] : s.work.sweeps)

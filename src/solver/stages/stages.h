@@ -37,7 +37,7 @@ void respond(Substep& s);
 /// Counts the contacts of a group's last substep.
 void end_group(Substep& s);
 
-/// Advances the time to where all groups are.
+/// Advances the time to that of all groups.
 void end_frame(std::vector<Substep>& groups);
 
 }  // namespace pliant
