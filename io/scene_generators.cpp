@@ -42,7 +42,7 @@ TriangleMesh tube_mesh(int columns, int rows, float length, float top_radius, fl
 TriangleMesh box_mesh(const Vec3f& size, int segments) {
   TriangleMesh mesh;
   std::map<std::array<int, 3>, int>
-      numbers;  // of the vertices by their position on the lattice: sides share the vertices of their edges
+      numbers;  // vertex indices by position on the lattice: sides share the vertices of their edges
   const auto vertex = [&](const std::array<int, 3>& at) {
     const auto [found, is_new] = numbers.try_emplace(at, static_cast<int>(mesh.positions.size()));
     const auto along = [&](int i, float whole) {

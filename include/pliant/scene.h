@@ -150,7 +150,7 @@ struct Sphere {
 };  ///< [m]
 struct Capsule {
   float radius = 0.25f, half_length = 0.5f;
-};  ///< along the y-axis of its frame; half_length without caps [m]
+};  ///< a solid capsule along the y-axis of its frame; half_length excludes the caps [m]
 struct Box {
   Vec3f half_extents{0.5f, 0.5f, 0.5f};
 };  ///< [m]

@@ -59,7 +59,7 @@ class ShapeContacts {
   void detect_tile(const ShapeContactSearch& search, int task);
 
   std::vector<ShapeElements> elements_;       ///< [object]
-  std::vector<ShapeContactScratch> scratch_;  ///< [task of the model]
+  std::vector<ShapeContactScratch> scratch_;  ///< scratch of each task of the model
   std::vector<Contact> contacts_;
 };
 
