@@ -363,7 +363,7 @@ std::vector<std::array<int, 2>> lines_of(const Object& object, const std::vector
   return lines;
 }
 
-/// `given_away` is the object or null.
+/// Compiles an object. `given_away` is the object if it may lose its constraints, else null.
 CompiledObject compile(const Object& object, Object* given_away, const CompileOptions& options) {
   CompiledObject out;
   out.name = object.name;
