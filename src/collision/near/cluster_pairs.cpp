@@ -29,18 +29,13 @@ void ClusterPair::measure(const ClusterMotions& motions) {
 
 float ClusterPairs::travel() const { return travel_over_radius * model_.radius; }
 
-bool ClusterPairs::is_before(const Clusters& one, const Clusters& other) const {
-  return std::pair(model_.key_of(one.first), model_.key_of(one.second)) <
-         std::pair(model_.key_of(other.first), model_.key_of(other.second));
-}
-
 void ClusterPairs::add_if_they_meet(int a, int b, std::vector<Clusters>& to) const {
   if (!model_.rules.meet(model_.cluster_body[a], model_.cluster_body[b])) return;
-  to.push_back(model_.is_before(b, a) ? Clusters{b, a} : Clusters{a, b});
+  to.push_back(rank_[b] < rank_[a] ? Clusters{b, a} : Clusters{a, b});
 }
 
 void ClusterPairs::sort(std::vector<Clusters>& pairs) const {
-  std::sort(pairs.begin(), pairs.end(), [&](const Clusters& x, const Clusters& y) { return is_before(x, y); });
+  std::sort(pairs.begin(), pairs.end(), [&](const Clusters& x, const Clusters& y) { return key_of(x) < key_of(y); });
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
@@ -52,8 +47,11 @@ ClusterPair ClusterPairs::make(const Clusters& clusters) const {
 
 void ClusterPairs::fit_boxes(const ClusterMotions& motions) {
   boxes_.clear();
-  for (const int c : model_.cluster_order)
+  rank_.resize(model_.cluster_body.size());
+  for (const int c : model_.cluster_order) {
+    rank_[c] = static_cast<std::uint32_t>(boxes_.size());
     boxes_.push_back(motions.path_box(c).grown((0.5f + travel_over_radius) * model_.radius));
+  }
 }
 
 void ClusterPairs::mark_joined(const std::vector<StaticGroup>& groups, const std::vector<int>& among, bool only_new) {
@@ -133,11 +131,11 @@ std::vector<int> ClusterPairs::numbers() const {
 }
 
 int ClusterPairs::number_of(const StaticGroup& group, const std::vector<int>& among) const {
-  const auto before = [&](int number, const Clusters& wanted) {
-    return is_before({pairs_[number].a, pairs_[number].b}, wanted);
-  };
   const auto [a, b] = std::minmax(group.first, group.second);  // within one body, clusters are ordered by number
-  return *std::lower_bound(among.begin(), among.end(), Clusters{a, b}, before);
+  const auto before = [&](int number, std::uint64_t wanted) {
+    return key_of({pairs_[number].a, pairs_[number].b}) < wanted;
+  };
+  return *std::lower_bound(among.begin(), among.end(), key_of({a, b}), before);
 }
 
 }  // namespace pliant

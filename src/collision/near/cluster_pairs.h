@@ -1,6 +1,7 @@
 // Pairs of near clusters, and upper bounds of how much distances between them can decrease.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "collision/broad/tree.h"
@@ -50,7 +51,10 @@ class ClusterPairs {
 
  private:
   using Clusters = std::pair<int, int>;
-  bool is_before(const Clusters& one, const Clusters& other) const;
+  /// Orders pairs by the ranks of their clusters.
+  std::uint64_t key_of(const Clusters& pair) const {
+    return std::uint64_t{rank_[static_cast<std::size_t>(pair.first)]} << 32 | rank_[static_cast<std::size_t>(pair.second)];
+  }
   void add_if_they_meet(int a, int b, std::vector<Clusters>& to) const;
   void sort(std::vector<Clusters>& pairs) const;
   void fit_boxes(const ClusterMotions& motions);
@@ -58,7 +62,8 @@ class ClusterPairs {
   ClusterPair make(const Clusters& clusters) const;
 
   const PairModel& model_;
-  std::vector<BoxBounds> boxes_;  ///< grown boxes of the clusters in use, in their order
+  std::vector<BoxBounds> boxes_;     ///< grown boxes of the clusters in use, in their order
+  std::vector<std::uint32_t> rank_;  ///< the place of each cluster in that order, which is that of PairModel::is_before
   Tree<BoxBounds> tree_;
   std::vector<ClusterPair> pairs_;
 };

@@ -2,22 +2,10 @@
 
 namespace pliant {
 
-namespace {
-
-/// The filter's margin over the thickness.
-constexpr float least_share = 0.05f;
-
-}  // namespace
-
 void NearList::clear(const Odometer& odometer) {
   pairs.clear();
   value.clear();
   least = {out_of_reach, odometer.total};
-}
-
-float filter_margin(const Neighbourhood& near, const ClusterSides& sides) {
-  const float extent = max(near.motions[sides.first].extent, near.motions[sides.second].extent);
-  return max(least_share * near.pair_of(sides).material.thickness, least_margin_roundings * one_rounding * extent);
 }
 
 float activation_distance(const Neighbourhood& near, const ClusterSides& sides) {

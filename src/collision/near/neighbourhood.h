@@ -83,7 +83,11 @@ inline bool is_too_far(const Neighbourhood& near, const ClusterSides& sides) {
 }
 
 /// The distance that the filter maintains between two clusters [m].
-float filter_margin(const Neighbourhood& near, const ClusterSides& sides);
+inline float filter_margin(const Neighbourhood& near, const ClusterSides& sides) {
+  constexpr float share_of_thickness = 0.05f;
+  const float extent = max(near.motions[sides.first].extent, near.motions[sides.second].extent);
+  return max(share_of_thickness * near.pair_of(sides).material.thickness, least_margin_roundings * one_rounding * extent);
+}
 
 /// Contacts or the filter process pairs nearer than this. It allows for rounding until a cluster is twice as far from the
 /// origin as at the last broad-phase rebuild (ClusterMotions::has_gone_far).

@@ -2,6 +2,8 @@
 // file. A new driver needs a value of Driver, a file, and a line in the table of drivers.cpp.
 #pragma once
 
+#include <optional>
+
 #include "model/phase.h"
 #include "solver/substep.h"
 
@@ -37,7 +39,24 @@ void walk(Substep& s, Driver driver, const Pass& pass);
 
 /// Calls body(task) for the tasks of swept objects (is_swept). Uses all threads if the phase has at least
 /// `fewest_to_share` batches or steps of work; with less, waking them takes longer than the work.
+/// Times itself if `name` is not null.
 void for_tasks(Substep& s, const Phase& phase, const char* name, int fewest_to_share, FunctionRef<void(const Task&)> body);
+
+/// Inter-tile colours with fewer batches run on one thread: waking others takes longer.
+inline constexpr int fewest_inter_tile_batches = 96;
+inline constexpr const char* inter_tile_name = "solve: inter-tile constraints";
+
+/// Times consecutive colours of inter-tile constraints on one thread together: reading the clock takes as long as some batches.
+class InterTileTimer {
+ public:
+  explicit InterTileTimer(Substep& s) : timings_(s.context.executor.timings()) {}
+  /// Call before each phase.
+  void enter(const Phase& phase);
+
+ private:
+  Timings& timings_;
+  std::optional<Stopwatch> watch_;
+};
 
 void project_tiles(Substep& s, const Phase& phase, const Pass& pass);              // lanes.cpp
 void project_inter_tile(Substep& s, const Phase& phase, const Pass& pass);         // lanes.cpp

@@ -26,10 +26,13 @@ void walk(Substep& s, Turn turn, const Pass& pass) {
   const std::vector<Phase>& phases = s.phases();
   const std::size_t count = phases.size();
   const bool forward = pass.order == Order::forward;
+  InterTileTimer timer(s);
   for (std::size_t i = 0; i < count; ++i) {
     const Phase& phase = phases[forward ? i : count - 1 - i];
     const PhaseDriver& driver = driver_of(phase);
-    if (driver.turn == turn && (forward || driver.has_order)) driver.project(s, phase, pass);
+    if (driver.turn != turn || (!forward && !driver.has_order)) continue;
+    timer.enter(phase);
+    driver.project(s, phase, pass);
   }
 }
 
@@ -44,8 +47,15 @@ void for_tasks(Substep& s, const Phase& phase, const char* name, int fewest_to_s
     if (is_swept(s, phase.tasks[i].object)) body(phase.tasks[i]);
   };
   if (phase.work >= fewest_to_share) return s.context.executor.parallel_for(name, tasks, visit);
-  Stopwatch watch(s.context.executor.timings(), name);
+  std::optional<Stopwatch> watch;
+  if (name != nullptr) watch.emplace(s.context.executor.timings(), name);
   for (int i = 0; i < tasks; ++i) visit(i);
+}
+
+void InterTileTimer::enter(const Phase& phase) {
+  const bool is_timed_here = phase.driver == Driver::inter_tile && phase.work < fewest_inter_tile_batches;
+  if (!is_timed_here) watch_.reset();
+  if (is_timed_here && !watch_) watch_.emplace(timings_, inter_tile_name);
 }
 
 }  // namespace pliant

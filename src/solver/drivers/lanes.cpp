@@ -4,9 +4,6 @@ namespace pliant {
 
 namespace {
 
-/// Inter-tile colours with fewer batches run on one thread: waking others takes longer.
-constexpr int fewest_batches_to_share = 96;
-
 void project_segments(const Substep& s, int object, int first, int last, bool first_pass) {
   const CompiledObject& from = s.model.objects[object];
   const StepKernels& kernels = from.sweep == Sweep::sequential ? step_kernels_sequential() : s.kernels;
@@ -14,8 +11,10 @@ void project_segments(const Substep& s, int object, int first, int last, bool fi
   sweep(from.pools.data(), from.segments.data() + first, from.segments.data() + last, arguments(s, object, first_pass));
 }
 
+/// An InterTileTimer times phases with little work.
 void for_segments(Substep& s, const Phase& phase, FunctionRef<void(int, const Segment*)> body) {
-  for_tasks(s, phase, "solve: inter-tile constraints", fewest_batches_to_share,
+  const char* name = phase.work < fewest_inter_tile_batches ? nullptr : inter_tile_name;
+  for_tasks(s, phase, name, fewest_inter_tile_batches,
             [&](const Task& task) { body(task.object, s.model.objects[task.object].segments.data() + task.item); });
 }
 
@@ -43,8 +42,11 @@ void project_inter_tile(Substep& s, const Phase& phase, const Pass& pass) {
 }
 
 void for_inter_tile(Substep& s, FunctionRef<void(int, const Segment*)> body) {
-  for (const Phase& phase : s.phases())
+  InterTileTimer timer(s);
+  for (const Phase& phase : s.phases()) {
+    timer.enter(phase);
     if (phase.driver == Driver::inter_tile) for_segments(s, phase, body);
+  }
 }
 
 }  // namespace pliant
