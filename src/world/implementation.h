@@ -70,12 +70,16 @@ struct World::Implementation {
   /// Notes an object that comes or goes if its surface could touch something.
   void note_surfaces(int number);
   void prepare_shape_contacts();
-  /// Makes contact among surfaces from all objects.
-  void prepare_pairs();
-  /// Brings what was noted into it.
-  void update_pairs();
-  /// Which objects share their substeps. Where not all do, contact among surfaces is made from all objects.
+  /// Makes a group's contact among surfaces from all its objects.
+  void make_pairs(SubstepGroup& group);
+  /// Brings a group's contact up to date with changed objects: by number.
+  void update_pairs(SubstepGroup& group, const std::vector<int>& changed);
+  /// Gives a group the contact of the group of the same substeps before, up to date with what joined it or left.
+  void take_over_pairs(SubstepGroup& group, SubstepGroup& before);
+  /// Finds which objects share their substeps.
   void prepare_groups();
+  /// Brings the contact of the one group of all objects up to date.
+  void update_surfaces();
   /// Call before a step: does once what all additions and removals since the last step require.
   void bring_up_to_date();
 

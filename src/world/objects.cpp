@@ -148,8 +148,9 @@ void World::Implementation::prepare_shape_contacts() {
 void World::Implementation::note_surfaces(int number) {
   const CompiledObject& object = model.objects[number];
   const auto is_mesh = [](const CompiledObject& one) { return one.is_collider && one.groups != 0; };
-  if (pair_model != nullptr || object.self_collision || (object.collides && object.groups != 0) ||
-      std::any_of(model.objects.begin(), model.objects.end(), is_mesh))
+  const auto has_pairs = [&](const SubstepGroup& group) { return pair_model != nullptr || group.pairs != nullptr; };
+  if (std::any_of(groups.begin(), groups.end(), has_pairs) || object.self_collision ||
+      (object.collides && object.groups != 0) || std::any_of(model.objects.begin(), model.objects.end(), is_mesh))
     changed_surfaces.push_back(number);
 }
 
@@ -244,45 +245,69 @@ void World::Implementation::forget_pose(bool is_mesh, int slot) {
   std::erase_if(state.held_poses, [&](const HeldPose& pose) { return pose.is_mesh == is_mesh && pose.slot == slot; });
 }
 
-void World::Implementation::prepare_pairs() {
-  workspace.pairs = nullptr;
-  pair_model = nullptr;
-  changed_surfaces.clear();
-  for (SubstepGroup& group : groups) {
-    group.pairs = nullptr;
-    std::unique_ptr<PairModel>& pairs = group.has_all ? pair_model : group.pair_model;
-    pairs = make_pair_model(model, group.has);  // empty where it has all
-    if (pairs == nullptr) continue;
-    pairs->filter = settings.contact_filter;
-    if (settings.initial_intersections == Settings::Intersections::untangle)
-      pairs->untangling_speed = settings.untangling_speed;
-    (group.has_all ? workspace.pairs : group.pairs) = std::make_unique<SurfaceContact>(*pairs, kernels.pairs);
-    workspace.look_for_tangles = true;
+void World::Implementation::make_pairs(SubstepGroup& group) {
+  std::unique_ptr<PairModel>& pairs = group.has_all ? pair_model : group.pair_model;
+  std::unique_ptr<SurfaceContact>& contact = group.has_all ? workspace.pairs : group.pairs;
+  contact = nullptr;
+  pairs = make_pair_model(model, group.has);  // empty where it has all
+  if (pairs == nullptr) return;
+  pairs->filter = settings.contact_filter;
+  if (settings.initial_intersections == Settings::Intersections::untangle)
+    pairs->untangling_speed = settings.untangling_speed;
+  contact = std::make_unique<SurfaceContact>(*pairs, kernels.pairs);
+  workspace.look_for_tangles = true;
+}
+
+void World::Implementation::update_pairs(SubstepGroup& group, const std::vector<int>& changed) {
+  PairModel* pairs = group.has_all ? pair_model.get() : group.pair_model.get();
+  if (pairs == nullptr || pairs->untangling_speed > 0) return make_pairs(group);
+  const std::optional<PairChanges> changes = update_pair_model(model, changed, *pairs);
+  if (!changes) return make_pairs(group);
+  (group.has_all ? workspace.pairs : group.pairs)->change(*changes);
+}
+
+void World::Implementation::take_over_pairs(SubstepGroup& group, SubstepGroup& before) {
+  if (before.pair_model == nullptr) return make_pairs(group);
+  std::vector<int> changed = changed_surfaces;
+  for (int o = 0; o < static_cast<int>(group.has.size()); ++o) {
+    const bool had = o < static_cast<int>(before.has.size()) && before.has[o] != 0;
+    if (had != (group.has[o] != 0)) changed.push_back(o);
   }
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  group.pair_model = std::move(before.pair_model);
+  group.pairs = std::move(before.pairs);
+  group.pair_model->has = group.has;
+  if (!changed.empty()) update_pairs(group, changed);
 }
 
 void World::Implementation::prepare_groups() {
-  const bool is_first = groups.empty(), was_split = groups.size() > 1;
-  groups.clear();
+  std::vector<SubstepGroup> before = std::exchange(groups, {});
   if (settings.substeps > 0)
     groups.push_back(group_of_all(settings.substeps));
   else
     groups = make_substep_groups(model);
-  if (is_first || was_split || groups.size() > 1) prepare_pairs();
+  if (before.size() == 1 && groups.size() == 1) return;  // its contact is still that of all objects
+  workspace.pairs = nullptr;
+  pair_model = nullptr;
+  for (SubstepGroup& group : groups) {
+    const auto same = std::find_if(before.begin(), before.end(), [&](const SubstepGroup& one) {
+      return !one.has_all && !group.has_all && one.substeps == group.substeps;
+    });
+    same != before.end() ? take_over_pairs(group, *same) : make_pairs(group);
+  }
+  changed_surfaces.clear();
 }
 
-void World::Implementation::update_pairs() {
+void World::Implementation::update_surfaces() {
   if (changed_surfaces.empty()) return;
-  if (pair_model == nullptr || pair_model->untangling_speed > 0) return prepare_pairs();
-  const std::optional<PairChanges> changes = update_pair_model(model, changed_surfaces, *pair_model);
-  if (!changes) return prepare_pairs();
+  update_pairs(groups.front(), changed_surfaces);
   changed_surfaces.clear();
-  workspace.pairs->change(*changes);
 }
 
 void World::Implementation::bring_up_to_date() {
   if (objects_changed || groups.empty()) prepare_groups();
-  update_pairs();
+  update_surfaces();
   if (!objects_changed) return;
   for (TileScratch& tile : workspace.tiles) tile.contacts.clear();  // indices of tasks have changed
   if (settings.tolerance > 0) prepare_residual(model, workspace.residual);
