@@ -22,7 +22,7 @@ struct Substep {
   int planned = 1;                     ///< substeps of the whole frame
   int substeps = 1;                    ///< substeps made; fewer if the frame is stopped
   double time_after = 0;               ///< time at the substep's end [s]
-  bool sweeps_on_entry = false;        ///< predict runs the first sweep over a tile, while it is in the cache
+  bool sweeps_on_entry = false;        ///< the first sweep over tiles is made by predict, mostly while each is in the cache
   bool update_is_due = false;          ///< true if update is deferred to the next predict (stages/advance.cpp)
   std::int64_t iterations_made = 0;    ///< iterations made in this frame
   const SweepGroup* group =

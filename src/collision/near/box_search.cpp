@@ -108,7 +108,7 @@ void BoxSearch::add_pairs(const Compared& of, const BoxHit* hits, int count, std
       kept += static_cast<std::size_t>((f0 != vertex) & (f1 != vertex) & (f2 != vertex));
     } else {
       const std::int32_t e0 = of.rows.corner[0][i], e1 = of.rows.corner[1][i];
-      // The lower corners first: numbers say nothing where bodies came and went.
+      // The edge with the lower corners comes first: edge numbers depend on which bodies were added and removed.
       const bool swaps = (f0 < e0) | ((f0 == e0) & (f1 < e1));
       to[kept] = {{swaps ? f0 : e0, swaps ? f1 : e1, swaps ? e0 : f0, swaps ? e1 : f1}, -1};
       kept += static_cast<std::size_t>((!of.once | (j > i)) & (e0 != f0) & (e0 != f1) & (e1 != f0) & (e1 != f1));

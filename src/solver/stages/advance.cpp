@@ -113,12 +113,16 @@ bool all_finite(Substep& s, int substep) {
 
 bool predict(Substep& s) {
   predict_frames(s);
-  for_tiles(s, s.update_is_due || s.sweeps_on_entry ? "solve: tiles" : "predict", [&](int task) {
+  const bool sweeps_at_once = s.sweeps_on_entry && !s.context.separate_phases;
+  const auto sweep_first = [&](int task) {
+    if (sweep_method(object_of(s, task).sweep).begins_on_entry) project_tile(s, task, true, Order::forward);
+  };
+  for_tiles(s, s.update_is_due || sweeps_at_once ? "solve: tiles" : "predict", [&](int task) {
     if (!s.update_is_due) predict_tile(s, task, s.kernels.predict);
     if (s.update_is_due && !advance_tile(s, task)) return;
-    if (s.sweeps_on_entry && sweep_method(object_of(s, task).sweep).begins_on_entry)
-      project_tile(s, task, true, Order::forward);
+    if (sweeps_at_once) sweep_first(task);
   });
+  if (s.sweeps_on_entry && !sweeps_at_once) for_tiles(s, "solve: tiles", sweep_first);  // as early, for the same contacts
   s.update_is_due = false;
   return all_finite(s, s.number - 1);
 }

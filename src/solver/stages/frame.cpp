@@ -11,8 +11,7 @@ namespace {
 bool may_sweep_on_entry(const Substep& s) {
   const StepContext& context = s.context;
   const bool untangles = s.has_pairs() && s.pairs->untangles();
-  return !context.record_residuals && !context.separate_phases &&
-         context.options.acceleration == SweepOptions::Acceleration::none && !untangles;
+  return !context.record_residuals && context.options.acceleration == SweepOptions::Acceleration::none && !untangles;
 }
 
 Substep begin_group(const StepContext& context, const GroupFrame& of, double dt, Report& report) {
