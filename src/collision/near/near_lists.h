@@ -13,6 +13,8 @@
 
 namespace pliant {
 
+/// All near lists. Over thirty members: short steps over one set of lists, in near_lists.cpp, and in near_changes.cpp where
+/// bodies come and go.
 class NearLists {
  public:
   NearLists(const PairModel& model, const PairKernels& kernels);
