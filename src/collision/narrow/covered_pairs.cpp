@@ -15,7 +15,10 @@ constexpr float least_rise = 1e-3f;
 
 Vec3f place(const Record& r) { return {r.x, r.y, r.z}; }
 
-bool has(const Triangle& t, int vertex) { return (t[0] == vertex) | (t[1] == vertex) | (t[2] == vertex); }
+/// Without branches, which would be mispredicted.
+bool has(const Triangle& t, int vertex) {
+  return ((t[0] == vertex ? 1 : 0) | (t[1] == vertex ? 1 : 0) | (t[2] == vertex ? 1 : 0)) != 0;
+}
 
 /// The end of an edge at which its closest point lies; -1 if it lies between the ends.
 int end_of(int a, int b, float weight_of_a, float weight_of_b) {
