@@ -1,5 +1,6 @@
 #include "matter/advice_settings.h"
 #include "constraints/registry.h"
+#include "model/object_sets.h"
 
 #include <algorithm>
 #include <utility>
@@ -71,7 +72,8 @@ std::string in_json(const Settings& wanted, const Settings& own) {
   std::string members;
   const auto add = [&](const std::string& member) { members += (members.empty() ? "" : ", ") + member; };
   // Defaults that the scene leaves open could change with the sweep, so they are written explicitly.
-  if (wanted.substeps != own.substeps || wanted.sweep != own.sweep) add("\"substeps\": " + std::to_string(wanted.substeps));
+  if (wanted.substeps != own.substeps || wanted.sweep != own.sweep)
+    add("\"substeps\": " + std::to_string(most_substeps_of(wanted)));
   if (wanted.sweep != own.sweep) add("\"sweep\": \"" + sweep_name(wanted.sweep) + "\"");
   if (wanted.sweep_options.tethers && !own.sweep_options.tethers) add("\"sweep_options\": {\"tethers\": true}");
   return "{" + members + "}";

@@ -87,8 +87,8 @@ std::vector<int> find_sets(const std::vector<SetMember>& members) {
       for (const int member : classes[j]) forest.join(first, member);
     }
   }
-  std::vector<int> sets;
-  for (int i = 0; i < static_cast<int>(members.size()); ++i) sets.push_back(forest.first_of(i));
+  std::vector<int> sets(members.size());
+  for (int i = 0; i < static_cast<int>(members.size()); ++i) sets[static_cast<std::size_t>(i)] = forest.first_of(i);
   return sets;
 }
 

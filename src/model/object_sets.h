@@ -1,4 +1,4 @@
-// Sets of objects that can meet. Substeps are those of a set: objects that cannot meet do not change how one another is solved.
+// Sets of objects that can meet. Substeps are those of a set: objects that cannot meet do not change the substeps of one another.
 //
 // Objects form a set if groups, masks and `collides` let their surfaces touch, directly or through others. Mesh
 // colliders count as triangles: their vertices move in the substeps of a set, so they join the sets that they touch.

@@ -78,8 +78,11 @@ void update_frames(Substep& s) {
     frames.angular_velocities[i] = record((xyz(frames.angular_velocities[i]) + local * inverse_h) * corrections[i].w);
   });
   const auto is_finite = [](const Record& r) { return (r.x - r.x) + (r.y - r.y) + (r.z - r.z) + (r.w - r.w) == 0; };
-  s.work.frames.finite = std::all_of(frames.orientations.begin(), frames.orientations.end(), is_finite) &&
-                         std::all_of(frames.angular_velocities.begin(), frames.angular_velocities.end(), is_finite);
+  s.frames_are_finite = true;
+  for_objects(s, [&](int o) {
+    for (int i = s.model.first_frame[o]; i < s.model.end_of_frames(o); ++i)
+      if (!is_finite(frames.orientations[i]) || !is_finite(frames.angular_velocities[i])) s.frames_are_finite = false;
+  });
 }
 
 }  // namespace pliant

@@ -24,6 +24,7 @@ struct Substep {
   double time_after = 0;               ///< time at the substep's end [s]
   bool sweeps_on_entry = false;        ///< the first sweep over tiles is made by predict, mostly while each is in the cache
   bool update_is_due = false;          ///< true if update is deferred to the next predict (stages/advance.cpp)
+  bool frames_are_finite = true;       ///< after the last update, of the objects that make this substep
   std::int64_t iterations_made = 0;    ///< iterations made in this frame
   const SweepGroup* group =
       nullptr;  ///< the group of objects being iterated; null: loops over swept objects visit every object

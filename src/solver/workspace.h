@@ -42,7 +42,6 @@ struct FrameGravity {
 /// The frame data within a substep (stencil.h).
 struct FrameScratch {
   Records predicted, corrections;  ///< rotation vectors in world axes [rad]
-  bool finite = true;
 };
 
 /// Memory that a World reuses from step to step. Over fifteen members: one buffer for each stage of a substep.

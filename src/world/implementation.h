@@ -76,7 +76,9 @@ struct World::Implementation {
   void update_pairs(SubstepGroup& group, const std::vector<int>& changed);
   /// Gives a group the contact of the group of the same substeps before, up to date with what joined it or left.
   void take_over_pairs(SubstepGroup& group, SubstepGroup& before);
-  /// Finds which objects share their substeps.
+  /// The groups of objects that share their substeps, without contact among surfaces.
+  std::vector<SubstepGroup> find_groups() const;
+  /// Finds the groups and gives them their contact.
   void prepare_groups();
   /// Brings the contact of the one group of all objects up to date.
   void update_surfaces();

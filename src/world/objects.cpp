@@ -281,12 +281,21 @@ void World::Implementation::take_over_pairs(SubstepGroup& group, SubstepGroup& b
   if (!changed.empty()) update_pairs(group, changed);
 }
 
-void World::Implementation::prepare_groups() {
-  std::vector<SubstepGroup> before = std::exchange(groups, {});
+std::vector<SubstepGroup> World::Implementation::find_groups() const {
+  std::vector<SubstepGroup> found;
   if (settings.substeps > 0)
-    groups.push_back(group_of_all(settings.substeps));
+    found.push_back(group_of_all(settings.substeps));
   else
-    groups = make_substep_groups(model);
+    found = make_substep_groups(model);
+  if (found.size() < 2 || (settings.tolerance <= 0 && !settings.record_residuals)) return found;
+  const int most = found.back().substeps;  // a tolerance is met by all objects together
+  found.clear();
+  found.push_back(group_of_all(most));
+  return found;
+}
+
+void World::Implementation::prepare_groups() {
+  std::vector<SubstepGroup> before = std::exchange(groups, find_groups());
   if (before.size() == 1 && groups.size() == 1) return;  // its contact is still that of all objects
   workspace.pairs = nullptr;
   pair_model = nullptr;

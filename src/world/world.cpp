@@ -51,7 +51,7 @@ int World::Implementation::substeps_of(int number) const {
     const auto has = [&](const SubstepGroup& group) { return group.has_all || group.has[number] != 0; };
     return std::find_if(all.begin(), all.end(), has)->substeps;
   };
-  return objects_changed ? find(make_substep_groups(model)) : find(groups);
+  return objects_changed ? find(find_groups()) : find(groups);
 }
 
 int World::Implementation::substeps_for(const SubstepGroup& group, double dt, std::vector<std::string>& warnings) const {

@@ -153,6 +153,14 @@ std::string suggestion(Scene scene) {
   return first == std::string::npos ? "" : words.substr(first, words.rfind('}') + 1 - first);
 }
 
+/// What a scene leaves open may differ between sets of objects; advice for all of them names the most.
+TEST(Words, NameSubstepsThatTheSceneLeavesOpen) {
+  Settings wanted, own;
+  wanted.sweep = Sweep::multigrid;
+  own.sweep = Sweep::tiled;
+  EXPECT_EQ(in_json(wanted, own), R"({"substeps": 20, "sweep": "multigrid"})");
+}
+
 TEST(Words, NameTheSweepThatSuitsTheScene) {
   const std::string tethered = R"({"substeps": 20, "sweep": "chains", "sweep_options": {"tethers": true}})";
   Scene scene;

@@ -205,5 +205,23 @@ TEST(RunTimeContact, IsThatOfAWorldMadeFromTheStartWhereSetsHaveDifferentSubstep
   for (std::uint64_t seed = 9; seed <= 12; ++seed) expect_the_bits_of_a_world_made_again(settings, seed, 300);
 }
 
+/// What falls beside the place of a removed object travels no farther than alone.
+TEST(RunTimeContact, PairsClustersAgainNoMoreOftenAfterARemoval) {
+  Scene scene;
+  scene.settings = settings_of(10);
+  for (int i = 0; i < 6; ++i) scene.add(sheet("sheet " + std::to_string(i), {0, 2 * static_cast<float>(i), 0}, 12, 0.005f));
+  World world(scene);
+  for (int frame = 0; frame < 5; ++frame) world.step(dt);
+  world.remove(ObjectId(2));
+  scene.objects.erase(scene.objects.begin() + 2);
+  World without(scene);
+  std::int64_t rebuilds = 0, least = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    rebuilds += world.step(dt).pairs.rebuilds;
+    least += without.step(dt).pairs.rebuilds;
+  }
+  EXPECT_LE(rebuilds, least + 1);
+}
+
 }  // namespace
 }  // namespace pliant

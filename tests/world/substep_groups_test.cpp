@@ -1,4 +1,5 @@
-// Substeps belong to sets of objects that can meet: an object gets the bits that its set gets alone.
+// Substeps belong to sets of objects that can meet; sets of one number are a group, and each group gets the bits that it gets
+// alone. Within a group sets with contact among surfaces share its searches and rounds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -484,6 +485,39 @@ TEST(SubstepGroups, MoveTargetsAndGivenForcesInTheirOwnTime) {
   }
   expect_the_same(world, 0, one, 0);
   expect_the_same(world, 1, other, 0);
+}
+
+/// A scene names neither number; the settings of a World of it do.
+TEST(SubstepGroups, AreOneForALayoutWithATolerance) {
+  Scene scene = scene_of({flag(), sock()});
+  scene.settings.tolerance = 1e-5f;
+  scene.settings.iterations = 4;
+  World world(scene);
+  World again(scene, world.layout());
+  EXPECT_EQ(again.info(0).substeps, world.info(0).substeps);
+  run(world, 5);
+  run(again, 5);
+  EXPECT_EQ(again.state_hash(), world.state_hash());
+}
+
+TEST(SubstepGroups, NameTheSubstepInWhichAFrameIsNotFinite) {
+  Object spinner;
+  spinner.name = "spinner";
+  spinner.positions = {{3, 1, 0}, {3.5f, 1, 0}};
+  spinner.masses = {1, 1};
+  spinner.sweep = Sweep::tiled;
+  spinner.frames.resize(2);
+  for (ObjectFrame& frame : spinner.frames) frame.inertia = {0.1f, 0.2f, 0.3f};
+  spinner.frames[0].angular_velocity = {3e37f, 3e37f, 2e37f};
+  Scene scene = scene_of({flag(), spinner});
+  scene.wind = {};
+  for (const bool separate : {false, true}) {
+    scene.settings.separate_phases = separate;
+    const Report report = World(scene).step(dt);
+    ASSERT_TRUE(report.nonfinite.has_value());
+    EXPECT_EQ(report.nonfinite->object, "spinner");
+    EXPECT_EQ(report.nonfinite->substep, 0);
+  }
 }
 
 }  // namespace

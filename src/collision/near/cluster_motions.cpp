@@ -44,9 +44,11 @@ bool ClusterMotions::measure(Executor& executor, const ClusterLayout& layout, co
   return is_bounded;
 }
 
-void ClusterMotions::advance() {
-  for (std::size_t c = 0; c < motions_.size(); ++c)
-    travel_[c] = (travel_[c] + travel_next(static_cast<int>(c))) * (1 + 1e-6f);
+void ClusterMotions::advance(const std::vector<int>& order) {
+  for (const int c : order) {
+    float& travel = travel_[static_cast<std::size_t>(c)];
+    travel = (travel + travel_next(c)) * (1 + 1e-6f);
+  }
 }
 
 BoxBounds ClusterMotions::path_box(int cluster) const {
@@ -60,13 +62,13 @@ float ClusterMotions::travel_next(int cluster) const {
   return (length(motion.mean - mean_) + length(motion.spin) * motion.radius) * bound_slack + motion.largest;
 }
 
-bool ClusterMotions::stay_within(float room) const {
+bool ClusterMotions::stay_within(float room, const std::vector<int>& order) const {
   const float drifted = largest(mean_);
-  for (std::size_t c = 0; c < motions_.size(); ++c) {
+  return std::all_of(order.begin(), order.end(), [&](int cluster) {
+    const auto c = static_cast<std::size_t>(cluster);
     const float rounded = place_roundings * one_rounding * (motions_[c].extent + drifted);
-    if (!(travel_[c] + travel_next(static_cast<int>(c)) <= room - rounded)) return false;
-  }
-  return true;
+    return travel_[c] + travel_next(cluster) <= room - rounded;
+  });
 }
 
 bool ClusterMotions::has_gone_far() const {

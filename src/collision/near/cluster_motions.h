@@ -22,8 +22,8 @@ class ClusterMotions {
   /// `order` lists all clusters in use.
   bool measure(Executor& executor, const ClusterLayout& layout, const std::vector<int>& order,
                const PairParticles& particles);
-  /// Adds the measured motion to the distance travelled; call it after the substep.
-  void advance();
+  /// Adds the measured motion to the distance travelled; call it after the substep. `order` as in measure().
+  void advance(const std::vector<int>& order);
 
   const ClusterMotion& operator[](int cluster) const { return motions_[static_cast<std::size_t>(cluster)]; }
   /// The mean displacement of dynamic vertices [m]. Boxes are fitted in a frame that moves with it.
@@ -34,7 +34,7 @@ class ClusterMotions {
   float extent(int cluster) const { return extent_[static_cast<std::size_t>(cluster)]; }
 
   /// True if no cluster has travelled more than `room` [m] relative to the mean since begin_travel().
-  bool stay_within(float room) const;
+  bool stay_within(float room, const std::vector<int>& order) const;
   /// True if a cluster is now so far from the origin that rounding exceeds the allowance of its bounds.
   bool has_gone_far() const;
   void begin_travel();

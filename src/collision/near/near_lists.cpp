@@ -43,14 +43,14 @@ bool NearLists::measure(Executor& executor, const PairParticles& particles) {
 }
 
 void NearLists::advance() {
-  near_.motions.advance();
+  near_.motions.advance(near_.model.cluster_order);
   near_.pairs.advance();
 }
 
 void NearLists::update(Executor& executor, const PairParticles& particles) {
   for (const int cluster : new_clusters_) near_.motions.keep_extent(cluster);
   if (is_listed_ && near_.motions.has_gone_far()) is_listed_ = false;
-  if (!is_listed_ || must_pair_ || !near_.motions.stay_within(near_.pairs.travel())) {
+  if (!is_listed_ || must_pair_ || !near_.motions.stay_within(near_.pairs.travel(), near_.model.cluster_order)) {
     pair_clusters();
   } else if (!new_clusters_.empty()) {
     pair_new_clusters();

@@ -100,7 +100,7 @@ bool advance_tile(const Substep& s, int task) {
 
 /// True if every tile and every frame is finite. Otherwise the report names the first non-finite value of that substep.
 bool all_finite(Substep& s, int substep) {
-  bool is_finite = s.work.frames.finite;
+  bool is_finite = s.frames_are_finite;
   for_each_tile(s, [&](int task) { is_finite = is_finite && s.work.tiles[task].finite; });
   if (is_finite) return true;
   s.report.nonfinite = diagnose(s);

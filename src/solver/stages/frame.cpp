@@ -47,7 +47,6 @@ void add(const PairCounts& c, PairReport& sum) {
 std::vector<Substep> begin_frame(const StepContext& context, double dt, Report& report) {
   Workspace& work = context.workspace;
   for (TileScratch& tile : work.tiles) tile.finite = true;
-  work.frames.finite = true;
   std::vector<Substep> groups;
   groups.reserve(std::max<std::size_t>(1, context.groups.size()));
   for (const GroupFrame& group : context.groups) groups.push_back(begin_group(context, group, dt, report));
