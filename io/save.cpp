@@ -157,7 +157,8 @@ void refuse_other_scene(const World& world, const Scene& scene) {
     const ObjectInfo info = world.info(objects[o]);
     Location where;
     where.object = object.name;
-    if (info.name != object.name) refuse(where, "is called '" + info.name + "' in the World");
+    if (info.name != object.name)
+      refuse(where, "is '" + object.name + "' in the scene and '" + info.name + "' in the World");
     if (static_cast<std::size_t>(info.particles) != object.positions.size())
       refuse(where, fmt::format("has {} particles, and {} in the World", object.positions.size(), info.particles));
   }

@@ -240,7 +240,8 @@ const Record& settings_record() {
       "settings",
       "How constraints are solved. `threads`, `isa` and the measuring options do not change the result.",
       {field("substeps", integer(0, 10000), Settings{}.substeps,
-             "Substeps per frame; 0: 10 for objects that `multigrid` solves and that can meet only others such, 20 for all "
+             "Substeps per frame; 0: 10 for objects that `multigrid` solves and that can meet only others of this kind, 20 "
+             "for all "
              "others."),
        field("iterations", integer(1, 10000), Settings{}.iterations, "Iterations per substep."),
        field("tolerance", number("m", 0, largest_place), Settings{}.tolerance,

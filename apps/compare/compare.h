@@ -54,7 +54,7 @@ struct Curve {
 /// The best result of one method within the budget.
 struct Budgeted {
   std::string name;
-  int substeps = 0, iterations = 0;  ///< the combination within the budget with the least `worst` stretch at p99
+  int substeps = 0, iterations = 0;  ///< the combination within the budget whose `worst.p99` is smallest
   double milliseconds = 0;           ///< median of the milliseconds per frame
   Stretch worst;                     ///< maximum over all frames, for each figure separately
   Stretch last;                      ///< stretch after the last frame

@@ -44,7 +44,7 @@ void balloon_rows(Result& result, bool) {
   plot::Chart chart{"Balloons fill to their pressure", "time [s]", "V / V0", false, false, {}};
   const double rest = World(scene_with(make_cloth(sphere_mesh(3)), 0, 1, 1)).enclosed_volume(0);
   result.rows.push_back(
-      relative("balloon: engine, volume at rest", 4 * pi / 3, rest, 0.02, "m^3", "a sphere of 1280 triangles"));
+      relative("balloon: engine, volume of the rest shape", 4 * pi / 3, rest, 0.02, "m^3", "a sphere of 1280 triangles"));
   for (double pressure : {0.5, 1.0, 1.5, 3.0}) {
     plot::Series curve;
     curve.name = "k = " + brief(pressure);

@@ -87,7 +87,7 @@ SlotValues<S, R> values_of(const R* slots) {
   return at;
 }
 
-/// Evaluates C and its gradients for a type in either form.
+/// Evaluates C and its gradients, whether the type's `evaluate` returns C of points or fills Rows.
 template <class T, class R>
 void evaluate_rows(const SlotValues<typename T::slots, R>& at, const typename T::template Params<R>& params,
                    Rows<typename T::slots, T::rows, R>& out) {

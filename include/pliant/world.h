@@ -76,7 +76,7 @@ class World {
   /// Compiles a scene. Throws an Error that names object, element and remedy if it cannot be simulated.
   explicit World(const Scene& scene);
   World(const Scene& scene, const Settings& settings);
-  /// The same for a scene that is not needed any more, in less memory: each object's description is freed once it is compiled.
+  /// The same in less memory: each object's description is freed once compiled. Keep a copy to save the World or edit objects.
   explicit World(Scene&& scene);
   World(Scene&& scene, const Settings& settings);
   /// Recreates a World after additions and removals. The scene describes the existing objects in the order of objects(),
@@ -105,10 +105,10 @@ class World {
 
   // ---- Adding and removing, between steps. A call that throws an Error leaves the World unchanged.
 
-  /// Adds an object at the current time: its keyframes act from the next frame on. The cost is that of compiling it; if it
-  /// can touch other surfaces, contact is prepared again before the next step. A sweep and substeps that settings() names stay
-  /// as they are; those left open are chosen again for the sets of objects that can meet. Throws an Error that names the element if it cannot be simulated, or if the settings reject
-  /// its initial intersections with present objects; that check tests all surfaces.
+  /// Adds an object at the current time: its keyframes act from the next frame on. The cost is that of compiling it. A sweep
+  /// and substeps that the World chose for all its first objects stay (see settings()), even if contact now calls for others:
+  /// name both in Settings if more will come. Throws an Error that names the element if it cannot be simulated, or if the
+  /// settings reject its initial intersections with present objects; that check tests all surfaces.
   ObjectId add(const Object& object);
   ColliderId add(const Collider& collider);
   MeshColliderId add(const MeshCollider& collider);

@@ -65,7 +65,7 @@ class Neighbours {
 
   double edge(std::size_t object) const { return edge_[object]; }
 
-  /// Calls visit(object, neighbours) for vertices sampled evenly over all objects.
+  /// Calls visit(object, count) for vertices sampled evenly over all objects; `count` of vertices are within contact reach.
   template <class Visit>
   void sample(const Visit& visit) const {
     const std::size_t stride = std::max<std::size_t>(1, all_.size() / samples);

@@ -113,7 +113,8 @@ void wind_alike(Piece& piece) {
   const Pieces pieces = find_pieces(piece.edges, static_cast<int>(piece.triangles.size()));
   if (piece.options.volume && !pieces.one_sided_edges.empty())
     piece.refuse(name_of(piece.edges[static_cast<std::size_t>(pieces.one_sided_edges.front())]),
-                 "cannot have the winding of its neighbours: the surface is one-sided", "a balloon needs an inside");
+                 "has triangles that cannot be wound alike: the surface is one-sided, like a Moebius strip",
+                 "leave out the volume, or give a closed surface");
   flip(piece.triangles, pieces.flipped);
   piece.find_edges_again();
 }

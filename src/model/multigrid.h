@@ -42,7 +42,7 @@ struct MultigridLevel {
   PLIANT_HD int nothing() const { return batches() * batch_width; }
 };
 
-/// Empty if an object has no distance constraint with a rest length.
+/// The hierarchy of one object; without levels if the object has no distance constraint with a rest length.
 struct Multigrid {
   std::vector<MultigridLevel> levels;
   std::vector<std::int32_t> piece;  ///< of each particle: index of its connected component of springs, or -1 if it is fixed

@@ -21,7 +21,7 @@ struct ElementCluster {
   std::vector<Triangle> triangles;
 };
 
-/// The clusters of a tile, which partition its vertices.
+/// The clusters of one tile; each vertex of the tile belongs to exactly one.
 struct TileElements {
   std::vector<int> neighbours;  ///< other tiles with vertices of these clusters, ascending
   std::vector<ElementCluster> clusters;

@@ -18,7 +18,7 @@ struct Block {
 
 class BodyBlocks {
  public:
-  /// Allocates a block for a body that has none.
+  /// Gives a body that has no block yet `size` consecutive entries.
   Block take(int body, int size) {
     if (blocks_.size() <= static_cast<std::size_t>(body)) blocks_.resize(static_cast<std::size_t>(body) + 1);
     return blocks_[static_cast<std::size_t>(body)] = {allocator_.allocate(size, body), size};
