@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "collision/narrow/contact.h"
+#include "collision/narrow/shape_element_contacts.h"
 #include "collision/narrow/shape_elements.h"
 #include "parallel/executor.h"
 
@@ -24,15 +25,6 @@ struct ShapeContactSearch {
   FunctionRef<AdvanceArguments(int task)> particles;  ///< the particles of a task's tile
   FunctionRef<const PointBounds&(int task)> bounds;  ///< encloses the tile's particles at the substep's start and predicted
   const std::vector<int>* tasks = nullptr;           ///< tasks whose tiles take part, ascending; null: all
-};
-
-/// A vertex in a collider's frame, at the substep's start and as predicted: two quads of floats.
-struct VertexWay {
-  Vec3f from;
-  float unused = 0;
-  Vec3f to;
-  float unused_too = 0;
-  Vec3f at(float s) const { return from + (to - from) * s; }
 };
 
 /// Scratch memory of one thread.

@@ -69,13 +69,9 @@ void ClusterPairs::find(const ClusterMotions& motions, const std::vector<StaticG
     if (model_.rules.meet(model_.cluster_body[order[i]], model_.cluster_body[order[k]]))
       found.push_back(static_cast<std::uint64_t>(std::min(i, k)) << 32 | static_cast<std::uint64_t>(std::max(i, k)));
   };
-  std::vector<int> place(model_.cluster_body.size());
-  for (int i = 0; i < static_cast<int>(order.size()); ++i) {
-    place[order[i]] = i;
-    add(i, i);
-  }
+  for (int i = 0; i < static_cast<int>(order.size()); ++i) add(i, i);
   tree_.self_pairs(add);
-  for (const StaticGroup& group : groups) add(place[group.first], place[group.second]);
+  for (const StaticGroup& group : groups) add(static_cast<int>(rank_[group.first]), static_cast<int>(rank_[group.second]));
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   pairs_.clear();
