@@ -14,11 +14,7 @@ namespace {
 using namespace testing_support;
 
 Object sheet(const std::string& name, const Vec3f& at, int n, float thickness) {
-  ClothOptions options;
-  options.name = name;
-  TriangleMesh mesh = grid_mesh(n, n, 0.5f, 0.5f);
-  for (Vec3f& p : mesh.positions) p = p + at;
-  Object object = make_cloth(mesh, options);
+  Object object = sheet_at(name, at, n, 0.5f);
   object.collides = true;
   object.thickness = thickness;
   return object;

@@ -13,13 +13,7 @@ namespace {
 
 using namespace testing_support;
 
-Object sheet(const std::string& name, const Vec3f& at, int n = 7) {
-  ClothOptions options;
-  options.name = name;
-  TriangleMesh mesh = grid_mesh(n, n, 0.5f, 0.5f);
-  for (Vec3f& p : mesh.positions) p += at;
-  return make_cloth(mesh, options);
-}
+Object sheet(const std::string& name, const Vec3f& at, int n = 7) { return sheet_at(name, at, n, 0.5f); }
 
 Object pinned_sheet(const std::string& name, const Vec3f& at) {
   Object object = sheet(name, at);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 
 #include "support/scenes.h"
 
@@ -30,6 +31,15 @@ inline Scene hanging_cloth() {
   scene.add(ball);
   scene.settings = settings_of(8);
   return scene;
+}
+
+/// A sheet of n x n vertices, level, its middle at a place [m].
+inline Object sheet_at(const std::string& name, const Vec3f& at, int n, float size, const ClothOptions& like = {}) {
+  ClothOptions options = like;
+  options.name = name;
+  TriangleMesh mesh = grid_mesh(n, n, size, size);
+  for (Vec3f& p : mesh.positions) p += at;
+  return make_cloth(mesh, options);
 }
 
 }  // namespace pliant::testing_support

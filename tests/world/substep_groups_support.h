@@ -1,0 +1,100 @@
+// What the tests of substep groups share: a flag and a sock, which never meet, in air over a floor.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "world/world_support.h"
+
+namespace pliant::testing_support {
+
+inline Object sheet(const std::string& name, const Vec3f& at, int n = 12) {
+  ClothOptions options;
+  options.stretch = Stiffness::compliance(1e-7f);
+  Object cloth = sheet_at(name, at, n, 1, options);
+  cloth.pins = {{0, {}}, {n - 1, {}}};
+  cloth.thickness = 0.005f;
+  cloth.drag = 1;
+  return cloth;
+}
+
+/// By `multigrid`, 10 substeps.
+inline Object flag() { return sheet("flag", {0, 0.5f, 0}); }
+
+/// It touches itself, so it is solved by `tiled` in 20 substeps. It lies in two layers, which fall onto the floor.
+inline Object sock() {
+  Object object = sheet("sock", {0, -0.6f, 3}, 14);
+  for (Vec3f& p : object.positions)
+    if (p.z > 3) p = {p.x, p.y + 0.02f, 6 - p.z};
+  object.pins = {{0, {}}};
+  object.self_collision = true;
+  return object;
+}
+
+/// What flag and sock share: air, a ball that moves under the flag, a floor that the sock falls on.
+inline Scene scene_with_floor() {
+  Scene scene;
+  scene.wind.velocity = {1, 0, 2};
+  scene.wind.gust = 0.5f;
+  scene.wind.air_density = 1.2f;
+  Collider ball, floor;
+  ball.shape = Sphere{0.2f};
+  ball.position = {-0.3f, 0.2f, 0};
+  ball.motion = straight({1, 0, 0}, 1);
+  floor.position = {0, -0.75f, 0};
+  scene.add(ball);
+  scene.add(floor);
+  scene.settings.threads = 2;
+  return scene;
+}
+
+inline Scene scene_of(const std::vector<Object>& objects) {
+  Scene scene = scene_with_floor();
+  for (const Object& object : objects) scene.add(object);
+  return scene;
+}
+
+template <class T>
+void expect_equal_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  if (a.empty()) return;
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(T)), 0);
+}
+
+inline constexpr int frames = 40;
+
+/// Object `o` of a World has the positions and velocities of object `other` of another.
+inline void expect_the_same(const World& world, ObjectId o, const World& alone, ObjectId other) {
+  expect_equal_bits(world.positions(o), alone.positions(other));
+  expect_equal_bits(world.velocities(o), alone.velocities(other));
+  expect_equal_bits(world.orientations(o), alone.orientations(other));
+}
+
+inline void run(World& world, int count = frames) {
+  for (int frame = 0; frame < count; ++frame) ASSERT_TRUE(world.step(dt).ok());
+}
+
+/// All of `sets` together; each set has the bits that it gets alone.
+inline void expect_each_set_as_alone(const std::vector<std::vector<Object>>& sets) {
+  Scene scene = scene_with_floor();
+  for (const std::vector<Object>& set : sets)
+    for (const Object& object : set) scene.add(object);
+  World together(scene);
+  run(together);
+  int o = 0;
+  for (const std::vector<Object>& set : sets) {
+    World alone(scene_of(set));
+    run(alone);
+    for (int i = 0; i < static_cast<int>(set.size()); ++i, ++o) {
+      SCOPED_TRACE(set[static_cast<std::size_t>(i)].name);
+      EXPECT_EQ(together.info(o).substeps, alone.info(i).substeps);
+      expect_the_same(together, o, alone, i);
+    }
+  }
+}
+
+}  // namespace pliant::testing_support
