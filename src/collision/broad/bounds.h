@@ -1,9 +1,9 @@
 // The axis-aligned box, and the interface of bounding volumes (reference/volumes.h: spheres, oriented boxes and k-DOPs).
 //
-// A BVH needs five operations of a volume: enclose points, merge volumes, grow by a margin, test overlap, bound a distance.
-// Enclosure is conservative under rounding: numbers are rounded outward, or computed in double and widened. If two volumes
-// overlap, so do all that enclose them; a BVH thus reports exactly the leaf pairs whose volumes overlap. All numbers are in
-// metres; points must be finite and below 1e15.
+// A BVH needs five operations of a volume: enclose points, merge volumes, grow by a margin, test overlap, bound a
+// distance. Each result is conservative: its numbers are rounded outward, or computed in double and widened. If two
+// volumes overlap, all volumes that enclose them overlap too, so a BVH reports exactly the leaf pairs whose volumes
+// overlap. All numbers are in metres; points must be finite and below 1e15.
 #pragma once
 
 #include <concepts>
@@ -14,7 +14,7 @@ namespace pliant {
 
 namespace detail {
 
-/// Lowers a number by one to two units in the last place, which undoes the error of rounding to nearest.
+/// Returns x lowered by one to two units in the last place: a lower bound of the number that was rounded to x.
 inline float rounded_down(float x) { return x - __builtin_fabsf(x) * 1.1920929e-7f; }
 inline float rounded_up(float x) { return x + __builtin_fabsf(x) * 1.1920929e-7f; }
 inline float float_below(double x) { return rounded_down(static_cast<float>(x)); }
@@ -22,9 +22,9 @@ inline float float_above(double x) { return rounded_up(static_cast<float>(x)); }
 
 }  // namespace detail
 
-/// Requirements on a volume B. B::of(points, count >= 1) and B::merged(volumes, count >= 1) enclose their arguments.
-/// grown(m >= 0) encloses all within m of it; overlap(a, b) is symmetric; middle() is a point in or near the volume.
-/// distance_bound(p) never exceeds the distance from p to anything inside.
+/// Requirements on a bounding volume type B. B::of(points, count >= 1) and B::merged(volumes, count >= 1) enclose their
+/// arguments. a.grown(m >= 0) encloses all points within m of a; overlap(a, b) is symmetric; a.middle() is a point in
+/// or near a. a.distance_bound(p) never exceeds the distance from p to any point inside a.
 template <class B>
 concept Bounds = requires(const B& b, const Vec3f* points, const B* volumes, int count, float margin, const Vec3f& p) {
   { B::of(points, count) } -> std::same_as<B>;
@@ -35,7 +35,7 @@ concept Bounds = requires(const B& b, const Vec3f* points, const B* volumes, int
   { b.middle() } -> std::same_as<Vec3f>;
 };
 
-/// An axis-aligned box. Merging and refitting are exact.
+/// An axis-aligned box. Merging boxes is exact, and so is the box of given points.
 struct BoxBounds {
   Vec3f low{}, high{};
 

@@ -12,11 +12,11 @@ namespace pliant {
 namespace {
 
 constexpr int bits = 21;
-/// Below it a sort by comparisons is faster; both give the same order.
+/// Fewer points are sorted by comparisons, which is then faster than the radix sort; both give the same order.
 constexpr std::size_t fewest_for_radix = 1024;
 constexpr double largest_cell = (1 << bits) - 1;
 
-/// Spreads the low 21 bits of x, with two zeros after each.
+/// Returns the low 21 bits of x with two zero bits after each, to be interleaved with two other coordinates.
 std::uint64_t spread(std::uint64_t x) {
   x = (x | x << 32) & 0x001f00000000ffffU;
   x = (x | x << 16) & 0x001f0000ff0000ffU;
@@ -27,7 +27,7 @@ std::uint64_t spread(std::uint64_t x) {
 
 std::uint64_t cell(float x, double low, double scale) {
   const double place = (static_cast<double>(x) - low) * scale;
-  // This comparison is false for NaN.
+  // This comparison is false for NaN, so a NaN coordinate counts as 0.
   return place > 0 ? static_cast<std::uint64_t>(place < largest_cell ? place : largest_cell) : 0;
 }
 

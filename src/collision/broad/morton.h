@@ -8,8 +8,8 @@
 
 namespace pliant {
 
-/// Fills `order` with the point indices 0..n-1, ascending by code and then by index, a total order. Codes have 21 bits per
-/// axis over the points' bounding box. Points that are not finite count as the lowest corner. O(n).
+/// Fills `order` with the point indices 0..n-1, sorted by Morton code and, where codes are equal, by index. Codes have
+/// 21 bits per axis over the points' bounding box. Points that are not finite count as its lowest corner. O(n).
 class MortonSorter {
  public:
   void sort(const std::vector<Vec3f>& points, std::vector<int>& order);

@@ -8,15 +8,15 @@
 
 namespace pliant {
 
-/// N volumes of any type.
+/// N bounding volumes of any type, tested one after another.
 template <Bounds B, int N>
 class Pack {
  public:
   B get(int lane) const { return volumes_[lane]; }
   void set(int lane, const B& volume) { volumes_[lane] = volume; }
-  /// Encloses the first `count`.
+  /// Returns a volume that encloses the first `count` volumes.
   B merged(int count) const { return B::merged(volumes_, count); }
-  /// Bit i: volume i < count overlaps.
+  /// Bit i is set if volume i, for i < count, overlaps `other`.
   unsigned overlaps(const B& other, int count) const {
     unsigned bits = 0;
     for (int i = 0; i < count; ++i) bits |= static_cast<unsigned>(overlap(volumes_[i], other)) << i;
@@ -27,7 +27,7 @@ class Pack {
   B volumes_[N];
 };
 
-/// Boxes in groups of four.
+/// N axis-aligned boxes, stored by coordinate and tested in groups of four.
 template <int N>
 requires(N % 4 == 0) class Pack<BoxBounds, N> {
  public:

@@ -1,10 +1,10 @@
 // A bounding volume hierarchy over primitives with a Bounds: triangles, edges, points, their swept paths.
 //
-// Built by sorting instead of by a cost heuristic: leaves lie along a Morton curve, and node i of a level
-// has the children 8 i to 8 i + 7 below. So there are no pointers, building is a sort, refitting is one
-// loop per level, siblings are contiguous, and the same leaves give the same tree on any machine. Eight
-// children per node mean few levels, short stacks and, for boxes, one comparison of eight (pack.h). A
-// refit keeps the old order: always correct, but queries slow down as leaves mix. Rebuild then.
+// It is built by sorting instead of by a cost heuristic: leaves lie along a Morton curve, and node i of a level has the
+// nodes 8 i to 8 i + 7 of the level below as children. So there are no pointers, building is a sort, refitting is one
+// loop per level, siblings are contiguous, and the same leaves give the same tree on any machine. Eight children per
+// node mean few levels, short stacks and, for boxes, one comparison of eight (pack.h). A refit keeps the old order of
+// leaves: always correct, but queries slow down as the leaves move. Rebuild then.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +46,7 @@ class Tree {
     descend(0, bounds, [&](int slot) { visit(leaf_at(slot)); });
   }
 
-  /// The tree in packets of neighbouring leaves: the units of work for threads.
+  /// The number of packets: contiguous ranges of leaves, each below one node. They are the units of work for threads.
   int packet_count() const { return level_count_ == 0 ? 0 : sizes_[packet_level()]; }
 
   /// Calls visit(a, hits) for each leaf a of a packet. `hits` are all leaves of `other` that overlap a, in that tree's
@@ -86,8 +86,8 @@ class Tree {
     if (overlap(node_at(top.level, 0), other.node_at(others_top.level, 0))) descend_both(other, top, others_top, visit);
   }
 
-  /// Returns the leaf of least distance(leaf) below `limit`, the first if equal; index -1 if there is none. distance(leaf)
-  /// must be at least the leaf's distance_bound(p), up to one rounding.
+  /// Returns the leaf with the smallest distance(leaf) below `limit`, the first of equal ones; index -1 if there is
+  /// none. distance(leaf) must be at least the leaf's distance_bound(p), up to one rounding.
   template <class Distance>
   std::pair<int, float> closest(const Vec3f& p, float limit, const Distance& distance) const {
     std::pair<int, float> best{-1, limit};
@@ -124,7 +124,7 @@ class Tree {
   }
   int leaf_at(int slot) const { return order_[static_cast<std::size_t>(slot)]; }
 
-  /// Calls visit(index) for each node of the level `bottom` that overlaps together with all of its ancestors.
+  /// Calls visit(index) for each node of level `bottom` that overlaps `bounds`, as do all of its ancestors.
   template <class Visit>
   void descend(int bottom, const B& bounds, const Visit& visit) const {
     if (level_count_ == 0 || !overlap(node_at(level_count_ - 1, 0), bounds)) return;
@@ -148,7 +148,7 @@ class Tree {
     for (; bits != 0; bits &= bits - 1) visit(__builtin_ctz(bits));
   }
 
-  /// Calls visit(pack) for each pack of leaves whose node overlaps.
+  /// Calls visit(pack) for each pack of up to eight leaves whose parent node overlaps `bounds`.
   template <class Visit>
   void descend_to_packs(const B& bounds, const Visit& visit) const {
     if (level_count_ == 1) visit(0);

@@ -1,4 +1,4 @@
-// The only unit of collision that uses the Scene's own types.
+// Conversion of colliders; no other .cpp file of the collision folders reads the types of a Scene.
 #include "collision/fields/collider_pose.h"
 
 #include <variant>

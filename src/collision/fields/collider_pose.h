@@ -7,7 +7,7 @@
 
 namespace pliant {
 
-/// The shape as a kind and three numbers. Negative sizes, which a World rejects, count as 0.
+/// Returns the shape as a kind and three sizes. Negative sizes, which a World rejects, count as 0.
 LocalShape local_shape(const Shape& shape);
 
 /// The pose of the collider's frame at `time` [s]: position, rotation and velocities.

@@ -1,5 +1,5 @@
-// Computed row by row: distances by the mesh's BVH, signs by exact winding numbers. A sign can change only near the
-// surface: if a node is farther from it than one spacing, no surface lies between it and the next node.
+// Fills the grid row by row: distances by the mesh's BVH, signs by exact winding numbers. A sign is computed only near
+// the surface: if a node is farther from it than one spacing, the next node is on the same side.
 #include "collision/fields/distance_grid.h"
 
 #include <string>
@@ -54,7 +54,7 @@ void measure_row(const MeshQuery& mesh, int row, DistanceField& field) {
   float last = 0;
   for (int x = 0; x < field.nodes[0]; ++x) {
     const Vec3f p = node(field, x, y, z);
-    // The distance grows by at most the spacing from one node to the next.
+    // The distance grows by at most the spacing from one node to the next, which limits the search.
     const float limit = x == 0 ? 3e38f : 1.0001f * last + 1.01f * field.spacing;
     const float distance = mesh.closest(p, limit).distance;
     const bool may_differ = x == 0 || !(last > 1.01f * field.spacing);
@@ -99,7 +99,7 @@ DistanceGrid::DistanceGrid(std::shared_ptr<const DistanceField> field) : field_(
 
 namespace {
 
-/// The cell of a coordinate in units of cells, and the fraction within it.
+/// A coordinate in units of cells: the cell's index, and the fraction within the cell.
 struct Place {
   int cell;
   float share;

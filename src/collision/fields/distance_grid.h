@@ -1,8 +1,8 @@
 // Signed distance field of a closed mesh, sampled on a grid:
 // penetration depth and direction at a cost independent of the mesh.
 //
-// The grid smooths features finer than its spacing, and point queries miss features of the other surface. Use it for
-// culling, signs and recovery from deep penetration. It is built once and can be cached.
+// The grid smooths features finer than its spacing, and queries at the points of another surface miss what lies between
+// them. Use it for culling, signs and recovery from deep penetration. It is built once and can be cached.
 #pragma once
 
 #include <memory>
@@ -21,12 +21,12 @@ class DistanceGrid {
   /// not two triangles, a size is not positive and finite, or more than 2^27 nodes would result.
   DistanceGrid(const MeshQuery& mesh, float spacing, float padding, Executor& executor);
 
-  /// Takes a given field. Throws an Error unless it has two nodes or more per axis and one finite number for each.
+  /// Uses a given field. Throws an Error unless it has two nodes or more per axis and one finite number for each node.
   explicit DistanceGrid(std::shared_ptr<const DistanceField> field);
 
-  /// The signed distance at p, negative inside [m], and its gradient direction. Trilinear between nodes, thus continuous;
-  /// the error is below half a cell's diagonal. Outside the grid: the value at the nearest grid point plus the distance to
-  /// that point. The direction has unit length; +y if the gradient vanishes.
+  /// The signed distance at p, negative inside [m], and its gradient's direction. The distance is trilinear between
+  /// nodes, so continuous; its error is below half a cell's diagonal. Outside the grid it is the value at the grid's
+  /// nearest point plus the distance to that point. The direction is a unit vector; +y if the gradient vanishes.
   SurfaceDistance<float> sample(const Vec3f& p) const;
 
   const BoxBounds& bounds() const { return bounds_; }
@@ -39,7 +39,7 @@ class DistanceGrid {
   BoxBounds bounds_;
 };
 
-/// Throws an Error if the mesh is empty or an edge has not two triangles.
+/// Throws an Error if the mesh is empty or an edge does not have exactly two triangles.
 void require_closed(const std::vector<Triangle>& triangles, int vertices);
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// The cell range by division, grown by one cell per side against rounding; triangles are then tested by their boxes.
+// Queries of a heightfield. They find the range of cells by division and grow it by one cell per side against rounding.
 #include "collision/fields/heightfield.h"
 
 #include <algorithm>

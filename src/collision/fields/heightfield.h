@@ -12,11 +12,11 @@ namespace pliant {
 /// The closest point of the terrain.
 struct GroundPoint {
   bool found = false;
-  int triangle = -1;  ///< 2 (r (columns - 1) + c) and the next belong to cell (r, c)
+  int triangle = -1;  ///< index: 2 (r (columns - 1) + c) or the next one, for the cell at row r, column c; -1: none
   Vec3f point{};
-  Vec3f normal{};      ///< of the triangle, unit, upward
-  float distance = 0;  ///< [m], >= 0
-  bool above = true;   ///< true if the query point is on the normal's side
+  Vec3f normal{};      ///< unit upward normal of the triangle
+  float distance = 0;  ///< distance from the query point [m], >= 0
+  bool above = true;   ///< true if the query point is on the side to which the normal points
 };
 
 class Heightfield {
@@ -29,24 +29,24 @@ class Heightfield {
   template <class Visit>
   void query(const BoxBounds& box, const Visit& visit) const;
 
-  /// The corners of a triangle, counter-clockwise from above; each cell's diagonal runs from (r, c) to (r + 1, c + 1).
+  /// Writes a triangle's corners, counter-clockwise from above. Each cell's diagonal runs from (r, c) to (r + 1, c + 1).
   void corners(int triangle, Vec3f (&to)[3]) const;
 
-  /// The closest point nearer than `limit` [m], the first triangle's if equal. Tests all cells within the limit.
+  /// Returns the closest point nearer than `limit` [m]; of equally near ones that of the first triangle.
   GroundPoint closest(const Vec3f& p, float limit) const;
 
-  /// Finds the triangle vertically above or below p: one of its corners and its upward normal; false if there is none.
+  /// Finds a corner and the upward normal of the triangle vertically above or below p. Returns false if there is none.
   bool column(const Vec3f& p, Vec3f& corner, Vec3f& normal) const;
 
   const BoxBounds& bounds() const { return bounds_; }
   float smaller_cell() const { return width_ < depth_ ? width_ : depth_; }
   int triangle_count() const { return 2 * (columns_ - 1) * (rows_ - 1); }
-  /// The same terrain as a mesh.
+  /// Returns the terrain as a triangle mesh.
   TriangleMesh mesh() const;
 
  private:
   struct Range {
-    int first, last;  ///< one past the end
+    int first, last;  ///< first cell and one past the last
   };
   Vec3f vertex(int row, int column) const;
   static Range cells_between(float low, float high, float origin, float size, int cells);
@@ -58,8 +58,8 @@ class Heightfield {
   BoxBounds bounds_;
 };
 
-/// The heightfield of a mesh in grid_mesh's numbering: rows along z, evenly
-/// spaced columns along x. Throws an Error that names the first misplaced vertex.
+/// Converts a mesh in grid_mesh's numbering: rows along z, evenly spaced columns along x. Throws an Error that names
+/// the first misplaced vertex.
 Heightfield heightfield_of(const TriangleMesh& mesh);
 
 template <class Visit>

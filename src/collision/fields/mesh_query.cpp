@@ -41,7 +41,8 @@ SurfacePoint MeshQuery::closest(const Vec3f& p, float limit) const {
 
 namespace {
 
-/// The ray's end for the given attempt: outside the box, in directions that meshes are unlikely to be aligned with.
+/// Returns the end of the ray for attempt number `attempt`: a point outside the box, in a direction that mesh edges are
+/// rarely aligned with.
 Vec3f ray_end(const Vec3f& p, const BoxBounds& box, int attempt) {
   const Vec3f size = box.high - box.low;
   const float reach = size.x + size.y + size.z + 1e-30f, turn = static_cast<float>(attempt);
@@ -69,7 +70,7 @@ int MeshQuery::winding_number(const Vec3f& p) const {
     });
     if (clean) return winding;
   }
-  return 0;  // on the surface, where every ray is degenerate
+  return 0;  // the point is on the surface, where every ray is degenerate
 }
 
 }  // namespace pliant

@@ -11,27 +11,27 @@ namespace pliant {
 
 /// The closest point of a surface.
 struct SurfacePoint {
-  int triangle = -1;  ///< the first of equally near ones; -1: none within the limit
+  int triangle = -1;  ///< index of the triangle, the first of equally near ones; -1: none within the limit
   Vec3f point{};
-  Vec3f weights{};     ///< barycentric
-  float distance = 0;  ///< [m]
+  Vec3f weights{};     ///< barycentric coordinates of the closest point
+  float distance = 0;  ///< distance from the query point [m]
 };
 
-/// A triangle mesh with a BVH. Holds a copy of the mesh; queries are thread-safe.
+/// A triangle mesh with a BVH. It holds a copy of the mesh; concurrent queries are safe.
 class MeshQuery {
  public:
   /// Positions must be finite and below 1e15 m, indices in range (require_indices).
   MeshQuery(std::vector<Vec3f> positions, std::vector<Triangle> triangles);
 
-  /// Moves the vertices (the same number) and refits.
+  /// Moves the vertices, whose number stays the same, and refits the BVH.
   void move(const std::vector<Vec3f>& positions);
 
   /// The surface point closest to p within `limit`.
   SurfacePoint closest(const Vec3f& p, float limit = 3e38f) const;
 
-  /// The winding number of the surface about p: the signed crossings of a ray from p. Exact: rays that graze an edge or a
-  /// corner are replaced. 0 outside; 1 inside a closed mesh wound outward, -1 inward; 2 inside two at once; 0 on the
-  /// surface. For open meshes the result depends on the ray.
+  /// The winding number of the surface about p: the number of signed crossings of a ray from p. The result is exact: a
+  /// ray that grazes an edge or a corner is replaced by another one. 0 outside; 1 inside a closed mesh wound outward,
+  /// -1 inward; 2 where two meshes overlap; 0 on the surface. For open meshes the result depends on the ray.
   int winding_number(const Vec3f& p) const;
 
   bool is_inside(const Vec3f& p) const { return winding_number(p) != 0; }
@@ -47,7 +47,7 @@ class MeshQuery {
   std::vector<Triangle> triangles_;
   std::vector<BoxBounds> boxes_;
   Tree<BoxBounds> tree_;
-  BoxBounds bounds_;  ///< of all triangles
+  BoxBounds bounds_;  ///< box around all triangles
 };
 
 }  // namespace pliant

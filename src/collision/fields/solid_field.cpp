@@ -5,7 +5,8 @@ namespace pliant {
 namespace {
 
 constexpr float far_away = 1e15f;
-/// A trilinear distance grows by at most one along each axis, so by at most sqrt(3) in any direction; 0.57 < 1 / sqrt(3).
+/// Share of the distance that a step along a path may use. A trilinear distance grows by at most one along each axis,
+/// so by at most sqrt(3) in any direction; 0.57 < 1 / sqrt(3).
 constexpr float safe_share = 0.57f;
 constexpr int most_strides = 4096;
 
@@ -50,7 +51,7 @@ FirstHit<float> SolidField::first_hit(const Vec3f& a, const Vec3f& b, float marg
         (distance(at(middle)).distance <= margin ? inside : outside) = middle;
       }
       there = distance(at(outside));
-      if (!(there.distance < far_away)) return {};  // entered through an open side
+      if (!(there.distance < far_away)) return {};  // the path entered through an open side of the terrain
       return {true, outside, at(outside), there.normal, there.distance};
     }
     here = there;

@@ -1,8 +1,8 @@
-// Solids that particles meet through a distance function: signed distance grids
-// and heightfields. The cost is independent of the mesh that they represent.
+// Solids for contact with particles that are given by a distance function: signed distance grids and heightfields. A
+// query costs the same whatever mesh they were made of.
 //
-// These solids are not convex, so a path is sampled in strides. A grid's strides follow its distance, which grows by at
-// most one along each axis (conservative advancement). Terrain uses strides of half a cell.
+// These solids are not convex, so a path is sampled in steps. In a grid the step length follows the distance, which
+// grows by at most one along each axis (conservative advancement). Over terrain the step length is half a cell.
 #pragma once
 
 #include <optional>
@@ -17,18 +17,18 @@ class SolidField {
   explicit SolidField(DistanceGrid grid) : grid_(std::move(grid)) {}
   explicit SolidField(Heightfield heights);
 
-  /// Signed distance, negative inside. For terrain: to the plane of the triangle above or below, or to the underside if p
-  /// lies between and that is closer; far_away outside the terrain.
+  /// Signed distance at p, negative inside [m]. For terrain it is the distance to the plane of the triangle above or
+  /// below p, or to the underside if p lies between both and the underside is closer; far_away beside the terrain.
   SurfaceDistance<float> distance(const Vec3f& p) const;
 
-  /// The first point of the segment a-b within `margin`, to a thousandth
-  /// of a stride. Features thinner than a stride can be missed.
+  /// The first point of the segment a-b that comes within `margin` of the solid, to a thousandth of a step. Features
+  /// thinner than a step can be missed.
   FirstHit<float> first_hit(const Vec3f& a, const Vec3f& b, float margin) const;
 
   bool is_ground() const { return heights_.has_value(); }
 
-  /// Encloses the solid. Terrain extends below its lowest point by its width, with a level underside. The depth is fixed
-  /// because these bounds cull whole tiles, so the solid must not depend on the query.
+  /// A box that encloses the solid. Terrain extends below its lowest point by its own width, down to a level underside.
+  /// That depth is fixed: whole tiles are culled by this box, so the solid must not depend on the query.
   BoxBounds bounds() const;
 
  private:

@@ -1,4 +1,4 @@
-// Mesh colliders as solids for particles: heightfields, and distance grids, which are measured unless given.
+// Converts mesh colliders to solids for contact with particles: heightfields and distance grids.
 #pragma once
 
 #include <memory>
@@ -7,10 +7,10 @@
 
 namespace pliant {
 
-/// The solid of a collider that is a distance grid or a heightfield. Throws an Error that names what the mesh lacks.
+/// Makes the distance grid or heightfield that a collider asks for. Throws an Error that names what the mesh lacks.
 std::shared_ptr<const SolidField> solid_field_of(const MeshCollider& collider);
 
-/// Throws if solid_field_of would, without measuring anything.
+/// Throws the Error that solid_field_of would throw, without computing any distance.
 void require_solid(const MeshCollider& collider);
 
 }  // namespace pliant

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double nearest_to_a_side = 0.1, largest_slab = 0.98;
 
-/// A particle's rounded position at the end, relative to another's start.
+/// Returns the position at the substep's end, rounded as the State stores it, relative to the start of particle `origin`.
 Vec3d end_of(const Record& x, const Record& d, float share, const Record& origin) {
   const float ex = x.x + d.x * share, ey = x.y + d.y * share, ez = x.z + d.z * share;
   return {double(ex) - double(origin.x), double(ey) - double(origin.y), double(ez) - double(origin.z)};
@@ -21,14 +21,14 @@ Vec3d start_of(const Record& x, const Record& origin) {
   return {double(x.x) - double(origin.x), double(x.y) - double(origin.y), double(x.z) - double(origin.z)};
 }
 
-/// Heights of the four particles along the normal, at the start and at the end.
+/// Heights of a pair's four particles along the normal of the separating plane, at the substep's start and end [m].
 struct Heights {
   double start[4], end[4];
   double lowest_first = 1e300, highest_second = -1e300;  // heights at the substep's start
   double lowest_first_ever = 1e300, highest_second_ever = -1e300;
-  double first_sinks = 0, second_rises = 0;                    // largest approach of each side
-  bool first_moves = false, second_moves = false;              // the filter can limit their steps
-  double first_fixed_low = 1e300, second_fixed_high = -1e300;  // end heights of kinematic ones
+  double first_sinks = 0, second_rises = 0;                    // largest approach of each side to the other
+  bool first_moves = false, second_moves = false;              // true if the side has a dynamic particle
+  double first_fixed_low = 1e300, second_fixed_high = -1e300;  // extreme heights of kinematic particles
 };
 
 Heights heights_of(const PairStencil& pair, const Vec3d& normal, const Record* positions, const Record* displacements) {
@@ -61,18 +61,18 @@ Separation plan_separation(const PairStencil& pair, const PairDistance& at, cons
   const double gap = h.lowest_first - h.highest_second;
   if (!(gap > 0)) return Separation::unresolvable;
   const double thickness = std::min(least, largest_slab * gap), half = 0.5 * thickness;
-  // With a tolerance for rounding, so that steps truncated to one plane's margin need no second one.
+  // The tolerance covers rounding, so that steps that another plane has truncated already need no second truncation.
   if (h.lowest_first_ever - h.highest_second_ever >= thickness * (1 - 1e-9)) return Separation::free;
-  // The plane lies where the motions of both sides meet, but leaves half a margin to each.
+  // The plane divides the gap in proportion to the motions of both sides, but stays half a margin away from each.
   const double moves = h.first_sinks + h.second_rises;
   double share = std::clamp(moves > 0 ? h.second_rises / moves : 0.5, nearest_to_a_side, 1 - nearest_to_a_side);
   share = std::clamp(share, half / gap, 1 - half / gap);
   double middle = h.highest_second + share * gap;
-  // The filter cannot limit these vertices.
+  // Kinematic particles cannot be limited, so the plane gives way to them.
   middle = std::min(middle, h.first_fixed_low - half);
   middle = std::max(middle, h.second_fixed_high + half);
   slab = {pair, at.normal, middle + half, middle - half};
-  // A position on its limit, up to rounding of the sums, counts as inside.
+  // Rounding tolerance: a particle that exceeds its limit by no more than this counts as on its side.
   const double slop = 1e-14 * (std::abs(middle) + std::abs(h.lowest_first) + std::abs(h.highest_second) + half);
   bool unresolvable = false;
   for (int i = 0; i < 4; ++i) {
@@ -85,7 +85,7 @@ Separation plan_separation(const PairStencil& pair, const PairDistance& at, cons
     const bool inside = beyond <= slop;
     unresolvable = unresolvable || !inside;
     if (fixed) continue;
-    // Rounded down with a safety margin, because the product is rounded again later.
+    // The share is rounded down, because its product with the displacement is rounded later.
     shares[i] = inside ? std::max(0.f, static_cast<float>((start - limit) / (start - end) * (1 - 1e-6)) - 1e-7f) : 0.f;
   }
   return unresolvable ? Separation::unresolvable : Separation::planned;

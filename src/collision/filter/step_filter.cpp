@@ -6,14 +6,14 @@ namespace pliant {
 
 namespace {
 
-/// Rounds of truncation by the exact share; after them, offending vertices stay at their start.
+/// Rounds that truncate steps to the permitted share; in later rounds those vertices stay at their start.
 constexpr int rounds_of_shares = 3;
 
 bool moves_at_all(const Record& d) { return d.x != 0 || d.y != 0 || d.z != 0; }
 
 }  // namespace
 
-/// The common data of all tasks in a round.
+/// The inputs that all tasks of a round share.
 struct StepFilter::Round {
   Neighbourhood& near;
   const PairParticles& particles;
@@ -61,7 +61,7 @@ void StepFilter::Round::plan_pair(const ClusterSides& sides, const PairLanes& la
   const PairStencil pair = lanes.pair(lane, sides.of_vertices);
   if (is_exempt(pair)) return;
   const PairDistance at = pair_distance(pair, particles.positions);
-  // Bounds only save work: this repeats the rejection that a tighter bound would have made.
+  // Rejects the pair by its own distance and motion, so that the result does not depend on how tight the stored bound was.
   if (static_cast<float>(at.distance) * sum_slack - lanes.paths.falls[lane] > margin) return;
   SeparatingSlab slab;
   std::array<float, 4> shares{1, 1, 1, 1};
@@ -81,8 +81,8 @@ void StepFilter::forget_counts() {
   unresolvable_.clear();
 }
 
-/// Pairs are rejected by their relative motion, which grows when only one side is truncated. So truncated vertices are
-/// tested again with their new step, until none changes.
+/// Pairs are rejected by their relative motion, which grows when only one side is truncated. So the pairs are tested
+/// again with the truncated steps, until no step changes.
 bool StepFilter::apply(Executor& executor, NearLists& lists, const PairParticles& particles,
                        FunctionRef<bool(const PairStencil&)> is_exempt) {
   truncated_in_.clear();
@@ -111,8 +111,8 @@ void StepFilter::plan(Executor& executor, Neighbourhood& near, const PairParticl
   });
 }
 
-/// Each vertex takes the smallest share that its pairs permit, or none. Then vertices that rounding lets through stay at
-/// their start, until no more do. Returns true if any step was truncated.
+/// Truncates each vertex's step to the smallest share that its pairs permit, or to zero if `stops`. Vertices that
+/// rounding would still put beyond a plane then stay at their start. Returns true if any step was truncated.
 bool StepFilter::truncate(const PairParticles& particles, bool stops) {
   touched_.clear();
   const auto allow = [&](std::int32_t v, float share) {

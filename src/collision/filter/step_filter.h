@@ -11,7 +11,7 @@
 
 namespace pliant {
 
-/// Pairs of two bodies that no step limit separates.
+/// The unresolvable pairs between two bodies: pairs of primitives that no step limit keeps apart.
 struct UnresolvablePairs {
   PairStencil first;
   std::int64_t count = 0;
@@ -21,19 +21,19 @@ class StepFilter {
  public:
   explicit StepFilter(const PairModel& model) : model_(model), share_(model.rest.size(), 1.f) {}
 
-  /// Call after bodies were added or removed.
+  /// Resizes the arrays to the model; call it after bodies were added or removed.
   void fit_to_model();
-  /// Call at a frame's start.
+  /// Resets the counts; call it at a frame's start.
   void forget_counts();
   /// Truncates displacements so that no pair crosses, unless `is_exempt` holds for it. Measures the motion again after each
   /// round. Returns true if all positions are bounded (NearLists::measure); else displacements may be unchanged.
   bool apply(Executor& executor, NearLists& lists, const PairParticles& particles,
              FunctionRef<bool(const PairStencil&)> is_exempt);
 
-  /// Counts of this frame: vertices with a truncated step, once per substep; and unresolvable pairs.
+  /// The number of truncated steps in this frame: vertices with a truncated step, summed over substeps.
   std::int64_t truncated() const { return truncated_; }
   std::int64_t unresolvable_count() const { return unresolvable_count_; }
-  /// Unresolvable pairs by bodies, the lower one first.
+  /// Unresolvable pairs of this frame by their two bodies, the lower index first.
   const std::map<std::pair<int, int>, UnresolvablePairs>& unresolvable() const { return unresolvable_; }
 
  private:
@@ -56,7 +56,7 @@ class StepFilter {
   const PairModel& model_;
   std::vector<Scratch> scratch_;
   std::vector<float> share_;                          ///< permitted share of each vertex's step in the current round
-  std::vector<std::int32_t> touched_, truncated_in_;  ///< vertices changed in the current round; truncated in the substep
+  std::vector<std::int32_t> touched_, truncated_in_;  ///< vertices truncated in the current round; in this substep
   std::int64_t truncated_ = 0, unresolvable_count_ = 0;
   std::map<std::pair<int, int>, UnresolvablePairs> unresolvable_;
 };

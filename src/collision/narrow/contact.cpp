@@ -23,7 +23,7 @@ bool overlap(const PointBounds& a, const BoundingBox<float>& b, float margin) {
          b.low.x <= a.high.x + margin && b.low.y <= a.high.y + margin && b.low.z <= a.high.z + margin;
 }
 
-/// A plane that a particle must stay above.
+/// The plane that a contact keeps a particle above.
 struct SurfacePlane {
   bool found = false;
   Vec3f normal{};  // unit normal in the collider's frame
@@ -31,8 +31,8 @@ struct SurfacePlane {
   float offset = 0;
 };
 
-/// False if a path cannot meet a solid, because its end is farther away than its length. Distances to terrain jump, so
-/// it may always.
+/// Returns false if a path cannot reach a solid, because its end is farther away than the path is long. For terrain it
+/// returns true, because the distance to terrain is discontinuous.
 bool may_meet(const LocalShape&, const SurfaceDistance<float>& end, float thickness, float path) {
   return end.distance < thickness + path;
 }
@@ -40,9 +40,9 @@ bool may_meet(const SolidField&, const SurfaceDistance<float>&, float, float) { 
 
 SurfaceDistance<float> signed_distance(const SolidField& field, const Vec3f& p) { return field.distance(p); }
 
-/// The distance to a solid at a path's start. Distances to terrain jump at its open sides and between columns, so they
-/// are limited by the distance at the end. Otherwise a particle that enters deep below would seem to have just crossed
-/// the surface.
+/// The distance to a solid at a path's start. The distance to terrain is discontinuous at its open sides and between
+/// columns, so it is limited by the distance at the end. Otherwise a particle that enters deep below would seem to have
+/// just crossed the surface.
 float distance_before(const LocalShape& shape, const Vec3f& a, const SurfaceDistance<float>&, float) {
   return signed_distance(shape, a).distance;
 }
@@ -53,15 +53,15 @@ FirstHit<float> first_hit(const SolidField& field, const Vec3f& a, const Vec3f& 
   return field.first_hit(a, b, margin);
 }
 
-/// The contact plane for a particle on its way from a to b, in the collider's frame. On a long path (continuous): the
-/// plane at the entry point, or at the start if that is within the thickness or inside, because a particle stays on its
-/// side. On a short path (static): the plane at the closest surface point.
+/// Returns the contact plane of a particle that moves from a to b, in the collider's frame. On a long path (continuous)
+/// it is the plane at the entry point, or at the start if the start is inside or within the thickness, because a
+/// particle stays on its side. On a short path (static) it is the plane at the closest surface point.
 template <class Solid>
 SurfacePlane surface_plane(const Solid& solid, const Vec3f& a, const Vec3f& b, float thickness, float h) {
   const SurfaceDistance<float> end = signed_distance(solid, b);
   const float path = length(b - a);
   if (!may_meet(solid, end, thickness, path)) return {};
-  // Limits depenetration from inside; for a start outside this is the thickness itself.
+  // Limits how far a particle that starts inside is moved out; for a start outside this is the thickness itself.
   const auto kept = [&](float start) { return min(thickness, start + largest_separation_speed * h); };
   if (path > 0.25f * thickness) {
     const FirstHit<float> hit = first_hit(solid, a, b, 0.5f * thickness);
@@ -93,7 +93,7 @@ BoundingBox<float> bounding_box(const SolidField& field, const Pose<float>& pose
   return {low - Vec3f{grown, grown, grown}, high + Vec3f{grown, grown, grown}};
 }
 
-/// Sets a collider's poses at the start and the end of a substep, and whether it moves.
+/// Sets a collider's poses at the start and the end of a substep, and whether the collider moves.
 template <class From, class MotionPose>
 void move(const From& from, const PoseDrive* drive, const MotionPose& motion_pose, double time_before, double time_after,
           MovingCollider& to) {
@@ -137,13 +137,13 @@ void move_colliders(const Model& model, const Control& control, double time_befo
 
 namespace {
 
-/// An object and a collider, with what all their contacts share.
+/// An object and a collider, with the parameters that all their contacts share.
 struct Meeting {
   const ContactSearch& search;
   const MovingCollider& collider;
   int number;       ///< index of the collider
-  float thickness;  ///< of both [m]
-  Vec3f gravity;    ///< added to a velocity: that before this substep's gravity [m/s]
+  float thickness;  ///< sum of both thicknesses [m]
+  Vec3f gravity;    ///< added to a velocity, gives the velocity before this substep's gravity [m/s]
   float static_friction, kinetic_friction, restitution;
 
   Meeting(const ContactSearch& in, int of, float both)
@@ -175,7 +175,7 @@ void find_contact(const Meeting& m, int i, std::vector<Contact>& contacts) {
   contact.thickness = m.thickness;
   contact.collider = m.number;
   contact.normal = rotate(collider.after.rotation, plane.normal);
-  // The plane in world coordinates, with the same point and the same offset from it.
+  // The same plane in world coordinates: it has the same offset from the same point of the collider.
   const float above = plane.offset - dot(plane.normal, plane.point);
   contact.gap = dot(contact.normal, position - to_world(collider.after, plane.point)) - above;
   if (collider.moves)
@@ -188,8 +188,8 @@ void find_contact(const Meeting& m, int i, std::vector<Contact>& contacts) {
   contact.approach = dot(contact.normal, velocity - contact.surface_motion * a.inverse_h);
 }
 
-/// Finds the particles to test against a collider: all particles of the tile if the collider moves, because its motion
-/// counts too.
+/// Finds the particles to test against a collider. These are all particles of the tile if the collider moves, because
+/// the kernel measures displacements of particles only.
 int find_near(const ContactSearch& search, const MovingCollider& collider, float thickness,
               std::vector<std::int32_t>& near) {
   const AdvanceArguments& a = search.particles;
@@ -198,7 +198,7 @@ int find_near(const ContactSearch& search, const MovingCollider& collider, float
     for (int i = a.first; i < a.last; ++i) near[i - a.first] = i;
     return a.last - a.first;
   }
-  // Exceeds the rounding difference between the two distance computations.
+  // The margin exceeds the rounding difference between the kernel's distance and the one computed later.
   const PointBounds& b = search.bounds;
   const float reach = max(largest(Vec3f{b.low.x, b.low.y, b.low.z}), largest(Vec3f{b.high.x, b.high.y, b.high.z}));
   const float slack = 1e-6f + 1e-5f * (reach + largest(collider.after.position) + thickness);
@@ -231,7 +231,7 @@ void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near,
 
 void find_breaches(const ContactSearch& search, const std::vector<Contact>& known, std::vector<std::int32_t>& near,
                    std::vector<Contact>& contacts) {
-  // Constraints rarely move particles farther than this beyond the bounds of the prediction.
+  // Margin of the cull: constraints rarely move particles farther than this beyond the bounds of the prediction.
   const PointBounds& b = search.bounds;
   const float margin =
       search.object.thickness + 0.1f * largest(Vec3f{b.high.x - b.low.x, b.high.y - b.low.y, b.high.z - b.low.z});

@@ -22,7 +22,7 @@ struct MovingCollider {
   LocalShape shape;
   const SolidField* field = nullptr;  ///< distance field, used instead of the shape; null for a primitive
   std::uint32_t groups = 1, mask = ~0u;
-  Pose<float> before, after;  ///< poses at the substep's start and end
+  Pose<float> before, after;  ///< poses of the collider's frame at the substep's start and end
   bool moves = false;
   BoundingBox<float> swept{};  ///< encloses the shape and its thickness in both poses
   float thickness = 0;         ///< thickness of the collider alone [m]
@@ -33,7 +33,7 @@ struct MovingCollider {
 void move_colliders(const Model& model, const Control& control, double time_before, double time_after,
                     std::vector<MovingCollider>& colliders);
 
-/// The inputs for finding the contacts of one tile.
+/// The inputs of the search for contacts of one tile's particles with colliders.
 struct ContactSearch {
   const CompiledObject& object;
   const AdvanceArguments& particles;  ///< particles of the tile, with predicted displacements
@@ -42,22 +42,22 @@ struct ContactSearch {
   int (*find_near)(const NearQuery& query, std::int32_t* near);  ///< StepKernels::find_near
 };
 
-/// Appends the contacts of a tile, by collider, then by particle. `near` is scratch.
+/// Appends the contacts of a tile's particles, ordered by collider, then by particle. `near` is scratch memory.
 void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near, std::vector<Contact>& contacts);
 
-/// Appends contacts (of thickness 0) of particles whose displacements end below a plane, in the same order, except
-/// those that `known` contains.
+/// Appends contacts of thickness 0 for particles whose displacements end below a plane collider, ordered by collider,
+/// then by particle. Skips pairs of particle and collider that have a contact in `known`.
 void find_breaches(const ContactSearch& search, const std::vector<Contact>& known, std::vector<std::int32_t>& near,
                    std::vector<Contact>& contacts);
 
-/// Merges two lists in the order of find_contacts. If both have a contact of the same particle and collider, `first` wins.
+/// Merges two lists ordered by collider, then by particle. `first` wins where both have the same collider and particle.
 void merge_contacts(const std::vector<Contact>& first, const std::vector<Contact>& second, std::vector<Contact>& all);
 
-/// Projects each contact once: the normal constraint, then friction within the cone of the pushes so far.
+/// Projects each contact once: the normal constraint, then friction within the cone of all normal corrections so far.
 void project_contacts(std::vector<Contact>& contacts, const SweepArguments& arguments);
 
-/// After the velocity update: the normal velocity after an active contact becomes -e times the approach velocity, or
-/// zero if the approach was not faster than gravity causes in two substeps.
+/// Restitution after the velocity update. The normal velocity of an active contact becomes -e times its approach
+/// velocity, or zero if the approach was not faster than gravity causes in two substeps.
 ///
 /// `gravity` is the gravity of this frame that the velocities do not include yet.
 void respond(const std::vector<Contact>& contacts, const Vec3f& gravity, const AdvanceArguments& particles);

@@ -6,12 +6,12 @@ namespace pliant {
 
 namespace {
 
-/// A contact maintains at most this share of the distance of its primitives at rest.
+/// A contact keeps at most this share of the distance that its two primitives have at rest.
 constexpr double share_of_rest = 0.9;
-/// When a block of static pairs is measured, those due within this many substeps are measured with it.
+/// When a block of static pairs is measured, all blocks of its group are that become due within this many substeps.
 constexpr float substeps_of_rest = 4;
 
-/// The common data of all tasks.
+/// The inputs that all detection tasks share.
 struct Detection {
   Neighbourhood& near;
   const PairParticles& particles;
@@ -19,8 +19,8 @@ struct Detection {
   const CoveredPairs& covered;
 };
 
-/// The distance that a pair may maintain because of its distance at rest
-/// [m]. `known` caches it: < 0 if not measured yet, null if not cached.
+/// The largest contact distance of a pair that its distance at rest permits [m]. `known` caches the result: < 0 if not
+/// computed yet; null if it is not cached.
 float kept_at_rest(const Neighbourhood& near, const PairStencil& pair, float* known) {
   if (known != nullptr && *known >= 0) return *known;
   const auto kept = static_cast<float>(share_of_rest * pair_distance(pair, near.model.rest.data()).distance);
@@ -36,7 +36,8 @@ void add_contact(const PairStencil& pair, const PairBatch& at, int lane, const P
   contacts.push_back(contact);
 }
 
-/// The lanes that can become contacts: a pair does if its distance, minus the possible decrease, is below its contact distance.
+/// Bit i is set if pair i of sixteen can become a contact: its distance minus the possible decrease is within the
+/// contact distance.
 unsigned find_candidates(const PairLanes& lanes, const ClusterPair& clusters) {
   const float thickness = clusters.material.thickness, next = clusters.odometer.next;
   std::int32_t bits[16];
@@ -59,7 +60,7 @@ void detect_pair(const Detection& d, const ClusterSides& sides, const PairLanes&
   const float distance = lanes.at.distance[lane] * (1 - 1e-5f);
   if (distance - lanes.paths.falls[lane] > kept.thickness || lanes.paths.apart[lane] > kept.thickness || d.is_exempt(pair))
     return;
-  // A covered pair that does not touch yet would push sideways.
+  // A covered pair that does not touch yet would push the surfaces sideways.
   if (distance > kept.thickness && d.covered.covers(pair, lanes.at, lane, d.particles.positions)) return;
   add_contact(pair, lanes.at, lane, kept, d.particles, contacts);
 }
@@ -103,7 +104,7 @@ void detect_block(const Detection& d, const StaticGroup& group, std::size_t bloc
     detect_pair(d, group, lanes, __builtin_ctz(left), nullptr, contacts);
 }
 
-/// Measures all blocks of a group that are due within some substeps, so that the next ones need not revisit them.
+/// Measures the static pairs of a group. If a block is due, blocks due within substeps_of_rest are measured with it.
 void detect_group(const Detection& d, StaticGroup& group, std::vector<Contact>& contacts) {
   const ClusterPair& clusters = d.near.pair_of(group);
   const float within = cull_slack * clusters.material.thickness, next = clusters.odometer.next;

@@ -14,8 +14,8 @@ class ContactDetector {
  public:
   explicit ContactDetector(const PairModel& model) : covered_(model.elements, model.triangles_around) {}
 
-  /// Finds the contacts of the substep, static pairs first, each in cluster order, and returns the number of static ones.
-  /// Pairs for which `is_exempt` holds are skipped.
+  /// Finds the contacts of the substep: those of static neighbour pairs first, then all others, each ordered by
+  /// clusters. Returns the number of the former. Pairs for which `is_exempt` returns true are skipped.
   std::size_t detect(Executor& executor, Neighbourhood& near, const PairParticles& particles,
                      FunctionRef<bool(const PairStencil&)> is_exempt, std::vector<Contact>& contacts);
 

@@ -8,25 +8,25 @@ namespace pliant {
 
 namespace {
 
-/// Below this weight a corner does not bear the closest point.
+/// A closest point with a smaller weight of a corner counts as lying on the opposite edge or end.
 constexpr float least_weight = 1e-5f;
 /// A neighbouring triangle is closer if one of its corners rises towards the vertex by over this share of its distance.
 constexpr float least_rise = 1e-3f;
 
 Vec3f place(const Record& r) { return {r.x, r.y, r.z}; }
 
-/// Without branches, which would be mispredicted.
+/// Branch-free, because the branches would be mispredicted.
 bool has(const Triangle& t, int vertex) {
   return ((t[0] == vertex ? 1 : 0) | (t[1] == vertex ? 1 : 0) | (t[2] == vertex ? 1 : 0)) != 0;
 }
 
-/// The end of an edge at which its closest point lies; -1 if it lies between the ends.
+/// The end of an edge if the edge's closest point is that end; -1 if the point lies between the ends.
 int end_of(int a, int b, float weight_of_a, float weight_of_b) {
   if (abs(weight_of_b) < least_weight) return a;
   return abs(weight_of_a) < least_weight ? b : -1;
 }
 
-/// True if two edges of a triangle, or the two edges of a pair, are at least about two degrees from parallel.
+/// True if the angle between two edges of a triangle, or between the two edges of a pair, is at least about two degrees.
 bool is_well_conditioned(const PairStencil& pair, const Record* positions) {
   const auto& v = pair.vertex;
   const bool edges = pair.first_side == 2;
@@ -76,7 +76,8 @@ bool CoveredPairs::covers(const PairStencil& pair, const Closest& at, const Reco
          (second >= 0 && has_triangle_without(v[0], v[1], second));
 }
 
-/// For slivers and nearly parallel edges the float closest points can be wrong, so double precision must agree.
+/// For slivers and nearly parallel edges, closest points in float can be wrong, so double precision must agree before a
+/// pair is dropped.
 bool CoveredPairs::covers(const PairStencil& pair, const PairBatch& at, int lane, const Record* positions) const {
   const Closest coarse{{at.weight[0][lane], at.weight[1][lane], at.weight[2][lane], at.weight[3][lane]},
                        {at.normal[0][lane], at.normal[1][lane], at.normal[2][lane]}};

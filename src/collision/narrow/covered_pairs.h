@@ -19,7 +19,7 @@ class CoveredPairs {
   bool covers(const PairStencil& pair, const PairBatch& at, int lane, const Record* positions) const;
 
  private:
-  /// Closest points as weights of the four particles, and the unit vector between them.
+  /// The closest points of a pair, as weights of its four particles, and the unit vector between them.
   struct Closest {
     float weight[4];
     Vec3f normal;

@@ -8,9 +8,9 @@ namespace pliant {
 
 namespace {
 
-/// Activation distance over the thickness: other contacts may push a point nearer within the substep.
+/// Activation distance over the thickness. It exceeds 1, since other contacts may push a point nearer within the substep.
 constexpr float reach_over_thickness = 1.25f;
-/// Packets of the tree per task.
+/// Packets of the BVH per task.
 constexpr int packets_a_task = 32;
 
 Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
@@ -23,7 +23,7 @@ BoxBounds swept_box(const Record& position, const Record& displacement, float th
   return {low - Vec3f{grown, grown, grown}, high + Vec3f{grown, grown, grown}};
 }
 
-/// The share of a path x + t m at which it first comes within `distance` of the origin; it must start farther away.
+/// The smallest t at which the path x + t m comes within `distance` of the origin; the path must start farther away.
 float first_within(const Vec3f& x, const Vec3f& m, float distance) {
   const float b = dot(x, m), c = dot(x, x) - distance * distance;
   const float root = sqrt(max(b * b - dot(m, m) * c, 0.f));
@@ -49,7 +49,7 @@ bool find_point_contact(int i, int j, const PairMaterial& material, const PairPa
     t = first_within(x, m, thickness);
   }
   contact = {};
-  contact.normal = unit_or(x + m * t, Vec3f{0, 1, 0});  // for coincident points, the first is above
+  contact.normal = unit_or(x + m * t, Vec3f{0, 1, 0});  // fallback for coincident points: straight up
   contact.gap = dot(contact.normal, x) - kept;
   contact.thickness = kept;
   contact.static_friction = material.static_friction;

@@ -29,7 +29,8 @@ struct Prediction {
 
 // ---------------------------------------------------------------- culling of elements
 
-/// False if an element lies wholly beyond one side, or over one face, where its vertices are closest.
+/// Returns false if all vertices of an element are beyond one side of the collider, or over the same face of a box;
+/// there the vertices are closest.
 template <std::size_t n>
 bool may_meet(const std::array<int, n>& vertex, const std::uint16_t* codes) {
   int common = codes[vertex[0]];
@@ -71,7 +72,8 @@ void measure_clusters(const TileElements& tile, const AdvanceArguments& a, Shape
   }
 }
 
-/// The frame of a collider as its axes in world coordinates: three products instead of a rotation.
+/// The frame of a collider as its three axes in world coordinates. A transformation is three dot products instead of a
+/// rotation.
 struct Axes {
   Vec3f x, y, z, origin;
 
@@ -85,18 +87,19 @@ struct Axes {
     const Vec3f d = p - origin;
     return {dot(x, d), dot(y, d), dot(z, d)};
   }
-  /// Half extents of a box in this frame around a box with world half extents `e`.
+  /// Half extents, in this frame, of a box that encloses a box with half extents `e` in the world.
   Vec3f extent(const Vec3f& e) const { return {dot(abs(x), e), dot(abs(y), e), dot(abs(z), e)}; }
 };
 
-/// A collider in the substep.
+/// A collider with its frames at the substep's start and end.
 struct ColliderFrames {
   const MovingCollider& collider;
   Axes before, after;
 
   explicit ColliderFrames(const MovingCollider& of) : collider(of), before(of.before), after(of.after) {}
 
-  /// True if the content of a box may come within `margin`, and not over a single face of a box collider only.
+  /// Returns false if the elements in a box cannot come within `margin`, or if they lie over a single face of a box
+  /// collider.
   bool may_meet(const SweptBox& box, float margin) const {
     if (!overlap(box, collider.swept, margin)) return false;
     if (collider.moves) return true;
@@ -111,7 +114,7 @@ struct ColliderFrames {
   }
 };
 
-/// Axes as columns: the products and sums of Axes::to_local, in its order.
+/// The matrix of Axes, stored by columns; to_local does the same products and sums in the same order.
 struct Columns {
   Quad x, y, z, origin;
   explicit Columns(const Axes& a)
@@ -123,17 +126,17 @@ struct Columns {
   }
 };
 
-/// Quad masks: all bits set means true.
+/// Four lane masks: a lane is true if all its bits are set.
 typedef std::int32_t QuadMask __attribute__((vector_size(16)));
 
-/// Bits 0 to 5: the sides of a box that a point is beyond, by masks of those above and below.
+/// Bits 0 to 5: the sides of a box that a point is beyond. `above` and `below` hold one lane for each axis.
 int sides_of(const QuadMask& above, const QuadMask& below) {
   const QuadMask bits = (above & QuadMask{1, 4, 16, 0}) | (below & QuadMask{2, 8, 32, 0});
   return bits[0] | bits[1] | bits[2];
 }
 
-/// Outcodes of the vertices of a cluster. Bits 0 to 5: the sides of the collider's grown box that the whole path is beyond.
-/// Bits 6 to 11: the face of a box that the path is over.
+/// Computes outcodes of vertices. Bits 0 to 5: the sides of the collider's grown box that the vertex is beyond on its
+/// whole path. Bits 6 to 11: the face of a box collider that the whole path is over.
 struct Outcoder {
   Quad half;
   float thickness;
@@ -151,13 +154,13 @@ struct Outcoder {
   }
 };
 
-/// What the ways of a cluster's vertices have in common.
+/// Bounds over the paths of a cluster's vertices: a box around them, and the largest length [m].
 struct ClusterWays {
   SweptBox box;
   float longest;
 };
 
-/// The ways and outcodes of a cluster's vertices. Returns the box around all ways in the collider's frame, and a bound of their lengths.
+/// Computes the paths and outcodes of a cluster's vertices in the collider's frame. Returns the bounds of the paths.
 ClusterWays enter_frame(const Meeting& m, const ColliderFrames& frames, ShapeContactScratch& scratch) {
   const LocalShape& shape = m.collider.shape;
   const Outcoder outcode{quad(half_sides<float>(shape)), m.thickness, shape.kind == ShapeKind::box};

@@ -1,11 +1,11 @@
 // Contacts of edges and triangles with spheres, capsules and boxes, so that edges do not cut corners and small spheres do
 // not pass through triangles. Vertex contacts come from contact.h; planes need only those.
 //
-//   edge       its closest point                              weights 1 - t, t
-//   triangle   sphere centre, capsule axis ends, or box corners that face its interior       barycentric
+//   edge       contact at its closest point, with weights 1 - t, t
+//   triangle   contact at the centre of a sphere, the ends of a capsule's axis, or the corners of a box
 //
-// An element has a contact only if it comes nearer to the solid than its vertices by more than least_dip; otherwise theirs
-// suffice. Elements are tested at the prediction, which depends on positions and velocities alone.
+// An element has a contact only if it comes nearer to the solid than its vertices by more than least_dip; otherwise
+// vertex contacts suffice. The test uses the prediction, which depends on positions and velocities alone.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace pliant {
 
-/// The inputs for finding the contacts of a substep.
+/// The inputs of the search for shape contacts in a substep.
 struct ShapeContactSearch {
   const Model& model;
   const std::vector<MovingCollider>& colliders;
@@ -38,10 +38,10 @@ struct ShapeContactScratch {
 
 class ShapeContacts {
  public:
-  /// Prepares the elements of an object, after it or the colliders were added or changed.
+  /// Prepares the elements of an object; call it after the object or the colliders were added or changed.
   void prepare(const Model& model, int object);
 
-  /// Finds the contacts of the substep, by tile, then by collider.
+  /// Finds the contacts of the substep, ordered by tile, then by collider.
   void detect(Executor& executor, const ShapeContactSearch& search);
 
   const std::vector<Contact>& contacts() const { return contacts_; }
@@ -55,8 +55,8 @@ class ShapeContacts {
   std::vector<Contact> contacts_;
 };
 
-/// Restitution after the velocity update, as respond() of contact.h.
-/// `missing`: the gravity not yet included in velocities [m/s].
+/// Applies restitution after the velocity update, as respond() of contact.h does. `missing` is the gravity that
+/// velocities do not include yet [m/s].
 void respond_to_shape_contact(const Contact& contact, Record* velocities, const Vec3f& missing, float slow,
                               float inverse_h);
 

@@ -7,30 +7,31 @@ namespace pliant {
 
 namespace {
 
-/// Limit of the depenetration speed of initial overlaps, as for vertices [m/s].
+/// Limit of the speed at which initial overlaps are resolved, as for vertices [m/s].
 constexpr float largest_separation_speed = 2;
 /// Points with a smaller barycentric weight lie on an edge, which has a contact of its own.
 constexpr float least_weight = 1e-4f;
-/// A triangle meets a box's corner if its normal is within the corner's normal cone, up to this.
+/// Tolerance of the test whether a triangle's normal lies in the normal cone of a box's corner.
 constexpr float cone_slack = 1e-3f;
 
 Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
 
 Vec3f gravity_on(const Record& x, const Vec3f& gravity) { return x.w > 0 ? gravity : Vec3f{}; }
 
-/// The closest point of an element to a solid at share `s` of the substep.
+/// The closest point of an element to a solid at time `s`, a share of the substep.
 struct ElementContact {
-  Vec3f weights;       ///< of its vertices
-  Vec3f normal;        ///< outward, in the solid's frame
-  float distance = 0;  ///< [m]
-  float dip = 0;       ///< how much nearer it is than the closest vertex [m]
+  Vec3f weights;       ///< weights of the element's vertices
+  Vec3f normal;        ///< outward unit normal in the solid's frame
+  float distance = 0;  ///< distance between element and solid [m]
+  float dip = 0;       ///< how much nearer the point is than the closest vertex [m]
   float s = 1;
 };
 
 // ---------------------------------------------------------------- contacts
 
-/// The share of the substep at which an element is tested: where it first comes within half the thickness, so that its side
-/// is known; the end if its path is short or stays clear. Conservative advancement: no point approaches faster than `path`.
+/// The time, as a share of the substep, at which an element is tested: when it first comes within half the thickness,
+/// so that its side is known, or the end if its path is short or stays clear. Conservative advancement: no point
+/// approaches faster than `path`.
 template <class Distance>
 float time_of_contact(const Distance& distance, float path, float thickness) {
   constexpr int most_steps = 12;
@@ -97,12 +98,12 @@ using Segment3 = SegmentNearShape<float>;
 
 float nearest_end(const Segment3& segment) { return min(segment.at_a.distance, segment.at_b.distance); }
 
-/// True if the tangents do not exclude that the interior is closer than the ends.
+/// Returns false if the tangent planes at both ends prove that the interior of an edge is not closer than the ends.
 bool may_dip(const Segment3& segment, float thickness) {
   return segment.dips() && nearest_end(segment) - segment.lower_bound() > least_dip(0.5f * length(segment.edge), thickness);
 }
 
-/// The share of the substep at which an edge is tested; < 0 if it needs no contact.
+/// The time, as a share of the substep, at which an edge is tested; < 0 if the edge needs no contact.
 float time_of_edge(const Meeting& m, const std::array<VertexWay, 2>& ways, float path, const Segment3& after) {
   if (!(path > 0.25f * m.thickness)) return 1;
   const auto segment_at = [&](float s) { return Segment3(m.collider.shape, ways[0].at(s), ways[1].at(s)); };
@@ -118,7 +119,7 @@ float time_of_edge(const Meeting& m, const std::array<VertexWay, 2>& ways, float
 
 // ---------------------------------------------------------------- triangles
 
-/// A triangle and a feature point of a solid. The box whose corner enters a triangle is wholly on the side of its centre.
+/// A triangle and a feature point of a solid: a sphere's centre, an axis end of a capsule, or a corner of a box.
 struct Face {
   const Meeting& m;
   const std::array<VertexWay, 3>& ways;
@@ -143,7 +144,7 @@ struct Face {
     return found;
   }
 
-  /// True if a contact with the feature point is one with the solid.
+  /// True if a contact with the feature point is a contact with the solid.
   bool is_met(const ElementContact& found) const {
     const Vec3f& n = found.normal;
     if (!(length_squared(n) > 0)) return false;
@@ -172,7 +173,7 @@ void find_face_contact(const Face& face, const std::array<int, 3>& triangle, flo
   if (at.dip > least_dip(radius, m.thickness)) add_contact(m, triangle, face.ways, radius, at, contacts);
 }
 
-/// The swept box of a triangle's vertices.
+/// The box that a triangle sweeps.
 BoundingBox<float> swept_box(const std::array<VertexWay, 3>& ways) {
   BoundingBox<float> box{ways[0].from, ways[0].from};
   for (const VertexWay& way : ways) box = {min(box.low, min(way.from, way.to)), max(box.high, max(way.from, way.to))};

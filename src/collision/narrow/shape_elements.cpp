@@ -8,7 +8,7 @@ namespace pliant {
 
 namespace {
 
-/// Upper limit of stretch for which vertex contacts alone suffice: 5 %.
+/// Objects that stretch by up to 5 % need no contacts of edges and triangles if vertex contacts suffice at this stretch.
 constexpr float stretched = 1.05f;
 constexpr std::size_t vertices_in_a_cluster = 32;
 
@@ -47,7 +47,7 @@ Vec3f place_of(const CompiledObject& object, int particle) {
 
 float along(const Vec3f& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
-/// The axis of the vertices' largest extent.
+/// Returns the axis along which the vertices have their largest extent.
 int longest_axis(const CompiledObject& object, const std::vector<int>& vertices) {
   Vec3f low = place_of(object, vertices[0]), high = low;
   for (const int v : vertices) {
@@ -58,7 +58,8 @@ int longest_axis(const CompiledObject& object, const std::vector<int>& vertices)
   return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
 }
 
-/// Bisects vertices until each part fits a cluster; cluster_of is indexed by vertex.
+/// Bisects a set of vertices until each part fits a cluster. Writes each vertex's cluster to `cluster_of`, indexed by
+/// vertex.
 void split(const CompiledObject& object, std::vector<int> vertices, int& clusters, std::vector<int>& cluster_of) {
   if (vertices.size() <= vertices_in_a_cluster) {
     for (const int v : vertices) cluster_of[static_cast<std::size_t>(v)] = clusters;
@@ -74,7 +75,7 @@ void split(const CompiledObject& object, std::vector<int> vertices, int& cluster
   split(object, {middle, vertices.end()}, clusters, cluster_of);
 }
 
-/// Elements in the object's indices; each belongs to its lowest vertex.
+/// Edges and triangles by their lowest vertex, in the object's indices.
 struct ElementLists {
   std::vector<std::array<int, 2>> edges;
   std::vector<Triangle> triangles;
@@ -98,7 +99,7 @@ ElementCluster make_cluster(const ElementLists& lists) {
   return out;
 }
 
-/// The tile's elements in clusters; `cluster_of` has room for every particle.
+/// Makes the clusters of a tile; `cluster_of` is scratch memory with an entry for each particle of the object.
 TileElements make_tile(const CompiledObject& object, int number, const ElementLists& lists, std::vector<int>& cluster_of) {
   std::vector<int> lowest;
   for (const auto& edge : lists.edges) lowest.push_back(edge[0]);
