@@ -7,8 +7,8 @@
 //             |<-- total - since: spent so far -->|<-- next: this substep -->|<- after() ->|
 //                                                                            remaining lower bound
 //
-//   a pair         is measured again  if after() <= thickness (contacts) or <= the filter's margin
-//   a near list    is skipped whole   while the least bound of its pairs stays above that
+//   a pair         is measured again  if its after() is within the thickness (contacts) or the filter's margin
+//   a near list    is skipped whole   while the least after() of its pairs exceeds both
 //   a near list    is rebuilt         when the odometer exceeds the margin of its search, which left out farther pairs
 //   clusters       are paired again   when one has travelled as far as its box was grown (ClusterMotions)
 //
@@ -24,34 +24,34 @@
 
 namespace pliant {
 
-/// Below any distance, so that an unmeasured pair is measured first.
+/// The value of a bound that was never measured: below any distance, so that its pair is measured first.
 inline constexpr float not_measured = -1e30f;
-/// Above any distance.
+/// A value above any distance.
 inline constexpr float out_of_reach = 1e30f;
-/// Safety factor on distances: pairs are culled only beyond it, because a bound is a sum of floats.
+/// Safety factor on distances: pairs are culled only if they are farther by it, because a bound is a sum of floats.
 inline constexpr float cull_slack = 1.0001f;
-/// Safety factor on sums from which motion is subtracted later: covers about ten roundings.
+/// Safety factor on sums from which motion is subtracted later; it covers about ten roundings.
 inline constexpr float sum_slack = 1 - 1e-6f;
 /// Relative error of one float rounding.
 inline constexpr float one_rounding = 6e-8f;
 
 /// Upper bound of the decrease of any distance between two clusters.
 struct Odometer {
-  float next = 0;   ///< in this substep [m]
-  float total = 0;  ///< in earlier substeps, since the clusters were paired [m]
+  float next = 0;   ///< possible decrease in this substep [m]
+  float total = 0;  ///< possible decrease in earlier substeps, since the clusters were paired [m]
 
   void advance() { total = (total + next) * (1 + 1e-6f); }
 };
 
-/// A lower bound of a distance, which decreases as the odometer counts.
+/// A lower bound of a distance that was measured once. It decreases as the odometer counts.
 struct Bound {
-  float value = not_measured;  ///< when the odometer's total was `since` [m]
-  float since = 0;             ///< [m]
+  float value = not_measured;  ///< lower bound when the odometer's total was `since` [m]
+  float since = 0;             ///< the odometer's total at the measurement [m]
 
   float spent(const Odometer& odometer) const { return odometer.total - since; }
-  /// The remaining bound at the end of this substep [m].
+  /// What remains of the bound at the end of this substep [m].
   float after(const Odometer& odometer) const { return value - (spent(odometer) + odometer.next); }
-  /// True if the bound is not exhausted at the end of this substep.
+  /// True if the motion up to the end of this substep does not exceed the bound.
   bool lasts(const Odometer& odometer) const { return spent(odometer) + odometer.next <= value; }
 };
 

@@ -6,7 +6,7 @@ namespace pliant {
 
 namespace {
 
-/// The extreme of sixteen numbers, by halves, which compilers do in SIMD registers.
+/// Returns the least or largest of sixteen numbers. It halves the list repeatedly, which compilers do in SIMD registers.
 template <class Extreme>
 float extreme_of_sixteen(const float* values, const Extreme& extreme) {
   float eight[8], four[4];
@@ -63,7 +63,7 @@ void BoxSearch::fit_cluster(int kind, int cluster, const Vec3f& drift, const Pai
   kernels_.fit_boxes({{of.corner[0].data(), of.corner[1].data(), of.corner[2].data()}, of.corners}, first, last, particles,
                      drift, boxes.rows());
   for (int i = first; i < last; i += 16) boxes.batch[i / 16] = boxes.around_sixteen(i);
-  for (int k = 0; k < 6; ++k)  // padding boxes overlap nothing
+  for (int k = 0; k < 6; ++k)  // padding boxes must overlap no other box
     std::fill(boxes.side[k].begin() + first + of.count[cluster], boxes.side[k].begin() + last, k < 3 ? 3e38f : -3e38f);
 }
 
@@ -91,7 +91,8 @@ void BoxSearch::find(const ClusterSides& sides, const BoxBounds& far, float reac
   }
 }
 
-/// Skips pairs with a common vertex. Whether a hit is kept is unpredictable, so each is written and the last one overwritten.
+/// Appends hits without a common vertex. Keeping a hit is unpredictable, so all are written, and rejected ones
+/// overwritten.
 void BoxSearch::add_pairs(const Compared& of, const BoxHit* hits, int count, std::vector<NearPair>& found) {
   std::size_t kept = found.size();
   found.resize(kept + static_cast<std::size_t>(count));
@@ -108,7 +109,8 @@ void BoxSearch::add_pairs(const Compared& of, const BoxHit* hits, int count, std
       kept += static_cast<std::size_t>((f0 != vertex) & (f1 != vertex) & (f2 != vertex));
     } else {
       const std::int32_t e0 = of.rows.corner[0][i], e1 = of.rows.corner[1][i];
-      // The edge with the lower corners comes first: edge numbers depend on which bodies were added and removed.
+      // The edge whose vertices have the lower indices comes first. Indices of edges depend on which bodies were added
+      // and removed.
       const bool swaps = (f0 < e0) | ((f0 == e0) & (f1 < e1));
       to[kept] = {{swaps ? f0 : e0, swaps ? f1 : e1, swaps ? e0 : f0, swaps ? e1 : f1}, -1};
       kept += static_cast<std::size_t>((!of.once | (j > i)) & (e0 != f0) & (e0 != f1) & (e1 != f0) & (e1 != f1));

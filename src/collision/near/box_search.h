@@ -1,4 +1,4 @@
-// Finds pairs of primitives of two clusters whose swept boxes overlap, sixteen boxes against one.
+// Finds pairs of primitives of two clusters whose swept boxes overlap: sixteen boxes against one at a time.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@ class BoxSearch {
  public:
   BoxSearch(const PairModel& model, const PairKernels& kernels, const ClusterLayout& layout);
 
-  /// Allocates memory for the primitives of the layout. Call it after the layout changed.
+  /// Allocates memory for the primitives of the layout; call it after the layout changed.
   void fit_to_layout();
-  /// Requests boxes for the primitives of these two sides.
+  /// Requests swept boxes of the primitives on these two sides.
   void want(const ClusterSides& sides);
-  /// Fits all requested boxes.
+  /// Computes all requested boxes.
   void fit(Executor& executor, const ClusterMotions& motions, const PairParticles& particles);
 
   /// Scratch memory of one thread.
@@ -24,22 +24,22 @@ class BoxSearch {
     std::vector<std::int32_t> batches;
     std::vector<BoxHit> hits;
     std::vector<NearPair> found;
-    std::vector<float> value;  ///< bounds of the pairs kept [m]
+    std::vector<float> value;  ///< distance bounds of the pairs kept [m]
   };
-  /// Finds pairs whose boxes come within `reach` [m], except static pairs and pairs with a common vertex. Result in
-  /// scratch.found. `far`: a box around the second cluster.
+  /// Writes to scratch.found the pairs whose boxes come within `reach` [m], except static pairs and pairs with a common
+  /// vertex. `far` encloses the second cluster.
   void find(const ClusterSides& sides, const BoxBounds& far, float reach, Scratch& scratch);
 
  private:
   struct Boxes {
     std::vector<float> side[6];    ///< low x, y, z, high x, y, z of each primitive
-    std::vector<BoxBounds> batch;  ///< union of sixteen boxes
-    std::vector<char> wanted;      ///< of each cluster
+    std::vector<BoxBounds> batch;  ///< for each sixteen primitives, the union of their boxes
+    std::vector<char> wanted;      ///< for each cluster, 1 if its boxes are requested
     BoxBounds around_sixteen(int first) const;
     BoxRows rows();
   };
   void fit_cluster(int kind, int cluster, const Vec3f& drift, const PairParticles& particles);
-  /// The sides of a comparison; `once` if each pair of edges occurs in both orders.
+  /// The two sides of a comparison; `once` is true if each pair of edges would otherwise be found in both orders.
   struct Compared {
     const ClusterElements &rows, &columns;
     bool of_vertices, once;

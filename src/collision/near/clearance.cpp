@@ -22,7 +22,7 @@ void fill_up(std::vector<T>& list) {
   while (list.size() % 16 != 0) list.push_back(list.back());
 }
 
-/// The rank of each vertex along a Morton curve, by numbers from the first on.
+/// Returns the rank of each vertex of a block along a Morton curve, indexed from the block's first vertex on.
 std::vector<int> ranks(const std::vector<Record>& rest, const Block& vertices) {
   std::vector<Vec3f> places;
   places.reserve(static_cast<std::size_t>(vertices.size));

@@ -11,16 +11,16 @@ namespace pliant {
 
 class ClearanceSearch {
  public:
-  /// The bounds from vertex distances; its pieces are the clusters.
+  /// The computation of bounds from vertex distances. Its pieces are the clusters.
   Clearance& clearance() { return clearance_; }
   void resize(std::size_t clusters) { is_placed_.resize(clusters); }
 
-  /// Clears all queries and sets the number of cluster pairs.
+  /// Discards all queries and sets the number of cluster pairs.
   void begin(std::size_t pairs);
-  /// Queries the lower bound of two clusters up to `wanted` [m], once for each pair.
+  /// Adds a query, at most one a pair: the lower bound of the distance of two clusters, up to `wanted` [m].
   void ask(const ClusterSides& sides, float wanted);
   void answer(Executor& executor, const PairKernels& kernels, const Record* positions);
-  /// Lower bound of the distance of two primitives, except static pairs and common vertices [m]; < 0 if not queried.
+  /// The answer: a lower bound over the primitives of both clusters, without excluded pairs [m]; < 0 if not queried.
   float of(const ClusterSides& sides) const { return answers_[static_cast<std::size_t>(sides.pair)]; }
 
  private:
@@ -30,10 +30,10 @@ class ClearanceSearch {
   };
 
   Clearance clearance_;
-  std::vector<char> is_placed_;  ///< of each cluster
+  std::vector<char> is_placed_;  ///< for each cluster, 1 if its positions are to be gathered
   std::vector<Question> questions_;
-  std::vector<float> answers_;                      ///< one for each cluster pair
-  std::vector<std::vector<std::int32_t>> scratch_;  ///< one for each task
+  std::vector<float> answers_;                      ///< answer for each cluster pair [m]
+  std::vector<std::vector<std::int32_t>> scratch_;  ///< scratch memory of each task
 };
 
 }  // namespace pliant

@@ -9,12 +9,12 @@ namespace pliant {
 
 namespace {
 
-/// Pads to a multiple of sixteen by repeating the last entry.
+/// Pads a list to a multiple of sixteen by repeating its last entry.
 void pad(std::vector<std::int32_t>& list) {
   while (list.size() % 16 != 0) list.push_back(list.back());
 }
 
-/// The primitives of one kind of a model.
+/// The primitives of one kind (vertices, edges or triangles) of a model.
 struct Elements {
   const PairModel& model;
   ElementKind kind;
@@ -33,7 +33,8 @@ struct Elements {
   }
 };
 
-/// The primitives of a body by cluster. The Morton curve is that of the body alone, so that no other body changes the order.
+/// Lists the primitives of a body by cluster. The Morton curve spans this body only, so the order depends on no other
+/// body.
 std::vector<std::vector<std::int32_t>> items_of(const Elements& from, int body, int corners) {
   std::vector<std::int32_t> items;
   std::vector<Vec3f> middles;

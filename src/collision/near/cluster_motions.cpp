@@ -7,7 +7,7 @@ namespace pliant {
 namespace {
 
 constexpr int clusters_in_a_task = 16;
-/// Upper bound of the number of roundings of a position in the frame that moves with the mean.
+/// Upper bound of the number of roundings of a position in the frame that moves with the mean displacement.
 constexpr float place_roundings = 16;
 
 }  // namespace
@@ -56,7 +56,7 @@ BoxBounds ClusterMotions::path_box(int cluster) const {
   return {min(m.low[0], m.low[1] - mean_), max(m.high[0], m.high[1] - mean_)};
 }
 
-/// Upper bound of the displacement of any vertex of the cluster in this substep, relative to the mean of all.
+/// Upper bound of the displacement in this substep of any vertex of the cluster, relative to the mean of all vertices [m].
 float ClusterMotions::travel_next(int cluster) const {
   const ClusterMotion& motion = motions_[static_cast<std::size_t>(cluster)];
   return (length(motion.mean - mean_) + length(motion.spin) * motion.radius) * bound_slack + motion.largest;

@@ -1,4 +1,4 @@
-// The motion of clusters: a rigid motion each, and the residual motion of its vertices.
+// The motion of clusters in a substep: a rigid motion for each, and the residual motion of its vertices.
 #pragma once
 
 #include <vector>
@@ -22,11 +22,11 @@ class ClusterMotions {
   /// `order` lists all clusters in use.
   bool measure(Executor& executor, const ClusterLayout& layout, const std::vector<int>& order,
                const PairParticles& particles);
-  /// Adds the measured motion to the distance travelled; call it after the substep. `order` as in measure().
+  /// Adds the measured motion to the distance travelled; call it after the substep. `order` lists all clusters in use.
   void advance(const std::vector<int>& order);
 
   const ClusterMotion& operator[](int cluster) const { return motions_[static_cast<std::size_t>(cluster)]; }
-  /// The mean displacement of dynamic vertices [m]. Boxes are fitted in a frame that moves with it.
+  /// The mean displacement of all dynamic vertices [m]. Swept boxes are computed in a frame that moves with it.
   const Vec3f& mean() const { return mean_; }
   /// The box that a cluster sweeps in this substep, in the frame that moves with mean().
   BoxBounds path_box(int cluster) const;
@@ -35,7 +35,7 @@ class ClusterMotions {
 
   /// True if no cluster has travelled more than `room` [m] relative to the mean since begin_travel().
   bool stay_within(float room, const std::vector<int>& order) const;
-  /// True if a cluster is now so far from the origin that rounding exceeds the allowance of its bounds.
+  /// True if a cluster is so far from the origin that its rounding error exceeds what its distance bounds allow for.
   bool has_gone_far() const;
   void begin_travel();
   void keep_extents();
@@ -46,7 +46,7 @@ class ClusterMotions {
 
   const PairKernels& kernels_;
   std::vector<ClusterMotion> motions_;
-  std::vector<float> travel_;  ///< relative to the mean, since begin_travel() [m]
+  std::vector<float> travel_;  ///< distance that each cluster has travelled relative to the mean, since begin_travel() [m]
   std::vector<float> extent_;
   Vec3f mean_{};
 };

@@ -9,12 +9,13 @@ namespace pliant {
 
 namespace {
 
-/// How far clusters may travel between rebuilds, over the radius: trades near lists against searches.
+/// How far clusters may travel between broad-phase rebuilds, over the search radius. More means longer lists, fewer
+/// rebuilds.
 constexpr float travel_over_radius = 2;
 
 }  // namespace
 
-/// Measured in the frame midway between both, which moves with the mean of their rigid motions.
+/// Motion is measured relative to the mean of the two clusters' rigid motions.
 void ClusterPair::measure(const ClusterMotions& motions) {
   const ClusterMotion &p = motions[a], &q = motions[b];
   rigid = 0;
@@ -63,7 +64,7 @@ void ClusterPairs::find(const ClusterMotions& motions, const std::vector<StaticG
   const std::vector<int>& order = model_.cluster_order;
   fit_boxes(motions);
   tree_.build(boxes_);
-  // Pairs of places in the order, packed into one integer, which sorts faster.
+  // Pairs of positions in cluster_order, packed into one integer, which sorts faster.
   std::vector<std::uint64_t> found;
   const auto add = [&](int i, int k) {
     if (model_.rules.meet(model_.cluster_body[order[i]], model_.cluster_body[order[k]]))
@@ -127,7 +128,7 @@ std::vector<int> ClusterPairs::numbers() const {
 }
 
 int ClusterPairs::number_of(const StaticGroup& group, const std::vector<int>& among) const {
-  const auto [a, b] = std::minmax(group.first, group.second);  // within one body, clusters are ordered by number
+  const auto [a, b] = std::minmax(group.first, group.second);  // within one body clusters are ordered by index
   const auto before = [&](int number, std::uint64_t wanted) {
     return key_of({pairs_[number].a, pairs_[number].b}) < wanted;
   };

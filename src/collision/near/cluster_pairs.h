@@ -11,15 +11,15 @@
 
 namespace pliant {
 
-/// Two near clusters, or one with itself.
+/// Two near clusters; both may be the same one.
 struct ClusterPair {
   int a, b;  ///< clusters in the order of PairModel::is_before, or equal; -1: not in use
   PairMaterial material{};
-  float rigid = 0;  ///< how much the rigid motions of both can reduce a distance in this substep [m]
+  float rigid = 0;  ///< upper bound of how much the rigid motions of both reduce a distance in this substep [m]
   Odometer odometer{};
-  bool is_joined = false;  ///< on one surface: a cluster with itself, or two with static pairs
+  bool is_joined = false;  ///< true if both are on one surface: equal clusters, or two with static pairs
 
-  /// Measures `rigid` and the odometer's next.
+  /// Computes `rigid` and the odometer's count for this substep.
   void measure(const ClusterMotions& motions);
 };
 
@@ -27,13 +27,13 @@ class ClusterPairs {
  public:
   explicit ClusterPairs(const PairModel& model) : model_(model) {}
 
-  /// Finds pairs that can come within the radius before a cluster travels travel(), and those of all static groups.
+  /// Finds all pairs of clusters that can come within the radius before one travels travel(), and the pairs of all groups.
   void find(const ClusterMotions& motions, const std::vector<StaticGroup>& groups);
-  /// Finds the pairs of new clusters with each other and all others, and those of groups without a pair. Returns their
-  /// indices. The others may have travelled up to travel(), the new ones not at all.
+  /// Finds the pairs of new clusters with each other and with old ones, and those of groups that have no pair. Returns
+  /// the indices of the pairs found. Old clusters may have travelled up to travel() already.
   std::vector<int> find_of_new(const std::vector<int>& clusters, const ClusterMotions& motions,
                                const std::vector<StaticGroup>& groups);
-  /// Drops the pairs of removed clusters.
+  /// Removes the pairs of removed clusters.
   void remove(const std::vector<char>& is_removed);
   void measure(const ClusterMotions& motions);
   /// Advances the odometers; call it after the substep.
@@ -41,17 +41,17 @@ class ClusterPairs {
 
   /// How far a cluster may travel before the next broad-phase rebuild [m].
   float travel() const;
-  /// Sorted after find(); pairs added later take unused places.
+  /// All pairs. find() sorts them; find_of_new() reuses unused indices.
   const std::vector<ClusterPair>& pairs() const { return pairs_; }
   const ClusterPair& operator[](int number) const { return pairs_[static_cast<std::size_t>(number)]; }
-  /// Finds an existing pair among indices sorted by clusters.
+  /// Returns the index of a group's pair; `among` lists indices of pairs, sorted by their clusters.
   int number_of(const StaticGroup& group, const std::vector<int>& among) const;
-  /// The indices of all pairs after find().
+  /// The indices of all pairs; call it after find() only.
   std::vector<int> numbers() const;
 
  private:
   using Clusters = std::pair<int, int>;
-  /// Orders pairs by the ranks of their clusters.
+  /// A sort key of a pair: the ranks of its two clusters.
   std::uint64_t key_of(const Clusters& pair) const {
     return std::uint64_t{rank_[static_cast<std::size_t>(pair.first)]} << 32 | rank_[static_cast<std::size_t>(pair.second)];
   }
@@ -62,8 +62,8 @@ class ClusterPairs {
   ClusterPair make(const Clusters& clusters) const;
 
   const PairModel& model_;
-  std::vector<BoxBounds> boxes_;     ///< grown boxes of the clusters in use, in their order
-  std::vector<std::uint32_t> rank_;  ///< the place of each cluster in that order, which is that of PairModel::is_before
+  std::vector<BoxBounds> boxes_;     ///< swept boxes of the clusters in cluster_order, grown by radius and travel()
+  std::vector<std::uint32_t> rank_;  ///< for each cluster, its position in cluster_order
   Tree<BoxBounds> tree_;
   std::vector<ClusterPair> pairs_;
 };

@@ -8,7 +8,7 @@ namespace pliant {
 
 namespace {
 
-/// If more than this share of clusters is new, all clusters are paired again.
+/// All clusters are paired again if more than one in this many is new.
 constexpr std::size_t most_new_clusters = 8;
 
 }  // namespace
@@ -68,7 +68,7 @@ void NearLists::pair_new_clusters() {
   new_clusters_.clear();
 }
 
-/// Inserts empty lists of the new cluster pairs at their places in the order.
+/// Inserts empty near lists for new cluster pairs, in the order of near lists.
 void NearLists::add_lists(const std::vector<int>& pairs) {
   const auto before = [&](std::int32_t x, const ClusterSides& y) { return is_before(near_.model, near_.lists[x], y); };
   std::vector<std::int32_t> order;

@@ -11,12 +11,12 @@ namespace pliant {
 namespace {
 
 constexpr int lists_in_a_task = 64;
-/// The skin of a list, over the radius minus the thickness: trades longer lists against fewer searches.
+/// The skin of a list, over the search radius minus the thickness. A larger skin makes longer lists, but fewer searches.
 constexpr float skin_share = 1.5f;
-/// Clearances are queried up to most_skins beyond the activation distance, and pay from fewest_skins on.
+/// In skins: clearances are queried up to this far beyond the activation distance; smaller ones than this do not pay.
 constexpr float most_skins = 1.25f, fewest_skins = 0.2f;
 
-/// The largest separation of two boxes along any axis.
+/// The largest separation of two boxes along a coordinate axis; negative if they overlap.
 float distance_between(const BoxBounds& a, const BoxBounds& b) {
   const Vec3f apart = max(a.low - b.high, b.low - a.high);
   return max(max(apart.x, apart.y), apart.z);
@@ -85,7 +85,7 @@ void NearLists::pair_clusters() {
   ++rebuilds_;
 }
 
-/// Static groups keep their bounds, less the odometers' counts, unless forget() was called.
+/// Attaches static groups to the new cluster pairs. Their bounds stay valid, unless forget() was called.
 void NearLists::carry_groups(const std::vector<ClusterPair>& old) {
   const std::vector<int> all = near_.pairs.numbers();
   for (StaticGroup& group : near_.static_pairs.groups) {
@@ -95,7 +95,8 @@ void NearLists::carry_groups(const std::vector<ClusterPair>& old) {
   }
 }
 
-/// Keeps the lists of pairs that stay near, unless forget() was called.
+/// Makes a list for each side of the new cluster pairs. Lists of pairs that stay near are kept, unless forget() was
+/// called.
 void NearLists::make_lists(const std::vector<ClusterPair>& old) {
   std::vector<NearList> before;
   before.reserve(near_.order.size());
@@ -145,7 +146,8 @@ void NearLists::find_stale() {
   }
 }
 
-/// Drops stale lists whose clearance exceeds the activation distance; they stay empty until it is exhausted.
+/// Empties stale lists whose clearance exceeds the activation distance. They stay empty until motion exhausts the
+/// clearance.
 void NearLists::drop_clear(Executor& executor, const PairParticles& particles) {
   clearance_.begin(near_.pairs.pairs().size());
   for (const Scratch& scratch : scratch_)
@@ -159,7 +161,7 @@ void NearLists::drop_clear(Executor& executor, const PairParticles& particles) {
   }
 }
 
-/// Uses vertex distances within a surface, and swept boxes otherwise.
+/// True if no pair is near, by vertex distances within a surface and by swept boxes otherwise. Empties the list then.
 bool NearLists::is_clear(NearList& list) const {
   const ClusterPair& pair = near_.pair_of(list);
   const float clearance = clearance_.of(list);
@@ -177,11 +179,11 @@ bool NearLists::is_clear(NearList& list) const {
 
 // ---------------------------------------------------------------- how lists are made
 
-/// Lists pairs whose paths come near in this substep or can before the odometer has counted the skin. Fast pairs get a list
-/// for one substep; their motion is not limited.
+/// Rebuilds a list: pairs that come near in this substep, or can come near before the odometer has counted the skin. If
+/// the clusters move fast, the list is for this substep only; their motion is not limited.
 void NearLists::refresh(NearList& list, BoxSearch::Scratch& scratch, const PairParticles& particles) {
   const Odometer& odometer = near_.odometer(list);
-  if (is_too_far(near_, list)) {  // rechecked in the next substep
+  if (is_too_far(near_, list)) {  // tested again in the next substep
     list.clear(odometer);
     list.complete = {-1, odometer.total};
     return;
@@ -195,7 +197,7 @@ void NearLists::refresh(NearList& list, BoxSearch::Scratch& scratch, const PairP
   keep_near(list, activation + max(margin, 1.1f * odometer.next), scratch, particles);
 }
 
-/// Measures the pairs found and keeps those nearer than `within`.
+/// Measures the pairs found and adds those nearer than `within` to the list.
 void NearLists::keep_near(NearList& list, float within, BoxSearch::Scratch& scratch, const PairParticles& particles) const {
   std::vector<NearPair>& found = scratch.found;
   scratch.value.clear();

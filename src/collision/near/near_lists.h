@@ -13,25 +13,25 @@
 
 namespace pliant {
 
-/// All near lists. Over thirty members: short steps over one set of lists, in near_lists.cpp, and in near_changes.cpp where
-/// bodies come and go.
+/// All near lists. It has over thirty members, because near_lists.cpp and near_changes.cpp (bodies added and removed)
+/// divide the work on the same lists into short steps.
 class NearLists {
  public:
   NearLists(const PairModel& model, const PairKernels& kernels);
   NearLists(const NearLists&) = delete;
   NearLists& operator=(const NearLists&) = delete;
 
-  /// Removes bodies, given by their clusters, and adds new ones. Lists and bounds of all others are kept.
+  /// Removes and adds bodies, given by their clusters. Lists and bounds of all other bodies are kept.
   void change(const PairChanges& changes);
 
-  /// Forces a broad-phase rebuild; needed after positions change other than by the measured motion.
+  /// Requests a broad-phase rebuild; needed after positions changed by anything but the measured motion.
   void forget() { is_listed_ = false; }
-  /// Measures the substep's motion. Returns true if every end position is finite
-  /// and below 1e14 m. Otherwise nothing else may be called in this substep.
+  /// Measures the motion of this substep. Returns true if all end positions are finite and below 1e14 m. If not, no
+  /// other function may be called in this substep.
   bool measure(Executor& executor, const PairParticles& particles);
-  /// Lists all pairs that can matter in this substep. Call it after measure().
+  /// Updates the lists so that they contain all pairs that can come near in this substep; call it after measure().
   void update(Executor& executor, const PairParticles& particles);
-  /// Advances the odometers by the measured motion; call it after the substep.
+  /// Adds the measured motion to the odometers; call it after the substep.
   void advance();
 
   Neighbourhood& neighbourhood() { return near_; }
@@ -67,8 +67,8 @@ class NearLists {
   ClearanceSearch clearance_;
   BoxSearch search_;
   std::vector<Scratch> scratch_;
-  std::vector<int> new_clusters_;           ///< clusters that are not paired yet
-  std::vector<std::int32_t> unused_lists_;  ///< unused indices in Neighbourhood::lists
+  std::vector<int> new_clusters_;           ///< clusters that are in no cluster pair yet
+  std::vector<std::int32_t> unused_lists_;  ///< indices of unused entries of Neighbourhood::lists
   bool is_listed_ = false, must_pair_ = false;
   std::int64_t listed_ = 0, rebuilds_ = 0;
 };

@@ -15,7 +15,7 @@ std::vector<ClusterSides> sides_of(const Neighbourhood& near, const std::vector<
   std::vector<std::uint64_t> place(near.model.cluster_body.size());
   for (std::size_t i = 0; i < near.model.cluster_order.size(); ++i) place[near.model.cluster_order[i]] = i;
   struct Keyed {
-    std::uint64_t key;  // the order of is_before in one integer
+    std::uint64_t key;  // sorts as is_before does
     ClusterSides sides;
   };
   std::vector<Keyed> all;

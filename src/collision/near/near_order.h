@@ -1,4 +1,4 @@
-// The order of near lists: kind, then clusters by body. An added or removed list does not change the order of contacts.
+// The order of near lists: by kind, then by bodies and clusters. Adding or removing a list keeps the order of contacts.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,10 @@
 
 namespace pliant {
 
-/// True if a list comes before another one.
+/// True if a near list comes before another one.
 bool is_before(const PairModel& model, const ClusterSides& list, const ClusterSides& other);
 
-/// The sides of all near lists of these cluster pairs, in order.
+/// The near lists (kind and clusters) that these cluster pairs need, in order.
 std::vector<ClusterSides> sides_of(const Neighbourhood& near, const std::vector<int>& pairs);
 
 }  // namespace pliant

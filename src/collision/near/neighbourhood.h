@@ -1,6 +1,6 @@
 // Proximity data kept over substeps: clusters, cluster pairs, near lists and static pairs.
 //
-// Plain data: NearLists updates it; later stages (contacts, filter) read it and lower or renew its bounds.
+// It is plain data: NearLists updates it; contact detection and the filter read it, and update its distance bounds.
 #pragma once
 
 #include <array>
@@ -14,25 +14,25 @@
 
 namespace pliant {
 
-/// A pair in a near list.
+/// A pair of primitives in a near list.
 struct NearPair {
-  std::array<std::int32_t, 4> vertex{};  ///< of a vertex and a triangle, or of two edges, lower index first
-  float kept = -1;                       ///< minimum distance permitted by the distance at rest [m]; < 0: not measured
+  std::array<std::int32_t, 4> vertex{};  ///< indices: a vertex and a triangle, or two edges, the lower edge first
+  float kept = -1;                       ///< contact distance that the distance at rest permits [m]; < 0: not computed yet
 };
 
-/// The near pairs of two clusters. The list is complete until the bound `complete` is exhausted.
+/// The near pairs of two clusters. The list contains all near pairs until motion exceeds the bound `complete`.
 struct NearList : ClusterSides {
   Bound complete{-1, 0};
-  Bound least{0, 0};  ///< least bound of all pairs
+  Bound least{0, 0};  ///< smallest distance bound of all pairs
   std::vector<NearPair> pairs{};
-  std::vector<float> value{};  ///< the bound of each pair, relative to `least`'s since [m]
+  std::vector<float> value{};  ///< distance bound of each pair at the odometer total least.since [m]
 
   void clear(const Odometer& odometer);
 };
 
-/// A unit of work for threads.
+/// A range of near lists and a range of static groups: a unit of work for threads.
 struct NearTask {
-  int first = 0, last = 0;  ///< range in Neighbourhood::order
+  int first = 0, last = 0;  ///< first and one past the last, in Neighbourhood::order
   int first_group = 0, last_group = 0;
 };
 
@@ -44,7 +44,7 @@ struct Neighbourhood {
   ClusterPairs pairs;
   StaticPairs static_pairs;
   std::vector<NearList> lists;
-  std::vector<std::int32_t> order;  ///< lists in use: of vertices and triangles first, then of edges, each by clusters
+  std::vector<std::int32_t> order;  ///< indices of lists in use: vertex-triangle lists, then edge-edge lists, by clusters
   std::vector<NearTask> tasks;
 
   Neighbourhood(const PairModel& of, const PairKernels& with) : model(of), kernels(with), motions(with), pairs(of) {}
@@ -68,7 +68,7 @@ struct PairLanes {
   }
 };
 
-/// The filter's margin is at least this many roundings of the positions.
+/// Lower limit of the filter's margin, in roundings of the positions.
 inline constexpr float least_margin_roundings = 32;
 
 /// True if the cluster is so far from the origin that position rounding reaches its edge length. Contact and filter skip
@@ -89,15 +89,15 @@ inline float filter_margin(const Neighbourhood& near, const ClusterSides& sides)
   return max(share_of_thickness * near.pair_of(sides).material.thickness, least_margin_roundings * one_rounding * extent);
 }
 
-/// Contacts or the filter process pairs nearer than this. It allows for rounding until a cluster is twice as far from the
-/// origin as at the last broad-phase rebuild (ClusterMotions::has_gone_far).
+/// The distance below which a pair is processed for contacts or the filter [m]. It allows for rounding until a cluster
+/// is twice as far from the origin as at the last broad-phase rebuild (ClusterMotions::has_gone_far).
 float activation_distance(const Neighbourhood& near, const ClusterSides& sides);
 
-/// Upper bounds of the distance decrease of sixteen pairs in this substep, and the separation of their swept boxes.
+/// Computes upper bounds of the decrease of sixteen distances in this substep, and separations of the swept boxes.
 void find_paths(const Neighbourhood& near, const ClusterSides& sides, const PairParticles& particles, PairLanes& lanes);
 
-/// Collects the ascending indices of pairs that can be nearer than `within`
-/// at the substep's end; lowers `least` to the least bound of all others.
+/// Writes to `found` the ascending indices of pairs that can be nearer than `within` at the substep's end. Lowers
+/// `least` to the smallest bound of all other pairs.
 void collect_near(const Neighbourhood& near, NearList& list, float within, std::vector<std::int32_t>& found);
 
 }  // namespace pliant

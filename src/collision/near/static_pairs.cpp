@@ -10,12 +10,12 @@ namespace pliant {
 
 namespace {
 
-/// Vertices with more neighbours have no static pairs; pairs near them are found by search.
+/// Pairs at vertices with more neighbours are not static; they are found by search.
 constexpr int most_neighbours = 24;
 
 using Numbers = std::array<std::int32_t, 2>;
 
-/// The edges incident to each vertex of a body, in local numbers of vertices; ascending.
+/// Lists the edges at each vertex of a body, ascending; vertices are numbered from the body's first one.
 IntLists edges_around(const PairModel& model, const BodyElements& body) {
   IntLists out;
   out.start.assign(static_cast<std::size_t>(body.vertices.size) + 1, 0);
@@ -31,7 +31,7 @@ IntLists edges_around(const PairModel& model, const BodyElements& body) {
   return out;
 }
 
-/// Second numbers by first numbers, which are in `rows`.
+/// Pairs of indices as one list of second indices for each first index, which is in the block `rows`.
 struct Dealt {
   std::vector<int> start;
   std::vector<std::int32_t> second;
@@ -46,7 +46,7 @@ struct Dealt {
   auto end(int row) { return second.begin() + start[static_cast<std::size_t>(row) + 1]; }
 };
 
-/// Sorts pairs whose first numbers are in `rows`, and drops duplicates. Rows are short, so this is faster than one sort.
+/// Sorts pairs whose first indices are in `rows`, and drops duplicates. Lists of a row are short, so this beats one sort.
 void sort_unique(std::vector<Numbers>& list, const Block& rows) {
   Dealt dealt(list, rows);
   list.clear();
@@ -61,7 +61,7 @@ bool share_vertex(const std::array<int, 2>& e, const std::array<int, 2>& f) {
   return e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1];
 }
 
-/// Pairs by kind: vertex-triangle and edge-edge.
+/// Pairs of primitives that are mesh neighbours; [0]: vertex-triangle, [1]: edge-edge.
 struct MeshPairs {
   std::vector<Numbers> near[2];     ///< pairs of primitives connected by one edge
   std::vector<Numbers> sharing[2];  ///< pairs with a common vertex
@@ -83,7 +83,7 @@ struct Mesh {
   }
 };
 
-/// Adds the pairs of an element at v and one at u, where v-u is an edge.
+/// Adds the pairs of a primitive at vertex v with a primitive at vertex u, where v-u is an edge.
 void add_near(const Mesh& mesh, int v, int u, MeshPairs& out) {
   const ContactElements& all = mesh.model.elements;
   const TrianglesAround& around = mesh.model.triangles_around;
@@ -113,7 +113,7 @@ MeshPairs find_mesh_pairs(const PairModel& model, int body) {
   return out;
 }
 
-/// The row or column of each primitive of a body in its layout, -1 if it has none; by numbers from the body's first on.
+/// For each primitive of a body its row or column in the SIMD layout, -1 if it has none; indexed from the block's first.
 std::vector<std::int32_t> places_of(const ClusterElements& of, const Block& clusters, const Block& items) {
   std::vector<std::int32_t> at(static_cast<std::size_t>(items.size), -1);
   for (int c = clusters.first; c < clusters.end(); ++c)
@@ -121,7 +121,7 @@ std::vector<std::int32_t> places_of(const ClusterElements& of, const Block& clus
   return at;
 }
 
-/// The columns that each row of a body excludes, sixteen per word.
+/// Sets the columns that the rows of a body exclude: for each row and batch of sixteen columns, a word of bits.
 void leave_out(ClusterLayout& layout, const PairModel& model, int body, bool of_vertices, std::vector<Numbers>& pairs) {
   const BodyElements& all = model.bodies[body];
   ClusterElements &rows = layout.elements[row_kind(of_vertices)], &columns = layout.elements[column_kind(of_vertices)];
@@ -151,7 +151,7 @@ void leave_out(ClusterLayout& layout, const PairModel& model, int body, bool of_
   for (int row = block.first; row < block.end(); ++row) rows.left_out_start[row] += first;
 }
 
-/// Appends a group's pairs in blocks of sixteen, nearest at rest first, so that often measured pairs share blocks.
+/// Appends a group of static pairs in blocks of sixteen, nearest at rest first, so that often measured pairs share blocks.
 void add_group(StaticGroup group, const std::vector<PairStencil>& pairs, const PairModel& model,
                std::vector<StaticGroup>& to) {
   std::vector<std::pair<double, std::size_t>> order;
@@ -167,7 +167,7 @@ void add_group(StaticGroup group, const std::vector<PairStencil>& pairs, const P
   to.push_back(std::move(group));
 }
 
-/// Groups pairs by their clusters.
+/// Sorts static pairs into one group for each two clusters.
 void add_groups(const PairModel& model, bool of_vertices, const std::vector<Numbers>& pairs, std::vector<StaticGroup>& to) {
   struct Placed {
     int first, second;
@@ -199,7 +199,7 @@ void add_groups(const PairModel& model, bool of_vertices, const std::vector<Numb
   }
 }
 
-/// The clusters of a body as pieces for Clearance.
+/// Converts the clusters of a body to pieces for Clearance.
 std::vector<Clearance::Piece> clearance_pieces(const ClusterLayout& layout, const Block& clusters) {
   std::vector<Clearance::Piece> pieces(static_cast<std::size_t>(clusters.size));
   for (int c = clusters.first; c < clusters.end(); ++c) {

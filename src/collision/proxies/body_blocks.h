@@ -1,5 +1,5 @@
-// Gives each body a contiguous block of an array. A removed body leaves a hole for later blocks, and no other body's
-// block moves.
+// Gives each body a contiguous block of an array. No block ever moves: a removed body leaves unused entries, which
+// later blocks may use.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace pliant {
 
-/// Entries `first` to `first` + `size` - 1 of an array.
+/// A block: entries `first` to `first` + `size` - 1 of an array.
 struct Block {
   int first = 0, size = 0;
 
@@ -18,12 +18,12 @@ struct Block {
 
 class BodyBlocks {
  public:
-  /// Gives a body that has no block yet `size` consecutive entries.
+  /// Allocates a block of `size` entries for a body that has none.
   Block take(int body, int size) {
     if (blocks_.size() <= static_cast<std::size_t>(body)) blocks_.resize(static_cast<std::size_t>(body) + 1);
     return blocks_[static_cast<std::size_t>(body)] = {allocator_.allocate(size, body), size};
   }
-  /// Releases a body's block and returns it.
+  /// Frees a body's block and returns it.
   Block release(int body) {
     if (static_cast<std::size_t>(body) >= blocks_.size()) return {};
     const Block had = blocks_[static_cast<std::size_t>(body)];
@@ -31,11 +31,11 @@ class BodyBlocks {
     blocks_[static_cast<std::size_t>(body)] = {};
     return had;
   }
-  /// The block of a body; of size 0 if it has none.
+  /// The block of a body; its size is 0 if the body has none.
   Block operator[](int body) const {
     return static_cast<std::size_t>(body) < blocks_.size() ? blocks_[static_cast<std::size_t>(body)] : Block{};
   }
-  /// One past the last entry in use.
+  /// One past the last entry of the array that is in use.
   std::size_t end() const { return static_cast<std::size_t>(allocator_.end()); }
 
  private:

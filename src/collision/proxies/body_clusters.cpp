@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t vertices_in_a_cluster = 64;
 
-/// Splits vertices [from, to) along their longest extent until each part fits a cluster.
+/// Splits the vertices [from, to) across their longest extent, recursively, until each part fits a cluster.
 void split(const std::vector<Record>& positions, std::vector<int>& vertices, std::size_t from, std::size_t to,
            Clusters& out) {
   const auto place = [&](int v, int axis) {

@@ -8,7 +8,7 @@
 
 namespace pliant {
 
-/// One list of ints for each owner, in compressed rows: owner i has items[start[i]] to items[start[i + 1] - 1].
+/// Several lists of ints in compressed rows: list i consists of items[start[i]] to items[start[i + 1] - 1].
 struct IntLists {
   std::vector<int> start, items;
 
@@ -16,12 +16,12 @@ struct IntLists {
   const int* end(int i) const { return items.data() + start[static_cast<std::size_t>(i) + 1]; }
 };
 
-/// The primitives of surfaces and lines between which contacts are found.
+/// The primitives among which contacts are found.
 struct ContactElements {
   std::vector<Triangle> triangles;
-  std::vector<std::array<int, 2>> edges;  ///< triangle edges and loose edges: a < b, ascending, unique
+  std::vector<std::array<int, 2>> edges;  ///< edges of triangles and loose edges, as vertices a < b; ascending, unique
   std::vector<int> vertices;              ///< vertices of all primitives and loose vertices, ascending, unique
-  int vertex_count = 0;                   ///< total, including vertices without contact
+  int vertex_count = 0;                   ///< number of all vertices, including those without contact
 };
 
 /// Collects primitives: triangles, loose edges (ropes) and loose vertices (free

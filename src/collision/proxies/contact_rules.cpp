@@ -28,14 +28,14 @@ PairMaterial ContactRules::material(int a, int b) const {
           std::sqrt(p.kinetic_friction * q.kinetic_friction), max(p.restitution, q.restitution)};
 }
 
-/// The equivalence class of each body: bodies of a class have the same contact rules.
+/// Sorts bodies into classes with equal contact rules; returns the class of each body.
 std::vector<int> ContactRules::find_classes(std::vector<Class>& classes) const {
   std::vector<int> alone(bodies_.size(), -1);
   for (const auto& [pair, material] : exceptions_)
     for (const int body : {pair.first, pair.second}) alone[static_cast<std::size_t>(body)] = body;
   using Key = std::tuple<std::uint32_t, std::uint32_t, int, int>;
   std::map<Key, int> numbers;
-  const std::pair<const Key, int>* last = nullptr;  // cached, because most bodies equal the previous one
+  const std::pair<const Key, int>* last = nullptr;  // cached, because most bodies have the same rules as the previous one
   std::vector<int> class_of(bodies_.size());
   for (int i = 0; i < bodies(); ++i) {
     const ContactBody& body = bodies_[static_cast<std::size_t>(i)];
@@ -49,7 +49,7 @@ std::vector<int> ContactRules::find_classes(std::vector<Class>& classes) const {
   return class_of;
 }
 
-/// Updates the two thickest bodies of a class by one of its bodies.
+/// Updates the thickest and second thickest body of a class with a body of that class.
 void ContactRules::find_thickest(int body, Class& of) const {
   const auto is_thicker = [&](int than) {
     return than < 0 ||

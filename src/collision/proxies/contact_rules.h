@@ -1,4 +1,4 @@
-// Decides which bodies meet and with which material: by groups and a short list of exceptions, not by a table of pairs.
+// Which bodies meet, and with which material. Groups and a short list of exceptions decide it, not a table of all pairs.
 #pragma once
 
 #include <algorithm>
@@ -14,20 +14,20 @@ namespace pliant {
 /// The contact settings of a body.
 struct ContactBody {
   std::uint32_t groups = 1, mask = ~0u;
-  bool collides = true;       ///< true if it collides with other bodies that have `collides`
-  bool is_collider = false;   ///< also meets bodies that do not collide
+  bool collides = true;       ///< meets other bodies whose `collides` is true
+  bool is_collider = false;   ///< a collider, which also meets bodies whose `collides` is false
   bool is_immovable = false;  ///< static or kinematic: two such bodies never meet
   bool meets_itself = false;
-  float thickness = 0;  ///< thickness; two bodies keep the sum of theirs [m]
+  float thickness = 0;  ///< distance that the body keeps from others; two bodies keep the sum of theirs [m]
   float static_friction = 0, kinetic_friction = 0, restitution = 0;
 };
 
 class ContactRules {
  public:
   void add(const ContactBody& body) { bodies_.push_back(body); }
-  /// Replaces a body, or adds it as the next one.
+  /// Sets the contact settings of a body; `body` may be one past the last, which adds it.
   void set(int body, const ContactBody& by);
-  /// Overrides the combined material of two bodies.
+  /// Replaces the material that the settings of two bodies would combine to.
   void set_material(int a, int b, const PairMaterial& material) { exceptions_[std::minmax(a, b)] = material; }
 
   int bodies() const { return static_cast<int>(bodies_.size()); }
@@ -37,19 +37,19 @@ class ContactRules {
 
   /// The largest thickness of any two bodies that meet [m].
   float largest_thickness() const;
-  /// For each body: true if it meets any other or itself.
+  /// For each body: 1 if it meets any other body or itself.
   std::vector<char> meeting() const;
 
  private:
-  /// Bodies that meet the same others; a body with an exception has a class of its own.
+  /// A class of bodies that meet the same others. A body with an exception has a class of its own.
   struct Class {
-    int thickest = -1, second = -1;  ///< the bodies of largest and second largest thickness; -1: none
+    int thickest = -1, second = -1;  ///< bodies of largest and second largest thickness in the class; -1: none
   };
   std::vector<int> find_classes(std::vector<Class>& classes) const;
   void find_thickest(int body, Class& of) const;
 
   std::vector<ContactBody> bodies_;
-  std::map<std::pair<int, int>, PairMaterial> exceptions_;  ///< overrides by pair of bodies, the lower one first
+  std::map<std::pair<int, int>, PairMaterial> exceptions_;  ///< overrides; key: two bodies, the lower index first
 };
 
 }  // namespace pliant

@@ -1,5 +1,5 @@
-// The inner loops of surface contact in sixteen SIMD lanes, compiled once for each instruction set level (pair_lanes.cpp).
-// All levels give the same bits. The code around the kernels is compiled once.
+// The inner loops of surface contact in sixteen SIMD lanes, compiled once for each instruction set level
+// (pair_lanes.cpp). All levels give the same bits. Code outside the kernels is compiled once.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace pliant {
 
-/// The particles of a model in a substep.
+/// The particles of all bodies in a substep.
 struct PairParticles {
   const Record* positions = nullptr;
   Record* remainders = nullptr;
@@ -21,48 +21,48 @@ struct PairParticles {
 /// distances: two points displaced by spin x (x - centre) are no nearer than before.
 struct ClusterMotion {
   Vec3f mean{};               ///< displacement of the centre [m]
-  Vec3f centre{};             ///< centre at the start [m]
+  Vec3f centre{};             ///< centre at the substep's start [m]
   Vec3f spin{};               ///< rotation vector over the substep [rad]
   float radius = 0;           ///< largest distance of a vertex from the centre [m]
-  float largest = 0;          ///< upper bound of the residual motion: displacement minus mean + spin x (x - centre) [m]
-  Vec3f low[2]{}, high[2]{};  ///< bounding box at the start and at the end [m]
-  float extent = 0;           ///< largest absolute coordinate at the start [m]
-  bool is_bounded = true;     ///< true if all coordinates at the end are finite and below 1e14
+  float largest = 0;          ///< upper bound of the residual motion: displacement minus (mean + spin x (x - centre)) [m]
+  Vec3f low[2]{}, high[2]{};  ///< bounding box at the substep's start [0] and end [1] [m]
+  float extent = 0;           ///< largest absolute coordinate at the substep's start [m]
+  bool is_bounded = true;     ///< true if all coordinates at the substep's end are finite and below 1e14 m
   Vec3f sum{};                ///< sum of the displacements of dynamic vertices [m]
   float movable = 0;          ///< number of dynamic vertices
 };
 
-/// Boxes stored by coordinate, padded to a multiple of sixteen: low x, y, z, high x, y, z.
+/// Boxes stored by coordinate (low x, y, z, high x, y, z), padded to a multiple of sixteen boxes.
 struct BoxRows {
   float* row[6];
 };
 
-/// The corner indices of primitives of one kind: vertices have one row, edges two, triangles three.
+/// Vertex indices of the primitives of one kind: one array for vertices, two for edges, three for triangles.
 struct ElementCorners {
   const std::int32_t* row[3];
   int rows;
 };
 
-/// Excluded columns within a batch of sixteen.
+/// The columns that a row excludes within a batch of sixteen columns.
 struct LeftOut {
   std::int32_t batch;  ///< columns 16 batch to 16 batch + 15
   std::uint32_t bits;
 };
 
-/// Sixteen rows and the batches of columns to test them against, minus the columns that a row excludes.
+/// A comparison of sixteen boxes (rows) with batches of other boxes (columns), without those that a row excludes.
 struct BoxComparison {
   BoxRows rows;
   int first_row;     ///< index of the first row, a multiple of sixteen
-  float reach;       ///< margin by which rows are grown [m]
-  const float* far;  ///< rows that do not overlap this box are skipped: low x, y, z, high x, y, z
+  float reach;       ///< distance by which the rows' boxes are grown [m]
+  const float* far;  ///< box as low x, y, z, high x, y, z; rows that do not overlap it are skipped
   BoxRows columns;
-  const std::int32_t* batch;  ///< column batches, ascending
+  const std::int32_t* batch;  ///< indices of the column batches to test, ascending
   int batches;
-  const LeftOut* left_out;             ///< ascending by batch; each row ends with a sentinel beyond all batches
-  const std::int32_t* left_out_start;  ///< of each row
+  const LeftOut* left_out;             ///< sorted by batch; the list of each row ends with a sentinel above all batches
+  const std::int32_t* left_out_start;  ///< index of each row's first entry in `left_out`
 };
 
-/// A row and a column with overlapping boxes.
+/// A row and a column whose boxes overlap.
 struct BoxHit {
   std::int32_t row, column;
 };
@@ -72,16 +72,16 @@ struct PlaceRows {
   float* row[3];
 };
 
-/// Sixteen vertices and the batches of other vertices to test against, minus those that a vertex excludes.
+/// A comparison of sixteen vertices (rows) with batches of other vertices (columns), without those that a row excludes.
 struct VertexComparison {
   PlaceRows rows;
   int first_row;     ///< index of the first row, a multiple of sixteen
-  const float* far;  ///< rows outside this box are skipped: low x, y, z, high x, y, z
+  const float* far;  ///< box as low x, y, z, high x, y, z; rows outside it are skipped
   PlaceRows columns;
-  const std::int32_t* batch;  ///< column batches, ascending
+  const std::int32_t* batch;  ///< indices of the column batches to test, ascending
   int batches;
-  const LeftOut* left_out;             ///< ascending by batch; each row ends with a sentinel beyond all batches
-  const std::int32_t* left_out_start;  ///< of each row
+  const LeftOut* left_out;             ///< sorted by batch; the list of each row ends with a sentinel above all batches
+  const std::int32_t* left_out_start;  ///< index of each row's first entry in `left_out`
 };
 
 /// The motion of sixteen pairs in a substep.
@@ -93,7 +93,7 @@ struct PairPaths {
       64) float apart[16];  ///< the largest separation, along any coordinate axis, of the swept boxes of the two sides [m]
 };
 
-/// The clusters of a pair's two sides, exchanged in the lanes of `swapped`, and the drift of the observer.
+/// The clusters of both sides of a pair, exchanged in lanes of `swapped`, and the displacement of the reference frame.
 struct PairMotion {
   const ClusterMotion* first;
   const ClusterMotion* second;
@@ -102,23 +102,23 @@ struct PairMotion {
 };
 
 struct PairKernels {
-  /// `vertices` are those of the cluster and of primitives that begin in it, padded to a multiple of sixteen by repetition.
+  /// Measures a cluster; `vertices`: its own and its primitives' corners, padded by repetition to a multiple of sixteen.
   void (*measure_cluster)(const std::int32_t* vertices, int count, const PairParticles& particles, ClusterMotion& out);
-  /// Swept boxes of primitives `first` to `last` - 1, both multiples of sixteen, in a frame that moves by `drift`.
+  /// Swept boxes of primitives `first` to `last` - 1, both multiples of sixteen, relative to a frame moving by `drift`.
   void (*fit_boxes)(const ElementCorners& elements, int first, int last, const PairParticles& particles, const Vec3f& drift,
                     const BoxRows& out);
-  /// Finds overlapping rows and columns, ascending, and returns their number; `hits` has room for all.
+  /// Writes all pairs of overlapping rows and columns to `hits`, which has room for all, ascending. Returns their number.
   int (*find_overlaps)(const BoxComparison& boxes, BoxHit* hits);
-  /// Writes to `near` the ascending indices i with reach[i] - gone <= within; it has room for all. Lowers `least` to the
-  /// smallest of the others. Returns the number written.
+  /// Writes to `near` the ascending indices i with reach[i] - gone <= within; `near` has room for all. Lowers `least`
+  /// to the smallest reach of all other indices. Returns the number of indices written.
   int (*collect)(const float* reach, int count, float gone, float within, std::int32_t* near, float& least);
-  /// Gathers the positions of vertices `first` to `last` - 1, both multiples of sixteen.
+  /// Gathers the positions of vertices number `first` to `last` - 1, both multiples of sixteen.
   void (*gather_places)(const std::int32_t* vertices, int first, int last, const Record* positions, const PlaceRows& out);
-  /// The largest squared length of lines `first` to `last` - 1, both multiples of sixteen.
+  /// Returns the largest squared length of lines `first` to `last` - 1, both multiples of sixteen [m^2].
   float (*longest_squared)(const ElementCorners& lines, int first, int last, const Record* positions);
-  /// The least squared distance of a row and a column, or `beyond` if all are farther [m^2].
+  /// Returns the least squared distance of a row and a column, or `beyond` if all are farther apart [m^2].
   float (*least_squared)(const VertexComparison& vertices, float beyond);
-  /// The least `at_least` of all sixteen pairs, at most one rounding lower.
+  /// Returns the least of sixteen lower bounds of distances (PairBatch::at_least), at most one rounding lower [m].
   float (*least_distance)(const PairStencils& pairs, int first_side, const Record* positions);
   void (*distances)(const PairStencils& pairs, int first_side, const Record* positions, PairBatch& out);
   void (*paths)(const PairStencils& pairs, int first_side, const PairParticles& particles, const PairMotion& motion,

@@ -9,16 +9,17 @@ inline namespace PLIANT_ISA {
 namespace {
 
 /// Upper bound of the error of a float distance, over the largest coordinate relative to the pair's first particle.
-/// Worst cases found by search: 6e-4 for edges that cross at 1e-4 rad, 1e-4 for triangles, 1.5e-4 at random.
+/// Largest errors found by search: 6e-4 for edges that cross at 1e-4 rad, 1e-4 for triangles, 1.5e-4 for random pairs.
 constexpr float error_over_size = 1e-3f;
-/// Positions beyond it take no part in contact [m].
+/// Particles farther from the origin along an axis have no contact [m].
 constexpr float largest_place = 1e14f;
 
 PLIANT_HD Vec3<Wide> places(const Record* records, const std::int32_t* index) {
   return from_registers(load_indexed(records, index)).position;
 }
 
-/// Reduces sixteen lanes to four: lane i joins lanes i + 4 k by `join`, folding the upper half onto the lower.
+/// Reduces sixteen lanes to four with the operation `join`: lane i joins lanes i + 4 k, folding the upper half onto the
+/// lower.
 template <class Join>
 PLIANT_HD Quad to_four(const Wide& a, Join join) {
 #if PLIANT_PART_WIDTH == 16
@@ -38,7 +39,7 @@ PLIANT_HD float least_lane(const Wide& a) {
 
 // ---------------------------------------------------------------- distances
 
-/// Positions relative to the first particle.
+/// Positions of a pair's particles relative to the first one.
 struct Corners {
   Vec3<Wide> x[4];
 };
@@ -85,7 +86,7 @@ void distances(const PairStencils& pairs, int first_side, const Record* position
   store_wide(out.normal[2], apart.z * scale);
 }
 
-/// Squared distance from the origin to the segment from `a` along `along`; `over_length` is 1 / |along|^2.
+/// Squared distance from the origin to the segment from `a` to `a` + `along`; `over_length` is 1 / |along|^2.
 PLIANT_HD Wide squared_to_segment(const Vec3<Wide>& a, const Vec3<Wide>& along, const Wide& over_length) {
   const Wide share = min(max(-dot(a, along) * over_length, Wide(0.f)), Wide(1.f));
   const Vec3<Wide> point = a + along * share;
@@ -98,8 +99,8 @@ PLIANT_HD Wide squared_to_plane(const Vec3<Wide>& point, const Vec3<Wide>& norma
   return along * along * over(dot(normal, normal));
 }
 
-/// Squared distance from the origin to a triangle: to its sides, or to its plane if the foot is inside. A foot wrongly
-/// classified as inside still gives a lower bound.
+/// Squared distance from the origin to a triangle: to its plane if the origin's projection is inside, else to its
+/// sides. A projection wrongly classified as inside still gives a lower bound.
 PLIANT_HD Wide least_squared_to_triangle(const Vec3<Wide>& a, const Vec3<Wide>& b, const Vec3<Wide>& c) {
   const Vec3<Wide> ab = b - a, bc = c - b, ca = a - c, normal = cross(ab, bc);
   const Wide sides = min(squared_to_segment(a, ab, over(dot(ab, ab))),
@@ -111,7 +112,7 @@ PLIANT_HD Wide least_squared_to_triangle(const Vec3<Wide>& a, const Vec3<Wide>& 
 /// Lines at a smaller angle count as parallel [rad].
 constexpr float least_angle = 5e-4f;
 
-/// Squared distance of the segments 0-u and a-b: from an end to the other segment, or between the lines if closest within.
+/// Squared distance of the segments 0-u and a-b: between interior points if those are closest, else from an end.
 PLIANT_HD Wide least_squared_of_segments(const Vec3<Wide>& u, const Vec3<Wide>& a, const Vec3<Wide>& b) {
   const Vec3<Wide> v = b - a, normal = cross(u, v);
   const Wide uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), ua = dot(u, a), va = dot(v, a), over_u = over(uu),
@@ -146,7 +147,7 @@ PLIANT_HD Vec3<Wide> everywhere(const Vec3f& a) { return {Wide(a.x), Wide(a.y), 
 
 /// Sums over positions x and displacements d of a cluster, both relative to one of its vertices.
 struct Moments {
-  Vec3<Wide> x, d, xx, xy, turning;  ///< xx: squares; xy: products yz, zx, xy; turning: x cross d
+  Vec3<Wide> x, d, xx, xy, turning;  ///< xx: squares; xy: products yz, zx, xy; turning: cross products of x and d
 };
 
 PLIANT_HD void add(Moments& to, const Vec3<Wide>& x, const Vec3<Wide>& d) {
@@ -157,8 +158,8 @@ PLIANT_HD void add(Moments& to, const Vec3<Wide>& x, const Vec3<Wide>& d) {
   to.turning += cross(x, d);
 }
 
-/// The least-squares rotation of the displacements: inertia spin = angular momentum.
-/// It only affects how tight bounds are; if it is undetermined, it is small.
+/// The least-squares rotation of a cluster's displacements: the solution of inertia * spin = angular momentum. It
+/// affects only how tight the bounds are. If the rotation is undetermined, the result is small.
 PLIANT_HD Vec3f spin_of(const Moments& moments, float count, const Vec3f& x, const Vec3f& d) {
   const Vec3f squares = sum_lanes(moments.xx) - Vec3f{x.x * x.x, x.y * x.y, x.z * x.z} * count,
               products = sum_lanes(moments.xy) - Vec3f{x.y * x.z, x.z * x.x, x.x * x.y} * count,
@@ -192,7 +193,7 @@ void measure_cluster(const std::int32_t* vertices, int count, const PairParticle
     const WideMask free = at.w > zero;
     sum += Vec3<Wide>{select(free, move.x, zero), select(free, move.y, zero), select(free, move.z, zero)};
     movable += select(free, one, zero);
-    // NaN fails this comparison.
+    // NaN fails this comparison, so it counts as too far.
     beyond = select(abs(end.x) < Wide(largest_place), beyond, one);
     beyond = select(abs(end.y) < Wide(largest_place), beyond, one);
     beyond = select(abs(end.z) < Wide(largest_place), beyond, one);
@@ -224,12 +225,12 @@ void measure_cluster(const std::int32_t* vertices, int count, const PairParticle
     plain = max(dot(move, move), plain);
   }
   out.radius = pliant::sqrt(largest_lane(distance)) * bound_slack;
-  // Rounding error, relative to the displacement that was subtracted.
+  // The second term bounds the rounding error of the displacement that was subtracted.
   out.largest = pliant::sqrt(largest_lane(squared)) * bound_slack +
                 2e-6f * (pliant::sqrt(largest_lane(plain)) + length(out.spin) * out.radius) + 1e-12f;
 }
 
-/// A mask of the lanes whose bits are set.
+/// Converts bits to a mask: lane i is true if bit i is set.
 PLIANT_HD WideMask lanes_of(unsigned bits) {
   constexpr std::int32_t bit_of_lane[wide_width] = {1,      1 << 1, 1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
                                                     1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
@@ -241,7 +242,7 @@ PLIANT_HD WideMask lanes_of(unsigned bits) {
   return mask;
 }
 
-/// The motion of a cluster, broadcast to all lanes.
+/// The motions of a pair's clusters, broadcast to all lanes.
 struct Motions {
   Vec3<Wide> mean, centre, spin;
 };
@@ -255,7 +256,7 @@ PLIANT_HD Motions select(const WideMask& mask, const Motions& a, const Motions& 
   return {select(mask, a.mean, b.mean), select(mask, a.centre, b.centre), select(mask, a.spin, b.spin)};
 }
 
-/// Upper bound of a vertex's residual motion relative to its cluster.
+/// Upper bound of a vertex's residual motion, relative to the rigid motion of its cluster [m].
 PLIANT_HD Wide departure_of(const Vec3<Wide>& start, const Vec3<Wide>& end, const Motions& of) {
   const Vec3<Wide> move = (end - start) - of.mean, turn = cross(of.spin, start - of.centre);
   return length(move - turn) * Wide(bound_slack) + Wide(2e-6f) * (length(move) + length(turn)) + Wide(1e-12f);
@@ -306,7 +307,7 @@ void fit_boxes(const ElementCorners& elements, int first, int last, const PairPa
   }
 }
 
-/// Bit i: box i of sixteen overlaps.
+/// Bit i is set if `box` overlaps box number at + i, for i < 16.
 PLIANT_HD unsigned overlaps(const float* box, const BoxRows& boxes, int at) {
 #if PLIANT_X86_BITS == 512
   const auto from = [&](int row) { return _mm512_loadu_ps(boxes.row[row] + at); };
@@ -361,7 +362,7 @@ int find_overlaps(const BoxComparison& of, BoxHit* hits) {
 
 // ---------------------------------------------------------------- reaches
 
-/// Bit i: lane i of the mask is set.
+/// Converts a mask to bits: bit i is set if lane i is true.
 PLIANT_HD unsigned bits_of(const WideMask& mask) {
 #if PLIANT_X86_BITS == 512
   return _mm512_movepi32_mask((__m512i)mask.part[0]);

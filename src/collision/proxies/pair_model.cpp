@@ -1,4 +1,4 @@
-// Builds the contact model: which surfaces meet, and their contact parameters.
+// Builds the contact model: which surfaces can meet, and their contact parameters.
 #include "collision/proxies/pair_model.h"
 
 #include <algorithm>
@@ -12,13 +12,14 @@ namespace pliant {
 
 namespace {
 
-/// Beyond the largest thickness, pairs are listed within this share of the median edge, so that lists last for a while.
+/// Pairs are listed up to the largest thickness plus this share of the median edge, so that lists stay valid for a while.
 constexpr float skin_over_edge = 0.5f;
 
-/// Of a cluster without edges, whose size says nothing about rounding.
+/// Rounding limit of a cluster without edges: its size does not say which rounding is too coarse.
 constexpr float no_limit = 1e30f;
 
-/// The search radius is kept while the median edge is within this factor of the one it was made for.
+/// The search radius is kept while the median edge differs by less than this factor from the one that the radius came
+/// from.
 constexpr float radius_slack = 1.5f;
 
 bool is_immovable(const CompiledObject& object) {
@@ -27,10 +28,10 @@ bool is_immovable(const CompiledObject& object) {
   return true;
 }
 
-/// The elements of one object, in the numbers of its own particles. Targets of attachments are left out.
+/// The primitives of one object, with vertices numbered from its first particle. Targets of attachments are left out.
 ContactElements elements_of(const CompiledObject& object) {
   std::vector<Triangle> triangles(object.surface.triangles.begin(), object.surface.triangles.end());
-  // Distance constraints are lines where there are no triangles: ropes.
+  // Objects without triangles (ropes) have their distance constraints as edges.
   const std::vector<std::array<int, 2>> lines = triangles.empty() ? object.lines : std::vector<std::array<int, 2>>{};
   std::vector<int> all;
   for (int i = 0; i < object.particles; ++i)
@@ -57,7 +58,8 @@ ContactBody body_of(const Model& model, int number, const std::vector<char>& has
   return body;
 }
 
-/// Applies the overrides of a pair. A static friction given alone also limits the kinetic one.
+/// Applies the scene's override of a pair's material. If only the static friction is given, the kinetic one is at most
+/// that.
 void apply(const PairProperties& said, PairMaterial& material) {
   material.thickness = said.thickness.value_or(material.thickness);
   material.static_friction = said.static_friction.value_or(material.static_friction);
@@ -65,7 +67,7 @@ void apply(const PairProperties& said, PairMaterial& material) {
   material.restitution = said.restitution.value_or(material.restitution);
 }
 
-/// Overrides the materials of pairs that the scene names.
+/// Applies the overrides of pairs that the scene names.
 void set_exceptions(const Model& model, ContactRules& rules) {
   std::map<std::string, std::vector<int>> named;
   for (int o = 0; o < rules.bodies(); ++o) named[model.objects[o].name].push_back(o);
@@ -78,7 +80,8 @@ void set_exceptions(const Model& model, ContactRules& rules) {
       }
 }
 
-/// A new table if the scene names pairs, whose exceptions belong to names.
+/// Updates the changed bodies. If the scene names pairs, all rules are rebuilt, because overrides refer to names of
+/// objects.
 void update_rules(const Model& model, const std::vector<int>& changed, PairModel& out) {
   ContactRules& rules = out.rules;
   if (!model.pairs.empty()) rules = {};
@@ -100,7 +103,7 @@ float median_edge(const std::vector<std::array<int, 2>>& edges, const std::vecto
   return *middle;
 }
 
-/// The median of the bodies' median edges, each as often as the body has edges.
+/// The median of the bodies' median edge lengths, each weighted by the body's number of edges [m].
 float median_edge(const PairModel& model) {
   std::vector<std::pair<float, int>> medians;
   std::int64_t count = 0;
@@ -118,7 +121,7 @@ float median_edge(const PairModel& model) {
   return 0;
 }
 
-/// Returns true if the radius changed. It only decides how much is searched at once.
+/// Updates the search radius and returns true if it changed. The radius affects only speed.
 bool update_radius(PairModel& model) {
   const float thickness = model.rules.largest_thickness(), edge = median_edge(model),
               before = (model.radius - model.largest_thickness) / skin_over_edge;
@@ -170,7 +173,7 @@ void remove_body(int body, PairModel& model) {
   model.bodies[body] = {};
 }
 
-/// Particles, and for a body that meets any, elements and clusters.
+/// Adds a body's particles and, if it meets any body, its primitives and clusters.
 void add_body(const Model& model, int body, bool meets, PairModel& out) {
   const CompiledObject& object = model.objects[body];
   BodyElements& of = out.bodies[body];
@@ -205,7 +208,7 @@ void add_body(const Model& model, int body, bool meets, PairModel& out) {
   out.triangles_around.add(out.elements, of.triangles, of.vertices);
 }
 
-/// Adds the free particles that can meet others: of bodies with self-collision, or of all if there are several such bodies.
+/// Lists free particles that can meet others: of bodies with self-collision, or of all bodies if there are several.
 void find_free_points(const Model& model, const std::vector<char>& meets_some, PairModel& out) {
   out.free_points.clear();
   std::vector<int> bodies;
@@ -272,7 +275,7 @@ std::unique_ptr<PairModel> make_pair_model(const Model& model, const std::vector
 
 namespace {
 
-/// Gives each body the entries whose body is its own; they stand side by side.
+/// Sets each body's block of one array, in which the entries of a body are contiguous.
 template <class BodyOf>
 void index_entries(std::size_t count, BodyOf body_of, BodyBlocks& blocks, Block BodyElements::*block, PairModel& model) {
   std::size_t first = 0;

@@ -9,20 +9,20 @@
 
 namespace pliant {
 
-/// Four particles: the first `first_side` form one primitive, the rest the other.
+/// Four particles: the first `first_side` are the corners of one primitive, the rest those of the other.
 struct PairStencil {
   std::array<std::int32_t, 4> vertex{};
   int first_side = 1;  ///< 1: vertex-triangle; 2: edge-edge
 };
 
-/// The closest points of two primitives.
+/// The closest points of two primitives and their distance.
 struct PairDistance {
-  std::array<double, 4> weight{};  ///< of each particle: sum 1 on the first side, -1 on the other
-  Vec3d normal{};                  ///< unit, from the second to the first; zero if they touch
-  double distance = 0;             ///< [m]
+  std::array<double, 4> weight{};  ///< weights of the particles: they sum to 1 on the first side and to -1 on the other
+  Vec3d normal{};                  ///< unit vector from the second primitive to the first; zero if they touch
+  double distance = 0;             ///< distance of the closest points [m]
 };
 
-/// Computed in double from float positions; either primitive may be degenerate.
+/// Computes the distance in double precision from float positions; either primitive may be degenerate.
 PairDistance pair_distance(const PairStencil& pair, const Record* positions);
 
 /// Sixteen pairs of one kind, stored by corner; unused lanes hold any valid particles.

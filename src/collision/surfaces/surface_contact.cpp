@@ -6,10 +6,10 @@ namespace pliant {
 
 namespace {
 
-/// Share of the thickness that contacts must keep where a kinematic collider moves by up to half a thickness a substep.
+/// Share of the thickness that contacts must keep while a kinematic collider moves by up to half a thickness in a substep.
 constexpr float least_share_kept = 0.9f;
 
-/// True if a kinematic side moves by more than the permitted loss of thickness.
+/// True if a kinematic side of a contact moves by more than the loss of thickness that least_share_kept permits.
 bool is_driven(const Contact& contact, const PairParticles& particles) {
   float way = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -49,7 +49,7 @@ PairCounts SurfaceContact::counts() const {
 }
 
 void SurfaceContact::begin_frame(const Record* positions, bool rebuild) {
-  // Pairs that the filter kept apart stay apart. Without it, crossed pairs become exempt, as in a restored State.
+  // Pairs that the filter kept from crossing need no new search. Without the filter, crossed pairs become exempt.
   const bool kept_apart = model_.filter && filter_.unresolvable_count() == 0;
   const bool untangles = untangler_ && untangler_->is_busy();
   filter_.forget_counts();
@@ -82,14 +82,15 @@ void SurfaceContact::detect(Executor& executor, const PairParticles& particles) 
   if (untangler_)
     untangler_->push(model_.untangling_speed * particles.h, particles.h, particles.displacements, particles.remainders);
   is_bounded_ = lists_.measure(executor, particles);
-  if (!is_bounded_) return;  // the end of the substep reports it
+  if (!is_bounded_) return;  // the end of the substep reports the position
   lists_.update(executor, particles);
   static_contacts_ = detector_.detect(
       executor, lists_.neighbourhood(), particles, [&](const PairStencil& pair) { return is_exempt(pair); }, contacts_);
   points_.detect(executor, particles, contacts_);
 }
 
-/// Counts contacts farther away too: a vertex whose step the filter truncates for one of them cannot move out of the way.
+/// Contacts of other bodies count too: a vertex whose step the filter truncates for one of them cannot move out of the
+/// way.
 bool SurfaceContact::is_overrun(const PairParticles& particles) const {
   const auto lacks = [&](const Contact& contact) {
     return overlap_of(contact, particles.displacements) > (1 - least_share_kept) * contact.thickness;
@@ -105,7 +106,7 @@ void SurfaceContact::measure_overlaps(const PairParticles& particles) {
     deepest_ = std::max(deepest_, static_cast<double>(overlap_of(contact, particles.displacements)));
 }
 
-/// The gravity of this frame that a contact's relative velocity does not include yet.
+/// Gravity of this frame that the relative velocity at a contact does not include yet [m/s].
 Vec3f SurfaceContact::missing_of(const Contact& contact, const Record* positions,
                                  FunctionRef<Vec3f(int body)> gravity) const {
   Vec3f missing{};

@@ -1,12 +1,12 @@
-// Contact of surfaces with themselves, each other and meshes: its stages in order, once for all objects.
+// Contact of surfaces with themselves, with each other and with mesh colliders. It calls its stages in this order:
 //
 //   near      which pairs of primitives are near one another         (near/near_lists.h)
 //   narrow    which of them become contacts in this substep          (narrow/contact_detector.h)
 //   filter    truncates steps so that no pair crosses                (filter/step_filter.h)
 //   untangle  initially intersecting pairs: exempt, and moved apart  (untangle/)
 //
-// A substep depends on positions and displacements alone. Lists and
-// bounds only save work, so a restored State gives the same bits.
+// A substep's result depends on positions and displacements alone. Lists and bounds only save work, so a restored State
+// gives the same bits.
 #pragma once
 
 #include <map>
@@ -23,54 +23,54 @@
 
 namespace pliant {
 
-/// Statistics for the Report.
+/// Statistics of a frame for the Report.
 struct PairCounts {
   std::int64_t candidates = 0, contacts = 0, truncated = 0, unresolvable = 0, intersecting = 0, rebuilds = 0, inside = 0;
-  double deepest = 0;  ///< remaining penetration of contacts in the last substep [m]
+  double deepest = 0;  ///< largest remaining penetration of a contact in the last substep [m]
 };
 
-/// Contact among surfaces: detection, filter and untangling in one order. Over thirty members, since each stage of a substep and
-/// each count of the Report has its function here; the work is in the parts that it owns.
+/// Contact among surfaces. Over thirty members, because each stage of a substep and each count of the Report has its
+/// function here; the parts that it owns do the work.
 class SurfaceContact {
  public:
   /// `kernels` must be of an instruction set level that this machine runs; all give the same bits.
   explicit SurfaceContact(const PairModel& model, const PairKernels& kernels = pair_kernels_generic());
 
-  /// Call it between frames after update_pair_model, unless initial intersections are moved apart. All that is known of other
-  /// bodies is kept.
+  /// Applies the changes of update_pair_model between frames; not with untangling, which needs a new SurfaceContact.
+  /// What was found about other bodies is kept.
   void change(const PairChanges& changes);
 
-  /// Call at a frame's start: resets counts and updates the initially intersecting pairs. `rebuild` tests all pairs; needed
-  /// at the first frame and after a restored State.
+  /// Call it at a frame's start: resets counts and updates the initially intersecting pairs. If `rebuild`, all pairs
+  /// are tested, as needed in the first frame and after a State was restored.
   void begin_frame(const Record* positions, bool rebuild);
 
-  /// Finds the contacts of the substep from predicted displacements.
+  /// Finds the contacts of the substep at the predicted displacements.
   void detect(Executor& executor, const PairParticles& particles);
-  /// True if a kinematic collider moves into vertices that contacts have not moved out of its way yet, so that the filter
-  /// may fail. Then contacts should be projected again, which propagates the push.
+  /// True if a kinematic collider moves into vertices that contacts have not yet moved out of its way, so that the
+  /// filter may fail. Then project the contacts again, which propagates the push.
   bool is_overrun(const PairParticles& particles) const;
-  /// Truncates displacements so that nothing crosses.
+  /// Truncates displacements so that no surface crosses another.
   void filter(Executor& executor, const PairParticles& particles);
-  /// Call after a frame's last substep: measures the remaining penetration of contacts.
+  /// Measures the remaining penetration of contacts; call it after a frame's last substep.
   void measure_overlaps(const PairParticles& particles);
-  /// True if any contact is an impact; valid after the filter.
+  /// True if a contact of this substep is an impact (is_impact); valid after the filter.
   bool has_impacts() const { return has_impacts_; }
   /// Removes the remaining approach speed of an impact after a substep, and returns it [m/s].
   float end_impact(const Contact& contact, const Record* positions, Record* velocities,
                    FunctionRef<Vec3f(int body)> gravity) const;
-  /// Call after end_impact: applies restitution to one of contacts(). `gravity` is the gravity of the frame not yet
-  /// included in a body's velocities [m/s]. Approaches slower than `slow` count as rest [m/s].
+  /// Applies restitution to one of contacts(); call it after end_impact. `gravity`: the gravity of the frame that a
+  /// body's velocities do not include yet [m/s]. Approaches slower than `slow` count as rest [m/s].
   void respond(const Contact& contact, const Record* positions, Record* velocities, float slow,
                FunctionRef<Vec3f(int body)> gravity) const;
-  /// Call after respond: limits the speed of surfaces that are being untangled.
+  /// Limits the speed of surfaces that are being untangled; call it after respond.
   void limit_untangling(Record* velocities, FunctionRef<Vec3f(int body)> gravity) const;
 
-  /// True if initial intersections are moved apart in this frame; contacts must then be found before the projection.
+  /// True if surfaces are moved apart in this frame; contacts must then be found before constraints are projected.
   bool untangles() const { return untangler_ && untangler_->limits_speeds(); }
 
-  /// True if untangling ignores this intersection: it separates no part, or moving would create more intersections.
+  /// True if untangling leaves this intersection: it cuts no piece off, or moving would create more intersections.
   bool gives_up(const Intersection& found) const { return untangler_ && !untangler_->leads_apart(found); }
-  /// True if untangling was active in the previous frame without reducing the intersections of two bodies.
+  /// True if untangling was active in the previous frame and did not reduce the number of intersections of two bodies.
   bool stalls(std::pair<int, int> bodies) const { return untangler_ && intersections_.are_no_fewer(bodies); }
 
   PairCounts counts() const;
@@ -78,7 +78,7 @@ class SurfaceContact {
   /// The number of contacts of static neighbour pairs, which come first in contacts().
   std::size_t static_contacts() const { return static_contacts_; }
   std::vector<Contact>& contacts() { return contacts_; }
-  /// Intersecting edges and triangles, which are exempt until they are apart.
+  /// Intersecting edges and triangles. Contact and filter ignore their pairs until they no longer intersect.
   const std::vector<Intersection>& intersecting() const { return intersections_.found(); }
   const Triangle& triangle(int number) const { return model_.elements.triangles[number]; }
   /// Bodies that are partly too far from the origin for contact (is_too_far), ascending.

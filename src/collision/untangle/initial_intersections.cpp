@@ -9,7 +9,7 @@ namespace pliant {
 
 namespace {
 
-/// The box around a body's particles.
+/// Returns the bounding box of a body's particles.
 BoxBounds box_of(const Block& vertices, const Record* positions) {
   const auto at = [&](int v) { return Vec3f{positions[v].x, positions[v].y, positions[v].z}; };
   BoxBounds box{at(vertices.first), at(vertices.first)};
@@ -17,10 +17,10 @@ BoxBounds box_of(const Block& vertices, const Record* positions) {
   return box;
 }
 
-/// Some of a model's triangles as a mesh of their own.
+/// A selection of a model's triangles as a mesh of its own.
 struct Extract {
-  std::vector<int> numbers, vertices;  ///< of the model; ascending
-  std::vector<Triangle> triangles;     ///< in the indices of `vertices`
+  std::vector<int> numbers, vertices;  ///< indices in the model of the triangles and vertices, ascending
+  std::vector<Triangle> triangles;     ///< triangles as indices into `vertices`
 
   void add(int number, const Triangle& t) {
     numbers.push_back(number);
@@ -35,7 +35,7 @@ struct Extract {
   }
 };
 
-/// The triangles of a body that are in a box.
+/// Adds the triangles of a body that overlap a box.
 void add_triangles_in(const BoxBounds& box, const PairModel& model, const Block& triangles, const Record* positions,
                       Extract& out) {
   for (int number = triangles.first; number < triangles.end(); ++number) {
@@ -46,7 +46,7 @@ void add_triangles_in(const BoxBounds& box, const PairModel& model, const Block&
   }
 }
 
-/// All triangles of a body, and those of others that it may meet within its box.
+/// Selects all triangles of a body, and those of bodies that it may meet that overlap its bounding box.
 Extract around_body(const PairModel& model, int body, const Record* positions) {
   const BodyElements& own = model.bodies[body];
   Extract out;
@@ -115,7 +115,7 @@ void InitialIntersections::find_of_new(const Record* positions) {
   keep(std::move(found));
 }
 
-/// Those between bodies that meet.
+/// Keeps the intersections between bodies that meet, counts them and exempts their pairs.
 void InitialIntersections::keep(std::vector<Intersection> found) {
   new_bodies_.clear();
   const auto bodies_of = [&](const Intersection& one) {
@@ -141,7 +141,7 @@ bool InitialIntersections::are_no_fewer(std::pair<int, int> bodies) const {
   return before != counts_before_.end() && now != counts_.end() && now->second >= before->second;
 }
 
-/// Exempts all stencils formed by the edge and the triangle.
+/// Exempts the pairs of primitives that an intersecting edge and triangle form with each other and their neighbours.
 void InitialIntersections::exempt(const Intersection& found) {
   const TrianglesAround& triangles_at = model_.triangles_around;
   const auto exempt_corner = [&](int vertex, const Triangle& t) { exempt_.push_back({vertex, t[0], t[1], t[2], 1}); };
@@ -154,7 +154,7 @@ void InitialIntersections::exempt(const Intersection& found) {
     const auto &e = std::min(crossing, side), &f = std::max(crossing, side);
     exempt_.push_back({e[0], e[1], f[0], f[1], 2});
   }
-  // Pairs of the triangle's corners with the triangles at the edge.
+  // Pairs of the triangle's corners with the triangles that contain the edge.
   for (const int* other = triangles_at.begin(found.a); other != triangles_at.end(found.a); ++other) {
     const Triangle& o = model_.elements.triangles[*other];
     if (o[0] != found.b && o[1] != found.b && o[2] != found.b) continue;

@@ -1,5 +1,5 @@
-// Intersecting edges and triangles at a frame's start.
-// Contact and filter ignore them until they are apart.
+// Finds the edges and triangles that intersect at a frame's start. Contact and filter ignore them until they no longer
+// do.
 #pragma once
 
 #include <array>
@@ -19,17 +19,17 @@ class InitialIntersections {
  public:
   explicit InitialIntersections(const PairModel& model) : model_(model) {}
 
-  /// Call it after bodies came or went.
+  /// Updates the bodies; call it after bodies were added or removed.
   void change(const std::vector<int>& removed, const std::vector<int>& added);
 
-  /// Finds all intersections between bodies that meet. `forget`: the positions do not continue those of the previous call.
+  /// Finds all intersections between bodies that meet. `forget`: the positions do not continue those of the last call.
   void find(const Record* positions, bool forget);
-  /// Finds only those of bodies that are new since the last call of either. Call it if no others intersect.
+  /// Finds only the intersections of bodies added since the last search; call it if no other bodies intersect.
   void find_of_new(const Record* positions);
   const std::vector<Intersection>& found() const { return found_; }
-  /// True if two bodies, the lower one first, had intersections at the previous call, and no more than now.
+  /// True if two bodies (lower index first) had intersections at the previous search, and have at least as many now.
   bool are_no_fewer(std::pair<int, int> bodies) const;
-  /// True if a pair belongs to an intersecting edge and triangle.
+  /// True if a pair of primitives is exempt, because it belongs to an intersecting edge and triangle.
   bool hold(const PairStencil& pair) const;
 
  private:
@@ -37,12 +37,12 @@ class InitialIntersections {
   void exempt(const Intersection& found);
 
   const PairModel& model_;
-  std::unique_ptr<IntersectionFinder> finder_;  ///< of all triangles in use; null: not made since bodies changed
-  std::vector<int> triangles_;                  ///< their numbers
-  std::vector<int> new_bodies_;                 ///< ascending
+  std::unique_ptr<IntersectionFinder> finder_;  ///< search over all triangles in use; null after bodies changed
+  std::vector<int> triangles_;                  ///< indices in the model of the triangles that finder_ searches
+  std::vector<int> new_bodies_;                 ///< bodies added since the last search, ascending
   std::vector<Intersection> found_;
-  std::map<std::pair<int, int>, std::size_t> counts_, counts_before_;  ///< by bodies, the lower one first
-  std::vector<std::array<std::int32_t, 5>> exempt_;  ///< stencils, with the size of their first side; ascending
+  std::map<std::pair<int, int>, std::size_t> counts_, counts_before_;  ///< by two bodies, the lower index first
+  std::vector<std::array<std::int32_t, 5>> exempt_;  ///< exempt pairs: four vertices, size of the first side; ascending
 };
 
 }  // namespace pliant

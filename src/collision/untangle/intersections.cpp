@@ -1,4 +1,4 @@
-// Queries a triangle BVH with each edge's box; signs come from geometry/exact.
+// Finds intersections: a BVH of triangles gives those near each edge's box, geometry/exact.h the exact signs.
 #include "collision/untangle/intersections.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Exact intersections of surfaces with themselves and each other: the audit of contact and filter.
+// Exact intersections of surfaces with themselves and each other. Tests also use them to check contact and filter.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace pliant {
 
-/// An edge that meets a triangle without a common vertex.
+/// An edge that intersects a triangle and has no common vertex with it.
 struct Intersection {
-  int a = -1, b = -1;  ///< the edge's ends, a < b
+  int a = -1, b = -1;  ///< vertices of the edge, a < b
   int triangle = -1;
   EdgeTriangle kind = EdgeTriangle::apart;
 
@@ -20,14 +20,14 @@ struct Intersection {
   }
 };
 
-/// Finds intersections of one mesh over many frames without new allocations. Two triangles intersect exactly if an edge of
-/// one meets the other, or, if they share a vertex, if neighbouring pairs do (docs/internals/broadphase.md).
+/// Finds intersections of one mesh at changing positions without new allocations. Two triangles intersect if an edge of
+/// one meets the other, or, if they share a vertex, if pairs next to them do (docs/internals/broadphase.md).
 class IntersectionFinder {
  public:
   /// Throws an Error if a triangle has a corner outside 0..vertex_count - 1.
   IntersectionFinder(const std::vector<Triangle>& triangles, int vertex_count);
 
-  /// All pairs that cross transversally or, on request, touch; ascending by (a, b, triangle). `positions` must be finite.
+  /// Finds all pairs that cross or, if `touching`, touch; ascending by (a, b, triangle). `positions` must be finite.
   const std::vector<Intersection>& find(const std::vector<Vec3f>& positions, bool touching = false);
 
  private:

@@ -7,7 +7,7 @@ namespace pliant {
 
 namespace {
 
-/// Disjoint sets of vertices; the root of each is its first vertex.
+/// Disjoint sets of vertices (union-find). The root of each set is its lowest vertex.
 struct Sets {
   std::vector<int> parent;
 

@@ -1,4 +1,4 @@
-// Parts of surfaces: connected components of an object, and whole mesh colliders. Two skirts in one file are two parts.
+// Divides surfaces into parts: connected components of objects (two skirts in one file are two), and whole mesh colliders.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 namespace pliant {
 
 struct Parts {
-  std::vector<int> of;  ///< part of each vertex; parts are numbered by their first vertices
+  std::vector<int> of;  ///< part of each vertex; parts are numbered in the order of their first vertices
   int count = 0;
 };
 

@@ -13,7 +13,8 @@ namespace {
 
 Vec3f place(const Record& r) { return {r.x, r.y, r.z}; }
 
-/// The triangles of a body in local indices from `first`; false if they are not closed.
+/// Writes the triangles of a body, with vertices numbered from `first`. Returns false if they do not form a closed
+/// surface.
 bool closed_surface(const PairModel& model, int body, std::vector<Triangle>& triangles, int& first, int& count) {
   const auto of_body = [&](int v) { return model.vertex_body[static_cast<std::size_t>(v)] == body; };
   first = static_cast<int>(std::find(model.vertex_body.begin(), model.vertex_body.end(), body) - model.vertex_body.begin());
@@ -32,10 +33,10 @@ std::vector<Vec3f> places_of(const Record* positions, int first, int count) {
   return places;
 }
 
-/// A connected set of vertices inside one closed body.
+/// A connected set of vertices that are inside one closed body.
 using Patch = std::vector<int>;
 
-/// The connected components of ascending vertices, ordered by their first vertex.
+/// Divides ascending vertices into connected components, ordered by their first vertex.
 std::vector<Patch> patches_of(const PairModel& model, const std::vector<int>& vertices) {
   std::vector<int> parent(vertices.size());
   for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = static_cast<int>(i);
@@ -61,7 +62,7 @@ std::vector<Patch> patches_of(const PairModel& model, const std::vector<int>& ve
   return out;
 }
 
-/// The mean normal of the triangles at a patch; zero if the normals differ too much.
+/// The mean normal of the triangles at a patch; zero if their normals differ too much.
 Vec3f mean_normal(const PairModel& model, const Patch& patch, const Record* positions) {
   const TrianglesAround& around = model.triangles_around;
   std::vector<int> at_patch;
@@ -155,7 +156,7 @@ void Untangler::mark_led(int vertex) {
 
 // ---------------------------------------------------------------- inside closed bodies
 
-/// Finds vertices inside closed bodies. They move out to where the thickness is met.
+/// Finds vertices inside closed bodies, and adds a push that moves each out to where the thickness is kept.
 void Untangler::find_inside(const Record* positions) {
   for (Closed& closed : closed_) {
     MeshQuery& query = *closed.query;
@@ -173,13 +174,14 @@ void Untangler::find_inside(const Record* positions) {
 
 namespace {
 
-/// A point inside a closed surface, and the shortest way out.
+/// A point inside a closed surface, the direction to the closest surface point, and its distance.
 struct Depth {
-  Vec3f from, out;  // `out` is unit
+  Vec3f from, out;  // unit vector
   float way;
 };
 
-/// The distance out of a closed surface along a unit direction, in strides of the closest distance; at most `most`.
+/// The distance along a unit direction to the outside of a closed surface, at most `most` [m]. Steps are closest
+/// distances.
 float way_out(const MeshQuery& query, const Vec3f& from, const Vec3f& direction, float most) {
   const float least = 0.01f * most;
   float way = 0;
@@ -188,7 +190,8 @@ float way_out(const MeshQuery& query, const Vec3f& from, const Vec3f& direction,
   return min(way, most);
 }
 
-/// The direction along `normal`, or against it, that moves all out sooner; zero if it is much longer than closest points.
+/// `normal` or its opposite, whichever moves all points out sooner; zero if that is much longer than the closest
+/// distances.
 Vec3f common_way(const MeshQuery& query, const std::vector<Depth>& patch, const Vec3f& normal) {
   float deepest = 0, along = 0, against = 0;
   for (const Depth& depth : patch) deepest = max(deepest, depth.way);
@@ -233,12 +236,12 @@ bool Untangler::is_closed(int part) const {
 }
 
 void Untangler::find_pieces(const Record* positions, const std::vector<Intersection>& found) {
-  std::map<std::pair<int, int>, std::vector<Intersection>> cuts;  // by the parts of edge and triangle
+  std::map<std::pair<int, int>, std::vector<Intersection>> cuts;  // key: the parts of the edge and of the triangle
   for (const Intersection& one : found) {
     const int a = part_of(one.a), b = part_of(model_.elements.triangles[static_cast<std::size_t>(one.triangle)][0]);
-    // Whether a vertex is inside a closed body is known exactly, so the smaller-piece rule does not apply.
+    // Closed bodies need no rule of the smaller piece: find_inside tests each vertex exactly.
     if (!model_.rules.is_immovable(body_of(one.a)) && !is_closed(b)) cuts[{a, b}].push_back(one);
-    // Its vertices may already be outside: its speed stays limited until its edges are outside as well.
+    // The edge's vertices may already be outside; their part keeps the speed limit until the edge itself is outside.
     if (is_closed(b)) mark_led(one.a);
     if (is_closed(a)) mark_led(model_.elements.triangles[one.triangle][0]);
   }
@@ -251,8 +254,8 @@ void Untangler::find_pieces(const Record* positions, const std::vector<Intersect
       add(candidate.through, candidate.piece, candidate.push);
 }
 
-/// The pairs of parts that would intersect more after all candidates have moved as far as they do in a sixtieth of a
-/// second; ascending. The trial uses positions alone, so a restored State gives the same bits.
+/// The pairs of parts, ascending, that would intersect more after all candidates have moved as far as they do in 1/60
+/// s. The trial uses positions alone, so a restored State gives the same bits.
 std::vector<Untangler::PartPair> Untangler::made_worse(const Record* positions, const std::vector<Intersection>& found,
                                                        const std::vector<Candidate>& candidates) {
   if (candidates.empty()) return {};
@@ -273,7 +276,7 @@ std::vector<Untangler::PartPair> Untangler::made_worse(const Record* positions, 
 
 namespace {
 
-/// The connected components of a part's vertices without the intersected edges: each vertex's number, and sizes.
+/// The connected components of a part that remain without its intersected edges: each vertex's component, and their sizes.
 struct Pieces {
   std::vector<int> of, size;
 
@@ -307,7 +310,8 @@ Pieces pieces_of(const PairModel& model, const std::vector<Intersection>& cuts, 
 
 }  // namespace
 
-/// All pieces of a part except the largest may move back through the part that cuts it.
+/// Adds as candidates the vertices of all pieces of a part except the largest: they may move back through the part that
+/// cuts it.
 void Untangler::lead_back(const Record* positions, const std::vector<Intersection>& cuts, PartPair parts,
                           std::vector<Candidate>& out) const {
   const auto [part, through] = parts;
@@ -344,7 +348,7 @@ void Untangler::push(float distance, float h, Record* displacements, Record* rem
   }
   for (Push& push : pushes_) {
     const Record& d = displacements[push.vertex];
-    if (!(abs(d.x) + abs(d.y) + abs(d.z) < 1e30f)) continue;  // the end of the substep reports it
+    if (!(abs(d.x) + abs(d.y) + abs(d.z) < 1e30f)) continue;  // the end of the substep reports the position
     const float way = min(distance, push.remaining);
     push.remaining -= way;
     Record& r = remainders[push.vertex];

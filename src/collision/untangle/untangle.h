@@ -1,14 +1,14 @@
 // Moves initially intersecting surfaces apart.
 //
-// A part (parts.h) that another part, or itself, cuts into pieces has its smaller piece on the wrong side. That piece moves
-// back along the normals of the other part and has no contact with it until it is through. A vertex inside a closed static
-// or kinematic body moves to the closest surface point. A sheet through the middle of a body moves the shorter way along
-// its mean normal, because closest points would tear it apart. Slits separate nothing and are ignored.
+// A part (parts.h) that is cut into pieces, by another part or by itself, has its smaller piece on the wrong side. That
+// piece moves back along the normals of the part that cuts it and has no contact with that part until it is through. A
+// vertex inside a closed static or kinematic body moves to the closest surface point. Where a sheet passes through the
+// middle of a body, closest points would tear it apart, so it moves along its mean normal, the shorter way. Slits cut
+// no piece off; they are ignored.
 //
 // Before each frame the moves are tried on positions alone. If they would create more intersections between two parts,
-// nothing moves between the two in that frame.
-//
-// Moves are limited in speed and add no momentum; neither do the constraint forces that they cause.
+// nothing moves between these two in that frame. Moves are limited in speed and add no momentum; nor do the constraint
+// forces that they cause.
 #pragma once
 
 #include <memory>
@@ -25,12 +25,12 @@
 
 namespace pliant {
 
-/// Over thirty members: the steps of one algorithm that share its scratch.
+/// Over thirty members, because the steps of one algorithm share scratch memory.
 class Untangler {
  public:
   explicit Untangler(const PairModel& model);
 
-  /// Finds what is on the wrong side, from the intersections at the same positions.
+  /// Finds the vertices on a wrong side. `found` are all intersections at these positions.
   void begin_frame(const Record* positions, const std::vector<Intersection>& found);
 
   bool is_busy() const { return !pushes_.empty(); }
@@ -38,27 +38,27 @@ class Untangler {
   bool limits_speeds() const { return !speeds_.empty(); }
   /// The number of vertices inside closed bodies.
   std::int64_t inside() const { return inside_; }
-  /// True if one side of a pair is on the wrong side of the other's part,
-  /// so that the pair has no contact. A piece keeps its self-contact.
+  /// True if a pair has no contact, because one of its primitives is on the wrong side of the other's part. Contact of
+  /// a piece with itself stays.
   bool is_exempt(const PairStencil& pair) const;
-  /// True if either of the two intersecting parts is being moved.
+  /// True if a part of this intersection is being moved.
   bool leads_apart(const Intersection& found) const;
 
-  /// Moves vertices on the wrong side by at most `distance` [m] towards their target, in place of the prediction. The move
-  /// goes into the rounding residues, so it adds no velocity. Call it before anything else changes the prediction.
+  /// Moves vertices on a wrong side by at most `distance` [m] towards their target; the move replaces the prediction.
+  /// It goes into the rounding residues, so it adds no velocity. Call it before anything else changes the prediction.
   void push(float distance, float h, Record* displacements, Record* remainders);
 
-  /// After a substep: limits the speed of vertices of moving parts to `limit` [m/s], or to a higher predicted speed if they
-  /// are not on a wrong side. `missing` is the gravity not yet included in a body's velocities.
+  /// Call it after a substep: limits the speed of vertices in moving parts to `limit` [m/s]; vertices on no wrong side
+  /// may keep a higher predicted speed. `missing` is the gravity that a body's velocities do not include yet.
   void limit_speeds(float limit, Record* velocities, FunctionRef<Vec3f(int body)> missing) const;
 
  private:
   struct Push {
     int vertex;
     Vec3f direction;
-    float remaining;  ///< [m]
+    float remaining;  ///< distance still to go [m]
   };
-  /// A vertex that moves back through a part, unless that creates more intersections.
+  /// A vertex that moves back through a part, unless the trial shows that this creates more intersections.
   struct Candidate {
     Push push;
     int through, piece;
@@ -66,7 +66,7 @@ class Untangler {
   using PartPair = std::pair<int, int>;
 
   struct Closed {
-    int body, part, first;  ///< first particle
+    int body, part, first;  ///< `first` is the body's first particle
     std::unique_ptr<MeshQuery> query;
   };
 
@@ -89,11 +89,11 @@ class Untangler {
   IntersectionFinder finder_;
   Parts parts_;
   std::vector<Closed> closed_;
-  std::vector<int> wrong_side_of_;  ///< for each vertex the part, or -1; empty: none at all
-  std::vector<int> piece_;          ///< for each vertex on a wrong side, the index of its piece; as long as wrong_side_of_
+  std::vector<int> wrong_side_of_;  ///< for each vertex, the part whose wrong side it is on, or -1; empty: no vertex is
+  std::vector<int> piece_;          ///< index of the piece of each vertex on a wrong side
   std::vector<Push> pushes_;
-  std::vector<char> led_;                      ///< parts with a speed limit; empty: none
-  std::vector<std::pair<int, float>> speeds_;  ///< predicted speed of each vertex of parts with a speed limit [m/s]
+  std::vector<char> led_;                      ///< for each part, 1 if its speed is limited; empty: none is
+  std::vector<std::pair<int, float>> speeds_;  ///< vertices of parts with a speed limit, and their predicted speeds [m/s]
   std::int64_t inside_ = 0;
 };
 
