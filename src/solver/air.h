@@ -26,12 +26,12 @@ PLIANT_HD Vec3f air_force(const Vec3f (&x)[3], const Vec3f& u, float air_density
 
 /// Computes the force on each triangle of an object.
 struct AirOnTriangle {
-  const int* triangles;  ///< three corners each
+  const int* triangles;  ///< vertex indices, three for each triangle
   const Record *positions, *velocities;
   Vec3f air;      ///< air velocity [m/s]
   Vec3f gravity;  ///< gravity that the velocities of dynamic particles do not include yet [m/s]
   float h, air_density, drag, lift;
-  Vec3f* forces;  ///< [N]
+  Vec3f* forces;  ///< force on each triangle [N]
 
   PLIANT_HD void operator()(int t) const {
     const int* corner = triangles + static_cast<std::ptrdiff_t>(3) * t;
@@ -48,9 +48,9 @@ struct AirOnTriangle {
   }
 };
 
-/// Adds a third of the force of each incident triangle to a particle's velocity.
+/// Adds h f / m to a particle's velocity, where f is a third of the force on each of its triangles.
 struct AirOnParticle {
-  const int *corner_begin, *corners;  ///< Surface::corner_begin and corners
+  const int *corner_begin, *corners;  ///< triangle corners at each particle: Surface::corner_begin and corners
   const Vec3f* forces;                ///< force on each triangle [N]
   const Record* positions;
   float h;

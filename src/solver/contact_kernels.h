@@ -1,4 +1,4 @@
-// The projection of contacts between points: SIMD kernels for each instruction set, and a scalar twin with the same bits.
+// Projection of contacts between points: SIMD kernels for each instruction set level, and scalar ones with the same bits.
 #pragma once
 
 #include "constraints/contact.h"
@@ -8,7 +8,7 @@
 namespace pliant {
 
 struct ContactKernels {
-  /// Projects contacts[order[first]] to contacts[order[last - 1]], which share no dynamic point.
+  /// Projects contacts[order[i]] for first <= i < last once. No two of them may share a dynamic point.
   void (*project)(Contact* contacts, const std::int32_t* order, int first, int last, Record* displacements);
 };
 

@@ -6,7 +6,7 @@ namespace pliant {
 inline namespace PLIANT_ISA {
 namespace {
 
-/// The size of a Contact in records of four floats, and the index of each quad.
+/// The number of four-float records (quads) in a Contact. The enumeration names them in order.
 constexpr int quads = sizeof(Contact) / sizeof(Record);
 enum Quad : int { normal_gap, carried_approach, friction_push, numbers, point, weight, share, motion_collider };
 
@@ -16,7 +16,7 @@ PLIANT_HD WideRecords load_quad(Contact* contacts, Quad quad, const std::int32_t
   return from_registers(load_indexed(quads_of(contacts, quad), index));
 }
 
-/// The points of sixteen contacts in four slots.
+/// The point indices of sixteen contacts, by slot.
 struct Points {
   std::int32_t at[4][16];
 };
@@ -25,7 +25,7 @@ PLIANT_HD Points load_points(Contact* contacts, const std::int32_t* index) {
   const WideRecords of = load_quad(contacts, point, index);
   Points points;
   static_assert(sizeof of == sizeof points);
-  std::memcpy(&points, &of, sizeof points);  // integers that passed through float registers
+  std::memcpy(&points, &of, sizeof points);  // bits of integers, loaded through float registers
   return points;
 }
 
@@ -38,7 +38,7 @@ PLIANT_HD Slots load_slots(Contact* contacts, Quad quad, const std::int32_t* ind
   return {{of.position.x, of.position.y, of.position.z, of.w}};
 }
 
-/// Stores the records of lanes with a set mask.
+/// Stores the records of those lanes whose mask is set.
 PLIANT_HD void store_masked(Record* base, const std::int32_t* index, const Registers& registers, const WideMask& mask,
                             int lanes) {
   Record records[4][4];
@@ -57,7 +57,7 @@ PLIANT_HD bool any(const WideMask& mask) {
   return sum != 0;
 }
 
-/// Projects contacts number[0] to number[lanes - 1]; all sixteen numbers must be valid.
+/// Projects the contacts number[0] to number[lanes - 1]. All sixteen entries of `number` must be valid indices.
 PLIANT_HD void project_batch(Contact* contacts, const std::int32_t* number, int lanes, Record* displacements) {
   std::int32_t index[16];
   for (int lane = 0; lane < 16; ++lane) index[lane] = number[lane < lanes ? lane : 0] * quads;

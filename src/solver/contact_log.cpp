@@ -9,10 +9,10 @@ namespace pliant {
 namespace {
 
 struct Push {
-  int on = 0, by = 0;  ///< bodies
-  double impulse = 0;  ///< [N s]
-  Vec3f normal{};      ///< direction of the push on `on`, unit
-  Vec3d at{};          ///< [m]
+  int on = 0, by = 0;  ///< bodies on which the contact acts, and which exerts it
+  double impulse = 0;  ///< normal impulse [N s]
+  Vec3f normal{};      ///< unit direction of the impulse on body `on`
+  Vec3d at{};          ///< contact point [m]
 };
 
 void add(const Push& push, ContactLog& log) {
@@ -28,20 +28,20 @@ Vec3d place_of(const Record& position, const Record& displacement) {
   return {double(position.x) + displacement.x, double(position.y) + displacement.y, double(position.z) + displacement.z};
 }
 
-/// The particles that a contact's point indices refer to.
+/// Reads the particles that a contact's point indices refer to.
 struct PointReader {
   const Record *positions, *displacements;
   float h;
-  int object;  ///< the object to which the indices are local; -1: they are indices into the State
+  int object;  ///< the indices are local to this object; -1: they are indices into the State
 };
 
-/// The body of a contact's second side: a primitive collider, or a mesh collider that acts as a solid.
+/// The body of a contact's second side, which is a primitive collider or a mesh collider made into a solid.
 int body_of(const Substep& s, std::int32_t collider) {
   const auto colliders = static_cast<std::int32_t>(s.model.colliders.size());
   return collider < colliders ? body_of_collider(collider) : s.model.fields[collider - colliders].object;
 }
 
-/// The change of the relative normal velocity in this substep: by the projections, and by restitution at its end [m/s].
+/// The change of the relative normal velocity in this substep, by projections and by restitution at the end [m/s].
 double change_of(const Contact& contact, const PointReader& of, float slow) {
   const Vec3f motion = relative(contact, of.displacements) - contact.carried - contact.surface_motion;
   const float separating = dot(contact.normal, motion) / of.h;

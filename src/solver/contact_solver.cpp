@@ -6,9 +6,9 @@ namespace pliant {
 
 namespace {
 
-/// The colour of contacts without a free colour.
+/// The colour number of contacts for which none of the 64 colours is free.
 constexpr int tail_colour = 64;
-/// Contacts of a colour per task, in whole batches; smaller colours finish before other threads wake up.
+/// Contacts per task, in whole batches. A colour with fewer contacts is done before other threads wake up.
 constexpr int contacts_a_task = 512;
 
 void project_sequentially(Contact* contacts, const std::int32_t* order, int first, int last, Record* displacements) {

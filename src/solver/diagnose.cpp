@@ -11,7 +11,7 @@ namespace pliant {
 
 namespace {
 
-/// "distance constraint 17 (particles 3, 4)", in the user's numbering.
+/// Describes a constraint: "distance constraint 17 (particles 3, 4)", with the user's indices.
 std::string describe(const CompiledObject& object, const Pool& pool, const Segment& segment, int batch, int lane) {
   const std::int32_t* index = pool.indices.data() + segment.index_offset + batch * indices_per_batch(pool, segment);
   std::string particles;
@@ -30,7 +30,7 @@ std::string describe(const CompiledObject& object, const Pool& pool, const Segme
   return constraint_type(pool.type).name + " constraint " + std::to_string(constraint) + " (particles " + particles + ")";
 }
 
-/// The first constraint of a segment with a particle that is not finite.
+/// Describes the first constraint of a segment that has a non-finite particle; nullopt if there is none.
 std::optional<std::string> find_culprit(const CompiledObject& object, const Segment& segment, const Record* positions) {
   const Pool& pool = object.pools[segment.pool];
   const std::int32_t* index = pool.indices.data() + segment.index_offset;
@@ -56,7 +56,8 @@ std::optional<std::string> replay(const StepContext& context, const CompiledObje
   return std::nullopt;
 }
 
-/// The same for stencil segments. The replay starts from the orientations that the failed substep left.
+/// Replays the stencil segments of an object from the orientations that the failed substep left, and describes the
+/// first constraint that makes a value non-finite.
 std::optional<std::string> replay_stencils(const StepContext& context, const CompiledObject& object,
                                            const ObjectPhase& colour, const SweepArguments& arguments) {
   const auto number = static_cast<std::size_t>(&object - context.model.objects.data());
@@ -73,8 +74,8 @@ std::optional<std::string> replay_stencils(const StepContext& context, const Com
   return std::nullopt;
 }
 
-/// Replays one phase of an object. Returns nothing for tiles, which are replayed singly, and for drivers that name no
-/// constraint.
+/// Replays one phase of an object and describes the first faulty constraint. Returns nullopt for tiles, which are
+/// replayed one by one, and for drivers that can name no constraint.
 std::optional<std::string> replay_phase(const StepContext& context, const CompiledObject& object, const ObjectPhase& phase,
                                         const SweepArguments& arguments) {
   if (phase.driver == Driver::inter_tile) return replay(context, object, phase.first, phase.last, arguments);
@@ -95,7 +96,7 @@ std::string first_bad_particle(const CompiledObject& object, const Tile& tile, c
   return "a particle";
 }
 
-/// The non-finite tiles of the first object that has any, as tasks.
+/// The tasks of the tiles with non-finite values, for the first object that has any.
 std::vector<int> bad_tasks(const StepContext& context) {
   const Model& model = context.model;
   std::vector<int> bad;
@@ -106,8 +107,8 @@ std::vector<int> bad_tasks(const StepContext& context) {
   return bad;
 }
 
-/// Names the origin of non-finite values in the given tiles of one object. These tiles are replayed together, because a
-/// faulty inter-tile constraint makes all tiles of its particles non-finite.
+/// Describes the origin of non-finite values in the given tiles of one object. The tiles are replayed together, because
+/// a faulty inter-tile constraint makes all tiles of its particles non-finite.
 std::string explain(const Substep& s, const CompiledObject& object, const std::vector<int>& bad, SweepArguments arguments) {
   const StepContext& context = s.context;
   const std::string particle = first_bad_particle(object, tile_of(s, bad.front()), arguments.displacements);
@@ -115,7 +116,7 @@ std::string explain(const Substep& s, const CompiledObject& object, const std::v
   for (int task : bad) {
     AdvanceArguments again = particles(s, task);
     again.displacements = displacements.data();
-    again.gravity_begun = again.gravity_finished;  // the gravity of the failed substep, not of the next one
+    again.gravity_begun = again.gravity_finished;  // the gravity of the failed substep
     context.kernels.predict(again, nullptr);
     for (int i = again.first; i < again.last; ++i) {
       if (is_finite(displacements[i])) continue;
@@ -138,7 +139,7 @@ std::string explain(const Substep& s, const CompiledObject& object, const std::v
 
 bool is_finite_orientation(const Record& r) { return is_finite(r) && r.w - r.w == 0; }
 
-/// Names the first frame that is not finite.
+/// Completes the description with the first frame (orientation) that is not finite.
 void name_bad_frame(const StepContext& context, NonFinite& found) {
   const FrameRecords& frames = context.state.frames;
   for (std::size_t o = 0; o < context.model.objects.size(); ++o) {
@@ -151,7 +152,7 @@ void name_bad_frame(const StepContext& context, NonFinite& found) {
   }
 }
 
-/// Replaces non-finite values: zero displacement, velocity and residue, and the identity rotation.
+/// Replaces non-finite values of the State: displacements, velocities and residues by zero, orientations by the identity.
 void make_finite(const StepContext& context) {
   for (Record& d : context.workspace.displacements) d = is_finite(d) ? d : Record{};
   for (Record& v : context.state.velocities) v = is_finite(v) ? v : Record{};

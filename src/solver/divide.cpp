@@ -11,7 +11,7 @@ namespace pliant {
 
 namespace {
 
-/// Upper limit of a collider's displacement per substep, over a pair's thickness.
+/// Upper limit of a collider's displacement per substep, as a share of the thickness of a pair.
 constexpr double share_of_thickness = 0.5;
 
 bool come_near(const CarrierBox& a, const CarrierBox& b, double margin) {
@@ -43,7 +43,7 @@ void follow(const Vec3d& from, const Vec3d& to, Swept& out) {
   out.largest = std::max(out.largest, static_cast<double>(length(to - from)));
 }
 
-/// The same for a collider that the user moves to a pose.
+/// The swept box and largest displacement of a collider that the user moves to a pose.
 Swept swept(const Carrier& carrier, const PoseDrive& drive, const PlannedFrame& frame) {
   Swept out{{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}}, 0};
   for (int substep = 0; substep < frame.substeps; ++substep) {
@@ -55,7 +55,7 @@ Swept swept(const Carrier& carrier, const PoseDrive& drive, const PlannedFrame& 
   return out;
 }
 
-/// The same for a collider whose vertices the user moves.
+/// The swept box and largest displacement of a collider whose vertices the user moves.
 Swept swept(const std::vector<Target>& targets, const PlannedFrame& frame) {
   Swept out{{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}}, 0};
   for (const Target& target : targets) follow(target.from, target.to, out);
@@ -63,7 +63,7 @@ Swept swept(const std::vector<Target>& targets, const PlannedFrame& frame) {
   return out;
 }
 
-/// The same for mesh collider `c`, moved by its keyframes or the user; empty if it is static.
+/// The swept box and largest displacement of mesh collider `c`, moved by keyframes or by the user; zero if it is static.
 Swept swept(const Model& model, const Control& control, int c, const PlannedFrame& frame) {
   const Carrier& carrier = model.objects[c].carrier;
   if (const ObjectControl* given = control.object(c); given != nullptr && !given->targets.empty())
@@ -72,7 +72,7 @@ Swept swept(const Model& model, const Control& control, int c, const PlannedFram
   return carrier.moves() ? swept(carrier, frame) : Swept{};
 }
 
-/// The box of an object's particles along their ballistic paths in the frame.
+/// The box of an object's particles along ballistic paths, under gravity only, during the frame.
 CarrierBox foreseen(const Model& model, const State& state, int object, double dt) {
   CarrierBox box{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
   const Vec3d fall = convert<double>(model.gravity) * (dt * dt);
@@ -94,9 +94,9 @@ std::string too_fast(const CompiledObject& collider, const CompiledObject& objec
          "': it may pass through; increase the thickness or the setting most_substeps";
 }
 
-/// The pair that requires the most substeps.
+/// The collider and the object that require the most substeps.
 struct Demand {
-  double substeps = 0;  ///< required; the limit may be lower
+  double substeps = 0;  ///< substeps required, before the limit is applied
   int collider = 0, object = 0;
 };
 

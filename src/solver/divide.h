@@ -1,8 +1,8 @@
-// Increases a frame's substeps for fast mesh colliders.
+// Increases the number of a frame's substeps where mesh colliders are fast.
 //
-// The filter cannot limit kinematic colliders: one that moves farther in a substep than the gap leaves no room. Contacts
-// keep the gap near the thickness, so a collider that moves at most half of it per substep never outruns them. Only
-// colliders near an object count; distant ones cost nothing.
+// The filter cannot limit kinematic colliders: one that moves farther in a substep than the gap leaves no room.
+// Contacts keep the gap near the thickness, so a collider that moves at most half the thickness per substep always
+// leaves room. Colliders far from all objects are ignored, so they cost nothing.
 #pragma once
 
 #include <string>
@@ -14,15 +14,15 @@
 
 namespace pliant {
 
-/// A frame as planned from the settings.
+/// The start, length and number of substeps of a frame, as the settings plan it.
 struct PlannedFrame {
-  double start = 0, dt = 0;  ///< [s]
+  double start = 0, dt = 0;  ///< start and length of the frame [s]
   int substeps = 1, most_substeps = 1;
 };
 
-/// The number of substeps: at least `substeps`, and up to `most_substeps` so that no mesh
-/// collider near an object moves more than half the pair's thickness in one. Depends on State
-/// and user control alone. Warnings report the extra cost, and a limit that is too low.
+/// Returns the number of substeps: at least `substeps`, and up to `most_substeps` so that no mesh collider near an
+/// object moves more than half the pair's thickness in a substep. It depends on the State and user control alone.
+/// Warnings report the extra cost, and when `most_substeps` is too low.
 int divided_substeps(const Model& model, const Control& control, const PairModel& pairs, const State& state,
                      const PlannedFrame& frame, std::vector<std::string>& warnings);
 

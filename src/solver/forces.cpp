@@ -41,12 +41,13 @@ void apply_air(const Model& model, State& state, Workspace& workspace, Executor&
 
 bool is_finite(const Vec3f& v) { return (v.x - v.x) + (v.y - v.y) + (v.z - v.z) == 0; }
 
-/// A non-finite force that was skipped: the index of its field, and its particle in the user's order.
+/// A non-finite force that was skipped: the index of its force field, and the user's index of the particle.
 struct LeftOut {
   int particle = -1, field = -1;
 };
 
-/// Applies all fields to one particle, each with the velocity left by earlier ones. Returns the first non-finite force.
+/// Applies all fields in turn to one particle; each sees the velocity that earlier ones left. Returns the first
+/// non-finite force.
 LeftOut apply_fields(const Model& model, const Record& x, const Vec3f& gravity, float h, double time, int user, Record& v) {
   LeftOut first;
   if (x.w == 0) return first;
@@ -67,7 +68,7 @@ void warn_of(const LeftOut& force, const CompiledObject& object, std::vector<std
                      std::to_string(force.particle) + " of object '" + object.name + "' and was skipped there");
 }
 
-/// In the user's order, on one thread.
+/// Applies all fields to an object's particles in the user's order, on one thread.
 LeftOut apply_in_order(const Model& model, const CompiledObject& object, const Record* positions, Record* velocities,
                        const Vec3f& gravity, double time, float h) {
   LeftOut first;
@@ -79,7 +80,8 @@ LeftOut apply_in_order(const Model& model, const CompiledObject& object, const R
   return first;
 }
 
-/// By tile, on all threads: particles are independent, so the order does not change any bits.
+/// Applies all fields to an object's particles tile by tile, on all threads. Particles are independent, so bits are the
+/// same.
 LeftOut apply_by_tiles(const Model& model, const CompiledObject& object, const Record* positions, Record* velocities,
                        const Vec3f& gravity, double time, float h, Executor& executor) {
   std::vector<LeftOut> of_tiles(object.tiles.size());
@@ -117,7 +119,7 @@ void apply_fields(const Model& model, State& state, Executor& executor, double t
   }
 }
 
-/// Applies the user's forces of this frame.
+/// Applies the forces that the user set for this frame.
 void apply_given(const Model& model, const Control& control, State& state, Executor& executor, float h,
                  FunctionRef<bool(int)> takes_part) {
   for (const auto& [o, given] : control.objects) {
@@ -142,7 +144,7 @@ bool has_forces(const Model& model, const Control& control) {
 Vec3f wind_at(const Wind& wind, double time) {
   if (wind.gust == 0) return wind.velocity;
   const double phase = time / wind.gust_period;
-  const double turn = phase - __builtin_floor(phase);  // floor, because no integer type holds every phase
+  const double turn = phase - __builtin_floor(phase);  // floor, because no integer type holds every phase; turn in [0, 1)
   return wind.velocity * (1 + wind.gust * static_cast<float>(sin(turn * 6.283185307179586)));
 }
 

@@ -1,4 +1,4 @@
-// External forces except gravity: air on triangles, force fields, and user forces of a frame.
+// External forces except gravity: aerodynamic forces, force fields, and forces that the user sets for a frame.
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@
 
 namespace pliant {
 
-/// True if apply_forces has any effect.
+/// True if apply_forces would apply any force.
 bool has_forces(const Model& model, const Control& control);
 
-/// Adds h f / m to the velocity of every dynamic particle of objects that take part; `gravity(object)` is the part not included in
-/// velocities yet.
+/// Adds h f / m to the velocity of every dynamic particle of objects that take part in the substep. `gravity(object)`
+/// is the part of gravity that velocities do not include yet [m/s].
 /// Non-finite forces are skipped and named in `warnings`.
 void apply_forces(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h,
                   FunctionRef<Vec3f(int)> gravity, FunctionRef<bool(int)> takes_part, std::vector<std::string>& warnings);

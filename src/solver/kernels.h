@@ -1,8 +1,8 @@
-// The inner loops of a step, as one table of functions for each instruction set level. A kernel is a line in its struct and
-// in each table; a level is a line in math/levels.h.
+// The inner loops of a step: a table of functions for each instruction set level. To add a kernel, add a line to its
+// struct and to each table; to add a level, add a line to math/levels.h.
 //
-// All tables give the same bits and differ only in speed. The sequential one is the readable reference: plain floats, one
-// constraint after another, in the same schedule.
+// All tables give the same bits and differ only in speed. The sequential table is the readable reference: plain floats,
+// one constraint after another, in the same order.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace pliant {
 
-/// The place of a lane's correction among its batch's sixteen, in register order (math/wide.h).
+/// The position of a lane's correction among the sixteen of its batch, in register order (math/wide.h).
 inline constexpr int correction_place(int lane) { return 4 * (lane % 4) + lane / 4; }
 
 struct ChainKernels;      // solver/sweeps/chain_kernels.h
@@ -25,31 +25,31 @@ struct StepKernels {
   /// Projects every constraint of the segments, segment by segment.
   void (*sweep)(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& arguments);
 
-  /// The same with relaxation, and with corrections stored separately if arguments.corrections is set. The correction of a
-  /// batch's `slot` and `lane` goes to record (16 (size batch + slot)) + correction_place(lane) of its pool's array.
+  /// Like sweep, with relaxation. If arguments.corrections is set, stores corrections there instead of applying them:
+  /// that of a batch's `slot` and `lane` at record 16 (size batch + slot) + correction_place(lane) of its pool's array.
   void (*sweep_general)(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& arguments);
 
   /// True if every record is finite.
   bool (*all_finite)(const Record* records, int first, int last);
 
-  /// Ends a substep: v = (v + (d - d predicted) / h) kept, x += d. Equal to v = (x - x_start) / h, but only the solver's
-  /// correction is divided. The part of d that x cannot hold goes to the rounding residue.
+  /// Ends a substep: v = (v + (d - d predicted) / h) kept, x += d. This is v = (x - x_start) / h with damping `kept`,
+  /// but divides only the solver's correction. The part of d that x cannot represent goes to the rounding residue.
   void (*update)(const AdvanceArguments& arguments);
 
-  /// Starts a substep: d = residue + h (v + gravity). Adds the positions before and after to `bounds` unless null.
+  /// Starts a substep: d = residue + h (v + gravity). Extends `bounds`, unless null, by the positions before and after.
   void (*predict)(const AdvanceArguments& arguments, PointBounds* bounds);
 
-  /// update and predict in one pass over memory, for substeps without a response stage between them.
+  /// Does update, then predict, in one pass over memory, for substeps without a stage between them.
   void (*advance)(const AdvanceArguments& arguments, PointBounds* bounds);
 
-  /// Writes the ascending indices of particles near a solid to `near`, which must have room for all; returns their number.
+  /// Writes the ascending indices of particles near a solid to `near`, which must have room for all. Returns their number.
   int (*find_near)(const NearQuery& query, std::int32_t* near);
 };
 
 PLIANT_DECLARE_LEVELS(StepKernels, step_kernels)
 const StepKernels& step_kernels_sequential();
 
-/// All kernels of one instruction set level. A World picks one.
+/// All kernels of one instruction set level. A World picks one table when it is made.
 struct Kernels : StepKernels {
   const char* isa;  ///< name of the instruction set level
   const ChainKernels& chains;
@@ -58,11 +58,11 @@ struct Kernels : StepKernels {
   const PairKernels& pairs;
 };
 
-/// The readable reference in plain floats. Kernels without a scalar twin (multigrid, pairs) use the generic level.
+/// The readable reference in plain floats. Kernels without a scalar version (multigrid, pairs) use the generic level.
 const Kernels& kernels_sequential();
 
-/// The widest kernels that this machine runs, or the named ones: a level of math/levels.h, or "sequential". Throws an Error
-/// if the name is unknown or the machine cannot run them.
+/// Returns the widest kernels that this machine runs, or those that `isa` names: a level of math/levels.h, or
+/// "sequential". Throws an Error if the name is unknown or if this machine cannot run them.
 const Kernels& pick_kernels(const std::string& isa);
 
 }  // namespace pliant

@@ -12,17 +12,17 @@ namespace {
 
 // ---------------------------------------------------------------- constraints
 
-/// Contiguous slots that are known only per segment: one branch per slot, constant over the segment's batches.
+/// A value of the template parameter `fixed`: which slots are contiguous is known only at run time, for each segment.
 constexpr std::int32_t any_set = -1;
 
-/// The contiguous slots of a batch, and the position of each slot's indices.
+/// Which slots of a batch are contiguous, and where the indices of each slot begin.
 template <int size, std::int32_t fixed>
 struct SlotIndices {
   std::int32_t runs;
 
   PLIANT_HD explicit SlotIndices(std::int32_t in_runs) : runs(fixed == any_set ? in_runs : fixed) {}
   PLIANT_HD bool in_runs(int slot) const { return ((fixed == any_set ? runs : fixed) >> slot & 1) != 0; }
-  /// The number of indices before those of a slot.
+  /// The number of indices that precede those of `slot`.
   PLIANT_HD std::int32_t before(int slot) const { return indices_before(fixed == any_set ? runs : fixed, slot); }
 
   PLIANT_HD Registers load(const Record* base, const std::int32_t* index, int slot) const {
@@ -56,7 +56,7 @@ PLIANT_HD void load_stencil(const SweepArguments& a, const SlotIndices<size, fix
   }
 }
 
-/// Pointers to a pool's rows for one batch; constant rows keep their address.
+/// Pointers to a pool's rows for one batch. A row that is constant over the pool keeps its address.
 template <int rows>
 struct RowPointers {
   const float* at[rows];
@@ -75,9 +75,9 @@ struct RowPointers {
   }
 };
 
-/// The extra data of a general sweep for one batch.
+/// The additional arrays of a general sweep for one batch.
 struct Aside {
-  Record* corrections = nullptr;  ///< written instead of displacements, sixteen per slot
+  Record* corrections = nullptr;  ///< receives corrections instead of applying them, sixteen for each slot
   const float* share = nullptr;   ///< share of a change that reaches the multiplier, one per lane
 
   PLIANT_HD Aside(const SweepArguments& a, const Segment& segment, int size) {
@@ -90,7 +90,7 @@ struct Aside {
     if (share != nullptr) share += batch_width;
   }
 };
-/// The empty counterpart for other sweeps.
+/// Replaces Aside in sweeps that store no corrections.
 struct NothingAside {
   PLIANT_HD NothingAside(const SweepArguments&, const Segment&, int) {}
   PLIANT_HD void next(int) {}
@@ -103,8 +103,8 @@ PLIANT_HD void store_aside(Record* to, const Vec3<Wide>& correction) {
   store_runs(to, places, to_registers({correction, Wide(0.f)}), 4);
 }
 
-/// Projects one batch: `rows` hold its numbers, `index` its particles. Stores all
-/// lanes if `whole`, else `count` groups of four, or lanes if no slot is contiguous.
+/// Projects one batch: `rows` are its parameters, `index` its particles. Stores all lanes if `whole`; otherwise the
+/// first `count` groups of four lanes, or the first `count` lanes if no slot is contiguous.
 template <class T, Law law, bool keeps_multipliers, std::int32_t fixed, bool general, int row_count>
 PLIANT_HD void project_batch(const RowPointers<row_count>& rows, const SlotIndices<slot_count<T>, fixed>& slots,
                              const std::int32_t* index, float* multiplier, bool whole, int count,
@@ -112,7 +112,7 @@ PLIANT_HD void project_batch(const RowPointers<row_count>& rows, const SlotIndic
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
   Vec3<Wide> x[slot_count<T>];
   Wide w[slot_count<T>];
-  Registers moved[slot_count<T>];  // kept in registers, because loading sixteen records again costs more
+  Registers moved[slot_count<T>];  // displacements, kept in registers, because loading sixteen records again costs more
   load_stencil(a, slots, index, moved, x, w);
   Wide rest[fields];
   PLIANT_UNROLL
@@ -208,7 +208,7 @@ void sweep_type(const Pool& pool, const Segment& segment, float* multipliers, co
   }
 }
 
-/// Null for types that are projected singly, whose pools never occur here.
+/// The sweep of type T; null for types that are projected one at a time, whose pools never get here.
 template <class T, bool general>
 constexpr auto sweep_of() -> void (*)(const Pool&, const Segment&, float*, const SweepArguments&) {
   if constexpr (in_lanes<T>)
@@ -260,12 +260,12 @@ struct FourParticles {
   Wide position, displacement, remainder, velocity;
 };
 
-/// Gravity for those of the four with finite mass.
+/// Gravity for those of the four particles that have finite mass, zero for the others.
 PLIANT_HD Wide gravity_on(const FourParticles& p, const Wide& gravity) {
   return select(spread_w(p.position) > Wide(0.f), gravity, Wide(0.f));
 }
 
-/// The gravity terms of AdvanceArguments, broadcast.
+/// The three gravity terms of AdvanceArguments, each in four records.
 struct WideGravity {
   Wide finished, begun, settled;
   PLIANT_HD explicit WideGravity(const AdvanceArguments& a)
@@ -297,7 +297,7 @@ PLIANT_HD void store_four(const AdvanceArguments& a, int i, const FourParticles&
   store_wide(floats(a.velocities + i), p.velocity);
 }
 
-/// Up to three particles at the end, in padded buffers.
+/// The last one to three particles of a range, in buffers padded to four.
 struct Tail {
   Record positions[4], displacements[4], remainders[4], velocities[4];
   AdvanceArguments arguments;
@@ -372,7 +372,7 @@ void update(const AdvanceArguments& a) { advance_all<true, false>(a, nullptr); }
 void predict(const AdvanceArguments& a, PointBounds* bounds) { advance_all<false, true>(a, bounds); }
 void advance(const AdvanceArguments& a, PointBounds* bounds) { advance_all<true, true>(a, bounds); }
 
-/// x - x is zero for finite x and NaN otherwise, and NaN propagates through the sum.
+/// Tests all numbers at once: x - x is zero for finite x and NaN otherwise, and a sum with NaN is NaN.
 bool all_finite(const Record* records, int first, int last) {
   Wide sum(0.f);
   int i = first;
@@ -392,7 +392,7 @@ bool all_finite(const Record* records, int first, int last) {
 
 // ---------------------------------------------------------------- particles near a solid
 
-/// How far inside the margin a particle is, by lane.
+/// How far each of sixteen particles is inside the margin of a solid [m]; negative: outside.
 PLIANT_HD Wide nearness(const NearQuery& q, const WideRecords& x, const WideRecords& d) {
   const Vec3<Wide> place = x.position + d.position;
   const Vec3<Wide> away{place.x - Wide(q.pose.position.x), place.y - Wide(q.pose.position.y),
@@ -415,7 +415,7 @@ int find_near(const NearQuery& q, std::int32_t* near) {
       count += lanes[4 * (k % 4) + k / 4] >= 0 ? 1 : 0;
     }
   }
-  for (; i < q.last; ++i) near[count++] = i;  // the last few are all reported as near
+  for (; i < q.last; ++i) near[count++] = i;  // the last ones, fewer than sixteen, all count as near
   return count;
 }
 

@@ -11,11 +11,11 @@ namespace pliant {
 
 namespace {
 
-/// An object's particles, and its multipliers of the last substep.
+/// A view of an object's particles and of its multipliers of the last substep.
 struct View {
   const CompiledObject& object;
   const Record *positions, *velocities, *orientations;
-  const std::vector<AlignedVector<float>>& multipliers;  ///< multipliers by pool, empty if not stored
+  const std::vector<AlignedVector<float>>& multipliers;  ///< multipliers of each pool, empty if they are not stored
   double h;
 
   double multiplier(const ConstraintPlace& at, int component = 0) const {
@@ -36,7 +36,7 @@ View view_of(const Model& model, const State& state, const Workspace& workspace,
 
 Vec3f place_of(const Record& p) { return {p.x, p.y, p.z}; }
 
-/// The norm of the vector C + alpha~ lambda.
+/// Adds the norm of C + alpha~ lambda of every constraint of a type; C is a vector if the type has several rows.
 void add_residuals(const View& view, int type, ErrorSum& sum) {
   const auto evaluate = constraint_type(type).evaluate;
   StencilArrays<float> arrays;
@@ -73,7 +73,8 @@ ErrorSum volume_errors(const Model& model, const State& state, const Workspace& 
   return volumes;
 }
 
-/// The excess length of a distance over what its force explains. Damping contributes alpha beta times the speed along it.
+/// The relative length of a distance constraint beyond what its force explains. Damping explains alpha beta times the
+/// speed along it.
 double excess_of(const View& view, const ConstraintPlace& at, const std::int32_t* particle, double length, double rest) {
   const double compliance = at.value(at.pool.fields);
   double explained = softness(at, 1 / (view.h * view.h)) * view.multiplier(at);
@@ -104,7 +105,7 @@ void add_lengths(const View& view, int number, int type, Lengths& lengths, doubl
   });
 }
 
-/// Returns the 99th percentile. Reorders the values.
+/// Returns the 99th percentile of the values, which are reordered.
 double take_p99(std::vector<float>& values) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());

@@ -1,4 +1,4 @@
-// See pair_words.h.
+// Warnings about contact between two objects, as pair_words.h declares them.
 #include "solver/pair_words.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace pliant {
 
 namespace {
 
-/// The object's user index of a State particle.
+/// The user's index of a State particle within its object, as text.
 std::string number_of(const Model& model, int particle) {
   const int object = model.object_of(particle);
   return std::to_string(model.objects[object].order[particle - model.first[object]]);
@@ -20,7 +20,7 @@ std::string name_of(const Model& model, int object) {
   return (of.is_collider ? "collider '" : "object '") + of.name + "'";
 }
 
-/// The intersections between two objects.
+/// The number and the first of the intersections between two objects.
 struct Between {
   const Intersection* first = nullptr;
   std::int64_t count = 0, given_up = 0;
@@ -44,7 +44,7 @@ std::string words_of(const Model& model, const Triangle& triangle, const Between
   return text + (between.stalls || between.given_up > 0 ? ": move the two apart in the scene" : "");
 }
 
-/// A pair in its objects' user order: "vertex 4 and triangle (1, 2, 3)".
+/// Describes a pair with the user's indices: "vertex 4 and triangle (1, 2, 3)".
 std::string words_of(const Model& model, const PairStencil& pair) {
   const auto number = [&](int corner) { return number_of(model, pair.vertex[static_cast<std::size_t>(corner)]); };
   if (pair.first_side == 1)

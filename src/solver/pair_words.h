@@ -9,8 +9,8 @@
 
 namespace pliant {
 
-/// Appends a line for each two objects with initial intersections, and one for each two with unresolvable pairs. A line
-/// names the first edge and triangle, or the first pair, in the user's order.
+/// Appends a warning for each two objects with initial intersections, and one for each two with unresolvable pairs. A
+/// warning names the first edge and triangle, or the first pair, by the user's indices.
 void warn_of_pairs(const Model& model, const SurfaceContact& pairs, std::vector<std::string>& warnings);
 
 }  // namespace pliant

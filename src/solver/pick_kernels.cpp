@@ -1,4 +1,4 @@
-// The kernel table of each instruction set level, and the choice by CPU.
+// Selects a kernel table: the best for this CPU, or one by name.
 #include <string>
 
 #include "collision/proxies/pair_kernels.h"

@@ -1,5 +1,5 @@
-// The per-particle work of a substep as functors for launch (parallel/launch.h), in plain floats. The sequential kernels
-// run them; tests run them by block and as device code; the SIMD kernels are tested against them.
+// The per-particle work of a substep as functors for launch (parallel/launch.h), in plain floats. The sequential
+// kernels run them. Tests run them block by block and as device code, and compare the SIMD kernels with them.
 #pragma once
 
 #include "math/scalar.h"
@@ -7,13 +7,13 @@
 
 namespace pliant {
 
-/// Gravity on a particle, zero for infinite mass.
+/// Gravity on a particle; zero for infinite mass.
 PLIANT_HD Vec3f gravity_on(const Record& x, const Vec3f& gravity) {
   const bool free = x.w > 0;
   return {select(free, gravity.x, 0.f), select(free, gravity.y, 0.f), select(free, gravity.z, 0.f)};
 }
 
-/// Ends a particle's substep: v = (v + (d - d predicted) / h) kept, x += d; the residue is what x cannot hold.
+/// Ends a substep: v = (v + (d - d predicted) / h) kept, x += d; the residue is the part of d that x cannot represent.
 struct UpdatePoint {
   AdvanceArguments a;
 
@@ -49,7 +49,7 @@ struct PredictPoint {
 /// True if x, y and z are finite: x - x is zero for finite x, otherwise NaN.
 PLIANT_HD bool is_finite(const Record& p) { return (p.x - p.x) + (p.y - p.y) + (p.z - p.z) == 0; }
 
-/// Marks non-finite particles.
+/// Sets the flag of a range of particles if any of them is not finite.
 struct FindNonfinite {
   const Record* records;
   unsigned char* nonfinite;

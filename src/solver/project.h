@@ -1,4 +1,4 @@
-// The projection of one constraint, written once for a float and for sixteen lanes.
+// The projection of one constraint, written once for one float and for sixteen lanes.
 #pragma once
 
 #include "constraints/traits.h"
@@ -6,8 +6,8 @@
 #include "model/pool.h"
 #include "solver/kernels.h"
 
-/// Precedes loops over a stencil's slots. Unrolled, their arrays stay in registers; otherwise g++ keeps the records in
-/// memory, zeroes them first and takes 2.5 times as long.
+/// Put before loops over a stencil's slots. If they are unrolled, their arrays stay in registers; otherwise g++ keeps
+/// the records in memory, sets them to zero first and takes 2.5 times as long.
 #if defined(__clang__) || defined(__CUDACC__)
 #define PLIANT_UNROLL _Pragma("unroll")
 #else
@@ -16,12 +16,12 @@
 
 namespace pliant {
 
-/// Least denominator: constraints between fixed particles divide by it and move nothing.
+/// Lower limit of denominators: a constraint between fixed particles divides by this and moves nothing.
 inline constexpr float smallest_denominator = 1e-20f;
-/// Largest alpha / h^2: infinite compliance times a zero multiplier must stay finite.
+/// Upper limit of alpha / h^2, so that infinite compliance times a zero multiplier is zero.
 inline constexpr float largest_compliance = 1e30f;
 
-/// Motion of the stencil along the gradients since the substep's start: grad C . (x - x_start).
+/// Displacement of the stencil along the gradients since the substep's start: grad C . (x - x_start).
 template <class T, class R>
 PLIANT_HD R motion_along(const Vec3<R> (&gradient)[slot_count<T>], const Vec3<R> (&motion)[slot_count<T>]) {
   R sum = dot(gradient[0], motion[0]);
@@ -30,7 +30,7 @@ PLIANT_HD R motion_along(const Vec3<R> (&gradient)[slot_count<T>], const Vec3<R>
   return sum;
 }
 
-/// sum_i w_i |grad_i C|^2.
+/// The denominator of a projection: sum_i w_i |grad_i C|^2.
 template <class T, class R>
 PLIANT_HD R generalised_inverse_mass(const Vec3<R> (&gradient)[slot_count<T>], const R (&w)[slot_count<T>]) {
   R sum = has_unit_gradients<T> ? w[0] : w[0] * length_squared(gradient[0]);
@@ -41,8 +41,8 @@ PLIANT_HD R generalised_inverse_mass(const Vec3<R> (&gradient)[slot_count<T>], c
   return sum;
 }
 
-/// The denominator, increased if a correction would change C beyond the validity of its linearisation, which a type
-/// declares as `largest_change`. Otherwise unchanged to the bit.
+/// Limits the correction of constraint types that declare a `largest_change` of C, within which their linearisation is
+/// valid: returns a larger denominator where necessary, otherwise `denominator` unchanged.
 template <class T, class R>
 PLIANT_HD R within_trust(const R& denominator, const R& numerator, const R& mass) {
   if constexpr (requires { T::largest_change; }) {
@@ -52,16 +52,16 @@ PLIANT_HD R within_trust(const R& denominator, const R& numerator, const R& mass
   }
 }
 
-/// The inputs of a law besides positions: compliance, damping, multiplier.
+/// The inputs of a projection besides positions: compliance, damping, multiplier.
 template <class R>
 struct ConstraintResponse {
-  R softness;        ///< alpha, or k'
-  R damping;         ///< beta
+  R softness;        ///< compliance alpha, or PBD stiffness k'
+  R damping;         ///< damping coefficient beta
   R multiplier;      ///< lambda of this substep; updated by project
-  R share = R(1.f);  ///< share of a change that reaches the multiplier, in general sweeps
+  R share = R(1.f);  ///< in general sweeps: share of dlambda that is added to the multiplier
 };
 
-/// The corrections of one constraint (in each lane).
+/// Computes the corrections of one constraint, or of one in each lane.
 ///   PBD:   dlambda = -k' C / sum w |grad C|^2                                              (Mueller 2007, eq. 5 and 3.3)
 ///   XPBD:  dlambda = (-C - a lambda - g grad C . (x - x_start)) / ((1 + g) sum w |grad C|^2 + a)   (Macklin 2016, eq. 18,
 ///   26)

@@ -12,7 +12,7 @@ namespace pliant {
 
 namespace {
 
-/// A task with fewer batches finishes before another thread wakes up.
+/// Least number of batches of a task: a smaller one is done before another thread wakes up.
 constexpr int fewest_batches = 128;
 
 struct Lanes {
@@ -26,7 +26,7 @@ int count_valid(const Segment& segment) {
   return count;
 }
 
-/// The vectors between the ends of a batch's constraints.
+/// Computes the vectors between the two ends of a batch's distance constraints.
 void load_across(const SweepArguments& a, const Segment& segment, const std::int32_t* index, Lanes (&across)[3]) {
   for (int lane = 0; lane < batch_width; ++lane) {
     const int from = particle_of(segment, index, 0, lane), to = particle_of(segment, index, 1, lane);
@@ -37,7 +37,7 @@ void load_across(const SweepArguments& a, const Segment& segment, const std::int
   }
 }
 
-/// Adds the squares of C + alpha~ lambda of one batch to sixteen sums, including padding lanes.
+/// Computes the squares of C + alpha~ lambda for one batch; lanes without a constraint are included.
 void add_batch(const SweepArguments& a, const Pool& pool, std::int64_t batch, const float* multipliers,
                const Lanes (&across)[3], Lanes& squares) {
   const float *rest = pool.row(0, batch), *response = pool.row(1, batch);
@@ -52,7 +52,7 @@ void add_batch(const SweepArguments& a, const Pool& pool, std::int64_t batch, co
 
 double sum_of(const SweepArguments& a, const Pool& pool, const Segment& segment) {
   const bool has = a.multipliers != nullptr && pool.law != Law::pbd;
-  const float* multipliers = has ? a.multipliers[segment.pool] : nullptr;  // pools of rigid constraints may have none
+  const float* multipliers = has ? a.multipliers[segment.pool] : nullptr;  // pools of rigid constraints may store none
   const std::int32_t* index = pool.indices.data() + segment.index_offset;
   double sums[batch_width] = {};
   for (int batch = 0; batch < segment.batches; ++batch, index += indices_per_batch(pool, segment)) {
@@ -67,7 +67,7 @@ double sum_of(const SweepArguments& a, const Pool& pool, const Segment& segment)
   return sum;
 }
 
-/// Extends the last task, or starts a new one if that is large enough or belongs to another object.
+/// Adds a segment to the last task, or to a new one if the last is large enough or belongs to another object.
 void add_segment(std::int32_t object, std::int32_t segment, std::int32_t batches,
                  std::vector<ResidualScratch::Task>& tasks) {
   if (tasks.empty() || tasks.back().object != object || tasks.back().batches >= fewest_batches)

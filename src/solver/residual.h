@@ -1,8 +1,8 @@
 // The residual of distance constraints during a substep, for Settings::tolerance.
 //
-// The residual decides the number of iterations, so its bits affect the result: sixteen
-// sums on every machine, added by segment and task. It is no kernel per instruction set:
-// one pass in baseline x86-64 costs about two plain sweeps, and runs only with a tolerance.
+// The residual decides the number of iterations, so its bits affect the result: every machine adds sixteen partial sums
+// in the order of segments and tasks. It has no version for each instruction set level: compiled for baseline x86-64 it
+// costs about two sweeps, and it runs only if a tolerance is set.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@ namespace pliant {
 struct Substep;
 struct Model;
 
-/// Ranges of segments, which depend on the model alone, and their sums.
+/// Which segments each task sums, which depends on the model alone, and the sums.
 struct ResidualScratch {
   struct Task {
-    std::int32_t object, first, last;  ///< segments, half-open; not all are distances
+    std::int32_t object, first, last;  ///< object, and range of its segments; some are no distances
     std::int32_t batches;
   };
   std::vector<Task> tasks;
@@ -24,11 +24,11 @@ struct ResidualScratch {
   std::int64_t constraints = 0;  ///< number of constraints of all tasks
 };
 
-/// Collects the segments of all objects.
+/// Assigns the segments of all objects to tasks.
 void prepare_residual(const Model& model, ResidualScratch& scratch);
 
-/// Root mean square |C + alpha~ lambda| of all distance constraints at present
-/// [m]; infinity if there are none. Call it after the first sweep of a substep.
+/// Returns the root mean square of C + alpha~ lambda over all distance constraints [m]; infinity if there are none.
+/// Call it after the first sweep of a substep.
 double distance_residual(Substep& s);
 
 }  // namespace pliant

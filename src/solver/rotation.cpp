@@ -13,7 +13,8 @@ constexpr int frames_a_task = 256;
 Vec3f xyz(const Record& r) { return {r.x, r.y, r.z}; }
 Record record(const Vec3f& v) { return {v.x, v.y, v.z, 0}; }
 
-/// I^-1 (I m x m) in principal axes: Euler's equations without torque. Zero if an axis is locked.
+/// I^-1 ((I m) x m) for I in principal axes: Euler's equations without torque [1/s^2]. Zero if rotation about an axis
+/// is locked.
 Vec3f gyroscopic_rate(const Vec3f& inverse, const Vec3f& m) {
   if (!(inverse.x > 0 && inverse.y > 0 && inverse.z > 0)) return {};
   const Vec3f inertia{1 / inverse.x, 1 / inverse.y, 1 / inverse.z};
@@ -26,7 +27,8 @@ void predict(float h, const Vec3f& inverse, Record& orientation, Record& velocit
   Vec3f change{};
   for (int round = 0; round < 2; ++round) change = gyroscopic_rate(inverse, w + 0.5f * change) * h;
   const Vec3f angle = (w + 0.5f * change) * h;
-  // Taylor series of the exponential: below a float's last bits at half a radian per substep.
+  // Taylor series of the quaternion exponential. The next terms are below a float's precision up to half a radian per
+  // substep.
   const float t = length_squared(angle) * 0.25f, imaginary = 0.5f * (1 - t * (1 / 6.f));
   const Quatf step{angle.x * imaginary, angle.y * imaginary, angle.z * imaginary, 1 - t * 0.5f + t * t * (1 / 24.f)};
   const Quatf q{orientation.x, orientation.y, orientation.z, orientation.w};
@@ -67,7 +69,7 @@ void update_frames(Substep& s) {
   if (s.model.frames() == 0) return;
   FrameRecords& frames = s.state.frames;
   Records& corrections = s.work.frames.corrections;
-  for_objects(s, [&](int o) {  // the fourth component holds the factor by which damping reduces velocity
+  for_objects(s, [&](int o) {  // w is the factor by which damping reduces the velocity
     for (int i = s.model.first_frame[o]; i < s.model.end_of_frames(o); ++i)
       corrections[i].w = 1 / (1 + s.h * s.model.objects[o].damping);
   });

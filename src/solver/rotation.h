@@ -1,17 +1,17 @@
-// Orientations in a substep: predicted as free rigid bodies, corrected by
-// constraints (stencil.h). The corrections then update the angular velocity.
+// Orientations in a substep: predicted as those of free rigid bodies, then corrected by constraints (stencil.h); the
+// corrections change the angular velocity.
 //
-// Angular velocity is in the frame's axes and changes by increments, so rounding accumulates no energy drift.
+// Angular velocity is stored in the frame's own axes and changed by increments, so that rounding causes no energy drift.
 #pragma once
 
 #include "solver/substep.h"
 
 namespace pliant {
 
-/// Gyroscopic torque by the implicit midpoint rule in two fixed-point steps, then the substep's rotation.
+/// Predicts orientations: gyroscopic torque by the implicit midpoint rule in two iterations, then the substep's rotation.
 void predict_frames(Substep& s);
 
-/// omega += corrections / h, minus damping. Workspace::frames reports whether all values are finite.
+/// Updates angular velocities: omega += corrections / h, then damping. Sets Substep::frames_are_finite.
 void update_frames(Substep& s);
 
 }  // namespace pliant

@@ -1,5 +1,5 @@
-// The readable reference: one constraint or particle at a time, in plain floats, in the order of the schedule. It gives the
-// same bits as the SIMD kernels, which are tested against it.
+// The readable reference: one constraint or particle at a time, in plain floats, in the order of the schedule. Tests
+// require that the SIMD kernels give the same bits.
 #include <algorithm>
 #include <cstring>
 
@@ -19,7 +19,8 @@ struct Place {
   int lane;
 };
 
-/// The storage of one constraint's corrections in a general sweep, slots sixteen records apart; null: not stored.
+/// Where a general sweep stores one constraint's corrections; those of the next slot follow sixteen records later.
+/// Null: nowhere.
 Record* correction_of(const Pool& pool, const SweepArguments& a, int pool_number, std::int64_t batch, int lane) {
   if (a.corrections == nullptr) return nullptr;
   return a.corrections[pool_number] + batch * pool.stencil * batch_width + correction_place(lane);
@@ -133,7 +134,7 @@ void advance(const AdvanceArguments& a, PointBounds* bounds) {
   predict(a, bounds);
 }
 
-/// The scalar reference does not cull: every particle counts as near.
+/// Reports all particles of the range as near: the scalar reference does not cull.
 int find_near(const NearQuery& q, std::int32_t* near) {
   for (int i = q.first; i < q.last; ++i) near[i - q.first] = i;
   return q.last - q.first;

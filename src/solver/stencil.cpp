@@ -9,14 +9,14 @@ namespace pliant {
 
 namespace {
 
-/// A pivot below this share of its diagonal entry is rounding error: the row depends linearly on earlier rows and is
-/// dropped.
+/// A pivot below this share of its diagonal entry is rounding error. Its row then depends linearly on earlier rows and
+/// is ignored.
 constexpr float least_pivot = 1e-6f;
 
 Vec3f xyz(const Record& r) { return {r.x, r.y, r.z}; }
 Quatf quaternion(const Record& r) { return {r.x, r.y, r.z, r.w}; }
 
-/// The generalised inverse mass W of one slot: it maps a gradient to a displacement or a rotation.
+/// The generalised inverse mass W of one slot. It maps a gradient to a displacement, or to a rotation vector.
 struct SlotMass {
   bool is_frame = false;
   float inverse_mass = 0;
@@ -31,11 +31,11 @@ struct SlotMass {
   }
 };
 
-/// Scratch for the projection of one constraint.
+/// Scratch memory for the projection of one constraint.
 struct Work {
   StencilArrays<float> arrays;
   SlotMass mass[most_slots];
-  Vec3f motion[most_slots];                        ///< since the substep's start [m] or [rad]
+  Vec3f motion[most_slots];                        ///< since the substep's start: displacement [m] or rotation [rad]
   float matrix[most_components][most_components];  ///< A, then its factors: D on the diagonal, L below it
   float change[most_components];                   ///< right-hand side, then dlambda
 };
@@ -69,7 +69,7 @@ void load(const CompiledObject& object, const SweepArguments& a, const FrameArgu
   }
 }
 
-/// Element (i, j) of the matrix A in stencil.h.
+/// Element (i, j) of the matrix A that stencil.h defines.
 float coupling(const Pool& pool, const Work& work, int i, int j) {
   float sum = 0;
   for (int slot = 0; slot < pool.stencil; ++slot) {
@@ -87,7 +87,7 @@ float motion_along(const Pool& pool, const Work& work, int row) {
   return sum;
 }
 
-/// Fills in the matrix and the right-hand side for the pool's law.
+/// Computes the matrix and the right-hand side for the law of the constraint's pool.
 void assemble(const ConstraintPlace& at, const float* multipliers, const SweepArguments& a, Work& work) {
   const Pool& pool = at.pool;
   const float softness = at.value(pool.fields);
@@ -107,7 +107,7 @@ void assemble(const ConstraintPlace& at, const float* multipliers, const SweepAr
   }
 }
 
-/// Solves L D L^T x = b in place, row by row in order.
+/// Solves L D L^T x = b in place: `m` is overwritten by its factors, `x` (first b) by the solution.
 void solve(int rows, float (&m)[most_components][most_components], float (&x)[most_components]) {
   bool lost[most_components] = {};
   for (int i = 0; i < rows; ++i) {
@@ -125,7 +125,7 @@ void solve(int rows, float (&m)[most_components][most_components], float (&x)[mo
     for (int j = i + 1; j < rows; ++j) x[i] = x[i] - m[j][i] * x[j];
 }
 
-/// Limits the change of C by a single row to `largest_change`, by increasing the diagonal.
+/// For types of one row: increases the diagonal so that the correction changes C by at most `largest_change`.
 void hold_to_trust(const ConstraintDefinition& type, const Pool& pool, Work& work) {
   if (!(type.largest_change > 0) || pool.components != 1) return;
   const float mass = coupling(pool, work, 0, 0), numerator = work.change[0];

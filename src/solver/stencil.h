@@ -1,8 +1,8 @@
-// The stencil driver: every constraint type that is not projected in SIMD lanes, that is types with frame slots, with
-// several rows, or registered by users. Constraints are projected one at a time, in colours that all threads share.
-// Only scalar code is used, so every machine gives the same bits.
+// The stencil driver projects all constraint types that have no SIMD lanes: types with frame slots, with several rows,
+// or registered by users. Constraints are projected one at a time, in colours that all threads share. The code is
+// scalar, so every machine gives the same bits.
 //
-//   A = sum over slots of G W G^T             G the gradients by row, W the inverse mass, or the inverse inertia in world axes
+//   A = sum over slots of G W G^T             G: gradients by row, W: inverse mass, or inverse inertia in world axes
 //   PBD:   A dlambda = -k' C
 //   XPBD:  ((1 + g) A + a) dlambda = -C - a lambda - g G (motion since the substep's start)       a, g as in project.h
 //   point: x += w G^T dlambda      frame: theta = W G^T dlambda,  q += theta q / 2, normalised

@@ -1,15 +1,15 @@
-// The whole frame: read this file first.
+// Advances all objects by one frame. Read this file first.
 //
-//   for each substep of h = dt / substeps, of the group of objects whose substep ends first
-//     control       kinematic colliders move to where the substep ends
-//     forces        wind and force fields on the velocities
+//   for each substep of length h = dt / substeps, of the group of objects whose substep ends first
+//     control       kinematic colliders move to their pose at the substep's end
+//     forces        wind and force fields change velocities
 //     predict       v += h g, displacement = h v                            symplectic Euler
-//                   contacts of the predicted path with colliders
-//     collide       contacts among surfaces
-//     solve         iterations x (constraints as the chosen sweep has it, acceleration, tethers, contacts)
-//     filter        steps truncated so that no surface crosses another
+//                   contacts of particles with colliders along the predicted path
+//     collide       contacts between surfaces are found
+//     solve         iterations x (constraints in the order of the sweep, acceleration, tethers, contacts)
+//     filter        steps that would make surfaces cross are truncated
 //     update        v from the corrections, x += displacement; restitution at colliders
-//     respond       restitution among surfaces (friction is part of a contact's projection)
+//     respond       restitution between surfaces (friction is part of a contact's projection)
 //
 // Mueller et al. 2007, algorithm 1, with the small steps of Macklin et al. 2019.
 #include "solver/step.h"
@@ -24,12 +24,12 @@ namespace pliant {
 
 namespace {
 
-/// True if a group's substep ends earlier, compared without rounding: number + 1 over planned.
+/// True if the current substep of group `a` ends before that of `b`: (number + 1) / planned, compared without rounding.
 bool ends_before(const Substep& a, const Substep& b) {
   return std::int64_t{a.number + 1} * b.planned < std::int64_t{b.number + 1} * a.planned;
 }
 
-/// The group whose next substep ends first, or the first of several; null if all are done.
+/// The group whose current substep ends first; of equal ones the first. Null if all groups have finished the frame.
 Substep* first_to_end(std::vector<Substep>& groups) {
   Substep* first = nullptr;
   for (Substep& s : groups)
@@ -37,7 +37,7 @@ Substep* first_to_end(std::vector<Substep>& groups) {
   return first;
 }
 
-/// True if the current substeps of all groups end at the same time, `s` being the first. A frame can be stopped only there.
+/// True if the current substeps of all groups end with that of `s`, the first to end. Only there can a frame be stopped.
 bool all_end_together(const std::vector<Substep>& groups, const Substep& s) {
   return std::none_of(groups.begin(), groups.end(), [&](const Substep& other) { return ends_before(s, other); });
 }

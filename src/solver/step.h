@@ -20,17 +20,17 @@ struct StepContext {
   Workspace& workspace;
   Executor& executor;
   const Kernels& kernels;
-  int substeps = 1;  ///< substeps of all objects if `groups` is empty
+  int substeps = 1;  ///< substeps per frame of all objects if `groups` is empty
   int iterations = 1;
   SweepOptions options{};
   bool record_residuals = false;
-  const std::atomic<bool>* stop = nullptr;  ///< if true, the frame ends when all groups reach one time
-  bool separate_phases = false;             ///< as in Settings
-  double tolerance = 0;                     ///< from Settings; above 0 it needs prepare_residual, and one group
-  std::span<const GroupFrame> groups{};     ///< groups with different substeps
+  const std::atomic<bool>* stop = nullptr;  ///< stop request: the frame ends as soon as all groups reach one time
+  bool separate_phases = false;             ///< Settings::separate_phases
+  double tolerance = 0;                     ///< Settings::tolerance; if > 0, call prepare_residual first, and use one group
+  std::span<const GroupFrame> groups{};     ///< groups with different numbers of substeps
 };
 
-/// Advances the State by dt. Never throws; the report has all problems.
+/// Advances the State by `dt` seconds. Never throws; the report describes all problems.
 void step(const StepContext& context, double dt, Report& report);
 
 }  // namespace pliant

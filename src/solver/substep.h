@@ -5,8 +5,8 @@
 
 namespace pliant {
 
-/// Views of a step's data, and the numbers of one substep. Over fifteen members, because each stage needs some. Stages
-/// are free functions.
+/// Views of the data of a step, and the numbers of one substep. Over fifteen members, because stages are free
+/// functions, and each needs some of this data.
 struct Substep {
   const StepContext& context;
   const Model& model;
@@ -14,20 +14,20 @@ struct Substep {
   Workspace& work;
   const Kernels& kernels;
   Report& report;
-  const SubstepGroup* part = nullptr;  ///< the objects that make this substep; null: all
-  SurfaceContact* pairs = nullptr;     ///< contact of their surfaces; null if none can touch another
+  const SubstepGroup* part = nullptr;  ///< objects that take part; null: all
+  SurfaceContact* pairs = nullptr;     ///< contact of their surfaces; null if no two can touch
   double frame_start = 0, dt = 0;      ///< start and length of the frame [s]
   float h = 0;                         ///< length of a substep [s]
   int number = 0;                      ///< index of the substep in the frame, from 0
-  int planned = 1;                     ///< substeps of the whole frame
-  int substeps = 1;                    ///< substeps made; fewer if the frame is stopped
+  int planned = 1;                     ///< substeps in the whole frame
+  int substeps = 1;                    ///< substeps to make; fewer than planned if the frame is stopped
   double time_after = 0;               ///< time at the substep's end [s]
-  bool sweeps_on_entry = false;        ///< the first sweep over tiles is made by predict, mostly while each is in the cache
+  bool sweeps_on_entry = false;        ///< true if predict runs the first sweep over tiles, each while it is in the cache
   bool update_is_due = false;          ///< true if update is deferred to the next predict (stages/advance.cpp)
-  bool frames_are_finite = true;       ///< after the last update, of the objects that make this substep
+  bool frames_are_finite = true;       ///< orientations after the last update, for objects that take part
   std::int64_t iterations_made = 0;    ///< iterations made in this frame
   const SweepGroup* group =
-      nullptr;  ///< the group of objects being iterated; null: loops over swept objects visit every object
+      nullptr;  ///< the sweep group that is being iterated; null: loops over swept objects visit every object
 
   bool is_last() const { return number + 1 == substeps; }
   bool has_pairs() const { return pairs != nullptr; }
@@ -40,26 +40,26 @@ double time_of(const Substep& s, int substep);
 /// The change of velocity by gravity over a time [m/s].
 Vec3f gravity_for(const Substep& s, double seconds);
 
-/// An object's particles and multipliers, as projections see them.
+/// The arrays of an object's particles and multipliers, for projection.
 SweepArguments arguments(const Substep& s, int object, bool first_pass);
 
-/// An object's frames, as projections see them.
+/// The arrays of an object's frames, for projection.
 FrameArguments frame_arguments(const Substep& s, int object);
 
-/// A tile's particles, as prediction and update see them.
+/// The arrays of a tile's particles, for prediction and update.
 AdvanceArguments particles(const Substep& s, int task);
 
-/// The particles of all objects, as contacts between surfaces see them.
+/// The arrays of the particles of all objects, for contact between surfaces.
 PairParticles all_particles(const Substep& s);
 
-/// The object of a task, and its tile.
+/// The object to which the tile of a task belongs; tile_of returns the tile.
 inline const CompiledObject& object_of(const Substep& s, int task) { return s.model.objects[s.model.tiles()[task].object]; }
 inline const Tile& tile_of(const Substep& s, int task) { return object_of(s, task).tiles[s.model.tiles()[task].item]; }
 
 /// True if an object takes part in this substep.
 inline bool takes_part(const Substep& s, int object) { return s.part == nullptr || s.part->has[object] != 0; }
 
-/// True if an object belongs to the sweep group being iterated.
+/// True if the sweep group being iterated contains an object.
 inline bool is_swept(const Substep& s, int object) {
   if (!takes_part(s, object)) return false;
   const CompiledObject& of = s.model.objects[object];
@@ -73,14 +73,14 @@ void for_objects(const Substep& s, const Body& body) {
   for (std::size_t i = 0; i < count; ++i) body(s.part == nullptr ? static_cast<int>(i) : s.part->objects[i]);
 }
 
-/// Calls body(task) for every tile of these objects.
+/// Calls body(task) for every tile of the objects that take part in this substep.
 template <class Body>
 void for_each_tile(const Substep& s, const Body& body) {
   const auto count = s.part == nullptr ? s.model.tiles().size() : s.part->tiles.size();
   for (std::size_t i = 0; i < count; ++i) body(s.part == nullptr ? static_cast<int>(i) : s.part->tiles[i]);
 }
 
-/// Parallel loops, timed under `name`: over these tiles, over tiles of swept objects, and over tasks of the caller's own.
+/// Parallel loops timed under `name`: over tiles of objects that take part, of swept objects, and over given tasks.
 void for_tiles(Substep& s, const char* name, FunctionRef<void(int)> body);
 void for_swept_tiles(Substep& s, const char* name, FunctionRef<void(int)> body);
 void for_tasks(Substep& s, const char* name, int tasks, FunctionRef<void(int)> body);

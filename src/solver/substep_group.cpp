@@ -10,11 +10,11 @@ namespace pliant {
 namespace {
 
 SetMember member_of(const CompiledObject& object) {
-  if (object.particles == 0) return {};  // removed
+  if (object.particles == 0) return {};  // the object was removed
   return {object.groups, object.mask, object.collides && !object.is_collider, object.is_collider, object.own_substeps};
 }
 
-/// A phase with only the tasks of a group. Phases that are filled in each substep start empty and are kept.
+/// Copies a phase with the tasks of a group only. Phases whose tasks are found in each substep have none, and are kept.
 Phase part_of(const Phase& phase, const std::vector<char>& has) {
   Phase part{phase.driver, phase.colour};
   for (const Task& task : phase.tasks) {

@@ -1,4 +1,4 @@
-// Visits constraints one by one for read-only measurements: measure.cpp and sweeps/record.cpp.
+// Visits constraints one by one for measurements, which change nothing (measure.cpp, sweeps/record.cpp).
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace pliant {
 
-/// Accumulates constraint errors.
+/// Statistics of constraint errors.
 struct ErrorSum {
   double squares = 0, largest = 0;
   std::int64_t count = 0;
@@ -25,7 +25,7 @@ struct ErrorSum {
   Residual residual(const std::string& type) const { return {type, count, rms(), largest}; }
 };
 
-/// The position of a constraint in its pool.
+/// The position of a constraint in its object: pool, batch and lane.
 struct ConstraintPlace {
   const Pool& pool;
   int pool_number;
@@ -33,16 +33,16 @@ struct ConstraintPlace {
   int lane;
 
   float value(int row) const { return pool.row(row, batch)[lane]; }
-  /// The index of the multiplier of one component of C.
+  /// The index of the multiplier of one component of C in its pool's array.
   std::int64_t multiplier_place(int component) const { return multiplier_index(pool, batch, lane, component); }
 };
 
-/// alpha / h^2 of a constraint, as in projections.
+/// The scaled compliance alpha / h^2 of a constraint, limited as in projections.
 inline double softness(const ConstraintPlace& at, double inverse_h2) {
   return std::min(double(at.value(at.pool.fields)) * inverse_h2, double(largest_compliance));
 }
 
-/// The arguments of a constraint's functions as plain arrays (pliant/constraint.h), in float or double.
+/// The arguments of a constraint type's functions as plain arrays (pliant/constraint.h), in float or double.
 template <class R>
 struct StencilArrays {
   R slots[4 * most_slots] = {}, rest[most_rest_fields] = {}, c[most_components] = {};
@@ -63,7 +63,7 @@ struct StencilArrays {
   }
 };
 
-/// Calls visit(place, its particle indices by slot) for every constraint of a segment.
+/// Calls visit(place, particle indices by slot) for every constraint of a segment.
 template <class Visit>
 void for_segment(const CompiledObject& object, const Segment& segment, const Visit& visit) {
   const Pool& pool = object.pools[segment.pool];
@@ -78,8 +78,8 @@ void for_segment(const CompiledObject& object, const Segment& segment, const Vis
   }
 }
 
-/// Calls visit(place, its particles by slot) for every constraint of type
-/// `type` in schedule order. Indices from object.particles on are frames.
+/// Calls visit(place, particle indices by slot) for every constraint of type `type`, in the order of the schedule.
+/// Indices from object.particles on denote frames.
 template <class Visit>
 void for_constraints(const CompiledObject& object, int type, const Visit& visit) {
   for (const Segment& segment : object.segments)

@@ -7,8 +7,8 @@ namespace pliant {
 
 namespace {
 
-/// The displaced particle i relative to the undisplaced particle o: (x_i - x_o) + d_i; without displacements, x_i -
-/// x_o.
+/// Positions relative to a particle o: x_i + d_i - x_o for displaced particles, x_i - x_o without displacements.
+/// Differences of positions come first, so that rounding stays small.
 struct Places {
   const Record* positions;
   const Record* displacements;
@@ -49,7 +49,7 @@ void gather_tile(const CompiledObject& object, const Tile& tile, const SweepArgu
   }
 }
 
-/// The change of the multiplier in double, by the formulas of project() in project.h.
+/// Computes the change of the multiplier in double precision, by the formulas in project.h.
 double multiplier_change(const CompiledVolume& volume, double c, double mass, double motion, double multiplier,
                          const SweepArguments& a) {
   const double least = 1e-30;
@@ -59,9 +59,9 @@ double multiplier_change(const CompiledVolume& volume, double c, double mass, do
   return (-c - compliance * multiplier - gamma * motion) / max((1 + gamma) * mass + compliance, least);
 }
 
-/// Clamps the change to the range of the linearisation. C grows with the cube of the size, so a small balloon with a
-/// large target volume would overshoot far. The limit moves the surface on average (weighted by mass: m |w g change|^2
-/// = w |g|^2 change^2) by about the radius of a ball of that volume.
+/// Limits the change of the multiplier to where the linearisation holds. C grows with the cube of the size, so a small
+/// balloon with a large target volume would overshoot far. The limit moves the surface on average (by mass: m |w g
+/// change|^2 = w |g|^2 change^2) by about the radius of a ball of that volume.
 double within_trust(const CompiledVolume& volume, double six_volumes, double mass, double change) {
   if (!(mass > 0)) return change;
   const double size = pow(max(abs(volume.target), abs(six_volumes)), 1.0 / 3);

@@ -2,11 +2,11 @@
 //
 //   C = sum over triangles of (x1 x x2) . x3  -  pressure * 6 V0          Mueller et al. 2007, section 4.4.2
 //
-// The sum is six volumes. The gradient at a particle is the sum of x_j x x_k over its incident
-// triangles (i, j, k). On a closed mesh this equals the sum of (x_j - x_i) x (x_k - x_i),
-// which keeps its precision far from the origin. C is homogeneous of degree three, so sum_i
-// x_i . grad_i C is three times six volumes, and one pass gives all sums. Each tile sums its
-// particles in order, and tiles are summed in order: the same bits on any number of threads.
+// The sum is six times the volume. The gradient at a particle is the sum of x_j x x_k over its triangles (i, j, k).
+// On a closed mesh this equals the sum of (x_j - x_i) x (x_k - x_i), which stays precise far from the origin. C is
+// homogeneous of degree three, so sum_i x_i . grad_i C is three times six volumes, and one pass gives all sums.
+// Each tile sums its particles in order, and tiles are summed in order, so any number of threads gives the same
+// bits.
 #pragma once
 
 #include "model/model.h"
@@ -16,14 +16,14 @@
 
 namespace pliant {
 
-/// Projects once the volume constraints of the objects that take part. `arguments(object)` gives an object's particles.
+/// Projects the volume constraints of objects that take part once. `arguments(object)` gives an object's particles.
 void project_volumes(const Model& model, Workspace& workspace, Executor& executor,
                      FunctionRef<SweepArguments(int)> arguments, FunctionRef<bool(int)> takes_part);
 
 /// The gradient of C at one particle [m^2].
 Vec3f volume_gradient(const CompiledObject& object, const Record* positions, int particle);
 
-/// The current C of one object [m^3].
+/// C of one object at given positions [m^3].
 double volume_error(const CompiledObject& object, const Record* positions);
 
 }  // namespace pliant

@@ -8,7 +8,7 @@ namespace pliant {
 
 namespace {
 
-/// True if the multipliers are needed. Rigid constraints move the same without them, and PBD constraints have none.
+/// True if a pool's multipliers must be stored. Rigid constraints move the same without them; PBD constraints have none.
 bool needs_multipliers(const Pool& pool) {
   const std::size_t response = pool.row_offset.size() - (pool.law == Law::damped ? 2 : 1);
   const bool rigid = pool.row_offset[response] < 0 && *pool.row(static_cast<int>(response), 0) == 0;
@@ -27,7 +27,7 @@ void prepare_multipliers(const CompiledObject& object, Multipliers kept, std::ve
   for (AlignedVector<float>& values : multipliers) pointers.push_back(values.empty() ? nullptr : values.data());
 }
 
-/// Resizes everything that is indexed by objects, particles and tiles.
+/// Resizes all arrays that are indexed by objects, particles or tiles.
 void resize(const Model& model, Workspace& workspace) {
   const std::size_t objects = model.objects.size();
   workspace.displacements.resize(model.particles());

@@ -1,4 +1,4 @@
-// The scratch data of a step, kept between steps only to avoid allocations.
+// Scratch data of a step. It is kept between steps only to avoid allocations.
 #pragma once
 
 #include <vector>
@@ -18,19 +18,19 @@
 
 namespace pliant {
 
-/// The results of one tile.
+/// The scratch data and results of one tile.
 struct alignas(64) TileScratch {
-  std::vector<Contact> contacts, more_contacts, all_contacts;  ///< current ones; the others are scratch for finding more
+  std::vector<Contact> contacts, more_contacts, all_contacts;  ///< contacts with colliders; the other two are scratch
   std::vector<std::int32_t> near;                              ///< particles that a collider could touch
   PointBounds bounds;
   bool finite = true;
-  double gradient_squared = 0, position_along = 0, motion_along = 0;  ///< sums for the volume constraint
+  double gradient_squared = 0, position_along = 0, motion_along = 0;  ///< sums of the volume constraint
 };
 
-/// The time for which gravity of the current frame has acted on an object's particles, reduced by damping [s].
+/// For how long gravity of this frame has acted on an object's particles, reduced by damping [s].
 struct FrameGravity {
-  double finished = 0, begun = 0, settled = 0;  ///< of the ending substep, the starting one, and already in velocities
-  float kept = 1;                               ///< factor of the velocity after damping in a substep
+  double finished = 0, begun = 0, settled = 0;  ///< in the ending substep; in the starting one; already in velocities
+  float kept = 1;                               ///< factor by which damping reduces a velocity in a substep
 
   void next(float h) {
     finished = begun;
@@ -39,50 +39,50 @@ struct FrameGravity {
   }
 };
 
-/// The frame data within a substep (stencil.h).
+/// Frame data within a substep (stencil.h).
 struct FrameScratch {
-  Records predicted, corrections;  ///< rotation vectors in world axes [rad]
+  Records predicted, corrections;  ///< rotation vectors of each frame in world axes [rad]
 };
 
-/// Memory that a World reuses from step to step. Over fifteen members: one buffer for each stage of a substep.
+/// Memory that a World reuses from step to step. Over fifteen members: each stage of a substep has buffers of its own.
 struct Workspace {
   Records displacements;                                       ///< displacements since the substep's start [m]
   std::vector<std::vector<AlignedVector<float>>> multipliers;  ///< [object][pool], one float per lane; empty if not stored
   std::vector<std::vector<float*>> multiplier_pointers;
   FrameScratch frames;
-  std::vector<double> volume_multipliers;           ///< one per object
-  Records volume_gradients;                         ///< one per particle if any object has a volume constraint
-  std::vector<std::vector<Vec3f>> triangle_forces;  ///< [object], if there is air
-  std::vector<TileScratch> tiles;                   ///< one per tile task
+  std::vector<double> volume_multipliers;           ///< multiplier of each object's volume constraint
+  Records volume_gradients;                         ///< gradient at each particle, if any object has a volume constraint
+  std::vector<std::vector<Vec3f>> triangle_forces;  ///< [object][triangle], if there is air
+  std::vector<TileScratch> tiles;                   ///< one for each tile of the model
   std::vector<MovingCollider> colliders;
-  std::unique_ptr<ContactLog> contact_log;  ///< contact sums of the current frame; null if not requested
-  Control control;                          ///< user control of the current frame
-  std::vector<FrameGravity> gravity;        ///< one per object
-  std::vector<Records> anchors;             ///< [object], position and displacement of each tether anchor
-  SweepGroups sweeps;                       ///< the sweeps in use
-  Records predicted;                        ///< predicted displacements, if residuals are recorded
-  std::unique_ptr<SurfaceContact> pairs;    ///< null if no dynamic surface can touch another
-  ContactSolver contact_solver;             ///< solver of the contacts of `pairs`
+  std::unique_ptr<ContactLog> contact_log;  ///< null if contact events are not requested
+  Control control;                          ///< what the user set for the current frame
+  std::vector<FrameGravity> gravity;        ///< gravity in each object's velocities
+  std::vector<Records> anchors;             ///< [object], a position and a displacement for each tether anchor
+  SweepGroups sweeps;                       ///< the sweep groups in use
+  Records predicted;                        ///< predicted displacements, kept if residuals are recorded
+  std::unique_ptr<SurfaceContact> pairs;    ///< contact between surfaces; null if no dynamic surface can touch another
+  ContactSolver contact_solver;             ///< projects the contacts of `pairs`
   ShapeContacts shape_contacts;             ///< contacts of edges and triangles with primitive colliders
   ContactSolver shape_contact_solver;
-  bool look_for_tangles = true;  ///< search for initial intersections in the next frame: the first, or after a restore
-  ResidualScratch residual;      ///< data of the residual for stopping at a tolerance
+  bool look_for_tangles = true;  ///< true: the next frame searches all initial intersections (first frame, restored State)
+  ResidualScratch residual;      ///< the residual for Settings::tolerance
 };
 
 /// Which multipliers are stored: none, those that a second iteration needs, or all.
 enum class Multipliers { none, needed, all };
 
-/// Resizes everything for a model except its sweeps.
+/// Resizes everything for a model but its sweeps.
 void prepare(const Model& model, Multipliers kept, Workspace& workspace);
 
 /// Resizes the data of one object after it was added, edited or removed.
 void prepare(const Model& model, int object, Multipliers kept, Workspace& workspace);
 
-/// Call after prepare: makes the groups of the sweeps in use, and their
-/// scratch. Of the settings, only sweep options and recording matter.
+/// Makes the groups of the sweeps in use, and their scratch data; call it after prepare. Of the settings it reads sweep
+/// options and recording.
 void prepare_sweeps(const Model& model, const Settings& settings, int threads, Workspace& workspace);
 void prepare_sweep(const Model& model, int object, const Settings& settings, int threads, Workspace& workspace);
-/// Drops groups without objects after an edit or a removal.
+/// Removes sweep groups that have no objects after an edit or a removal.
 void drop_unused_sweeps(const Model& model, Workspace& workspace);
 
 }  // namespace pliant

@@ -8,7 +8,7 @@ namespace pliant {
 
 namespace {
 
-/// A colour with fewer steps (a link of sixteen paths each) runs on one thread: waking others would cost more.
+/// A colour with fewer steps (one link of sixteen paths) runs on one thread, because waking others would cost more.
 constexpr int fewest_steps_to_share = 96;
 
 void solve_one(const Model& model, const ChainKernels& kernels, const Task& task, const SweepArguments& a, float* scratch) {
@@ -31,7 +31,7 @@ void project_chains(Substep& s, const Phase& phase, const Pass& pass) {
   std::vector<AlignedVector<float>>& scratch = static_cast<ChainScratch&>(*s.group->scratch).of_thread;
   const int tasks = static_cast<int>(phase.tasks.size());
   const int shares = phase.work < fewest_steps_to_share ? 1 : std::min(tasks, static_cast<int>(scratch.size()));
-  for_tasks(s, "solve: chains", shares, [&](int share) {  // strided, because neighbouring paths have similar lengths
+  for_tasks(s, "solve: chains", shares, [&](int share) {  // every n-th task, because neighbouring paths are alike
     for (int i = share; i < tasks; i += shares) {
       const Task& task = phase.tasks[i];
       solve_one(s.model, s.kernels.chains, task, arguments(s, task.object, pass.first), scratch[share].data());

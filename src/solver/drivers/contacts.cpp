@@ -8,8 +8,8 @@ namespace pliant {
 
 namespace {
 
-/// Contacts found during the solve are ignored while shallower than this share of the thickness. The next substep
-/// resolves them; resolved at once, cloth at rest on a floor would move two to four times as much.
+/// Contacts found during the solve are dropped if their overlap is below this share of the thickness; the next substep
+/// resolves them. If they were resolved at once, cloth at rest on a floor would move two to four times as much.
 constexpr float least_depth = 0.25f;
 
 /// Extends a tile's bounds to the current positions of its particles.
@@ -39,8 +39,8 @@ void find_more_in_tile(Substep& s, int task) {
   std::swap(scratch.contacts, scratch.all_contacts);
 }
 
-/// Projects particles that constraints moved below a plane without a predicted contact. They move to the surface, not
-/// to the thickness: cloth at rest on a floor would otherwise move two to four times as much.
+/// Projects particles that constraints moved below a plane collider and that had no predicted contact. They move to the
+/// surface, not to the thickness: otherwise cloth at rest on a floor would move two to four times as much.
 void hold_tile_at_surfaces(Substep& s, int task) {
   TileScratch& scratch = s.work.tiles[task];
   scratch.more_contacts.clear();
@@ -61,8 +61,8 @@ void project_collider_contacts(Substep& s, const Phase& /*phase*/, const Pass& /
 
 namespace {
 
-/// Projects the shape contacts of the swept objects. Each object gets the same bits as alone, because no contact joins
-/// two.
+/// Projects the shape contacts of the objects whose sweep runs. Each object gets the same bits as when it is alone,
+/// because no shape contact joins two objects.
 void sweep_shape_contacts(Substep& s) {
   constexpr const char* name = "solve: contacts";
   std::vector<Contact>& contacts = s.work.shape_contacts.contacts();

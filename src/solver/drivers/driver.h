@@ -9,48 +9,48 @@
 
 namespace pliant {
 
-/// The direction of a walk over the phases.
+/// The order in which a walk visits the phases.
 enum class Order { forward, backward };
 
 /// The part of an iteration in which a driver runs (stages/solve.cpp).
 enum class Turn {
-  sweep,    ///< once or more per group of objects, as its sweep method requires
-  stencil,  ///< after all groups
+  sweep,    ///< once or more for each sweep group, as its sweep method requires
+  stencil,  ///< after the sweeps of all groups
   last,     ///< at the end: tethers, then contacts, so that no constraint pulls a particle into a collider afterwards
 };
 
 struct Pass {
   bool first = false;  ///< the first pass of a substep: multipliers start at zero
   Order order = Order::forward;
-  int number = 0;  ///< index of this pass over the stencils in the iteration
+  int number = 0;  ///< index of this pass over the stencils within the iteration
 };
 
 struct PhaseDriver {
   Turn turn;
-  bool has_order;  ///< a backward walk includes its phases, in reverse order; otherwise it skips them
+  bool has_order;  ///< true if a backward walk visits these phases, in reverse order; false if it skips them
   void (*project)(Substep& s, const Phase& phase, const Pass& pass);
 };
 
 const PhaseDriver& driver_of(const Phase& phase);
 
-/// Projects all phases whose drivers run in this part of the iteration once, or those of one driver.
+/// Projects once all phases whose driver has this Turn, or all phases of one driver.
 void walk(Substep& s, Turn turn, const Pass& pass);
 void walk(Substep& s, Driver driver, const Pass& pass);
 
-/// Calls body(task) for the tasks of swept objects (is_swept). Uses all threads if the phase has at least
-/// `fewest_to_share` batches or steps of work; with less, waking them takes longer than the work.
-/// Times itself if `name` is not null.
+/// Calls body(task) for the tasks of objects whose sweep runs (is_swept). Uses all threads if the phase has at least
+/// `fewest_to_share` batches or steps of work; with less, waking them takes longer than the work. The call is timed
+/// under `name` unless that is null.
 void for_tasks(Substep& s, const Phase& phase, const char* name, int fewest_to_share, FunctionRef<void(const Task&)> body);
 
-/// Inter-tile colours with fewer batches run on one thread: waking others takes longer.
+/// Inter-tile colours with fewer batches run on one thread, because waking others takes longer.
 inline constexpr int fewest_inter_tile_batches = 96;
 inline constexpr const char* inter_tile_name = "solve: inter-tile constraints";
 
-/// Times consecutive colours of inter-tile constraints on one thread together: reading the clock takes as long as some batches.
+/// Times consecutive inter-tile colours on one thread as one interval: reading the clock takes as long as some batches.
 class InterTileTimer {
  public:
   explicit InterTileTimer(Substep& s) : timings_(s.context.executor.timings()) {}
-  /// Call before each phase.
+  /// Call it before each phase is projected.
   void enter(const Phase& phase);
 
  private:
@@ -58,13 +58,13 @@ class InterTileTimer {
   std::optional<Stopwatch> watch_;
 };
 
-void project_tiles(Substep& s, const Phase& phase, const Pass& pass);              // lanes.cpp
-void project_inter_tile(Substep& s, const Phase& phase, const Pass& pass);         // lanes.cpp
-void project_chains(Substep& s, const Phase& phase, const Pass& pass);             // chain.cpp
-void project_volumes(Substep& s, const Phase& phase, const Pass& pass);            // volume.cpp
-void project_stencils(Substep& s, const Phase& phase, const Pass& pass);           // stencil.cpp
-void hold_tethers(Substep& s, const Phase& phase, const Pass& pass);               // tether.cpp
-void project_surface_contacts(Substep& s, const Phase& phase, const Pass& pass);   // contacts.cpp
-void project_collider_contacts(Substep& s, const Phase& phase, const Pass& pass);  // contacts.cpp
+void project_tiles(Substep& s, const Phase& phase, const Pass& pass);              // defined in lanes.cpp
+void project_inter_tile(Substep& s, const Phase& phase, const Pass& pass);         // defined in lanes.cpp
+void project_chains(Substep& s, const Phase& phase, const Pass& pass);             // defined in chain.cpp
+void project_volumes(Substep& s, const Phase& phase, const Pass& pass);            // defined in volume.cpp
+void project_stencils(Substep& s, const Phase& phase, const Pass& pass);           // defined in stencil.cpp
+void hold_tethers(Substep& s, const Phase& phase, const Pass& pass);               // defined in tether.cpp
+void project_surface_contacts(Substep& s, const Phase& phase, const Pass& pass);   // defined in contacts.cpp
+void project_collider_contacts(Substep& s, const Phase& phase, const Pass& pass);  // defined in contacts.cpp
 
 }  // namespace pliant

@@ -6,7 +6,7 @@ namespace pliant {
 
 namespace {
 
-/// One row per value of Driver, in the same order.
+/// The table of drivers: one row for each value of Driver, in the order of the enumeration.
 constexpr std::array<PhaseDriver, driver_count> drivers{{
     {Turn::sweep, true, &project_tiles},
     {Turn::sweep, true, &project_inter_tile},

@@ -11,7 +11,8 @@ void project_segments(const Substep& s, int object, int first, int last, bool fi
   sweep(from.pools.data(), from.segments.data() + first, from.segments.data() + last, arguments(s, object, first_pass));
 }
 
-/// An InterTileTimer times phases with little work.
+/// Calls body for the segments of an inter-tile phase. Phases with little work are not timed here, but by an
+/// InterTileTimer.
 void for_segments(Substep& s, const Phase& phase, FunctionRef<void(int, const Segment*)> body) {
   const char* name = phase.work < fewest_inter_tile_batches ? nullptr : inter_tile_name;
   for_tasks(s, phase, name, fewest_inter_tile_batches,
@@ -20,8 +21,8 @@ void for_segments(Substep& s, const Phase& phase, FunctionRef<void(int, const Se
 
 }  // namespace
 
-/// Backward: segments in reverse order. The order inside a segment is irrelevant, because its constraints share no
-/// particle.
+/// A backward walk visits the segments in reverse order. The order within a segment is irrelevant, because constraints
+/// of a segment share no particle.
 void project_tile(const Substep& s, int task, bool first_pass, Order order) {
   const int object = s.model.tiles()[task].object;
   const Tile& tile = tile_of(s, task);
@@ -30,7 +31,7 @@ void project_tile(const Substep& s, int task, bool first_pass, Order order) {
 }
 
 void project_tiles(Substep& s, const Phase& /*phase*/, const Pass& pass) {
-  if (pass.first && s.sweeps_on_entry) return;  // the first pass ran when each tile was entered (stages/advance.cpp)
+  if (pass.first && s.sweeps_on_entry) return;  // predict ran the first pass on entry to each tile (stages/advance.cpp)
   for_swept_tiles(s, "solve: tiles", [&](int task) { project_tile(s, task, pass.first, pass.order); });
 }
 

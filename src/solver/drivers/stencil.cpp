@@ -8,7 +8,7 @@ namespace pliant {
 
 namespace {
 
-/// Colours with fewer batches run on one thread: waking others takes longer.
+/// Colours with fewer batches run on one thread, because waking others takes longer.
 constexpr int fewest_batches_to_share = 8;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The driver of tethers: upper bounds of each particle's distance to the pins. Pins do not react, so particles are
-// independent.
+// The driver of tethers: upper bounds of each particle's distance to its pins. Pins do not move in response, so
+// particles are independent.
 #include <algorithm>
 
 #include "solver/drivers/driver.h"
@@ -15,7 +15,7 @@ constexpr int particles_per_task = 4096;
 void hold_tethers_of(Substep& s, int o) {
   const CompiledObject& object = s.model.objects[o];
   const SweepArguments a = arguments(s, o, false);
-  // A copy, because another thread may write the records of the anchors meanwhile.
+  // A copy of the anchors, because another thread may write their records meanwhile.
   Records& anchors = s.work.anchors[o];
   for (std::size_t i = 0; i < object.tethers.anchors.size(); ++i) {
     anchors[2 * i] = a.positions[object.tethers.anchors[i]];

@@ -17,7 +17,8 @@ namespace pliant {
 
 namespace {
 
-/// True if another stage reads velocities before the next prediction, or the phases are timed separately.
+/// True if a stage between update and predict reads velocities, or if phases are timed separately; then update is not
+/// deferred.
 bool velocities_are_read(const Substep& s) {
   return s.is_last() || s.has_pairs() || !s.work.shape_contacts.contacts().empty() || has_forces(s.model, s.work.control) ||
          s.context.separate_phases;
@@ -31,7 +32,7 @@ void move_to(const Vec3d& target, int particle, const AdvanceArguments& a) {
   v = {(d.x - r.x) * a.inverse_h, (d.y - r.y) * a.inverse_h, (d.z - r.z) * a.inverse_h, 0};
 }
 
-/// Moves particles with targets of the user, linearly over the frame's substeps. Called after keyframes, which it overrides.
+/// Moves particles to targets of the user, linearly over the frame. Call it after keyframes, which targets override.
 void move_to_targets(const Substep& s, const std::vector<Target>& targets, const AdvanceArguments& a) {
   const double share = static_cast<double>(s.number + 1) / s.planned;
   auto target = std::lower_bound(targets.begin(), targets.end(), a.first,
@@ -63,7 +64,7 @@ bool is_finite(const Substep& s, int task) {
   return s.kernels.all_finite(a.displacements, a.first, a.last);
 }
 
-/// Ends a tile's substep: velocities, positions, restitution at colliders.
+/// Ends a tile's substep: updates velocities and positions, and applies restitution at colliders.
 void update_tile(const Substep& s, int task, bool ends_frame) {
   AdvanceArguments a = particles(s, task);
   const Vec3f settled = gravity_for(s, s.work.gravity[s.model.tiles()[task].object].settled);
@@ -73,7 +74,7 @@ void update_tile(const Substep& s, int task, bool ends_frame) {
   if (!contacts.empty()) respond(contacts, ends_frame ? Vec3f{} : settled, a);
 }
 
-/// Starts a tile's substep with the kernel `move`: predict, or advance, which includes the update of the last substep.
+/// Starts a tile's substep. `move` is the kernel predict, or advance, which also makes the update of the last substep.
 void predict_tile(const Substep& s, int task, void (*move)(const AdvanceArguments&, PointBounds*)) {
   const CompiledObject& object = object_of(s, task);
   const AdvanceArguments a = particles(s, task);
@@ -98,7 +99,8 @@ bool advance_tile(const Substep& s, int task) {
   return true;
 }
 
-/// True if every tile and every frame is finite. Otherwise the report names the first non-finite value of that substep.
+/// True if every tile and every frame is finite. Otherwise the report names the first non-finite value of substep
+/// `substep`.
 bool all_finite(Substep& s, int substep) {
   bool is_finite = s.frames_are_finite;
   for_each_tile(s, [&](int task) { is_finite = is_finite && s.work.tiles[task].finite; });
@@ -122,7 +124,7 @@ bool predict(Substep& s) {
     if (s.update_is_due && !advance_tile(s, task)) return;
     if (sweeps_at_once) sweep_first(task);
   });
-  if (s.sweeps_on_entry && !sweeps_at_once) for_tiles(s, "solve: tiles", sweep_first);  // as early, for the same contacts
+  if (s.sweeps_on_entry && !sweeps_at_once) for_tiles(s, "solve: tiles", sweep_first);  // tiles were entered already
   s.update_is_due = false;
   return all_finite(s, s.number - 1);
 }

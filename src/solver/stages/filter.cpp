@@ -5,7 +5,7 @@ namespace pliant {
 
 namespace {
 
-/// Limit of extra contact passes; each propagates a push by one layer.
+/// Upper limit of additional contact passes. Each pass propagates a push by one layer.
 constexpr int most_rounds_of_contacts = 16;
 
 }  // namespace
@@ -14,7 +14,7 @@ void filter(Substep& s) {
   hold_at_surfaces(s);
   if (!s.has_pairs()) return;
   SurfaceContact& pairs = *s.pairs;
-  // The filter cannot limit kinematic colliders: whatever they meet must be out of their way first.
+  // The filter cannot limit kinematic colliders, so contacts must first move whatever they meet out of their way.
   for (int round = 0; round < most_rounds_of_contacts && pairs.is_overrun(all_particles(s)); ++round) {
     sweep_pairs(s);
     sweep_contacts(s);

@@ -1,4 +1,4 @@
-// The start and the end of a frame.
+// Starts and ends a frame.
 #include <algorithm>
 
 #include "solver/pair_words.h"
@@ -69,7 +69,7 @@ void end_group(Substep& s) {
 }
 
 void end_frame(std::vector<Substep>& groups) {
-  const Substep& s = groups.front();  // all have reached the same time
+  const Substep& s = groups.front();  // at a frame's end all groups have reached the same time
   s.report.stopped = s.substeps < s.planned;
   s.state.time = s.report.stopped ? time_of(s, s.substeps) : s.frame_start + s.dt;
 }

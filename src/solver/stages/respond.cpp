@@ -7,13 +7,14 @@ namespace pliant {
 
 namespace {
 
-/// Limit of passes that end impacts; each propagates velocity changes from one contact of a vertex to its others.
+/// Upper limit of passes that end impacts. Each propagates velocity changes from one contact of a vertex to its other
+/// ones.
 constexpr int most_rounds_of_impacts = 8;
-/// A remaining approach below this share of the thickness per substep is left to the next substep.
+/// A remaining approach per substep below this share of the thickness is left to the next substep.
 constexpr float share_left = 0.1f;
 
-/// Removes the remaining approach velocity of impacts now. In the next substep, contact normals of crumpled surfaces
-/// would deflect it sideways.
+/// Removes the remaining approach velocity of impacts in this substep. If it were left to the next one, contact normals
+/// of crumpled surfaces would deflect it sideways.
 void end_impacts(Substep& s, FunctionRef<Vec3f(int)> gravity, float slow) {
   SurfaceContact& pairs = *s.pairs;
   const Record* positions = s.state.positions.data();

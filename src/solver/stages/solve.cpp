@@ -1,4 +1,4 @@
-// The iterations of a substep.
+// Runs the iterations of a substep.
 #include <algorithm>
 
 #include "solver/drivers/driver.h"
@@ -11,18 +11,18 @@ namespace pliant {
 
 namespace {
 
-/// True if a tolerance is set and met, and iterations are left.
+/// True if the settings have a tolerance, the residual is below it, and further iterations are planned.
 bool is_met(Substep& s, int iteration) {
   const StepContext& context = s.context;
   return context.tolerance > 0 && iteration + 1 < context.iterations && distance_residual(s) < context.tolerance;
 }
 
-/// Whether any object that makes this substep is solved by a sweep.
+/// True if any object that takes part in this substep is solved by the given sweep.
 bool uses(const Substep& s, Sweep sweep) {
   return s.part == nullptr || std::find(s.part->sweeps.begin(), s.part->sweeps.end(), sweep) != s.part->sweeps.end();
 }
 
-/// Projects stencils as often as the sweep of their object projects its other constraints.
+/// Projects stencil constraints as often as the sweep of their object projects the other constraints.
 void walk_stencils(Substep& s, bool first) {
   int passes = 0;
   for (const auto& [sweep, group] : s.work.sweeps)
@@ -30,7 +30,7 @@ void walk_stencils(Substep& s, bool first) {
   for (int pass = 0; pass < passes; ++pass) walk(s, Turn::stencil, {first && pass == 0, Order::forward, pass});
 }
 
-/// One iteration: the phases that belong to a sweep, group by group, then all others.
+/// Runs one iteration: for each sweep group its phases and acceleration, then the phases of all groups together.
 void iterate(Substep& s, int iteration) {
   for (const auto& [sweep, group] : s.work.sweeps) {
     if (!uses(s, sweep)) continue;
@@ -44,7 +44,7 @@ void iterate(Substep& s, int iteration) {
   walk(s, Turn::last, {});
 }
 
-/// Returns how many iterations were made.
+/// Iterates until the tolerance is met or the planned iterations are done. Returns the number of iterations.
 int iterate_to_tolerance(Substep& s) {
   const bool records = s.context.record_residuals && s.is_last();
   if (records) record_prediction(s);

@@ -5,39 +5,39 @@
 
 namespace pliant {
 
-/// Prepares the first substep of each group in a frame of dt seconds.
+/// Starts a frame of `dt` seconds. Returns the first substep of each group of objects.
 std::vector<Substep> begin_frame(const StepContext& context, double dt, Report& report);
 
 /// Moves colliders to their poses at the substep's end.
 void control(Substep& s);
 
-/// Applies wind and force fields to velocities.
+/// Adds wind and force fields to velocities.
 void apply_forces(Substep& s);
 
-/// v += h g, displacement = h v; moves kinematic particles to their targets. Finds contacts with colliders along each
-/// tile's path. Returns false if a deferred update met a non-finite value.
+/// v += h g, displacement = h v; moves kinematic particles to their targets. Finds contacts of particles with colliders
+/// along the predicted paths. Returns false if a deferred update of the last substep found a non-finite value.
 bool predict(Substep& s);
 
 /// Finds contacts between surfaces.
 void collide(Substep& s);
 
-/// Iterates over all constraints.
+/// Projects all constraints and contacts, iteration by iteration.
 void solve(Substep& s);
 
 /// Truncates steps so that no surface crosses another.
 void filter(Substep& s);
 
-/// Velocities from corrections, x += displacement, restitution at colliders. Returns false for a non-finite displacement:
-/// the report names it, and the State is finite again.
+/// Updates velocities by the corrections, x += displacement, and applies restitution at colliders. Returns false if a
+/// displacement is not finite; then the report names it, and the State has been made finite.
 bool update(Substep& s);
 
 /// Applies restitution between surfaces.
 void respond(Substep& s);
 
-/// Counts the contacts of a group's last substep.
+/// Counts the contacts in the last substep of a group.
 void end_group(Substep& s);
 
-/// Advances the time to that of all groups.
+/// Sets the State's time, which all groups have reached.
 void end_frame(std::vector<Substep>& groups);
 
 }  // namespace pliant

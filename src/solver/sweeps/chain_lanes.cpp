@@ -1,7 +1,7 @@
 // Chains and tethers in sixteen SIMD lanes, compiled per instruction set level under the rules of lanes.cpp.
 //
-// Each lane solves one path. Forward elimination loads each particle once and stores what back substitution needs in a
-// sequential scratch. Back substitution stores each particle once.
+// Each lane solves one path. Forward elimination loads each particle once, and stores in a contiguous scratch array
+// what back substitution needs. Back substitution stores each particle once.
 #include "math/wide.h"
 #include "solver/sweeps/chain_kernels.h"
 #include "solver/sweeps/chain_link.h"
@@ -10,8 +10,8 @@ namespace pliant {
 inline namespace PLIANT_ISA {
 namespace {
 
-// The scratch layout of a link, as float offsets: direction, weight,
-// change, coupling, and the displacements of its end particle.
+// Offsets of a link's data in the scratch array, in floats: direction, weight, change, coupling, and the displacements
+// of its end particle.
 constexpr int kept_direction = 0, kept_weight = 48, kept_change = 64, kept_coupling = 80, kept_displacements = 96;
 static_assert(kept_displacements + 4 * wide_width == chain_scratch_floats);
 
@@ -25,7 +25,7 @@ PLIANT_HD void keep(float* to, const ChainLink<Wide>& link, const Registers& dis
   std::memcpy(to + kept_displacements, &displacements, sizeof displacements);
 }
 
-/// The pool rows of a chain's batches, and the softness of its lanes.
+/// Pointers to the pool rows of a chain's current batch, and the softness of its lanes.
 struct ChainRows {
   const float *rest, *compliance;
   std::int32_t rest_step, compliance_step;
@@ -85,7 +85,7 @@ void solve_chain(const Pool& pool, const Segment* links, int steps, const float*
   const Registers start =
       eliminate_chain(pool, links, steps, softness, a.first_pass ? nullptr : multipliers, a, scratch, first_weight);
   const Wide zero(0.f);
-  Vec3<Wide> pull{zero, zero, zero};  // correction of the next link
+  Vec3<Wide> pull{zero, zero, zero};  // displacement that the correction of the next link causes
   Wide change = zero, coupling = zero;
   for (int k = steps - 1; k >= 0; --k) {
     const float* kept = scratch + static_cast<std::ptrdiff_t>(k) * chain_scratch_floats;
@@ -109,7 +109,7 @@ void solve_chain(const Pool& pool, const Segment* links, int steps, const float*
 
 // ---------------------------------------------------------------- tethers
 
-/// The same record in every lane.
+/// A register set with the same record in every lane.
 PLIANT_HD Registers spread_record(const Record& record) {
   const Quad q = load_quad(&record);
 #if PLIANT_PART_WIDTH == 16
@@ -124,7 +124,7 @@ PLIANT_HD Registers spread_record(const Record& record) {
   return r;
 }
 
-/// The anchors of a row: positions and displacements.
+/// The positions and displacements of sixteen lanes' anchors.
 struct WideAnchors {
   Registers positions, displacements;
 
@@ -172,7 +172,7 @@ PLIANT_HD void hold_batch(const Tethers& tethers, int batch, const Record* ancho
   if (moved) store_runs(a.displacements, runs, displacements, 4);
 }
 
-/// The first `count` particles of the last batch, one by one.
+/// Projects the first `count` particles of an object's last batch, one by one.
 PLIANT_HD void hold_some(const Tethers& tethers, int batch, int count, const Record* anchors, const SweepArguments& a) {
   for (int lane = 0; lane < batch_width; ++lane) {
     const int place = 4 * (lane % 4) + lane / 4;

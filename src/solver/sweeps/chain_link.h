@@ -4,11 +4,11 @@
 // the diagonal w_k + w_{k+1} + alpha~ and the off-diagonal -w_k (n_{k-1} . n_k). The Thomas algorithm solves it (a direct
 // solver for the system of Macklin et al. 2016 along a path; Deul et al. 2018 do the same for rods).
 //
-// The pivot avoids a difference. With the mobility q_k of link k's first end while all earlier links hold,
+// The pivot avoids a difference. q_k is the mobility of link k's first end while earlier links are satisfied:
 //   p_k = q_k + w_{k+1} + s_k,   q_k = w_k - (w_k n_{k-1}.n_k)^2 / p_{k-1} = w_k (q_{k-1} + s_{k-1} + w_k |n_{k-1} x
 //   n_k|^2) / p_{k-1},
-// where s_k is added to the diagonal. All terms are sums of non-negative values, so no digits cancel. A load 100 000 times
-// as heavy as a link would make the pivot a hundred-thousandth of the two terms of a difference.
+// s_k is the term added to the diagonal. All terms are sums of non-negative values, so no digits cancel. For a load 100
+// 000 times as heavy as a link, a pivot computed as a difference would be a hundred-thousandth of its two terms.
 #pragma once
 
 #include "math/scalar.h"
@@ -17,35 +17,35 @@
 
 namespace pliant {
 
-/// Data of link k that link k + 1 needs.
+/// Results of link k that link k + 1 needs.
 template <class R>
 struct ChainEnd {
   Vec3<R> direction;  ///< n_k
-  R length;           ///< current length of the link; zero: no direction
-  R weight;           ///< inverse mass of the particle between
-  R mobility;         ///< q_k
-  R added;            ///< s_k
+  R length;           ///< current length of link k; zero: no direction
+  R weight;           ///< inverse mass of the particle between links k and k + 1
+  R mobility;         ///< q_k, mobility of the first end
+  R added;            ///< s_k, added to the diagonal
   R inverse_pivot;    ///< 1 / p_k
-  R change;           ///< dlambda_k as if no link followed
+  R change;           ///< dlambda_k if no link followed
 };
 
-/// Data of a link that back substitution needs.
+/// Results of a link that back substitution needs.
 template <class R>
 struct ChainLink {
   Vec3<R> direction;
-  R weight;    ///< inverse mass of its end particle
-  R change;    ///< dlambda as if no link followed
-  R coupling;  ///< factor of its dlambda in that of the previous link
+  R weight;    ///< inverse mass of the link's second particle
+  R change;    ///< dlambda of the link if no link followed
+  R coupling;  ///< factor by which this link's dlambda changes that of the previous link
 };
 
-/// The parameters of a link.
+/// The parameters of one link.
 template <class R>
 struct ChainParams {
   R rest_length, compliance, softness, multiplier;
 };
 
-/// Eliminates a link: `across` points from its first particle to its second, which has inverse mass `weight`. `end` is that
-/// of the previous link; for the first link all fields but `weight` are zero.
+/// Eliminates a link. `across`: from its first particle to its second, whose inverse mass is `weight`. `end`: results
+/// of the previous link (before the first link zero, but for the weight); replaced by those of this link.
 template <bool first, class R>
 PLIANT_HD ChainLink<R> eliminate(const Vec3<R>& across, const R& weight, const ChainParams<R>& params,
                                  const SweepArguments& a, ChainEnd<R>& end) {
@@ -54,7 +54,7 @@ PLIANT_HD ChainLink<R> eliminate(const Vec3<R>& across, const R& weight, const C
   const Vec3<R> n = across * (R(1) / max(length, tiny));
   R mobility = w, coupled(0), coupling(0);
   if constexpr (!first) {
-    // A link without direction is decoupled from its neighbour, as if they were perpendicular.
+    // A link of length zero is decoupled from its neighbour, as if the two were perpendicular.
     const R sine2 = select(min(length, end.length) < tiny, R(1), length_squared(cross(end.direction, n)));
     coupled = w * dot(end.direction, n);
     mobility = w * ((end.mobility + end.added + w * sine2) * end.inverse_pivot);
@@ -70,13 +70,13 @@ PLIANT_HD ChainLink<R> eliminate(const Vec3<R>& across, const R& weight, const C
   return {n, weight, change, coupling};
 }
 
-/// The displacement of a particle on a tether: this share times (x - anchor).
+/// The displacement of a particle on a tether, as a factor of (x - anchor).
 template <class R>
 PLIANT_HD R tether_share(const R& distance, const R& longest) {
   return (longest - distance) / max(distance, R(smallest_denominator));
 }
 
-/// Projects one particle's tethers in sequence. `anchors` holds a position and a displacement each.
+/// Projects the tethers of one particle one after another. `anchors` has a position and a displacement for each anchor.
 PLIANT_HD void hold_particle(const Tethers& tethers, int batch, int lane, int particle, const Record* anchors,
                              const SweepArguments& a) {
   const Record& x = a.positions[particle];

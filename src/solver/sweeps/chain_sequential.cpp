@@ -8,7 +8,7 @@ namespace pliant {
 
 namespace {
 
-/// One lane of a chain. Steps beyond the path's end are links of length zero without effect, as in the SIMD lanes.
+/// One lane of a chain. As in the SIMD lanes, steps beyond the path's end are links of length zero, which have no effect.
 class Lane {
  public:
   Lane(const Pool& pool, const Segment* links, int lane, const SweepArguments& a, float* multipliers)

@@ -1,7 +1,7 @@
-// The chain sweep: the order in which paths are solved, and the tethers after them.
+// The chain sweep: which paths of distance constraints are solved exactly, and in which order; tethers follow.
 //
-// Gauss-Seidel carries a force one edge per pass, so finely meshed cloth that hangs from two corners needs thousands of
-// passes. Solving whole rows, columns and diagonals at once carries it from end to end in one pass.
+// Gauss-Seidel propagates a force by one edge per pass, so finely meshed cloth that hangs from two corners needs
+// thousands of passes. Solving whole rows, columns and diagonals exactly propagates it from end to end in one pass.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@
 namespace pliant {
 
 struct ChainScratch : SweepScratch {
-  std::vector<AlignedVector<float>> of_thread;  ///< scratch for the longest chain, one per thread
+  std::vector<AlignedVector<float>> of_thread;  ///< scratch array of each thread, for the longest chain
 
   void prepare(const SweepSetup& setup, int object) override;
 };

@@ -11,20 +11,20 @@ namespace pliant {
 
 namespace {
 
-/// Safety factor on the estimate of rho from plain iterations, because an overestimate costs more.
+/// Safety factor on rho as estimated from plain iterations: an overestimate costs more than an underestimate.
 constexpr double caution = 0.999;
 /// Upper limit of rho: float iterates cannot resolve values closer to 1.
 constexpr double largest_radius = 0.99999;
-/// Acceleration ends if corrections grow by this factor since it began: it diverges.
+/// If corrections grow by this factor after acceleration began, it diverges, and the rest of the substep is plain.
 constexpr double largest_growth = 4;
-/// Acceleration ends when corrections fall to this share of the substep's first one: the rest is rounding error.
+/// If corrections fall to this share of the substep's first one, the rest is rounding error, and acceleration ends.
 constexpr double smallest_share = 1e-7;
-/// With an estimated rho, acceleration also ends after this many steps if corrections are still above `least_progress`
-/// of their initial size: they stagnate at rounding error.
+/// With an estimated rho, acceleration also ends if after this many steps corrections are still above `least_progress`
+/// of their initial size: then they stagnate at rounding error.
 constexpr int patience = 32;
 constexpr double least_progress = 0.95;
-/// rho is checked at step counts that are powers of two, from this one on, while the Chebyshev polynomial is below its
-/// bound.
+/// rho is judged after numbers of steps that are powers of two, beginning with this one, while the Chebyshev polynomial
+/// is below largest_polynomial.
 constexpr int first_judgement = 8;
 constexpr double largest_polynomial = 1e10;
 
@@ -42,14 +42,14 @@ void start(double radius, double norm, ChebyshevRecurrence& c) {
   c.polynomial_before = 1 / radius;  // T_(-1) = T_1
 }
 
-/// Solves T_n(lambda / rho) = excess for lambda, n = steps a power of two: rho cosh(acosh(excess) / n).
+/// Solves T_n(lambda / rho) = excess for lambda: rho cosh(acosh(excess) / n). The number of steps n is a power of two.
 double judged_radius(const ChebyshevRecurrence& c, double excess) {
   double root = excess + std::sqrt(excess * excess - 1);
   for (int i = 1; i < c.steps; i *= 2) root = std::sqrt(root);
   return min(c.spectral_radius * (root + 1 / root) / 2, largest_radius);
 }
 
-/// Restarts with a larger rho if that explains the slow decrease of corrections. Returns true if it did.
+/// If a larger rho explains the slow decrease of corrections, restarts the recurrence with it and returns true.
 bool raise_radius(double norm, ChebyshevRecurrence& c) {
   if (c.steps < first_judgement || !is_power_of_two(c.steps) || c.polynomial > largest_polynomial) return false;
   const double excess = norm / c.start_norm * c.polynomial;
@@ -60,14 +60,14 @@ bool raise_radius(double norm, ChebyshevRecurrence& c) {
   return true;
 }
 
-/// The weight omega for the next extrapolation. `norm` is that of the plain correction of the sweep just made.
+/// Returns omega for the next extrapolation. `norm` is the norm of the last sweep's correction before extrapolation.
 double next_weight(const SweepOptions& options, int iteration, double norm, ChebyshevRecurrence& c) {
   const bool estimates = options.spectral_radius == 0;
   const double ratio = iteration > 0 && c.last_norm > 0 ? norm / c.last_norm : 1;
   c.last_norm = norm;
   if (iteration == 0) c.plain_norm = norm;
   if (c.given_up || iteration + 1 < options.plain_iterations) return 1;
-  if (c.steps < 0) {  // the last plain iteration counts as the first of the recurrence
+  if (c.steps < 0) {  // the last plain iteration is step 0 of the recurrence
     if (!estimates) start(static_cast<double>(options.spectral_radius), norm, c);
     if (estimates && ratio < 1 && norm > 0) start(min(caution * ratio, largest_radius), norm, c);
     c.first_norm = norm;
@@ -120,8 +120,8 @@ void extrapolate_tile(float weight, const Tile& tile, const Record* older, Recor
 
 // ---------------------------------------------------------------- multipliers
 
-/// Extrapolates the multipliers of all pools, however their constraints are scheduled. On one thread, because a pass
-/// over the multipliers is cheap compared with a sweep.
+/// Extrapolates the multipliers of all pools. It runs on one thread, because this costs little compared with a
+/// sweep.
 void extrapolate_multipliers(const Substep& s, float weight, const LaneValues& older) {
   LaneValues& multipliers = s.work.multipliers;
   for (std::size_t o = 0; o < multipliers.size(); ++o) {
@@ -155,8 +155,8 @@ void extrapolate_everything(Substep& s, float weight) {
       volumes[o] = c.older.volumes[o] + static_cast<double>(weight) * (volumes[o] - c.older.volumes[o]);
 }
 
-/// Stores the multipliers. Before the first sweep of a substep they are stale values of the last one, so zeros are
-/// stored.
+/// Stores the current multipliers. Before the first sweep of a substep it stores zeros, because the array still holds
+/// those of the previous substep.
 void keep_multipliers(const Substep& s, bool first, ChebyshevScratch& c) {
   const Workspace& work = s.work;
   for (std::size_t o = 0; o < work.multipliers.size(); ++o) {

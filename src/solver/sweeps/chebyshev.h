@@ -2,18 +2,18 @@
 //
 //   x_(k+1) = omega_(k+1) (G(x_k) - x_(k-1)) + x_(k-1),   omega = 1 | 2 / (2 - rho^2) | 4 / (4 - rho^2 omega) | ...
 //
-// G is one iteration of the sweep, rho its spectral radius. x contains displacements and multipliers, because their linear
-// relation must persist. The first iterations of a substep are plain.
+// G is one iteration of the sweep, rho its spectral radius. x consists of displacements and multipliers, whose linear
+// relation must persist. The first iterations of a substep are plain, that is, not extrapolated.
 //
-// rho is estimated in each substep, so that the State needs no extra data. The ratio of the last two
-// plain corrections |G(x) - x| (in the mass norm) is a lower bound, which is safe: an overestimate
-// of rho costs far more. n steps should reduce corrections by T_n(1 / rho). If they are e times
-// larger, an eigenvalue lambda lies above rho, with T_n(lambda / rho) >= e: the recurrence restarts
-// with that lambda (Hageman and Young, Applied Iterative Methods, 1981, chapter 5), still a lower
-// bound. If corrections grow, or stagnate at rounding, the rest of the substep is plain.
+// rho is estimated anew in each substep, so that the State needs no additional data. The ratio of the last two
+// corrections |G(x) - x| of plain iterations (in the mass norm) is a lower bound. That is safe: an overestimate of rho
+// costs far more. n steps should reduce corrections by T_n(1 / rho). If they are e times larger, an eigenvalue lambda
+// lies above rho, with T_n(lambda / rho) >= e. Then the recurrence restarts with that lambda, still a lower bound
+// (Hageman and Young, Applied Iterative Methods, 1981, chapter 5). If corrections grow, or stagnate at rounding, the
+// rest is plain.
 //
-// Gauss-Seidel in natural order has suitable eigenvalues too, but its matrix is
-// so far from normal that rounding errors grow without bound; World rejects it.
+// The eigenvalues of Gauss-Seidel in natural order would allow acceleration too, but its matrix is so far from normal
+// that rounding errors grow without bound; World rejects this combination.
 #pragma once
 
 #include <utility>
@@ -24,44 +24,44 @@
 
 namespace pliant {
 
-/// One float per lane for each pool, as in Workspace::multipliers: [object][pool].
+/// Multipliers as in Workspace::multipliers: [object][pool], one float per lane.
 using LaneValues = std::vector<std::vector<AlignedVector<float>>>;
 
-/// x_k as displacements and multipliers.
+/// An iterate x_k: displacements and multipliers.
 struct ChebyshevIterate {
   Records displacements;
   LaneValues multipliers;
   std::vector<double> volumes;
 };
 
-/// The recurrence's state in this substep. Norms are those of plain corrections, |G(x) - x|.
+/// The state of the recurrence in this substep. Norms are those of sweep corrections |G(x) - x|.
 struct ChebyshevRecurrence {
-  double spectral_radius = 0;                    ///< rho in use
-  double weight = 1;                             ///< omega
-  double polynomial = 1, polynomial_before = 1;  ///< T_n(1 / rho), the Chebyshev polynomial, n = steps; and T_(n-1)
-  int steps = -1;                                ///< steps since the recurrence's start; -1: not started
-  double plain_norm = 0;                         ///< norm of the first correction of the substep
-  double first_norm = 0;                         ///< norm when acceleration started
-  double start_norm = 0, last_norm = 0;          ///< norm when the recurrence was started, and the latest norm
-  bool given_up = false;                         ///< plain for the rest of the substep: diverged, or at rounding
+  double spectral_radius = 0;                    ///< rho
+  double weight = 1;                             ///< omega of the last extrapolation
+  double polynomial = 1, polynomial_before = 1;  ///< Chebyshev polynomials T_n(1 / rho) and T_(n-1)(1 / rho), n = steps
+  int steps = -1;                                ///< n, steps since the recurrence was started; -1: not started
+  double plain_norm = 0;                         ///< norm of the substep's first correction
+  double first_norm = 0;                         ///< norm when acceleration began
+  double start_norm = 0, last_norm = 0;          ///< norm when the recurrence was (re)started; last norm
+  bool given_up = false;                         ///< the rest of the substep is plain: diverged, or at rounding error
 };
 
-/// The last two iterates of a group and its recurrence.
+/// The last two iterates of a sweep group, and its recurrence.
 struct ChebyshevScratch : SweepScratch {
   ChebyshevIterate before, older;  ///< x_k and x_(k-1)
   ChebyshevRecurrence recurrence;
-  std::vector<double> tile_sums;  ///< sum of m |correction|^2 by tile
+  std::vector<double> tile_sums;  ///< sum of m |correction|^2 over each tile
   std::vector<std::vector<Record>>
-      touching;  ///< by tile: displacements of particles in contact, while others are extrapolated
-  std::vector<std::pair<int, Record>> touching_points;  ///< the same for contacts of edges, triangles and surfaces
+      touching;  ///< for each tile, saved displacements of particles in contact, which are not extrapolated
+  std::vector<std::pair<int, Record>> touching_points;  ///< saved displacements at other contacts
 
   void prepare(const SweepSetup& setup, int object) override;
 };
 
-/// Call before an iteration of the current group: stores the iterate.
+/// Stores the iterate of the current sweep group; call it before each of its iterations.
 void keep_iterate(Substep& s, int iteration);
 
-/// Call after the sweep and before contacts.
+/// Extrapolates the current sweep group; call it after the sweep and before contacts.
 void accelerate(Substep& s, int iteration);
 
 }  // namespace pliant

@@ -10,7 +10,7 @@ namespace pliant {
 
 namespace {
 
-/// Calls visit(pool index, batch, lane, indices of the batch, segment) for every constraint.
+/// Calls visit(pool index, batch, lane, the batch's particle indices, segment) for every constraint.
 template <class Visit>
 void for_constraints(const CompiledObject& object, const Visit& visit) {
   for (const Segment& segment : object.segments) {

@@ -7,8 +7,8 @@ namespace pliant {
 
 namespace {
 
-/// Copies positions with each inverse mass multiplied by the particle's number of constraints n: each acts on an n-th
-/// of the mass.
+/// Copies positions with inverse masses multiplied by n, the number of constraints at the particle: each constraint
+/// acts on an n-th of the mass.
 void split_masses(const Tile& tile, const Record* positions, JacobiObject& object) {
   for (int i = tile.first_particle; i < tile.last_particle; ++i) {
     object.positions[i] = positions[i];
@@ -16,7 +16,7 @@ void split_masses(const Tile& tile, const Record* positions, JacobiObject& objec
   }
 }
 
-/// Adds the mean of its corrections to each particle's displacement, summed in ascending order.
+/// Adds to each particle's displacement the mean of its corrections, summed in ascending order.
 void gather(const Tile& tile, const JacobiObject& object, Record* displacements) {
   for (int i = tile.first_particle; i < tile.last_particle; ++i) {
     const int count = object.incidence.count(i);

@@ -14,7 +14,7 @@ namespace {
 void move(Substep& s, int o, bool first) {
   const SweepArguments a = arguments(s, o, first);
   MultigridObject& work = multigrid_of(s).objects[o];
-  // Rejected corrections are left to the sweeps, which may converge, or whose failure is diagnosed.
+  // If a correction is rejected, the sweeps alone solve the substep. If they diverge as well, that is diagnosed as usual.
   work.is_made = is_multigrid_change_sound(s, o);
   if (!work.is_made) return std::fill(work.change.begin(), work.change.end(), Record{});
   for (int i = 0; i < s.model.objects[o].particles; ++i) {
@@ -72,8 +72,8 @@ void correct_multigrid(Substep& s, bool first) {
 void iterate_multigrid(Substep& s, bool first) {
   correct_multigrid(s, first);
   if (first) find_more_contacts(s);
-  // Forward, then backward: the backward pass ends with distances, the first type, and so restores what bending
-  // stretched.
+  // A forward pass, then a backward pass: the backward pass ends with distances, the first type, and so undoes the
+  // stretch that bending causes.
   walk(s, Turn::sweep, {});
   sweep_pairs(s);
   sweep_contacts(s);

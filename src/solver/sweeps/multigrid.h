@@ -1,10 +1,10 @@
 // The multigrid correction: one Newton step on the stretching energy of all springs of an object, solved by conjugate
 // gradients with a multigrid cycle as preconditioner, before the plain sweeps.
 //
-// A sweep carries a force one edge at a time, so finer meshes stretch more. Coarse levels, whose
-// rows are groups of particles, correct large-scale errors, so that stretch hardly depends on
-// resolution. The energy is |x - x~|^2_M / 2 h^2 + sum K C^2 / 2 + contacts. Its Hessian keeps
-// the geometric stiffness of taut springs (model/multigrid.h, multigrid_lanes.cpp).
+// A sweep propagates a force by one edge, so finer meshes stretch more. Coarse levels, whose rows are groups of
+// particles, correct large-scale errors, so that stretch hardly depends on resolution. The energy is |x - x~|^2_M / 2
+// h^2 + sum K C^2 / 2 + contacts, x~ the prediction. Its Hessian includes the geometric stiffness of taut springs
+// (model/multigrid.h, multigrid_lanes.cpp).
 #pragma once
 
 #include <array>
@@ -17,86 +17,86 @@
 
 namespace pliant {
 
-/// The data of one object.
+/// The data of one object in the multigrid correction.
 struct MultigridObject {
   std::vector<MultigridValues> levels;
-  Records direction, change;    ///< vectors of conjugate gradients: p, x
-  AlignedVector<float> extra;   ///< of contacts: nine rows of sixteen per batch; empty before the first contact
-  std::vector<char> has_extra;  ///< by batch: true if its rows have contacts
-  std::vector<double> sums;     ///< partial sums of reductions, by task
-  /// Per connected piece: its stiffness against the world (xx yy zz xy xz yz), and the remaining force on it.
+  Records direction, change;    ///< conjugate gradients: search direction p, solution x
+  AlignedVector<float> extra;   ///< matrix terms of contacts: nine rows of sixteen per batch; empty before the first
+  std::vector<char> has_extra;  ///< for each batch, 1 if one of its rows has contacts
+  std::vector<double> sums;     ///< partial sums of reductions, one for each task
+  /// A connected piece: its stiffness against pins and contacts (xx yy zz xy xz yz) [N/m], and the residual force [N].
   struct Piece {
     double held[6], force[3];
   };
   std::vector<Piece> pieces;
-  /// The product A p of conjugate gradients, in scratch memory of the preconditioner.
+  /// The product A p of conjugate gradients; it uses scratch memory of the preconditioner.
   Records& image() { return levels[0].y; }
-  bool is_made = true;  ///< false if the correction was rejected: it then leaves no multipliers and no pushes
+  bool is_made = true;  ///< false if the correction was rejected: it then changes no multipliers and contacts
 };
 
-/// A contact as two springs between its sides: along the normal, and tangential with at most Coulomb's stiffness.
+/// A contact as two springs between its sides: one along the normal, and a tangential one limited by Coulomb friction.
 struct ContactSpring {
-  float depth = 0;              ///< negative if the sides overlap [m]
-  float along = 0, across = 0;  ///< [N/m]
+  float depth = 0;              ///< distance of the sides less the thickness [m]; negative: they overlap
+  float along = 0, across = 0;  ///< normal and tangential stiffness [N/m]
   Vec3f slip{};                 ///< tangential displacement since the substep's start [m]
 };
 
 /// A contact between surfaces (constraints/contact.h) as springs between the closest points of its two sides.
 struct PairSpring : ContactSpring {
   std::int32_t contact = 0;              ///< index of the contact
-  std::array<std::int32_t, 4> object{};  ///< of each particle; -1: not moved by this correction
+  std::array<std::int32_t, 4> object{};  ///< object of each particle; -1: not moved by this correction
   std::array<std::int32_t, 4> particle{};
   std::array<float, 4> weight{};
   Vec3f normal{};
 };
 
-/// The stiffness of a spring, normal and tangential, as xx yy zz xy xz yz [N/m].
+/// The 3 x 3 stiffness matrix of a spring, as xx yy zz xy xz yz [N/m].
 std::array<float, 6> block_of(const PairSpring& spring);
 
-/// Objects connected by contacts, and these contacts.
+/// Objects that contacts connect, and these contacts.
 struct MultigridGroup {
   std::vector<int> objects;
   std::vector<const PairSpring*> springs;
 };
 
-/// The groups of one substep; kept to avoid allocations.
+/// The multigrid groups of a substep; kept between substeps to avoid allocations.
 struct MultigridGroups {
   std::vector<MultigridGroup> all;  ///< the first `count` are in use
   int count = 0;
-  std::vector<int> root, of_root;  ///< union-find over objects: parent of each; of a root: its group
+  std::vector<int> root, of_root;  ///< union-find over objects: parent of each; group of each root
 };
 
 struct MultigridScratch : SweepScratch {
-  std::vector<MultigridObject> objects;  ///< by object; without levels for objects of other groups
-  std::vector<PairSpring> springs;       ///< of contacts between surfaces
+  std::vector<MultigridObject> objects;  ///< for each object; those of other sweep groups have no levels
+  std::vector<PairSpring> springs;       ///< contacts between surfaces
   MultigridGroups groups;
 
   void prepare(const SweepSetup& setup, int object) override;
 };
 
-/// The data of the current group.
+/// The scratch data of the current sweep group.
 MultigridScratch& multigrid_of(const Substep& s);
 
-/// The correction alone, for every object with levels. The first of a substep starts from the prediction, before any sweep.
-/// After it, the multipliers of compliant distances match the correction, and all others are zero. Later ones continue with
-/// the remaining right-hand side of the first, which sweeps do not change.
+/// Makes the multigrid correction of every object with levels. The first one of a substep starts from the prediction,
+/// before any sweep; after it, the multipliers of compliant distances match it, and all others are zero. Later ones
+/// continue with what remains of the first one's right-hand side, which sweeps do not change.
 void correct_multigrid(Substep& s, bool first);
 
-// Parts of correct_multigrid in multigrid_contacts.cpp: adds contacts as springs on their particles' rows, and afterwards
-// stores the pushes and the friction that these exerted, from which the contacts' own projection continues.
+// Parts of correct_multigrid, defined in multigrid_contacts.cpp: add contacts as springs to the rows of their
+// particles; then store the pushes and friction of these springs, from which the projection of contacts continues.
 void add_multigrid_contacts(Substep& s);
 void keep_multigrid_pushes(Substep& s);
-/// Adds the off-diagonal effect of a surface contact's spring to `image`: the rows hold the other side fixed, but
-/// `direction` moves both. Returns its contribution to direction . image.
+/// Adds the off-diagonal terms of a surface contact's spring to A p: the matrix rows treat the other side as fixed, but
+/// p moves both sides. Returns their contribution to p . A p.
 double couple_pair(const PairSpring& spring, std::vector<MultigridObject>& objects);
-// In multigrid_group.cpp: groups all objects with levels, ordered by first object; and solves one group by conjugate
-// gradients, after which its right-hand sides hold the residual.
+// Defined in multigrid_group.cpp: groups all objects with levels, ordered by their first object; solves one group by
+// conjugate gradients, after which its right-hand sides hold the residual.
 void make_multigrid_groups(Substep& s);
 void solve_multigrid_group(Substep& s, const MultigridGroup& group, int cycles);
-/// False if an object's correction must be rejected: it is not finite, or
-/// moves a particle by more than an edge without reducing the springs' energy.
+/// Returns false if an object's correction must be rejected: it is not finite, or it moves a particle by more than an
+/// edge without reducing the springs' energy.
 bool is_multigrid_change_sound(Substep& s, int object);
-// In multigrid_multipliers.cpp: lambda of compliant distances after the correction, and zeros before it.
+// Defined in multigrid_multipliers.cpp: sets lambda of compliant distances after the correction; sets all to zero.
 void keep_multigrid_multipliers(Substep& s, int object, bool first);
 void clear_multigrid_multipliers(Substep& s);
 

@@ -1,13 +1,13 @@
-// Contacts in the multigrid correction. Each becomes a spring along its normal and a tangential spring limited by
-// Coulomb friction. Otherwise the correction would move objects into what they rest on, and contacts would push them
-// back out.
+// Contacts in the multigrid correction. Each becomes a normal spring and a tangential spring limited by Coulomb
+// friction. Without them the correction would move objects into what they rest on, and the projection of contacts would
+// push them back out.
 //
-// Springs only approximate friction. So the contacts start from the pushes and the friction of this solution, and their
-// own projection corrects any excess.
+// Springs only approximate friction. So the projection of contacts starts from the pushes and the friction of the
+// springs, and corrects any excess.
 //
 // A contact with a primitive adds to one matrix row. A contact between surfaces couples objects, or distant parts of
-// one, which the hierarchy does not represent: each row treats the other side as fixed at its prediction. Conjugate
-// gradients use the true coupling (couple_pair), which corrects this approximation.
+// one, which the coarse levels do not represent: each row treats the other side as fixed at its prediction. Conjugate
+// gradients apply the true coupling (couple_pair), which corrects this approximation.
 #include <algorithm>
 
 #include "solver/substep.h"
@@ -17,16 +17,16 @@ namespace pliant {
 
 namespace {
 
-/// Stiffness of a contact with a primitive, over the stiffness limit of the particle's springs.
+/// Stiffness of a contact with a primitive collider, relative to the stiffness limit of the particle's springs.
 constexpr float contact_stiffness = 10;
-/// The same between surfaces. Stiffer contacts would dominate the few conjugate gradient steps: folded cloth would then
-/// stretch more and come to rest later.
+/// Stiffness of a contact between surfaces, likewise. Stiffer ones would dominate the few conjugate gradient steps:
+/// folded cloth would then stretch more and come to rest later.
 constexpr float pair_stiffness = 0.2f;
 
 Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
 
-/// The two springs of a contact at the relative displacement `moved`; both have stiffness 0 if the contact is inactive.
-/// The tangential force is at most mu m depth / h^2, with the effective mass m = 1 / inverse_mass.
+/// Makes the springs of a contact at the relative displacement `moved`; both stiffnesses are 0 if the contact is
+/// inactive. The tangential force is at most mu m depth / h^2, with the effective mass m = 1 / inverse_mass.
 ContactSpring spring_of(const Contact& contact, const Vec3f& moved, float inverse_mass, float inverse_h2, float stiffness) {
   ContactSpring s;
   s.depth = contact.gap + dot(contact.normal, moved);
@@ -39,7 +39,7 @@ ContactSpring spring_of(const Contact& contact, const Vec3f& moved, float invers
   return s;
 }
 
-/// The stiffness block along n n^T + across (I - n n^T), as xx yy zz xy xz yz.
+/// The stiffness matrix along n n^T + across (I - n n^T), as xx yy zz xy xz yz.
 std::array<float, 6> block_of(const ContactSpring& s, const Vec3f& n) {
   const float k = s.along - s.across;
   return {k * n.x * n.x + s.across,
@@ -52,7 +52,8 @@ std::array<float, 6> block_of(const ContactSpring& s, const Vec3f& n) {
 
 Vec3f force_of(const ContactSpring& s, const Vec3f& n) { return n * (-s.along * s.depth) - s.slip * s.across; }
 
-/// Adds a particle's share of a spring to its row: the diagonal block, as if the other side were fixed, and the force.
+/// Adds a spring to the matrix row of one of its particles: the diagonal block, as if the other side were fixed, and
+/// the force.
 void add_to_row(MultigridObject& work, int particle, float weight, const std::array<float, 6>& block, const Vec3f& force) {
   const int at = lane_place(particle), batch = at / batch_width;
   if (work.extra.empty()) work.extra.resize(work.has_extra.size() * 9 * batch_width);
@@ -66,8 +67,8 @@ void add_to_row(MultigridObject& work, int particle, float weight, const std::ar
   extra[8 * batch_width] += weight * force.z;
 }
 
-/// Adds what the springs exert after the relative displacement has changed `by`, as the equivalent corrections of
-/// projections.
+/// Stores in a contact the push and the friction that its springs exert after the relative displacement has changed by
+/// `by`, as if projections had made them.
 void keep_push(const ContactSpring& s, const Vec3f& by, float inverse_mass, float inverse_h2, Contact& contact) {
   const float moves = inverse_mass / inverse_h2, deeper = dot(contact.normal, by);
   contact.push += max(0.f, -(s.depth + deeper) * s.along * moves);
@@ -78,7 +79,7 @@ void keep_push(const ContactSpring& s, const Vec3f& by, float inverse_mass, floa
 
 // ---------------------------------------------------------------- with primitives
 
-/// Calls visit(contact, stiffness, object) for every particle contact of objects with a multigrid hierarchy.
+/// Calls visit(contact, stiffness, object) for every contact of particles with colliders, of objects that have levels.
 template <class Visit>
 void for_contacts(Substep& s, const Visit& visit) {
   const Model& model = s.model;
@@ -119,15 +120,15 @@ void keep_point_pushes(Substep& s) {
 
 float inverse_h2_of(const PairParticles& all) { return (1 / all.h) * (1 / all.h); }
 
-/// Fills in the spring's particles and their objects. The softer side decides `stiffness`. Returns false if nothing can
-/// move.
+/// Sets the particles of a spring and their objects. The softer side determines `stiffness`. Returns false if no
+/// particle can move.
 bool place(const Model& model, const Contact& contact, const Record* positions, PairSpring& spring, float& stiffness) {
   float limit[2] = {0, 0};
   for (int i = 0; i < 4; ++i) {
     const int v = contact.point[i];
     const int o = model.object_of(v);
     spring.object[i] = -1;
-    if (i > 0 && v == contact.point[0]) continue;  // the stencil has fewer points
+    if (i > 0 && v == contact.point[0]) continue;  // an unused point of the stencil
     if (!(positions[v].w > 0) || model.objects[o].multigrid.levels.empty()) continue;
     spring.object[i] = o;
     spring.particle[i] = v - model.first[o];
@@ -139,7 +140,8 @@ bool place(const Model& model, const Contact& contact, const Record* positions, 
   return stiffness > 0;
 }
 
-/// Contacts with several points: edges and triangles against primitives first, then contacts between surfaces.
+/// The number of contacts with several points. contact_at() numbers edges and triangles with primitives first, then
+/// surfaces.
 std::size_t count_contacts(const Substep& s) {
   return s.work.shape_contacts.contacts().size() + (s.has_pairs() ? s.pairs->contacts().size() : 0);
 }

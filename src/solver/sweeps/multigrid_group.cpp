@@ -1,5 +1,5 @@
-// Corrects objects that contacts connect together: conjugate
-// gradients over all their hierarchies and the contacts between them.
+// Solves objects that contacts connect as one system: conjugate gradients over their levels and the contacts between
+// them.
 #include <algorithm>
 #include <array>
 
@@ -20,7 +20,7 @@ void advance(Substep& s, const MultigridGroup& group, float alpha) {
   for (const int o : group.objects) MultigridSolve(s, o).advance(alpha);
 }
 
-/// One conjugate gradient step; false if the solve has converged.
+/// Makes one conjugate gradient step. Returns false if the solve has converged.
 bool step(Substep& s, const MultigridGroup& group, double& before) {
   double now = 0;
   for (const int o : group.objects) now += MultigridSolve(s, o).precondition();
@@ -33,17 +33,17 @@ bool step(Substep& s, const MultigridGroup& group, double& before) {
   return true;
 }
 
-/// Removes contact stiffness inside the group from the sum, because contacts do not resist a common motion of both sides.
+/// Subtracts a contact between objects of the group from the group's stiffness: it does not resist a common displacement.
 void release(const PairSpring& s, MultigridObject::Piece& sum) {
   const std::array<float, 6> block = block_of(s);
-  float side[2] = {0, 0};  // weight of each side in the group; the rows hold both
+  float side[2] = {0, 0};  // weights of the group's particles on each side; matrix rows contain both
   for (int i = 0; i < 4; ++i)
     if (s.object[i] >= 0) side[s.weight[i] > 0 ? 0 : 1] += abs(s.weight[i]);
   const float free = side[0] + side[1] - (side[0] - side[1]) * (side[0] - side[1]);
   for (int c = 0; c < 6; ++c) sum.held[c] -= static_cast<double>(free * block[c]);
 }
 
-/// Shifts connected objects as one; each piece was shifted as if the others were fixed.
+/// Moves all objects of a group by one common displacement; so far each piece moved as if the other pieces were fixed.
 void shift_together(Substep& s, const MultigridGroup& group) {
   MultigridObject::Piece sum{};
   for (const int o : group.objects) MultigridSolve(s, o).add_pieces(sum);
@@ -54,7 +54,7 @@ void shift_together(Substep& s, const MultigridGroup& group) {
   advance(s, group, 1);
 }
 
-/// The first object connected to `o`, with path halving.
+/// Returns the root of `o` in the union-find structure, with path halving.
 int find(std::vector<int>& root, int o) {
   while (root[o] != o) o = root[o] = root[root[o]];
   return o;

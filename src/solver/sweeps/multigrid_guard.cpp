@@ -1,6 +1,6 @@
-// Rejects harmful multigrid corrections. A correction is one Newton step about the prediction, valid while springs rotate
-// little. With mass ratios of many orders, or other forces that bend the mesh by more than an edge per substep (a long step
-// with rigid bending), it need not converge, and repeated corrections can diverge.
+// Rejects harmful multigrid corrections. A correction is one Newton step from the prediction, and valid while springs
+// rotate little. With extreme mass ratios, or other forces that bend the mesh by more than an edge per substep (a long
+// step with rigid bending), it need not converge, and repeated corrections can diverge.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace pliant {
 
 namespace {
 
-/// The largest squared displacement of any particle.
+/// The largest squared displacement of any particle [m^2].
 float farthest(const Records& change, int particles) {
   float most = 0;
   for (int i = 0; i < particles; ++i) {
@@ -21,7 +21,8 @@ float farthest(const Records& change, int particles) {
   return most;
 }
 
-/// Twice the stretching energy of batches [first, last), springs counted at both ends, after `scale` times the correction.
+/// Twice the stretching energy of batches [first, last) after `scale` times the correction; each spring is counted at
+/// both ends.
 double stretching(const MultigridLevel& level, const SweepArguments& a, const Records& change, float scale, int first,
                   int last) {
   double total = 0;

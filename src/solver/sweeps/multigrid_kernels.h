@@ -1,5 +1,5 @@
-// The inner loops of the multigrid correction over batches [first, last) of a level, one table for each instruction set
-// level as in solver/kernels.h. All give the same bits.
+// The inner loops of the multigrid correction over batches [first, last) of a level, one table of functions for each
+// instruction set level as in solver/kernels.h. All tables give the same bits.
 #pragma once
 
 #include "math/levels.h"
@@ -8,26 +8,26 @@
 
 namespace pliant {
 
-/// Floats in a batch of symmetric 3 x 3 blocks: rows of sixteen, xx yy zz xy xz yz.
+/// Floats of sixteen symmetric 3 x 3 blocks: sixteen xx, then yy, zz, xy, xz, yz.
 inline constexpr int block_floats = 6 * batch_width;
-/// Floats of a slot on the finest level: a spring's block is g g^T + k I, stored as g and k.
+/// Floats of sixteen springs on the finest level: the block of a spring is g g^T + k I, stored as g and k.
 inline constexpr int spring_floats = 4 * batch_width;
 
-/// The values of a level at one linearisation. Records are padded to whole batches plus one zero record; w is zero.
+/// Matrix and vectors of a level in one solve. Records are padded to whole batches plus one zero record; their w is zero.
 struct MultigridValues {
-  AlignedVector<float> blocks;  ///< of slots, spring_floats or block_floats each: negative off-diagonal blocks of all rows
-  AlignedVector<float> diagonal;  ///< of batches: the diagonal without neighbours: inertia, contacts, anchors
-  AlignedVector<float> inverse;   ///< of batches: damped inverse of the diagonal block, zero for fixed rows
+  AlignedVector<float> blocks;  ///< of slots: negative off-diagonal blocks of all rows, spring_floats or block_floats each
+  AlignedVector<float> diagonal;  ///< diagonal blocks of each batch without neighbours' part: inertia, contacts, anchors
+  AlignedVector<float> inverse;   ///< damped inverses of each batch's diagonal blocks, zero for fixed rows
   Records right, x, y;            ///< right-hand side, solution, scratch
 };
 
-/// The state about which springs are linearised.
+/// The positions at which springs are linearised.
 struct LinearisedAt {
   const Record* positions = nullptr;      ///< w is the inverse mass
-  const Record* displacements = nullptr;  ///< predicted, by inertia alone
+  const Record* displacements = nullptr;  ///< displacements predicted by inertia alone
   float inverse_h2 = 0;                   ///< [1/s^2]
-  const float* extra = nullptr;           ///< stiffness and force of contacts, nine rows of sixteen per batch
-  const char* has_extra = nullptr;        ///< batches with contacts
+  const float* extra = nullptr;           ///< matrix terms of contacts: stiffness and force, nine rows of sixteen per batch
+  const char* has_extra = nullptr;        ///< for each batch, 1 if it has contacts
 };
 
 struct MultigridKernels {
@@ -36,22 +36,22 @@ struct MultigridKernels {
   /// Computes blocks, diagonal and inverse of a coarser level.
   void (*coarsen)(const MultigridLevel& fine, const MultigridValues& from, bool from_springs, const MultigridLevel& level,
                   MultigridValues& values, int first, int last);
-  /// out = damped inverse of the diagonal times right.
+  /// out = damped inverse of the diagonal blocks times `right`.
   void (*precondition)(const MultigridValues& values, const Record* right, Record* out, int first, int last);
   /// out = right - A x.
   void (*residual)(const MultigridLevel& level, const MultigridValues& values, bool springs, const Record* right,
                    const Record* x, Record* out, int first, int last);
-  /// out = x + damped inverse (right - A x): Jacobi.
+  /// One Jacobi pass: out = x + damped inverse (right - A x).
   void (*smooth)(const MultigridLevel& level, const MultigridValues& values, bool springs, const Record* right,
                  const Record* x, Record* out, int first, int last);
-  /// out = A x; returns x . out.
+  /// out = A x; returns the dot product x . out.
   float (*apply)(const MultigridLevel& level, const MultigridValues& values, bool springs, const Record* x, Record* out,
                  int first, int last);
-  /// The right-hand side of a coarser level from the finer residual, and x as its preconditioned value.
+  /// Sums the finer level's residual to this level's right-hand side; sets x to the damped inverse times that.
   void (*restrict_to)(const MultigridLevel& level, MultigridValues& values, const Record* residual, int first, int last);
-  /// x += coarse, for each row the value of its parent.
+  /// Prolongation: adds to each row of x the value of its parent row in `coarse`.
   void (*prolong)(const MultigridLevel& level, const Record* coarse, Record* x, int first, int last);
-  /// a . b.
+  /// Returns the dot product a . b.
   float (*dot)(const Record* a, const Record* b, int first, int last);
   /// direction = z + beta direction.
   void (*turn)(float beta, const Record* z, Record* direction, int first, int last);

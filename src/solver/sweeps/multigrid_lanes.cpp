@@ -8,16 +8,16 @@ namespace pliant {
 inline namespace PLIANT_ISA {
 namespace {
 
-/// Damping factor of Jacobi.
+/// Damping factor of Jacobi passes.
 constexpr float damping = 0.65f;
-/// Coarse blocks are too stiff by the width of a group: two particles in each of two directions.
+/// Factor of coarse blocks. Summed springs are too stiff by the width of a group: two particles in each of two directions.
 constexpr float coarse_stiffness = 0.5f;
 /// Regularisation of a diagonal block's inverse against rounding, as a share of its trace.
 constexpr float least_share = 1e-6f;
-/// Least determinant of a block divided by its trace; below it is a rounding error.
+/// Lower limit of the determinant of a block divided by its trace. Below it the determinant is rounding error.
 constexpr float least_determinant = 1e-20f;
 
-/// A symmetric 3 x 3 block.
+/// A symmetric 3 x 3 block in each lane.
 struct Block {
   Wide xx, yy, zz, xy, xz, yz;
 };
@@ -52,8 +52,8 @@ PLIANT_HD Block operator*(const Block& b, const Wide& s) {
   return {b.xx * s, b.yy * s, b.zz * s, b.xy * s, b.xz * s, b.yz * s};
 }
 
-/// The damped inverse by cofactors, zero in lanes of fixed rows. Computed for
-/// the block over its trace, so that no product overflows in any unit system.
+/// The damped inverse of a block by cofactors; zero in lanes of fixed rows. The block is first divided by its trace, so
+/// that no product overflows in any system of units.
 PLIANT_HD Block damped_inverse(const Block& block, const WideMask& moves) {
   const Wide scale = Wide(1.f) / max(block.xx + block.yy + block.zz, Wide(1e-30f));
   const Block b = block * scale;
@@ -78,7 +78,7 @@ PLIANT_HD Vec3<Wide> load_vectors(const Record* from, int batch) { return from_r
 
 // ---------------------------------------------------------------- the matrix
 
-/// The sum over a batch's slots of block times (x of the row - x of its neighbour).
+/// For each row of a batch: the sum over its slots of block times (x of the row - x of the neighbour).
 template <bool springs>
 PLIANT_HD Vec3<Wide> couple(const MultigridLevel& level, const MultigridValues& values, int batch, const Record* x) {
   const Registers own = load_rows(x, batch);
@@ -165,7 +165,7 @@ struct Linearised {
   WideMask moves;
 };
 
-/// Adds inertia and contacts to a batch's rows.
+/// Starts the rows of a batch with inertia and contacts.
 PLIANT_HD Linearised begin_rows(const WideRecords& position, int batch, const LinearisedAt& at) {
   const Wide zero(0.f);
   Linearised row;
@@ -182,8 +182,8 @@ PLIANT_HD Linearised begin_rows(const WideRecords& position, int batch, const Li
   return row;
 }
 
-/// K C^2 / 2, linearised: (K - k) n n^T + k I, with k = K C / length if stretched. Without this geometric stiffness, a taut
-/// sheet has no resistance normal to its plane.
+/// Adds a spring of energy K C^2 / 2: its stiffness matrix is (K - k) n n^T + k I, with k = K C / length if stretched,
+/// else 0. k is the geometric stiffness, without which a taut sheet has no resistance normal to its plane.
 PLIANT_HD void add_spring(const Vec3<Wide>& u, const Wide& stiffness, const Wide& rest, float* block, Linearised& row) {
   const Wide zero(0.f), length = sqrt(dot(u, u)), inverse = Wide(1.f) / max(length, Wide(1e-20f));
   const Wide tension = stiffness * (length - rest);
@@ -215,7 +215,7 @@ void linearise(const MultigridLevel& level, const LinearisedAt& at, MultigridVal
       add_spring(from_registers(across).position, load_wide(level.stiffness.data() + s * batch_width),
                  load_wide(level.rest_length.data() + s * batch_width), values.blocks.data() + s * spring_floats, row);
     }
-    // Lanes beyond the last row repeat its position without springs: no force, nothing to solve.
+    // Lanes beyond the last row repeat its position and have no springs, so their force is zero.
     const Wide zero(0.f);
     store_block(values.diagonal.data() + batch * block_floats, row.diagonal);
     store_block(values.inverse.data() + batch * block_floats, damped_inverse(row.whole, row.moves));
@@ -225,7 +225,7 @@ void linearise(const MultigridLevel& level, const LinearisedAt& at, MultigridVal
   }
 }
 
-/// Adds one block of a finer level, `at` = 16 x slot + lane, to six sums.
+/// Adds one block of a finer level to `sum` (xx yy zz xy xz yz); `at` is 16 x slot + lane.
 PLIANT_HD void add_source(const MultigridValues& from, bool from_springs, std::int32_t at, float (&sum)[6]) {
   const std::ptrdiff_t slot = at / wide_width, lane = at % wide_width;
   if (!from_springs) {
@@ -243,7 +243,7 @@ PLIANT_HD void add_source(const MultigridValues& from, bool from_springs, std::i
   sum[5] += y * z;
 }
 
-/// The diagonal of a coarse row: the sum of its members' diagonals and anchors.
+/// The diagonal block of a coarse row: the sum of the diagonal blocks and anchors of its members.
 PLIANT_HD void add_members(const MultigridLevel& fine, const MultigridValues& from, bool from_springs,
                            const MultigridLevel& level, std::ptrdiff_t batch, int lane, float* diagonal) {
   float sum[6] = {};

@@ -8,13 +8,13 @@ namespace {
 
 /// Jacobi passes on the coarsest level.
 constexpr int coarsest_passes = 8;
-/// Visits of a coarser level per visit of the finer one, from the second level on: a W-cycle. Only one if the level has
-/// more than half of the finer rows, because the work of a W-cycle would then grow from level to level.
+/// Visits of a coarser level per visit of the next finer one, from the second level on: a W-cycle. If a level has more
+/// than half of the finer rows it is visited once, because the work of a W-cycle would grow from level to level.
 constexpr int visits = 2;
 
 }  // namespace
 
-// Cholesky; a piece without stiffness does not move.
+// Solves by Cholesky's method. A piece without stiffness does not move.
 Record shift_of(const MultigridObject::Piece& piece) {
   const double *a = piece.held, *b = piece.force;
   const double d0 = a[0], l1 = d0 > 0 ? a[3] / d0 : 0, l2 = d0 > 0 ? a[4] / d0 : 0;
@@ -31,7 +31,7 @@ void MultigridSolve::for_batches(int l, Body body) {
             [&](int task) { body(task * batches_per_task, std::min((task + 1) * batches_per_task, batches)); });
 }
 
-/// Summed in task order, independent of threads.
+/// Sums over the batches of a level, in the order of tasks, so that the number of threads does not matter.
 template <class Body>
 double MultigridSolve::sum(int l, Body body) {
   const int tasks = (level(l).batches() + batches_per_task - 1) / batches_per_task;
@@ -96,7 +96,7 @@ void MultigridSolve::add_pieces(MultigridObject::Piece& sum) {
   }
 }
 
-// Removes a contact's stiffness from a piece if both sides belong to it.
+// Subtracts a contact's stiffness from the stiffness of a piece if both sides belong to that piece.
 void MultigridSolve::release(const PairSpring& s) {
   int piece = -2;
   for (int i = 0; i < 4; ++i) {
@@ -105,10 +105,10 @@ void MultigridSolve::release(const PairSpring& s) {
     piece = of;
   }
   const std::array<float, 6> block = block_of(s);
-  for (int c = 0; c < 6; ++c) work_.pieces[piece].held[c] -= 2 * static_cast<double>(block[c]);  // a side's weights: 1
+  for (int c = 0; c < 6; ++c) work_.pieces[piece].held[c] -= 2 * static_cast<double>(block[c]);  // weights sum to 1 a side
 }
 
-// From the residual. False if undefined: the only level has no anchors in its diagonal.
+// Sums stiffness and residual of each piece. Returns false if undefined: the only level has no anchors in its diagonal.
 bool MultigridSolve::sum_pieces() {
   if (levels() == 1 && std::count(model_.piece.begin(), model_.piece.end(), -1) > 0) return false;
   const int last = levels() - 1;
@@ -141,7 +141,8 @@ void MultigridSolve::smooth(int l) {
   std::swap(v.x, v.y);
 }
 
-// One cycle from level l on, x being preconditioned, with a Jacobi pass before and after.
+// One multigrid cycle from level l on, with a Jacobi pass before and after. x must hold the preconditioned right-hand
+// side.
 void MultigridSolve::cycle(int l) {
   MultigridValues& v = values(l);
   if (l + 1 == levels()) {

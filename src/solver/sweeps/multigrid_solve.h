@@ -1,5 +1,5 @@
-// One object's part of the multigrid correction: its linearised hierarchy, and conjugate gradients in separate steps, so
-// that objects connected by contacts can be solved together (multigrid_group.cpp).
+// One object's part of the multigrid correction: its linearised levels, and the steps of conjugate gradients as
+// separate functions, so that objects that contacts connect can be solved together (multigrid_group.cpp).
 #pragma once
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 
 namespace pliant {
 
-/// Batches per task: rows that fit one core's cache.
+/// Batches per task; their rows fit one core's cache.
 inline constexpr int batches_per_task = 128;
 
-/// A view of one object's hierarchy and values in one substep.
+/// A view of one object's levels and vectors in one substep.
 class MultigridSolve {
  public:
   MultigridSolve(Substep& s, int object)
@@ -25,22 +25,22 @@ class MultigridSolve {
 
   /// Assembles the matrices of all levels and the right-hand side at the particles of `a`.
   void linearise(const SweepArguments& a);
-  /// Preconditions the residual; returns the product of both.
+  /// Applies the preconditioner to the residual; returns the dot product of both.
   double precondition();
-  /// Sets the next search direction: preconditioned residual + beta times the last direction.
+  /// Sets the next search direction p: preconditioned residual + beta times the last p.
   void turn(float beta);
-  /// Computes the direction's image A p; returns their product.
+  /// Computes A p; returns p . A p.
   double apply();
-  /// Steps along the direction; updates the right-hand side to the residual.
+  /// Adds alpha p to the solution, and updates the residual in the right-hand side.
   void advance(float alpha);
-  /// Sets the direction to a uniform displacement of all dynamic particles.
+  /// Sets p to the displacement `by` for all dynamic particles.
   void turn_to(const Vec3f& by);
-  /// Sets the direction that moves every piece rigidly so that its total force vanishes: free pieces then conserve momentum
-  /// for any number of cycles. `springs` are contacts; those of a piece with itself do not hold it.
+  /// Sets p to a displacement of each piece that makes the total force on it zero: free pieces then conserve momentum
+  /// for any number of cycles. `springs` are contacts; those within one piece do not resist its displacement.
   void turn_to_shifts(const std::vector<const PairSpring*>& springs);
   void clear_change() { std::fill(work_.change.begin(), work_.change.end(), Record{}); }
   void clear_direction() { std::fill(work_.direction.begin(), work_.direction.end(), Record{}); }
-  /// Adds the stiffness and the remaining force of all pieces.
+  /// Adds the stiffness and the remaining force of all pieces to `sum`.
   void add_pieces(MultigridObject::Piece& sum);
 
  private:
@@ -64,7 +64,7 @@ class MultigridSolve {
   const MultigridKernels& kernels_;
 };
 
-/// The displacement of a piece by its remaining force over its stiffness; zero if the stiffness is singular.
+/// The displacement of a piece: its remaining force divided by its stiffness; zero if the stiffness is singular.
 Record shift_of(const MultigridObject::Piece& piece);
 
 }  // namespace pliant

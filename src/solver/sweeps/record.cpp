@@ -13,17 +13,17 @@ namespace pliant {
 
 namespace {
 
-/// One object at one iteration.
+/// Views of one object's data after one iteration.
 struct View {
   const CompiledObject& object;
   SweepArguments arguments;
   const Record* orientations;                            ///< orientations of the object's frames
-  const std::vector<AlignedVector<float>>* multipliers;  ///< null: all are still zero
-  std::vector<Vec3d>& explained;                         ///< w grad C^T lambda of each particle
-  std::vector<char>& left_out;                           ///< particles moved by a constraint without a multiplier
+  const std::vector<AlignedVector<float>>* multipliers;  ///< multipliers of each pool; null: all are still zero
+  std::vector<Vec3d>& explained;                         ///< for each particle, the sum of w grad C^T lambda [m]
+  std::vector<char>& left_out;                           ///< 1 if a constraint without a multiplier acts on the particle
 };
 
-/// Loads a constraint's slots in double, points relative to the first one.
+/// Loads a constraint's slots in double precision; points are relative to its first point.
 void load_slots(const View& view, const Pool& pool, const std::int32_t* particle, StencilArrays<double>& arrays) {
   const Record* origin = nullptr;
   for (int slot = 0; slot < pool.stencil; ++slot) {
@@ -39,7 +39,7 @@ void load_slots(const View& view, const Pool& pool, const std::int32_t* particle
   }
 }
 
-/// Adds one row of C to the displacements that multipliers explain; returns the row's residual.
+/// Adds w grad C^T lambda of one row of C to View::explained; returns the row's residual.
 double look_at(const View& view, const ConstraintPlace& at, const std::int32_t* particle,
                const StencilArrays<double>& arrays, int component) {
   const bool has =
@@ -89,7 +89,7 @@ void add_volume(const View& view, double multiplier, ErrorSum& sum) {
   }
 }
 
-/// Adds displacements since the prediction that no multiplier explains.
+/// Adds the displacements since the prediction minus those that multipliers explain: the dual residual.
 void add_unexplained(const View& view, const Record* predicted, ErrorSum& sum) {
   for (int i = 0; i < view.object.particles; ++i) {
     if (!(view.arguments.positions[i].w > 0) || view.left_out[i] != 0) continue;

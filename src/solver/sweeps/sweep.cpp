@@ -35,7 +35,7 @@ const SweepMethod& sweep_method(Sweep sweep) {
     case Sweep::multigrid:
       return multigrid;
     default:
-      return tiled;  // `sequential` and `natural` too: they differ from it in kernels and in schedule only
+      return tiled;  // also `sequential` and `natural`, which differ in kernels and schedule only
   }
 }
 

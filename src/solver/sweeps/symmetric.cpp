@@ -1,6 +1,6 @@
-// Symmetric Gauss-Seidel: a forward and a backward pass. The iteration matrix is thus
-// symmetric in the mass norm, with real, non-negative eigenvalues, as Chebyshev acceleration
-// requires. Volume constraints act on all points and are projected between the two passes.
+// Symmetric Gauss-Seidel: a forward pass and a backward pass. This makes the iteration matrix symmetric in the mass
+// norm, with real, non-negative eigenvalues, as Chebyshev acceleration requires. Volume constraints act on all points
+// of an object and are projected between the two passes.
 #include "solver/drivers/driver.h"
 #include "solver/sweeps/sweep.h"
 

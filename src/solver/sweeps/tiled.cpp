@@ -1,5 +1,5 @@
-// Gauss-Seidel in the order of the model's phases: tiles, then inter-tile constraints colour by colour, then chains, if
-// the object was compiled with any, then volumes.
+// Gauss-Seidel in the order of the model's phases: tiles, inter-tile constraints colour by colour, chains if the object
+// was compiled with any, and volumes.
 #include "solver/drivers/driver.h"
 #include "solver/sweeps/sweep.h"
 
