@@ -1,5 +1,5 @@
-// All constraint types of the library with a fixed stencil. To add one: write its header, include it here and add it to the
-// list. Pools, sweeps, files, tests and docs follow from the list (docs/internals/architecture.md, "Adding a constraint").
+// All constraint types of the library with a fixed stencil. To add one, write its header, include it here and add it to
+// the list: pools, sweeps, files, tests and docs follow (docs/internals/architecture.md, "Adding a constraint").
 #pragma once
 
 #include "constraints/dihedral_bending.h"
@@ -10,7 +10,7 @@
 
 namespace pliant {
 
-/// The order of the list is the order of visits in a sweep.
+/// The types in the order in which a sweep visits them.
 using AllConstraints = TypeList<Distance, DihedralBending, IsometricBending>;
 
 }  // namespace pliant

@@ -19,11 +19,11 @@
 
 namespace pliant {
 
-/// One contact of a substep: eight quads of floats, two cache lines.
+/// One contact of a substep: eight groups of four floats, two cache lines.
 struct alignas(64) Contact {
-  Vec3f normal{};   ///< unit, from the second side to the first
-  float gap = 0;    ///< distance at the substep's start minus `thickness`: C before any motion [m]
-  Vec3f carried{};  ///< the part of the relative displacement that is no motion: the points' rounding residues [m]
+  Vec3f normal{};   ///< unit vector from the second side to the first
+  float gap = 0;    ///< value of C at the substep's start: distance minus `thickness` [m]
+  Vec3f carried{};  ///< part of the relative displacement that is no motion: the points' rounding residues [m]
   float approach =
       0;             ///< relative normal velocity at the beginning of the substep; negative where the sides approach [m/s]
   Vec3f friction{};  ///< sum of this substep's tangential corrections [m]
@@ -31,14 +31,14 @@ struct alignas(64) Contact {
   float static_friction = 0, kinetic_friction = 0, restitution = 0;
   float thickness = 0;                  ///< distance to maintain [m]
   std::array<std::int32_t, 4> point{};  ///< indices into the arrays of the contact's owner
-  std::array<float, 4> weight{};        ///< weight of each point; 0 in unused slots
+  std::array<float, 4> weight{};        ///< weight of each point in r; 0 in unused slots
   std::array<float, 4> share{};         ///< displacement of a point per change of r: weight_i w_i / sum_j w_j weight_j^2
-  Vec3f surface_motion{};               ///< of the static or kinematic side during the substep [m]
-  std::int32_t collider = -1;           ///< index of that side; -1 if the second side has points
+  Vec3f surface_motion{};               ///< displacement of the static or kinematic side in the substep [m]
+  std::int32_t collider = -1;           ///< index of the static or kinematic side; -1 if the second side has points
 };
 static_assert(sizeof(Contact) == 128 && alignof(Contact) == 64);
 
-/// The parameters of a contact that its projection reads; R holds one contact or one per lane.
+/// The parameters of a contact that its projection reads. R is one float, or one float for each lane.
 template <class R>
 struct ContactValues {
   Vec3<R> normal;
@@ -47,26 +47,26 @@ struct ContactValues {
   R static_friction, kinetic_friction;
 };
 
-/// The accumulated corrections of a contact in this substep.
+/// The corrections of a contact summed over this substep.
 template <class R>
 struct ContactSums {
   Vec3<R> friction;
   R push;
 };
 
-/// The change of the relative displacement by one projection: along the normal, and tangential.
+/// The change of the relative displacement by one projection: normal and tangential part.
 template <class R>
 struct ContactCorrection {
   Vec3<R> along, across;
 };
 
-/// Projects a contact whose points have moved by `moved` = sum weight_i d_i. If sums.push stays 0, no point moves.
+/// Projects a contact whose points have moved by `moved` = sum weight_i d_i. If sums.push stays 0, the change is zero.
 template <class R>
 PLIANT_HD ContactCorrection<R> project_contact(const ContactValues<R>& c, const Vec3<R>& moved, ContactSums<R>& sums) {
   const R zero = R(0.f), depth = max(-(c.gap + dot(c.normal, moved)), zero);
   const Vec3<R> along = c.normal * depth, none{zero, zero, zero};
   sums.push = sums.push + depth;
-  // The tangential correction that would make the contact stick, clamped to the Coulomb cone.
+  // Friction: the tangential correction that makes the contact stick, clamped to the Coulomb cone.
   const Vec3<R> motion = moved + along - c.carried - c.surface_motion;
   const Vec3<R> slip = motion - c.normal * dot(c.normal, motion);
   const Vec3<R> sticking = sums.friction - slip;
@@ -80,9 +80,9 @@ PLIANT_HD ContactCorrection<R> project_contact(const ContactValues<R>& c, const 
 }
 
 /// The relative normal velocity after an active contact [m/s]. It is -e times the approach velocity if that exceeded
-/// `slow`, the speed gained by gravity alone. Otherwise it is 0 if the sides separate, so that depenetration adds no
-/// velocity. An approach is stopped too if the normal is `exact`, as that of a primitive shape is. Normals of nearly
-/// parallel edges are tilted; stopping along them would slow sliding, so the next projection resolves it.
+/// `slow`, the speed that gravity alone causes. Otherwise it is 0 if the sides separate, so that depenetration adds no
+/// velocity. If the normal is `exact`, as for primitive shapes, a remaining approach is stopped too. Normals of nearly
+/// parallel edges are tilted; stopping along them would slow sliding, so the next projection resolves the approach.
 template <class R, class Mask>
 PLIANT_HD R separation_after(const R& separating, const R& approach, const R& restitution, const R& slow,
                              const Mask& exact) {
@@ -90,7 +90,7 @@ PLIANT_HD R separation_after(const R& separating, const R& approach, const R& re
   return select(restitution > zero, select(-approach > slow, -restitution * approach, stopped), stopped);
 }
 
-/// sum_i weight_i of[point_i] over the first `points` points.
+/// Returns sum_i weight_i of[point_i] over the first `points` points.
 template <int points = 4, class Records>
 PLIANT_HD Vec3f relative(const Contact& c, const Records* of) {
   if constexpr (points == 1) {
@@ -122,7 +122,7 @@ PLIANT_HD void complete_contact(Contact& c, const Records* positions, const Reco
   c.carried = relative(c, remainders);
 }
 
-/// The violation of the distance after `displacements` [m]; negative if it is met.
+/// The overlap after `displacements`: how much the distance is below the thickness [m]; negative if it is above.
 template <class Records>
 PLIANT_HD float overlap_of(const Contact& c, const Records* displacements) {
   return -(c.gap + dot(c.normal, relative(c, displacements)));
@@ -140,12 +140,12 @@ PLIANT_HD void move_sides(const Contact& c, const Vec3f& change, Records* of) {
   }
 }
 
-/// The parameters of one contact.
+/// Collects the parameters of one contact.
 PLIANT_HD ContactValues<float> values_of(const Contact& c) {
   return {c.normal, c.gap, c.carried, c.surface_motion, c.static_friction, c.kinetic_friction};
 }
 
-/// Projects a contact once: the scalar reference of solver/contact_lanes.cpp.
+/// Projects a contact once. This is the scalar reference for solver/contact_lanes.cpp.
 template <class Records>
 PLIANT_HD void project_contact(Contact& c, Records* displacements) {
   ContactSums<float> sums{c.friction, c.push};
@@ -156,7 +156,7 @@ PLIANT_HD void project_contact(Contact& c, Records* displacements) {
   move_sides(c, along + across, displacements);
 }
 
-/// The same for a contact with a single point, which takes the whole correction.
+/// Projects a contact with a single point, which takes the whole correction.
 template <class Records>
 PLIANT_HD void project_point_contact(Contact& c, Records* displacements) {
   ContactSums<float> sums{c.friction, c.push};

@@ -25,17 +25,17 @@ struct DihedralBending {
   static constexpr const char* name = "dihedral_bending";
   using slots = Points<4>;
   static constexpr int rows = 1;
-  /// Largest angle change per projection [rad]. Tips move along tangents, so a larger change flings out the tips of an
-  /// overfolded stiff hinge, stretches its triangles and keeps a small object tumbling.
+  /// Largest change of the angle per projection [rad]. Tips move along tangents, so a larger change would throw out the
+  /// tips of a stiff, overfolded hinge, stretch its triangles and keep a small object tumbling.
   static constexpr float largest_change = 0.25f;
 
   template <class R>
   struct Params {
-    R rest_angle;  ///< [rad], -pi..pi
+    R rest_angle;  ///< dihedral angle at rest [rad], -pi..pi
   };
   static constexpr std::array<const char*, 1> fields{"rest_angle"};
 
-  /// A degenerate face has a zero gradient at its tip; a degenerate edge has no gradient at all.
+  /// The gradient at the tip of a degenerate triangle is zero; with a degenerate edge all gradients are zero.
   template <class R>
   PLIANT_HD static R evaluate(const Vec3<R> (&x)[4], const Params<R>& p, Vec3<R> (&gradient)[4]) {
     const Vec3<R> e = x[1] - x[0], a = x[2] - x[0], b = x[3] - x[0];
@@ -53,7 +53,7 @@ struct DihedralBending {
     gradient[1] = -(gradient[2] * t1 + gradient[3] * t2);
     gradient[0] = -(gradient[1] + gradient[2] + gradient[3]);
 
-    // The difference is taken modulo 2 pi: a hinge folded past pi wraps around.
+    // C is the difference modulo 2 pi, because the angle of a hinge that is folded past pi wraps around.
     const R pi = constant<R>(3.14159265358979324), turn = constant<R>(6.28318530717958648);
     const R c = angle - p.rest_angle;
     return select(c > pi, c - turn, select(c < -pi, c + turn, c));
@@ -65,7 +65,7 @@ struct DihedralBending {
     return {evaluate(x, Params<R>{R(0)}, gradient)};
   }
 
-  /// Exchanging the edge's ends, or the tips, only changes the angle's sign.
+  /// Orders the points. Exchanging the edge's ends, or the tips, changes only the sign of the angle.
   static void canonical(std::array<int, 4>& particle, Params<float>& p) {
     for (int first : {0, 2}) {
       if (particle[first] < particle[first + 1]) continue;

@@ -17,9 +17,9 @@ struct Distance {
   static constexpr const char* name = "distance";
   using slots = Points<2>;
   static constexpr int rows = 1;
-  /// Both gradients have length one unless they vanish, so the driver skips their norms.
+  /// Gradients have length one unless they vanish, so the driver need not compute their norms.
   static constexpr bool unit_gradients = true;
-  /// C is the distance of two points minus rest field 0: chains, tethers, multigrid and stretch measures use such types.
+  /// C is the distance of two points minus rest field 0. Chains, tethers, multigrid and stretch measures require this.
   static constexpr bool is_length = true;
 
   template <class R>
@@ -28,7 +28,7 @@ struct Distance {
   };
   static constexpr std::array<const char*, 1> fields{"rest_length"};
 
-  /// Coincident points give a zero gradient, so nothing moves.
+  /// For coincident points the gradient is zero, so nothing moves.
   template <class R>
   PLIANT_HD static R evaluate(const Vec3<R> (&x)[2], const Params<R>& p, Vec3<R> (&gradient)[2]) {
     const Vec3<R> d = x[1] - x[0];
@@ -44,7 +44,7 @@ struct Distance {
     return {sqrt(dot(d, d))};
   }
 
-  /// Sorts the symmetric ends ascending, so that neighbouring constraints have similar stencils.
+  /// Orders the two points ascending, so that neighbouring constraints have similar stencils.
   static void canonical(std::array<int, 2>& particle, Params<float>&) {
     if (particle[0] > particle[1]) std::swap(particle[0], particle[1]);
   }

@@ -29,7 +29,7 @@ struct IsometricBending {
   };
   static constexpr std::array<const char*, 3> fields{"k1", "k2", "k3"};
 
-  /// A flat hinge has a zero gradient, so nothing moves.
+  /// For a flat hinge the gradient is zero, so nothing moves.
   template <class R>
   PLIANT_HD static R evaluate(const Vec3<R> (&x)[4], const Params<R>& p, Vec3<R> (&gradient)[4]) {
     const Vec3<R> sum = (x[1] - x[0]) * p.k1 + (x[2] - x[0]) * p.k2 + (x[3] - x[0]) * p.k3;
@@ -42,7 +42,7 @@ struct IsometricBending {
     return c;
   }
 
-  /// Clamped to a million: a triangle beyond is a line, and the square of its weight would overflow a float.
+  /// The cotangent of an angle, clamped to a million: beyond, a triangle is a line, and its squared weight would overflow.
   template <class R>
   PLIANT_HD static R cotangent(const Vec3<R>& u, const Vec3<R>& v) {
     const Vec3<R> n = cross(u, v);

@@ -23,8 +23,8 @@ struct PlaneContact {
 
   template <class R>
   struct Params {
-    Vec3<R> normal;  ///< unit
-    R offset;        ///< [m]
+    Vec3<R> normal;  ///< unit normal of the surface
+    R offset;        ///< n . (point on the surface) + thickness [m]
   };
 
   template <class R>

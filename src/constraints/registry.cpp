@@ -12,8 +12,8 @@ namespace pliant {
 namespace {
 
 struct Registry {
-  std::deque<ConstraintDefinition> definitions;  // a deque keeps references valid while it grows
-  std::vector<ConstraintType> types;             // the public descriptions
+  std::deque<ConstraintDefinition> definitions;  // a deque: references to its elements stay valid as it grows
+  std::vector<ConstraintType> types;             // public descriptions of the types
   std::mutex growing;
 
   Registry() {

@@ -9,23 +9,23 @@ namespace pliant {
 
 int constraint_type_count();
 
-/// The definition of type number `type`, from 0 to constraint_type_count() - 1. The reference stays valid.
+/// The definition of constraint type `type`, from 0 to constraint_type_count() - 1. The reference stays valid.
 const ConstraintDefinition& constraint_type(int type);
 
-/// The number of a type, or -1.
+/// The number of the constraint type with this name, or -1.
 int find_constraint_type(const std::string& name);
 
-/// "distance, dihedral_bending, ...".
+/// All names as a list for messages: "distance, dihedral_bending, ...".
 std::string constraint_type_names();
 
-/// The first type with is_length; attachments use it.
+/// The number of the first constraint type with is_length; attachments are of this type.
 int length_type();
 
 /// True if C of the type is the distance of its two points minus rest field 0.
 inline bool is_length(int type) { return constraint_type(type).is_length; }
 bool is_length(const std::string& name);
 
-/// True if the type bends two triangles about their shared edge (points: the edge's ends, then the tips).
+/// True if this constraint type bends two triangles about their edge (points: ends of the edge, then the tips).
 bool is_hinge(const std::string& name);
 /// True if a hinge of this type always has a flat rest shape, whatever its rest data.
 bool is_flat_hinge(const std::string& name);

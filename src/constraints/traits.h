@@ -1,4 +1,4 @@
-// Properties that the library queries of a constraint type, instead of its identity.
+// Properties of constraint types. The library queries them, so that no other code needs to name a type.
 #pragma once
 
 #include "pliant/formula.h"
@@ -8,11 +8,11 @@ namespace pliant {
 template <class T>
 inline constexpr int slot_count = T::slots::count;
 
-/// The number of rest fields; in a pool's rows the response and the damping follow them.
+/// The number of rest fields of a type. In a pool's rows the response and the damping follow them.
 template <class T>
 inline constexpr int rest_fields = static_cast<int>(T::fields.size());
 
-/// True if constraints are projected sixteen at a time: one row, points only. Others go singly (solver/stencil.cpp).
+/// True if sixteen constraints are projected at once: one row, points only. Others go one at a time (solver/stencil.cpp).
 template <class T>
 inline constexpr bool in_lanes = T::slots::frames == 0 && T::rows == 1;
 

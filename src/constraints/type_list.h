@@ -23,7 +23,7 @@ constexpr void for_each_type(TypeList<Types...>, Visit&& visit) {
   (visit(TypeTag<Types>{}, index++), ...);
 }
 
-/// The index of T in the list.
+/// The index of T in a TypeList.
 template <class T, class... Types>
 constexpr int index_of(TypeList<Types...> list) {
   int found = -1;
@@ -31,7 +31,7 @@ constexpr int index_of(TypeList<Types...> list) {
   return found;
 }
 
-/// Calls visit(TypeTag<T>{}) for the T at `index` alone.
+/// Calls visit(TypeTag<T>{}) for the type T at `index`, and for no other.
 template <class... Types, class Visit>
 constexpr void with_type(TypeList<Types...> list, int index, Visit&& visit) {
   for_each_type(list, [&](auto tag, int i) {

@@ -71,7 +71,7 @@ Settings suggest(const Scene& scene, const Settings& settings) {
 std::string in_json(const Settings& wanted, const Settings& own) {
   std::string members;
   const auto add = [&](const std::string& member) { members += (members.empty() ? "" : ", ") + member; };
-  // Defaults that the scene leaves open could change with the sweep, so they are written explicitly.
+  // The sweep decides the defaults of what the scene leaves open, so such settings are written out.
   if (wanted.substeps != own.substeps || wanted.sweep != own.sweep)
     add("\"substeps\": " + std::to_string(most_substeps_of(wanted)));
   if (wanted.sweep != own.sweep) add("\"sweep\": \"" + sweep_name(wanted.sweep) + "\"");

@@ -8,25 +8,25 @@
 
 namespace pliant {
 
-/// True if tethers may help: an object hangs from pins, and all such objects are rigid. Tethers limit inextensible objects;
-/// they would restrain those that are meant to stretch.
+/// True if tethers may help: some object hangs from pins, and all such objects are rigid. Tethers limit the length of
+/// inextensible objects; they would hold back objects that are meant to stretch.
 bool may_tether(const Scene& scene);
 
-/// Other sweeps that may need less time for the same stretch, the one that measured best on such scenes first (see
-/// suggest), because there may be time for only one.
+/// Other sweeps that may need less time for the same stretch. The one that measured best on such scenes (see suggest)
+/// comes first, because there may be time to try only one.
 std::vector<Sweep> better_sweeps(const Scene& scene);
 
-/// The scene's settings with the sweep and tethers that measured best on such
-/// scenes (docs/internals/convergence.md), or its own if that is the default.
+/// The scene's settings with the sweep and tethers that measured best on such scenes (docs/internals/convergence.md).
+/// Where these are the default, the scene's settings stay as they are.
 Settings suggest(const Scene& scene);
-/// The same with `settings` instead of the scene's own.
+/// Does the same with `settings` instead of the scene's own.
 Settings suggest(const Scene& scene, const Settings& settings);
-/// As chosen_sweep in pliant/scene.h, with `settings` instead of the scene's own.
+/// Like chosen_sweep in pliant/scene.h, with `settings` instead of the scene's own.
 Sweep chosen_sweep(const Scene& scene, const Settings& settings, int object, std::string* reason = nullptr);
-/// The same of all objects at once.
+/// The sweeps of all objects, as chosen_sweep returns them.
 std::vector<Sweep> chosen_sweeps(const Scene& scene, const Settings& settings);
 
-/// True if a sheet supports itself; multigrid, which ignores bending, would make it oscillate.
+/// True if the scene has a sheet that supports itself. Multigrid ignores bending and would make it oscillate.
 bool has_stiff_sheet(const Scene& scene);
 
 /// The JSON of a scene's "settings" (substeps, sweep, tethers) that changes `own` into `wanted`:

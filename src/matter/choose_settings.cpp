@@ -17,21 +17,22 @@ namespace pliant {
 
 namespace {
 
-/// Below this, sweeps do not differ: all particles are a few edges apart, and 20 plain substeps suffice.
+/// Objects with fewer particles do not need a special sweep: these are a few edges apart, and 20 substeps suffice.
 constexpr int fewest_particles = 32;
-/// A sheet with a longer bending length over its size supports itself: sweeps that correct only stretch converge slowly.
+/// A sheet whose bending length exceeds this share of its size supports itself; sweeps that correct only stretch
+/// converge slowly.
 constexpr double stiff_share = 0.25;
-/// Lower bound of the acceleration that bends the sheet: under less gravity, other forces bend it [m/s^2].
+/// Lower limit of the acceleration that bends a sheet [m/s^2]: with less gravity, other forces bend it.
 constexpr double least_acceleration = 9.81;
 constexpr const char* too_coarse = "only objects with fewer than 32 linked particles";
 
-/// Zero for a missing particle, because this runs before the scene is validated.
+/// The position of a particle; zero if it does not exist, because this runs before the scene is validated.
 Vec3d position(const Object& object, int particle) {
   const auto i = static_cast<std::size_t>(particle);
   return i < object.positions.size() ? convert<double>(object.positions[i]) : Vec3d{};
 }
 
-/// Counts the springs that multigrid corrects; PBD stiffness is left to the sweeps.
+/// Counts the springs that multigrid corrects, which are distances with compliance; PBD distances are left to the sweeps.
 std::size_t springs_of(const Object& object) {
   std::size_t count = 0;
   for (const ConstraintGroup& group : object.constraints)
@@ -51,8 +52,8 @@ double largest_extent(const Object& object) {
   return extent;
 }
 
-/// The flexural rigidity of each hinge [N m], and the area of their triangles, each counted at up to three hinges [m^2].
-/// See hinge_compliance in cloth.cpp.
+/// Collects the flexural rigidity of each hinge [N m] (see hinge_compliance in cloth.cpp) and the sum of the areas of
+/// hinges [m^2], in which a triangle occurs up to three times.
 struct Bending {
   std::vector<double> rigidities;
   double area = 0;
@@ -62,12 +63,12 @@ struct Bending {
     const double twice =
         std::sqrt(length_squared(cross(edge, x[2] - x[0]))) + std::sqrt(length_squared(cross(edge, x[3] - x[0])));
     const double beside = twice / 2;
-    if (!(beside > 0)) return;  // a degenerate hinge has no meaning for the sheet
+    if (!(beside > 0)) return;  // a degenerate hinge says nothing about the sheet
     rigidities.push_back(isometric ? 3 / compliance : beside / (length_squared(edge) * compliance));
     area += beside;
   }
 
-  /// The median: a few stiff hinges, such as a seam, do not make a stiff sheet.
+  /// The median rigidity, so that a few stiff hinges, such as a seam, do not make a stiff sheet.
   double median() {
     if (rigidities.empty()) return 0;
     const auto middle = rigidities.begin() + static_cast<std::ptrdiff_t>(rigidities.size() / 2);
@@ -76,7 +77,8 @@ struct Bending {
   }
 };
 
-/// Positive PBD stiffness counts as rigid, because its effect depends on mesh and step.
+/// Measures the hinges of an object. PBD stiffness counts as rigid if positive, because its effect depends on mesh and
+/// step.
 Bending bending_of(const Object& object) {
   Bending bending;
   std::size_t hinges = 0;
@@ -106,8 +108,8 @@ double area_of(const Object& object) {
   return area;
 }
 
-/// True if the bending length (B / rho g)^(1/3) (Peirce 1930), the overhang at which a sheet bends under its weight, is
-/// large against its size. Compared as cubes, because machines differ in the cube root.
+/// True if the bending length (B / rho g)^(1/3) (Peirce 1930), the overhang at which a sheet bends under its own
+/// weight, is large compared with its size. Cubes are compared, because machines differ in cube roots.
 bool is_stiff_sheet(const Object& object, double gravity) {
   Bending bending = bending_of(object);
   const double rigidity = bending.median(), drawn = area_of(object), area = drawn > 0 ? drawn : bending.area / 3;
@@ -124,7 +126,7 @@ bool may_meet(std::uint32_t groups, std::uint32_t mask, const Object& object) {
   return (groups & object.mask) != 0 && (object.groups & mask) != 0;
 }
 
-/// True if its surface can touch itself, another object or a mesh collider.
+/// True if the object's surface can touch itself, another object or a mesh collider.
 bool can_touch(const Scene& scene, const Object& object) {
   if (object.self_collision) return true;
   const auto meets_object = [&](const Object& other) {
@@ -150,28 +152,28 @@ Choice choose(const Scene& scene, const Settings& settings, const Object& object
   if (springs > 0 && object.volume) return {Sweep::tiled, name + ", which has a volume"};
   if (springs > 0 && is_stiff_sheet(object, gravity))
     return {Sweep::tiled, name + ", a sheet whose bending length is more than a quarter of its size"};
-  const std::size_t particles = springs == 0 ? 0 : std::min(object.positions.size(), springs + 1);  // a path has one more
+  const std::size_t particles = springs == 0 ? 0 : std::min(object.positions.size(), springs + 1);  // as many as in a path
   if (particles < fewest_particles) return {Sweep::tiled, too_coarse};
   if (can_touch(scene, object)) return {Sweep::tiled, name + ", a surface that can touch itself or others"};
   return {Sweep::multigrid, "cloth or rope, the largest of " + std::to_string(particles) + " particles"};
 }
 
-/// The object's own sweep, else that of the settings, else the chosen one.
+/// The sweep of one object: its own, else that of the settings, else the one chosen for it.
 Choice choice_of(const Scene& scene, const Settings& settings, const Object& object) {
   if (object.sweep != Sweep::automatic) return {object.sweep, {}};
   if (settings.sweep != Sweep::automatic) return {settings.sweep, {}};
   return choose(scene, settings, object);
 }
 
-/// The sweeps of a scene's objects. Objects too coarse for sweeps to differ are ignored; they use the others' sweep.
+/// Counts the objects of each sweep. Objects too small for sweeps to differ are ignored; they use the sweep of the others.
 struct SweepsInUse {
   struct Use {
     std::string first;  ///< name of the first object
     int objects = 0;
   };
   std::map<Sweep, Use> uses;
-  std::string reason = too_coarse;  ///< reason of the largest object with multigrid, else of the first object
-  std::size_t particles = 0;        ///< number of its particles
+  std::string reason = too_coarse;  ///< for the largest object with multigrid, else for the first object
+  std::size_t particles = 0;        ///< number of particles of that object
 
   void add(const Object& object, const Choice& choice) {
     Use& use = uses[choice.sweep];
@@ -182,7 +184,7 @@ struct SweepsInUse {
     particles = object.positions.size();
   }
 
-  /// The sweep of all objects, or automatic if the sweeps differ.
+  /// The sweep that all objects have; `automatic` if they differ; `of_none` if there are no objects.
   Sweep common(Sweep of_none) const {
     return uses.empty() ? of_none : uses.size() == 1 ? uses.begin()->first : Sweep::automatic;
   }
@@ -244,7 +246,8 @@ std::vector<Sweep> chosen_sweeps(const Scene& scene, const Settings& settings) {
 
 namespace {
 
-/// The substeps of each object's set, or of all objects, if the settings leave them open.
+/// The substeps of each object's set, if the settings name none. With a tolerance or recorded residuals, all objects
+/// have the largest.
 std::vector<int> substeps_of_objects(const Scene& scene, const std::vector<Sweep>& sweeps) {
   std::vector<SetMember> members;
   for (std::size_t o = 0; o < sweeps.size(); ++o)

@@ -1,4 +1,5 @@
-// Cloth from a triangle mesh: masses by area, a distance constraint per edge, a bending constraint per inner edge.
+// Makes cloth of a triangle mesh: masses by area, a distance constraint for each edge, a bending constraint for each
+// inner edge.
 //
 // Stiffness is a material property, so each compliance follows from the area that its edge represents. A finer mesh of the
 // same piece then stretches and folds alike. All values are computed in double and rounded once.
@@ -18,7 +19,7 @@ namespace pliant {
 
 namespace {
 
-/// Upper limit of compliances: the square over a substep would overflow a float, and such constraints have no effect.
+/// Upper limit of compliances. Larger ones have no effect, and divided by h^2 they would overflow a float.
 constexpr double largest_compliance = 1e12;
 
 float as_compliance(double alpha) { return static_cast<float>(std::min(alpha, largest_compliance)); }
@@ -29,10 +30,10 @@ std::string name_of(const Edge& edge) { return "edge " + std::to_string(edge.a) 
 struct Piece {
   const TriangleMesh& mesh;
   const ClothOptions& options;
-  std::vector<Triangle> triangles;  ///< consistently wound if possible
+  std::vector<Triangle> triangles;  ///< triangles, wound consistently if possible
   std::vector<Edge> edges;
-  std::vector<double> areas;   ///< of triangles [m^2]
-  std::vector<double> masses;  ///< of particles [kg]
+  std::vector<double> areas;   ///< area of each triangle [m^2]
+  std::vector<double> masses;  ///< mass of each particle [kg]
 
   Vec3d at(int vertex) const {
     const Vec3f& p = mesh.positions[static_cast<std::size_t>(vertex)];
@@ -84,7 +85,7 @@ void require_positions(const Piece& piece) {
   }
 }
 
-/// A non-manifold edge gets a distance constraint but no hinge: real meshes have a few of them.
+/// Throws an Error if a triangle occurs twice. Edges of three or more triangles are allowed: they get no hinge.
 void require_distinct_triangles(const Piece& piece) {
   for (const Edge& edge : piece.edges) {
     if (edge.is_inner() && edge.opposites[0] == edge.opposites[1])
@@ -95,18 +96,18 @@ void require_distinct_triangles(const Piece& piece) {
 
 // ------------------------------------------------------------------------------------------------ winding
 
-/// Six times the enclosed volume [m^3].
+/// Six times the volume that the triangles enclose [m^3].
 double six_volumes(const Piece& piece) {
   double sum = 0;
   for (const Triangle& t : piece.triangles) {
-    // Relative to a mesh vertex, so that a distant balloon keeps its precision.
+    // Positions are relative to a vertex, so that a balloon far from the origin keeps its precision.
     const Vec3d origin = piece.at(0);
     sum += dot(cross(piece.at(t[0]) - origin, piece.at(t[1]) - origin), piece.at(t[2]) - origin);
   }
   return sum;
 }
 
-/// Makes the winding consistent, for pictures and balloons. Distances and hinges do not need
+/// Makes the winding of triangles consistent, for pictures and balloons. Distances and hinges do not need
 /// it.
 void wind_alike(Piece& piece) {
   if (is_wound_consistently(piece.edges)) return;
@@ -119,7 +120,7 @@ void wind_alike(Piece& piece) {
   piece.find_edges_again();
 }
 
-/// Flips a balloon's triangles if they face inward.
+/// Throws an Error unless the mesh is closed, as balloons require. Flips all triangles if they face inward.
 void require_balloon(Piece& piece) {
   for (const Edge& edge : piece.edges) {
     if (edge.is_border())
@@ -151,7 +152,7 @@ void measure_areas(Piece& piece) {
   }
 }
 
-/// Each corner of a triangle gets a third of its mass.
+/// Gives each particle a third of the mass of each of its triangles.
 void lump_masses(Piece& piece) {
   piece.masses.assign(piece.mesh.positions.size(), 0);
   const double density = piece.options.material.area_density;
@@ -167,7 +168,8 @@ void lump_masses(Piece& piece) {
 
 // ------------------------------------------------------------------------------------------------ constraints
 
-/// Van Gelder 1998: an edge represents the strip of material beside it, alpha = L^2 / (Y (A1 + A2)).
+/// Makes the distance constraints. An edge represents the strip of material beside it: alpha = L^2 / (Y (A1 + A2)) (Van
+/// Gelder 1998).
 ConstraintGroup stretch_group(const Piece& piece) {
   ConstraintGroup group;
   group.type = "distance";
@@ -201,8 +203,8 @@ double hinge_compliance(const Piece& piece, const Edge& edge, bool isometric) {
   return piece.area_at(edge) / (length_squared(piece.at(edge.b) - piece.at(edge.a)) * stiffness);
 }
 
-/// Squared gradient lengths in the rest shape. Isometric gradients are
-/// constant coefficients times one direction, so their lengths never change.
+/// Squared lengths of a hinge's gradients in the rest shape. For isometric bending these are constant: coefficients
+/// times one direction.
 std::array<double, 4> squared_gradients(const Vec3d (&x)[4], bool isometric) {
   if (isometric) {
     const auto k = IsometricBending::measure(x);
@@ -224,8 +226,8 @@ double critical_damping(const Piece& piece, const int* v, double compliance, boo
   return 2 / std::sqrt(inverse_mass * compliance);
 }
 
-/// Sets the compliances of all hinges and the damping coefficient
-/// of their group: a fraction of the mean critical damping.
+/// Sets the compliance of each hinge, and the damping coefficient of their group as a share of their mean critical
+/// damping.
 void apply_material(const Piece& piece, ConstraintGroup& group, bool isometric) {
   const double fraction = piece.options.material.bending_damping;
   const std::size_t count = group.particles.size() / 4;
@@ -243,7 +245,7 @@ void apply_material(const Piece& piece, ConstraintGroup& group, bool isometric) 
       static_cast<float>(std::min(fraction * critical / static_cast<double>(count), largest_compliance));
 }
 
-/// The constraint type measures the rest angles later.
+/// Makes the bending constraints. Their rest angles are left out; the constraint type computes them later.
 ConstraintGroup bending_group(const Piece& piece) {
   const bool isometric = piece.options.bending_model == ClothOptions::Bending::isometric;
   ConstraintGroup group;
@@ -292,7 +294,7 @@ Object make_cloth(const TriangleMesh& mesh, const ClothOptions& options) {
   require_positions(piece);
   try {
     piece.find_edges_again();
-  } catch (const Error& error) {  // it names the triangle, but not the object
+  } catch (const Error& error) {  // the error names the triangle; add the object
     piece.refuse(error.where().element, error.problem(), error.advice());
   }
   measure_areas(piece);

@@ -1,11 +1,11 @@
 // Converts PBD stiffness to XPBD compliance and back, without a logarithm.
 //
-// One PBD projection of an isolated constraint leaves (1 - k'') C of its error; the m
-// iterations of a substep leave 1 - k', the n substeps of a frame 1 - k. XPBD leaves alpha~ /
-// (w + alpha~) per substep, alpha~ = alpha / h^2, for any m, because the multiplier
-// accumulates. Equal shares, k' = w / (w + alpha~), give the same path, inertia included. Only
-// k' = 1 - (1 - k)^(1/n) is not elementary. Newton's method solves K(k') = 1 - (1 - k')^n for
-// it. Repeated doubling evaluates K from terms of one sign, so small shares keep their digits.
+// One PBD projection of an isolated constraint leaves (1 - k'') C of its error C. The m iterations of a substep
+// leave 1 - k', the n substeps of a frame leave 1 - k. XPBD leaves alpha~ / (w + alpha~) in a substep, alpha~ =
+// alpha / h^2, whatever m is, because its multiplier accumulates. If both shares are equal, k' = w / (w +
+// alpha~), the motion is the same. The step from k to k' needs k' = 1 - (1 - k)^(1/n). Newton's method solves
+// K(k') = 1 - (1 - k')^n for it. Repeated doubling evaluates K from terms of one sign, so small shares keep their
+// digits.
 #include <cmath>
 #include <limits>
 #include <string>
@@ -27,7 +27,7 @@ void require_context(const ConversionContext& context) {
     throw Error({"", 0, "", context.substeps < 1 ? "substeps" : "iterations"}, "must be at least 1");
 }
 
-/// 1 - (1 - share)^times. Shares combine as a + b - a b = a + b (1 - a), without negative terms.
+/// 1 - (1 - share)^times. Two shares combine to a + b - a b = a + b (1 - a), which has no negative terms.
 double repeated_share(double share, int times) {
   double result = 0, power = share;
   for (int bits = times; bits > 0; bits >>= 1) {
@@ -37,9 +37,9 @@ double repeated_share(double share, int times) {
   return result;
 }
 
-/// The share whose `times`-fold repetition gives `whole`, 0 < whole < 1. K is concave and K(whole / times) <= whole, so
-/// Newton's method approaches the root monotonically from below and stops when a step gains nothing. Each step reduces the
-/// distance by a factor e or more, so about twenty steps suffice for floats.
+/// The share that gives `whole`, 0 < whole < 1, when it is repeated `times` times. K is concave and K(whole / times) <=
+/// whole, so Newton's method approaches the root from below and stops when a step gains nothing. Each step reduces the
+/// distance to the root by a factor e or more, so about twenty steps suffice for floats.
 double single_share(double whole, int times) {
   double share = whole / times;
   for (int step = 0; step < 200; ++step) {

@@ -1,8 +1,8 @@
-// Edits of a description: removes triangles, and cuts surfaces along edges.
+// Edits the description of an object: removes triangles, and cuts surfaces along edges.
 //
-// A cut is described by fans around each particle: triangles connected
-// across uncut edges. The first fan keeps the particle, every other one gets
-// a copy. The fans of its triangles then determine what a constraint joins.
+// At each particle, triangles connected across uncut edges form a fan. The first fan keeps the
+// particle, every other fan gets a copy of it. A constraint follows the fans of the triangles that
+// contain it.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -48,7 +48,8 @@ Around triangles_around(const Object& object, const std::vector<char>* present =
   return around;
 }
 
-/// The triangles with both particles of a two-particle stencil, or with all corners in a larger one.
+/// The triangles of a stencil: those that contain both of its two particles, or for larger stencils those with all
+/// corners in it.
 std::vector<int> triangles_of(const std::vector<int>& stencil, const Object& object, const Around& around) {
   std::set<int> found;
   for (const int particle : stencil) {
@@ -61,7 +62,7 @@ std::vector<int> triangles_of(const std::vector<int>& stencil, const Object& obj
   return {found.begin(), found.end()};
 }
 
-/// Appends a copy of constraint `number` on another stencil, with its compliance times `softer`.
+/// Appends a copy of constraint `number` of a group with the given stencil, and with its compliance times `softer`.
 void append(const ConstraintGroup& from, int number, const std::vector<int>& stencil, double softer, ConstraintGroup& to) {
   const auto slots = stencil.size();
   const std::size_t count = from.particles.size() / slots, fields = count > 0 ? from.rest.size() / count : 0;
@@ -95,7 +96,7 @@ double area_of(const Object& object, int t) {
   return 0.5 * std::sqrt(double(n.x) * n.x + double(n.y) * n.y + double(n.z) * n.z);
 }
 
-/// The particle copies that each triangle uses, and their origins.
+/// Which copy of a particle each triangle uses after a cut, and of which particle it is a copy.
 class Cut {
  public:
   Cut(const Object& object, const std::set<Edge>& edges)
@@ -123,7 +124,7 @@ class Cut {
  private:
   int particles() const { return static_cast<int>(around_.size()); }
 
-  /// The copy of particle p that triangle t uses.
+  /// The copy of particle p that triangle t uses; p itself if it uses no copy.
   int copy(int p, int t) const {
     const auto found = copies_.find({p, t});
     return found == copies_.end() ? p : found->second;
@@ -147,7 +148,7 @@ class Cut {
         }
       }
       if (first) continue;
-      if (!parts_here(p)) return;  // fans that met in one point before the cut still do
+      if (!parts_here(p)) return;  // fans that touch only in p stay together if the cut does not reach p
       origins_.push_back(p);
       for (const int t : fan) copies_[{p, t}] = particles() + static_cast<int>(origins_.size()) - 1;
     }
@@ -182,14 +183,15 @@ class Cut {
     }
   }
 
-  /// Constraints on one side follow it; edges on the cut are kept on both sides; others are removed.
+  /// Distributes a group's constraints: those on one side of the cut follow it, edges on the cut are doubled, others
+  /// are removed.
   ConstraintGroup split(const ConstraintGroup& group) const {
     const int slots = slots_of(group, object_);
     ConstraintGroup out = empty_like(group);
     for (int c = 0; c < static_cast<int>(group.particles.size()) / slots; ++c) {
       const std::vector<int> stencil = stencil_of(group, slots, c);
       const std::vector<int> triangles = triangles_of(stencil, object_, around_);
-      std::map<std::vector<int>, double> sides;  // triangle area of each side, by the stencil of copies
+      std::map<std::vector<int>, double> sides;  // area of the triangles on each side; key: stencil on that side
       double whole = 0;
       for (const int t : triangles) {
         sides[copies(stencil, t, triangles)] += area_of(object_, t);
@@ -202,7 +204,8 @@ class Cut {
     return out;
   }
 
-  /// The stencil with the copies that triangle t uses; other particles come from the other triangles.
+  /// The stencil after the cut, as seen from triangle t; particles that t does not contain are taken from the other
+  /// triangles.
   std::vector<int> copies(const std::vector<int>& stencil, int t, const std::vector<int>& triangles) const {
     std::vector<int> out;
     for (const int p : stencil) {
@@ -223,7 +226,7 @@ class Cut {
   const Object& object_;
   const std::set<Edge>& edges_;
   Around around_;
-  std::map<std::pair<int, int>, int> copies_;  ///< index of the copy that a triangle uses, by particle and triangle
+  std::map<std::pair<int, int>, int> copies_;  ///< key: particle and triangle
   std::vector<int> origins_;                   ///< original particle of each copy
 };
 

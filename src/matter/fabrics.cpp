@@ -19,7 +19,7 @@ Fabric woven(const char* name, float area_density, float thickness, float stretc
   return {name, area_density, thickness, stretch, bending, 0.05f, static_friction, kinetic_friction, source};
 }
 
-/// A homogeneous sheet: Y = E t and B = E t^3 / (12 (1 - nu^2)).
+/// A homogeneous sheet of thickness t: membrane stiffness E t and bending rigidity E t^3 / (12 (1 - nu^2)).
 Fabric sheet(const char* name, double density, double thickness, double young, double poisson, float damping,
              float static_friction, float kinetic_friction, const char* source) {
   return {name,

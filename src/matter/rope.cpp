@@ -1,4 +1,5 @@
-// A rope: links that keep their length and, for bending stiffness, struts between second neighbours.
+// Makes a rope: a distance constraint for each link and, for bending stiffness, one between each two particles two
+// links apart.
 #include <cmath>
 #include <string>
 #include <utility>
@@ -10,7 +11,7 @@ namespace pliant {
 
 namespace {
 
-/// The length of each link, computed in double and validated.
+/// The length of each link, computed in double precision. Throws an Error if a length is not positive.
 std::vector<double> link_lengths(const std::vector<Vec3f>& points, const std::string& name) {
   std::vector<double> lengths;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -35,7 +36,7 @@ std::vector<float> lumped_masses(const std::vector<double>& lengths, double line
   return masses;
 }
 
-/// The distance constraints between particles i and i + apart.
+/// Makes the distance constraints between particles i and i + `apart` for all i.
 ConstraintGroup struts(int particles, int apart, const Stiffness& stiffness) {
   ConstraintGroup group;
   group.type = "distance";

@@ -1,4 +1,4 @@
-// Adds to a Scene, which stays plain data. World and inspect() validate what is added.
+// Functions that add to a Scene. World and inspect() validate what is added.
 #include "pliant/scene.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ void Scene::pin(int object, const std::vector<int>& particles, const Motion& mot
                 "does not exist; the scene has " + std::to_string(objects.size()) + " objects",
                 "use an index that add() or add_cloth() returned");
   Object& pinned = objects[static_cast<std::size_t>(object)];
-  // All are validated before the first is pinned, so that an error leaves the scene unchanged.
+  // All indices are validated before the first particle is pinned, so that an error leaves the scene unchanged.
   for (int particle : particles)
     if (particle < 0 || particle >= static_cast<int>(pinned.positions.size()))
       throw Error({"", 0, pinned.name, "particle " + std::to_string(particle)},

@@ -1,4 +1,4 @@
-// The public list of sweeps.
+// The public list of sweeps and their names.
 #include "pliant/scene.h"
 
 namespace pliant {

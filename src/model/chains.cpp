@@ -64,9 +64,9 @@ void append_step(const ConstraintList& list, const std::vector<Row>& rows, const
   ++pool.batches;
 }
 
-/// The inverse of a path's total mass. Regularisation in proportion to it lets each link stretch by the
-/// same small share of g h^2 under the path's own weight, whatever the number of links and the load at its
-/// end.
+/// The inverse of a path's total mass. With a regularisation in proportion to it, each link stretches by the
+/// same small share of g h^2 under the path's own weight, whatever the number of links and the load at the
+/// path's end.
 float mobility_of(const Path& path, const CompiledObject& object) {
   double mass = 0;
   for (int v : path.vertices) mass += object.positions[v].w > 0 ? 1 / double(object.positions[v].w) : 0.0;
@@ -92,12 +92,12 @@ void append_colour(const ConstraintList& list, const PathColour& colour, float s
 }
 
 struct Tether {
-  int anchor = -1;  ///< index in Tethers::anchors
+  int anchor = -1;  ///< index in Tethers::anchors; -1: no tether
   float length = no_tether;
 };
 
-/// The tethers of each particle, `slots` each, sorted by anchor so that neighbouring particles have equal anchors in
-/// equal slots.
+/// Finds the tethers of each particle: `slots` entries per particle, sorted by anchor, so that neighbouring particles
+/// have equal anchors in equal slots.
 std::vector<Tether> tethers_of(const CompiledObject& object, const std::vector<std::vector<NearSource>>& near,
                                const std::vector<int>& anchors, float slack, int slots) {
   std::vector<Tether> tethers(object.positions.size() * slots);

@@ -8,16 +8,16 @@
 
 namespace pliant {
 
-/// Marks the distances that chains solve: compliant and rigid ones with a positive rest
-/// length. Attachments (rest length zero) have no direction to solve along, and damped and PBD
-/// distances are no part of a linear system. Both go to separate lists and are swept as usual.
+/// Marks the distance constraints that chains solve: compliant and rigid ones with a positive rest length. Attachments
+/// have rest length zero, so no direction to solve along; damped and PBD distances do not fit a linear system. Both go
+/// to separate lists, which are swept as usual.
 void split_off_chains(std::vector<ConstraintList>& lists);
 
-/// Decomposes the marked lists into paths. The object's particles must be in storage order and its pools must exist.
+/// Decomposes the marked lists into paths and appends these. The object must have its storage order and its pools.
 void append_chains(const std::vector<ConstraintList>& lists, float softness, CompiledObject& out);
 
-/// For each free particle: the geodesic distance along constraints and triangles to the nearest pin of each of the four
-/// nearest groups of pins, times 1 + slack. Needs the surface.
+/// For each dynamic particle, the geodesic distances along constraints and triangles to the four nearest groups of pins
+/// (in each to the nearest pin), times 1 + slack. The object must have its surface.
 Tethers find_tethers(const std::vector<ConstraintList>& lists, float slack, const CompiledObject& object);
 
 }  // namespace pliant

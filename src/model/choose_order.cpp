@@ -12,13 +12,13 @@ namespace pliant {
 
 namespace {
 
-/// Share of contiguous constraints at which the chain order is accepted without trying others.
+/// If this share of pairs is in contiguous groups, the chain order is accepted, and no other is tried.
 constexpr double enough_in_runs = 0.75;
 
-/// Below this many particles the order does not affect the time of a sweep.
+/// Below this number of particles the order does not affect the time of a sweep.
 constexpr std::size_t fewest_to_choose_for = 64;
 
-/// Particles sampled to judge an order.
+/// Number of particles, the first in storage, whose pairs are sampled to judge an order.
 constexpr int most_to_judge_by = 1 << 14;
 
 using Links = std::vector<std::array<int, 2>>;
@@ -57,7 +57,7 @@ std::vector<char> find_links_to_next(const std::vector<ConstraintList>& lists, s
   return linked;
 }
 
-/// The share of contiguous links among the first particles in storage, as a sample.
+/// The share of pairs in contiguous groups of four, among the first particles in storage.
 double links_in_runs(const Links& links, const std::vector<int>& order) {
   std::vector<int> place(order.size()), stencils;
   for (int storage = 0; storage < static_cast<int>(order.size()); ++storage) place[order[storage]] = storage;

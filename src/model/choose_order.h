@@ -8,8 +8,8 @@
 
 namespace pliant {
 
-/// order[storage] = user index, tile by tile. Within a tile it uses the order with more constrained pairs in contiguous
-/// groups: chains (topology/numbering.h), for grid-like input, or lockstep (topology/lockstep.h).
+/// Returns order[storage] = user index, tile by tile. Within a tile it uses the order that puts more constrained pairs
+/// into contiguous groups: chains (topology/numbering.h), for grid-like input, or lockstep (topology/lockstep.h).
 std::vector<int> choose_order(const std::vector<Vec3f>& positions, const std::vector<int>& tile,
                               const std::vector<ConstraintList>& lists);
 

@@ -1,5 +1,5 @@
-// A column of one number per constraint, stored compactly: once if all are equal, by reference while it equals the user's
-// array, and otherwise in an array of its own.
+// A column with one number per constraint. It stores the number once if all are equal, refers to the user's array while
+// it equals that, and else has an array of its own.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,14 @@
 
 namespace pliant {
 
-/// A view of one number per constraint: a rest field, responses or dampings. Valid until its Column changes.
+/// A view of one number per constraint (a rest field, responses or dampings), valid until its Column changes.
 struct Row {
   const float* first;
   int stride;
   float at(int constraint) const { return first[static_cast<std::size_t>(constraint) * stride]; }
 };
 
-/// Stores values bit for bit: +0 and -0 are different numbers.
+/// A column that compares values bit for bit: +0 and -0 are different numbers.
 template <class T>
 class Column {
  public:
@@ -37,7 +37,7 @@ class Column {
     ++size_;
   }
 
-  /// Appends an array, which must outlive the column and stay unchanged: the first array is not copied.
+  /// Appends an array, which must outlive the column and stay unchanged. The first one appended is not copied.
   void append(const std::vector<T>& values) {
     if (values.empty()) return;
     if (size_ == 0)
@@ -47,7 +47,7 @@ class Column {
     size_ += values.size();
   }
 
-  /// Appends an array that is given away: the first is kept without a copy.
+  /// Appends an array that the caller gives away. The first one appended is moved, not copied.
   void append(std::vector<T>&& values) {
     if (size_ > 0 || values.empty()) return append(static_cast<const std::vector<T>&>(values));
     size_ = values.size();
@@ -58,7 +58,7 @@ class Column {
     if (std::memcmp(&(*this)[i], &value, sizeof value) != 0) own()[i] = value;
   }
 
-  /// Converts to an array of its own.
+  /// Converts the column to an array of its own, and returns that.
   std::vector<T>& own() {
     if (!own_.empty() || size_ == 0) return own_;
     own_.reserve(size_ + 1);
@@ -89,7 +89,7 @@ class Column {
   std::vector<T> own_;
 };
 
-/// Mostly consecutive numbers, stored as ranges.
+/// A list of numbers that are mostly consecutive, stored as ranges.
 class Ordinals {
  public:
   void push_back(int value) {
@@ -100,7 +100,7 @@ class Ordinals {
 
   std::size_t size() const { return size_; }
   int operator[](std::size_t i) const {
-    std::size_t low = 0, high = runs_.size();  // the last range that begins at i or before
+    std::size_t low = 0, high = runs_.size();  // search for the last range that begins at or before i
     while (high - low > 1) {
       const std::size_t middle = (low + high) / 2;
       (runs_[middle].first <= i ? low : high) = middle;
@@ -110,7 +110,7 @@ class Ordinals {
 
  private:
   std::size_t size_ = 0;
-  std::vector<std::pair<std::size_t, int>> runs_;  // start and first number of each range
+  std::vector<std::pair<std::size_t, int>> runs_;  // each range: index of its first number, and that number
 };
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// Compiles a description to a schedule: tiles, storage order, colours, batches.
+// Compiles an object's description to a schedule: tiles, storage order, colours, batches.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -70,7 +70,8 @@ void fill_kinematics(const Object& object, CompiledObject& out) {
     if (!attachment.motion.moves()) continue;
     out.kinematics.push_back({out.place[object.positions.size() + i], attachment.target, attachment.motion});
   }
-  // Sorted by storage index, so that a tile finds its own. Of two pins on one particle the later one wins.
+  // Kinematic particles are sorted by storage index, so that each tile finds its own. Of two pins of a particle the
+  // later one wins.
   std::stable_sort(out.kinematics.begin(), out.kinematics.end(),
                    [](const Kinematic& a, const Kinematic& b) { return a.particle < b.particle; });
 }
@@ -90,11 +91,11 @@ void number_particles(const std::vector<Vec3f>& positions, const std::vector<Con
 
 // ---------------------------------------------------------------- constraints
 
-/// Renumbers particles in storage order and brings each stencil into the type's canonical order.
+/// Replaces user indices of particles by storage indices, and orders each stencil as its type's `canonical` does.
 void renumber(ConstraintList& list, const std::vector<int>& place) {
   const int particles = static_cast<int>(place.size());
   std::vector<int>& stencils = list.stencils.own();
-  for (int& number : stencils) number = number < particles ? place[number] : number;  // frames keep their order
+  for (int& number : stencils) number = number < particles ? place[number] : number;  // frames are not reordered
   const auto canonical = constraint_type(list.type).canonical;
   if (canonical == nullptr) return;
   std::array<float, most_rest_fields> rest{};
@@ -108,7 +109,7 @@ void renumber(ConstraintList& list, const std::vector<int>& place) {
 
 /// The constraints of a list, grouped by the tile that contains all their particles; inter-tile constraints come last.
 struct ByTile {
-  std::vector<int> begin;  ///< start of each tile's members, then that of the inter-tile ones; one more at the end
+  std::vector<int> begin;  ///< first member of each tile, then of the inter-tile ones; one more at the end
   std::vector<int> members;
 
   std::vector<int> of(int tile) const { return {members.begin() + begin[tile], members.begin() + begin[tile + 1]}; }
@@ -134,8 +135,8 @@ ByTile split_by_tile(ConstraintList& list, const std::vector<int>& tile_of, int 
   return split;
 }
 
-/// The constraint in a lane of a batch. In groups of four, lane 4 l + j holds member l of group j (see math/wide.h).
-/// Lanes past the end repeat the first constraint, which is then read but never written.
+/// The constraint in a lane of a batch. With groups of four, lane 4 l + j has member l of group j (see math/wide.h).
+/// Lanes beyond the last constraint repeat the first one; they are read, but never written.
 int member_in_lane(const Colour& colour, int batch, int lane, bool& valid) {
   const int position = colour.runs != 0 ? batch * batch_width + 4 * (lane % 4) + lane / 4 : batch * batch_width + lane;
   valid = position < static_cast<int>(colour.members.size());
@@ -162,7 +163,7 @@ void append_batch(const ConstraintList& list, const std::vector<Row>& rows, cons
   ++pool.batches;
 }
 
-/// Appends batches [first, last) of a colour.
+/// Appends batches [first, last) of a colour to a pool, and returns them as a segment.
 Segment append_segment(const ConstraintList& list, const Colour& colour, int first, int last, int pool_number, Pool& pool) {
   const int count = static_cast<int>(colour.members.size());
   Segment segment;
@@ -178,7 +179,8 @@ Segment append_segment(const ConstraintList& list, const Colour& colour, int fir
   return segment;
 }
 
-/// Appends a colour in segments of at most `largest` batches, because threads share inter-tile constraints by segment.
+/// Appends a colour in segments of at most `largest` batches. Inter-tile constraints use several, because threads share
+/// them by segment.
 void append_colour(const ConstraintList& list, const Colour& colour, int largest, int pool_number, Pool& pool,
                    std::vector<Segment>& segments) {
   const int batches = (static_cast<int>(colour.members.size()) + batch_width - 1) / batch_width;
@@ -197,13 +199,13 @@ std::vector<Colour> one_by_one(const std::vector<int>& members) {
   return colours;
 }
 
-/// The segments of one list: tile by tile, then inter-tile constraints by colour.
+/// The segments of one constraint list: tile by tile, then inter-tile constraints by colour.
 struct ListSchedule {
   std::vector<Segment> segments;
-  std::vector<int> tile_end, colour_end;  ///< index one past the last segment of each
+  std::vector<int> tile_end, colour_end;  ///< one past the last segment of each tile; of each inter-tile colour
 };
 
-/// Reserves generously: reserved pages that are never written cost no memory, but growing an array copies it.
+/// Reserves more than needed: reserved pages that are never written cost no memory, but a growing array is copied.
 void reserve(const ConstraintList& list, Pool& pool) {
   const std::size_t lanes = static_cast<std::size_t>(list.count()) * 5 / 4 + batch_width;
   pool.indices.reserve(lanes * static_cast<std::size_t>(list.size));
@@ -231,7 +233,8 @@ ListSchedule schedule_list(ConstraintList& list, const std::vector<int>& tile_of
   return out;
 }
 
-/// Interleaves the segments of all lists: tile by tile, then colour by colour, with the lists in turn within each.
+/// Merges the segments of all lists: tile by tile, then inter-tile colour by colour; within each, in the order of the
+/// lists.
 void merge(const std::vector<ListSchedule>& schedules, CompiledObject& out) {
   std::vector<int> next(schedules.size(), 0);
   const auto append_to = [&](std::size_t i, int end) {
@@ -255,15 +258,15 @@ void merge(const std::vector<ListSchedule>& schedules, CompiledObject& out) {
   }
 }
 
-/// True if later steps of compile() still read the list: chains, stencils, tethers or multigrid.
+/// True if a later step of compile() reads the list: chains, stencils, tethers or multigrid.
 bool is_needed_later(const ConstraintList& list, const CompileOptions& options) {
   return list.chained || !list.in_lanes || (is_length(list.type) && (options.tethers || options.sweep == Sweep::multigrid));
 }
 
-/// Processes one list at a time and frees it if possible, to limit the peak of memory.
+/// Schedules one list after another and frees each if possible, to limit the peak of memory.
 void schedule(std::vector<ConstraintList>& lists, const std::vector<int>& tile, const CompileOptions& options,
               CompiledObject& out) {
-  std::vector<int> tile_of(tile.size());  // by storage index
+  std::vector<int> tile_of(tile.size());  // tile of each particle, by storage index
   for (std::size_t storage = 0; storage < tile.size(); ++storage) tile_of[storage] = tile[out.order[storage]];
   const bool in_given_order = options.sweep == Sweep::natural;
   std::vector<ListSchedule> schedules(lists.size());
@@ -280,8 +283,8 @@ void schedule(std::vector<ConstraintList>& lists, const std::vector<int>& tile, 
   merge(schedules, out);
 }
 
-/// Schedules constraints that are projected one at a time, coloured over the whole object, list by list. Frames are
-/// numbered after all particles.
+/// Schedules the constraints that are projected one at a time, list by list, in colours over the whole object. Frames
+/// have indices after all particles.
 void schedule_stencils(std::vector<ConstraintList>& lists, bool in_given_order, CompiledObject& out) {
   Colouring colouring(out.particles + static_cast<int>(out.frames.size()));
   for (std::size_t i = 0; i < lists.size(); ++i) {
@@ -349,8 +352,8 @@ void add_whole_object_phases(CompiledObject& out) {
                    [](const ObjectPhase& a, const ObjectPhase& b) { return a.driver < b.driver; });
 }
 
-/// The contact lines of an object without triangles: its first group of distance constraints, as the links of a rope.
-/// Later groups are bending; their lines would lie on the links and always touch them.
+/// The contact lines of an object without triangles: its first group of distance constraints, the links of a rope.
+/// Later groups are bending; their lines would always touch the links.
 std::vector<std::array<int, 2>> lines_of(const Object& object, const std::vector<int>& place) {
   std::vector<std::array<int, 2>> lines;
   const auto group = std::find_if(object.constraints.begin(), object.constraints.end(),
@@ -363,7 +366,7 @@ std::vector<std::array<int, 2>> lines_of(const Object& object, const std::vector
   return lines;
 }
 
-/// Compiles an object. `given_away` is the object if it may lose its constraints, else null.
+/// Compiles an object. `given_away` is that object if its constraints may be moved out of it, else null.
 CompiledObject compile(const Object& object, Object* given_away, const CompileOptions& options) {
   CompiledObject out;
   out.name = object.name;
@@ -438,7 +441,7 @@ void fill_carrier(const MeshCollider& collider, CompiledObject& out) {
 CompiledObject compile(const Object& object, const CompileOptions& options) { return compile(object, nullptr, options); }
 
 CompiledObject compile(Object&& object, const CompileOptions& options) {
-  const bool is_surface = !object.triangles.empty();  // lines are found again among the constraints
+  const bool is_surface = !object.triangles.empty();  // lines come from the constraints
   return compile(object, is_surface ? &object : nullptr, options);
 }
 
@@ -452,7 +455,7 @@ CompiledObject compile(const MeshCollider& collider) {
   object.static_friction = collider.static_friction;
   object.kinetic_friction = collider.kinetic_friction;
   object.collides = true;
-  const bool meets = collider.as == MeshCollider::As::triangles;  // otherwise only particles collide with it
+  const bool meets = collider.as == MeshCollider::As::triangles;  // otherwise only particles touch it
   object.groups = meets ? collider.groups : 0;
   object.mask = meets ? collider.mask : 0;
   object.restitution = collider.restitution;

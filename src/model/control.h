@@ -1,4 +1,4 @@
-// User-driven motion in the next frame, in addition to keyframes.
+// What the user sets for the next frame: targets, poses and forces, in addition to keyframes.
 #pragma once
 
 #include <map>
@@ -9,30 +9,30 @@
 
 namespace pliant {
 
-/// A rigid motion between two poses, or a held pose.
+/// A rigid motion between two poses, or a constant pose.
 struct PoseDrive {
   Posed from, to;
-  double start = 0, end = 0;  ///< [s]; equal: held at `to`
+  double start = 0, end = 0;  ///< times of both poses [s]; equal: the pose is `to`
   bool moves() const { return end > start; }
   Posed at(double time) const;
 };
 
 /// A particle of infinite mass that moves between two positions.
 struct Target {
-  int particle = 0;  ///< in storage order
-  Vec3d from, to;    ///< at the frame's start and end [m]
+  int particle = 0;  ///< index in storage order
+  Vec3d from, to;    ///< positions at the frame's start and end [m]
 };
 
 struct ObjectControl {
-  std::vector<Target> targets;  ///< targets in ascending order of particles
-  std::vector<Vec3f> forces;    ///< in storage order [N]; empty: none
+  std::vector<Target> targets;  ///< ascending by particle
+  std::vector<Vec3f> forces;    ///< force on each particle in storage order [N]; empty: none
 };
 
-/// The user's control data of one frame.
+/// All that the user sets for one frame.
 struct Control {
-  std::map<int, PoseDrive> colliders;    ///< by index in Model::colliders
-  std::map<int, PoseDrive> meshes;       ///< by index of the mesh collider in Model::objects
-  std::map<int, ObjectControl> objects;  ///< by index in Model::objects
+  std::map<int, PoseDrive> colliders;    ///< key: index in Model::colliders
+  std::map<int, PoseDrive> meshes;       ///< key: index of the mesh collider in Model::objects
+  std::map<int, ObjectControl> objects;  ///< key: index in Model::objects
 
   const PoseDrive* collider(int number) const { return find(colliders, number); }
   const PoseDrive* mesh(int number) const { return find(meshes, number); }

@@ -13,7 +13,8 @@ std::vector<Row> rows_of(const ConstraintList& list) {
 
 namespace {
 
-/// Zeros of either sign are equal: a flat hinge's rest angle changes sign with its canonical order.
+/// True if a row has equal values. Zeros of either sign count as equal: ordering a hinge's points can change the sign
+/// of its rest angle.
 bool is_constant(const Row& row, int count) {
   for (int i = 1; i < count; ++i) {
     if (row.at(i) != row.at(0)) return false;

@@ -1,4 +1,4 @@
-// The common start of every pool layout: the rows of its constraints.
+// Makes the rows of a constraint pool, whatever its layout.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace pliant {
 
-/// The rows of a list in pool order; valid until the list changes.
+/// The rows of a constraint list in the order of a pool's rows; valid until the list changes.
 std::vector<Row> rows_of(const ConstraintList& list);
 
-/// A pool for a list without batches; constant rows are stored once.
+/// Makes a pool without batches for a list. Rows that are the same for all constraints are stored in it once.
 Pool make_pool(const ConstraintList& list);
 
 }  // namespace pliant

@@ -13,7 +13,7 @@ namespace pliant {
 
 namespace {
 
-/// Measures the rest data of one constraint from positions and orientations.
+/// Computes the rest data of one constraint from the initial positions and orientations.
 void measure(const ConstraintDefinition& type, const Object& object, const int* stencil, Column<float>& rest) {
   double slots[4 * most_slots], fields[most_rest_fields];
   for (std::size_t slot = 0; slot < type.slots.size(); ++slot) {
@@ -40,7 +40,7 @@ class Gatherer {
  public:
   Gatherer(const Object& object, int passes) : object_(object), passes_(passes) {}
 
-  /// Moves the arrays of a group that is given away: `given_away` is that group or null.
+  /// Adds a group. If `given_away` is not null, it is that group, and its arrays are moved instead of copied.
   void add(const ConstraintGroup& group, ConstraintGroup* given_away) {
     const int type = find_constraint_type(group.type);
     if (type < 0)
@@ -66,7 +66,7 @@ class Gatherer {
   std::vector<ConstraintList> take() {
     std::vector<ConstraintList> lists;
     for (auto& [key, list] : lists_) {
-      if (list.count() > 0) lists.push_back(std::move(list));  // a group may be empty
+      if (list.count() > 0) lists.push_back(std::move(list));  // groups may be empty
     }
     return lists;
   }
@@ -138,10 +138,10 @@ class Gatherer {
       list.damping.push_back(group.stiffness.damping);
       list.origin.push_back(next_origin_[type]++);
     }
-    append_stencils(group, given_away, definition, list);  // last: it may move them
+    append_stencils(group, given_away, definition, list);  // last, because this may move the stencils
   }
 
-  /// Frames are numbered after all particles, including attachment targets.
+  /// The index of the first frame in stencils: frames come after all particles and attachment targets.
   int first_frame() const { return static_cast<int>(object_.positions.size() + object_.attachments.size()); }
 
   const Object& object_;

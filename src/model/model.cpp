@@ -10,10 +10,10 @@ namespace pliant {
 
 namespace {
 
-/// The orientation of unused frame records: the identity, which stays finite when predicted.
+/// Orientation of unused frame records: the identity, which stays finite under prediction.
 constexpr Record unrotated{0, 0, 0, 1};
 
-/// The cost of an item, in batches or steps.
+/// The cost of one item of a driver, in batches or chain steps.
 int work_of(const CompiledObject& object, Driver driver, int item) {
   switch (driver) {
     case Driver::inter_tile:
@@ -26,7 +26,7 @@ int work_of(const CompiledObject& object, Driver driver, int item) {
   }
 }
 
-/// The range of an object's tasks in a phase: they are contiguous, because tasks are sorted by object.
+/// The tasks of an object in a phase. They are contiguous, because tasks are sorted by object.
 auto tasks_of(std::vector<Task>& tasks, int object) {
   const auto before = [](const Task& task, int number) { return task.object < number; };
   const auto after = [](int number, const Task& task) { return number < task.object; };
@@ -34,7 +34,7 @@ auto tasks_of(std::vector<Task>& tasks, int object) {
                         std::upper_bound(tasks.begin(), tasks.end(), object, after));
 }
 
-/// Finds the phase of a driver and colour, or inserts it.
+/// Finds the phase of a driver and colour. Inserts it if there is none.
 Phase& phase_of(Driver driver, int colour, std::vector<Phase>& phases) {
   const auto at = std::find_if(phases.begin(), phases.end(), [&](const Phase& phase) {
     return std::pair(phase.driver, phase.colour) >= std::pair(driver, colour);
@@ -59,7 +59,7 @@ void add_tasks(Model& model, int number) {
   }
 }
 
-/// The phases of tiles and contacts stay even if they are empty.
+/// True if a phase must be kept: those of tiles and contacts stay even without tasks.
 bool is_to_stay(const Phase& phase) {
   return !phase.tasks.empty() || phase.driver == Driver::tile || phase.driver == Driver::surface_contact ||
          phase.driver == Driver::collider_contact;
@@ -78,7 +78,7 @@ struct Range {
   int first = 0, size = 0, owner = 0;
 };
 
-/// Allocates blocks at given positions. Gaps between them are allocated too, and released at the end.
+/// Allocates blocks at given positions. It allocates the gaps between them too, and frees those at the end.
 void occupy(std::vector<Range> ranges, BlockAllocator& blocks) {
   std::erase_if(ranges, [](const Range& range) { return range.size == 0; });
   std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.first < b.first; });

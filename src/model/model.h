@@ -25,7 +25,7 @@ struct FieldCollider {
   std::uint32_t groups = 1, mask = ~0u;
 };
 
-/// All input of a step except the State. It has over fifteen members: one list for each kind of thing in a scene.
+/// All input of a step but the State. Over fifteen members: a list for each kind of thing in a scene.
 struct Model {
   Vec3f gravity{};
   Wind wind;
@@ -33,24 +33,24 @@ struct Model {
   std::vector<Collider> colliders;
   std::vector<FieldCollider> fields;
   std::vector<PairProperties> pairs;
-  /// Objects and mesh colliders by number. The number of a removed object holds an empty one until it is reused.
+  /// Objects and mesh colliders by number. The entry of a removed object is empty until its number is used again.
   std::vector<CompiledObject> objects;
-  std::vector<int> first;        ///< first[o] is object o's first particle in a State
-  std::vector<int> first_frame;  ///< first_frame[o] is its first frame
-  std::vector<int> generation;   ///< of each number: counts removals and recompilations
-  std::set<int> free_numbers;    ///< the numbers of removed objects
+  std::vector<int> first;        ///< first particle of each object in a State
+  std::vector<int> first_frame;  ///< first frame of each object in a State
+  std::vector<int> generation;   ///< for each number, how often its object was removed or compiled again
+  std::set<int> free_numbers;    ///< numbers of removed objects
   BlockAllocator blocks, frame_blocks;
-  /// In the order of execution. The phases of tiles and of contacts always exist; that of tiles is the first.
+  /// Phases in the order of execution. Those of tiles and of contacts always exist; that of tiles is the first.
   std::vector<Phase> phases{{Driver::tile}, {Driver::surface_contact}, {Driver::collider_contact}};
 
-  /// Adds an object and its tasks under the lowest free number, which it returns.
+  /// Adds an object and its tasks under the lowest free number. Returns the number.
   int add(CompiledObject object);
   /// Removes an object and its tasks. Its block in a State becomes a hole.
   void remove(int object);
-  /// Replaces an object by a newly compiled one with the same number.
+  /// Replaces an object by one that was compiled again; the number stays.
   void replace(int object, CompiledObject by);
 
-  /// All tiles of all objects. Prediction, velocity update and contacts with colliders also run by tile.
+  /// Tasks for all tiles of all objects. Prediction, update and contacts of particles with colliders run by tile.
   const std::vector<Task>& tiles() const { return phases.front().tasks; }
   /// One past the last particle in a State; holes are included.
   int particles() const { return blocks.end(); }
@@ -65,10 +65,10 @@ State initial_state(const Model& model);
 
 /// Resizes the frame records of a State to the model's number of frames.
 void resize_frames(const Model& model, FrameRecords& frames);
-/// Resets `count` frames from `first` on to unused ones.
+/// Resets `count` frame records from `first` on to those of unused frames.
 void clear_frames(int first, int count, FrameRecords& frames);
 
-/// Copies an object's initial state into a State, which grows as needed.
+/// Copies an object's initial state into a State, which is resized if necessary.
 void put_at_start(const Model& model, int object, State& state);
 
 }  // namespace pliant

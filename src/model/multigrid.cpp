@@ -12,13 +12,14 @@ namespace pliant {
 
 namespace {
 
-// A stiffness this many times that needed to carry the object's weight over its width stretches edges by about 0.1 %.
+// Stiffness limit of an edge over its share of the load per length. Edges then stretch by about 0.1 % under the weight.
 constexpr double stiffness_over_weight = 1700;
-constexpr double least_acceleration = 9.81;  // lower bound: without gravity, something else stops the motion [m/s^2]
-// Edges across the load's path, by which the edges at a single pin carry more than those in the middle.
+constexpr double least_acceleration = 9.81;  // without gravity, other loads stop the motion [m/s^2]
+// Share of a cross-section's load that one edge at a single pin carries: an eighth.
 constexpr double crowding_at_pins = 0.125;
 
-// Limit of a level's rows over the finer level's. Coarsening a hub joined to all exceeds it, and is not worth its cost.
+// Upper limit of the rows of a level over those of the finer level. A hub joined to all particles exceeds it and is not
+// coarsened.
 constexpr double largest_share = 0.75;
 
 struct Spring {
@@ -35,7 +36,7 @@ std::vector<Spring> springs_of(const std::vector<ConstraintList>& lists) {
     if (!is_length(list.type)) continue;
     for (std::size_t i = 0; i < list.response.size(); ++i) {
       const int a = list.stencils[2 * i], b = list.stencils[2 * i + 1];
-      const bool shares = list.law == Law::pbd && list.response[i] < 1;  // a share of the error per sweep: no spring
+      const bool shares = list.law == Law::pbd && list.response[i] < 1;  // PBD stiffness below 1 is no spring
       if (a != b && !shares) springs.push_back({a, b, list.rest[i], list.law == Law::pbd ? 0 : list.response[i]});
     }
   }
@@ -44,7 +45,7 @@ std::vector<Spring> springs_of(const std::vector<ConstraintList>& lists) {
 
 // ---------------------------------------------------------------- graphs
 
-/// Weighted adjacency: sorted pairs in both directions, with the number of springs as weight.
+/// Weighted adjacency: sorted neighbours of each node, in both directions. A weight is the number of springs.
 struct Graph {
   std::vector<int> begin, to, weight;
   int size() const { return static_cast<int>(begin.size()) - 1; }
@@ -74,8 +75,8 @@ Graph graph_of(int nodes, std::vector<Link>& links) {
   return graph;
 }
 
-/// Matches each node with the free neighbour with which it shares most springs; ties go to the one with fewest free
-/// neighbours. `fixed` nodes are excluded: -1.
+/// Matches each node with the unmatched neighbour with which it shares most springs; of equal ones with that which has
+/// fewest unmatched neighbours. `fixed` nodes get no group: -1.
 std::vector<int> match(const Graph& graph, const std::vector<char>& fixed, int& groups) {
   const int nodes = graph.size();
   std::vector<int> group(nodes, -1), left(nodes, 0);
@@ -103,7 +104,7 @@ std::vector<int> match(const Graph& graph, const std::vector<char>& fixed, int& 
   return group;
 }
 
-/// Calls body(from, to, weight) for every link between two groups.
+/// Calls body(from, to, weight) for every link of the graph that joins two different groups.
 template <class Body>
 void for_links_between(const Graph& graph, const std::vector<int>& group, const Body& body) {
   for (int i = 0; i < graph.size(); ++i)
@@ -124,7 +125,7 @@ Graph merge(const Graph& graph, const std::vector<int>& group, int groups) {
 
 // ---------------------------------------------------------------- levels
 
-/// Lays out rows and neighbours as a level's slots. Returns the place of each link of the graph: 16 x slot + lane.
+/// Lays out rows and neighbours as the slots of a level. Returns the position of each link of the graph: 16 x slot + lane.
 std::vector<std::int32_t> lay_out(const Graph& graph, MultigridLevel& level) {
   level.rows = graph.size();
   level.first_slot.assign(1, 0);
@@ -150,7 +151,7 @@ std::vector<std::int32_t> lay_out(const Graph& graph, MultigridLevel& level) {
   return place;
 }
 
-/// Groups items by key in compressed rows.
+/// Sorts items by key into compressed rows.
 void bucket(int keys, const std::vector<std::array<std::int32_t, 2>>& items, std::vector<std::int32_t>& begin,
             std::vector<std::int32_t>& out) {
   begin.assign(static_cast<std::size_t>(keys) + 1, 0);
@@ -174,7 +175,7 @@ void fill_families(const std::vector<int>& group, MultigridLevel& fine, Multigri
   }
 }
 
-/// Finds the blocks of the finer level that sum to each coarser block.
+/// Finds which blocks of the finer level sum to each block of the coarser one.
 void fill_sources(const Graph& fine_graph, const std::vector<std::int32_t>& fine_place, const std::vector<int>& group,
                   const Graph& graph, const std::vector<std::int32_t>& place, MultigridLevel& coarse) {
   std::vector<std::array<std::int32_t, 2>> sources, anchors;
@@ -217,7 +218,7 @@ void add_coarser(Graph graph, std::vector<std::int32_t> place, std::vector<char>
 
 // ---------------------------------------------------------------- connected components
 
-/// Finds the connected components without fixed particles.
+/// Numbers the connected components. Fixed particles belong to none and separate them.
 void find_pieces(const Graph& graph, const std::vector<char>& fixed, Multigrid& out) {
   out.piece.assign(fixed.size(), -1);
   std::vector<int> stack;
@@ -239,7 +240,7 @@ void find_pieces(const Graph& graph, const std::vector<char>& fixed, Multigrid& 
   }
 }
 
-/// The component of each row of the last level.
+/// Finds the component of each row of the coarsest level.
 void find_coarsest_pieces(Multigrid& out) {
   out.coarsest_piece = out.piece;
   for (std::size_t l = 0; l + 1 < out.levels.size(); ++l) {
@@ -252,7 +253,7 @@ void find_coarsest_pieces(Multigrid& out) {
 
 // ---------------------------------------------------------------- stiffness
 
-/// The number of springs to the nearest fixed particle; large if there is none.
+/// For each particle, the number of springs on the way to the nearest fixed particle; large if there is none.
 std::vector<int> rings_from_pins(const Graph& graph, const std::vector<char>& fixed) {
   std::vector<int> ring(fixed.size(), 1 << 20), queue;
   for (int i = 0; i < graph.size(); ++i) {
@@ -288,7 +289,8 @@ Measures measure(const std::vector<Spring>& springs, const std::vector<Record>& 
   return m;
 }
 
-/// Every edge of a cross-section carries its share of the object's weight; near few pins the share is larger.
+/// The stiffness limit at each particle: each edge of a cross-section carries its share of the object's weight, more
+/// near few pins.
 std::vector<float> stiffness_limits(const std::vector<Spring>& springs, const Graph& graph,
                                     const std::vector<Record>& positions, const std::vector<char>& fixed, float gravity) {
   const Measures m = measure(springs, positions);
@@ -307,8 +309,8 @@ std::vector<float> stiffness_limits(const std::vector<Spring>& springs, const Gr
 
 // ---------------------------------------------------------------- the finest level
 
-/// The links of all springs in both directions, sorted; the weight is the
-/// spring's index, so that two springs between the same particles stay separate.
+/// The links of all springs in both directions, sorted. Their weight is the spring's index, so that two springs between
+/// the same particles stay separate.
 std::vector<Link> links_of(const std::vector<Spring>& springs) {
   std::vector<Link> links;
   links.reserve(2 * springs.size());

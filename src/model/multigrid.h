@@ -1,6 +1,6 @@
-// The hierarchy of the multigrid correction (solver/sweeps/multigrid.h): particles are aggregated
-// into groups of up to four, recursively, until sixteen remain. It depends on the graph of
-// distance constraints alone and is built once; the numerical values are filled in later.
+// The levels of the multigrid correction (solver/sweeps/multigrid.h). Particles are aggregated into groups of up to
+// four, repeatedly, until sixteen rows remain. The levels depend on the graph of distance constraints alone and are
+// built once; each solve computes their numerical values.
 //
 // A level is a sparse block matrix of 3 x 3 blocks by rows, in layout for sixteen lanes. Sixteen consecutive rows are a
 // batch: row 16 b + 4 (l % 4) + l / 4 is lane l of batch b (math/wide.h). A slot holds one neighbour of each row; missing
@@ -15,44 +15,44 @@
 
 namespace pliant {
 
-/// Largest number of rows aggregated into one row of the next level.
+/// Largest number of rows that form one row of the next level.
 inline constexpr int largest_group = 4;
-/// Number of rows at which the hierarchy ends.
+/// Number of rows at which coarsening ends.
 inline constexpr int coarsest_rows = 16;
 
 struct MultigridLevel {
   int rows = 0;
-  std::vector<std::int32_t> first_slot;  ///< of each batch; one more at the end
+  std::vector<std::int32_t> first_slot;  ///< first slot of each batch; one more at the end
   std::vector<std::int32_t> column;      ///< sixteen per slot: the neighbour, or the row itself if there is none
 
-  // The finest level: springs. Zero stiffness in lanes without a neighbour.
+  // Finest level only: springs. Their stiffness is zero in lanes without a neighbour.
   AlignedVector<float> stiffness, rest_length;  ///< sixteen per slot [N/m], [m]
 
-  // Coarser levels: each block is a sum of blocks of the finer level, given as 16 x slot + lane there. Lane l of slot s
-  // starts at sources[source_begin[16 s + l]]. Anchors are blocks between a row and a fixed particle.
+  // Coarser levels only: each block is a sum of blocks of the finer level, listed as 16 x slot + lane. The list for
+  // lane l of slot s starts at sources[source_begin[16 s + l]]. Anchors are blocks between a row and a fixed particle.
   std::vector<std::int32_t> source_begin, sources;
-  std::vector<std::int32_t> anchor_begin, anchors;  ///< blocks to fixed particles: ranges by 16 x batch + lane, and list
-  std::vector<std::int32_t> children;  ///< by batch, largest_group x 16: rows of the finer level, or its `nothing`
+  std::vector<std::int32_t> anchor_begin, anchors;  ///< blocks to fixed particles: list starts by 16 x batch + lane; lists
+  std::vector<std::int32_t> children;  ///< largest_group x 16 per batch: rows of the finer level, or its nothing()
 
-  std::vector<std::int32_t> parent;  ///< by 16 x batch + lane: row of the next level, or its `nothing`
+  std::vector<std::int32_t> parent;  ///< by 16 x batch + lane: row of the next level, or its nothing()
 
   PLIANT_HD int batches() const { return (rows + batch_width - 1) / batch_width; }
   int slots() const { return first_slot.empty() ? 0 : first_slot.back(); }
-  /// The index of a record that is always zero, after the last batch.
+  /// The index of a record that is always zero; it follows the last batch.
   PLIANT_HD int nothing() const { return batches() * batch_width; }
 };
 
-/// The hierarchy of one object; without levels if the object has no distance constraint with a rest length.
+/// The levels of one object. There are none if it has no distance constraint with a positive rest length.
 struct Multigrid {
   std::vector<MultigridLevel> levels;
-  std::vector<std::int32_t> piece;  ///< of each particle: index of its connected component of springs, or -1 if it is fixed
-  std::vector<std::int32_t> coarsest_piece;  ///< of each row of the last level, likewise
+  std::vector<std::int32_t> piece;  ///< of each particle: index of the connected component of springs that has it; -1: fixed
+  std::vector<std::int32_t> coarsest_piece;  ///< connected component of each row of the last level; -1: none
   int pieces = 0;
   float edge_length = 0;               ///< mean rest length of all springs [m]
-  std::vector<float> stiffness_limit;  ///< stiffness limit at each particle; an edge uses the larger of its ends [N/m]
+  std::vector<float> stiffness_limit;  ///< of each particle; an edge has the larger limit of its ends [N/m]
 };
 
-/// Converts a lane of a batch to a row, and back.
+/// row_of returns the matrix row in a lane of a batch; lane_place is the inverse and returns 16 x batch + lane.
 PLIANT_HD int row_of(int batch, int lane) { return batch * batch_width + 4 * (lane % 4) + lane / 4; }
 PLIANT_HD int lane_place(int row) {
   const int within = row % batch_width;
@@ -62,7 +62,7 @@ PLIANT_HD int lane_place(int row) {
 /// The spring stiffness of a distance constraint [N/m]: 1 / compliance, at most the larger stiffness limit of its particles.
 PLIANT_HD float spring_stiffness(float compliance, float limit) { return compliance * limit > 1 ? 1 / compliance : limit; }
 
-/// `positions` are in storage order, with inverse masses in w; `gravity` is the magnitude [m/s^2].
+/// Builds the levels. `positions`: in storage order, inverse mass in w; `gravity`: its magnitude [m/s^2].
 Multigrid build_multigrid(const std::vector<ConstraintList>& lists, const std::vector<Record>& positions, float gravity);
 
 }  // namespace pliant

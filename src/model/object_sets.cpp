@@ -19,7 +19,7 @@ bool can_meet(const SetMember& a, const SetMember& b) {
   return by_masks && by_kind;
 }
 
-/// A union-find forest: each member points to an earlier one of its set, the first one to itself.
+/// A union-find forest: each member points to an earlier member of its set, the first one to itself.
 class Forest {
  public:
   explicit Forest(std::size_t members) : root_(members) { std::iota(root_.begin(), root_.end(), 0); }
@@ -38,7 +38,7 @@ class Forest {
   std::vector<int> root_;
 };
 
-/// Members that meet the same others. Scenes have few such classes, however many objects they have.
+/// Divides members into classes that meet the same members. Scenes with many objects have few classes.
 std::vector<std::vector<int>> classes_of(const std::vector<SetMember>& members) {
   std::map<std::tuple<std::uint32_t, std::uint32_t, bool, bool>, std::size_t> numbers;
   std::vector<std::vector<int>> classes;

@@ -1,7 +1,7 @@
-// The list of phases that an iteration visits. A phase is a driver and tasks without shared points, which threads run
-// in any order. Each object is compiled to phases on its own; the merged list of the model is sorted by driver, then by
-// colour. The drivers and the walk over the list are in solver/drivers. A new kind of matter adds a driver there and a
-// value here. The walk and the other drivers stay as they are.
+// Phases: the list that an iteration visits. A phase is a driver and tasks that share no points, so that threads run
+// them in any order. Each object is compiled to phases on its own. The model's list merges them, sorted by driver, then
+// by colour. solver/drivers has the drivers and the walk over the list. A new kind of matter adds a driver there and a
+// value here; nothing else changes.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace pliant {
 
-/// The function that projects a phase's tasks. Values are in the order of execution within an iteration.
+/// Names the function that projects a phase's tasks. The values are in the order of execution within an iteration.
 enum class Driver : std::int32_t {
   tile,              ///< constraints inside a tile, in SIMD lanes; a task is a tile
   inter_tile,        ///< constraints between tiles, in SIMD lanes; a task is a segment
@@ -22,22 +22,22 @@ enum class Driver : std::int32_t {
 };
 inline constexpr int driver_count = 8;
 
-/// Items [first, last) of one object that share no point.
+/// Items [first, last) of one object. They share no point.
 struct ObjectPhase {
   Driver driver = Driver::tile;
   int first = 0, last = 0;
 };
 
-/// One item of one object: a tile, segment, ChainBatch or the object itself, depending on the driver.
+/// One item of one object: a tile, a segment, a ChainBatch or the object itself, depending on the driver.
 struct Task {
   int object = 0, item = 0;
-  int work = 0;  ///< estimated cost in batches or chain steps: decides whether threads pay off
+  int work = 0;  ///< estimated cost in batches or chain steps; little work runs on one thread
 };
 
 /// The tasks of one driver and colour, over all objects.
 struct Phase {
   Driver driver = Driver::tile;
-  int colour = 0;             ///< index among the phases of this driver
+  int colour = 0;             ///< number of the phase among those of its driver
   std::vector<Task> tasks{};  ///< ordered by object
   int work = 0;               ///< sum of the work of all tasks
 };

@@ -1,4 +1,4 @@
-// The storage of constraints that the sweeps read.
+// Pools: the storage of constraints that the sweeps read.
 //
 // A pool holds all constraints of one type and law of one object. Sixteen constraints form a batch. A batch stores its
 // data contiguously, as rows of sixteen floats, in visiting order, so that a sweep reads memory once and sequentially.
@@ -21,32 +21,32 @@ enum class Law : std::int32_t { compliant, damped, pbd };
 inline constexpr int batch_width = 16;
 inline constexpr int most_slots = 8, most_components = 6, most_rest_fields = 32;  ///< limits of a constraint type
 
-/// Batches of one pool that share no particle and are projected together.
+/// A range of batches of one pool that share no particle and are projected together.
 struct Segment {
   std::int32_t pool = 0;
-  std::int32_t runs = 0;         ///< bit s: slot s is contiguous, with four base indices per batch, not sixteen indices
+  std::int32_t runs = 0;         ///< bit s: slot s is contiguous, so a batch stores four indices for it instead of sixteen
   std::int32_t first_batch = 0;  ///< index of its first batch in the pool
   std::int32_t batches = 0;
   std::int32_t last_count =
       0;  ///< in the last batch: valid lanes (1..16), or groups of four (1..4) if a slot is contiguous; the rest is padding
-  std::int64_t index_offset = 0;  ///< into Pool::indices
+  std::int64_t index_offset = 0;  ///< index of its first entry in Pool::indices
 };
 
 struct Pool {
-  std::int32_t type = 0;  ///< number in constraints/registry.h
+  std::int32_t type = 0;  ///< type number (constraints/registry.h)
   Law law = Law::compliant;
   std::int32_t stencil = 0;              ///< slots per constraint
-  std::int32_t components = 1;           ///< of C
-  std::int32_t fields = 0;               ///< rows of rest data, which precede the row of the response
-  bool in_lanes = true;                  ///< false: projected one at a time, in phases of Driver::stencil
-  std::int32_t block_floats = 0;         ///< floats per batch in `blocks`
+  std::int32_t components = 1;           ///< components of C, the type's rows
+  std::int32_t fields = 0;               ///< number of rest data rows; the response's row follows them
+  bool in_lanes = true;                  ///< false: projected one at a time by Driver::stencil
+  std::int32_t block_floats = 0;         ///< floats of a batch in `blocks`
   std::vector<std::int32_t> row_offset;  ///< offset of each row in a batch's block; -1: equal for all, in `constants`
   std::int32_t batches = 0;
   std::int64_t constraints = 0;
   std::vector<std::int32_t> indices;
-  AlignedVector<float> blocks;       ///< per batch, rows of sixteen: rest fields, then alpha or k', then beta if damped
-  AlignedVector<float> constants;    ///< the rows that are equal for all constraints
-  std::vector<std::int32_t> origin;  ///< per lane: index among the object's constraints of this type, -1 for padding
+  AlignedVector<float> blocks;       ///< rows of sixteen for each batch: rest data, then alpha or k', then beta if damped
+  AlignedVector<float> constants;    ///< rows that are the same for all constraints
+  std::vector<std::int32_t> origin;  ///< for each lane: index among the object's constraints of this type; -1: padding
 
   /// The sixteen floats of a row for a batch, and the distance to those of the next batch. A row that is equal for all
   /// constraints (zero compliance, flat hinges) is stored once, which saves memory traffic.
@@ -57,30 +57,30 @@ struct Pool {
   std::int32_t row_step(int number) const { return row_offset[number] < 0 ? 0 : block_floats; }
 };
 
-/// The index of a multiplier in its pool's array: batch by batch, sixteen for each component of C.
+/// The index of a multiplier in its pool's array, which has sixteen entries for each component of C, batch by batch.
 inline std::int64_t multiplier_index(const Pool& pool, std::int64_t batch, int lane, int component) {
   return (batch * pool.components + component) * batch_width + lane;
 }
 
-/// The number of indices of a batch before those of `slot`, if the slots in `runs` are contiguous.
+/// The number of indices that a batch stores before those of `slot`, if the slots in the bit set `runs` are contiguous.
 inline constexpr std::int32_t indices_before(std::int32_t runs, int slot) {
   std::int32_t count = 0;
   for (int before = 0; before < slot; ++before) count += (runs >> before & 1) != 0 ? 4 : batch_width;
   return count;
 }
 
-/// The number of indices of one batch of a segment.
+/// The number of indices that a batch of a segment stores.
 inline std::int32_t indices_per_batch(const Pool& pool, const Segment& segment) {
   return indices_before(segment.runs, pool.stencil);
 }
 
-/// The particle in `slot` of `lane` of a batch whose indices start at `index`.
+/// The particle in `slot` of the constraint in `lane`, for a batch whose indices start at `index`.
 inline std::int32_t particle_of(const Segment& segment, const std::int32_t* index, int slot, int lane) {
   const std::int32_t* at = index + indices_before(segment.runs, slot);
   return (segment.runs >> slot & 1) != 0 ? at[lane % 4] + lane / 4 : at[lane];
 }
 
-/// True if the lane of the segment's batch `batch` (from 0) holds a constraint, not padding.
+/// True if a lane of the segment's batch number `batch` (from 0) has a constraint; false if it is padding.
 inline bool lane_is_valid(const Segment& segment, int batch, int lane) {
   return batch + 1 < segment.batches || (segment.runs != 0 ? lane % 4 : lane) < segment.last_count;
 }

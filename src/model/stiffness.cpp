@@ -7,7 +7,7 @@ namespace pliant {
 double stiffness_per_projection(double k, int projections) {
   if (k >= 1) return 1;
   if (k <= 0) return 0;
-  return -expm1(log1p(-k) / projections);  // accurate for small k and many projections
+  return -expm1(log1p(-k) / projections);  // keeps precision for small k and many projections
 }
 
 }  // namespace pliant

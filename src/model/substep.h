@@ -1,10 +1,10 @@
-// Plain views of particle data that the stages of a substep exchange.
+// Views of particle data, as plain pointers, that the stages of a substep pass to one another.
 //
-// Within a substep a particle is at position + displacement. The position stays that of the substep's
-// start; prediction, constraints and contacts change the displacement. As a small number, it has full
-// float precision at any distance from the origin and for any substep length. The part of their sum that
-// the new position cannot hold is the rounding residue (`remainders`), with which the next displacement
-// starts (compensated summation). Otherwise many small substeps would round their own corrections away.
+// Within a substep a particle is at position + displacement. The position stays that of the substep's start;
+// prediction, constraints and contacts change the displacement. Displacements are small, so they have full float
+// precision at any distance from the origin and for any substep length. At the substep's end, what the new position
+// cannot represent is the rounding residue (`remainders`), with which the next displacement starts (compensated
+// summation). Otherwise many small substeps would round corrections away.
 #pragma once
 
 #include "geometry/shapes.h"
@@ -12,56 +12,56 @@
 
 namespace pliant {
 
-/// The data that a sweep needs of the current substep. Pointers are to the object's first particle.
+/// The data of one object that a sweep needs. Pointers are to the object's first particle.
 struct SweepArguments {
-  const Record* positions = nullptr;    ///< positions at the substep's start, w is the inverse mass
-  Record* displacements = nullptr;      ///< displacements since the substep's start, w is zero
-  const Record* remainders = nullptr;   ///< the initial displacements of the substep
-  float* const* multipliers = nullptr;  ///< one array per pool, or null if none are stored
+  const Record* positions = nullptr;    ///< positions at the substep's start; w is the inverse mass
+  Record* displacements = nullptr;      ///< displacements since the substep's start; w is zero
+  const Record* remainders = nullptr;   ///< rounding residues, with which displacements started
+  float* const* multipliers = nullptr;  ///< multipliers of each pool; null if none are stored
   float h = 0, inverse_h = 0, inverse_h2 = 0;
   bool first_pass = true;  ///< true in the first pass of a substep, in which multipliers start at zero
 
   // For sweep_general only:
-  float relaxation = 1;                  ///< omega, factor of every multiplier change
+  float relaxation = 1;                  ///< factor omega of every multiplier change
   Record* const* corrections = nullptr;  ///< one array per pool, size x 16 records per batch: replaces displacements
   const float* const* shares =
-      nullptr;  ///< one array per pool: the share of a change that reaches the multiplier; null: the whole change
+      nullptr;  ///< for each pool: the share of a change that is added to the multiplier; null: the whole change
 };
 
-/// The frames of one object in the current substep. Pointers are to its first frame.
+/// The data of one object's frames in the current substep. Pointers are to its first frame.
 struct FrameArguments {
   Record* orientations = nullptr;
   const Record* inverse_inertias = nullptr;
-  const Record* predicted = nullptr;  ///< rotation vectors of the prediction, in world axes [rad]
-  Record* corrections = nullptr;      ///< rotation vectors: sums of the constraints' corrections since the prediction [rad]
+  const Record* predicted = nullptr;  ///< rotation vectors of the prediction in world axes [rad]
+  Record* corrections = nullptr;      ///< rotation vectors: sums of constraint corrections since the prediction [rad]
 };
 
-/// The data needed to advance particles from one substep to the next.
+/// The data that prediction and update of a range of particles need.
 ///
-/// Velocities exclude the gravity of the current frame: adding h g in every substep would round it a thousand times. It is
+/// Velocities exclude the gravity of the current frame: adding h g in every substep would round it many times. It is
 /// added where needed, and permanently at the frame's end.
 struct AdvanceArguments {
   Record* positions = nullptr;
   Record* displacements = nullptr;
   Record* remainders = nullptr;
   Record* velocities = nullptr;
-  int first = 0, last = 0;  ///< particles, half-open
+  int first = 0, last = 0;  ///< range of particles, half-open
   float h = 0, inverse_h = 0;
-  float velocity_kept = 1;   ///< factor of the velocity after damping in a substep
+  float velocity_kept = 1;   ///< factor by which damping reduces the velocity in a substep
   Vec3f gravity_step{};      ///< h times gravity [m/s]
-  Vec3f gravity_finished{};  ///< this frame's gravity in the velocity of the ending substep [m/s]
-  Vec3f gravity_begun{};     ///< the same for the starting substep
-  Vec3f gravity_settled{};   ///< gravity that update adds permanently to velocities [m/s]
+  Vec3f gravity_finished{};  ///< this frame's gravity to add to velocities in the ending substep [m/s]
+  Vec3f gravity_begun{};     ///< this frame's gravity to add to velocities in the starting substep [m/s]
+  Vec3f gravity_settled{};   ///< gravity that the update adds permanently to velocities [m/s]
 };
 
-/// A query for particles that a solid could touch in the current substep.
+/// A query for the particles that a solid could touch in the current substep.
 struct NearQuery {
   const Record* positions = nullptr;
   const Record* displacements = nullptr;
-  int first = 0, last = 0;  ///< particles, half-open
+  int first = 0, last = 0;  ///< range of particles, half-open
   LocalShape shape;
-  Pose<float> pose;  ///< of the solid at the substep's end
-  float margin = 0;  ///< a particle is near within this plus its own displacement [m]
+  Pose<float> pose;  ///< pose of the solid at the substep's end
+  float margin = 0;  ///< a particle is near if its distance is within this plus its displacement [m]
 };
 
 /// A bounding box of points, initially empty.

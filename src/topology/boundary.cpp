@@ -1,4 +1,4 @@
-// Traverses edges: borders vertex by vertex, and connected components triangle by triangle.
+// Follows edges: along borders from vertex to vertex, within components from triangle to triangle.
 #include "topology/boundary.h"
 
 #include <algorithm>
@@ -8,13 +8,14 @@ namespace pliant {
 
 namespace {
 
-/// The edges incident to each item 0..count - 1, ascending, in compressed rows: item i owns [starts[i], starts[i + 1]).
+/// For each item 0..count - 1 its edges, ascending, in compressed rows: item i has the entries starts[i] to starts[i +
+/// 1] - 1.
 struct Incidence {
   std::vector<std::size_t> starts;
   std::vector<int> edges;
 };
 
-/// `ends(edge)` gives the two items of an edge, or {-1, -1} to leave the edge out.
+/// Makes an Incidence. `ends(edge)` returns the two items of an edge, or {-1, -1} to leave the edge out.
 template <class Ends>
 Incidence incidence(const std::vector<Edge>& edges, int count, Ends ends) {
   Incidence result;
@@ -30,7 +31,8 @@ Incidence incidence(const std::vector<Edge>& edges, int count, Ends ends) {
   return result;
 }
 
-/// Walks borders. When the path returns to a vertex that it holds, the loop between the two visits is split off.
+/// Follows borders. When the path returns to one of its vertices, the loop between both visits is removed from it and
+/// stored.
 class BorderWalk {
  public:
   BorderWalk(const std::vector<Edge>& edges, int vertex_count)
@@ -84,14 +86,14 @@ class BorderWalk {
 
   const std::vector<Edge>& edges_;
   Incidence at_vertex_;
-  std::vector<std::size_t> next_;  ///< resume position in each vertex's list, so that each edge is visited once
+  std::vector<std::size_t> next_;  ///< position at which to resume in each vertex's list; each edge is visited once
   std::vector<bool> used_;
   std::vector<int> place_;  ///< index of each vertex on the path, or -1
   std::vector<int> path_;
   std::vector<std::vector<int>> loops_;
 };
 
-/// A flood fill: the winding of each triangle relative to the first triangle of its connected component.
+/// A flood fill that finds the winding of each triangle relative to the first triangle of its connected component.
 class Flood {
  public:
   Flood(const std::vector<Edge>& edges, int triangle_count)
@@ -128,7 +130,7 @@ class Flood {
   }
 
  private:
-  /// Visits the triangle across an edge. Returns false if it was reached before with the other winding.
+  /// Visits the triangle on the other side of an edge. Returns false if it was reached before with the opposite winding.
   bool cross(int triangle, int edge_index) {
     const Edge& edge = edges_[static_cast<std::size_t>(edge_index)];
     const int other = edge.triangles[0] == triangle ? edge.triangles[1] : edge.triangles[0];

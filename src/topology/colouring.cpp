@@ -1,4 +1,4 @@
-// Greedy colouring, contiguous groups of four first.
+// Greedy colouring of constraints; contiguous groups of four come first.
 //
 // Constraints are sorted by the shape of their stencil (the differences between slots), then by their first particle. Four
 // successive ones with first particles a, a + 1, a + 2, a + 3 form a contiguous group: one load fetches a slot of all four.
@@ -19,7 +19,7 @@ constexpr std::size_t batch = 16;             // constraints that are projected 
 constexpr std::size_t fewest_to_group = 512;  // below this many ungrouped constraints, partial grouping does not pay
 
 struct Key {
-  std::array<int, largest_stencil> shape;  // differences to slot 0; slot 0 itself is last
+  std::array<int, largest_stencil> shape;  // difference of each slot's particle to slot 0; slot 0 itself comes last
   int member;
   friend bool operator<(const Key& a, const Key& b) { return a.shape != b.shape ? a.shape < b.shape : a.member < b.member; }
 };
@@ -54,10 +54,10 @@ bool is_run(const Key* key, int size) {
   return true;
 }
 
-/// The constraints of one colour, indexed by the bit set of their contiguous slots.
+/// The constraints of one colour, sorted by which slots are contiguous: the index is a bit set of slots.
 using Class = std::array<std::vector<int>, 1 << largest_stencil>;
 
-/// Groups beyond whole batches are treated as contiguous in fewer slots: they join such a class, or the single constraints.
+/// Moves groups that do not fill a batch to a class with fewer contiguous slots, or to the single constraints.
 void demote_rest(int runs, Class& members) {
   const std::size_t whole = members[runs].size() / batch * batch;
   int to = 0;
@@ -69,8 +69,8 @@ void demote_rest(int runs, Class& members) {
   members[runs].resize(whole);
 }
 
-/// Appends the constraints of a colour, those with most contiguous slots first. Singles are sorted by their first particle,
-/// so that the particles of a batch are close in memory. The order inside a colour does not change any bits.
+/// Appends the constraints of a colour, those with most contiguous slots first. Single constraints are sorted by their
+/// first particle, so that a batch's particles are close in memory. Order within a colour changes no bits.
 void append_class(const std::vector<int>& stencils, int size, Class& members, std::vector<Colour>& colours) {
   const int all = size > largest_stencil ? 0 : (1 << size) - 1;
   for (int runs = all; runs > 0; --runs) {
@@ -92,7 +92,7 @@ void for_runs(const std::vector<Key>& keys, int size, const Run& run, const Sing
   }
 }
 
-/// Returns none if few constraints can be grouped: the groups would not fill batches for each set of slots.
+/// Takes groups of four that are contiguous in some slots; none if they are few, because they would not fill batches.
 std::vector<Four> take_fours_if_many(const std::vector<int>& stencils, int size, std::vector<int>& members) {
   if (members.size() < fewest_to_group) return {};
   std::vector<int> rest = members;
@@ -129,7 +129,7 @@ int Colouring::first_free(const int* particles, int count) {
   return colour;
 }
 
-/// First-fit colouring into new colours only. A group of four gets one colour as a whole.
+/// Colours by first fit, using only new colours. A group of four gets one colour as a whole.
 void Colouring::append(const std::vector<int>& stencils, int size, const std::vector<Four>& fours,
                        const std::vector<int>& singles, std::vector<Colour>& colours) {
   std::vector<Class> classes;
@@ -188,7 +188,7 @@ std::vector<Colour> Colouring::colour(const std::vector<int>& stencils, int size
   reset(stencils, size, members);
   append(stencils, size, fours, {}, colours);
 
-  // The remaining constraints get colours of their own.
+  // The remaining single constraints get new colours too.
   fours.clear();
   if (rest.size() > members.size() / 4) fours = take_fours_if_many(stencils, size, rest);
   reset(stencils, size, members);

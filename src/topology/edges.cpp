@@ -12,10 +12,10 @@ namespace pliant {
 
 namespace {
 
-/// A side of a triangle, stored in the bucket of its smaller end.
+/// A side of a triangle. It is stored in the bucket of its smaller vertex.
 struct HalfEdge {
   int larger;
-  std::uint32_t side;  ///< 3 x triangle + the corner at which it starts
+  std::uint32_t side;  ///< 3 x triangle + number of the corner at which the side starts
 };
 
 bool before(const HalfEdge& left, const HalfEdge& right) {
@@ -30,7 +30,7 @@ Side side_of(const Triangle& triangle, std::size_t corner) {
   return {triangle[corner], triangle[(corner + 1) % 3], triangle[(corner + 2) % 3]};
 }
 
-/// Half-edges in bucket order; bucket v is [starts[v], starts[v + 1]).
+/// Half-edges sorted by bucket; those of vertex v have the indices starts[v] to starts[v + 1] - 1.
 struct Buckets {
   std::vector<std::size_t> starts;
   std::vector<HalfEdge> half_edges;
@@ -39,7 +39,7 @@ struct Buckets {
 Buckets deal(const std::vector<Triangle>& triangles, int vertex_count) {
   Buckets buckets;
   buckets.starts.assign(static_cast<std::size_t>(vertex_count) + 2, 0);
-  // Counts are stored one place further on, so that filling the buckets advances each start to the next one.
+  // Counts are stored one entry further, so that filling the buckets advances each start to the next one.
   for (const Triangle& triangle : triangles)
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const Side side = side_of(triangle, corner);
@@ -104,7 +104,7 @@ std::vector<Edge> find_edges(const std::vector<Triangle>& triangles, int vertex_
 }
 
 Hinge hinge_of(const Edge& edge) {
-  // If both triangles traverse the edge in the same direction, the first triangle defines forward.
+  // If both triangles traverse the edge in the same direction, that of the first one counts as forward.
   const std::size_t front = edge.forward[0] || !edge.forward[1] ? 0 : 1;
   const std::size_t back = 1 - front;
   if (edge.forward[front]) return {edge.a, edge.b, edge.opposites[front], edge.opposites[back]};

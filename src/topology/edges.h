@@ -1,7 +1,7 @@
 // The connectivity of a surface: its edges and its hinges.
 //
-// Edges are found by sorting half-edges, never by hashing. The order of edges and constraints thus depends on the triangles
-// alone, and the same bits follow on every machine.
+// Edges are found by sorting, never by hashing. So the order of edges and constraints depends on the triangles alone
+// and is the same on every machine.
 #pragma once
 
 #include <array>
@@ -13,9 +13,9 @@ namespace pliant {
 /// Three vertex indices, as in TriangleMesh::triangles.
 using Triangle = std::array<int, 3>;
 
-/// An edge with its first two triangles, in the triangles' order. Missing entries are -1.
+/// An edge with its first two triangles, ascending. Missing entries are -1.
 struct Edge {
-  int a = 0, b = 0;        ///< its ends, a < b
+  int a = 0, b = 0;        ///< vertices of the edge, a < b
   int triangle_count = 0;  ///< 1 at a border, 2 inside, more at a non-manifold edge
   std::array<int, 2> triangles{-1, -1};
   std::array<int, 2> opposites{-1, -1};       ///< the corner opposite the edge in each of `triangles`
@@ -23,7 +23,7 @@ struct Edge {
 
   bool is_border() const { return triangle_count == 1; }
   bool is_inner() const { return triangle_count == 2; }
-  /// True if both triangles have the same winding: they then traverse the edge in opposite directions.
+  /// True if the two triangles at the edge have the same winding: they then traverse the edge in opposite directions.
   bool is_wound_consistently() const { return triangle_count != 2 || forward[0] != forward[1]; }
 };
 
@@ -48,7 +48,7 @@ std::vector<Edge> find_edges(const std::vector<Triangle>& triangles, int vertex_
 /// Returns one hinge for each edge of exactly two triangles, in the order of the edges.
 std::vector<Hinge> find_hinges(const std::vector<Edge>& edges);
 
-/// The hinge across an inner edge.
+/// The hinge at an edge of exactly two triangles.
 Hinge hinge_of(const Edge& edge);
 
 }  // namespace pliant

@@ -1,5 +1,5 @@
-// For each set of slots, constraints are sorted by their particles in those slots, relative to the lane (particle mod 4) of
-// slot 0. Constraints that are equal except for lanes 0, 1, 2 and 3 form a group of four.
+// Finds groups of four constraints. For each set of slots, constraints are sorted by their particles in these slots,
+// relative to the lane (particle mod 4) of slot 0. Constraints that are equal except for lanes 0, 1, 2 and 3 form a group.
 #include "topology/fours.h"
 
 #include <algorithm>
@@ -11,10 +11,10 @@ namespace pliant {
 namespace {
 
 constexpr int largest_stencil = 4;
-constexpr int most_failures = 16;  // per group of equal bases; bounds the cost of hubs with many constraints
+constexpr int most_failures = 16;  // per set of candidates with equal bases; limits the cost of hubs with many constraints
 
 struct Candidate {
-  std::array<int, largest_stencil> base;  // for contiguous slots: the particle minus the lane; otherwise 0
+  std::array<int, largest_stencil> base;  // in contiguous slots: particle minus lane; otherwise 0
   int lane, member;
   friend bool operator<(const Candidate& a, const Candidate& b) {
     return std::tie(a.base, a.lane, a.member) < std::tie(b.base, b.lane, b.member);
@@ -48,7 +48,8 @@ class FourFinder {
  private:
   const int* stencil(int member) const { return &stencils_[static_cast<std::size_t>(size_) * member]; }
 
-  /// Sorted by bases, lanes and members: a counting sort by the first base, which gives most of the order, then buckets.
+  /// Candidates sorted by base, lane and member: a counting sort by the first base does most of it, then each bucket is
+  /// sorted.
   std::vector<Candidate> sorted(int runs, const std::vector<int>& members) const {
     int first = 0;
     while ((runs >> first & 1) == 0) ++first;
@@ -81,7 +82,7 @@ class FourFinder {
     });
   }
 
-  /// Joins one candidate of each lane while four candidates remain that share no particle.
+  /// Forms groups of one candidate of each lane, while four candidates without a common particle remain.
   void match(int runs, const Candidate* first, const Candidate* last, std::vector<Four>& fours, std::vector<int>& taken) {
     std::array<std::vector<int>, 4> left;
     for (const Candidate* candidate = first; candidate != last; ++candidate)
@@ -98,7 +99,8 @@ class FourFinder {
     }
   }
 
-  /// Takes the first candidates of lanes 1, 2 and 3 that share no particle with earlier ones; false if a lane has none.
+  /// Completes a group with the first candidates of lanes 1, 2 and 3 that share no particle with it; false if a lane
+  /// has none.
   bool join(Four& four, std::array<std::vector<int>, 4>& left) const {
     std::array<std::vector<int>::iterator, 4> at;
     for (int lane = 1; lane < 4; ++lane) {

@@ -6,15 +6,15 @@
 
 namespace pliant {
 
-/// Four constraints that share no particle. In each slot whose bit is set in `runs`, the particle of member l is that of
-/// the first member plus l, and the latter is a multiple of four.
+/// Four constraints that share no particle. In each slot whose bit is set in `runs`, the particles of the four members
+/// are a, a + 1, a + 2, a + 3, where a is a multiple of four.
 struct Four {
   int runs = 0;
   std::array<int, 4> members{};
 };
 
-/// Takes groups of four out of `members` (stencils of `size` particles each, at stencils[size * member]): those with most
-/// contiguous slots first, down to one. Ungrouped constraints remain in their order.
+/// Removes groups of four from `members` and returns them, those with most contiguous slots first. Constraint m has the
+/// particles stencils[size * m] to stencils[size * m + size - 1]. Members without a group stay, in their order.
 std::vector<Four> take_fours(const std::vector<int>& stencils, int size, std::vector<int>& members);
 
 }  // namespace pliant

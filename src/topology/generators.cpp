@@ -1,5 +1,6 @@
-// Procedural meshes: the grid and the sphere of scenes, tests and benchmarks. Of libm only the correctly rounded square
-// root is used; values are computed in double and rounded once. So they have the same bits on every machine.
+// Generates meshes: grids and spheres for scenes, tests and benchmarks. Values are computed in double precision and
+// rounded once; the only function of libm is the square root, which is exact. So meshes have the same bits on every
+// machine.
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -33,7 +34,7 @@ struct SphereInDouble {
   std::vector<Triangle> triangles;
 };
 
-/// The regular icosahedron, from three golden rectangles.
+/// The regular icosahedron; its vertices are the corners of three golden rectangles.
 SphereInDouble icosahedron() {
   const double golden = (1 + std::sqrt(5.0)) / 2;
   SphereInDouble sphere;
@@ -47,7 +48,7 @@ SphereInDouble icosahedron() {
   return sphere;
 }
 
-/// Splits every triangle into four. New vertices are the edge midpoints, in edge order, projected onto the sphere.
+/// Splits every triangle into four. New vertices are midpoints of edges, in the order of edges, projected onto the sphere.
 SphereInDouble subdivided(const SphereInDouble& coarse) {
   SphereInDouble fine;
   fine.positions = coarse.positions;

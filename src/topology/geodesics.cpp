@@ -15,15 +15,15 @@ struct Neighbour {
   double length;
 };
 
-/// A triangle as seen from one of its corners.
+/// A triangle at one of its vertices.
 struct Corner {
-  int next, last;                   ///< the other two corners
-  double to_next, to_last, across;  ///< distances from the corner to the other two, and between those
+  int next, last;                   ///< other two vertices
+  double to_next, to_last, across;  ///< distances from the vertex to the other two, and between those
 };
 
-/// The distance from the source to a triangle's third corner in the plane of the unfolded triangle. The source is `da` and
-/// `db` away from the ends of a side of length `side`. The third corner is `ca` and `cb` away from them, on the other side.
-/// Returns infinity if the straight line misses the side.
+/// The distance from a source to the third corner of a triangle, if the triangles are unfolded into a plane. The source
+/// is `da` and `db` away from the ends of a side of length `side`. The third corner, on the other side of it, is `ca`
+/// and `cb` away from them. Returns infinity if the straight line does not cross the side.
 double unfolded(double da, double db, double side, double ca, double cb) {
   const double none = HUGE_VAL;
   if (!(side > 0)) return none;
@@ -86,7 +86,7 @@ class Search {
     }
   }
 
-  /// Numbers the groups: source vertices connected by edges.
+  /// Numbers the groups of sources: sources connected by edges form one group.
   void group(const std::vector<int>& sources) {
     std::vector<char> is_source(neighbours_.size(), 0);
     for (int source : sources) is_source[source] = 1;
@@ -126,10 +126,11 @@ class Search {
   }
 
   struct Sides {
-    double to_other, to_target, across;  ///< distances from the vertex to each, and between them
+    double to_other, to_target, across;  ///< distances from the vertex to both, and between both
   };
 
-  /// Shortens the distance of `target` by a straight path across its triangle with `other`, if both have the same source.
+  /// Shortens the distance of `target` by a straight path through a triangle, if its vertex `other` has been reached
+  /// from the source.
   void cross_to(int target, int other, double distance, int source, const Sides& sides,
                 const std::vector<std::vector<NearSource>>& found, int most) {
     for (const NearSource& reached : found[other]) {

@@ -6,13 +6,13 @@
 
 namespace pliant {
 
-/// A source near a vertex, and its distance.
+/// A source vertex that is near, and its distance.
 struct NearSource {
-  int source = 0;  ///< a vertex
+  int source = 0;  ///< index of the source vertex
   double distance = 0;
 };
 
-/// The connectivity and lengths of a mesh for geodesic distances.
+/// A mesh for the computation of geodesic distances: edges with lengths, and triangles.
 struct Distances {
   int vertices = 0;
   std::vector<std::array<int, 2>> edges;
@@ -21,8 +21,8 @@ struct Distances {
   std::vector<std::array<int, 3>> triangles;
 };
 
-/// For each vertex: the nearest source of each of the `most` nearest groups, nearest first; fewer if fewer are reachable.
-/// Sources joined by an edge form one group, so that a pinned hem counts once. A source has distance 0 to itself.
+/// For each vertex, the nearest source of each of the `most` nearest groups that it can reach, nearest first. Sources
+/// joined by an edge form one group, so that a pinned hem counts once. A source is at distance 0 from itself.
 ///
 /// Dijkstra (1959) along edges, plus unfolding of triangles into the plane of the crossed
 /// ones (Novotni and Klein 2002). Exact on developable surfaces without holes in the way,

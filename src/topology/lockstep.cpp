@@ -1,10 +1,10 @@
-// Lockstep numbering: four patches of a tile are numbered in the same order of growth.
+// Lockstep order: the particles of four patches of a tile are numbered in the same order of growth.
 //
-// A rank is four particles, one of each patch, at the same index in their patches. Two ranks are linked if all four pairs
-// of their particles are. A new rank beside linked ranks a and b takes the corner opposite the edge (a, b) in every patch,
-// which gives two links of the three edges per vertex. A queue holds the linked pairs of ranks: those that yield most links
-// first, then the oldest, to close fans around old ranks. If no pair can grow in all patches, a rank grows by one link; if
-// none can, growth restarts from the first particles left.
+// A rank is four particles, one of each patch, that have the same index in their patches. Two ranks are linked if all
+// four pairs of their particles are. A new rank is added beside two linked ranks a and b: in every patch the particle
+// that forms a triangle with them. This gives two links of the three edges per vertex. A queue has the pairs of linked
+// ranks: those that gain most links first, then the oldest, so that fans around old ranks close. If no pair can grow in
+// all patches, a rank grows by one link; if none can, growth restarts from the first particles left.
 #include "topology/lockstep.h"
 
 #include <algorithm>
@@ -19,13 +19,13 @@ namespace pliant {
 namespace {
 
 constexpr int patches = 4;
-constexpr int most_corners = 2;  // considered per patch, opposite an edge
-// These limits bound the cost of hubs with very many links: only the last links of a rank are evaluated again, and only the
+constexpr int most_corners = 2;  // candidates considered in each patch
+// Limits of the cost of hubs with very many links: only the last links of a rank are evaluated again, and only the
 // first neighbours of a particle are considered.
 constexpr int most_links_seen = 16, most_neighbours_seen = 32;
 using Rank = std::array<int, patches>;
 
-/// The particles linked to each particle within its patch, ascending.
+/// For each particle, the particles of its patch with which it shares a constraint, ascending.
 class Neighbours {
  public:
   Neighbours(const std::vector<int>& patch, const std::vector<std::array<int, 2>>& links) : begin_(patch.size() + 1, 0) {
@@ -55,10 +55,10 @@ class Neighbours {
   std::vector<int> begin_, to_;
 };
 
-/// Two linked ranks, and the number of links that a rank beside them had at the last evaluation.
+/// Two linked ranks, and the number of links that a rank beside them would have, at the last evaluation.
 struct Open {
   int links, older, younger;
-  friend bool operator<(const Open& a, const Open& b) {  // the best is the largest
+  friend bool operator<(const Open& a, const Open& b) {  // the priority queue returns the largest, which is the best
     return std::tuple(a.links, -a.older, -a.younger) < std::tuple(b.links, -b.older, -b.younger);
   }
 };
@@ -68,7 +68,7 @@ struct Proposal {
   Rank rank{};
 };
 
-/// Numbers one tile by growing its four patches in the same order. `members` hold the particles of each patch, ascending.
+/// Numbers one tile by growing its four patches in the same order. `members` has the particles of each patch, ascending.
 class Growth {
  public:
   Growth(const Neighbours& neighbours, const std::array<std::vector<int>, patches>& members, std::vector<int>& rank_of,
@@ -82,7 +82,7 @@ class Growth {
     std::vector<int> rest;
     for (const std::vector<int>& patch : members_)
       std::copy_if(patch.begin(), patch.end(), std::back_inserter(rest), [&](int p) { return is_left(p); });
-    // Some of the remaining particles go first, so that no rank straddles a cache line: four records fill one line.
+    // A remainder of the particles goes first, so that no later rank crosses a cache line: four records fill one line.
     const std::size_t before = (patches - order.size() % patches) % patches;
     if (rest.size() < before && !ranks_.empty()) {
       rest.insert(rest.end(), ranks_.back().begin(), ranks_.back().end());
@@ -114,7 +114,7 @@ class Growth {
     return links;
   }
 
-  /// Finds unnumbered particles that are linked to both a and b.
+  /// Finds up to two particles that are not numbered yet and are linked to both a and b.
   int corners(int a, int b, std::array<int, most_corners>& found) const {
     int count = 0;
     if (neighbours_.count(a) > neighbours_.count(b)) std::swap(a, b);
@@ -124,7 +124,7 @@ class Growth {
     return count;
   }
 
-  /// The rank with most links beside two linked ranks, or none if a patch has no corner there.
+  /// The rank with most links beside the linked ranks a and b; none if a patch has no particle there.
   Proposal propose(int a, int b) const {
     std::array<std::array<int, most_corners>, patches> found;
     Rank count{};
@@ -167,8 +167,8 @@ class Growth {
     return next_without_links();
   }
 
-  /// Of a particle's unnumbered neighbours (the first ones at a hub) returns the one with most numbered neighbours, so that
-  /// no holes remain; -1 if there is none.
+  /// Of the neighbours of a particle that have no number yet (at a hub, the first ones), returns the one with most
+  /// numbered neighbours, so that no holes remain; -1 if there is none.
   int most_enclosed(int particle) {
     int& passed = passed_[particle];
     const int *first = neighbours_.begin(particle), *last = neighbours_.end(particle);
@@ -219,16 +219,16 @@ class Growth {
 
   const Neighbours& neighbours_;
   const std::array<std::vector<int>, patches>& members_;
-  std::vector<int>& rank_of_;  // rank of every particle; -1 if it is not numbered yet
-  std::vector<int>& passed_;   // how many leading neighbours of each particle are known to be numbered
+  std::vector<int>& rank_of_;  // rank of each particle; -1: not numbered yet
+  std::vector<int>& passed_;   // for each particle, how many of its first neighbours are known to be numbered
   std::vector<Rank> ranks_;
-  std::vector<std::vector<int>> links_;  // the linked ranks of each rank
+  std::vector<std::vector<int>> links_;  // for each rank, the ranks to which it is linked
   std::priority_queue<Open> open_;
-  int oldest_ = 0;  // all older ranks are exhausted
+  int oldest_ = 0;  // all older ranks cannot grow any more
   std::array<std::size_t, patches> first_left_{};
 };
 
-/// The particles of each tile, ascending.
+/// For each tile, its particles in ascending order.
 std::vector<std::vector<int>> members_of(const std::vector<int>& tile) {
   std::vector<std::vector<int>> members;
   for (int i = 0; i < static_cast<int>(tile.size()); ++i) {

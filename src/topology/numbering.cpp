@@ -7,7 +7,7 @@ namespace pliant {
 
 namespace {
 
-/// Particles sorted by tile, then by old number: a counting sort.
+/// Lists particles sorted by tile, then by old index (a counting sort).
 std::vector<int> sorted_by_tile(const std::vector<int>& tile) {
   const int tiles = tile.empty() ? 0 : *std::max_element(tile.begin(), tile.end()) + 1;
   std::vector<int> begin(static_cast<std::size_t>(tiles) + 1, 0);

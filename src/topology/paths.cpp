@@ -11,13 +11,13 @@ namespace {
 
 using EdgeList = std::vector<std::array<int, 2>>;
 
-/// A vertex with more edges than this is a hub, not part of a surface: no path passes through it.
+/// A vertex with more edges is a hub, not part of a surface; no path passes through it.
 constexpr int largest_degree = 64;
 
-/// After this many greedily optimised colours only pathological paths remain; they are coloured in one pass.
+/// Number of colours that are chosen greedily. The paths left after that are few and odd, and are coloured in one pass.
 constexpr int most_careful_colours = 48;
 
-/// An edge continues into another only if the angle between them is below 45 degrees: cos 45.
+/// Cosine of the largest angle, 45 degrees, by which a path turns from one edge to the next.
 constexpr double least_cosine = 0.70710678118654752;
 
 Vec3d between(const std::vector<Vec3f>& x, int from, int to) {
@@ -29,7 +29,7 @@ double cosine(const Vec3d& a, const Vec3d& b) {
   return lengths > 0 ? dot(a, b) / lengths : 0;
 }
 
-/// The edges incident to each vertex, ascending.
+/// For each vertex its edges, ascending.
 struct Incidence {
   std::vector<int> begin, edges;
 
@@ -43,13 +43,13 @@ struct Incidence {
   }
 };
 
-/// The edge that continues each edge at each of its ends, or -1.
+/// For each edge, the edges that continue it at its two ends, or -1.
 using Continuations = std::vector<std::array<int, 2>>;
 
 int other_end(const std::array<int, 2>& edge, int end) { return edge[0] == end ? edge[1] : edge[0]; }
 int slot_of(const std::array<int, 2>& edge, int end) { return edge[0] == end ? 0 : 1; }
 
-/// Pairs the edges at each vertex, the straightest pair first.
+/// Joins the edges at each vertex into pairs, the straightest pair first.
 Continuations join_straightest(const std::vector<Vec3f>& x, const EdgeList& edges) {
   const Incidence at(x.size(), edges);
   Continuations next(edges.size(), {-1, -1});
@@ -75,18 +75,18 @@ Continuations join_straightest(const std::vector<Vec3f>& x, const EdgeList& edge
   return next;
 }
 
-/// Follows trails of joined edges and cuts them where they revisit a vertex.
+/// Follows trails of joined edges, and cuts them where they return to a vertex.
 class Walker {
  public:
   Walker(const EdgeList& edges, const Continuations& next, std::size_t vertices)
       : edges_(edges), next_(next), used_(edges.size(), 0), visited_by_(vertices, -1) {}
 
   std::vector<Path> walk_all() {
-    for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {  // start from the ends of open trails
+    for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {  // first the open trails, from their ends
       for (int slot = 0; slot < 2; ++slot)
         if (!used_[e] && next_[e][slot] < 0) walk(e, edges_[e][slot]);
     }
-    for (int e = 0; e < static_cast<int>(edges_.size()); ++e)  // the rest are closed trails
+    for (int e = 0; e < static_cast<int>(edges_.size()); ++e)  // then the closed trails
       if (!used_[e]) walk(e, edges_[e][0]);
     return std::move(paths_);
   }
@@ -115,7 +115,7 @@ class Walker {
   const EdgeList& edges_;
   const Continuations& next_;
   std::vector<char> used_;
-  std::vector<int> visited_by_;  // one more than the number of the last path through each vertex
+  std::vector<int> visited_by_;  // for each vertex, the number of the last path through it, plus one
   std::vector<Path> paths_;
 };
 
@@ -124,15 +124,15 @@ void reverse(Path& path) {
   std::reverse(path.vertices.begin(), path.vertices.end());
 }
 
-/// Extracts colours greedily from a set of paths. Each colour starts with the longest path left; paths that share no vertex
-/// with the colour join it, the most nearly parallel first.
+/// Takes colours greedily from a set of paths. Each colour starts with the longest path left. Paths that share no
+/// vertex with the colour are added to it, the most nearly parallel first.
 class PathColouring {
  public:
   PathColouring(const std::vector<Vec3f>& x, std::vector<Path> paths) : paths_(std::move(paths)), taken_by_(x.size(), 0) {
     for (const Path& path : paths_) along_.push_back(between(x, path.vertices.front(), path.vertices.back()));
     left_.resize(paths_.size());
     for (std::size_t i = 0; i < left_.size(); ++i) left_[i] = static_cast<int>(i);
-    // Of two paths with as many edges, the geometrically shorter leads: a row before a diagonal.
+    // Of two paths with the same number of edges the shorter one comes first: a row before a diagonal.
     std::sort(left_.begin(), left_.end(), [&](int a, int b) {
       if (paths_[a].edges.size() != paths_[b].edges.size()) return paths_[a].edges.size() > paths_[b].edges.size();
       const double la = length_squared(along_[a]), lb = length_squared(along_[b]);
@@ -155,7 +155,7 @@ class PathColouring {
   PathColour take() {
     ++colour_;
     const Vec3d along = along_[left_.front()];
-    std::vector<std::pair<double, int>> order;  // deviation from the leader's direction, then the index in left_
+    std::vector<std::pair<double, int>> order;  // minus |cosine| of the angle to the first path, and index in left_
     for (std::size_t i = 0; i < left_.size(); ++i)
       order.emplace_back(i == 0 ? -2 : -std::abs(cosine(along, along_[left_[i]])), static_cast<int>(i));
     std::sort(order.begin(), order.end());
@@ -183,12 +183,12 @@ class PathColouring {
     left_ = std::move(rest);
     std::sort(colour.paths.begin(), colour.paths.end(), [](const Path& a, const Path& b) {
       if (a.edges.size() != b.edges.size()) return a.edges.size() > b.edges.size();
-      return a.vertices.front() < b.vertices.front();  // paths of one colour share no vertex
+      return a.vertices.front() < b.vertices.front();  // unique, because paths of a colour share no vertex
     });
     return colour;
   }
 
-  /// Each remaining path gets the first colour after those of its vertices.
+  /// Gives each path left the first new colour that comes after those of its vertices.
   void take_rest(std::vector<PathColour>& colours) {
     const std::size_t before = colours.size();
     std::vector<std::size_t> next(left_.empty() ? 0 : taken_by_.size(), 0);
@@ -204,7 +204,7 @@ class PathColouring {
 
   std::vector<Path> paths_;
   std::vector<Vec3d> along_;  // vector from the first to the last vertex of each path
-  std::vector<int> left_;     // longest first
+  std::vector<int> left_;     // indices of the paths left, the longest first
   std::vector<int> taken_by_;
   int colour_ = 0;
 };

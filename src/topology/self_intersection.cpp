@@ -1,5 +1,5 @@
-// Sweep along the longest axis of the mesh: triangles sorted by their lower bound, and for each edge the overlapping ones.
-// It runs once, on meshes of some ten thousand triangles, so a BVH or grid would not pay and would need tuning.
+// A sweep along the longest axis of the mesh: triangles are sorted by their lower bound, and each edge is tested with
+// those that overlap it. It runs once, on meshes of some ten thousand triangles, so a BVH or a grid would not pay.
 #include "topology/self_intersection.h"
 
 #include <algorithm>
@@ -38,8 +38,8 @@ bool overlap(const Box& a, const Box& b) {
 
 Vec3d exact(const Vec3f& p) { return {p.x, p.y, p.z}; }
 
-/// The sign of the volume of the tetrahedron a, b, c, d; 0 if below the rounding error. Differences are exact for
-/// coordinates of similar size, so the error bound covers the three products and their sum.
+/// The sign of the volume of the tetrahedron a, b, c, d; 0 if it is below the rounding error. Differences are exact for
+/// coordinates of similar size, so the bound covers the error of the three products and their sum.
 int side(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
   const Vec3d u = b - a, v = c - a, w = d - a;
   const double volume = dot(cross(u, v), w);
@@ -75,12 +75,12 @@ bool share_vertex(const Edge& edge, const Triangle& triangle) {
   return std::any_of(triangle.begin(), triangle.end(), [&](int corner) { return corner == edge.a || corner == edge.b; });
 }
 
-/// The triangles in sweep order.
+/// The triangles in the order of the sweep.
 struct Sweep {
   std::size_t axis = 0;
-  std::vector<Box> boxes;      ///< sorted by low[axis]
-  std::vector<int> triangles;  ///< triangle of each box
-  float longest = 0;           ///< longest box extent along the axis
+  std::vector<Box> boxes;      ///< bounding boxes, sorted by low[axis]
+  std::vector<int> triangles;  ///< index of the triangle in each box
+  float longest = 0;           ///< largest extent of a box along the axis
 };
 
 Sweep sort_triangles(const std::vector<Vec3f>& positions, const std::vector<Triangle>& triangles) {
@@ -112,7 +112,7 @@ SelfIntersections find_self_intersections(const std::vector<Vec3f>& positions, c
   std::uint64_t pairs = 0;
   for (const Edge& edge : edges) {
     const Box box = box_of(positions, std::array<int, 2>{edge.a, edge.b});
-    // The subtraction rounds. A triangle missed by one rounding error at most touches.
+    // The rounding of this subtraction is harmless: a triangle missed by one rounding error can at most touch the edge.
     const float from = box.low[sweep.axis] - sweep.longest;
     auto i =
         static_cast<std::size_t>(std::lower_bound(sweep.boxes.begin(), sweep.boxes.end(), from,

@@ -1,4 +1,4 @@
-// Self-intersections of a surface: edges that pierce triangles.
+// Finds self-intersections of a surface: edges that cross triangles.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@ namespace pliant {
 
 struct SelfIntersections {
   bool complete = false;   ///< false if the search was aborted because of its cost
-  std::size_t count = 0;   ///< edge-triangle pairs that share no vertex and cross transversally
-  int edge[2] = {-1, -1};  ///< edge of the first pair
-  int triangle = -1;       ///< triangle of the first pair
+  std::size_t count = 0;   ///< number of edges and triangles that cross and share no vertex
+  int edge[2] = {-1, -1};  ///< vertices of the edge of the first pair
+  int triangle = -1;       ///< index of the triangle of the first pair
 };
 
 /// Counts the pairs in which the interior of an edge crosses the interior of a triangle. Touching and coplanar pairs, and

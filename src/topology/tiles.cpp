@@ -1,5 +1,5 @@
-// Recursive bisection. Halving by count cuts the rows of a grid into equal pieces, which contiguous groups of four need
-// (numbering.h).
+// Recursive bisection by the number of particles. It divides the rows of a grid into equal pieces, as contiguous groups
+// of four need (numbering.h).
 #include "topology/tiles.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ int longest_axis(const std::vector<Vec3f>& positions, const int* first, const in
 
 void bisect(const std::vector<Vec3f>& positions, int* first, int* last, int levels, int& next_tile,
             std::vector<int>& tile) {
-  if (first == last) return;  // more halvings than particles: an empty tile gets no number
+  if (first == last) return;  // more bisections than particles: empty tiles get no number
   if (levels == 0) {
     for (int* i = first; i != last; ++i) tile[*i] = next_tile;
     ++next_tile;

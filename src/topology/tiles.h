@@ -1,4 +1,4 @@
-// Cutting an object into tiles: compact sets of particles, each small enough for one core's cache.
+// Divides an object into tiles: compact sets of particles, each small enough for one core's cache.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace pliant {
 
-/// Returns the tile of every particle, tiles numbered 0, 1, ... along the cuts. Bisects along the longest side of the
-/// bounding box, ties by index, until no tile holds more than `largest` (>= 1). Depends on the positions alone.
+/// Returns the tile of every particle; tiles are numbered 0, 1, ... as they are cut. Bisects along the longest side of
+/// the bounding box, ties by index, until no tile has over `largest` (>= 1) particles. Depends on positions alone.
 std::vector<int> cut_into_tiles(const std::vector<Vec3f>& positions, int largest);
 
 }  // namespace pliant
