@@ -45,7 +45,7 @@ struct MultigridLevel {
 /// The levels of one object. There are none if it has no distance constraint with a positive rest length.
 struct Multigrid {
   std::vector<MultigridLevel> levels;
-  std::vector<std::int32_t> piece;  ///< of each particle: index of the connected component of springs that has it; -1: fixed
+  std::vector<std::int32_t> piece;  ///< of each particle: index of the connected component of springs that has it; -1: none
   std::vector<std::int32_t> coarsest_piece;  ///< connected component of each row of the last level; -1: none
   int pieces = 0;
   float edge_length = 0;               ///< mean rest length of all springs [m]
