@@ -1,8 +1,9 @@
-// Trial runs: repeats a scene with increasingly expensive settings until its overstretch is tolerable.
+// Trial runs: simulates a scene with more and more expensive settings until its overstretch is tolerable.
 //
-// Families are the sweeps that may do better, the most promising first, with tethers where these help, then the scene's own
-// sweep with and without tethers. Each doubles its substeps until it is good or too expensive. Good settings are then tried
-// with fewer substeps. A trial ends as soon as it is worse than the best before it, so most are short.
+// A family is a sweep with or without tethers. First come sweeps that may do better than the scene's own, the most
+// promising first, then the scene's own sweep. Each family doubles its substeps until it is good or too expensive; then
+// good settings are tried with fewer substeps. A trial ends as soon as it is worse than the best before it, so most are
+// short.
 #include "pliant/advise.h"
 
 #include <algorithm>
@@ -24,13 +25,13 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int most_doublings = 6;
 constexpr int most_substeps = 10000;
-/// A setting counts as better if its overstretch is below this share of the scene's own.
+/// Settings count as better if their overstretch is below this share of that with the scene's own settings.
 constexpr double clearly_better = 0.8;
-/// The share of the time for the scene's own settings; the rest is for other trials.
+/// Share of the time that the trial of the scene's own settings may take; the rest is for the others.
 constexpr double own_share = 0.3;
 
 Clock::time_point after(double seconds) {
-  const std::chrono::duration<double> limited(seconds > 0 ? std::min(seconds, 1e6) : 0.0);  // clamped to the clock's range
+  const std::chrono::duration<double> limited(seconds > 0 ? std::min(seconds, 1e6) : 0.0);  // within the range of the clock
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(limited);
 }
 
@@ -45,7 +46,7 @@ void keep_worse(const Report& report, Trial& trial) {
   trial.worst.p99 = p99;
 }
 
-/// The common data of all trials of a scene.
+/// Runs trials of a scene, with the data that they share.
 class Trials {
  public:
   Trials(const Scene& scene, const AdviseOptions& options)
@@ -55,14 +56,14 @@ class Trials {
         own_end_(after(own_share * options.seconds)),
         stops_(options.stops) {}
 
-  /// Runs the scene's own settings. If time runs out, later trials run only as many frames as this one did.
+  /// Tries the scene's own settings. If its time runs out, all later trials run only as many frames as this one.
   Trial run_own(std::string& words) {
     Trial trial = run(scene_.settings, std::numeric_limits<double>::infinity(), own_end_, &words);
     if (std::isfinite(trial.worst.largest)) frames_ = trial.frames;
     return trial;
   }
 
-  /// Runs other settings until they are done, or worse than both `bound` and the tolerance.
+  /// Tries other settings until all frames are done, or overstretch exceeds both `bound` and the tolerance.
   Trial run_other(const Settings& settings, double bound) const { return run(settings, bound, end_, nullptr); }
 
   bool out_of_time() const { return is_over(end_); }
@@ -102,16 +103,16 @@ class Trials {
   std::function<bool()> stops_;
 };
 
-/// Settings of one kind with increasing substeps.
+/// Trials with the same sweep and tethers, and more and more substeps.
 struct Family {
-  Settings settings;  ///< settings of the next trial
-  bool open = true;   ///< not good yet, but possibly with more substeps
-  int good = -1;      ///< index of its last good trial
+  Settings settings;  ///< settings for the next trial
+  bool open = true;   ///< true while it is not good, but may be with more substeps
+  int good = -1;      ///< index of its last good trial; -1: none
 };
 
 std::vector<Family> families_of(const Scene& scene) {
   Settings own = scene.settings;
-  own.substeps = most_substeps_of(own);  // of all objects in other settings
+  own.substeps = most_substeps_of(own);  // a number is needed, so that it can be doubled
   const bool may = may_tether(scene);
   std::vector<Family> families;
   for (Sweep alternative : better_sweeps(scene)) {
@@ -130,7 +131,7 @@ std::vector<Family> families_of(const Scene& scene) {
   return families;
 }
 
-/// Runs as many trials as time permits, and stores their results.
+/// Runs as many trials as time allows, and keeps their results.
 class Search {
  public:
   Search(const Scene& scene, const Trials& trials, Advice& advice)
@@ -151,7 +152,7 @@ class Search {
     return bound;
   }
 
-  /// Returns false, and records that time ran out, when it has.
+  /// True if time is left. Otherwise records that it ran out.
   bool has_time() {
     if (!trials_.out_of_time()) return true;
     advice_.cut_short = true;
@@ -167,7 +168,8 @@ class Search {
     return true;
   }
 
-  /// Twice the substeps cost about twice as much: closes a family that would cost more than the best good trial.
+  /// Tries a family with its next substeps. Twice the substeps take about twice as long, so it stops at the cost of the
+  /// best trial.
   void try_next(Family& family) {
     if (!family.open || !has_time()) return;
     const bool good = try_out(family);
@@ -178,7 +180,7 @@ class Search {
     if (family.open) family.settings.substeps *= 2;
   }
 
-  /// Tries half of the good number of substeps while that is good, then three quarters of the least good number.
+  /// Tries half of the good substeps while that is good too, then three quarters of the least good number.
   void try_less(Family& family) {
     if (family.good < 0) return;
     const bool was_doubled = family.settings.substeps > most_substeps_of(advice_.own.settings);

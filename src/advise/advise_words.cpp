@@ -1,4 +1,4 @@
-// The result of the trials in words.
+// Puts the result of the trials into words.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,7 +10,7 @@ namespace pliant {
 
 namespace {
 
-/// "40 substeps", "20 substeps of the sweep 'chains' with tethers".
+/// Describes the settings of a trial: "40 substeps", or "20 substeps of the sweep 'chains' with tethers".
 std::string setting_in_words(const Trial& trial, const Settings& own) {
   std::string text = std::to_string(trial.settings.substeps) + (trial.settings.substeps == 1 ? " substep" : " substeps");
   if (trial.settings.sweep != own.sweep) text += " of the sweep '" + sweep_name(trial.settings.sweep) + "'";
@@ -20,7 +20,7 @@ std::string setting_in_words(const Trial& trial, const Settings& own) {
 
 std::string cost_in_words(const Trial& trial) { return two_digits(trial.milliseconds) + " ms a frame"; }
 
-/// The cheapest good trial with another sweep or tethers than the best, or -1.
+/// The index of the cheapest good trial whose sweep or tethers differ from those of the best; -1: none.
 int runner_up(const Advice& advice) {
   const auto kind = [](const Trial& t) { return std::make_pair(t.settings.sweep, t.settings.sweep_options.tethers); };
   int found = -1;
@@ -37,8 +37,8 @@ std::string setting_and_cost(const Advice& advice, int trial) {
   return setting_in_words(of, advice.own.settings) + " (" + cost_in_words(of) + ")";
 }
 
-/// True if the scene's own settings ran through all planned frames, or until
-/// not finite. Results of the first frames do not extend to later ones.
+/// True if the trial of the scene's own settings ran through all planned frames, or until a value was not finite.
+/// Otherwise its result says nothing about later frames.
 bool knows_all(const Advice& advice) { return advice.own.complete || !std::isfinite(advice.own.worst.largest); }
 
 std::string json_of_best(const Advice& advice) {
@@ -46,13 +46,13 @@ std::string json_of_best(const Advice& advice) {
          "add to the scene's \"settings\": " + in_json(advice.others[advice.best].settings, advice.own.settings);
 }
 
-/// The number of trials with a known result: those that time did not cut short.
+/// The number of trials that time did not cut short, so that their result is known.
 int judged(const Advice& advice) {
   const auto is_judged = [](const Trial& trial) { return trial.complete || trial.worse; };
   return static_cast<int>(std::count_if(advice.others.begin(), advice.others.end(), is_judged));
 }
 
-/// The advice if no setting is good.
+/// The advice if no settings are good: those that come nearest.
 std::string of_the_nearest(const Advice& advice) {
   const std::string in_time = advice.cut_short ? " within the time limit" : "";
   if (judged(advice) == 0) return "no other setting was tried" + in_time;
@@ -67,7 +67,7 @@ std::string of_the_nearest(const Advice& advice) {
          percent(best.worst.p99) + "; the present settings take " + cost_in_words(advice.own) + "; " + json_of_best(advice);
 }
 
-/// The cheapest good setting, and the cheapest of another kind.
+/// The advice if some settings are good: the cheapest, and the cheapest of another family.
 std::string of_the_good(const Advice& advice) {
   const int other = runner_up(advice);
   const bool one = other < 0 && advice.others[advice.best].settings.substeps == 1;

@@ -1,4 +1,4 @@
-// Formats the text of an Error.
+// Makes the text of an Error.
 #include "pliant/error.h"
 
 #include <utility>

@@ -65,14 +65,15 @@ void process_portable(State& state, const unsigned char* blocks, std::size_t cou
 
 #if defined(__x86_64__)
 
-/// Tests for the SHA instructions and the byte shuffles (SSSE3) and blends (SSE4.1) used with them.
+/// True if the CPU has the SHA instructions, and SSSE3 and SSE4.1, which are used with them.
 bool has_sha_instructions() {
   unsigned a = 0, b = 0, c = 0, d = 0;
   if (__get_cpuid(1, &a, &b, &c, &d) == 0 || (c & (1U << 9)) == 0 || (c & (1U << 19)) == 0) return false;
   return __get_cpuid_count(7, 0, &a, &b, &c, &d) != 0 && (b & (1U << 29)) != 0;
 }
 
-/// Two instructions do four rounds; the registers hold the words (a, b, e, f) and (c, d, g, h), highest first.
+/// The block function with SHA instructions. Two of them do four rounds; registers hold (a, b, e, f) and (c, d, g, h),
+/// highest first.
 __attribute__((target("sha,sse4.1,ssse3"))) void process_x86(State& state, const unsigned char* blocks, std::size_t count) {
   const auto word = [&](std::size_t i) { return static_cast<int>(state[i]); };
   const __m128i big_endian = _mm_set_epi8(12, 13, 14, 15, 8, 9, 10, 11, 4, 5, 6, 7, 0, 1, 2, 3);

@@ -8,19 +8,19 @@
 
 namespace pliant {
 
-/// The block function: `portable`, or the x86 SHA instructions. `fastest` is the best that the processor has.
+/// Which block function to use: `portable` C++, or `fastest`, which uses the x86 SHA instructions if the CPU has them.
 enum class Sha256Code { fastest, portable };
 
 class Sha256 {
  public:
   explicit Sha256(Sha256Code code = Sha256Code::fastest);
   void add(const void* data, std::size_t size);
-  /// The digest as 64 hexadecimal digits; no data may be added afterwards.
+  /// Returns the digest as 64 hexadecimal digits. No data may be added afterwards.
   std::string finish();
 
  private:
   using State = std::array<std::uint32_t, 8>;
-  /// Processes `count` blocks of 64 bytes.
+  /// A function that adds `count` blocks of 64 bytes to the state.
   using Process = void (*)(State& state, const unsigned char* blocks, std::size_t count);
 
   Process process_;

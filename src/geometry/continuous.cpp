@@ -1,11 +1,11 @@
-// Continuous collision tests with a certified answer. Double precision rejects nearly all pairs and proves most contacts.
-// Only touching and grazing pairs are repeated in double-double precision.
+// Continuous collision tests with a certified answer. Double precision rejects nearly all pairs and proves most
+// contacts. Only pairs that touch or graze are tested again in double-double precision.
 //
-// The proof is by signs. As two primitives cross, the signed volume of their four corners changes sign. Seen along some
-// direction, from before the crossing until after it, the vertex projects inside the triangle, or the edges cross. By
-// continuity the volume vanishes in between; the corners are then coplanar and the primitives meet. The error bounds may be
-// generous, because what they leave open is decided with more digits. After Shewchuk 1997, "Adaptive precision
-// floating-point arithmetic and fast robust geometric predicates", extended by time.
+// The proof uses signs. When two primitives cross, the signed volume of their four corners changes sign. Let also the
+// vertex project into the triangle, or the edges cross, as seen along one direction from before the crossing until
+// after it. The volume vanishes in between, by continuity; then the corners are coplanar and the primitives meet. The
+// error bounds may be generous, because what they leave open is decided with more digits. After Shewchuk 1997,
+// "Adaptive precision floating-point arithmetic and fast robust geometric predicates", extended by time.
 #include "geometry/continuous.h"
 
 #include <initializer_list>
@@ -20,7 +20,8 @@ using detail::Corners, detail::Paths, detail::corners_at;
 
 using Sharp = DoubleDouble;
 
-/// Upper bound of a corner's position error, in roundings of the extent: differences, motion, position. Counted: 6.
+/// Upper bound of the error of a corner's position, in roundings of the extent. It comes from differences, motion and
+/// position; counted: 6.
 constexpr double place_roundings = 16;
 
 /// Error bounds of a volume and an area of corners at most `extent` from the first. Each is a sum of products of
@@ -50,7 +51,7 @@ int kept_turn(const Corners<double>& first, const Corners<double>& last, const V
   return least > bound ? 1 : most < -bound ? -1 : 0;
 }
 
-/// True if, along the direction, the vertex stays inside the triangle, or the edges stay crossed, at all times.
+/// True if, seen along the direction, the vertex stays inside the triangle, or the edges stay crossed, at all times.
 template <int A>
 bool overlap_all_the_time(const Corners<double>& first, const Corners<double>& last, const Vec3d& direction, double bound) {
   const auto turn = [&](int p, int q, int r) { return kept_turn(first, last, direction, p, q, r, bound); };
@@ -62,7 +63,7 @@ bool overlap_all_the_time(const Corners<double>& first, const Corners<double>& l
   }
 }
 
-/// True if a crossing about `time` is certain: within a tenth, a thousandth, or less of the motion.
+/// True if it is certain that the primitives cross near `time`: within a tenth, a thousandth or less of the motion.
 template <int A>
 bool crosses_about(const Paths<double>& paths, double time) {
   const Bounds bounds = bounds_of(paths);
@@ -79,7 +80,7 @@ bool crosses_about(const Paths<double>& paths, double time) {
   return false;
 }
 
-/// The distance of one point of each primitive, an upper bound of their distance.
+/// The distance of one point of each primitive: an upper bound of their distance.
 template <int A>
 double distance_of(const Corners<double>& x) {
   return length(detail::closest_direction<A>(x));

@@ -74,7 +74,7 @@ PLIANT_HD Vec3<R> without_component_along(const Vec3<R>& v, const Vec3<R>& edge)
   return v - edge * (dot(v, edge) / max(length_squared(edge), least_divisor<R>()));
 }
 
-/// The direction from the closest point of the second primitive to that of the first.
+/// The vector from the closest point of the second primitive to the closest point of the first.
 template <int A, class R>
 PLIANT_HD Vec3<R> closest_direction(const Corners<R>& x) {
   if constexpr (A == 1) {
@@ -162,7 +162,7 @@ PLIANT_HD R turning_share(const Corners<R>& start, const Corners<R>& motion, con
   return length_squared(then - normal) < R(1) ? min(attempt, free_share<A>(x, motion, normal, turn, least)) : R(0);
 }
 
-/// True if one coordinate interval lies above the other by more than `least`; exact under rounding for 0.
+/// True if one primitive's range of a coordinate is above the other's by more than `least`; exact under rounding for 0.
 template <int A, class R, class Coordinate>
 PLIANT_HD bool apart_along(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], const R& least, const Coordinate& coordinate) {
   R low[2], high[2];
@@ -202,7 +202,7 @@ PLIANT_HD Paths<R> relative_paths(const Vec3<R> (&from)[4], const Vec3<R> (&to)[
   return paths;
 }
 
-/// `since`: the time until which separation is known.
+/// The test from the time `since` on; separation is known until then.
 template <int A, class R>
 PLIANT_HD Impact<R> first_impact(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], const R& thickness,
                                  const R& since = R(0)) {
@@ -248,7 +248,7 @@ PLIANT_HD Impact<R> vertex_triangle_impact(const Vec3<R> (&from)[4], const Vec3<
   return impact;
 }
 
-/// The same for edges (0, 1) and (2, 3).
+/// The same test for the edges (0, 1) and (2, 3) of the arrays.
 template <class R>
 PLIANT_HD Impact<R> edge_edge_impact(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], const R& thickness) {
   return detail::first_impact<2>(from, to, thickness);
@@ -258,7 +258,7 @@ PLIANT_HD Impact<R> edge_edge_impact(const Vec3<R> (&from)[4], const Vec3<R> (&t
 /// pairs farther apart than 1e-29 of the extent are no contact. Host only.
 Impact<double> vertex_triangle_impact(const Vec3d (&from)[4], const Vec3d (&to)[4], double thickness);
 
-/// The same for edges (0, 1) and (2, 3).
+/// The certified test for the edges (0, 1) and (2, 3) of the arrays.
 Impact<double> edge_edge_impact(const Vec3d (&from)[4], const Vec3d (&to)[4], double thickness);
 
 }  // namespace pliant

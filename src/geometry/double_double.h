@@ -84,7 +84,7 @@ inline DoubleDouble sqrt(const DoubleDouble& a) {
   return detail::fast_two_sum(root, rest.high / (2 * root));
 }
 
-/// The error of a few operations together: 2^-102.
+/// The relative error of a few operations together: 2^-102.
 inline DoubleDouble unit_roundoff(const DoubleDouble&) { return {2e-31}; }
 
 }  // namespace pliant

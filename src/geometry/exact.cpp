@@ -11,7 +11,7 @@ namespace pliant {
 
 namespace {
 
-/// An exact sum of doubles: non-overlapping parts in ascending magnitude (Shewchuk 1997, grow-expansion).
+/// An exact sum of doubles, as parts of ascending magnitude whose bits do not overlap (Shewchuk 1997, grow-expansion).
 class ExactSum {
  public:
   void add(double value) {
@@ -26,7 +26,7 @@ class ExactSum {
     count_ = kept;
   }
 
-  /// Adds a b c exactly: the 48 bits of a b are split into two halves of at most 26 bits.
+  /// Adds the product a b c exactly. The 48 bits of a b are split into two halves of at most 26 bits.
   void add_product(double a, double b, double c) {
     constexpr double splitter = 134217729;  // 2^27 + 1
     const double ab = a * b, scaled = splitter * ab, high = scaled - (scaled - ab);
@@ -41,7 +41,7 @@ class ExactSum {
   int count_ = 0;
 };
 
-/// Adds sign (u . (v x w)).
+/// Adds sign (u . (v x w)) exactly.
 void add_triple(ExactSum& sum, double sign, const Vec3d& u, const Vec3d& v, const Vec3d& w) {
   sum.add_product(sign * u.x, v.y, w.z);
   sum.add_product(-sign * u.x, v.z, w.y);
@@ -60,7 +60,7 @@ int exact_volume_sign(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3
   return sum.sign();
 }
 
-/// True if four points share a coordinate, as in axis-aligned flat cloth: exact sums of many zeros are slow.
+/// True if four points have a coordinate in common, as in flat cloth along an axis: exact sums of many zeros are slow.
 bool in_plane_across_axis(const Vec3d (&p)[4]) {
   bool x = true, y = true, z = true;
   for (const Vec3d& q : p) {
@@ -100,7 +100,7 @@ bool boxes_meet(const Vec3f (&p)[2], const Vec3f (&q)[2]) {
          intervals_meet(p[0].z, p[1].z, q[0].z, q[1].z);
 }
 
-/// True if two closed coplanar segments meet. Tested in a projection with area; collinear ones are decided by their boxes.
+/// True if two closed segments in one plane meet: tested in a projection with area; for collinear segments by their boxes.
 bool segments_meet(const Vec3f (&p)[2], const Vec3f (&q)[2]) {
   if (!boxes_meet(p, q)) return false;
   for (int axis = 0; axis < 3; ++axis) {
@@ -124,7 +124,7 @@ bool inside_in_plane(const Vec3f& p, const Vec3f (&t)[3]) {
 
 bool coplanar(const Vec3f (&p)[2], const Vec3f (&q)[2]) { return volume_sign(p[0], p[1], q[0], q[1]) == 0; }
 
-/// An edge in the plane of a triangle, or any edge if the triangle is degenerate.
+/// How an edge meets a triangle in whose plane it lies, or a degenerate triangle.
 EdgeTriangle meet_in_plane(const Vec3f (&edge)[2], const Vec3f (&t)[3]) {
   if (inside_in_plane(edge[0], t)) return EdgeTriangle::touching;
   for (int k = 0; k < 3; ++k) {

@@ -1,6 +1,6 @@
 // Exact geometric predicates: the side of a plane on which a point lies, and edge-triangle intersection.
 //
-// For audits and inside tests, where one wrong sign is a false alarm or a hole. Nearly all answers come from double
+// For checks and inside tests, in which one wrong sign is a false alarm or a hole. Nearly all answers come from double
 // precision with an error bound, the rest from exact sums of doubles. Host only.
 #pragma once
 
@@ -20,7 +20,7 @@ enum class EdgeTriangle {
   crossing   ///< the interior of the edge crosses the interior of the triangle
 };
 
-/// Exact for all finite floats, including degenerate edges and triangles.
+/// Decides how an edge meets a triangle. Exact for all finite floats, including degenerate edges and triangles.
 EdgeTriangle how_edge_meets_triangle(const Vec3f (&edge)[2], const Vec3f (&triangle)[3]);
 
 /// True if the interiors of edge p-q and triangle a, b, c cross transversally.

@@ -12,15 +12,15 @@ namespace pliant {
 template <class R>
 struct ClosestToShape {
   R t{};             ///< share of the segment from a to b, 0..1
-  R distance{};      ///< signed [m]
-  Vec3<R> normal{};  ///< unit, outward; perpendicular to the segment within rounding if 0 < t < 1
+  R distance{};      ///< signed distance to the solid [m]
+  Vec3<R> normal{};  ///< unit outward normal; perpendicular to the segment within rounding if 0 < t < 1
 };
 
 /// A segment and a solid, with the signed distances at both ends.
 template <class R>
 struct SegmentNearShape {
   LocalShape shape;
-  Vec3<R> a, edge;  ///< first end, and the vector to the second
+  Vec3<R> a, edge;  ///< first end of the segment, and the vector to its second end
   SurfaceDistance<R> at_a, at_b;
 
   PLIANT_HD SegmentNearShape(const LocalShape& solid, const Vec3<R>& from, const Vec3<R>& to)
@@ -29,10 +29,10 @@ struct SegmentNearShape {
   PLIANT_HD SurfaceDistance<R> at(const R& t) const { return signed_distance(shape, a + edge * t); }
   PLIANT_HD R slope(const SurfaceDistance<R>& surface) const { return dot(surface.normal, edge); }
 
-  /// True if an interior point is closer than both ends.
+  /// True if an interior point of the segment is closer to the solid than both ends.
   PLIANT_HD bool dips() const { return slope(at_a) < R(0) && slope(at_b) > R(0); }
 
-  /// Lower bound of the distance, from the tangents at the ends [m]. Valid only if dips().
+  /// Lower bound of the distance from the tangents at both ends [m]. Valid only if dips().
   PLIANT_HD R lower_bound() const {
     const R down = slope(at_a), up = slope(at_b);
     const R t = clamp((at_b.distance - up - at_a.distance) / (down - up), R(0), R(1));
@@ -49,13 +49,13 @@ struct Bracket {
   SurfaceDistance<R> at_low, at_high;
 };
 
-/// Finds where the slope first exceeds `threshold`, to within `exact`: at `high` it exceeds it, at `low` it does not. Uses
-/// regula falsi, which converges fast for round solids; every third step bisects, so that kinks are found too.
+/// Finds where along a segment the slope of the distance first exceeds `threshold`, to within `exact`: at `high` it does,
+/// at `low` it does not. Regula falsi converges fast for round solids; every third step bisects, which finds kinks too.
 template <class R>
 PLIANT_HD void narrow(const SegmentNearShape<R>& segment, const R& threshold, const R& exact, Bracket<R>& b) {
   constexpr int steps = sizeof(R) == sizeof(float) ? 48 : 120;
   R low_excess = segment.slope(b.at_low) - threshold, high_excess = segment.slope(b.at_high) - threshold;
-  if (!(low_excess < R(0))) {  // the slope exceeds it everywhere
+  if (!(low_excess < R(0))) {  // the slope exceeds the threshold everywhere
     b.high = b.low;
     b.at_high = b.at_low;
   } else if (!(high_excess > R(0))) {
@@ -75,8 +75,8 @@ PLIANT_HD void narrow(const SegmentNearShape<R>& segment, const R& threshold, co
   }
 }
 
-/// The least distance within a narrowed bracket. If the distance has a kink there, as inside a box, no face normal is
-/// perpendicular to the segment. The interpolated normal is, and the contact is with the solid's edge.
+/// The point of least distance in a narrow bracket. If the distance has a kink there, as inside a box, the contact is
+/// with the solid's edge: no face normal is perpendicular to the segment, but the interpolated normal is.
 template <class R>
 PLIANT_HD ClosestToShape<R> closest_in(const SegmentNearShape<R>& segment, const Bracket<R>& b) {
   const R down = segment.slope(b.at_low), up = segment.slope(b.at_high);
@@ -86,7 +86,7 @@ PLIANT_HD ClosestToShape<R> closest_in(const SegmentNearShape<R>& segment, const
   const R share = up - down > R(0) ? clamp(up / (up - down), R(0), R(1)) : R(1);
   const Vec3<R> between = b.at_low.normal * share + b.at_high.normal * (R(1) - share);
   const R size = length(between);
-  if (!(size > R(0.5f))) return found;  // enters through one face and leaves through the opposite one
+  if (!(size > R(0.5f))) return found;  // the segment enters through one face and leaves through the opposite one
   return {found.t, found.distance / size, between * (R(1) / size)};
 }
 

@@ -30,21 +30,21 @@ struct SurfaceDistance {
   Vec3<R> normal;  ///< gradient of the distance: unit length, defined everywhere
 };
 
-/// |p| - radius; the normal at the centre is +y.
+/// Distance to a sphere: |p| - radius. At the centre the normal is +y.
 template <class R>
 PLIANT_HD SurfaceDistance<R> sphere_distance(const R& radius, const Vec3<R>& p) {
   return {length(p) - radius, unit_or(p, Vec3<R>{R(0), R(1), R(0)})};
 }
 
-/// The distance to the nearest axis point minus the radius; the normal on the axis is +x.
+/// Distance to a capsule: from the nearest point of its axis, minus the radius. On the axis the normal is +x.
 template <class R>
 PLIANT_HD SurfaceDistance<R> capsule_distance(const R& radius, const R& half_length, const Vec3<R>& p) {
   const Vec3<R> q{p.x, p.y - clamp(p.y, -half_length, half_length), p.z};
   return {length(q) - radius, unit_or(q, Vec3<R>{R(1), R(0), R(0)})};
 }
 
-/// Outside: to the nearest point of the box, so edges and corners are
-/// rounded. Inside: to the nearest face, the earlier axis if equal.
+/// Distance to a box. Outside: to its nearest point, so edges and corners count as round. Inside: to the nearest face,
+/// of equally near ones that of the earlier axis.
 template <class R>
 PLIANT_HD SurfaceDistance<R> box_distance(const Vec3<R>& half_extents, const Vec3<R>& p) {
   const R zero = R(0), one = R(1);
@@ -62,7 +62,7 @@ PLIANT_HD SurfaceDistance<R> box_distance(const Vec3<R>& half_extents, const Vec
   return {select(outside, beyond, deepest), select(outside, away, face)};
 }
 
-/// The signed distance from `point` to `shape` and the outward normal at it.
+/// The signed distance from a point to a shape, and the outward normal there.
 template <class R>
 PLIANT_HD SurfaceDistance<R> signed_distance(const LocalShape& shape, const Vec3<R>& point) {
   switch (shape.kind) {

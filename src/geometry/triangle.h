@@ -29,7 +29,7 @@ PLIANT_HD R to_unit_interval(const R& t) {
 
 }  // namespace detail
 
-/// The share t in [0, 1] at which a + t (b - a) is closest to p; 0 if a = b.
+/// The t in [0, 1] for which a + t (b - a) is closest to p; 0 if a = b.
 template <class R>
 PLIANT_HD R closest_on_segment(const Vec3<R>& p, const Vec3<R>& a, const Vec3<R>& b) {
   const Vec3<R> edge = b - a;
@@ -49,7 +49,7 @@ namespace detail {
 template <class R>
 PLIANT_HD ClosestOnTriangle<R> triangle_candidate(const Vec3<R>& p, const Vec3<R>& a, const Vec3<R>& b, const Vec3<R>& c,
                                                   const Vec3<R>& weights) {
-  // Relative to a, so that a small triangle far from the origin keeps its precision.
+  // The offset from a is computed first, so that a small triangle far from the origin keeps its precision.
   const Vec3<R> offset = weights.y * (b - a) + weights.z * (c - a);
   return {a + offset, weights, length_squared((p - a) - offset)};
 }
@@ -61,7 +61,7 @@ PLIANT_HD ClosestOnTriangle<R> nearer(const ClosestOnTriangle<R>& first, const C
           select(better, second.distance_squared, first.distance_squared)};
 }
 
-/// Barycentric weights of the foot of p's perpendicular, clamped to the triangle; exact if the foot lies inside.
+/// Barycentric weights of p projected onto the triangle's plane, clamped to the triangle; exact for inner projections.
 template <class R>
 PLIANT_HD Vec3<R> weights_of_foot(const Vec3<R>& p, const Vec3<R>& a, const Vec3<R>& b, const Vec3<R>& c) {
   const Vec3<R> normal = cross(b - a, c - a);
@@ -93,9 +93,9 @@ PLIANT_HD ClosestOnTriangle<R> closest_on_triangle(const Vec3<R>& p, const Vec3<
 /// The closest points of two segments.
 template <class R>
 struct ClosestOnSegments {
-  R s, t;                 ///< shares in [0, 1] along the first and the second
-  Vec3<R> first, second;  ///< the points there [m]
-  R distance_squared;     ///< between them [m^2]
+  R s, t;                 ///< shares in [0, 1] along the first and the second segment
+  Vec3<R> first, second;  ///< closest points [m]
+  R distance_squared;     ///< squared distance of the closest points [m^2]
 };
 
 namespace detail {
@@ -113,7 +113,7 @@ PLIANT_HD ClosestOnSegments<R> nearer(const ClosestOnSegments<R>& first, const C
           select(better, second.second, first.second), select(better, second.distance_squared, first.distance_squared)};
 }
 
-/// The closest points of the lines, s clamped to [0, 1] and t optimal for it: the solution if both feet lie within.
+/// The closest points of two lines, s clamped to [0, 1] and t optimal for it: the solution if both points are inside.
 template <class R>
 PLIANT_HD ClosestOnSegments<R> closest_inside(const Vec3<R> (&p)[2], const Vec3<R> (&q)[2]) {
   const Vec3<R> u = p[1] - p[0], v = q[1] - q[0], w = p[0] - q[0];
@@ -154,8 +154,8 @@ PLIANT_HD Vec3<R> triangle_normal(const Vec3<R>& a, const Vec3<R>& b, const Vec3
   return unit_or(cross(scaled_ab, scaled_ac), Vec3<R>{R(0), R(0), R(0)});
 }
 
-/// Six times the signed volume of the tetrahedron of the origin and a triangle. Its sum over a closed surface that faces
-/// outward is six times the enclosed volume [m^3].
+/// Six times the signed volume of the tetrahedron formed by the origin and a triangle [m^3]. The sum over a closed
+/// surface that faces outward is six times the enclosed volume.
 template <class R>
 PLIANT_HD R six_volumes(const Vec3<R>& a, const Vec3<R>& b, const Vec3<R>& c) {
   return dot(cross(a, b), c);

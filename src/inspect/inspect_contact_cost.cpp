@@ -1,7 +1,8 @@
-// Estimates the cost of contact at the start: pairs of primitives within the thickness, and rounding far from the origin.
+// Estimates what contact costs at the start: the pairs of primitives within the thickness. Also checks rounding far
+// from the origin.
 //
-// A vertex of a triangle mesh has two triangles and three edges. So one near vertex stands for 2 vertex-triangle pairs and
-// 3 x 3 / 2 edge-edge pairs. Contact stores each such pair in a list.
+// A vertex of a triangle mesh has two triangles and three edges. So each pair of near vertices means 2 vertex-triangle
+// pairs and 3 x 3 / 2 edge-edge pairs, which contact stores in a list.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,16 +16,17 @@ namespace pliant {
 namespace {
 
 constexpr double pairs_of_surface = 6.5, pairs_of_rope = 0.5, bytes_of_pair = 24;
-/// Rejects an object with more pairs per vertex than this, if it has more than `most_pairs` in all. That is ten times what
+/// An object is rejected if it has more pairs per vertex and more than `most_pairs` in all. The limit is ten times what
 /// cloth with a thickness of half an edge needs.
 constexpr double most_pairs_of_vertex = 1000, most_pairs = 1e6;
-/// Rejects scenes with more pairs (a gigabyte). Names the object with most pairs per vertex, if above `many_pairs`.
+/// A scene with more pairs is rejected (they take a gigabyte). The object with most pairs per vertex is named if above
+/// many_pairs.
 constexpr double most_pairs_of_scene = 4e7, many_pairs = 300;
-/// The number of sampled vertices; each is compared with those near it along x.
+/// Number of vertices that are sampled; each is compared with the vertices near it along x.
 constexpr std::size_t samples = 256;
-/// The skin of near lists beyond the thickness, over the edge length.
+/// By how much near lists exceed the thickness (their skin), over the edge length.
 constexpr double skin_over_edge = 0.75;
-/// The filter's least margin between surfaces, over the largest coordinate: 32 float roundings.
+/// The filter's smallest margin between surfaces, over the largest coordinate: 32 roundings of a float.
 constexpr double filter_roundings = 32 * 6e-8;
 
 bool touches(const Object& object) { return object.self_collision || object.collides; }
@@ -65,7 +67,8 @@ class Neighbours {
 
   double edge(std::size_t object) const { return edge_[object]; }
 
-  /// Calls visit(object, count) for vertices sampled evenly over all objects; `count` of vertices are within contact reach.
+  /// Calls visit(object, count) for vertices sampled evenly over all objects; `count` is the number of vertices in
+  /// contact reach.
   template <class Visit>
   void sample(const Visit& visit) const {
     const std::size_t stride = std::max<std::size_t>(1, all_.size() / samples);
@@ -89,7 +92,7 @@ class Neighbours {
   }
 
   const Scene& scene_;
-  std::vector<double> edge_;  ///< median edge of each object; 0: it does not collide [m]
+  std::vector<double> edge_;  ///< median edge of each object [m]; 0: it has no contact
   std::vector<Vertex> all_;   ///< ascending by x
   double thickest_ = 0;
 };

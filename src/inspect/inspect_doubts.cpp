@@ -1,4 +1,4 @@
-// Warnings about an object: settings that a World accepts but that are probably unintended.
+// Warnings about an object: settings that a World accepts, but that are probably not intended.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,23 +16,23 @@ namespace pliant {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// At larger mass ratios, heavy particles on light ones stretch their constraints like rubber.
+/// Mass ratio above which heavy particles that hang on light ones stretch their constraints like rubber.
 constexpr double large_mass_ratio = 1e4;
-/// The speed of sound [m/s], an upper bound of plausible speeds.
+/// The speed of sound [m/s]; higher speeds are probably not intended.
 constexpr double large_speed = 343;
-/// Coordinates beyond this suggest a mesh in millimetres or centimetres [m].
+/// Larger coordinates suggest a mesh in millimetres or centimetres [m].
 constexpr float large_place = 1e4f;
-/// Relative deviation from the rest length above which a warning is given.
+/// Relative deviation from the rest length above which an edge gets a warning.
 constexpr double large_strain = 0.5;
-/// Angle [rad] from which a rest shape counts as curved.
+/// Angle above which the rest shape of a hinge counts as curved [rad].
 constexpr double large_angle = 0.1;
 
-/// The object being checked, with data that several checks need.
+/// An object under inspection, with data that several checks need.
 struct Doubts {
   Problems& problems;
   const Object& object;
   const Scene& scene;
-  std::vector<bool> fixed;  ///< pinned, or of infinite mass
+  std::vector<bool> fixed;  ///< true for particles that are pinned or have infinite mass
 
   Vec3d at(int particle) const {
     const Vec3f& p = object.positions[static_cast<std::size_t>(particle)];
@@ -92,7 +92,7 @@ void doubt_references(const Doubts& d) {
   Tally loose;
   for (std::size_t i = 0; i < used.size(); ++i)
     if (!used[i]) loose.add(static_cast<std::int64_t>(i));
-  if (static_cast<std::size_t>(loose.count) == d.count()) return;  // all particles are free: a particle cloud is intended
+  if (static_cast<std::size_t>(loose.count) == d.count()) return;  // a cloud of free particles, which is intended
   d.problems.doubtful(loose, "particle", "is in no constraint and no triangle, so it moves freely",
                       "remove it, or constrain it");
 }
@@ -114,7 +114,7 @@ void doubt_places(const Doubts& d) {
 
 // ------------------------------------------------------------------------------------------------ constraints
 
-/// True if half of the object's mass, hung on the constraint, would stretch it more than tenfold.
+/// True if half of the object's mass, hung on the constraint, would stretch it to more than ten times its length.
 bool does_nothing(const Doubts& d, const ConstraintGroup& group, std::size_t c) {
   const double alpha = group.compliances.empty() ? group.stiffness.value : group.compliances[c];
   const int* pair = &group.particles[2 * c];

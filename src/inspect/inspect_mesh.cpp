@@ -1,8 +1,8 @@
-// inspect() of a mesh without a scene: all findings, worst first.
+// inspect() for a mesh without a scene: all findings, the worst first.
 //
-// A finding is grave if the mesh cannot be simulated: no triangles, missing vertices, coordinates that are not finite or
-// whose squared areas overflow a float. All other findings state their effect on the simulation, because many good meshes
-// have a sliver and every cloth has a border.
+// A finding is grave if the mesh cannot be simulated: no triangles, missing vertices, or coordinates that are not
+// finite or so large that squared areas overflow a float. All other findings say what effect they have on the
+// simulation, because many good meshes have a sliver, and every cloth has a border.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,13 +21,13 @@ namespace pliant {
 
 namespace {
 
-/// Beyond it the square of a triangle's area overflows a float.
+/// Largest coordinate for which the square of a triangle's area fits a float [m].
 constexpr float most_coordinate = 1e9f;
-/// Beyond it adjacent floats are a millimetre apart.
+/// Coordinate above which adjacent floats are a millimetre apart [m].
 constexpr float doubtful_coordinate = 1e4f;
-/// Longest side over smallest height: above it a triangle counts as a sliver.
+/// Ratio of longest side to smallest height above which a triangle counts as a sliver.
 constexpr double doubtful_aspect = 100;
-/// The search for self-intersections is skipped above this: its cost grows faster than the mesh.
+/// Meshes with more triangles are not searched for self-intersections, because the cost grows faster than the mesh.
 constexpr std::size_t most_triangles_to_intersect = 20000;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -36,7 +36,7 @@ std::string counted(std::size_t count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-/// A count of equal findings and the index of the first.
+/// Equal findings: their number, and the index of the first.
 struct Tally {
   std::size_t count = 0, first = 0;
   void add(std::size_t place) {
@@ -226,7 +226,7 @@ class Inspector {
              : "the surface is one-sided, like a Moebius band; it can be cloth, but not a balloon");
   }
 
-  /// Finds non-manifold vertices, whose triangles form several fans. Corners are nodes, joined across edges.
+  /// Finds non-manifold vertices: those whose triangles form several fans. Corners are nodes; edges join them.
   void check_corners() {
     std::vector<std::size_t> parent(3 * mesh_.triangles.size());
     std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -239,7 +239,7 @@ class Inspector {
       return 3 * index(triangle) + static_cast<std::size_t>(std::find(t.begin(), t.end(), vertex) - t.begin());
     };
     for (const Edge& edge : edges_) {
-      if (edge.triangle_count > 2) return;  // already reported, and fans are undefined there
+      if (edge.triangle_count > 2) return;  // reported already; fans are not defined there
       if (!edge.is_inner()) continue;
       for (const int vertex : {edge.a, edge.b})
         parent[root(node(edge.triangles[0], vertex))] = root(node(edge.triangles[1], vertex));
@@ -256,8 +256,8 @@ class Inspector {
            "the parts rotate freely about it; split the vertex or close the gap");
   }
 
-  /// The number of parts without a common vertex. Parts joined by non-manifold edges or in one point count as one, because
-  /// they cannot separate; other findings cover them.
+  /// The number of parts of the mesh that share no vertex. Parts joined by non-manifold edges or in one vertex count as
+  /// one: they cannot separate, and other findings report them.
   std::size_t pieces_apart() const {
     std::vector<std::size_t> parent(mesh_.positions.size());
     std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -289,7 +289,7 @@ class Inspector {
   }
 
   void check_volume(const Pieces& pieces) {
-    // Relative to a vertex of the mesh, so that a distant mesh keeps its precision.
+    // Volumes are computed relative to a vertex, so that a mesh far from the origin keeps its precision.
     std::vector<double> volume(index(pieces.count), 0);
     const Vec3d origin = at(mesh_.triangles.front()[0]);
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {

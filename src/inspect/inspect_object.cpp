@@ -1,4 +1,4 @@
-// Errors in an object that a World rejects: inconsistent sizes, indices out of range, invalid numbers.
+// Errors in an object for which a World rejects it: inconsistent sizes, indices out of range, invalid numbers.
 #include <cmath>
 #include <limits>
 #include <string>

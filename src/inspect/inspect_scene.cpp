@@ -86,7 +86,7 @@ void check_forces(Problems& problems, const Scene& scene) {
     if (!scene.forces[i]) problems.grave("force " + std::to_string(i), "is an empty function", "remove it");
 }
 
-/// Checks the sizes of a collider's shape, each against its lower limit.
+/// Checks the sizes of a collider's shape against their lower limits.
 struct CheckShape {
   Problems& problems;
 
@@ -178,7 +178,7 @@ void doubt_names(Problems& problems, const Scene& scene) {
   }
 }
 
-/// Checks everything except initial intersections and contact cost. Returns true if all parts except objects are valid.
+/// Checks all but initial intersections and contact cost. Returns true if everything except the objects is valid.
 bool look_at_parts(Problems& problems, const Scene& scene) {
   check_settings(problems, scene);
   check_forces(problems, scene);
@@ -197,7 +197,7 @@ bool look_at_parts(Problems& problems, const Scene& scene) {
     problems.at(object.name);
     const int before = problems.grave_count();
     check_object(problems, object);
-    // The warnings compute with the object's data, so these must be valid.
+    // Warnings are computed from the object's data, so these must be valid first.
     const bool sound = surroundings_are_sound && problems.grave_count() == before;
     if (sound && problems.wants_doubts()) doubt_object(problems, object, scene);
   }

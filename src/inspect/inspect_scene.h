@@ -5,23 +5,23 @@
 
 namespace pliant {
 
-/// A shorter substep could overflow a float: compliance is divided by its square [s].
+/// Least length of a substep [s]: compliance divided by the square of a shorter one could overflow a float.
 constexpr double shortest_substep = 1e-12;
 
-/// Throws an Error for the first grave finding of inspect(scene), with object and element. It searches for nothing
-/// else, so the cost is one pass over the data. Afterwards the scene can be compiled without checks of indices, sizes
+/// Throws an Error for the first grave finding of inspect(scene); it names object and element. It makes no other
+/// checks, so it costs one pass over the data. Afterwards the scene can be compiled without checks of indices, sizes
 /// and ranges.
 void refuse_grave(const Scene& scene);
 
-/// The same without checks of initial positions, for a scene whose objects were added at different times and have moved.
+/// Does the same without checks of initial positions, for objects that were added at different times and have moved.
 void refuse_grave_but_places(const Scene& scene);
 
-/// The same for one thing that is added to a World.
+/// Does the same for one object or collider that is added to a World.
 void refuse_grave(const Object& object);
 void refuse_grave(const Collider& collider);
 void refuse_grave(const MeshCollider& collider);
 
-/// Checks only for initial intersections and enclosures, and only if the scene's settings reject them.
+/// Throws an Error for initial intersections and enclosures, if the scene's settings refuse them; makes no other checks.
 void refuse_initial_intersections(const Scene& scene);
 
 }  // namespace pliant

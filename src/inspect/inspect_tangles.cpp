@@ -1,4 +1,4 @@
-// Initial intersections and enclosures: reported as errors or warnings, as the scene's setting requires.
+// Findings about initial intersections and enclosures: errors or warnings, as the scene's settings require.
 #include <algorithm>
 #include <map>
 #include <string>
@@ -20,14 +20,14 @@ using Intersections = Settings::Intersections;
 constexpr const char* what_to_do =
     "move one of them or repair the mesh, or set initial_intersections to \"untangle\" or \"leave\"";
 
-/// The intersections between two parts: the first, and their number.
+/// The intersections between two parts: their number, and the first.
 struct Crossings {
   Intersection first{};
   std::size_t count = 0;
 };
 using CrossingsOfParts = std::map<std::pair<int, int>, Crossings>;
 
-/// Crossing and touching pairs of parts that meet. Within one part only crossings count, because its seams may coincide.
+/// The pairs of parts that cross or touch. Within one part only crossings count, because its seams may coincide.
 struct Meetings {
   CrossingsOfParts crossing, touching;
 };
@@ -75,7 +75,7 @@ void name_crossings(Problems& problems, const Surfaces& all, const Crossings& cr
         "contact ignores these intersections until the surfaces are apart: move one of them, or repair the mesh");
 }
 
-/// Rejects surfaces at distance 0: contact cannot tell on which side to keep them.
+/// Reports surfaces at distance 0 as grave: contact cannot know on which side to keep them.
 void refuse_touching(Problems& problems, const Surfaces& all, const Crossings& touching) {
   const Intersection& first = touching.first;
   const Triangle& t = all.triangles[static_cast<std::size_t>(first.triangle)];
@@ -90,10 +90,10 @@ void refuse_touching(Problems& problems, const Surfaces& all, const Crossings& t
 
 // ---------------------------------------------------------------- inside
 
-/// A closed surface that may enclose an object without touching it.
+/// A closed surface that might enclose an object without touching it.
 struct Closed {
-  std::string name;  ///< "closed collider 'ball'"
-  int part = -1;     ///< -1: a distance grid
+  std::string name;  ///< name for messages: "closed collider 'ball'"
+  int part = -1;     ///< its part in Surfaces; -1: a distance grid
   std::uint32_t groups = 1, mask = ~0u;
   MeshQuery query;
 };
@@ -124,7 +124,7 @@ bool meet(const Surfaces& all, int object, const Closed& closed) {
   return (of.groups & closed.mask) != 0 && (closed.groups & of.mask) != 0;
 }
 
-/// Counts the particles of an object inside a closed surface.
+/// Counts the particles of an object that are inside a closed surface.
 Tally inside_of(const Surfaces& all, int object, const MeshQuery& query) {
   Tally inside;
   const BoxBounds& box = query.bounds();
@@ -136,8 +136,8 @@ Tally inside_of(const Surfaces& all, int object, const MeshQuery& query) {
   return inside;
 }
 
-/// Reports objects enclosed without any crossing; crossings are reported separately. Unless enclosures are errors, only
-/// closed colliders count, because one object may legitimately contain another.
+/// Reports objects that are enclosed without a crossing; crossings are reported separately. If enclosures are only
+/// warnings, closed objects are left out, because one object may contain another on purpose.
 void name_inside(Problems& problems, const Scene& scene, const Surfaces& all, const CrossingsOfParts& crossings,
                  Intersections what) {
   const int objects = static_cast<int>(scene.objects.size());
@@ -167,7 +167,7 @@ float thickness_of(const Scene& scene, int part) {
   return number < objects ? scene.objects[number].thickness : scene.mesh_colliders[number - objects].thickness;
 }
 
-/// The contact distance of two parts.
+/// The contact distance of two parts: the sum of their thicknesses [m].
 float kept_between(const Scene& scene, const Surfaces& all, int a, int b) {
   float kept = thickness_of(scene, a) + thickness_of(scene, b);
   const std::string &first = all.parts[static_cast<std::size_t>(a)].name,
@@ -179,7 +179,7 @@ float kept_between(const Scene& scene, const Surfaces& all, int a, int b) {
   return kept;
 }
 
-/// Counts particles of part `a` nearer to a surface than `kept`, and finds the least distance.
+/// Counts the particles of part `a` that are nearer to a surface than `kept`, and finds the least distance.
 Tally near_to(const Surfaces& all, int a, const MeshQuery& query, float kept, float& least) {
   Tally near;
   const int first = all.parts[static_cast<std::size_t>(a)].first;
@@ -195,9 +195,9 @@ Tally near_to(const Surfaces& all, int a, const MeshQuery& query, float kept, fl
   return near;
 }
 
-/// Warns of parts that start within the contact distance, because contact pushes them apart at once.
+/// Warns of parts that start within the contact distance of each other: contact pushes them apart at once.
 void doubt_touching(Problems& problems, const Scene& scene, const Surfaces& all, const CrossingsOfParts& crossings) {
-  constexpr float share = 0.9f;  // layers laid out at just the contact distance are intended
+  constexpr float share = 0.9f;  // layers at just the contact distance are intended
   const int objects = static_cast<int>(scene.objects.size()), parts = static_cast<int>(all.parts.size());
   for (int b = 0; b < parts; ++b) {
     const std::vector<Triangle> triangles = all.triangles_of(b);
@@ -206,7 +206,7 @@ void doubt_touching(Problems& problems, const Scene& scene, const Surfaces& all,
         {all.positions.begin() + all.parts[static_cast<std::size_t>(b)].first, all.positions.begin() + all.end_of(b)},
         triangles);
     for (int a = 0; a < objects; ++a) {
-      const bool was_told = a > b && b < objects && !all.triangles_of(a).empty();  // already reported as b of a
+      const bool was_told = a > b && b < objects && !all.triangles_of(a).empty();  // reported with a and b exchanged
       if (a == b || was_told || !all.meet(a, b) || crossings.count(std::minmax(a, b)) > 0) continue;
       const float kept = kept_between(scene, all, a, b);
       float least = kept;

@@ -1,4 +1,4 @@
-// The list of findings, and checks shared by objects and colliders.
+// The list of findings, and checks that objects and colliders share.
 #include "inspect/problems.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The sink of a scene's checks: a list of findings to read, or an immediate Error.
+// Where the checks of a scene report: to a list of findings, or as an Error at the first grave one.
 //
 // `inspect` and World use the same checks, so `inspect` calls grave exactly what a World rejects.
 #pragma once
@@ -11,13 +11,13 @@
 
 namespace pliant {
 
-/// Merges equal findings: counts them and keeps the first, so that a thousand of them are one finding.
+/// Counts equal findings and keeps the first, so that a thousand of them make one finding.
 struct Tally {
   std::int64_t first = -1, count = 0;
   void add(std::int64_t index) {
     if (count++ == 0) first = index;
   }
-  /// "particle 12", or "particle 12 and 3 more".
+  /// Names the finding's elements: "particle 12", or "particle 12 and 3 more".
   std::string name(const std::string& kind) const;
 };
 
@@ -26,10 +26,10 @@ class Problems {
   enum class Mode { throw_grave, collect };
   explicit Problems(Mode mode) : mode_(mode) {}
 
-  /// Sets the object or collider of the findings that follow; empty: the scene.
+  /// Sets the object or collider to which the following findings belong; empty: the scene.
   void at(const std::string& object) { object_ = object; }
 
-  /// Throws an Error instead if findings are not collected.
+  /// Adds a grave finding, or throws it as an Error if findings are not collected.
   void grave(const std::string& element, const std::string& problem, const std::string& advice);
   void grave(const Tally& tally, const std::string& kind, const std::string& problem, const std::string& advice);
   void doubtful(const std::string& element, const std::string& problem, const std::string& advice);
@@ -37,7 +37,7 @@ class Problems {
 
   bool wants_doubts() const { return mode_ == Mode::collect; }
   int grave_count() const { return grave_count_; }
-  std::vector<Finding> take();  ///< grave findings first
+  std::vector<Finding> take();  ///< returns all findings, grave ones first
 
  private:
   void put(bool grave, const std::string& element, const std::string& problem, const std::string& advice);
@@ -48,7 +48,7 @@ class Problems {
   int grave_count_ = 0;
 };
 
-/// A number in short form: "0.3", "1e-05".
+/// Returns a number in short form: "0.3", "1e-05".
 std::string words(double value);
 
 /// Reports a grave finding if `value` is outside [low, high] or NaN.
@@ -60,9 +60,9 @@ void require_place(Problems& problems, const std::string& element, const Vec3f& 
 bool is_finite(const Vec3f& v);
 bool is_place(const Vec3f& v);
 
-/// Limit of coordinates [m] and speeds [m/s]: products of three still fit a float.
+/// Largest coordinate [m] and speed [m/s]: products of three such numbers fit a float.
 constexpr float largest_place = 1e9f;
-/// Limit of finite masses [kg] and compliances; masses must exceed its inverse.
+/// Largest finite mass [kg] and compliance; masses must exceed its inverse.
 constexpr float largest_quantity = 1e20f;
 
 void check_stiffness(Problems& problems, const std::string& element, const Stiffness& stiffness);
@@ -70,26 +70,26 @@ void check_motion(Problems& problems, const std::string& element, const Motion& 
 void check_rotation(Problems& problems, const std::string& element, const Quatf& rotation);
 void check_friction(Problems& problems, float static_friction, float kinetic_friction, float restitution);
 
-/// Checks an object for everything that a World rejects.
+/// Reports as grave everything for which a World rejects an object.
 void check_object(Problems& problems, const Object& object);
-/// Warns about an object without grave findings.
+/// Reports doubtful settings of an object that has no grave findings.
 void doubt_object(Problems& problems, const Object& object, const Scene& scene);
 
-/// Checks a mesh collider for everything that a World rejects.
+/// Reports as grave everything for which a World rejects a mesh collider.
 void check_mesh_collider(Problems& problems, const MeshCollider& collider);
-/// Checks the scene's pairs for everything that a World rejects.
+/// Reports as grave everything for which a World rejects the scene's pairs.
 void check_pairs(Problems& problems, const Scene& scene);
-/// Rejects objects whose contact would need excessive memory and time: too thick for their mesh, or too far from the
-/// origin. Call it for scenes without grave findings.
+/// Reports as grave objects whose contact needs excessive memory and time: too thick for their mesh, or too far from
+/// the origin. The scene must have no grave findings.
 void check_contact_cost(Problems& problems, const Scene& scene);
-/// The median edge of the surface, else the median link; 0 if there is neither [m].
+/// The median edge length of an object's surface, or of its links if it has none [m]; 0: neither.
 double median_edge(const Object& object);
-/// Rejects initial intersections and enclosures if the scene
-/// forbids them. Call it for scenes without grave findings.
+/// Reports initial intersections and enclosures as grave if the settings refuse them. The scene must have no grave
+/// findings.
 void refuse_tangles(Problems& problems, const Scene& scene);
-/// Warns of initial intersections and enclosures if the scene permits them.
+/// Warns of initial intersections and enclosures if the settings allow them.
 void doubt_tangles(Problems& problems, const Scene& scene);
-/// Warns about contact between dynamic objects in a scene without grave findings.
+/// Warns about contact between dynamic objects. The scene must have no grave findings.
 void doubt_contact(Problems& problems, const Scene& scene);
 
 }  // namespace pliant

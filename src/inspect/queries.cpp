@@ -37,7 +37,8 @@ double vertex_distance(const Vec3d& p, const Corners& t) {
   return closest_on_triangle(p, t[0], t[1], t[2]).distance_squared;
 }
 
-/// The least squared vertex-triangle or edge-edge distance of two triangles, except of primitives that share a vertex.
+/// The squared distance of two triangles: the least of their vertex-triangle and edge-edge pairs without a common
+/// vertex [m^2].
 double triangle_distance(const Triangle& s, const Corners& p, const Triangle& t, const Corners& q, double least) {
   const auto shares = [](int vertex, const Triangle& of) { return std::find(of.begin(), of.end(), vertex) != of.end(); };
   for (std::size_t i = 0; i < 3; ++i) {

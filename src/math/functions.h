@@ -13,7 +13,7 @@
 
 namespace pliant {
 
-/// `value` converted to R.
+/// Converts `value` to R.
 template <class R>
 PLIANT_HD R constant(double value) {
   return R(static_cast<float>(value));
@@ -46,7 +46,7 @@ PLIANT_HD double atan_tail<double>(const double& z) {
   return (a + b * z4) + (c + -0.0083509505947674623387 * z4) * z8;
 }
 
-/// The least positive number of R, added to avoid 0 / 0; it changes no other quotient.
+/// The smallest positive number of R (subnormal). Added to a divisor, it avoids 0 / 0 and changes no other quotient.
 template <class R>
 PLIANT_HD R least_positive() {
   return R(1.4012984643e-45f);
@@ -77,7 +77,7 @@ template <class R>
 PLIANT_HD R atan2(const R& y, const R& x) {
   const R ax = abs(x), ay = abs(y);
   const auto steep = ay > ax;
-  const R a = select(steep, ax, ay), b = select(steep, ay, ax);  // by select, because min and max would drop a NaN
+  const R a = select(steep, ax, ay), b = select(steep, ay, ax);  // select, because min and max would drop a NaN
   // For a / b > 1/2: atan(a / b) = pi/4 + atan((a - b) / (a + b)), which keeps |t| <= 1/2 at the cost of one division.
   const auto upper = a + a > b;
   const R numerator = select(upper, a - b, a), denominator = select(upper, a + b, b);
@@ -118,7 +118,7 @@ PLIANT_HD SineCosine sine_cosine_near_zero(double r) {
   return {r + r * (z * s), (1 - 0.5 * z) + z2 * c};
 }
 
-/// The sine and cosine of an angle increased by `quarters` right angles (a whole number).
+/// The sine and cosine of an angle increased by `quarters` right angles; `quarters` is a whole number.
 PLIANT_HD SineCosine turned(const SineCosine& of, double quarters) {
   const double quadrant = quarters - 4 * __builtin_floor(quarters * 0.25);
   const bool swapped = quadrant == 1 || quadrant == 3;
@@ -135,11 +135,11 @@ PLIANT_HD SineCosine sine_cosine(double x) {
   // x = k pi/2 + r, |r| <= pi/4. The first two parts of pi/2 have 33 bits, so that k times them is exact (Cody and Waite).
   const double k = __builtin_floor(x * 0.6366197723675814 + 0.5);
   const double r = ((x - k * 0x1.921fb544p+0) - k * 0x1.0b4611a6p-34) - k * 0x1.3198a2e037073p-69;
-  // The 0 applies only if k is too large for the split of pi/2.
+  // If k is too large for the split of pi/2, r is wrong; then 0 is used instead.
   return detail::turned(detail::sine_cosine_near_zero(select(abs(r) > 0.8, 0.0, r)), k);
 }
 
-/// The same for an angle in degrees; exact at multiples of 90.
+/// Sine and cosine of an angle in degrees; exact at multiples of 90.
 PLIANT_HD SineCosine sine_cosine_of_degrees(double degrees) {
   const double k = __builtin_floor(degrees * (1.0 / 90) + 0.5);
   return detail::turned(detail::sine_cosine_near_zero((degrees - 90 * k) * 0.017453292519943295), k);

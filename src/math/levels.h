@@ -1,4 +1,4 @@
-// The instruction set levels of the SIMD units, widest first: X(suffix of its functions, its name, ...).
+// The list of instruction set levels of the SIMD units, widest first: X(suffix of function names, name of the level, ...).
 //
 // cmake/PliantLanes.cmake lists the same levels with compiler flags. A new level needs a line in each, and a CPU test in
 // solver/pick_kernels.cpp. `generic` names no instruction set, so it compiles on any CPU. All levels give the same bits.
@@ -20,7 +20,7 @@
 #define PLIANT_DECLARE_LEVEL(suffix, isa, type, name) const type& name##_##suffix();
 #define PLIANT_DECLARE_LEVELS(type, name) PLIANT_FOR_EACH_LEVEL(PLIANT_DECLARE_LEVEL, type, name)
 
-/// In a SIMD unit: the name for the level that is being compiled, such as `name_v4`.
+/// In a SIMD unit, the name of a function for the level that is being compiled, such as `name_v4`.
 #define PLIANT_OF_LEVEL(name) PLIANT_JOIN_LEVEL(name, PLIANT_LEVEL)
 #define PLIANT_JOIN_LEVEL(name, level) PLIANT_JOIN_LEVEL_NAMES(name, level)
 #define PLIANT_JOIN_LEVEL_NAMES(name, level) name##_##level

@@ -1,5 +1,5 @@
-// Keyframe lookup and interpolation, and the conversion of public rotations. In a .cpp because no device evaluates a
-// motion: the few poses of a substep are computed once on the host.
+// Finds and interpolates keyframes, and converts the public rotations. It is no header, because no device needs it: the
+// few poses of a substep are computed on the host.
 #include "math/motion.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
-// The pose of a keyframed motion at a given time.
+// Computes the pose of a motion with keyframes at a given time.
 //
-// Evaluated in double and rounded once: a substep can be as short as 1e-5 s, and the float rounding error of a pose would
-// become a velocity error 1e5 times as large.
+// Poses are computed in double precision and rounded once: a substep can be as short as 1e-5 s, and the float rounding
+// error of a pose would become a velocity error 1e5 times as large.
 #pragma once
 
 #include <cstddef>
@@ -18,13 +18,13 @@ namespace pliant {
 /// must be finite with increasing times, which a World checks; otherwise the pose is unspecified.
 Posed pose_at(const Motion& motion, double time);
 
-/// The interval of an increasing time list that contains a time, and the share within it.
+/// Where a time lies in an increasing list of times: the interval, and the share within it.
 struct TimePlace {
   std::size_t before = 0, after = 0;
   double share = 0;
 };
 
-/// Times outside the range are clamped; a repeating list restarts after its last time. Needs at least one time.
+/// Finds a time in a list of one or more. Times outside are clamped; a repeating list restarts after its last time.
 TimePlace place_in(const std::vector<float>& times, bool repeat, double time);
 
 /// The world position of a rest point that moves with `pose`.

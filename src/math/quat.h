@@ -1,7 +1,7 @@
 // Rotations as unit quaternions, and rigid poses of a rotation and a translation.
 //
-// Interpolation follows the shorter arc: q and -q are the same rotation, and
-// a mesh must not take the long way because a tool exported the other sign.
+// Interpolation takes the shorter arc: q and -q are the same rotation, and which of them a tool exported must not
+// matter.
 #pragma once
 
 #include "math/functions.h"
@@ -21,7 +21,7 @@ PLIANT_HD R dot(const Quat<R>& a, const Quat<R>& b) {
   return (a.x * b.x + a.y * b.y) + (a.z * b.z + a.w * b.w);
 }
 
-/// q over its length; the identity if |q|^2 is below the least normal float.
+/// The unit quaternion q / |q|; the identity if |q|^2 is below the smallest normal float.
 template <class R>
 PLIANT_HD Quat<R> normalise(const Quat<R>& q) {
   const R squared = dot(q, q), least = R(1.17549435e-38f);
@@ -31,7 +31,7 @@ PLIANT_HD Quat<R> normalise(const Quat<R>& q) {
           select(zero, R(1), q.w * scale)};
 }
 
-/// (1 - share) a + share b along the shorter arc, normalised: cheap, and nearly uniform between close rotations.
+/// Normalised linear interpolation (1 - share) a + share b on the shorter arc: cheap, nearly uniform for close rotations.
 template <class R>
 PLIANT_HD Quat<R> nlerp(const Quat<R>& a, const Quat<R>& b, const R& share) {
   const R first = R(1) - share, second = select(dot(a, b) < R(0), -share, share);
@@ -57,7 +57,7 @@ PLIANT_HD Quatd slerp(const Quatd& a, const Quatd& b, double share) {
 template <class R>
 struct Pose {
   Vec3<R> position{};  ///< [m]
-  Quat<R> rotation{};  ///< of unit length
+  Quat<R> rotation{};  ///< unit quaternion
 };
 using Posef = Pose<float>;
 using Posed = Pose<double>;
@@ -67,19 +67,19 @@ PLIANT_HD Pose<To> convert(const Pose<From>& pose) {
   return {convert<To>(pose.position), convert<To>(pose.rotation)};
 }
 
-/// A point of the pose's frame in world coordinates.
+/// Converts a point from the pose's frame to world coordinates.
 template <class R>
 PLIANT_HD Vec3<R> to_world(const Pose<R>& pose, const Vec3<R>& local) {
   return rotate(pose.rotation, local) + pose.position;
 }
 
-/// A world point in the pose's frame.
+/// Converts a point from world coordinates to the pose's frame.
 template <class R>
 PLIANT_HD Vec3<R> to_local(const Pose<R>& pose, const Vec3<R>& world) {
   return rotate(conjugate(pose.rotation), world - pose.position);
 }
 
-/// Applies `inner` first, then `outer`.
+/// The composition of two poses, which applies `inner` first.
 template <class R>
 PLIANT_HD Pose<R> compose(const Pose<R>& outer, const Pose<R>& inner) {
   return {to_world(outer, inner.position), normalise(multiply(outer.rotation, inner.rotation))};

@@ -1,4 +1,4 @@
-// The scalars of pliant/formula.h, and additions for the library's own use.
+// The scalars of pliant/formula.h, and additions that only the library uses.
 #pragma once
 
 #include <cstdint>

@@ -5,7 +5,7 @@
 
 namespace pliant {
 
-/// The same vector in another precision.
+/// Converts a vector to another precision.
 template <class To, class From>
 PLIANT_HD Vec3<To> convert(const Vec3<From>& v) {
   return {static_cast<To>(v.x), static_cast<To>(v.y), static_cast<To>(v.z)};
@@ -16,7 +16,7 @@ PLIANT_HD R length(const Vec3<R>& v) {
   return sqrt(length_squared(v));
 }
 
-/// Componentwise select.
+/// Selects by components: a where the mask is set, else b.
 template <class Mask, class R>
 PLIANT_HD Vec3<R> select(const Mask& mask, const Vec3<R>& a, const Vec3<R>& b) {
   return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
@@ -35,13 +35,13 @@ PLIANT_HD Vec3<R> max(const Vec3<R>& a, const Vec3<R>& b) {
   return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
 }
 
-/// The largest absolute component.
+/// The largest absolute value of a component.
 template <class R>
 PLIANT_HD R largest(const Vec3<R>& v) {
   return max(max(abs(v.x), abs(v.y)), abs(v.z));
 }
 
-/// v over its length; `otherwise` if |v|^2 is below the least normal float (|v| < 1.1e-19).
+/// The unit vector v / |v|; `otherwise` if |v|^2 is below the smallest normal float (|v| < 1.1e-19).
 template <class R>
 PLIANT_HD Vec3<R> unit_or(const Vec3<R>& v, const Vec3<R>& otherwise) {
   const R squared = length_squared(v), least = R(1.17549435e-38f);

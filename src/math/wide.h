@@ -51,17 +51,17 @@ typedef float Part __attribute__((vector_size(4 * PLIANT_PART_WIDTH)));
 typedef std::int32_t PartMask __attribute__((vector_size(4 * PLIANT_PART_WIDTH)));
 typedef float Quad __attribute__((vector_size(16)));
 
-/// Sixteen booleans; all bits set means true.
+/// Sixteen booleans. A lane is true if all its bits are set.
 struct WideMask {
   PartMask part[wide_parts];
 };
 
-/// Sixteen floats.
+/// Sixteen floats, one for each lane.
 struct Wide {
   Part part[wide_parts];
 
   Wide() = default;
-  /// The same value in every lane.
+  /// Sets every lane to `value`.
   PLIANT_HD explicit Wide(float value) {
     for (int i = 0; i < wide_parts; ++i) part[i] = value - Part{};  // x - 0 is exact for every x; x + 0 changes -0
   }
@@ -141,7 +141,7 @@ PLIANT_HD Wide operator-(const Wide& a) {
 PLIANT_HD Wide& operator+=(Wide& a, const Wide& b) { return a = a + b; }
 PLIANT_HD Wide& operator-=(Wide& a, const Wide& b) { return a = a - b; }
 
-/// Per lane: a if the mask is set, else b.
+/// In each lane: a where the mask is set, else b.
 PLIANT_HD Wide select(const WideMask& mask, const Wide& a, const Wide& b) {
   Wide r;
   PLIANT_EACH_PART(r.part[i] = mask.part[i] ? a.part[i] : b.part[i])
@@ -204,7 +204,7 @@ PLIANT_HD Wide sqrt(const Wide& a) {
   return r;
 }
 
-/// Sixteen consecutive floats.
+/// Loads sixteen consecutive floats, one for each lane.
 PLIANT_HD Wide load_wide(const float* from) {
   Wide r;
   std::memcpy(&r, from, sizeof(Wide));
@@ -230,7 +230,7 @@ PLIANT_HD void store_wide(float* to, const Wide& a) { std::memcpy(to, &a, sizeof
 #endif
 // PLIANT_SHUFFLE(a, b, p, q, r, s): in each 128-bit part, elements p and q of a, then r and s (counted from 4) of b.
 
-/// The 4 x 4 transpose inside each 128-bit part; it is its own inverse.
+/// Transposes the 4 x 4 floats in each 128-bit part of four registers. It is its own inverse.
 PLIANT_HD void transpose(Part& a, Part& b, Part& c, Part& d) {
   const Part ab_xy = PLIANT_SHUFFLE(a, b, 0, 1, 4, 5);
   const Part cd_xy = PLIANT_SHUFFLE(c, d, 0, 1, 4, 5);
@@ -270,12 +270,12 @@ PLIANT_HD Part gather_part(const Record* base, const std::int32_t* at, int i) {
 #endif
 }
 
-/// Four registers of records; register j holds those of lanes j, 4 + j, 8 + j and 12 + j.
+/// Four registers with sixteen records of four floats; register j has those of lanes j, 4 + j, 8 + j and 12 + j.
 struct Registers {
   Part at[4][wide_parts];
 };
 
-/// Sixteen records by index, lane l at index[l].
+/// Loads sixteen records by index: lane l gets base[index[l]].
 PLIANT_HD Registers load_indexed(const Record* base, const std::int32_t* index) {
   Registers r;
   PLIANT_EACH_PART({
@@ -287,7 +287,7 @@ PLIANT_HD Registers load_indexed(const Record* base, const std::int32_t* index) 
   return r;
 }
 
-/// Four contiguous groups of four records, group j from run[j] on: lane 4 L + j is record run[j] + L.
+/// Loads four contiguous groups of four records; group j starts at base[run[j]]: lane 4 L + j gets base[run[j] + L].
 PLIANT_HD Registers load_runs(const Record* base, const std::int32_t* run) {
   Registers r;
   std::memcpy(r.at[0], base + run[0], 64);
@@ -320,7 +320,7 @@ PLIANT_HD PartMask xyz_mask() {
   return mask;
 }
 
-/// The records with w zero.
+/// A copy of the records with w set to zero.
 PLIANT_HD Registers without_w(const Registers& a) {
   Registers r;
   const PartMask mask = xyz_mask();
@@ -341,7 +341,7 @@ PLIANT_HD Part minus_xyz(const Part& a, const Part& b) {
 #endif
 }
 
-/// a - b in x, y and z, and a's w.
+/// In each record: a - b in x, y and z, and w of a.
 PLIANT_HD Registers minus_xyz(const Registers& a, const Registers& b) {
   Registers r;
   PLIANT_EACH_PART({
@@ -353,7 +353,7 @@ PLIANT_HD Registers minus_xyz(const Registers& a, const Registers& b) {
   return r;
 }
 
-/// The w of each record, by lane.
+/// The w of each record, as one value per lane.
 PLIANT_HD Wide w_of(const Registers& a) {
   Wide w;
   PLIANT_EACH_PART({
@@ -364,7 +364,7 @@ PLIANT_HD Wide w_of(const Registers& a) {
   return w;
 }
 
-/// The fields of the records, by lane.
+/// Transposes records to one value per lane for each of x, y, z and w.
 PLIANT_HD WideRecords from_registers(const Registers& from) {
   Registers r = from;
   WideRecords out;
@@ -378,7 +378,7 @@ PLIANT_HD WideRecords from_registers(const Registers& from) {
   return out;
 }
 
-/// The inverse of from_registers.
+/// Transposes values per lane back to records: the inverse of from_registers.
 PLIANT_HD Registers to_registers(const WideRecords& a) {
   Registers r;
   PLIANT_EACH_PART({
@@ -391,7 +391,7 @@ PLIANT_HD Registers to_registers(const WideRecords& a) {
   return r;
 }
 
-/// The inverse of load_runs for the first `runs` (1..4) of them.
+/// Stores the first `runs` (1..4) groups of four records: the inverse of load_runs.
 PLIANT_HD void store_runs(Record* base, const std::int32_t* run, const Registers& r, int runs) {
   std::memcpy(static_cast<void*>(base + run[0]), r.at[0], 64);
   if (runs > 1) std::memcpy(static_cast<void*>(base + run[1]), r.at[1], 64);
@@ -411,7 +411,7 @@ PLIANT_HD Quad quad_of(const Part& a) {
 
 PLIANT_HD void store_quad(Record* to, const Quad& q) { std::memcpy(static_cast<void*>(to), &q, sizeof q); }
 
-/// The inverse of load_indexed.
+/// Stores sixteen records by index: the inverse of load_indexed.
 PLIANT_HD void store_indexed(Record* base, const std::int32_t* index, const Registers& r) {
 #if PLIANT_PART_WIDTH == 16
 #define PLIANT_QUAD(j, quad) quad_of<quad>(r.at[j][0])
@@ -433,7 +433,7 @@ PLIANT_HD void store_indexed(Record* base, const std::int32_t* index, const Regi
 #undef PLIANT_QUAD
 }
 
-/// store_indexed for the first `lanes` (1..16) lanes; the others are padding.
+/// Stores the records of the first `lanes` (1..16) lanes by index; the other lanes are padding.
 PLIANT_HD void store_indexed_some(Record* base, const std::int32_t* index, const Registers& r, int lanes) {
   Record records[4][4];
   static_assert(sizeof records == sizeof r);

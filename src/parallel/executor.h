@@ -1,8 +1,8 @@
 // The engine's parallel loop. Loops of one functor over many items use launch (launch.h).
 //
-// Every loop has a name and is timed: these names are the phases of a Report. A body must not depend on the thread that
-// runs it or on the order, so any number of threads gives the same bits. CMake's PLIANT_THREADS selects oneTBB
-// (executor_tbb.cpp) or the calling thread alone (executor_serial.cpp).
+// Every loop has a name under which it is timed; the Report lists these names as phases. A loop body must not depend on
+// the thread that runs it or on the order, so any number of threads gives the same bits. CMake's PLIANT_THREADS selects
+// oneTBB (executor_tbb.cpp) or the calling thread alone (executor_serial.cpp).
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace pliant {
 
-/// A non-owning reference to a callable, which must outlive the call: std::function without its allocation.
+/// A reference to a callable, which must outlive the reference. Unlike std::function it allocates nothing.
 template <class Signature>
 class FunctionRef;
 template <class Result, class... Arguments>
@@ -29,7 +29,7 @@ class FunctionRef<Result(Arguments...)> {
   Result (*call_)(const void*, Arguments...);
 };
 
-/// Milliseconds under each name since the last clear, in order of first use.
+/// The time spent under each name since the last clear [ms], in the order of first use.
 class Timings {
  public:
   void add(const char* name, double milliseconds);
@@ -44,7 +44,7 @@ class Timings {
   std::vector<Entry> entries_;
 };
 
-/// Adds the time from its construction to its destruction to a Timings.
+/// Measures the time between its construction and its destruction, and adds it to a Timings.
 class Stopwatch {
  public:
   Stopwatch(Timings& timings, const char* name);
@@ -60,7 +60,7 @@ class Stopwatch {
 
 class Executor {
  public:
-  /// `threads` >= 1, or 0 for all hardware threads. The serial backend always has one.
+  /// Uses `threads` threads (>= 1), or as many as the hardware has if it is 0. The serial backend always uses one.
   explicit Executor(int threads);
   ~Executor();
   Executor(Executor&&) noexcept;
@@ -68,10 +68,10 @@ class Executor {
 
   int threads() const { return threads_; }
 
-  /// Runs f inside the thread pool, so that its loops start without waking threads: wrap a whole step in it.
+  /// Runs f in the thread pool, so that loops within f start without waking threads. Wrap a whole step in it.
   void enter(FunctionRef<void()> f);
 
-  /// Calls body(i) once for each i in [0, n), timed under `name`. Runs on the calling thread if n or threads is 1.
+  /// Calls body(i) once for each i in [0, n), timed under `name`. The calling thread does all if n or the threads are 1.
   void parallel_for(const char* name, int n, FunctionRef<void(int)> body);
 
   Timings& timings() { return timings_; }

@@ -1,12 +1,12 @@
-// The parallel loop on the calling thread alone: for platforms without oneTBB (WebAssembly), and programs that must not
-// start threads. The bits are the same as with any number of threads.
+// The parallel loop on the calling thread, for platforms without oneTBB (WebAssembly) and for programs that must not
+// start threads. The bits are those of any number of threads.
 #include "parallel/executor.h"
 
 namespace pliant {
 
 struct Executor::Arena {};
 
-/// Always one thread.
+/// The number of threads is ignored: there is always one.
 Executor::Executor(int) : threads_(1) {}
 Executor::~Executor() = default;
 Executor::Executor(Executor&&) noexcept = default;

@@ -1,4 +1,4 @@
-// The parallel loop on oneTBB.
+// The parallel loop on all threads, by oneTBB.
 #include "parallel/executor.h"
 
 #include <tbb/global_control.h>
@@ -18,8 +18,8 @@ namespace pliant {
 
 namespace {
 
-// Debian's oneTBB is built without the thread sanitizer, which then reports every loop as a race. These annotations declare
-// a loop's fork and join, so that only races between loop bodies are reported.
+// Debian's oneTBB is built without the thread sanitizer, which would report every loop as a race. These annotations
+// tell it where a loop starts and ends, so that it reports only races between loop bodies.
 #if defined(__SANITIZE_THREAD__)
 #define PLIANT_UNSEEN_BY_TSAN __attribute__((no_sanitize("thread")))
 char handed_out, handed_back;
@@ -32,9 +32,9 @@ void hand_over_release(const void*) {}
 void hand_over_acquire(const void*) {}
 #endif
 
-/// oneTBB caps threads at the hardware's number unless a limit is set. The lowest of several
-/// limits holds, and oneTBB warns on standard error about larger requests. So one global
-/// limit only rises; it is never released, because no safe moment exists at program exit.
+/// Raises oneTBB's limit of threads, which otherwise is the number of hardware threads. If there are several limits the
+/// lowest holds, and oneTBB warns on standard error of larger requests. So one limit for the process is only raised,
+/// and never released, because no moment at program exit is safe.
 void raise_limit(std::size_t threads) {
   static std::mutex mutex;
   static std::size_t limit = std::max(1U, std::thread::hardware_concurrency());

@@ -13,12 +13,12 @@
 
 namespace pliant {
 
-/// Items per task on the host.
+/// Number of items per task on the host.
 inline constexpr int launch_block = 1024;
 
 constexpr int launch_blocks(int n) { return n / launch_block + (n % launch_block != 0 ? 1 : 0); }
 
-/// The items of one block.
+/// Runs the functor for all items of one block.
 template <class Functor>
 void run_block(const Functor& functor, int block, int n) {
   const int first = block * launch_block, last = first + std::min(launch_block, n - first);

@@ -8,7 +8,7 @@
 
 namespace pliant {
 
-/// A CUDA stream; the default stream unless set.
+/// The CUDA stream on which kernels run; the default stream unless set.
 struct CudaBackend {
   cudaStream_t stream = nullptr;
 };
@@ -19,7 +19,7 @@ __global__ void launch_kernel(Functor functor, int n) {
   if (i < n) functor(i);
 }
 
-/// Asynchronous. Launch errors are reported by the next cudaGetLastError.
+/// Starts the kernel and returns at once. The next cudaGetLastError reports launch errors.
 template <class Functor>
 void launch(CudaBackend& device, const char*, int n, const Functor& functor) {
   static_assert(std::is_trivially_copyable_v<Functor>, "a functor is copied to a device as bytes");

@@ -1,4 +1,4 @@
-// k-DOP: slabs along fixed directions, a generalised axis-aligned box.
+// The k-DOP: bounds along k / 2 fixed directions, a generalised axis-aligned box.
 #include "reference/volumes.h"
 
 namespace pliant {
@@ -38,7 +38,7 @@ KDopBounds<K> KDopBounds<K>::of(const Vec3f* points, int count) {
       least = min(least, s);
       most = max(most, s);
     }
-    // Coordinates are floats, thus exact along the axes.
+    // Along the coordinate axes the bounds are coordinates, which are floats already.
     bounds.low[i] = i < 3 ? static_cast<float>(least) : detail::float_below(least);
     bounds.high[i] = i < 3 ? static_cast<float>(most) : detail::float_above(most);
   }

@@ -18,7 +18,7 @@ Axes axes_of(const OrientedBoxBounds& box) {
   return {{convert<double>(box.axes[0]), convert<double>(box.axes[1]), convert<double>(box.axes[2])}};
 }
 
-/// Axes aligned with the points' first triangle: along its longest side, and along its normal.
+/// Box axes for a triangle: along its longest side, along its normal, and perpendicular to both.
 Axes axes_of_triangle(const Vec3f* points, int count) {
   const Vec3d a = convert<double>(points[0]), b = convert<double>(points[count > 1 ? 1 : 0]),
               c = convert<double>(points[count > 2 ? 2 : 0]);
@@ -26,14 +26,14 @@ Axes axes_of_triangle(const Vec3f* points, int count) {
   for (const Vec3d& other : {c - b, a - c})
     if (length_squared(other) > length_squared(side)) side = other;
   const Vec3d x = unit_or(side, Vec3d{1, 0, 0});
-  // Without a normal any perpendicular serves: the coordinate axis least aligned with x gives one.
+  // A triangle without a normal gets any perpendicular: from the coordinate axis that is least aligned with x.
   const Vec3d least = abs(x.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
   const Vec3d perpendicular = cross(x, unit_or(cross(b - a, c - a), least));
   const Vec3d y = unit_or(perpendicular, unit_or(cross(x, least), Vec3d{0, 0, 1}));
   return {{x, y, cross(x, y)}};
 }
 
-/// The box along `axes` between these bounds, relative to `origin`.
+/// The box between the bounds `low` and `high` along `axes`, relative to `origin`.
 OrientedBoxBounds box_between(const Axes& axes, const Vec3d& origin, const double (&low)[3], const double (&high)[3]) {
   OrientedBoxBounds box;
   Vec3d centre = origin;
@@ -93,7 +93,7 @@ OrientedBoxBounds OrientedBoxBounds::of(const Vec3f* points, int count) {
   return box_between(axes, origin, low, high);
 }
 
-// Of the first and the last box's axes and the world's, picks those of least surface area.
+// The merged box uses the axes of the first box, of the last box or of the world: those with the least surface area.
 OrientedBoxBounds OrientedBoxBounds::merged(const OrientedBoxBounds* boxes, int count) {
   if (count == 1) return boxes[0];
   const Axes world{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -137,7 +137,7 @@ bool overlap(const OrientedBoxBounds& a, const OrientedBoxBounds& b) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
       const Vec3d axis = cross(u.axis[i], v.axis[j]);
-      if (length_squared(axis) > 1e-6 && separates(axis)) return false;  // for parallel axes the product adds no axis
+      if (length_squared(axis) > 1e-6 && separates(axis)) return false;  // for parallel axes their product adds none
     }
   return true;
 }

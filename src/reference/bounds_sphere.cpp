@@ -7,7 +7,7 @@ using detail::float_below;
 
 namespace {
 
-// Merged spheres are widened by this factor, which far exceeds rounding.
+// Factor by which merged spheres are widened; it far exceeds rounding.
 constexpr double widening = 1 + 1e-6;
 
 SphereBounds sphere_about(const Vec3d& middle, double radius) { return {convert<float>(middle), float_above(radius)}; }
@@ -24,7 +24,7 @@ SphereBounds SphereBounds::of(const Vec3f* points, int count) {
 }
 
 SphereBounds SphereBounds::merged(const SphereBounds* spheres, int count) {
-  // Centred in the bounding box of all: nearly the smallest sphere, and cheap for any number of spheres.
+  // The centre of all spheres' bounding box: cheap for any number of spheres, and nearly the smallest sphere.
   Vec3f low = spheres[0].centre, high = low;
   for (int i = 0; i < count; ++i) {
     const SphereBounds& s = spheres[i];

@@ -1,4 +1,4 @@
-// Candidates in three passes: boxes and trees, lists of each part, merged lists.
+// Finds candidates in three passes: boxes and BVHs, lists of each part, merged lists.
 #include "reference/candidates.h"
 
 #include <algorithm>
@@ -79,7 +79,7 @@ void CandidateFinder::fit_trees(Executor& executor, bool rebuild) {
   });
 }
 
-/// Lists for each owner the leaves of `others` with overlapping boxes that satisfy wanted(owner, other).
+/// Lists for each owner the leaves of `others` whose boxes overlap its box and for which wanted(owner, other) is true.
 template <class Wanted>
 void CandidateFinder::find_lists(Executor& executor, const Tree<BoxBounds>& owners, const Tree<BoxBounds>& others,
                                  const int* owner_of_leaf, IntLists& lists, const Wanted& wanted) {

@@ -1,4 +1,4 @@
-// Vertex-triangle and edge-edge candidates of a substep in which all vertices move linearly.
+// Finds the vertex-triangle and edge-edge pairs that can come near in a substep in which all vertices move linearly.
 //
 // Each vertex has a swept box, grown by half the radius; edges and triangles have the union of their vertices' boxes.
 // Vertices are searched in a BVH of triangles, edges in a BVH of edges, in packets of eight neighbours: one descent for
@@ -26,14 +26,14 @@ class CandidateFinder {
   void find(Executor& executor, const std::vector<Vec3f>& from, const std::vector<Vec3f>& to, float radius,
             bool rebuild = false);
 
-  /// For each vertex the triangles without it as a corner, ascending.
+  /// For each vertex, the triangles near it that do not contain it, ascending.
   const IntLists& vertex_triangles() const { return vertex_triangles_; }
-  /// For each edge the later edges in ContactElements::edges without a common vertex, ascending.
+  /// For each edge, the edges near it with a higher index and no common vertex, ascending.
   const IntLists& edge_edges() const { return edge_edges_; }
   const ContactElements& elements() const { return elements_; }
 
  private:
-  /// The result of one thread for some packets: runs of items, each with its owner.
+  /// What one thread found for some packets: lists of items, each with its owner.
   struct Part {
     struct Run {
       int owner, count;

@@ -10,12 +10,12 @@
 
 namespace pliant::reference {
 
-/// The interface of a constraint for the solver, independent of its type.
+/// A constraint as the reference solver sees it, whatever its type.
 class AnyConstraint {
  public:
   virtual ~AnyConstraint() = default;
   virtual void start_substep() = 0;
-  /// Projects once. `start` holds the positions before the substep; `projections` is the number per step.
+  /// Projects the constraint once. `start` has the positions before the substep; `projections` is their number per step.
   virtual void project(std::vector<Particle>& particles, const std::vector<Vec3d>& start, double h, int projections) = 0;
   virtual double value(const std::vector<Particle>& particles) const = 0;
   virtual double multiplier() const = 0;
@@ -55,13 +55,13 @@ void copy_stencil(const std::vector<Vec3d>& from, Places<T>& to) {
   for (std::size_t i = 0; i < size_of<T>; ++i) to[i] = from[i];
 }
 
-/// Calls visit(TypeTag<T>{}) for the type with this name.
+/// Calls visit(TypeTag<T>{}) for the constraint type T with this name.
 template <class Visit>
 void with_name(const std::string& type, const Visit& visit) {
   bool found = false;
   for_each_type(AllConstraints{}, [&](auto tag, int) {
     using T = typename decltype(tag)::type;
-    if constexpr (in_lanes<T>) {  // this solver supports particles and one row only
+    if constexpr (in_lanes<T>) {  // this solver supports only types of one row over points
       if (type != T::name) return;
       found = true;
       visit(tag);
@@ -110,13 +110,13 @@ class Constraint final : public AnyConstraint {
     for (std::size_t i = 0; i < size_of<T>; ++i) x[i] = particles[indices_[i]].position;
   }
 
-  // k' = 1 - (1 - k)^(1/n): n projections of an isolated linear constraint remove the share k of its error.
+  // PBD: k' = 1 - (1 - k)^(1/n). n projections of an isolated linear constraint remove the share k of its error.
   double pbd_change(double c, double weight, int projections) const {
     const double each = 1 - std::pow(1 - hardness_.pbd, 1.0 / projections);
     return -each * c / weight;
   }
 
-  // Macklin, Mueller and Chentanez 2016, eq. 18 and 26.
+  // XPBD: Macklin, Mueller and Chentanez 2016, eq. 18 and 26.
   double xpbd_change(double c, double weight, double motion, double h) const {
     const double alpha = hardness_.compliance / (h * h);
     const double gamma = hardness_.compliance * hardness_.damping / h;

@@ -1,4 +1,4 @@
-// Fills the hash table by counting sort: count the entries per slot, prefix sums, fill in index order.
+// Fills the hash table by a counting sort: entries per slot, prefix sums, entries in the order of their indices.
 #include "reference/spatial_hash.h"
 
 #include <string>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double most_cells_of_a_box = 64;
 
-/// floor(x) clamped to the range of an int. Monotonic, so that adjacent cells stay adjacent.
+/// floor(x), clamped to the range of an int. It is monotonic, so adjacent cells stay adjacent.
 int floor_to_int(double x) {
   constexpr double limit = 1 << 30;
   if (!(x > -limit)) return -(1 << 30);
@@ -46,7 +46,7 @@ void SpatialHash::build(const std::vector<BoxBounds>& boxes) {
   mask_ = places - 1;
   count_entries();
   entries_.resize(start_.back());
-  // Backwards, so that slot ends become slot starts and indices ascend within a slot.
+  // Backwards, so that the ends of slots become their starts, and indices ascend within a slot.
   for (int i = static_cast<int>(boxes_.size()) - 1; i >= 0; --i) {
     const BoxBounds& box = boxes_[static_cast<std::size_t>(i)];
     if (is_large_[static_cast<std::size_t>(i)]) continue;
@@ -56,7 +56,7 @@ void SpatialHash::build(const std::vector<BoxBounds>& boxes) {
   }
 }
 
-/// Computes the end of each slot's entries into start_[slot].
+/// Writes the end of each slot's entries to start_[slot].
 void SpatialHash::count_entries() {
   start_.assign(static_cast<std::size_t>(mask_) + 2, 0);
   is_large_.assign(boxes_.size(), 0);

@@ -17,10 +17,10 @@ namespace pliant {
 
 class SpatialHash {
  public:
-  /// Cell size [m], > 0: best about the size of the boxes. Throws an Error otherwise.
+  /// `cell_size` > 0 [m]; best is about the size of the boxes. Throws an Error if it is not positive.
   explicit SpatialHash(float cell_size);
 
-  /// Replaces the content by finite boxes (points: low = high). Allocates only to grow.
+  /// Replaces the content by finite boxes; for points, low = high. Allocates memory only to grow.
   void build(const std::vector<BoxBounds>& boxes);
 
   /// Calls visit(i) once for each box that overlaps `box`.
@@ -46,7 +46,7 @@ class SpatialHash {
   template <class Visit>
   static void each_cell(const Cell& first, const Cell& last, const Visit& visit);
   static double cell_count(const Cell& first, const Cell& last);
-  /// The one cell in which two overlapping boxes are reported.
+  /// The only cell in which a pair of overlapping boxes is reported.
   Cell home(const BoxBounds& a, const BoxBounds& b) const { return cell_of(max(a.low, b.low)); }
   void count_entries();
 
@@ -70,7 +70,7 @@ template <class Visit>
 void SpatialHash::query(const BoxBounds& box, const Visit& visit) const {
   const auto index = [](int i) { return static_cast<std::size_t>(i); };
   const Cell first = cell_of(box.low), last = cell_of(box.high);
-  if (cell_count(first, last) > static_cast<double>(entries_.size() + 8)) {  // more cells than entries
+  if (cell_count(first, last) > static_cast<double>(entries_.size() + 8)) {  // more cells than entries: visit these
     for (int i = 0; i < static_cast<int>(boxes_.size()); ++i)
       if (overlap(boxes_[index(i)], box)) visit(i);
     return;

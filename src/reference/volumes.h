@@ -7,7 +7,7 @@
 
 namespace pliant {
 
-/// A sphere: cheap to test, but loose around flat objects.
+/// A bounding sphere: cheap to test, but loose around flat objects.
 struct SphereBounds {
   Vec3f centre{};
   float radius = 0;
@@ -20,7 +20,7 @@ struct SphereBounds {
 };
 bool overlap(const SphereBounds& a, const SphereBounds& b);
 
-/// A box aligned with its first triangle: tight around slanted objects, expensive to test (fifteen axes) and to merge.
+/// A box aligned with its first triangle: tight around slanted objects, costly to test (fifteen axes) and to merge.
 struct OrientedBoxBounds {
   Vec3f centre{};
   Vec3f axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< orthonormal up to rounding, which the extents cover
@@ -34,12 +34,12 @@ struct OrientedBoxBounds {
 };
 bool overlap(const OrientedBoxBounds& a, const OrientedBoxBounds& b);
 
-/// Slabs along K / 2 fixed directions: 14 (axes and the diagonals of a cube) or 18 (axes and the diagonals of its faces).
+/// A k-DOP: bounds along K / 2 fixed directions: the axes with the diagonals of a cube (K = 14) or of its faces (K = 18).
 template <int K>
 struct KDopBounds {
   static_assert(K == 14 || K == 18, "the directions are those of a cube");
   static constexpr int slabs = K / 2;
-  float low[slabs]{}, high[slabs]{};  ///< along directions that are not normalised
+  float low[slabs]{}, high[slabs]{};  ///< bounds along directions that are not normalised
 
   static KDopBounds of(const Vec3f* points, int count);
   static KDopBounds merged(const KDopBounds* volumes, int count);

@@ -12,7 +12,7 @@ namespace pliant {
 
 namespace {
 
-/// A particle within this many edges of a pin counts as near it.
+/// A particle up to this many edges away from a pin counts as near it.
 constexpr int near_edges = 3;
 
 std::vector<std::array<int, 2>> edges_of(const CompiledObject& object) {
@@ -26,7 +26,7 @@ std::vector<std::array<int, 2>> edges_of(const CompiledObject& object) {
   return edges;
 }
 
-/// For each particle, 1 if the user fixed it. Targets of attachments do not count.
+/// For each particle, 1 if the user pinned it. Targets of attachments do not count.
 std::vector<char> pinned(const CompiledObject& object) {
   std::vector<char> is_pinned(object.positions.size(), 0);
   for (std::size_t i = 0; i < is_pinned.size(); ++i)
@@ -34,8 +34,8 @@ std::vector<char> pinned(const CompiledObject& object) {
   return is_pinned;
 }
 
-/// The number of edges from the nearer of two particles to the nearest pin; -1 if it exceeds near_edges. Breadth-first
-/// search.
+/// The number of edges from the nearer of the particles a and b to the nearest pin, by breadth-first search; -1 if it
+/// exceeds near_edges.
 int edges_to_pins(const CompiledObject& object, int a, int b) {
   const std::vector<std::array<int, 2>> edges = edges_of(object);
   std::vector<char> reached = pinned(object);

@@ -1,4 +1,4 @@
-// Describes overstretched distances and remedies in words.
+// Describes in words which distances are overstretched, and the remedy.
 #pragma once
 
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace pliant {
 
-/// "0.83", "14", "118": two digits, or all digits before the point, without an exponent.
+/// The value with two digits, or with all digits before the point, without an exponent: "0.83", "14", "118".
 std::string two_digits(double value);
 
-/// "14 %", "0.8 %".
+/// The share in percent: "14 %", "0.8 %".
 std::string percent(double share);
 
-/// "object 'sheet': stretched 14 % too far at its pins (edge 12-13), 1 edge in 100 by 3 % or more".
+/// For example: "object 'sheet': stretched 14 % too far at its pins (edge 12-13), 1 edge in 100 by 3 % or more".
 std::string words_of(const Overstretch& found, const CompiledObject& object);
 
-/// The index in `others` of the cheapest good trial; else of the one with the least largest overstretch, clearly below that
-/// of `own`, and a p99 not above its own, because improving only the worst place is no advice. -1: none.
+/// Returns the index in `others` of the cheapest good trial; if none is good, of the one with least overstretch, clearly
+/// below that of `own` and with no higher 99th percentile, because improving only the worst place is no advice. -1: none.
 int best_of(const Advice& advice);
 
-/// The remedy from the trials: the settings found and their cost, an alternative if there is one, and the JSON to paste.
+/// The remedy that the trials found: settings and their cost, an alternative if there is one, and the JSON to paste.
 std::string remedy(const Advice& advice);
 
 }  // namespace pliant

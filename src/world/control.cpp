@@ -1,7 +1,7 @@
-// User control between steps: motions, velocities and forces as spans over an object's particles, in the user's order.
+// What the user sets between steps, as spans over an object's particles in the user's order: motions, velocities, forces.
 //
-// Velocities and impulses change the State at once. Targets, poses and forces apply to the next frame:
-// Workspace::control holds them until its end. Only poses of colliders without keyframes persist, in the State.
+// Velocities and impulses change the State at once. Targets, poses and forces are for the next frame:
+// Workspace::control keeps them until its end. Only poses of colliders without keyframes stay, in the State.
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +21,7 @@ bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y)
   throw Error({.object = object, .element = element}, problem, advice);
 }
 
-/// Throws an Error unless there is one finite vector per particle.
+/// Throws an Error unless `values` has one finite vector for each particle of the object.
 void require(const CompiledObject& object, std::span<const Vec3f> values, const char* what) {
   if (values.size() != static_cast<std::size_t>(object.user_particles)) {
     refuse(object.name, what,
@@ -35,9 +35,9 @@ void require(const CompiledObject& object, std::span<const Vec3f> values, const 
 
 struct Listed {
   const CompiledObject& object;
-  const char* kind;  ///< "particle", "attachment"
-  int count;         ///< their number in the object
-  int first;         ///< index of the first one in CompiledObject::place
+  const char* kind;  ///< for messages: "particle" or "attachment"
+  int count;         ///< number of such particles in the object
+  int first;         ///< index in CompiledObject::place of the first one
 };
 
 void require(const Listed& of, std::span<const int> numbers, std::span<const Vec3f> places) {
@@ -60,7 +60,7 @@ Vec3d place_of(const State& state, int particle) {
   return {double(x.x) + r.x, double(x.y) + r.y, double(x.z) + r.z};
 }
 
-/// Appends targets sorted by particle. Of two targets of one particle the later one wins.
+/// Appends targets and sorts them by particle. If a particle has two targets, the later one is kept.
 void put_targets(const Listed& of, std::span<const int> numbers, std::span<const Vec3f> places, int first,
                  const State& state, std::vector<Target>& targets) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -148,7 +148,8 @@ void World::Implementation::begin_control(double dt) {
   may_drift = !control.objects.empty() || !control.meshes.empty();
 }
 
-/// Stops particles and colliders that the user moved in an earlier frame and does not move in this one.
+/// Sets the velocity of fixed particles to zero if the user moved them in an earlier frame and does not move them in
+/// this one.
 void World::Implementation::stop_fixed() {
   for (int number = 0; number < static_cast<int>(model.objects.size()); ++number) {
     const CompiledObject& object = model.objects[number];

@@ -59,7 +59,7 @@ void World::Implementation::make_events() {
   events = std::move(all);
 }
 
-/// Forgets the contacts of a removed thing. There is no end event, because its id is no longer valid.
+/// Removes the contacts of a thing that is removed. It gets no end event, because its id is no longer valid.
 void World::Implementation::forget_touching(const Thing& thing) {
   std::erase_if(touching, [&](const auto& pair) { return pair.first == thing || pair.second == thing; });
 }

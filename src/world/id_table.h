@@ -1,4 +1,4 @@
-// Ids of one kind of thing, mapped to the World's internal numbers.
+// A table of the ids of one kind of thing (objects, colliders) and the World's internal numbers for them.
 #pragma once
 
 #include <set>
@@ -10,7 +10,7 @@
 
 namespace pliant {
 
-/// Maps each valid id to its internal number.
+/// Maps valid ids to internal numbers. An id has a generation, by which the id of a removed thing is known to be stale.
 template <class Kind>
 class IdTable {
  public:
@@ -18,7 +18,7 @@ class IdTable {
 
   using LayoutSlot = WorldLayout::Slot;
 
-  /// Restores the slots that layout() of another table returned.
+  /// Replaces the table by slots that layout() returned.
   void restore(const std::vector<LayoutSlot>& slots) {
     slots_.clear();
     free_.clear();
@@ -33,7 +33,7 @@ class IdTable {
     return slots;
   }
 
-  /// Adds an id in the lowest free slot.
+  /// Makes an id for an internal number, in the lowest free slot.
   Id<Kind> add(int number) {
     if (free_.empty()) {
       slots_.push_back({number, 0});
@@ -46,7 +46,7 @@ class IdTable {
   }
 
   void remove(Id<Kind> id) {
-    (void)number(id);  // throws if the id is stale
+    (void)number(id);  // throws an Error if the id is stale
     slots_[id.slot].number = none;
     ++slots_[id.slot].generation;
     free_.insert(id.slot);
@@ -57,7 +57,7 @@ class IdTable {
            slots_[id.slot].generation == id.generation;
   }
 
-  /// Throws an Error if the id is unknown or stale.
+  /// The internal number of an id. Throws an Error if the id is unknown or stale.
   int number(Id<Kind> id) const {
     if (has(id)) return slots_[id.slot].number;
     const bool existed =
@@ -70,10 +70,10 @@ class IdTable {
                           " now; use the id that add returned for that one");
   }
 
-  /// The id of the slot's occupant; an invalid id if the slot is free.
+  /// The id that a slot has at present; an invalid id if the slot is free.
   Id<Kind> id_in(int slot) const { return Id<Kind>(slot, slots_.at(static_cast<std::size_t>(slot)).generation); }
 
-  /// The id with this number.
+  /// The id of an internal number.
   Id<Kind> id_of(int number) const {
     for (int slot = 0; slot < static_cast<int>(slots_.size()); ++slot)
       if (slots_[slot].number == number) return Id<Kind>(slot, slots_[slot].generation);
@@ -88,7 +88,7 @@ class IdTable {
   }
   int count() const { return static_cast<int>(slots_.size() - free_.size()); }
 
-  /// Closes the gap after a removal: larger numbers decrease by one.
+  /// Call it after an internal number was removed: larger numbers decrease by one.
   void close_gap(int number) {
     for (Slot& slot : slots_) slot.number -= slot.number > number ? 1 : 0;
   }

@@ -1,4 +1,4 @@
-// Tests an addition for intersections with present surfaces, if the settings reject initial intersections.
+// Tests an object that is to be added for intersections with the World's surfaces, if the settings refuse them.
 #include <utility>
 
 #include "inspect/inspect_scene.h"
@@ -8,10 +8,11 @@ namespace pliant {
 
 namespace {
 
-/// Collision groups of the temporary scene: the added surface meets the present ones, which do not meet one another.
+/// Collision groups of a temporary scene, in which the new surface meets the present ones, but these do not meet each
+/// other.
 constexpr std::uint32_t of_present = 1, of_new = 2;
 
-/// Positions and triangles of a compiled object in the user's order.
+/// The triangle mesh of a compiled object in the user's order, at the given positions.
 TriangleMesh mesh_of(const CompiledObject& of, const Record* positions) {
   TriangleMesh mesh;
   for (int user = 0; user < of.user_particles; ++user) {
@@ -66,7 +67,7 @@ void World::Implementation::refuse_intersections(const CompiledObject& added, co
       if (field.object != number) continue;
       of_other = {field.groups, field.mask};
       other_is_grid = !field.field->is_ground();
-      if (!other_is_grid) of_other = {0, 0};  // terrain has no inside
+      if (!other_is_grid) of_other = {0, 0};  // heightfields have no inside
     }
     if ((of_other.groups & masks.mask) == 0 || (masks.groups & of_other.mask) == 0) continue;
     add_part({other, mesh_of(other, &state.positions[model.first[number]]), of_present, of_new}, false, as(other_is_grid),

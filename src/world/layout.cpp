@@ -1,4 +1,4 @@
-// Recreates a World in which objects and colliders were added and removed, with the same ids (WorldLayout).
+// Makes a World from its WorldLayout: with the same ids as after the objects and colliders were added and removed.
 #include <limits>
 #include <set>
 #include <string>
@@ -18,10 +18,11 @@ namespace {
               "use the scene and the layout() of the same World at the same time");
 }
 
-/// Limit of numbers and generations in a layout: far below the integer limit, so that later counting cannot overflow.
+/// Upper limit of numbers and generations in a layout. It is far below the largest int, so that counting on cannot
+/// overflow.
 constexpr int most = std::numeric_limits<int>::max() / 4;
 
-/// The numbers of the occupied slots. Throws an Error unless there are `count`, each within `taken` and used once.
+/// The numbers of the slots in use. Throws an Error unless there are `count`, each below `taken.size()` and used once.
 std::vector<int> numbers_in(const std::vector<WorldLayout::Slot>& slots, std::size_t count, std::vector<char>& taken) {
   std::vector<int> numbers;
   for (const WorldLayout::Slot& slot : slots) {
@@ -39,7 +40,7 @@ std::vector<int> numbers_in(const std::vector<WorldLayout::Slot>& slots, std::si
   return numbers;
 }
 
-/// The scene without its objects and colliders.
+/// Copies a scene without its objects and colliders.
 Scene without_things(const Scene& scene) {
   Scene rest;
   rest.gravity = scene.gravity;
@@ -50,7 +51,7 @@ Scene without_things(const Scene& scene) {
   return rest;
 }
 
-/// Removes pairs that name a missing object: World keeps such pairs for an object of that name added later.
+/// Removes the pairs that name an object that is missing. A World keeps these for an object of that name added later.
 Scene without_pairs_of_others(const Scene& scene) {
   std::set<std::string> names;
   for (const Object& object : scene.objects) names.insert(object.name);
@@ -107,7 +108,7 @@ World::Implementation::Implementation(const Scene& scene, const WorldLayout& lay
     if (taken[number] == 0) state.blocks[number] = {0, 0, model.generation[number]};
     prepare(static_cast<int>(number));
   }
-  groups.clear();  // of the World without objects
+  groups.clear();  // they are those of the World without objects
   bring_up_to_date();
 }
 

@@ -1,5 +1,5 @@
-// Objects come and go. Each has a number in the model, a block in the State and its own part of the workspace, so that adding or
-// removing one costs what that one costs. Contact among surfaces is brought up to date once before the next step.
+// Adds, removes and edits objects. Each object has a number in the model, a block in the State and its own part of the
+// workspace, so the cost depends on that object alone. Contact between surfaces is updated once, before the next step.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -17,7 +17,7 @@ namespace pliant {
 
 namespace {
 
-/// The multipliers to store: all if requested, else those that a second pass or the overstretch needs.
+/// Which multipliers to store: all if requested, else those that a second pass or the measurement of overstretch needs.
 Multipliers kept_multipliers(const Settings& settings, Sweep sweep) {
   if (settings.record_multipliers || settings.record_residuals) return Multipliers::all;
   const bool more_passes = settings.iterations * sweep_method(sweep).passes > 1;
@@ -55,7 +55,7 @@ CompileOptions World::Implementation::compile_options(Sweep sweep) const {
   CompileOptions options;
   options.sweep = sweep;
   const int substeps =
-      settings.substeps > 0 ? settings.substeps : substeps_of_others;  // own_substeps of all with PBD stiffness
+      settings.substeps > 0 ? settings.substeps : substeps_of_others;  // own_substeps() of objects with PBD stiffness
   options.passes = substeps * settings.iterations * sweep_method(sweep).passes;
   options.chain_softness = settings.sweep_options.chain_softness;
   options.tethers = settings.sweep_options.tethers;
@@ -68,7 +68,7 @@ CompileOptions World::Implementation::compile_options(Sweep sweep) const {
 Sweep World::Implementation::sweep_of(const Object& object) const {
   if (object.sweep != Sweep::automatic) return object.sweep;
   if (settings.sweep != Sweep::automatic) return settings.sweep;
-  Scene scene;  // of other objects it only matters whether the new one can touch them
+  Scene scene;  // has of other objects only what decides whether the new one can touch them
   scene.settings = settings;
   scene.gravity = model.gravity;
   for (const CompiledObject& other : model.objects) {
@@ -95,7 +95,7 @@ void World::Implementation::require_accelerable(Sweep sweep, const std::string& 
 }
 
 int World::Implementation::add_to_model(const MeshCollider& collider, CompiledObject compiled) {
-  std::shared_ptr<const SolidField> field = field_of(collider);  // may throw, so it runs before anything changes
+  std::shared_ptr<const SolidField> field = field_of(collider);  // first, because it may throw
   const int number = model.add(std::move(compiled));
   add_field(collider, std::move(field), number);
   return number;
@@ -140,7 +140,7 @@ void World::Implementation::prepare(int number) {
   objects_changed = true;
 }
 
-/// Recomputes the elements of each object that can collide by more than their vertices, which depend on the colliders.
+/// For each object that can collide by edges and triangles: prepares these, which depend on the colliders.
 void World::Implementation::prepare_shape_contacts() {
   for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) workspace.shape_contacts.prepare(model, o);
 }
@@ -173,7 +173,7 @@ void World::Implementation::replace(int number, CompiledObject by, const std::ve
   note_surfaces(number);
   const CompiledObject& old = model.objects[number];
   const int particles = old.particles;
-  // Targets of attachments come after the particles, and keep their order.
+  // Targets of attachments follow the particles in the user's order; an edit does not reorder them.
   const auto origin = [&](int user) {
     const int at = user < by.user_particles ? from[user] : user - by.user_particles + old.user_particles;
     return at < 0 || at >= particles ? -1 : old.place[at];
@@ -249,7 +249,7 @@ void World::Implementation::make_pairs(SubstepGroup& group) {
   std::unique_ptr<PairModel>& pairs = group.has_all ? pair_model : group.pair_model;
   std::unique_ptr<SurfaceContact>& contact = group.has_all ? workspace.pairs : group.pairs;
   contact = nullptr;
-  pairs = make_pair_model(model, group.has);  // empty where it has all
+  pairs = make_pair_model(model, group.has);  // `has` is empty if the group has all objects
   if (pairs == nullptr) return;
   pairs->filter = settings.contact_filter;
   if (settings.initial_intersections == Settings::Intersections::untangle)
@@ -288,7 +288,7 @@ std::vector<SubstepGroup> World::Implementation::find_groups() const {
   else
     found = make_substep_groups(model);
   if (found.size() < 2 || (settings.tolerance <= 0 && !settings.record_residuals)) return found;
-  const int most = found.back().substeps;  // a tolerance is met by all objects together
+  const int most = found.back().substeps;  // because the tolerance is for all objects together
   found.clear();
   found.push_back(group_of_all(most));
   return found;
@@ -296,7 +296,7 @@ std::vector<SubstepGroup> World::Implementation::find_groups() const {
 
 void World::Implementation::prepare_groups() {
   std::vector<SubstepGroup> before = std::exchange(groups, find_groups());
-  if (before.size() == 1 && groups.size() == 1) return;  // its contact is still that of all objects
+  if (before.size() == 1 && groups.size() == 1) return;  // still one group of all objects, whose contact stays
   workspace.pairs = nullptr;
   pair_model = nullptr;
   for (SubstepGroup& group : groups) {
@@ -318,7 +318,7 @@ void World::Implementation::bring_up_to_date() {
   if (objects_changed || groups.empty()) prepare_groups();
   update_surfaces();
   if (!objects_changed) return;
-  for (TileScratch& tile : workspace.tiles) tile.contacts.clear();  // indices of tasks have changed
+  for (TileScratch& tile : workspace.tiles) tile.contacts.clear();  // their collider indices are out of date
   if (settings.tolerance > 0) prepare_residual(model, workspace.residual);
   objects_changed = false;
 }
@@ -384,7 +384,7 @@ void World::remove(ColliderId collider) {
   self_->collider_ids.close_gap(number);
   self_->model.colliders.erase(self_->model.colliders.begin() + number);
   self_->prepare_shape_contacts();
-  std::map<int, PoseDrive> drives;  // colliders with larger numbers move down by one
+  std::map<int, PoseDrive> drives;  // keys: removal decreases larger numbers by one
   for (const auto& [other, drive] : self_->workspace.control.colliders)
     if (other != number) drives.emplace(other > number ? other - 1 : other, drive);
   self_->workspace.control.colliders = std::move(drives);

@@ -1,4 +1,4 @@
-// Describes a Report in words.
+// Makes the text of a Report.
 #include "pliant/world.h"
 
 namespace pliant {

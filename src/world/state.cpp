@@ -10,10 +10,10 @@ namespace pliant {
 
 namespace {
 
-/// Limit of the frame number, far from the integer limit, so that later counting cannot overflow.
+/// Upper limit of the frame number. It is far below the largest integer, so that counting on cannot overflow.
 constexpr std::int64_t largest_frame = std::int64_t{1} << 60;
 
-/// Clears multipliers: they belong to the last substep, which a restored State does not have.
+/// Sets multipliers to zero: they are those of the last substep, and no part of a State.
 void forget_multipliers(Workspace& workspace) {
   for (auto& object : workspace.multipliers)
     for (auto& values : object) std::fill(values.begin(), values.end(), 0.f);
@@ -22,7 +22,7 @@ void forget_multipliers(Workspace& workspace) {
 
 void add_records(Sha256& sha, const Records& records) { sha.add(records.data(), records.size() * sizeof(Record)); }
 
-/// Throws unless `given` are the frames of a state of this world.
+/// Throws an Error unless `given` has as many frames as the States of this World.
 void require_frames_of(const FrameRecords& own, const FrameRecords& given) {
   const std::size_t frames = own.size();
   if (given.orientations.size() != frames || given.angular_velocities.size() != frames ||
@@ -52,7 +52,7 @@ void require_channels(const State& state) {
   }
 }
 
-/// True if blocks are contiguous, as in a World without removals and edits.
+/// True if blocks are contiguous and in order, as in a World in which nothing was removed or edited.
 bool follow_one_another(const std::vector<StateBlock>& blocks) {
   int first = 0;
   for (const StateBlock& block : blocks) {

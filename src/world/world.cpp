@@ -1,4 +1,4 @@
-// A World: a compiled Scene, its State, and the step.
+// Makes a World from a Scene, and steps it.
 #include "pliant/world.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ const Kernels& kernels_for(const Settings& settings) {
   return settings.sweep == Sweep::sequential ? kernels_sequential() : pick_kernels(settings.isa);
 }
 
-/// Largest factor of substeps in a frame with fast colliders, unless Settings::most_substeps permits more.
+/// By what factor fast colliders may increase the substeps of a frame, unless Settings::most_substeps permits more.
 constexpr int default_division = 8;
 
 }  // namespace
@@ -32,7 +32,7 @@ World::Implementation::Implementation(const Scene& scene, const Settings& with, 
   model.pairs = scene.pairs;
   model.colliders = scene.colliders;
   for (int c = 0; c < static_cast<int>(scene.colliders.size()); ++c) collider_ids.add(c);
-  const std::vector<Sweep> sweeps = chosen_sweeps(scene, with);  // each depends on all objects
+  const std::vector<Sweep> sweeps = chosen_sweeps(scene, with);  // the sweep of each depends on all objects
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const CompileOptions options = compile_options(sweeps[o]);
     object_ids.add(model.add(given_away != nullptr ? compile(std::exchange(given_away->objects[o], {}), options)
@@ -83,7 +83,7 @@ World::World(const Scene& scene) {
 
 World::World(const Scene& scene, const Settings& settings) {
   const auto checked_settings = [&] {
-    Scene checked = scene;  // freed before compilation starts
+    Scene checked = scene;  // a copy, freed before objects are compiled
     checked.settings = settings;
     refuse_grave(checked);
     return chosen_settings(checked);
@@ -125,7 +125,7 @@ Report World::step(float dt) {
   }
   self_->begin_control(dt);
   const std::vector<GroupFrame> groups = self_->plan_frame(dt, report);
-  self_->stopped = true;  // stays set unless the step completes: a user's force field may throw
+  self_->stopped = true;  // if the step throws (a user's force field may), it stays true
   pliant::step({self_->model, self_->state, self_->workspace, self_->executor, self_->kernels, groups.back().substeps,
                 self_->settings.iterations, self_->settings.sweep_options, self_->settings.record_residuals, self_->stop,
                 self_->settings.separate_phases, static_cast<double>(self_->settings.tolerance), groups},
