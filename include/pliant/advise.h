@@ -1,4 +1,4 @@
-// Trial runs of a scene: tests whether its solve is accurate, and finds the cheapest settings that make it so.
+// Trial runs of a scene: they test whether its solve is accurate, and find the cheapest settings that make it so.
 #pragma once
 
 #include <cstdint>
@@ -11,45 +11,45 @@
 
 namespace pliant {
 
-/// Limits of the trials.
+/// Limits of the trial runs.
 struct AdviseOptions {
-  double seconds = 3;             ///< computing time, approximate: a frame that was begun is completed [s]
-  int frames = 120;               ///< frames of a trial at most; never more than the scene has
-  std::function<bool()> stops{};  ///< called after every frame; true ends the trials as if time were up
+  double seconds = 3;             ///< approximate limit of computing time [s]: a frame that was begun is completed
+  int frames = 120;               ///< largest number of frames of a trial; the scene's own number if that is smaller
+  std::function<bool()> stops{};  ///< called after every frame; if it returns true, trials end as if time were up
 };
 
-/// Settings, and the result of a run with them from the scene's start.
+/// Settings, and the result of a trial run with them.
 struct Trial {
   Settings settings;
   int frames = 0;           ///< frames completed
-  bool complete = false;    ///< false if it was stopped as worse, or for lack of time
-  bool worse = false;       ///< worse than the best trial before it
-  double milliseconds = 0;  ///< mean of a frame
-  Overstretch worst;        ///< overstretch: p99 and largest of any frame, and the place of the largest
+  bool complete = false;    ///< false if it ended early: worse than another trial, or out of time
+  bool worse = false;       ///< true if it ended early because another trial was better
+  double milliseconds = 0;  ///< mean computing time of a frame [ms]
+  Overstretch worst;        ///< largest 99th percentile of any frame; largest overstretch, and where it was
   std::int64_t frame = 0;   ///< frame of the largest overstretch, from 1
 };
 
 /// The result of all trials.
 struct Advice {
-  Trial own;                  ///< the scene with its own settings
+  Trial own;                  ///< trial with the scene's own settings
   int frames = 0;             ///< frames planned; if `own` completed fewer, the advice covers only those
-  std::vector<Trial> others;  ///< further trials in order, if `own` is not good
-  /// Index in `others` of the cheapest good trial; else of the one nearest to good whose largest overstretch is clearly below
-  /// that of `own` and whose p99 is not above it; -1: none.
+  std::vector<Trial> others;  ///< further trials in the order in which they ran; none if `own` is good
+  /// Index in `others` of the advised settings: the cheapest good trial; if none is good, the best one whose largest
+  /// overstretch is clearly below that of `own` and whose p99 is not above it; -1: none.
   int best = -1;
-  bool cut_short = false;  ///< time ran out
-  std::string words;       ///< the finding in one sentence; empty if there is none in `own.frames` frames
-  std::string what_to_do;  ///< the advice for that finding
+  bool cut_short = false;  ///< true if time ran out before all trials were done
+  std::string words;       ///< what is wrong, in one sentence; empty if nothing was found in `own.frames` frames
+  std::string what_to_do;  ///< what to do about it
 };
 
-/// True if no overstretch exceeded tolerated_overstretch.
+/// True if the overstretch of a trial never exceeded tolerated_overstretch.
 bool is_good(const Trial& trial);
 
-/// Runs the scene. If it is not good (see is_good), runs it again with more substeps,
-/// tethers and sweeps that may do better. Each trial starts from the scene's start,
-/// because a stretched state would only show how a better setting repairs it.
-/// The bits of a trial depend on its settings alone; the number of trials
-/// depends on the machine's speed. Throws an Error where a World would.
+/// Runs the scene with its own settings. If the result is not good (is_good), runs it with more substeps,
+/// tethers, and sweeps that may do better. Each trial starts at the scene's start, because a stretched
+/// state would only show how other settings repair it. The bits of a trial depend on its settings alone;
+/// how many trials there are depends on the machine's speed. Throws an Error for scenes that a World
+/// rejects.
 Advice advise(const Scene& scene, const AdviseOptions& options = {});
 
 }  // namespace pliant

@@ -1,7 +1,7 @@
-// User-defined constraint types, in the user's own header, without a rebuild of the library.
+// Constraint types of your own, defined in your own header. The library need not be rebuilt.
 //
 //   struct RightAngle {                                       // three points; the angle at the first one is 90 degrees
-//     static constexpr const char* name = "right_angle";      // what ConstraintGroup::type and scene files call it
+//     static constexpr const char* name = "right_angle";      // its name in ConstraintGroup::type and scene files
 //     using slots = pliant::Points<3>;
 //     static constexpr int rows = 1;
 //     template <class R> struct Params {};                    // rest data: members of type R alone
@@ -11,11 +11,11 @@
 //   };
 //   pliant::register_constraint<RightAngle>();
 //
-// Compliance in the inverse unit of the energy C^2 / 2, PBD stiffness, damping, multipliers, the Report and scene files work as for the
-// types of the library. Its constraints are projected one at a time, in colours that all threads share.
+// The unit of compliance is the inverse unit of the energy C^2 / 2. PBD stiffness, damping, multipliers, Report and scene
+// files work as for the library's types. Your constraints are projected one at a time, in colours that all threads share.
 //
-// For the same bits everywhere: use the functions of pliant/formula.h, no others of the C or C++ library, and compile
-// with -ffp-contract=off and without -ffast-math.
+// To get the same bits on every machine, use the functions of pliant/formula.h and no others of the C or C++ library,
+// and compile with -ffp-contract=off and without -ffast-math.
 #pragma once
 
 #include <array>
@@ -31,24 +31,24 @@
 
 namespace pliant {
 
-/// The library's record of a constraint type: its description, and its functions on plain arrays. A slot is four numbers: a
-/// position and a zero, or a quaternion. Gradients are ordered by row, then slot, three numbers each.
+/// A constraint type as the library stores it: a description, and functions on plain arrays. A slot is four numbers: a
+/// position and a zero, or a quaternion. Gradients have three numbers each and are ordered by row, then by slot.
 struct ConstraintDefinition {
   std::string name;
   std::vector<SlotKind> slots;
   int rows = 1;
   std::vector<std::string> rest_fields;
-  bool is_length = false;    ///< C is the distance of two points minus the one rest field
-  bool is_compiled = false;  ///< a built-in one-row type on points: projected sixteen at a time
-  float largest_change = 0;  ///< largest change of C by one projection; 0: unlimited
+  bool is_length = false;    ///< true if C is the distance of two points minus the only rest field
+  bool is_compiled = false;  ///< true for built-in types of one row over points, which are projected sixteen at a time
+  float largest_change = 0;  ///< largest change of C in one projection; 0: no limit
   void (*evaluate)(const float* slots, const float* rest, float* c, float* gradients) = nullptr;
   void (*evaluate_double)(const double* slots, const double* rest, double* c, double* gradients) = nullptr;
-  void (*measure)(const double* slots, double* rest) = nullptr;  ///< rest data of a rest shape; null: it must be given
-  void (*canonical)(int* stencil, float* rest) = nullptr;        ///< sorts symmetric slots; null: stencils stay as they are
+  void (*measure)(const double* slots, double* rest) = nullptr;  ///< computes rest data from a rest shape; null: give them
+  void (*canonical)(int* stencil, float* rest) = nullptr;        ///< reorders slots that are symmetric; null: none are
 };
 
-/// Registers a type by its name, for Worlds made afterwards. Registering the same type twice is permitted. Throws an Error
-/// if another type has the name or the definition is incomplete. Call it before other threads use the library.
+/// Registers a constraint type by its name, for Worlds made afterwards; repeating it is permitted. Throws an Error if
+/// another type has that name, or if the definition is incomplete. Call it before other threads use the library.
 void register_constraint(const ConstraintDefinition& definition);
 
 namespace detail {
@@ -56,7 +56,7 @@ namespace detail {
 template <class T>
 inline constexpr int field_count = static_cast<int>(T::fields.size());
 
-/// True if T has the short form: one row over points, with evaluate(x, params, gradient) that returns C.
+/// True if T has the short form of evaluate: one row over points, evaluate(x, params, gradient) returns C.
 template <class T, class R>
 inline constexpr bool is_short = requires(const Vec3<R> (&x)[static_cast<std::size_t>(T::slots::count)],
                                           const typename T::template Params<R>& params,
@@ -87,7 +87,7 @@ SlotValues<S, R> values_of(const R* slots) {
   return at;
 }
 
-/// Evaluates C and its gradients, whether the type's `evaluate` returns C of points or fills Rows.
+/// Evaluates C and its gradients by either form of T::evaluate: the one that returns C, or the one that fills Rows.
 template <class T, class R>
 void evaluate_rows(const SlotValues<typename T::slots, R>& at, const typename T::template Params<R>& params,
                    Rows<typename T::slots, T::rows, R>& out) {

@@ -1,4 +1,4 @@
-// The library's only exception: it states the location, the problem and the remedy.
+// The only exception of the library. It names where, what is wrong and what to do.
 #pragma once
 
 #include <stdexcept>
@@ -6,18 +6,18 @@
 
 namespace pliant {
 
-/// The location of an error. Every member may be empty; `line` counts from 1, 0 means none.
+/// Where an error is. Every member may be empty; `line` and `column` count from 1, 0 means none.
 struct Location {
-  std::string file{};     ///< path as the caller gave it
+  std::string file{};     ///< path of a file as the caller gave it
   int line = 0;           ///< line in `file`
   std::string object{};   ///< name of the object in the scene
-  std::string element{};  ///< the affected part: "vertex 12", "triangle 7", "/objects/0/mesh" (a JSON path), "byte 84"
-  int column = 0;         ///< byte of the line, from 1, 0 meaning none
+  std::string element{};  ///< part concerned: "vertex 12", "triangle 7", "/objects/0/mesh" (a JSON path), "byte 84"
+  int column = 0;         ///< byte within the line; 0 means none
 };
 
 /// Thrown while a scene is built or a file is read or written. World::step never throws.
 ///
-/// what() reads "FILE:LINE:COLUMN: object 'NAME', ELEMENT: PROBLEM; ADVICE", without empty parts.
+/// what() has the form "FILE:LINE:COLUMN: object 'NAME', ELEMENT: PROBLEM; ADVICE". Parts that are empty are left out.
 class Error : public std::runtime_error {
  public:
   Error(Location where, std::string problem, std::string advice = {});

@@ -1,9 +1,9 @@
 // Building blocks of constraint formulas: scalars, rotations, slots and rows.
 //
-// A formula is a template over its scalar type: float projects one constraint, Wide sixteen, and
-// double serves as the tests' oracle. These functions exist for all three (argument-dependent lookup
-// finds those of Wide), so the same code gives the same bits everywhere. Hence min and max are the
-// comparison of SSE's minps and maxps: if a is NaN, or both are zero, they return the second argument.
+// A formula is a template over its scalar type: float projects one constraint, Wide sixteen, and double is what tests
+// compare with. All functions below exist for the three types (those for Wide are found by argument-dependent lookup),
+// so one text gives the same bits everywhere. That is why min and max return the second argument if the first is NaN,
+// or if both are zero: the instructions minps and maxps of SSE do so.
 #pragma once
 
 #include <array>
@@ -18,19 +18,19 @@ namespace pliant {
 
 // ---------------------------------------------------------------- scalars
 
-/// `a` where the mask holds, else `b`.
+/// Returns `a` where `mask` is true, else `b`.
 PLIANT_HD float select(bool mask, float a, float b) { return mask ? a : b; }
 PLIANT_HD double select(bool mask, double a, double b) { return mask ? a : b; }
 
-/// The smaller; b if they are unordered or equal.
+/// The smaller of two numbers; b if they are equal or one is NaN.
 PLIANT_HD float min(float a, float b) { return a < b ? a : b; }
 PLIANT_HD double min(double a, double b) { return a < b ? a : b; }
 
-/// The larger; b if they are unordered or equal.
+/// The larger of two numbers; b if they are equal or one is NaN.
 PLIANT_HD float max(float a, float b) { return a > b ? a : b; }
 PLIANT_HD double max(double a, double b) { return a > b ? a : b; }
 
-/// The magnitude: clears the sign bit, also of zero and NaN.
+/// The absolute value. It clears the sign bit, also that of zero and NaN.
 PLIANT_HD float abs(float a) { return __builtin_fabsf(a); }
 PLIANT_HD double abs(double a) { return __builtin_fabs(a); }
 
@@ -58,20 +58,20 @@ PLIANT_HD R clamp(const R& a, const R& low, const R& high) {
 
 // ---------------------------------------------------------------- rotations
 
-/// The inverse rotation of a unit quaternion.
+/// The inverse of a rotation; q must be a unit quaternion.
 template <class R>
 PLIANT_HD Quat<R> conjugate(const Quat<R>& q) {
   return {-q.x, -q.y, -q.z, q.w};
 }
 
-/// Hamilton product: applies rotation b, then a.
+/// The Hamilton product a b: the rotation that applies b first, then a.
 template <class R>
 PLIANT_HD Quat<R> multiply(const Quat<R>& a, const Quat<R>& b) {
   return {a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y), a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z),
           a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x), a.w * b.w - (a.x * b.x + a.y * b.y + a.z * b.z)};
 }
 
-/// v rotated by the unit quaternion q: v + 2 u x (u x v + w v), u the imaginary part.
+/// Rotates v by the unit quaternion q: v + 2 u x (u x v + w v), where u is the imaginary part of q.
 template <class R>
 PLIANT_HD Vec3<R> rotate(const Quat<R>& q, const Vec3<R>& v) {
   const Vec3<R> u{q.x, q.y, q.z};
@@ -81,13 +81,13 @@ PLIANT_HD Vec3<R> rotate(const Quat<R>& q, const Vec3<R>& v) {
 
 // ---------------------------------------------------------------- slots and rows
 
-/// The two kinds of slot.
-class Point;  ///< a particle: its position
-class Frame;  ///< an orientation: a unit quaternion from the frame's principal axes to the world
+/// The two kinds of slot of a constraint.
+class Point;  ///< a particle; its value is a position
+class Frame;  ///< an orientation; its value is a unit quaternion from the frame's principal axes to the world
 
 enum class SlotKind : std::uint8_t { point, frame };
 
-/// The slots of a constraint in stencil order, one to eight: Slots<Point, Frame, Point, Frame>.
+/// The kinds of a constraint's slots in order, one to eight: Slots<Point, Frame, Point, Frame>.
 template <class... Kinds>
 struct Slots {
   static_assert(sizeof...(Kinds) >= 1 && sizeof...(Kinds) <= 8, "a stencil has one to eight slots");
@@ -111,23 +111,23 @@ struct PointSlots<std::index_sequence<index...>> {
 };
 }  // namespace detail
 
-/// n points.
+/// Slots of n points.
 template <int n>
 using Points = typename detail::PointSlots<std::make_index_sequence<static_cast<std::size_t>(n)>>::Type;
 
-/// The current slot values. Positions are relative to the first point, so constraints are independent of the origin.
+/// The values of a constraint's slots. Positions are relative to the first point, so C does not depend on the origin.
 template <class S, class R>
 struct SlotValues {
-  Vec3<R> point[static_cast<std::size_t>(S::count)];  ///< by slot; unused for frames [m]
-  Quat<R> frame[static_cast<std::size_t>(S::count)];  ///< by slot; unused for points
+  Vec3<R> point[static_cast<std::size_t>(S::count)];  ///< position of each slot [m]; unused for frames
+  Quat<R> frame[static_cast<std::size_t>(S::count)];  ///< orientation of each slot; unused for points
 };
 
-/// C and its gradients, one row for each component of C.
+/// What evaluate fills: C and its gradients, one row for each component of C.
 template <class S, int rows, class R>
 struct Rows {
   R c[static_cast<std::size_t>(rows)];
-  /// By row and slot. For a point: dC/dx. For a frame: dC/dtheta, with a small rotation vector theta in world axes. A point
-  /// r of the frame then moves by theta x r, so a gradient g at r contributes r x g.
+  /// Gradients by row and slot. For a point: dC/dx. For a frame: dC/dtheta for a small rotation vector theta in world
+  /// axes. A point at r from the frame's point moves by theta x r, so a gradient g with respect to it adds r x g.
   Vec3<R> gradient[static_cast<std::size_t>(rows)][static_cast<std::size_t>(S::count)];
 };
 

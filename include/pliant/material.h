@@ -7,7 +7,7 @@
 
 namespace pliant {
 
-/// How strongly a constraint is enforced, in one of two ways.
+/// How strongly a constraint is enforced: by compliance, or by stiffness k.
 ///
 /// Compliance (XPBD; Macklin, Mueller and Chentanez 2016): the inverse stiffness alpha in the unit of the constraint type
 /// (m/N for a distance); 0 is rigid. It is independent of time step, substeps and iterations. Stiffness k (PBD; Mueller et
@@ -16,47 +16,47 @@ namespace pliant {
 struct Stiffness {
   enum class Kind { compliance, pbd };
   Kind kind = Kind::compliance;
-  float value = 0;  ///< alpha >= 0, or k in [0, 1]
+  float value = 0;  ///< compliance alpha >= 0, or k in [0, 1]
   float damping =
-      0;  ///< with compliance: beta >= 0, a damping coefficient in N s/m (the type's own unit), eq. 26 of the paper
+      0;  ///< with compliance: damping coefficient beta >= 0 in N s/m (the type's own unit), eq. 26 of the paper
 
   static Stiffness rigid() { return {}; }
   static Stiffness compliance(float alpha, float beta = 0) { return {Kind::compliance, alpha, beta}; }
   static Stiffness pbd(float k) { return {Kind::pbd, k, 0}; }
 };
 
-/// The context of a conversion between k and compliance.
+/// What a conversion between k and compliance depends on.
 struct ConversionContext {
   float
-      inverse_mass;  ///< generalised: sum over the particles of w_i |grad_i C|^2; 2/m for a distance between equal masses [1/kg]
+      inverse_mass;  ///< generalised: sum over all particles of w_i |grad_i C|^2; 2/m for a distance of equal masses m [1/kg]
   float dt;          ///< time step of a frame [s]
   int substeps = 1;
   int iterations = 1;
 };
 
-/// The compliance that removes the same share of an isolated constraint's error per frame as PBD stiffness k: alpha = h^2 w
-/// (1 - k') / k' with h = dt/substeps and k' = 1 - (1 - k)^(1/substeps). It is independent of iterations, as XPBD with
-/// multipliers is. k = 0 gives infinity, k = 1 gives 0. Throws an Error outside [0, 1].
+/// The compliance that removes the same share of an isolated constraint's error per frame as PBD stiffness k: alpha =
+/// h^2 w (1 - k') / k', with h = dt/substeps and k' = 1 - (1 - k)^(1/substeps). It does not depend on iterations. k = 0
+/// gives infinity, k = 1 gives 0. Throws an Error if k is not in [0, 1].
 float compliance_from_stiffness(float k, const ConversionContext& context);
 
-/// The inverse of compliance_from_stiffness. Throws an Error if alpha < 0.
+/// The PBD stiffness k that corresponds to compliance alpha. Throws an Error if alpha < 0.
 float stiffness_from_compliance(float alpha, const ConversionContext& context);
 
-/// Measured properties of a fabric, independent of any mesh.
+/// Properties of a fabric. They do not depend on a mesh.
 struct Fabric {
   std::string name;
-  float area_density = 0.15f;       ///< [kg/m^2]
-  float thickness = 0.0004f;        ///< [m]
+  float area_density = 0.15f;       ///< mass per area [kg/m^2]
+  float thickness = 0.0004f;        ///< thickness [m]; two layers keep this distance
   float stretch_stiffness = 2000;   ///< membrane stiffness, force per width and strain [N/m]; infinity: inextensible
   float bending_stiffness = 1e-5f;  ///< flexural rigidity per width [N m]
   float bending_damping = 0;        ///< fraction of critical damping of bending, 0..1 [-]
-  float static_friction = 0.4f;     ///< [-]
-  float kinetic_friction = 0.3f;    ///< [-]
-  std::string source;               ///< source of the numbers
+  float static_friction = 0.4f;     ///< coefficient of friction at rest [-]
+  float kinetic_friction = 0.3f;    ///< coefficient of friction while sliding [-]
+  std::string source;               ///< where the numbers come from
 };
 
-/// One of the built-in fabrics: "cotton", "silk", "denim", "wool", "leather",
-/// "rubber sheet". Throws an Error that lists the names for any other.
+/// Returns a built-in fabric: "cotton", "silk", "denim", "wool", "leather" or "rubber sheet". For any other name throws
+/// an Error that lists the names.
 const Fabric& fabric(std::string_view name);
 
 /// All built-in fabrics.

@@ -1,4 +1,4 @@
-// Includes all public headers: the core and file input and output.
+// Includes all public headers: those of the core library, and those for files.
 #pragma once
 
 #include "pliant/advise.h"

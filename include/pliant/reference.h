@@ -1,5 +1,5 @@
-// A reference solver for tests: PBD in double precision, constraints in the order in which they were added, in the simplest
-// possible code. It is slow, and for verification only.
+// A reference solver for tests: PBD in double precision, constraints in the order in which they were added, in the
+// simplest possible code. It is slow, and serves for verification only.
 //
 // It shares the formulas of the constraint types with World, but not World's schedule,
 // layout, SIMD lanes or rounding. Stiffness k: Mueller et al. 2007; compliance and
@@ -15,41 +15,41 @@
 
 namespace pliant::reference {
 
-/// A particle. With inverse mass 0 it is a pin: it moves only if `position` is set between steps.
+/// A particle. Inverse mass 0 makes it a pin, which moves only if you set `position` between steps.
 struct Particle {
-  Vec3d position{};         ///< [m]
-  Vec3d velocity{};         ///< [m/s]
-  double inverse_mass = 1;  ///< [1/kg], >= 0
+  Vec3d position{};         ///< position [m]
+  Vec3d velocity{};         ///< velocity [m/s]
+  double inverse_mass = 1;  ///< inverse mass >= 0 [1/kg]
 };
 
-/// Compliance alpha with damping beta, or PBD's k if it is not negative.
+/// The stiffness of a constraint: compliance with damping, or PBD stiffness if that is not negative.
 struct Hardness {
-  double compliance = 0;  ///< alpha >= 0 [the type's own unit]
+  double compliance = 0;  ///< alpha >= 0 [m/N for a distance]
   double damping = 0;     ///< beta >= 0 [N s/m for a distance]
-  double pbd = -1;        ///< k in [0, 1]; negative: use compliance
+  double pbd = -1;        ///< PBD stiffness k in [0, 1]; negative: use compliance
 };
 
-/// A constraint function and its gradients, one per particle of its stencil.
+/// The value C of a constraint and its gradients, one for each particle.
 struct Evaluation {
   double value = 0;
   std::vector<Vec3d> gradients;
 };
 
-/// C of a type of constraint_types() at the stencil's positions `x` [m]. Throws an Error for an unknown type, or if the
-/// stencil or the rest data have the wrong size.
+/// Evaluates a constraint type at the positions `x` of its particles [m]. Throws an Error if constraint_types() has no
+/// such type, or if `x` or the rest data have the wrong size.
 Evaluation evaluate(const std::string& type, const std::vector<Vec3d>& x, const std::vector<double>& rest);
 
-/// The rest data for which these positions are the rest shape. Throws as evaluate does.
+/// The rest data that make these positions the rest shape. Throws as evaluate does.
 std::vector<double> measure(const std::string& type, const std::vector<Vec3d>& x);
 
 class AnyConstraint;
 
-/// Particles, constraints, and the solver loop.
+/// A system of particles and constraints, and the loop that solves it.
 class Solver {
  public:
-  Vec3d gravity{};     ///< [m/s^2]
-  double damping = 0;  ///< velocity is multiplied by exp(-damping) per second [1/s]
-  int substeps = 1;    ///< >= 1
+  Vec3d gravity{};     ///< gravity [m/s^2]
+  double damping = 0;  ///< rate at which velocities decay: by a factor exp(-damping) per second [1/s]
+  int substeps = 1;    ///< substeps per step, >= 1
   int iterations = 1;  ///< iterations per substep, >= 1
   std::vector<Particle> particles;
 
@@ -58,25 +58,25 @@ class Solver {
   Solver(Solver&&) noexcept;
   Solver& operator=(Solver&&) noexcept;
 
-  /// Adds a particle (mass > 0, or infinity for a pin [kg]) and returns its index.
+  /// Adds a particle and returns its index. `mass` is > 0, or infinity for a pin [kg].
   int add(const Vec3d& position, double mass, const Vec3d& velocity = {});
 
-  /// Adds a constraint of a type of constraint_types() and returns its index. Empty rest data are measured from the
-  /// positions. Throws an Error for an unknown type, a missing particle, or a stencil or rest data of the wrong size.
+  /// Adds a constraint and returns its index. Empty rest data are measured from the positions. Throws an Error for a
+  /// type not in constraint_types(), a missing particle, or particles or rest data of the wrong number.
   int add(const std::string& type, const std::vector<int>& particles, const std::vector<double>& rest = {},
           const Hardness& hardness = {});
 
   int constraint_count() const { return static_cast<int>(constraints_.size()); }
-  /// The current C. `constraint` is an index returned by add.
+  /// The current value of C of the constraint with this index.
   double value(int constraint) const;
-  /// The multiplier of the last substep; the force is multiplier / h^2 along the gradient [unit of C times kg m^2].
+  /// The multiplier of the last substep [kg m^2 / unit of C]; the force is multiplier / h^2 along the gradient.
   double multiplier(int constraint) const;
 
-  /// Advances by dt > 0 [s].
+  /// Advances all particles by dt > 0 [s].
   void step(double dt);
 
   double kinetic_energy() const;    ///< kinetic energy of all particles except pins [J]
-  double potential_energy() const;  ///< gravitational, relative to the origin [J]
+  double potential_energy() const;  ///< gravitational energy relative to the origin [J]
 
  private:
   void substep(double h);

@@ -1,4 +1,4 @@
-// The result of a World's step.
+// The result of a step of a World.
 #pragma once
 
 #include <array>
@@ -11,71 +11,71 @@
 
 namespace pliant {
 
-/// Milliseconds spent in a named phase of a step.
+/// Time spent in one phase of a step [ms].
 struct PhaseTime {
   std::string name;
   double milliseconds = 0;
 };
 
-/// The residual of the constraints of one type at the end of a frame: |C + alpha~ lambda| over all of them.
+/// The error of all constraints of one type at the end of a frame: |C + alpha~ lambda|.
 struct Residual {
   std::string type;
   std::int64_t constraints = 0;
-  double rms = 0, largest = 0;  ///< in the unit of C
+  double rms = 0, largest = 0;  ///< root mean square and maximum, in the unit of C
 };
 
-/// The convergence after an iteration of a step's last substep.
+/// How far the last substep of a step had converged after one iteration.
 ///
-/// Primal: |C + alpha~ lambda| by type, as in Residual. Dual: |x - x~ - w grad C^T lambda|, the part of a particle's
-/// displacement that the multipliers do not explain, as a length: the other half of XPBD's equations (Macklin et al. 2016,
-/// eq. 8). Particles in contact or with a PBD constraint are excluded, because those have no multipliers.
+/// Primal: |C + alpha~ lambda| by type, as in Residual. Dual: |x - x~ - w grad C^T lambda| of a particle, the part of
+/// its displacement that multipliers do not explain [m]; it belongs to the other half of XPBD's equations (Macklin et
+/// al. 2016, eq. 8). Particles in contact or with a PBD constraint are left out, because these have no multipliers.
 struct IterationResidual {
-  int iteration = 0;  ///< 0: the prediction, before the first
+  int iteration = 0;  ///< number of iterations made; 0: the prediction
   std::vector<Residual> primal;
-  double dual_rms = 0, dual_largest = 0;  ///< over particles with mass [m]
+  double dual_rms = 0, dual_largest = 0;  ///< root mean square and maximum over dynamic particles [m]
 };
 
-/// Length over rest length of every distance constraint with a rest length.
+/// The ratio of length to rest length, over all distance constraints with a positive rest length.
 struct Stretch {
   double mean = 1, p99 = 1, largest = 1;
 };
 
-/// By how much distance constraints are longer than their force explains, (C + alpha~
-/// lambda) / L: the error that a step left, which more substeps, iterations or another
-/// sweep would reduce. For a rigid constraint that is its stretch, for a compliant one the
-/// stretch beyond its own tension. PBD stiffness is excluded, because it has no multiplier.
+/// By how much distance constraints are longer than their force explains, (C + alpha~ lambda) / L: the error that a
+/// step leaves. More substeps or iterations, or another sweep, reduce it. For a rigid constraint it is the stretch, for
+/// a compliant one the stretch beyond that of its tension. Constraints with PBD stiffness are left out, because they
+/// have no multiplier.
 struct Overstretch {
-  double p99 = 0, largest = 0;             ///< shares of the rest length; negative if all are too short [-]
-  int object = -1;                         ///< slot of the object with the largest; -1: no such constraints
-  std::array<int, 2> particles{{-1, -1}};  ///< the ends of that constraint, in the object's own order
+  double p99 = 0, largest = 0;             ///< 99th percentile, maximum; shares of the rest length; negative: too short [-]
+  int object = -1;                         ///< slot of the object that has the maximum; -1: there are no such constraints
+  std::array<int, 2> particles{{-1, -1}};  ///< particles of the constraint with the maximum, in the object's own order
 };
 
-/// The origin of the first non-finite value.
+/// Where the first value that is not finite arose.
 struct NonFinite {
   std::string object, element;  ///< "distance constraint 17 (particles 3, 4)", "particle 12"; no object: see World::step
-  std::int64_t frame = 0;       ///< complete frames before it
-  int substep = 0;              ///< substep of the frame in which it occurred, from 0
+  std::int64_t frame = 0;       ///< number of complete frames before it
+  int substep = 0;              ///< index of the substep within the frame, from 0
 };
 
-/// The iterations of a step's substeps, which differ only if Settings::tolerance ends some early.
+/// Iterations per substep in a step. They differ only if Settings::tolerance ends some substeps early.
 struct IterationCount {
   int smallest = 0, largest = 0;
   double mean = 0;
 };
 
-/// Statistics of contact between surfaces and with mesh colliders.
+/// Statistics of contact between surfaces, including mesh colliders.
 struct PairReport {
-  std::int64_t candidates = 0;    ///< pairs in lists, vertex-triangle and edge-edge: static pairs and pairs found near
-  std::int64_t contacts = 0;      ///< active in the last substep
-  std::int64_t truncated = 0;     ///< steps truncated by the filter, over all substeps
-  std::int64_t unresolvable = 0;  ///< pairs that no step limit separates: static or kinematic surfaces pinch the cloth
-  std::int64_t initially_intersecting = 0;  ///< edges through a triangle since the start: no contact until they are apart
-  std::int64_t rebuilds = 0;                ///< broad-phase rebuilds
-  std::int64_t inside = 0;                  ///< vertices inside a closed mesh collider that are being moved out
-  double deepest = 0;  ///< penetration left by the last substep, largest: thickness minus distance, or 0 [m]
+  std::int64_t candidates = 0;              ///< pairs of primitives in lists: mesh neighbours, and pairs found near
+  std::int64_t contacts = 0;                ///< contacts active in the last substep
+  std::int64_t truncated = 0;               ///< steps of vertices that the filter truncated, over all substeps
+  std::int64_t unresolvable = 0;            ///< pairs that no step limit keeps apart, as in cloth pinched by colliders
+  std::int64_t initially_intersecting = 0;  ///< edges that intersect a triangle since the start; no contact until apart
+  std::int64_t rebuilds = 0;                ///< number of broad-phase rebuilds
+  std::int64_t inside = 0;                  ///< vertices inside a closed mesh collider, which are being moved out
+  double deepest = 0;  ///< largest penetration that the last substep left: thickness minus distance, or 0 [m]
 };
 
-/// An object, a collider or a mesh collider.
+/// A participant of a contact: an object, a collider or a mesh collider.
 struct Thing {
   enum class Kind { object, collider, mesh_collider };
   Kind kind = Kind::object;
@@ -91,15 +91,15 @@ struct Thing {
   friend auto operator<=>(const Thing&, const Thing&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// A contact between two things at the end of a frame. Only active contacts count.
+/// The contacts between two things at the end of a frame. Only active contacts count.
 struct ContactEvent {
   enum class Change { begin, persist, end };
   Change change = Change::begin;
-  Thing first, second;  ///< first < second; equal for self-contact of an object
-  int contacts = 0;     ///< active in the last substep
+  Thing first, second;  ///< first < second; equal for self-contact
+  int contacts = 0;     ///< number of contacts active in the last substep
   double impulse = 0;   ///< sum of the magnitudes of their normal impulses in the last substep [N s]
-  Vec3f position{};     ///< impulse-weighted mean contact position [m]
-  Vec3f normal{};       ///< unit; mean direction of the push on `first`; zero if pushes cancel
+  Vec3f position{};     ///< mean position of the contacts, weighted by impulse [m]
+  Vec3f normal{};       ///< unit vector: mean direction of the push on `first`; zero if pushes cancel
 };
 
 /// The result of a step. A step never throws, except for exceptions of the user's force fields.
@@ -107,21 +107,21 @@ struct Report {
   std::int64_t frame = 0;
   double time = 0;
   double milliseconds = 0;
-  int substeps = 0;  ///< number of substeps of this frame (Settings::most_substeps); the largest where objects differ
+  int substeps = 0;  ///< substeps of this frame, with those that Settings::most_substeps permits; the most of any object
   std::vector<PhaseTime> phases;
-  std::int64_t contacts = 0;  ///< active in the last substep
+  std::int64_t contacts = 0;  ///< contacts with colliders that were active in the last substep
   PairReport pairs;
-  std::vector<Residual> residuals;             ///< if Settings::measure
-  std::optional<Stretch> stretch;              ///< if Settings::measure
+  std::vector<Residual> residuals;             ///< filled if Settings::measure is set
+  std::optional<Stretch> stretch;              ///< filled if Settings::measure is set
   IterationCount iterations;                   ///< iterations per substep
-  std::optional<Overstretch> overstretch;      ///< if Settings::measure; World::advice describes it
-  std::vector<IterationResidual> convergence;  ///< of the last substep by iteration, if Settings::record_residuals
+  std::optional<Overstretch> overstretch;      ///< filled if Settings::measure is set; World::advice describes it
+  std::vector<IterationResidual> convergence;  ///< last substep by iteration, if Settings::record_residuals is set
   std::optional<NonFinite> nonfinite;
-  bool stopped = false;  ///< stopped by World::stop_when before the frame was complete
+  bool stopped = false;  ///< true if World::stop_when ended the step before the frame was complete
   std::vector<std::string> warnings;
 
   bool ok() const { return !nonfinite; }
-  std::string explain() const;  ///< problems and warnings in words; says so too if nothing moved, as for a refused dt
+  std::string explain() const;  ///< problems and warnings as text; also says if nothing moved, as for an invalid dt
 };
 
 }  // namespace pliant

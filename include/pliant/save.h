@@ -1,7 +1,7 @@
-// Saves and loads a State, or a whole World, as one file. Part of the library pliant_io.
+// Saves and loads a State, or a whole World, as one file. It is part of the library pliant_io.
 //
-// Both are exact: after loading, the next step gives the same bits as without saving. Files are written atomically, so the
-// previous one survives a crash, a full disk or a kill at any time. They carry a format version and a SHA-256 checksum.
+// Saving is exact: after loading, the next step gives the same bits as without saving. Files are written atomically, so
+// the previous one survives a crash, a full disk or a kill. They have a format version and a SHA-256 checksum.
 // docs/reference/save-format.md describes the format.
 #pragma once
 
@@ -12,19 +12,19 @@
 
 namespace pliant {
 
-/// Identifies the input that determines a run's bits: two SHA-256 hashes of 64 hexadecimal digits.
+/// Identifies what determines the bits of a run: two SHA-256 hashes, each as 64 hexadecimal digits.
 ///
-/// Data without effect on bits are excluded: colours, the number of frames, threads, the instruction set, measuring and
-/// recording, and distance grids, which follow from their meshes. Of force fields only the number counts.
+/// It excludes data that change no bits: colours, number of frames, threads, instruction set, measuring and recording,
+/// and distance grids, which follow from their meshes. Of force fields only the number counts.
 struct Fingerprint {
-  std::string scene;     ///< gravity, wind, frame time, objects, colliders, pairs
-  std::string settings;  ///< those that affect bits, after chosen_settings; `tiled` and `sequential` are equal
+  std::string scene;     ///< hash of gravity, wind, frame time, objects, colliders and pairs
+  std::string settings;  ///< hash of chosen_settings that change bits; `tiled` and `sequential` are equal
 };
 
-/// The fingerprint of a scene.
+/// Computes the fingerprint of a scene.
 Fingerprint fingerprint(const Scene& scene);
 
-/// Writes a State. Throws an Error that names the path on failure; an existing file then stays unchanged.
+/// Writes a State. If that fails, an existing file stays unchanged, and the Error names the path.
 void save(const std::string& path, const State& state);
 
 /// Writes a State with the fingerprint of its World's scene.
@@ -35,23 +35,23 @@ inline void save(const std::string& path, const State& state, const Scene& scene
 /// empty, of another format or version, of the wrong length, or damaged.
 State load_state(const std::string& path);
 
-/// The same. Throws an Error also if the file has another fingerprint.
+/// Reads a State. Also throws an Error if the file has a fingerprint other than `of`.
 State load_state(const std::string& path, const Fingerprint& of);
 inline State load_state(const std::string& path, const Scene& scene) { return load_state(path, fingerprint(scene)); }
 
-/// Writes a World: a scene of its current contents, its settings, ids and State. Without additions
-/// and removals that is its original scene; otherwise one with the existing objects in the order of
-/// World::objects(), colliders() and mesh_colliders(). Throws an Error if the scene has force fields,
-/// which are functions, or does not match the World's objects by number, names and particles.
+/// Writes a World: a scene that describes its present contents, its settings, ids and State. Pass the original scene if
+/// nothing was added or removed; otherwise one with the present objects in the order of World::objects(), colliders()
+/// and mesh_colliders(). Throws an Error if the scene has force fields, which are functions, or if numbers, names or
+/// particles of its objects differ from the World's.
 void save(const std::string& path, const World& world, const Scene& scene);
 
-/// A loaded World, and its scene with the World's settings.
+/// A World that was loaded, and the scene that it was saved with; its settings are the World's.
 struct LoadedWorld {
   Scene scene;
   World world;
 };
 
-/// Reads a World in which all ids stay valid. Throws as load_state does.
+/// Reads a World. All ids that were valid when it was saved are valid in it. Throws as load_state does.
 LoadedWorld load_world(const std::string& path);
 
 }  // namespace pliant

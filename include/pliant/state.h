@@ -1,4 +1,4 @@
-// The time-dependent part of a World, and the ids of its contents.
+// The part of a World that changes with time, and the ids of its contents.
 #pragma once
 
 #include <compare>
@@ -15,9 +15,9 @@ struct Object;
 struct Collider;
 struct MeshCollider;
 
-/// Identifies one thing of a World during its existence. A slot is reused after a removal
-/// with the next generation, so a stale id is an Error and never names a later thing. Things
-/// compiled from a Scene have generation 0, so the index returned by Scene::add is their id.
+/// Identifies one thing of a World while it exists. After a removal, the slot is used again with the next generation,
+/// so an old id causes an Error and never refers to a later thing. Things that come from the Scene have generation 0,
+/// so the index that Scene::add returned is their id.
 template <class Kind>
 struct Id {
   int slot = -1;
@@ -38,7 +38,7 @@ struct alignas(16) Record {
   float x = 0, y = 0, z = 0, w = 0;
 };
 
-/// Allocates at cache line boundaries, so that four records fill a line.
+/// An allocator that aligns to cache lines, so that four records fill a line.
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;
@@ -52,55 +52,55 @@ struct CacheLineAllocator {
 
 using Records = std::vector<Record, CacheLineAllocator<Record>>;
 
-/// The particle range of an object or mesh collider in a State.
+/// The block of particles of an object or mesh collider in a State.
 struct StateBlock {
-  int first = 0, particles = 0;  ///< no particles: removed
-  int generation = 0;            ///< increases whenever the World compiles another object into the block
+  int first = 0, particles = 0;  ///< no particles: the object was removed
+  int generation = 0;            ///< increases whenever another object is compiled into the block
   friend bool operator==(const StateBlock&, const StateBlock&) = default;
 };
 
-/// The pose that World::set_poses gave to a collider without keyframes.
+/// The pose that World::set_poses gave to a collider that has no keyframes.
 struct HeldPose {
   bool is_mesh = false;  ///< true for a mesh collider, false for a primitive
   int slot = 0, generation = 0;
-  Vec3f position{};  ///< [m]
+  Vec3f position{};  ///< position of the collider's frame [m]
   Quatf rotation{};
   friend bool operator==(const HeldPose&, const HeldPose&) = default;
 };
 
-/// The orientation data of a State, one record per frame.
+/// The orientations in a State: three arrays with one record per frame.
 struct FrameRecords {
   Records orientations;        ///< unit quaternion from the frame's principal axes to the world
-  Records angular_velocities;  ///< in the frame's principal axes [rad/s], w zero
-  Records inverse_inertias;    ///< about the frame's principal axes [1/(kg m^2)], w zero; constant
+  Records angular_velocities;  ///< in the frame's principal axes [rad/s]; w is zero
+  Records inverse_inertias;    ///< about the frame's principal axes [1/(kg m^2)]; w is zero; constant
 
   std::size_t size() const { return orientations.size(); }
 };
 
-/// A number or vector per particle that a kind of matter owns, such as a temperature.
+/// A number or vector for each particle, such as a temperature.
 struct Channel {
   std::string name;
-  int components = 1;         ///< numbers per particle
-  std::vector<float> values;  ///< components x particles, in the order of the State
+  int components = 1;         ///< numbers for each particle
+  std::vector<float> values;  ///< components x particles numbers, in the order of the State's particles
 };
 
-/// The complete time-dependent data, as a plain value: copy, hash or restore it, and the next
-/// step gives the same bits. Each object has a block of particles in storage order, which
-/// World::storage_order maps to the user's order. Zeros fill blocks of removed objects.
+/// All data of a World that change with time, as a plain value: copy, hash or restore it, and the next step gives the
+/// same bits. Each object has a block of particles in storage order, which World::storage_order relates to the user's
+/// order. Blocks of removed objects are filled with zeros.
 struct State {
-  double time = 0;                 ///< [s]
-  std::int64_t frame = 0;          ///< steps taken
-  std::vector<StateBlock> blocks;  ///< one per object or mesh collider, in the order of addition
-  Records positions;               ///< (x, y, z) [m], w the inverse mass [1/kg]
-  Records remainders;              ///< rounding residues: the part of the motion below float precision [m]
-  Records velocities;              ///< [m/s]
-  FrameRecords frames;             ///< frames by object, as particles are; mostly none
-  std::vector<Channel> channels;   ///< mostly none
+  double time = 0;                 ///< simulated time [s]
+  std::int64_t frame = 0;          ///< number of complete steps
+  std::vector<StateBlock> blocks;  ///< block of each object or mesh collider, in the order of addition
+  Records positions;               ///< x, y, z [m] and the inverse mass w [1/kg]
+  Records remainders;              ///< rounding residues: what the float positions cannot represent [m]
+  Records velocities;              ///< velocities [m/s]
+  FrameRecords frames;             ///< orientations, object after object; usually none
+  std::vector<Channel> channels;   ///< usually none
   std::vector<HeldPose> held_poses;
 };
 
-/// SHA-256 of a State, as 64 hexadecimal digits. Blocks are included only after a removal or an edit, because contiguous
-/// blocks follow from the particles. Frames, channels and held poses are included if there are any.
+/// The SHA-256 hash of a State as 64 hexadecimal digits. It includes blocks only after a removal or an edit, because
+/// contiguous blocks follow from the particles; frames, channels and held poses only if there are any.
 std::string hash(const State& state);
 
 }  // namespace pliant

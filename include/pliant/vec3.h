@@ -1,7 +1,7 @@
 // Three-component vectors and unit quaternions, the only mathematics in the public interface.
 //
-// The scalar type is a template parameter, because one formula serves four targets: float for one particle, Wide for
-// sixteen, double for the tests' oracle, and float on a CUDA device.
+// The scalar type is a template parameter, because a formula is used with four: float for one particle, Wide for
+// sixteen, double for the tests' comparison, and float on a CUDA device.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 #if defined(__CUDACC__)
 #define PLIANT_HD __host__ __device__ __forceinline__
 #else
-// Force-inlined, so that units compiled for different instruction sets never share a function.
+// Functions are force-inlined, so that code compiled for different instruction sets never shares one.
 #define PLIANT_HD inline __attribute__((always_inline))
 #endif
 
@@ -62,7 +62,7 @@ PLIANT_HD R length_squared(const Vec3<R>& a) {
   return dot(a, a);
 }
 
-/// A rotation as a unit quaternion, (x, y, z) the imaginary part and w the real part.
+/// A rotation as a unit quaternion with imaginary part (x, y, z) and real part w.
 template <class R>
 struct Quat {
   R x{}, y{}, z{}, w{R(1)};

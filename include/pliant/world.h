@@ -1,4 +1,4 @@
-// A World is a compiled Scene with the State that changes over time. Call step, then read.
+// A World is a compiled Scene with the State that changes with time. Call step, then read.
 #pragma once
 
 #include <atomic>
@@ -15,100 +15,100 @@
 
 namespace pliant {
 
-/// Information on a compiled object.
+/// Facts about an object of a World.
 struct ObjectInfo {
   std::string name;
   int particles = 0;
-  std::vector<std::pair<std::string, std::int64_t>> constraints;  ///< number of constraints by type, including "volume"
-  int substeps = 0;  ///< per frame; a frame with a fast collider may have more (Report::substeps)
+  std::vector<std::pair<std::string, std::int64_t>> constraints;  ///< number of constraints of each type, "volume" included
+  int substeps = 0;  ///< substeps per frame; fast colliders may increase them (Report::substeps)
 };
 
-/// The solve counts as good if no distance is longer by more than this share than its force explains [-].
+/// A solve is good if no distance exceeds the length that its force explains by more than this share [-].
 inline constexpr double tolerated_overstretch = 0.01;
 
-/// A rigid transform: a point p of a collider's local frame is at rotation p + position.
+/// A pose of a collider: a point p of its local frame is at rotation p + position.
 struct RigidPose {
-  Vec3f position{};  ///< [m]
-  Quatf rotation{};  ///< any non-zero length
+  Vec3f position{};  ///< position of the local frame's origin [m]
+  Quatf rotation{};  ///< quaternion of any non-zero length
 };
 
-/// An object edited in place: its new description, and the origin of its particles. remove_triangles and cut make one. To
-/// edit masses, stiffness, pins and all else, change `object` itself.
+/// A change of an object: its new description, and where its particles come from. remove_triangles and cut make one. To
+/// change masses, stiffness, pins and the like, change `object` yourself.
 struct Edit {
   Object object;
   /// For each particle of `object`: the old particle whose position and velocity it takes, or -1 for a new one, which
-  /// starts at its position in `object`. Several may have one origin.
+  /// starts at its position in `object`. Several particles may have the same origin.
   std::vector<int> from;
-  // Frames keep their indices: the first ones that exist before and after keep orientation and angular velocity.
+  // Frames are matched by index: those that exist before and after keep orientation and angular velocity.
 };
 
-/// The unchanged object, as the starting point of an Edit.
+/// An Edit that changes nothing, as a start for changes of your own.
 Edit unchanged(const Object& object);
 
-/// Removes triangles and the constraints that only they supported: pairs that
-/// no triangle joins any more, and larger stencils with a missing triangle.
-/// Particles keep their indices. Throws an Error if a triangle does not exist.
+/// Removes triangles, and the constraints that only they supported: pairs of particles that no triangle contains any
+/// more, and larger stencils with a missing triangle. Particles keep their indices. Throws an Error if a triangle does
+/// not exist.
 Edit remove_triangles(const Object& object, std::span<const int> triangles);
 
-/// Cuts a surface along a path of particles joined by triangle edges. A particle is split where
-/// the cut separates the triangles around it: inside the path, and at an end on the border. Copies
-/// follow all other particles and share the mass by triangle area, so mass and momentum are
-/// conserved. Constraints across the cut are removed; an edge on the cut stays on both sides with
-/// its stiffness shared by area. Throws an Error if two neighbours of the path share no edge.
+/// Cuts a surface along a path of particles, each joined to the next by a triangle's edge. A particle is split where
+/// the cut separates its triangles: inside the path, and at an end on the border. Copies follow all other particles;
+/// masses are divided by triangle area, so mass and momentum are conserved. Constraints across the cut are removed. An
+/// edge on the cut stays on both sides, its stiffness divided by area. Throws an Error if two neighbours of the path
+/// share no edge.
 Edit cut(const Object& object, std::span<const int> path);
 
-/// The ids and storage layout of a World. With a Scene that describes its objects, it recreates the World with the same ids
-/// and bits after additions and removals. pliant::save writes it.
+/// The ids and the storage layout of a World. With a Scene that describes its objects, it gives a World with the same
+/// ids and bits after additions and removals. pliant::save writes it.
 struct WorldLayout {
   struct Slot {
-    int number = -1;     ///< of an object or mesh collider in `blocks`, or of a primitive collider; -1: the slot is free
-    int generation = 0;  ///< generation of the current occupant, or of the next
+    int number = -1;     ///< index of the object or mesh collider in `blocks`, or of the collider; -1: free slot
+    int generation = 0;  ///< generation of the present id, or of the next one if the slot is free
   };
-  std::vector<Slot> objects, colliders, mesh_colliders;  ///< by slot
-  std::vector<StateBlock> blocks;                        ///< by index
-  std::vector<int> first_frames;                         ///< by index: first frame of the object in a State
-  std::vector<Sweep> sweeps;                             ///< by index: the sweep of the object
+  std::vector<Slot> objects, colliders, mesh_colliders;  ///< one for each slot
+  std::vector<StateBlock> blocks;                        ///< block of each object or mesh collider
+  std::vector<int> first_frames;                         ///< first frame of each object in a State
+  std::vector<Sweep> sweeps;                             ///< sweep of each object
 };
 
-/// It has more than thirty members, because it is the one object that a user steps, changes and reads.
+/// A simulation to step, change and read. Over thirty members, because it is the only object that a user needs for this.
 class World {
  public:
-  /// Compiles a scene. Throws an Error that names object, element and remedy if it cannot be simulated.
+  /// Compiles a scene. If it cannot be simulated, throws an Error that names object, element and remedy.
   explicit World(const Scene& scene);
   World(const Scene& scene, const Settings& settings);
-  /// The same in less memory: each object's description is freed once compiled. Keep a copy to save the World or edit objects.
+  /// Does the same with less memory: frees each object's description when compiled. Keep a copy to save or edit objects.
   explicit World(Scene&& scene);
   World(Scene&& scene, const Settings& settings);
-  /// Recreates a World after additions and removals. The scene describes the existing objects in the order of objects(),
-  /// colliders() and mesh_colliders(), with that World's settings. Throws an Error also if the two are inconsistent.
+  /// Makes a World as it was after additions and removals. The scene describes its objects in the order of objects(),
+  /// colliders() and mesh_colliders(), with its settings. Also throws an Error if scene and layout do not fit together.
   World(const Scene& scene, const WorldLayout& layout);
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  /// Advances by dt seconds (finite, > 0, substeps of at least 1e-12 s; otherwise nothing moves and the Report says so).
-  /// After a non-finite value, or an exception of a force field, the World stops within the frame with a finite State. It
-  /// then rejects steps (a Report whose `nonfinite` names no object) until it is restored. Keep dt constant: a much shorter
-  /// step turns the constraint error of a longer one into velocity.
+  /// Advances by dt seconds (finite, > 0, substeps of at least 1e-12 s; otherwise nothing moves, and the Report says
+  /// so). After a value that is not finite, or an exception of a force field, the World stops within the frame with a
+  /// finite State. It then rejects steps (the Report's `nonfinite` names no object) until a State is restored. Keep dt
+  /// constant: a much shorter step turns the constraint error of a longer one into velocity.
   Report step(float dt);
 
-  /// Polls the flag after each substep and ends the step if it is true, with Report::stopped: State and `time` are those at
-  /// the end of the substep, and the frame does not count. Where objects have different substeps, it ends at the next time
-  /// that is the end of a substep of all. If it is true before a step, nothing moves. Other threads and
-  /// signal handlers may set it. It must outlive the World or be reset by nullptr.
+  /// Reads the flag after each substep. If it is true, the step ends with Report::stopped: State and `time` are those
+  /// at the end of the substep, and the frame does not count. If objects have different substeps, it ends at the next
+  /// time at which substeps of all end. If it is true before a step, nothing moves. Other threads and signal handlers
+  /// may set it. It must live as long as the World, or until it is replaced by nullptr.
   void stop_when(const std::atomic<bool>* flag);
 
   const State& state() const;
-  /// Restores a State of this World. Throws an Error if it does not fit. Multipliers read as zero until the next step.
+  /// Restores a State of this World. Throws an Error if it does not fit. Until the next step, all multipliers are zero.
   void restore(const State& state);
   std::string state_hash() const { return hash(state()); }
 
-  // ---- Adding and removing, between steps. A call that throws an Error leaves the World unchanged.
+  // ---- Adding and removing, between steps. If a call throws an Error, the World is unchanged.
 
-  /// Adds an object at the current time: its keyframes act from the next frame on. The cost is that of compiling it. A sweep
-  /// and substeps that the World chose for all its first objects stay (see settings()), even if contact now calls for others:
-  /// name both in Settings if more will come. Throws an Error that names the element if it cannot be simulated, or if the
-  /// settings reject its initial intersections with present objects; that check tests all surfaces.
+  /// Adds an object at the current time. Its keyframes act from the next frame on. The cost is that of compiling it. A
+  /// sweep and substeps that the World chose for its first objects stay (settings()), even if contact would now need
+  /// others: set both in Settings if objects will be added. Throws an Error that names the element if the object cannot be
+  /// simulated, or if the settings refuse its initial intersections with present objects; that check tests all surfaces.
   ObjectId add(const Object& object);
   ColliderId add(const Collider& collider);
   MeshColliderId add(const MeshCollider& collider);
@@ -118,102 +118,102 @@ class World {
   void remove(ColliderId collider);
   void remove(MeshColliderId collider);
 
-  /// Edits a moving object in place: its id stays valid, and every particle with an origin keeps position and velocity
-  /// exactly. Pass the changed description with which the object was added, because the World keeps none. Returns the first
-  /// new index of each old particle, or -1. The cost is that of compiling the object. Throws an Error if the description
-  /// cannot be simulated or `from` does not fit.
+  /// Changes an object that moves: its id stays valid, and every particle with an origin keeps position and velocity
+  /// exactly. Pass a changed copy of the description with which it was added, because the World keeps none. Returns for
+  /// each old particle the first new index, or -1. The cost is that of compiling the object. Throws an Error if the
+  /// description cannot be simulated or `from` does not fit.
   std::vector<int> edit(ObjectId object, const Edit& edit);
 
-  /// True if the id is valid.
+  /// True if the id refers to an existing object or collider.
   bool has(ObjectId object) const;
   bool has(ColliderId collider) const;
   bool has(MeshColliderId collider) const;
 
   WorldLayout layout() const;
 
-  /// The ids of the existing objects, by slot.
+  /// The ids of the existing objects, ordered by slot.
   std::vector<ObjectId> objects() const;
   std::vector<ColliderId> colliders() const;
   std::vector<MeshColliderId> mesh_colliders() const;
 
-  // ---- Control, between steps. Wrong sizes and non-finite values
-  // throw an Error that names object and element, and change nothing.
+  // ---- Control, between steps. Calls with wrong sizes or values that are not finite throw an Error that names object
+  // and element, and change nothing.
 
-  /// Moves kinematic particles (pins, infinite mass) at constant velocity to `positions` [m], which they reach at the end
-  /// of the next step. Then they stay, or follow their keyframes again, if any.
+  /// Moves kinematic particles (pins, infinite mass) at constant velocity to `positions` [m], which they reach at the
+  /// end of the next step. After that they stay, or follow their keyframes, if any.
   void set_targets(ObjectId object, std::span<const int> particles, std::span<const Vec3f> positions);
-  /// The same for the targets of attachments, by their indices in the Object.
+  /// Moves the targets of attachments in the same way. `attachments` are indices in the Object.
   void set_attachment_targets(ObjectId object, std::span<const int> attachments, std::span<const Vec3f> positions);
-  /// Moves colliders to poses that they reach at the end of the next step: translation at constant velocity, rotation along
-  /// the shorter arc. Then they stay, or follow their keyframes again, if any.
+  /// Moves colliders to poses that they reach at the end of the next step: position at constant velocity, rotation
+  /// along the shorter arc. After that they stay, or follow their keyframes, if any.
   void set_poses(std::span<const ColliderId> colliders, std::span<const RigidPose> poses);
-  /// The same for mesh colliders: the given mesh, deformed by its frames, in the pose.
+  /// Moves mesh colliders in the same way. The pose applies to the mesh as deformed by its frames.
   void set_poses(std::span<const MeshColliderId> colliders, std::span<const RigidPose> poses);
-  /// Moves each vertex of a mesh collider (as triangles) to the position that it reaches at the end of the next step [m].
+  /// Moves the vertices of a mesh collider (as triangles) to positions that they reach at the end of the next step [m].
   void set_positions(MeshColliderId collider, std::span<const Vec3f> positions);
-  /// One velocity per particle [m/s]. Particles of infinite mass are skipped.
+  /// Sets the velocity of each particle [m/s]; those of infinite mass are skipped.
   void set_velocities(ObjectId object, std::span<const Vec3f> velocities);
-  /// One impulse per particle [N s]: velocity += impulse / mass.
+  /// Adds an impulse to each particle [N s]: velocity += impulse / mass.
   void add_impulses(ObjectId object, std::span<const Vec3f> impulses);
-  /// One force per particle [N], constant during the next step only. Replaces those of an earlier call.
+  /// Applies a constant force to each particle during the next step [N]. Replaces the forces of an earlier call.
   void set_forces(ObjectId object, std::span<const Vec3f> forces);
 
   // ---- Contact events.
 
-  /// Turns the recording of contact events on or off (initially off). It costs one more pass over the contacts of a step.
+  /// Starts or ends the recording of contact events (initially off). It costs one more pass over the contacts of a step.
   void record_contact_events(bool on);
-  /// Events of the last step, ordered by participants: contacts that began, persist or ended.
+  /// The contact events of the last step, ordered by participants: contacts that began, persisted or ended.
   const std::vector<ContactEvent>& contact_events() const;
 
-  /// The number of objects. Unless one was removed, the ids are 0, 1, ...
+  /// The number of objects. If none was removed, their ids are 0, 1, ...
   int object_count() const;
   ObjectInfo info(ObjectId object) const;
   const Settings& settings() const;
   std::string isa() const;  ///< the code path in use: "x86-64-v2", "-v3", "-v4" or "generic"
   int threads() const;
 
-  /// The positions in the user's particle order [m].
+  /// The positions of an object's particles in the user's order [m].
   std::vector<Vec3f> positions(ObjectId object) const;
   std::vector<Vec3f> velocities(ObjectId object) const;
-  /// The orientations of the object's frames, in the order of Object::frames.
+  /// The orientations of an object's frames, in the order of Object::frames.
   std::vector<Quatf> orientations(ObjectId object) const;
   std::vector<Vec3f> angular_velocities(ObjectId object) const;  ///< in world axes [rad/s]
   TriangleMesh mesh(ObjectId object) const;
-  /// Copies positions into the caller's memory, one entry per particle. Throws an Error if the size differs.
+  /// Copies positions into the caller's memory, one for each particle. Throws an Error if the size differs.
   void read_positions(ObjectId object, std::span<Vec3f> into) const;
   void read_velocities(ObjectId object, std::span<Vec3f> into) const;
   void read_mesh_collider_positions(MeshColliderId collider, std::span<Vec3f> into) const;
 
-  /// Views in storage order: (x, y, z) with inverse mass, and velocities with w zero. Valid until the next step or
-  /// change. Record i is particle storage_order(object)[i]; indices beyond the object's particles are attachment
-  /// targets.
+  /// Views of an object's particles in storage order: positions with the inverse mass as w, and velocities with w zero.
+  /// They are valid until the next step or change. Record i is particle storage_order(object)[i]; indices beyond the
+  /// object's own particles are targets of attachments.
   std::span<const Record> positions_in_storage_order(ObjectId object) const;
   std::span<const Record> velocities_in_storage_order(ObjectId object) const;
   std::span<const int> storage_order(ObjectId object) const;
-  /// The current pose of a collider.
+  /// The current pose of a collider: position, and rotation below.
   Vec3f collider_position(ColliderId collider) const;
   Quatf collider_rotation(ColliderId collider) const;
-  /// The current vertex positions of a mesh collider, in its own order [m]. Throws an Error if it does not exist.
+  /// The present vertex positions of a mesh collider in its own order [m]. Throws an Error if the collider does not exist.
   std::vector<Vec3f> mesh_collider_positions(MeshColliderId collider) const;
 
-  /// The multipliers of the last substep in the order of the object's constraint groups of that type, row by row; empty if
-  /// they were not stored. The force is lambda / h^2 along the gradient (XPBD, eq. 17).
+  /// The multipliers of the last substep in the order of the object's constraint groups of that type, row by row; empty
+  /// if they were not stored. The force is lambda / h^2 along the gradient (XPBD, eq. 17).
   std::vector<float> multipliers(ObjectId object, const std::string& type) const;
 
-  /// Kinetic and gravitational energy of all dynamic particles [J]; heights relative to the origin.
+  /// Kinetic and gravitational energy of all dynamic particles [J]. Heights are relative to the origin.
   double kinetic_energy() const;
   double potential_energy() const;
   std::vector<Residual> residuals() const;
   Stretch stretch() const;
-  /// The current overstretch. Compliant constraints count in full if multipliers are stored
+  /// The present overstretch. Compliant constraints are measured correctly only if multipliers are stored
   /// (Settings::measure).
   Overstretch overstretch() const;
-  /// "object 'sheet': stretched 14 % too far at its pins (edge 12-13), 1 edge in 100 by 3 % or more"; empty without object.
+  /// Describes it: "object 'sheet': stretched 14 % too far at its pins (edge 12-13), 1 edge in 100 by 3 % or more".
   std::string describe(const Overstretch& found) const;
-  /// How the solve fell short in the step of a Report with Settings::measure, by how much, and what to do; empty if
-  /// overstretch is within `tolerated_overstretch`. `advise` tries remedies.
+  /// Says where the solve fell short in a step, by how much, and what to do; empty if overstretch is within
+  /// `tolerated_overstretch`. `report` must come from a step with Settings::measure. pliant::advise tries remedies.
   std::string advice(const Report& report) const;
-  double enclosed_volume(ObjectId object) const;  ///< of its triangles [m^3]
+  double enclosed_volume(ObjectId object) const;  ///< volume enclosed by the object's triangles [m^3]
 
  private:
   struct Implementation;
