@@ -1,5 +1,5 @@
-// The temporary file, its checks and its rename. POSIX calls, because
-// a stream can neither report why it failed nor sync to disk.
+// Writes to a temporary file, checks every call, and renames. It uses POSIX calls, because a stream can neither say why
+// it failed nor sync to disk.
 #include "atomic_file.h"
 
 #include <fcntl.h>
@@ -45,7 +45,7 @@ const char* advice(int code) {
   }
 }
 
-/// The names of unfinished files. If the table is full, remove_unfinished_files() merely misses a file.
+/// The names of unfinished files. If the table is full, remove_unfinished_files() leaves further files behind.
 std::array<std::atomic<const char*>, 256> unfinished{};
 static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler reads it");
 
@@ -78,7 +78,7 @@ int write_all(int descriptor, const char* bytes, std::size_t count) {
 
 std::string name_of_descriptor(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
 
-/// A nameless file, which vanishes when the program ends for any reason; -1 if the system has none.
+/// Opens a file without a name, which vanishes when the program ends for any reason; -1 if the system has no such files.
 int open_nameless(const std::string& folder) {
   const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
   if (descriptor < 0 || ::access(name_of_descriptor(descriptor).c_str(), F_OK) == 0) return descriptor;
@@ -102,7 +102,7 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(path_
   if (exists) target_ = follow_links(path_);
   if (exists && ::access(target_.c_str(), W_OK) != 0) fail("cannot write", errno);
   open_temporary();
-  // Failure is ignored: some file systems have no permissions.
+  // A failure is ignored, because some file systems have no permissions.
   if (exists) (void)!::fchmod(descriptor_, status.st_mode & 0777);
 }
 
@@ -118,7 +118,7 @@ void AtomicFile::fail(const char* what, int code) const {
               std::string(what) + ": " + std::generic_category().message(code), advice(code));
 }
 
-/// A short unique name: a long target name plus a suffix could exceed the file system's limit.
+/// A short unique name: the target's name with a suffix could exceed the file system's limit.
 std::string AtomicFile::next_name() const {
   static std::atomic<unsigned> counter{0};
   return folder_of(target_) + "/.pliant-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".part";
@@ -141,7 +141,7 @@ void AtomicFile::open_temporary() {
   fail("cannot write", errno);
 }
 
-/// A rename needs a name, so a nameless file gets one here.
+/// Gives a nameless file a name, because only named files can be renamed.
 void AtomicFile::name_temporary() {
   if (!temporary_.empty()) return;
   const std::string self = name_of_descriptor(descriptor_);
@@ -213,7 +213,7 @@ void AtomicFile::commit() {
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot rename the temporary file", errno);
   forget_unfinished(temporary_.c_str());
   temporary_.clear();
-  // The rename is stored in the folder. If the folder cannot be synced, the file is complete anyway.
+  // The folder stores the rename, so it is synced too. If that fails, the file is complete anyway.
   const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder < 0) return;
   ::fsync(folder);

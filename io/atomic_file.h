@@ -1,4 +1,4 @@
-// Atomic files: the content appears under its name only after all of it is on disk.
+// Atomic files: a file appears under its name only after all of its content is on disk.
 //
 // A simulation's output takes hours to compute and must not be lost. So every writer of this folder writes a temporary file
 // in the target folder and checks every call. commit() replaces the target by one rename, which is atomic. Until then, or
@@ -19,7 +19,7 @@ class AtomicFile {
   /// the path if its folder is missing, or the path is a folder or not writable.
   explicit AtomicFile(std::string path);
 
-  /// Discards the content unless commit() has returned.
+  /// Discards the file unless commit() has succeeded.
   ~AtomicFile();
 
   AtomicFile(const AtomicFile&) = delete;
@@ -29,19 +29,19 @@ class AtomicFile {
   void write(const void* bytes, std::size_t count);
   void write(std::string_view text) { write(text.data(), text.size()); }
 
-  /// Appends the bytes of a value as in memory (little-endian on every supported machine).
+  /// Appends the bytes of a value as they are in memory (little-endian on every supported machine).
   template <class T>
   void write_value(const T& value) {
     write(&value, sizeof value);
   }
 
-  /// Overwrites `count` bytes at `offset`, all written before: for headers that count what follows.
+  /// Replaces `count` bytes that were written at `offset` before: for headers that count what follows.
   void overwrite(std::size_t offset, const void* bytes, std::size_t count);
 
-  /// Bytes written so far.
+  /// The number of bytes written so far.
   std::size_t size() const { return written_ + buffer_.size(); }
 
-  /// Moves the file into place, synced to disk. Throws an Error that names the path on failure.
+  /// Syncs the file to disk and gives it its name. If that fails, throws an Error that names the path.
   void commit();
 
   const std::string& path() const { return path_; }
@@ -64,13 +64,13 @@ class AtomicFile {
   int descriptor_ = -1;
 };
 
-/// Registers a file for remove_unfinished_files(). The name must stay valid
-/// until it is forgotten. Every AtomicFile registers its temporary file.
+/// Registers a file for remove_unfinished_files(). The string must stay valid until the file is forgotten. Every
+/// AtomicFile registers its temporary file.
 void remember_unfinished(const char* name) noexcept;
 void forget_unfinished(const char* name) noexcept;
 
-/// Removes all unfinished files without blocking: for a signal
-/// handler that is about to end the program. Async-signal-safe.
+/// Removes all registered files without blocking. A signal handler that is about to end the program may call
+/// it.
 void remove_unfinished_files() noexcept;
 
 }  // namespace pliant

@@ -1,5 +1,5 @@
-// A disk cache of signed distance grids. A file's name is the hash of the grid's input, and its first bytes are the hash of
-// its content. So grids are never confused, and damaged files are ignored.
+// A cache of signed distance grids on disk. A file's name is the hash of what the grid is made from, and its first
+// bytes are the hash of its content. So no grid is used for another mesh, and damaged files are ignored.
 #include <cstring>
 #include <filesystem>
 #include <string_view>
@@ -19,7 +19,7 @@ constexpr std::string_view magic = "pliant distances 1\n";
 constexpr std::size_t hash_digits = 64;
 constexpr std::int64_t most_nodes = std::int64_t{1} << 27;
 
-/// The header before the distances.
+/// The header of a cache file, before the distances.
 struct Head {
   float low[3], spacing;
   std::int32_t nodes[3];
@@ -45,7 +45,7 @@ std::string name_of(const TriangleMesh& mesh, float spacing) {
   return hash.finish() + ".distances";
 }
 
-/// Returns null unless the bytes are a complete, intact file.
+/// Reads a grid from the bytes of a cache file; null if they are incomplete or damaged.
 std::shared_ptr<const DistanceField> parse(std::string_view bytes) {
   if (bytes.substr(0, magic.size()) != magic || bytes.size() < magic.size() + hash_digits + sizeof(Head)) return nullptr;
   const std::string_view body = bytes.substr(magic.size() + hash_digits);
@@ -81,7 +81,7 @@ void write(const std::string& path, const DistanceField& field) {
   file.commit();
 }
 
-/// Returns null unless the file exists and is intact.
+/// Reads a cache file; null if it does not exist or is damaged.
 std::shared_ptr<const DistanceField> read(const std::string& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return nullptr;

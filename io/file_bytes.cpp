@@ -1,5 +1,5 @@
-// POSIX calls, because a stream blocks forever on a pipe,
-// reads a device without end, and cannot report what failed.
+// Reads files by POSIX calls: a stream would block forever on a pipe, read a device without end, and not say what
+// failed.
 #include "file_bytes.h"
 
 #include <fcntl.h>
@@ -20,7 +20,7 @@ namespace {
   throw Error({.file = path, .line = 0, .object = {}, .element = {}}, problem, advice);
 }
 
-/// Closes the file on every exit path.
+/// A file descriptor that is closed on every path out of a function.
 class Descriptor {
  public:
   explicit Descriptor(const std::string& path)
@@ -64,7 +64,7 @@ std::string read_file_bytes(const std::string& path, std::uint64_t most, AtMost 
   const bool whole = at_most == AtMost::refuse;
   if (whole) refuse_large(static_cast<std::uint64_t>(status.st_size), most, path);
 
-  // The file's size may change meanwhile, and some virtual files report 0: read to the end instead.
+  // Reads to the end of the file, whatever size it had: that may change meanwhile, and some virtual files report 0.
   std::string bytes;
   bytes.resize(static_cast<std::size_t>(std::min(static_cast<std::uint64_t>(status.st_size), most)) + 1);
   std::size_t done = 0;

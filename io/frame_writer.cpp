@@ -1,4 +1,4 @@
-// The public writer: reads a World's objects each frame and passes them to the format of the path's suffix.
+// The public FrameWriter: reads a World's objects in each frame and passes them to the writer of the suffix's format.
 #include "pliant/error.h"
 #include "pliant/io.h"
 #include "write_frames.h"
@@ -13,7 +13,8 @@ namespace {
               "pass the scene from which the World was made");
 }
 
-/// Writers use the scene's indices for the World's data, so the sizes must match for any scene passed in.
+/// Throws an Error unless an object of the scene has as many particles as that of the World: writers use the scene's
+/// indices.
 void require_fitting(const std::string& path, const Object& object, int particles) {
   if (object.positions.size() != static_cast<std::size_t>(particles))
     refuse(path, object.name, "",
@@ -48,7 +49,7 @@ class WorldWriter final : public FrameWriter {
 
  private:
   std::unique_ptr<output::FormatWriter> format_;
-  std::vector<ObjectId> objects_;  ///< the objects at the start of the run
+  std::vector<ObjectId> objects_;  ///< objects at the start of the run
 };
 
 }  // namespace

@@ -1,8 +1,8 @@
-// Wavefront OBJ: vertices and faces; appearance is ignored.
+// Reads Wavefront OBJ: vertices and faces, without appearance.
 //
-// A custom reader instead of tinyobjloader. A mesh needs only two of the format's keywords. The library's errors name no
-// line, it skips faces that it cannot parse, reads "nan" as a number, and has had memory errors on hostile files. A damaged
-// mesh should be rejected with a line number, not silently shrunk.
+// It does not use tinyobjloader. A mesh needs only two of the format's keywords; errors of that library name no line,
+// it skips faces that it cannot parse, reads "nan" as a number, and has had memory errors on hostile files. A damaged
+// mesh should be rejected with a line number, not silently lose faces.
 //
 // Read: v (extra values, a weight or colours, must be numbers and are ignored), f in all forms (v, v/vt, v//vn, v/vt/vn,
 // negative indices), "\" at a line's end, comments, any line ending. Ignored with a note: points, lines, curves, free-form
@@ -32,7 +32,7 @@ constexpr std::string_view silent_keywords[] = {
     "c_interp", "d_interp", "deg",    "step",  "parm",       "trim",      "hole", "scrv", "sp",
     "con",      "end",      "ctech",  "stech", "bmat",       "cstype",    "call"};
 
-/// Elements that are not polygons, and their names in notes.
+/// Keywords of elements that are not polygons, and what messages call them.
 constexpr std::pair<std::string_view, const char*> noted_keywords[] = {
     {"p", "point"}, {"l", "line"}, {"curv", "curve"}, {"curv2", "curve"}, {"surf", "surface"},
 };
@@ -54,13 +54,13 @@ class ObjParser {
     throw Error({.file = name_, .line = line, .object = {}, .element = {}}, std::move(problem), std::move(advice));
   }
 
-  /// A trailing "\" does not continue a comment: many end in a folder's name, "C:\\meshes\\".
+  /// True for comments. A trailing "\" does not continue them, because many end in a folder's name: "C:\\meshes\\".
   static bool is_comment(std::string_view line) {
     const std::string_view word = take_word(line);
     return !word.empty() && word.front() == '#';
   }
 
-  /// Advances to the next statement: a line and all lines joined to it by a trailing "\".
+  /// Advances to the next statement: a line, joined with those that follow a trailing "\".
   bool next_statement() {
     if (!lines_.next()) return false;
     line_ = lines_.number();
@@ -93,7 +93,7 @@ class ObjParser {
          "the file is not OBJ, or the line is damaged; delete the line if it is not needed");
   }
 
-  /// The next word of a statement, which ends at a comment.
+  /// Takes the next word off a statement; a comment ends the statement.
   static std::string_view next_value(std::string_view& rest) {
     const std::string_view word = take_word(rest);
     if (word.empty() || word.front() != '#') return word;
@@ -102,7 +102,7 @@ class ObjParser {
   }
 
   void vertex(std::string_view rest) {
-    constexpr int most = 8;  // x y z, optionally a weight and four colour values
+    constexpr int most = 8;  // x y z, optionally a weight, and four numbers of a colour
     float values[most] = {};
     int count = 0;
     for (std::string_view word = next_value(rest); !word.empty(); word = next_value(rest)) {
@@ -149,7 +149,8 @@ class ObjParser {
     fail(line_, quoted(whole) + " has more than three parts", "write V, V/VT, V//VN or V/VT/VN");
   }
 
-  /// Indices count from 1, or backwards from the last vertex read. A positive index may refer to a later vertex.
+  /// Converts an index of the file, which counts from 1, or backwards from the last vertex read. It may refer to a
+  /// later vertex.
   int resolve(std::int64_t index) {
     const std::int64_t known = static_cast<std::int64_t>(mesh_.positions.size());
     if (index == 0) fail(line_, "vertex index 0", "OBJ counts vertices from 1");
@@ -180,7 +181,7 @@ class ObjParser {
     return false;
   }
 
-  /// Notes a keyword that another program may have added: longer than OBJ's one-letter keywords.
+  /// Notes a keyword that another program may have added; it is longer than the one-letter keywords of OBJ.
   bool note_unknown(std::string_view keyword) {
     constexpr std::size_t most_letters = 40, most_keywords = 100;
     const auto is_of_a_word = [](char c) {
@@ -190,7 +191,7 @@ class ObjParser {
     if (!std::all_of(keyword.begin(), keyword.end(), is_of_a_word)) return false;
     PassedOver& of = unknown_[std::string(keyword)];
     if (of.count++ == 0) of.first_line = line_;
-    return unknown_.size() <= most_keywords;  // more are probably prose
+    return unknown_.size() <= most_keywords;  // a file with more is probably no OBJ, but prose
   }
 
   void note_unknown_keywords() {
@@ -235,7 +236,7 @@ class ObjParser {
   std::string joined_;
   int line_ = 0;
   PolygonMesh mesh_;
-  std::vector<std::pair<std::int64_t, int>> forward_;  // indices of vertices not read yet, with their lines
+  std::vector<std::pair<std::int64_t, int>> forward_;  // indices of vertices that were not read yet, with their lines
   std::map<std::string, PassedOver> unknown_;
   PassedOver passed_over_[std::size(noted_keywords)];
 };

@@ -1,7 +1,7 @@
-// PLY: the rows after the header, as text or as bytes of either byte order.
+// Reads the rows of a PLY file that follow its header: text, or bytes of either byte order.
 //
-// One loop over rows serves all three encodings through a "source", which yields the next number and knows its position.
-// Custom code, because no PLY library in Debian validates sizes: nothing may be allocated on a header's claim alone.
+// One loop over rows serves all three encodings: a "source" yields the next number and knows its position. No PLY
+// library in Debian validates sizes, but no memory may be allocated because of a header's number alone.
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -17,7 +17,7 @@ namespace pliant {
 
 namespace {
 
-/// Rows as text, one per line.
+/// Source of numbers for rows of text, one row per line.
 class TextSource {
  public:
   TextSource(std::string_view bytes, const PlyHeader& header, const std::string& name)
@@ -45,7 +45,7 @@ class TextSource {
 
   void skip(PlyType) { word(); }
 
-  /// NaN is returned, so that the caller can name the vertex.
+  /// Returns the next number. NaN is allowed here, so that the caller can name the vertex.
   double real(PlyType) {
     float value = 0;
     const std::string_view text = word();
@@ -83,7 +83,7 @@ class TextSource {
   std::string_view row_;
 };
 
-/// Rows as bytes.
+/// Source of numbers for rows of bytes.
 class BinarySource {
  public:
   BinarySource(std::string_view bytes, const PlyHeader& header, const std::string& name)
@@ -151,7 +151,7 @@ class BinarySource {
   const std::string& name_;
 };
 
-/// The property indices of interest; -1: absent in this element.
+/// Which properties of an element are coordinates or lists of corners; -1: the element has no such property.
 struct Roles {
   int coordinates[3] = {-1, -1, -1};
   int polygon = -1;

@@ -1,4 +1,4 @@
-// Implements mesh_ply_header.h. Every claim of a header is validated before memory is allocated for it.
+// Reads the header of a PLY file. Every number in it is validated before memory is allocated for it.
 #include "mesh_ply_header.h"
 
 #include <limits>
@@ -16,7 +16,7 @@ struct TypeName {
   PlyType type;
 };
 
-/// Type names of the original format and later aliases.
+/// Names of types: those of the original format, and later ones.
 constexpr TypeName type_names[] = {
     {"char", PlyType::int8},     {"int8", PlyType::int8},       {"uchar", PlyType::uint8},    {"uint8", PlyType::uint8},
     {"short", PlyType::int16},   {"int16", PlyType::int16},     {"ushort", PlyType::uint16},  {"uint16", PlyType::uint16},
@@ -24,7 +24,7 @@ constexpr TypeName type_names[] = {
     {"float", PlyType::float32}, {"float32", PlyType::float32}, {"double", PlyType::float64}, {"float64", PlyType::float64},
 };
 
-/// Limit of elements per file and properties per element, because name lookup is linear.
+/// Largest number of elements in a file, and of properties in an element: names are searched linearly.
 constexpr std::size_t most_names = 1000;
 
 class HeaderParser {
@@ -44,7 +44,8 @@ class HeaderParser {
     if (!has_format_) fail("the header has no 'format' line");
     header_.data_line = lines_.number() + 1;
     header_.data_offset = lines_.offset();
-    // If lines end in \r alone, a \n after the header is the first data byte.
+    // If lines end in \r alone, a
+    //  after the header is the first byte of data.
     if (lone_return)
       header_.data_offset = static_cast<std::size_t>(lines_.line().data() - bytes_.data()) + lines_.line().size() + 1;
     if (header_.data_offset > bytes_.size()) header_.data_offset = bytes_.size();
@@ -134,7 +135,7 @@ class HeaderParser {
   void check_claims() const {
     std::uint64_t room = bytes_.size() - header_.data_offset;
     const bool binary = header_.format != PlyHeader::Format::ascii;
-    if (!binary) ++room;  // the last line may lack its line end
+    if (!binary) ++room;  // the last line may have no line end
     for (const PlyElement& element : header_.elements) {
       if (element.count > 0 && element.properties.empty())
         fail("element " + quoted(element.name) + " has no properties", {}, element.line);

@@ -1,4 +1,4 @@
-// The common part of the mesh formats: polygons over points, and the steps that convert them to a triangle mesh.
+// What all mesh formats share: polygons, and the steps that make a triangle mesh of them.
 //
 //   bytes --parse_obj, parse_ply, parse_stl--> PolygonMesh --triangulate--> triangles --repair--> MeshFile
 //
@@ -15,33 +15,33 @@
 
 namespace pliant {
 
-/// A mesh as stored in a file. Parsers guarantee that every corner is an index into `positions`, every polygon has three or
-/// more corners, and every coordinate is finite.
+/// The polygons of a mesh file. Parsers guarantee that every corner is an index into `positions`, every polygon has
+/// three or more corners, and every coordinate is finite.
 struct PolygonMesh {
   std::vector<Vec3f> positions;
-  std::vector<int> corners;        ///< corners of all polygons, concatenated
-  std::vector<std::size_t> ends;   ///< end of each polygon in `corners`
-  std::vector<std::string> notes;  ///< messages about ignored content
+  std::vector<int> corners;        ///< corners of all polygons, one after another
+  std::vector<std::size_t> ends;   ///< one past the last corner of each polygon
+  std::vector<std::string> notes;  ///< messages about content that was ignored
   bool is_soup = false;            ///< triangles without shared vertices (STL): vertices must be merged by position
 
   void close_polygon() { ends.push_back(corners.size()); }
 };
 
-/// Parsers of file bytes; `name` stands for the file in errors. They throw an Error with a line or byte offset.
+/// Parsers of a file's bytes. `name` stands for the file in errors. They throw an Error with line or byte offset.
 PolygonMesh parse_obj(std::string_view bytes, const std::string& name);
 PolygonMesh parse_ply(std::string_view bytes, const std::string& name);
 PolygonMesh parse_stl(std::string_view bytes, const std::string& name);
 
-/// Triangulates all polygons, n - 2 triangles for n corners, and adds doubtful cases
-/// to `notes`. A polygon that repeats its corner cycle counts once. Throws an Error
-/// for a concave polygon with too many corners for ear clipping in reasonable time.
+/// Divides every polygon of n corners into n - 2 triangles, and describes doubtful cases in `notes`. If a polygon lists
+/// its corners several times, they count once. Throws an Error for a concave polygon with so many corners that ear
+/// clipping would take too long.
 std::vector<std::array<int, 3>> triangulate(const PolygonMesh& mesh, const std::string& name,
                                             std::vector<std::string>& notes);
 
-/// Makes the repairs that `options` requests and reports each.
+/// Makes the repairs that `options` requests, and describes each in `file.repairs`.
 void repair(MeshFile& file, bool is_soup, const MeshReadOptions& options);
 
-/// Detects the format from the suffix of `name` and from the bytes, then parses, triangulates and repairs.
+/// Reads a mesh from bytes: finds the format by the suffix of `name` and by the bytes, parses, triangulates and repairs.
 MeshFile parse_mesh(std::string_view bytes, const std::string& name, const MeshReadOptions& options = {});
 
 }  // namespace pliant

@@ -1,8 +1,8 @@
-// Detects the format of a mesh file and converts its bytes to a mesh.
+// Finds the format of a mesh file, and converts its bytes to a mesh.
 //
-// The suffix states the intended format, the first bytes show the actual one. Unambiguous
-// bytes (PLY's first word, or an unsupported format) override the suffix. If the bytes
-// are ambiguous, the suffix decides; without a known suffix, the look of the text does.
+// The suffix says which format is meant, the first bytes which one it is. Clear bytes (the first word of PLY, or an
+// unsupported format) override the suffix. If bytes are ambiguous, the suffix decides; if the suffix is unknown, the
+// look of the text decides.
 #include <algorithm>
 #include <utility>
 
@@ -23,7 +23,7 @@ enum class Format { unknown, obj, ply, stl };
 
 bool starts_with(std::string_view bytes, std::string_view start) { return bytes.substr(0, start.size()) == start; }
 
-/// Rejects known file types that are often mistaken for meshes.
+/// Throws an Error for known types of files that are often mistaken for meshes.
 void refuse_what_is_known(std::string_view bytes, const std::string& name) {
   if (bytes.empty()) fail(name, "is empty", "export the mesh again");
   const std::string_view wide_marks[] = {"\xff\xfe", "\xfe\xff"};
@@ -63,7 +63,7 @@ bool looks_like_binary_stl(std::string_view bytes) {
   return bytes.size() == 84 + 50 * count;
 }
 
-/// Decides by the first line that is neither empty nor a comment.
+/// Guesses the format of a text by its first line that is neither empty nor a comment.
 Format looks_like_text(std::string_view bytes) {
   LineReader lines(bytes);
   while (lines.next()) {
@@ -87,7 +87,7 @@ Format format_of(std::string_view bytes, const std::string& name) {
 }
 
 PolygonMesh parse(std::string_view bytes, const std::string& name) {
-  // A UTF-8 byte order mark has no meaning and precedes only text.
+  // A UTF-8 byte order mark has no meaning; only texts begin with one.
   if (starts_with(bytes, "\xef\xbb\xbf")) bytes.remove_prefix(3);
   refuse_what_is_known(bytes, name);
   switch (format_of(bytes, name)) {

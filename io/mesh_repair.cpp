@@ -1,4 +1,4 @@
-// The repairs of read_mesh, and their report.
+// The repairs of read_mesh, and their descriptions.
 //
 // Merging vertices (welding) can do harm: a sheet folded flat onto itself would become one non-manifold layer. So
 // coincident vertices stay separate if merging would give an edge more than two triangles that had two or fewer. Soups
@@ -30,12 +30,12 @@ bool has_area(const TriangleMesh& mesh, const Triangle& t) {
     const Vec3f& p = mesh.positions[index(i)];
     return Vec3d{p.x, p.y, p.z};
   };
-  // For points of similar size, differences of floats and their products are
-  // exact in double. So this is zero exactly if the corners are collinear.
+  // Zero if and only if the corners are collinear: for points of similar size, differences of floats and their products
+  // are exact in double precision.
   return length_squared(cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]))) > 0;
 }
 
-/// A count and the index of the first.
+/// Equal cases: their number, and the index of the first.
 struct Tally {
   std::size_t count = 0, first = 0;
   void add(std::size_t place) {
@@ -43,7 +43,7 @@ struct Tally {
   }
 };
 
-/// A mesh under repair. `numbers` are the triangles' indices in the file, for reports.
+/// A mesh under repair. `numbers` are the triangles' indices in the file, for messages.
 struct Work {
   TriangleMesh& mesh;
   std::vector<std::string>& repairs;
@@ -92,8 +92,8 @@ std::vector<int> find_first_in_place(const std::vector<Vec3f>& positions) {
   return first;
 }
 
-/// For each vertex, the first vertex at the same position that zero-length edges connect to it.
-/// Such vertices are one, whatever else lies at that position.
+/// For each vertex, the first one at the same position to which edges of length zero connect it. Such vertices are one,
+/// whatever else is at that position.
 std::vector<int> find_connected_in_place(const TriangleMesh& mesh) {
   std::vector<int> parent(mesh.positions.size());
   std::iota(parent.begin(), parent.end(), 0);
@@ -112,13 +112,13 @@ std::vector<int> find_connected_in_place(const TriangleMesh& mesh) {
   return parent;
 }
 
-/// A triangle rotated to start at its smallest corner: equal for triangles that differ only in their start.
+/// A triangle rotated so that its smallest corner comes first; so triangles that differ only in their start are equal.
 Triangle canonical(Triangle t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;
 }
 
-/// Marks every triangle that repeats an earlier one with the same winding.
+/// Marks every triangle that repeats an earlier one, corner by corner in the same cyclic order.
 std::vector<bool> find_repeated(const std::vector<Triangle>& triangles) {
   std::vector<std::pair<Triangle, std::size_t>> sorted(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) sorted[i] = {canonical(triangles[i]), i};
@@ -129,12 +129,12 @@ std::vector<bool> find_repeated(const std::vector<Triangle>& triangles) {
   return repeated;
 }
 
-/// A triangle's side before and after merging, smaller vertex first.
+/// A side of a triangle before and after merging, with the smaller vertex first.
 struct Side {
   std::pair<int, int> after, before;
 };
 
-/// All sides that remain after merging, sorted by their merged vertices.
+/// All sides that still have two vertices after merging, sorted by these vertices.
 std::vector<Side> find_sides(const std::vector<Triangle>& triangles, const std::vector<int>& merged) {
   std::vector<Triangle> welded = triangles;
   for (Triangle& t : welded) t = {merged[index(t[0])], merged[index(t[1])], merged[index(t[2])]};
@@ -150,8 +150,8 @@ std::vector<Side> find_sides(const std::vector<Triangle>& triangles, const std::
   return sides;
 }
 
-/// Calls visit(a, b, count, was_joined) for each edge a-b of the merged mesh:
-/// its number of triangles, and whether several edges were merged into it.
+/// Calls visit(a, b, count, was_joined) for each edge a-b of the merged mesh; `count` is its number of triangles,
+/// `was_joined` is true if several edges became this one.
 template <class Visit>
 void for_each_edge(const std::vector<Side>& sides, const Visit& visit) {
   for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
@@ -179,14 +179,15 @@ std::vector<bool> find_branching(const std::vector<Triangle>& triangles, const s
   return branching;
 }
 
-/// Replaces vertices by the first at the same position, or only by `connected`
-/// ones where full merging does harm. Returns which vertices became unused.
+/// Replaces vertices by the first one at the same position; where that would do harm, only by vertices that `connected`
+/// gives. Returns which vertices are no longer used.
 std::vector<bool> merge_vertices(Work& work, const std::vector<int>& connected, bool is_soup) {
   TriangleMesh& mesh = work.mesh;
   std::vector<int> merged = find_first_in_place(mesh.positions);
   std::vector<bool> emptied(merged.size(), false);
   const auto stays = [&, i = 0](int to) mutable { return to == i++; };
-  if (std::all_of(merged.begin(), merged.end(), stays)) return emptied;  // the usual case; the rest is slow
+  if (std::all_of(merged.begin(), merged.end(), stays))
+    return emptied;  // nothing to merge, the usual case; the rest is slow
   for (Triangle& t : mesh.triangles) t = {connected[index(t[0])], connected[index(t[1])], connected[index(t[2])]};
   const std::vector<bool> branching =
       is_soup ? std::vector<bool>(merged.size(), false) : find_branching(mesh.triangles, merged);
@@ -216,7 +217,7 @@ void drop_repeated(Work& work) {
                            " another, the first " + std::to_string(dropped.first));
 }
 
-/// Compacts the vertices: removes those emptied by merging and, on request, isolated ones.
+/// Removes the vertices that merging has emptied and, if `drop_isolated`, those that no triangle uses.
 void drop_vertices(Work& work, const std::vector<bool>& emptied, bool drop_isolated) {
   TriangleMesh& mesh = work.mesh;
   std::vector<bool> used(mesh.positions.size(), false);
@@ -245,7 +246,7 @@ void repair(MeshFile& file, bool is_soup, const MeshReadOptions& options) {
   Work work{file.mesh, file.repairs, {}};
   work.numbers.resize(file.mesh.triangles.size());
   std::iota(work.numbers.begin(), work.numbers.end(), std::size_t{0});
-  // Runs before degenerate triangles are removed: a zero-width strip still connects its two sides.
+  // This must precede the removal of degenerate triangles: a strip of zero width still connects its two sides.
   const std::vector<int> connected = options.merge_duplicates ? find_connected_in_place(file.mesh) : std::vector<int>();
   if (options.drop_degenerate) drop_degenerate(work);
   std::vector<bool> emptied(file.mesh.positions.size(), false);

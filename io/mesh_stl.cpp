@@ -1,9 +1,9 @@
-// STL: triangles with unshared corners, as text or binary.
+// Reads STL: triangles whose corners are not shared, as text or binary.
 //
-// Binary files that start with "solid" exist, so the length is tested first; a binary
-// file's length is exact (80 arbitrary bytes, a count, 50 bytes per triangle). Normals
-// are ignored: they follow from the corners, and files often contradict themselves.
-// Custom code for the reason of the other readers: errors with a position.
+// Some binary files begin with "solid" like text, so the length is tested first: that of a binary file is exact
+// (80 bytes of any content, a count, 50 bytes per triangle). Normals are ignored: they follow from the corners,
+// and files often contradict themselves. It is written here, like the other readers, so that errors have a
+// position.
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -37,7 +37,7 @@ std::uint64_t claimed_size(std::string_view bytes) {
   return head_size + triangle_size * std::uint64_t{read_u32(bytes, 80)};
 }
 
-/// Keywords are case-insensitive.
+/// Compares keywords, in which case does not matter.
 bool same_word(std::string_view word, std::string_view lower_case) {
   if (word.size() != lower_case.size()) return false;
   for (std::size_t i = 0; i < word.size(); ++i) {
@@ -82,7 +82,7 @@ class TextStl {
                 std::move(advice));
   }
 
-  /// Advances to the next non-empty line and takes its first word.
+  /// Advances to the next line that is not empty, and takes its first word.
   bool next_line() {
     while (lines_.next()) {
       rest_ = lines_.line();

@@ -1,9 +1,9 @@
-// Triangulation of polygons. A strictly convex quad is split from its first corner,
-// as programs that write quads expect. Other polygons use ear clipping: a fan over
-// a concave polygon covers its outside, and a fan over many corners makes needles.
+// Divides polygons into triangles. A strictly convex quadrilateral is divided from its first corner, as programs that
+// write these expect. Other polygons use ear clipping: a fan over a concave polygon covers its outside, and a fan over
+// many corners makes needles.
 //
-// The polygon is projected along the axis of its largest normal component. That drops a coordinate without rounding. Twice
-// the area of a float triangle, computed in double, has the right sign in all but extreme cases.
+// The polygon is projected along the axis of its normal's largest component, which drops a coordinate without rounding.
+// Twice the area of a float triangle, in double precision, has the right sign in all but extreme cases.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace pliant {
 
 namespace {
 
-/// Ear clipping takes quadratic time; this many corners take a fraction of a second.
+/// Most corners of a polygon for ear clipping, which takes quadratic time: a fraction of a second for this number.
 constexpr std::size_t most_corners_to_clip = 4096;
 
 struct Point {
@@ -31,7 +31,7 @@ double distance_squared(const Point& a, const Point& b) { return (b.x - a.x) * (
 
 bool same_place(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y; }
 
-/// Twice the polygon's area times its normal, by Newell's method.
+/// Newell's normal of a polygon; its length is twice the polygon's area.
 Vec3d newell_normal(const PolygonMesh& mesh, const int* corners, std::size_t count) {
   const Vec3f& origin = mesh.positions[static_cast<std::size_t>(corners[0])];
   const auto relative = [&](std::size_t i) {
@@ -48,7 +48,7 @@ Vec3d newell_normal(const PolygonMesh& mesh, const int* corners, std::size_t cou
   return sum;
 }
 
-/// The polygon projected against its normal, so that it is counter-clockwise.
+/// Projects a polygon along its normal so that it is counter-clockwise.
 std::vector<Point> flatten(const PolygonMesh& mesh, const int* corners, std::size_t count) {
   const Vec3d normal = newell_normal(mesh, corners, count);
   const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
@@ -62,7 +62,7 @@ std::vector<Point> flatten(const PolygonMesh& mesh, const int* corners, std::siz
   return points;
 }
 
-/// True if every corner turns left and the boundary goes round once, unlike a star: x starts to fall only once.
+/// True if every corner turns left and the polygon goes round once, unlike a star: along it, x begins to fall only once.
 bool is_strictly_convex(const std::vector<Point>& points) {
   const std::size_t count = points.size();
   int reversals = 0;
@@ -83,7 +83,7 @@ bool is_strictly_convex(const std::vector<Point>& points) {
   return reversals == 2;
 }
 
-/// True if the interiors of two non-adjacent sides cross.
+/// True if the interiors of two sides cross that are not adjacent.
 bool crosses_itself(const std::vector<Point>& points) {
   const std::size_t count = points.size();
   const auto apart = [](double left, double right) { return (left > 0 && right < 0) || (left < 0 && right > 0); };
@@ -95,9 +95,9 @@ bool crosses_itself(const std::vector<Point>& points) {
   return false;
 }
 
-/// Ear clipping (Meisters 1975): a corner whose triangle contains no other
-/// corner is an ear, and a simple polygon always has two. The best shaped ear
-/// goes first, which keeps nearly collinear corners from becoming needles.
+/// Ear clipping (Meisters 1975). A corner whose triangle contains no other corner is an ear; a simple polygon
+/// always has two. The ear with the best shape is cut first, so that nearly collinear corners do not become
+/// needles.
 class EarClipper {
  public:
   explicit EarClipper(const std::vector<Point>& points)
@@ -108,8 +108,8 @@ class EarClipper {
     }
   }
 
-  /// Calls emit(i, j, k) for each triangle. Returns false if the polygon
-  /// touches itself, so that a corner without an ear had to be cut.
+  /// Calls emit(i, j, k) for each triangle. Returns false if a corner that is no ear had to be cut, because the polygon
+  /// touches itself.
   template <class Emit>
   bool clip(const Emit& emit) {
     bool simple = true;
@@ -118,7 +118,8 @@ class EarClipper {
     for (std::size_t left = points_.size(); left > 3; --left) {
       std::size_t at = best(first);
       if (quality_[at] <= 0) {
-        // Cutting changes the quality of the neighbours, and of others only if corners touch; so all are re-evaluated.
+        // A cut changes the quality of the neighbours, and of other corners only if corners touch; so all are evaluated
+        // again.
         judge_all(first);
         at = best(first);
       }
@@ -138,7 +139,7 @@ class EarClipper {
   }
 
  private:
-  /// The triangle quality at a corner, up to about 0.87 for an equilateral one; 0 if it is no ear.
+  /// The quality of the triangle at a corner, up to about 0.87 for an equilateral one; 0 if the corner is no ear.
   double judge(std::size_t corner) const {
     const Point& a = points_[previous_[corner]];
     const Point& b = points_[corner];
@@ -147,7 +148,7 @@ class EarClipper {
     if (!(area > 0)) return 0;
     for (std::size_t i = next_[next_[corner]]; i != previous_[corner]; i = next_[i]) {
       const Point& p = points_[i];
-      // A bridge to a hole visits a position twice; that alone does not block an ear.
+      // A bridge to a hole visits a position twice. A corner at the same position therefore does not prevent an ear.
       if (same_place(p, a) || same_place(p, b) || same_place(p, c)) continue;
       if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return 0;
     }
@@ -162,7 +163,7 @@ class EarClipper {
     } while (i != first);
   }
 
-  /// The corner of best quality; ties go to the first after `first`.
+  /// The corner of best quality; of equal ones the first after `first`.
   std::size_t best(std::size_t first) const {
     std::size_t found = first;
     for (std::size_t i = next_[first]; i != first; i = next_[i])
@@ -170,7 +171,7 @@ class EarClipper {
     return found;
   }
 
-  /// If no ear exists: the first corner that turns left, else `first`.
+  /// The corner to cut if there is no ear: the first that turns left, else `first`.
   std::size_t least_bad(std::size_t first) const {
     std::size_t i = first;
     do {
@@ -185,7 +186,7 @@ class EarClipper {
   std::vector<double> quality_;
 };
 
-/// A count and the index of the first.
+/// Equal cases: their number, and the index of the first.
 struct Tally {
   std::size_t count = 0, first = 0;
   void add(std::size_t place) {
@@ -193,7 +194,7 @@ struct Tally {
   }
 };
 
-/// Triangulates one polygon of four or more corners. Returns false if it is not simple.
+/// Triangulates a polygon of four or more corners. Returns false if the polygon is not simple.
 template <class Emit>
 bool cut_up(const std::vector<Point>& points, std::size_t polygon, const std::string& name, const Emit& emit) {
   const std::size_t count = points.size();
@@ -210,7 +211,7 @@ bool cut_up(const std::vector<Point>& points, std::size_t polygon, const std::st
   return has_ears && !crosses_itself(points);
 }
 
-/// The period of a polygon's corner cycle: usually all corners, fewer if the polygon repeats itself.
+/// After how many corners a polygon repeats itself: usually all of them.
 std::size_t once_round(const int* corners, std::size_t count) {
   std::size_t period = 1;
   while (period < count && corners[period] != corners[0]) ++period;

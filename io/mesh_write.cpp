@@ -1,5 +1,5 @@
-// Writes one mesh: OBJ as text, PLY as little-endian binary. Text coordinates are
-// the shortest that read back as the same float, so a round trip is lossless.
+// Writes a mesh: OBJ as text, PLY as little-endian binary. Text has the fewest digits that read back as the same float,
+// so nothing is lost.
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -27,7 +27,7 @@ bool ends_with(const std::string& text, const char* suffix, std::size_t length) 
   return true;
 }
 
-/// Rejects meshes that read_mesh would reject.
+/// Throws an Error for a mesh that read_mesh would reject.
 void check(const std::string& path, const TriangleMesh& mesh) {
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const Vec3f& p = mesh.positions[i];
@@ -58,7 +58,7 @@ class Line {
   }
 
  private:
-  char text_[80];  // a keyword and three numbers of at most 16 characters
+  char text_[80];  // a keyword and three numbers of up to 16 characters
   char* end_ = text_;
 };
 

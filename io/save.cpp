@@ -1,4 +1,4 @@
-// The content of a saved State and a saved World (include/pliant/save.h).
+// What a saved State and a saved World contain (include/pliant/save.h).
 #include "pliant/save.h"
 
 #include <fmt/format.h>
@@ -19,11 +19,11 @@ using namespace save_file;
 
 // ---------------------------------------------------------------- a State
 
-/// The block names of a State's columns.
+/// Names of the blocks that every saved State has.
 constexpr std::string_view time_block = "state.time", frame_block = "state.frame", blocks_block = "state.blocks",
                            positions_block = "state.positions", remainders_block = "state.remainders",
                            velocities_block = "state.velocities";
-/// Blocks that exist only if a State has frames, channels or held poses.
+/// Names of blocks that a saved State has only if it has frames, channels or held poses.
 constexpr std::string_view orientations_block = "state.orientations", spins_block = "state.angular_velocities",
                            inertias_block = "state.inverse_inertias", channels_block = "state.channels",
                            poses_block = "state.held_poses";
@@ -52,12 +52,13 @@ T read_bytes(const Contents& from, std::string_view name) {
   return of;
 }
 
-/// Owns the bytes of those columns whose elements are structs.
+/// Memory for columns that are collected from lists of structs.
 struct Columns {
   std::string blocks, channels, held_poses;
 };
 
-/// The structured binding makes an unwritten new column a compile error. `columns` owns the memory of blocks of structs.
+/// The blocks of a State; `columns` has memory for some. A new member of State is a compile error here until it is
+/// written.
 std::vector<Block> blocks_of(const State& state, Columns& columns) {
   const auto& [time, frame, object_blocks, positions, remainders, velocities, frames, channels, held_poses] = state;
   const auto bytes = [](std::string_view name, const std::string& column) {
@@ -119,7 +120,7 @@ State state_in(const Contents& from) {
   return state;
 }
 
-/// The given names, and those of all State blocks.
+/// The given names, and those of all blocks of a State.
 std::vector<std::string_view> with_state_blocks(std::vector<std::string_view> names) {
   names.insert(names.end(), state_blocks.begin(), state_blocks.end());
   return names;
@@ -212,7 +213,7 @@ void save(const std::string& path, const World& world, const Scene& scene) {
   refuse_other_scene(world, scene);
   refuse_force_fields(scene);
   Settings settings = world.settings();
-  settings.isa.clear();  // another machine may lack it, and all levels give the same bits
+  settings.isa.clear();  // another machine may lack it; all levels give the same bits
   const std::string scene_bytes = bytes_of(scene), settings_bytes = bytes_of(settings),
                     layout_bytes = bytes_of(world.layout());
   Columns columns;

@@ -21,17 +21,17 @@ namespace pliant::save_file {
 template <class T>
 inline constexpr bool is_number = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
 
-/// Types without padding and with all bit patterns valid: lists of them are copied as bytes.
+/// True for types without padding in which all bits are valid: lists of them are copied as bytes.
 template <class T>
 inline constexpr bool is_plain = is_number<T> || std::is_same_v<T, Vec3f> || std::is_same_v<T, Quatf>;
 template <class T, std::size_t n>
 inline constexpr bool is_plain<std::array<T, n>> = is_plain<T>;
 static_assert(sizeof(Vec3f) == 12 && sizeof(Quatf) == 16);
 
-/// Which members an archive processes.
+/// Which members an archive takes: all, or only those that determine a run's bits.
 enum class Take { all, deciding };
 
-/// Passes the bytes of members to `sink(const void*, size)`.
+/// An archive that passes the bytes of members to `sink(const void*, size)`.
 template <class Sink>
 class Output {
  public:
@@ -88,7 +88,7 @@ class Output {
   Take take_;
 };
 
-/// Reads members from bytes. Allocates no more than the remaining bytes can fill.
+/// An archive that reads members from bytes. It allocates no more than the bytes that remain can fill.
 class Input {
  public:
   explicit Input(std::string_view bytes) : left_(bytes) {}
@@ -101,7 +101,7 @@ class Input {
   void aside(T&... values) {
     (get(values), ...);
   }
-  /// True if all bytes were valid and none remain.
+  /// True if all bytes were valid and all have been read.
   bool complete() const { return good_ && left_.empty(); }
 
  private:
@@ -123,7 +123,7 @@ class Input {
       list.resize(count(sizeof(T)));
       copy(list.data(), list.size() * sizeof(T));
     } else {
-      // Appends one at a time: an element's memory exceeds its least size in the file.
+      // Appended one by one, because an element in memory is larger than its smallest form in the file.
       for (std::uint64_t left = count(1); left > 0 && good_; --left) get(list.emplace_back());
     }
   }
@@ -155,14 +155,14 @@ class Input {
     std::memcpy(to, left_.data(), size);
     left_.remove_prefix(size);
   }
-  /// A byte from 0 to `largest`.
+  /// Reads a byte from 0 to `largest`.
   int small(int largest) {
     std::uint8_t value = 0;
     copy(&value, 1);
     good_ = good_ && value <= largest;
     return good_ ? value : 0;
   }
-  /// Reads an element count; 0 if the remaining bytes cannot hold that many elements.
+  /// Reads a number of elements; 0 if the bytes that remain cannot contain so many.
   std::uint64_t count(std::size_t element_size) {
     std::uint64_t value = 0;
     copy(&value, sizeof value);

@@ -1,7 +1,7 @@
-// All members of a Scene in one order, for writing, reading and hashing. Each function uses a structured binding, which
-// fails to compile when the struct gets a member: then add it here and raise save_file::version.
+// Lists all members of a Scene in one order, for writing, reading and hashing. Each function uses a structured binding,
+// which does not compile when the struct gets a member. Then add the member here and increase save_file::version.
 //
-// An archive is called with members that affect a run's bits; `aside` is called with the others (colours, threads).
+// An archive is called with members that determine a run's bits; its `aside` is called with the others (colours, threads).
 #pragma once
 
 #include <concepts>
@@ -12,7 +12,7 @@
 
 namespace pliant::save_file {
 
-/// A struct, const for writing or mutable for reading.
+/// A struct that is const for writing, or mutable for reading.
 template <class T, class As>
 concept Is = std::same_as<std::remove_const_t<T>, As>;
 
@@ -163,8 +163,8 @@ void fields(A& a, Is<Settings> auto& of) {
   a(sweep, sweep_options, contact_filter, most_substeps, initial_intersections, untangling_speed);
   a.aside(separate_phases, measure, record_residuals, record_multipliers, isa);
 }
-/// Force fields are functions: only their number is stored, and the
-/// caller of `fields` handles it. Settings have a block of their own.
+/// Force fields are functions, so only their number is stored, by the caller of `fields`. Settings have a block of
+/// their own.
 template <class A>
 void fields(A& a, Is<Scene> auto& of) {
   [[maybe_unused]] auto& [gravity, wind, forces, settings, frame_time, frames, objects, colliders, mesh_colliders, pairs] =
@@ -174,7 +174,7 @@ void fields(A& a, Is<Scene> auto& of) {
   a(objects, colliders, mesh_colliders, pairs);
 }
 
-/// The last value of an enum, so that a reader can reject larger ones.
+/// The last value of an enumeration, so that a reader can reject larger ones.
 constexpr int last_value(Stiffness::Kind) { return static_cast<int>(Stiffness::Kind::pbd); }
 constexpr int last_value(MeshCollider::As) { return static_cast<int>(MeshCollider::As::heightfield); }
 constexpr int last_value(Sweep) { return static_cast<int>(Sweep::multigrid); }

@@ -17,17 +17,17 @@ namespace pliant::save_file {
 
 namespace {
 
-// As in PNG: the high bit and both line ends reveal transfers that changed bytes.
+// The first bytes of a file. As in PNG, the high bit and both line ends reveal a transfer that changed bytes.
 constexpr std::string_view magic = "\x89PLN\r\n\x1a\n";
 constexpr std::uint64_t header_size = 32, block_header_size = 40, checksum_size = 32, name_size = 24, alignment = 8;
-/// Limits what a forged header can make a reader allocate; beyond any machine's memory today.
+/// Limit of what a forged header can make a reader allocate [bytes]; more than any machine's memory today.
 constexpr std::uint64_t largest_save = std::uint64_t{1} << 38;
 
 const char* const advice_damaged = "use an earlier file, or simulate again from the start";
 
 std::uint64_t padded(std::uint64_t size) { return (size + alignment - 1) / alignment * alignment; }
 
-/// The checksum as bytes, from hexadecimal digits.
+/// The checksum as bytes instead of hexadecimal digits.
 std::string digest(Sha256& sha) {
   const std::string text = sha.finish();
   const auto value = [](char digit) { return digit <= '9' ? digit - '0' : digit - 'a' + 10; };
@@ -46,7 +46,7 @@ T value_at(std::string_view bytes, std::uint64_t at) {
 
 const char* words(Content content) { return content == Content::state ? "a State" : "a World"; }
 
-/// Appends to a file and updates its checksum.
+/// Appends bytes to a file, and adds them to its checksum.
 class Writer {
  public:
   explicit Writer(const std::string& path) : file_(path) {}
@@ -103,7 +103,7 @@ Contents::Contents(std::string path, Content expected) : path_(std::move(path)) 
   std::error_code unknown;
   check_size(std::filesystem::file_size(path_, unknown));  // before memory is allocated for the whole file
   bytes_ = read_file_bytes(path_, largest_save);
-  check_header(expected);  // the file may have been replaced meanwhile
+  check_header(expected);  // again, because the file may have been replaced meanwhile
   check_size(bytes_.size());
   check_sum();
   find_blocks();
@@ -142,7 +142,7 @@ void Contents::check_sum() const {
     fail("is damaged: its checksum is not that of its contents", advice_damaged);
 }
 
-/// Sizes are untrusted: each is compared with the remaining bytes before it is multiplied or added.
+/// Finds the blocks. Sizes are not trusted: each is compared with the bytes that remain before it is multiplied or added.
 void Contents::find_blocks() {
   const std::string_view bytes = std::string_view(bytes_).substr(0, bytes_.size() - checksum_size);
   const auto count = value_at<std::uint64_t>(bytes, 24);

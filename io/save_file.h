@@ -1,4 +1,4 @@
-// The file format of saves: named, typed blocks between a header and a checksum.
+// The format of saved files: blocks with name and type, between a header and a checksum.
 //
 //   header    magic (8 bytes), format version u32, content u32, size of the file u64, number of blocks u64
 //   block     name (24 bytes, zero-padded), type u32, bytes per element u32, number of elements u64, the elements, zeros up
@@ -21,33 +21,33 @@ inline constexpr std::uint32_t version = 2;
 /// What a file contains.
 enum class Content : std::uint32_t { state = 1, world = 2 };
 
-/// The element type of a block.
+/// The type of the elements of a block.
 enum class Type : std::uint32_t { bytes = 1, int64 = 2, float32 = 3, float64 = 4, record = 5 };
 
-/// A block to write. The caller owns the bytes.
+/// A block to write. Its bytes belong to the caller.
 struct Block {
   std::string_view name;  ///< at most 24 bytes
   Type type = Type::bytes;
-  std::uint32_t element_size = 1;  ///< [bytes]
+  std::uint32_t element_size = 1;  ///< size of an element [bytes]
   std::uint64_t count = 0;
   const void* data = nullptr;
 };
 
-/// Writes a file atomically. Throws an Error that names the path.
+/// Writes a file atomically. If that fails, throws an Error that names the path.
 void write(const std::string& path, Content content, const std::vector<Block>& blocks);
 
-/// A fully validated file: header, size, checksum, and every block.
+/// A file that has been read and validated: header, size, checksum and every block.
 class Contents {
  public:
-  /// Reads and validates. Throws an Error that names the path and the reason.
+  /// Reads and validates a file. Throws an Error that names the path and the reason.
   Contents(std::string path, Content expected);
 
   bool has(std::string_view name) const { return find(name) != nullptr; }
-  /// A block of that type. Throws an Error if it is missing or has another type or element size.
+  /// Finds a block. Throws an Error if it is missing, or has another type or element size.
   const Block& block(std::string_view name, Type type, std::uint32_t element_size) const;
-  /// The bytes of a block of type `bytes`.
+  /// The bytes of a block whose type is `bytes`.
   std::string_view text(std::string_view name) const;
-  /// Throws an Error if a block's name is not among these.
+  /// Throws an Error if the file has a block whose name is not in `known`.
   void refuse_unknown(const std::vector<std::string_view>& known) const;
 
   [[noreturn]] void fail(const std::string& problem, const std::string& advice) const;

@@ -1,4 +1,4 @@
-// Builds the whole scene: settings, objects with their pins, colliders.
+// Builds a whole scene: settings, objects with their pins, colliders.
 #include "scene_build.h"
 
 #include <algorithm>
@@ -68,10 +68,10 @@ Wind wind_of(const JsonValue& at) {
   return wind;
 }
 
-/// The names in use among objects or among colliders.
+/// Names of objects or of colliders that are taken.
 class Names {
  public:
-  /// The name given in `at`, or a new one made from `kind`. Throws an Error if a name is repeated.
+  /// Returns the name that `at` gives, or makes one of `kind`. Throws an Error if the name is taken.
   std::string of(const JsonDocument& document, const JsonValue& at, const std::string& kind) {
     std::string name = kind;
     if (const JsonValue* given = at.find("name")) {
@@ -142,7 +142,7 @@ void set_properties(const JsonDocument& document, const JsonValue& at, Object& o
 const JsonValue& one_of(const JsonValue& at, std::initializer_list<const char*> names) {
   for (const char* name : names)
     if (const JsonValue* found = at.find(name)) return *found;
-  return at;  // unreachable: check() guarantees one
+  return at;  // not reached: check() has found exactly one
 }
 
 Object object_of(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, Names& names,
@@ -216,7 +216,8 @@ void set_frames(const JsonDocument& document, const JsonValue& at, const MeshFol
   set(at, "repeat_frames", collider.repeat_frames);
 }
 
-/// Applies `position` and `rotation` to the vertices, unlike for a primitive. A deforming mesh is read without repairs.
+/// Makes a mesh collider. `position` and `rotation` move the vertices, not the collider's frame. A deforming mesh is
+/// read without repairs.
 MeshCollider mesh_collider_of(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, Names& names,
                               std::vector<std::string>& repairs) {
   MeshCollider collider;
@@ -278,7 +279,7 @@ PairProperties pair_of(const JsonDocument& document, const JsonValue& at, const 
   return pair;
 }
 
-/// The names of cloths and mesh colliders, which have a mesh.
+/// The names of the cloths and mesh colliders, whose meshes can be replaced.
 std::vector<std::string> names_with_mesh(const JsonDocument& document, const Scene& scene) {
   std::vector<std::string> names;
   const std::vector<JsonValue>& objects = elements(document.root, "objects");
@@ -298,7 +299,7 @@ std::string advice_on(const std::string& name, const std::vector<std::string>& n
   return (near.empty() ? "" : "did you mean '" + printable(near) + "'? ") + "the scene has meshes for " + list;
 }
 
-/// Throws unless every replacement mesh names an object or collider with a mesh.
+/// Throws an Error if a replacement mesh names no object or collider that has a mesh.
 void require_known(const MeshFolder& folder, const JsonDocument& document, const Scene& scene) {
   const std::vector<std::string> names = names_with_mesh(document, scene);
   for (const auto& [name, path] : folder.instead) {
@@ -314,7 +315,7 @@ SceneFile build(const JsonDocument& document, const MeshFolder& folder) {
   const JsonValue& root = document.root;
   SceneFile file;
   Scene& scene = file.scene;
-  root.find("$schema");  // accepted for editors
+  root.find("$schema");  // allowed, because editors use it
   set(root, "description", file.description);
   set(root, "gravity", scene.gravity);
   set(root, "frame_time", scene.frame_time);

@@ -1,4 +1,4 @@
-// Converts a checked JSON tree to a Scene.
+// Makes a Scene of a JSON tree that has been checked.
 #pragma once
 
 #include "pliant/io.h"
@@ -7,21 +7,21 @@
 
 namespace pliant::scene_file {
 
-/// Builds the scene of a document that passed check() with scene_record(). Throws an Error if values are inconsistent, a
-/// mesh cannot be read or used as cloth, a particle does not exist, or a selection is empty.
+/// Builds the scene of a document that passed check() with scene_record(). Throws an Error if values contradict each
+/// other, a mesh cannot be read or used as cloth, a particle does not exist, or a selection is empty.
 SceneFile build(const JsonDocument& document, const MeshFolder& folder);
 
-/// An object's particles, with the data that selections need.
+/// An object, with the data that selections of its particles need.
 struct BuiltObject {
   Object object;
-  int columns = 0, rows = 0;  ///< size of a grid in vertices, else 0
+  int columns = 0, rows = 0;  ///< number of vertices along a grid; 0: no grid
 };
 
-/// The object without pins and attachments. `what` is the member "cloth", "rope" or "particles".
+/// Builds an object without pins and attachments. `what` is the member "cloth", "rope" or "particles".
 BuiltObject build_matter(const JsonDocument& document, const JsonValue& what, const std::string& name,
                          const MeshFolder& folder, std::vector<std::string>& repairs);
 
-/// The particles of a checked selection, each once.
+/// The particles that a checked selection denotes, each once.
 std::vector<int> selected(const JsonDocument& document, const JsonValue& at, const BuiltObject& built);
 
 }  // namespace pliant::scene_file

@@ -1,4 +1,4 @@
-// Checks a JSON tree against the table of scene_grammar.
+// Checks a JSON tree against the table in scene_grammar.
 #include "scene_check.h"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ std::string range(const Type& type) {
          words(type.maximum);
 }
 
-/// The members that identify a record: its required ones, or all if none is required.
+/// The names that identify a record in messages: its required members, or all if none is required.
 std::string members(const Record& record) {
   std::vector<std::string> names;
   for (const Field& field : record.fields)
@@ -151,8 +151,7 @@ class Checker {
       const JsonValue& member = at.items[i];
       const Field* field = record.find(member.key);
       if (field == nullptr) unknown(member, record);
-      for (std::size_t k = 0; k < i;
-           ++k)  // all earlier members are known and distinct, so that there are at most as many as fields
+      for (std::size_t k = 0; k < i; ++k)  // earlier members are known and distinct, so there are at most as many as fields
         if (at.items[k].key == member.key)
           document_.fail_key(member, "'" + member.key + "' occurs twice", "keep one of the two");
       value(member, field->type);
@@ -167,7 +166,7 @@ class Checker {
     if (!inside(at.number, type)) document_.fail(at, words(at.number) + " is out of range", "expected " + expected(type));
   }
 
-  /// A positive double may become zero as a float, and values are stored as floats.
+  /// True if a number is in the range of a type as a float: a positive double may become zero.
   static bool inside(double number, const Type& type) {
     if (!(number >= type.minimum && number <= type.maximum)) return false;
     return !type.above_minimum || static_cast<float>(number) > static_cast<float>(type.minimum);

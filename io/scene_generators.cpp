@@ -1,4 +1,4 @@
-// Generated surfaces of scene files, beyond those of pliant/mesh.h.
+// Generates surfaces of scene files in addition to those in pliant/mesh.h.
 #include <map>
 
 #include "scene_mesh.h"
@@ -26,7 +26,7 @@ TriangleMesh tube_mesh(int columns, int rows, float length, float top_radius, fl
     for (int c = 0; c < columns; ++c) {
       const int a = r * columns + c, b = r * columns + (c + 1) % columns;
       const int below_a = a + columns, below_b = b + columns;
-      // Diagonals alternate, because a single direction would make the tube twist as it stretches.
+      // Diagonals alternate, because a tube with one direction would twist when it stretches.
       if ((r + c) % 2 == 0) {
         mesh.triangles.push_back({a, below_a, below_b});
         mesh.triangles.push_back({a, below_b, b});
@@ -42,7 +42,7 @@ TriangleMesh tube_mesh(int columns, int rows, float length, float top_radius, fl
 TriangleMesh box_mesh(const Vec3f& size, int segments) {
   TriangleMesh mesh;
   std::map<std::array<int, 3>, int>
-      numbers;  // vertex indices by position on the lattice: sides share the vertices of their edges
+      numbers;  // index of each lattice point's vertex; sides share the vertices of common edges
   const auto vertex = [&](const std::array<int, 3>& at) {
     const auto [found, is_new] = numbers.try_emplace(at, static_cast<int>(mesh.positions.size()));
     const auto along = [&](int i, float whole) {

@@ -1,4 +1,4 @@
-// The table of the scene format. Ranges are wide: they reject slips and attacks, not unusual values.
+// The table of the scene format. Ranges are wide: they reject mistakes and attacks, not unusual values.
 #include "scene_grammar.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Part of the table: colliders, and contact parameters of named pairs.
+// The part of the table for colliders, and for contact properties of named pairs.
 #include "pliant/scene.h"
 #include "scene_grammar_parts.h"
 #include "scene_grammar_words.h"

@@ -1,4 +1,4 @@
-// Part of the table: records used by others, such as stiffness, rotations, motions, meshes and fabrics.
+// The part of the table for records that others use: stiffness, rotations, motions, meshes, fabrics.
 #include "scene_grammar_parts.h"
 
 #include "pliant/scene.h"

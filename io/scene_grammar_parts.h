@@ -1,4 +1,4 @@
-// Parts of the table that several records use.
+// Records of the table that several other records use.
 #pragma once
 
 #include "scene_grammar.h"
@@ -13,7 +13,7 @@ const Record& mesh_record();
 const Record& fabric_record();
 std::vector<std::string> fabric_names();
 
-// scene_grammar_colliders.cpp
+// Defined in scene_grammar_colliders.cpp.
 const Record& collider_record();
 const Record& pair_record();
 

@@ -1,4 +1,4 @@
-// Helper functions for the table in scene_grammar.cpp: one for each type of value and each kind of field.
+// Functions in which scene_grammar.cpp writes the table: one for each type of value and each kind of field.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace pliant::scene_file {
 
-constexpr double largest_velocity = 1e5;   // [m/s]
-constexpr double largest_quantity = 1e30;  // limit of other quantities: products of two still fit a double
+constexpr double largest_velocity = 1e5;   // largest velocity [m/s]
+constexpr double largest_quantity = 1e30;  // limit of other quantities; products of two still fit a double
 
 // ------------------------------------------------------------------------------------------------ types
 
@@ -78,7 +78,7 @@ inline Type choice(std::vector<std::string> choices, std::string documented = {}
   return type;
 }
 
-/// A choice that can grow at run time.
+/// A choice whose list of words can grow at run time.
 inline Type choice(std::vector<std::string> (*choices)(), std::string documented) {
   Type type = choice(std::vector<std::string>{}, std::move(documented));
   type.choices_now = choices;
@@ -107,7 +107,7 @@ inline Type any_of(std::vector<Type> alternatives) {
   return type;
 }
 
-/// Groups and masks: the indices of the set bits.
+/// The type of groups and masks: a list of the indices of set bits.
 inline Type bits() { return list(integer(0, 31), 0, 32); }
 
 inline Type particle_index() { return integer(0, 2147483647); }
@@ -130,7 +130,7 @@ inline Field field(const char* name, Type type, const T& fallback, const char* m
 
 inline Field needed(const char* name, Type type, const char* meaning) { return {name, std::move(type), {}, meaning, true}; }
 
-/// A member of a group of which exactly one must be given.
+/// A member of a group of which exactly one must be present.
 inline Field either(const char* name, Type type, const char* meaning) {
   return {name, std::move(type), {}, meaning, false};
 }

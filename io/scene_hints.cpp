@@ -1,4 +1,4 @@
-// Names are compared by spelling: first in the record itself, then in records below it, then in the whole format.
+// Finds similar names: first in the record itself, then in records below it, then in the whole format.
 #include "scene_hints.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@ namespace pliant::scene_file {
 
 namespace {
 
-constexpr std::size_t longest_name = 64;  // limit of compared names: all names of the format are shorter
+constexpr std::size_t longest_name = 64;  // longest name that is compared; all names of the format are shorter
 
 std::string nearest_spelling(const std::string& wanted, const std::vector<std::string>& names) {
   std::string best;
@@ -26,13 +26,13 @@ std::vector<std::string> names_of(const Record& record) {
   return names;
 }
 
-/// A record and its path: "settings.sweep_options", "objects[].cloth"; empty for the start of the search.
+/// A record and the path to it: "settings.sweep_options", "objects[].cloth"; empty for the first record.
 struct Reached {
   const Record* record;
   std::string path;
 };
 
-/// Adds the records that a value of this type can be.
+/// Adds the records that a value of `type` can be.
 void reach(const Type& type, const std::string& path, std::vector<Reached>& reached) {
   const auto is_it = [&](const Reached& one) { return one.record == type.record; };
   const bool is_new = type.record != nullptr && std::none_of(reached.begin(), reached.end(), is_it);
@@ -40,7 +40,7 @@ void reach(const Type& type, const std::string& path, std::vector<Reached>& reac
   for (const Type& part : type.parts) reach(part, path + (type.kind == Type::Kind::list ? "[]" : ""), reached);
 }
 
-/// All records reachable from `first` in breadth-first order, each once by its shortest path.
+/// All records that can be reached from `first`, in breadth-first order, each once by its shortest path.
 std::vector<Reached> reached_from(const Record& first) {
   std::vector<Reached> reached{{&first, {}}};
   for (std::size_t i = 0; i < reached.size(); ++i) {
@@ -51,7 +51,7 @@ std::vector<Reached> reached_from(const Record& first) {
   return reached;
 }
 
-/// The path of another record that has this name; empty if there is none.
+/// The path of another record that has a member of this name; empty if there is none.
 std::string home_of(const std::string& wanted, const std::vector<Reached>& reached) {
   for (const Reached& one : reached) {
     if (one.record->find(wanted) == nullptr) continue;
@@ -60,12 +60,12 @@ std::string home_of(const std::string& wanted, const std::vector<Reached>& reach
   return {};
 }
 
-/// The most similar name in all of these records, with its path; empty if none is similar.
+/// The most similar member name of all these records, with its path; empty if none is similar.
 std::string nearest_elsewhere(const std::string& wanted, const std::vector<Reached>& reached) {
   std::vector<std::string> names;
   for (const Reached& one : reached)
     for (std::string& name : names_of(*one.record)) names.push_back(std::move(name));
-  const std::string near = wanted.size() < 4 ? "" : nearest_spelling(wanted, names);  // short names resemble too many
+  const std::string near = wanted.size() < 4 ? "" : nearest_spelling(wanted, names);  // short names are similar to too many
   for (const Reached& one : reached)
     if (!near.empty() && one.record->find(near) != nullptr)
       return "did you mean '" + (one.path.empty() ? "" : one.path + ".") + near + "'" +
@@ -86,7 +86,7 @@ std::string nearest_name(const std::string& wanted, const std::vector<std::strin
   if (wanted.size() > longest_name) return {};
   std::string best = nearest_spelling(wanted, names);
   if (!best.empty() || wanted.size() < 4) return best;
-  for (const std::string& name : names)  // 'friction' for 'static_friction'
+  for (const std::string& name : names)  // finds 'static_friction' for 'friction'
     if (name.find(wanted) != std::string::npos) return name;
   return best;
 }
@@ -104,7 +104,8 @@ std::string hint_for(const std::string& wanted, const Record& record) {
 }
 
 std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);  // rows i - 2, i - 1, i
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1),
+      row(b.size() + 1);  // rows i - 2, i - 1 and i of the table
   for (std::size_t k = 0; k <= b.size(); ++k) row[k] = k;
   for (std::size_t i = 1; i <= a.size(); ++i) {
     before.swap(last), last.swap(row);

@@ -1,4 +1,4 @@
-// Suggestions for unknown member names.
+// Suggests a name for an unknown member.
 #pragma once
 
 #include <string>
@@ -8,16 +8,16 @@
 
 namespace pliant::scene_file {
 
-/// The number of insertions, deletions, substitutions and swaps of
-/// adjacent characters that turn `a` into `b` (optimal string alignment).
+/// The number of insertions, deletions, substitutions and swaps of adjacent characters that change `a` into `b`
+/// (optimal string alignment).
 std::size_t edit_distance(const std::string& a, const std::string& b);
 
-/// The name most similar to `wanted`, the first if equal: up to a third of its letters may differ. Otherwise the first name
-/// that contains it. Empty if none is similar.
+/// The name that is most similar to `wanted`, of equal ones the first; up to a third of its letters may differ. If
+/// there is none, the first name that contains `wanted`; else empty.
 std::string nearest_name(const std::string& wanted, const std::vector<std::string>& names);
 
-/// Advice for a member `wanted` that `record` lacks: a similar name of the record, a record that has the name, a similar
-/// name elsewhere with its path ("settings.substeps"), or else all names of the record.
+/// Advice for a member `wanted` that `record` does not have: a similar name of the record; a record that has the name;
+/// a similar name elsewhere, with its path ("settings.substeps"); or all names of the record.
 std::string hint_for(const std::string& wanted, const Record& record);
 
 }  // namespace pliant::scene_file

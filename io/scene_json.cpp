@@ -1,7 +1,7 @@
-// Builds a tree with source positions from the events of nlohmann's parser.
+// Builds a tree with positions in the source from the events of nlohmann's parser.
 //
-// The events carry no position. But the text before an event is valid, so a token starts after the previous one and any
-// blanks, commas and colons. `Scanner` tracks this in step with the events.
+// The events have no positions. But the text before an event is valid, so a token starts after the previous one and
+// after blanks, commas and colons. A Scanner follows the text in step with the events.
 #include "scene_json.h"
 
 #include <algorithm>
@@ -13,12 +13,12 @@ namespace pliant::scene_file {
 
 namespace {
 
-/// Finds the tokens of a text that is valid as far as it is scanned.
+/// Finds the tokens of a text that is valid up to the current one.
 class Scanner {
  public:
   explicit Scanner(const std::string& text) : text_(text) {}
 
-  /// Skips the next token and returns its first byte's offset.
+  /// Skips the next token, and returns the offset of its first byte.
   std::uint32_t next() {
     end_ = std::min(text_.find_first_not_of(" \t\r\n,:", end_), text_.size());
     const std::size_t start = end_;
@@ -48,7 +48,7 @@ class Scanner {
   std::size_t end_ = 0;
 };
 
-/// The message without "parse error at line 3, column 7", which is reported separately.
+/// A message of the parser without "parse error at line 3, column 7", which the Error has already.
 std::string without_preamble(const std::string& message) {
   const std::size_t column = message.find(", column ");
   const std::size_t bracket = message.find("] ");
@@ -71,7 +71,7 @@ std::string word_around(const std::string& text, std::size_t at) {
   return text.substr(begin, end - begin);
 }
 
-/// Advice for a word that is no JSON.
+/// Advice for a word that JSON does not have.
 std::string word_advice(std::string word) {
   for (char& c : word) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   for (const char* number : {"nan", "-nan", "inf", "-inf", "infinity", "-infinity"})
@@ -82,7 +82,7 @@ std::string word_advice(std::string word) {
   return is_name ? "write names and text in double quotes" : "";
 }
 
-/// Advice for common habits from other languages; `last` is the byte at which parsing stopped.
+/// Advice for syntax of other languages. `last` is the byte at which parsing stopped.
 std::string syntax_advice(const std::string& text, std::size_t last, const std::string& problem) {
   const auto says = [&](const char* words) { return problem.find(words) != std::string::npos; };
   if (says("unexpected end of input"))
@@ -126,7 +126,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& exception) override {
-    if (exception.id == 406) {  // the token is valid JSON, but out of double's range
+    if (exception.id == 406) {  // the number is valid JSON, but out of the range of double
       const JsonValue& value = add(JsonValue::Kind::number);
       document_.fail(value, "this number is too large", "the largest that a 32-bit float holds is about 3.4e38");
     }
@@ -165,7 +165,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
 
   JsonDocument& document_;
   Scanner scanner_;
-  std::vector<JsonValue*> open_;  // from the root; pointers stay valid, because only the innermost value's items grow
+  std::vector<JsonValue*> open_;  // from the root down; pointers stay valid, since only the innermost value grows
   std::string key_;
   std::uint32_t key_offset_ = 0;
 };
@@ -188,7 +188,7 @@ bool append_path(const JsonValue& from, const JsonValue& to, std::string& path) 
   return false;
 }
 
-/// Length of the UTF-8 sequence at byte i, 0 if invalid.
+/// Length of the UTF-8 sequence that begins at byte i; 0: invalid.
 std::size_t sequence_length(const std::string& text, std::size_t i) {
   const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
   const unsigned first = byte(i);
@@ -221,7 +221,7 @@ const JsonValue* JsonValue::find(const char* name) const {
 Location JsonDocument::locate_byte(std::size_t offset) const {
   offset = std::min(offset, text.size());
   const std::string_view before(text.data(), offset);
-  const std::size_t line_start = before.find_last_of('\n') + 1;  // npos + 1 is 0: the first line
+  const std::size_t line_start = before.find_last_of('\n') + 1;  // npos + 1 is 0, the start of the first line
   Location place;
   place.file = name;
   place.line = 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
@@ -255,7 +255,7 @@ JsonDocument parse_json(std::string text, std::string name) {
   JsonDocument document{std::move(name), std::move(text), {}};
   const std::size_t zero = document.text.find('\0');  // the parser would take it for the end of the text
   if (zero != std::string::npos) throw Error(document.locate_byte(zero), "not valid JSON: a zero byte");
-  if (document.text.compare(0, 3, mark) == 0)  // the parser skips a second mark
+  if (document.text.compare(0, 3, mark) == 0)  // once only, because the parser skips another mark
     throw Error(document.locate_byte(0), "not valid JSON: two byte order marks");
   TreeBuilder builder(document);
   nlohmann::json::sax_parse(document.text, &builder);

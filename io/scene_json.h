@@ -1,8 +1,8 @@
-// Strict JSON with the source position of every value, so that errors can name line, column and path.
+// Strict JSON that knows the position of every value, so that errors can name line, column and path.
 //
-// nlohmann::json parses the grammar of RFC 8259. Its own tree drops positions and
-// merges repeated members, so the tree is built here from parser events. A value
-// stores only its start byte; lines and paths are computed when an error is reported.
+// nlohmann::json parses the grammar of RFC 8259. Its own tree has no positions and merges repeated members, so the tree
+// is built here, from the parser's events. A value stores only its first byte; lines and paths are computed when an
+// error is reported.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@
 
 namespace pliant::scene_file {
 
-/// A JSON value. Members of an object are `items` with a `key`, in text order, with repeated names kept.
+/// A JSON value. The members of an object are `items` with a `key`, in the order of the text; repeated names are kept.
 struct JsonValue {
   enum class Kind : std::uint8_t { null, boolean, number, string, array, object };
   Kind kind = Kind::null;
   bool truth = false;            ///< value of a boolean
-  mutable bool used = false;     ///< set when a reader requests the member; unrequested members are errors
+  mutable bool used = false;     ///< true once a reader asked for the member; others are errors
   std::uint32_t offset = 0;      ///< first byte of the value
   std::uint32_t key_offset = 0;  ///< first byte of the member's name
   double number = 0;
@@ -28,11 +28,11 @@ struct JsonValue {
 
   /// Returns the first member of that name and marks it as used; null if there is none.
   const JsonValue* find(const char* name) const;
-  /// Marks all members below as used.
+  /// Marks all members below this value as used.
   void ignore() const;
 };
 
-/// A text and its tree.
+/// A JSON text and its tree.
 struct JsonDocument {
   std::string name;  ///< stands for the file in errors
   std::string text;
@@ -40,23 +40,23 @@ struct JsonDocument {
 
   /// Throws an Error at a value: "NAME:LINE:COLUMN: /path: problem; advice".
   [[noreturn]] void fail(const JsonValue& at, const std::string& problem, const std::string& advice = {}) const;
-  /// The same, at the member's name.
+  /// Throws an Error at the name of a member instead of its value.
   [[noreturn]] void fail_key(const JsonValue& at, const std::string& problem, const std::string& advice = {}) const;
-  /// The position of a value; its element is the JSON pointer (RFC 6901; "/" alone for the root).
+  /// The position of a value; Location::element is its JSON pointer (RFC 6901; "/" for the root).
   Location locate(const JsonValue& at) const;
   Location locate_byte(std::size_t offset) const;
 };
 
 constexpr std::size_t largest_text = std::size_t{16}
-                                     << 20;  ///< [bytes]: the tree of a hostile text takes about 60 times its size
+                                     << 20;  ///< [bytes]; the tree of a hostile text takes about 60 times as much memory
 constexpr int deepest_nesting = 64;
 
-/// Parses RFC 8259 strictly (after an optional byte order mark): no comments or trailing commas, valid UTF-8, numbers in
-/// double's range, at most `deepest_nesting` nested values and `largest_text` bytes. Repeated member names are kept, as the
-/// standard permits. Throws an Error with line and column.
+/// Parses RFC 8259 strictly, after an optional byte order mark: no comments or trailing commas, valid UTF-8, numbers in
+/// the range of double, at most `deepest_nesting` nested values and `largest_text` bytes. Repeated member names are
+/// kept, as the standard allows. Throws an Error with line and column.
 JsonDocument parse_json(std::string text, std::string name);
 
-/// Text from a file made safe for messages: control characters and invalid bytes escaped, long text shortened.
+/// Makes text from a file safe for messages: control characters and invalid bytes are escaped, long text is shortened.
 std::string printable(const std::string& text);
 
 }  // namespace pliant::scene_file

@@ -1,4 +1,4 @@
-// The three kinds of object in a scene file: cloth, rope, particles.
+// Builds the three kinds of objects in scene files: cloth, rope, particles.
 #include <algorithm>
 #include <limits>
 
@@ -82,7 +82,7 @@ const ConstraintType& type_named(const std::string& name) {
   return *std::find_if(types.begin(), types.end(), [&](const ConstraintType& type) { return type.name == name; });
 }
 
-/// Throws unless a row has as many elements as the constraint type requires.
+/// Throws an Error unless a row has as many numbers as the constraint type requires.
 void check_width(const JsonDocument& document, const JsonValue& row, std::size_t wanted, const std::string& of) {
   if (row.items.size() == wanted) return;
   document.fail(row, std::to_string(row.items.size()) + " elements", of + " takes " + std::to_string(wanted));
@@ -172,7 +172,7 @@ BuiltObject build_matter(const JsonDocument& document, const JsonValue& what, co
     if (what.key == "cloth") return cloth_of(document, what, name, folder, repairs);
     if (what.key == "rope") return rope_of(document, what, name);
   } catch (const Error& error) {
-    if (!error.where().file.empty()) throw;  // the error already has a location: this file, or the mesh's
+    if (!error.where().file.empty()) throw;  // the error has a location already: this file, or that of the mesh
     Location place = document.locate(what);
     place.object = name;
     if (!error.where().element.empty()) place.element += ", " + error.where().element;

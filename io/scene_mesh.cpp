@@ -1,6 +1,6 @@
-// Restricts the files that a scene may name: regular files, and for an untrusted scene
-// only those below its own folder after links are resolved. Scenes may come from anywhere.
-// They must not make a program block on a pipe, read a device, or publish a private file.
+// Restricts which files a scene may name: regular files and, for an untrusted scene, only files below its own folder
+// after links are resolved. Scenes can come from anywhere, and must not make a program wait for a pipe, read a device,
+// or publish a private file.
 #include "scene_mesh.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ bool leaves_folder(const fs::path& path) {
   return path.is_absolute() || std::find(path.begin(), path.end(), fs::path("..")) != path.end();
 }
 
-/// True if `path` with all links resolved lies below `folder`.
+/// True if `path` is below `folder` after links are resolved.
 bool lies_below(const fs::path& path, const fs::path& folder) {
   std::error_code no_path, no_folder;
   const fs::path inner = fs::canonical(path, no_path);
@@ -104,7 +104,7 @@ TriangleMesh rabbit_of(const JsonValue& at) {
 
 float wave(float turns) { return rotated(rotation({0, 0, 1}, 360 * turns), {1, 0, 0}).y; }
 
-/// Heights by formula. The phase is computed from the vertex index, so that opposite borders match.
+/// Raises vertices by a formula of waves. The phase is computed from the vertex index, so that opposite borders match.
 void raise(const JsonValue& at, int columns, int rows, TriangleMesh& mesh) {
   float height = 0, along_x = 1, along_z = 1;
   set(at, "height", height);
@@ -134,7 +134,8 @@ TriangleMesh heightfield_of(const JsonDocument& document, const JsonValue& at, S
   return mesh;
 }
 
-/// Scales and moves the mesh: `size` is its longest side, centred above the origin, its lowest point at y = 0.
+/// Sets a placement that scales the mesh to a longest side of `size` [m], centres it above the origin and puts its
+/// lowest point at y = 0.
 void fit(const TriangleMesh& mesh, float size, Placement& placement) {
   if (mesh.positions.empty()) return;
   Vec3f low = mesh.positions.front(), high = low;
@@ -176,7 +177,7 @@ MeshFile read(const std::string& path, Repair repair) {
   return read_mesh_file(path, {mends, mends, mends});
 }
 
-/// Reads the replacement file of the object, or else the record's own source.
+/// Reads the file that replaces the object's mesh, or else the source that the record names.
 void fill(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, const std::string& name,
           Repair repair, SceneMesh& result) {
   const auto from_file = [&](const std::string& path, const std::string& called) {

@@ -1,8 +1,8 @@
-// A rabbit of balls and capsules, for scenes that need a closed mesh without a file.
+// Generates a rabbit of balls and cones, for scenes that need a closed mesh without a file.
 //
-// Surface nets (Gibson 1998): each grid cell that the surface crosses gets one vertex, the mean of the crossings of its
-// edges. Each grid edge that crosses the surface joins its four cells. The result is closed by construction and free of
-// marching cubes' slivers. Only +, -, *, / and sqrt are used: the same bits everywhere.
+// Surface nets (Gibson 1998): each grid cell that the surface crosses gets a vertex, the mean of the crossings on its
+// edges; each grid edge that crosses the surface joins its four cells. The result is closed by construction, and free
+// of the slivers of marching cubes. It uses only +, -, *, / and sqrt, so it has the same bits everywhere.
 #include <cmath>
 #include <map>
 
@@ -12,13 +12,13 @@ namespace pliant::scene_file {
 
 namespace {
 
-/// A round cone: radius a at `from`, b at `to`, linear in between.
+/// A round cone: its radius is a at `from`, b at `to`, and linear between.
 struct Part {
   Vec3f from, to;
   float from_radius, to_radius;
 };
 
-/// In units of the height; ears and legs are mirrored.
+/// The parts of the rabbit, in units of its height; ears and legs are mirrored.
 const std::vector<Part>& parts() {
   static const std::vector<Part> result = [] {
     std::vector<Part> all{{{0, 0.24f, -0.10f}, {0, 0.27f, 0.06f}, 0.23f, 0.19f},     // trunk
@@ -43,7 +43,7 @@ float distance_to(const Part& part, const Vec3f& p) {
          (part.from_radius + share * (part.to_radius - part.from_radius));
 }
 
-/// Smooth union of two distances, with a fillet of about this width.
+/// The smooth union of two distances, with a fillet of about this width.
 float joined(float a, float b) {
   constexpr float width = 0.08f;
   const float apart = a > b ? a - b : b - a, near = width > apart ? width - apart : 0;
@@ -94,7 +94,7 @@ class Net {
            Vec3f{0.375f + 0.31f * shift_ * size_, 0.05f + shift_ * size_, 0.55f + 0.73f * shift_ * size_};
   }
 
-  /// The two triangles of a grid edge that crosses the surface: they join its four cells.
+  /// Adds the two triangles of a grid edge that crosses the surface. They join the vertices of its four cells.
   void join(const int (&from)[3], int axis, int u, int v) {
     int to[3] = {from[0], from[1], from[2]};
     ++to[axis];
@@ -112,7 +112,7 @@ class Net {
     mesh_.triangles.push_back({corner[0], corner[2], corner[3]});
   }
 
-  /// The vertex of a cell: the mean of the crossings of its twelve edges.
+  /// The vertex of a cell: the mean of the crossings on its twelve edges.
   int vertex(const int (&cell)[3]) {
     const auto [found, is_new] =
         numbers_.try_emplace(at(cell[0], cell[1], cell[2]), static_cast<int>(mesh_.positions.size()));
@@ -143,7 +143,7 @@ class Net {
   TriangleMesh mesh_;
 };
 
-/// False if two sheets through one cell share an edge.
+/// True if every edge has exactly two triangles. It has not if two sheets pass through one cell.
 bool is_manifold(const TriangleMesh& mesh) {
   std::map<std::pair<int, int>, int> sides;
   for (const auto& t : mesh.triangles)
@@ -155,7 +155,7 @@ bool is_manifold(const TriangleMesh& mesh) {
 }  // namespace
 
 TriangleMesh rabbit_mesh(float height, int cells) {
-  constexpr int attempts = 32;  // each with another grid offset
+  constexpr int attempts = 32;  // each with a different offset of the grid
   TriangleMesh mesh;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     mesh = Net(cells, static_cast<float>(attempt) / attempts).mesh();

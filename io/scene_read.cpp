@@ -1,5 +1,5 @@
-// The public functions read a scene in four steps: parse JSON, check
-// it against the table of fields, build, and reject unused members.
+// Reads a scene in four steps: parse the JSON, check it against the table of fields, build the scene, reject members
+// that were not used.
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -24,7 +24,7 @@ SceneFile scene_from(std::string text, const std::string& name, const scene_file
   return file;
 }
 
-/// The bytes of a regular file: a pipe may never end, and a device has no size.
+/// Returns the bytes of a regular file. Others are rejected: a pipe may never end, and a device has no size.
 std::string text_of(const std::string& path) {
   std::error_code unknown;
   const fs::file_status status = fs::status(path, unknown);
@@ -38,7 +38,7 @@ std::string text_of(const std::string& path) {
   std::string block(1 << 16, '\0');
   while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) || stream.gcount() > 0) {
     text.append(block, 0, static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > scene_file::largest_text + 3) break;  // too long; parse_json rejects it
+    if (text.size() > scene_file::largest_text + 3) break;  // too long, which parse_json reports
   }
   if (stream.bad()) throw Error({path, 0, {}, {}}, "cannot be read");
   return text;

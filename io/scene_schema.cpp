@@ -1,5 +1,5 @@
-// Implements scene_schema.h. The schema contains everything in the table; relations between values (friction, keyframe
-// times, existing particles) are outside its scope.
+// Writes the JSON Schema and the reference of the scene format. The schema has everything in the table; it cannot
+// express relations between values (friction, times of keyframes, existing particles).
 #include "scene_schema.h"
 
 #include <array>
@@ -21,7 +21,7 @@ std::string words(double value) {
   return {digits.data(), write_shortest(digits.data(), digits.data() + digits.size(), value)};
 }
 
-/// A record's name as a key of "$defs".
+/// The key of a record in "$defs".
 std::string key_of(const Record& record) {
   std::string key = record.name;
   for (char& c : key)
@@ -29,7 +29,7 @@ std::string key_of(const Record& record) {
   return key;
 }
 
-/// A JSON number; integers are written without a fraction.
+/// A JSON number; integers have no fraction.
 Json number(double value) {
   const bool whole = value > -1e15 && value < 1e15 && value == static_cast<double>(static_cast<long long>(value));
   return whole ? Json(static_cast<long long>(value)) : Json(value);

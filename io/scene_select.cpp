@@ -1,4 +1,4 @@
-// Resolves selections to particles.
+// Finds the particles that a selection denotes.
 #include <algorithm>
 #include <string>
 
@@ -42,7 +42,7 @@ std::vector<int> by_index(const JsonDocument& document, const JsonValue& at, con
   return result;
 }
 
-/// The particle nearest to a point, the first if equal.
+/// The particle nearest to a point, of equally near ones the first.
 int nearest(const Vec3f& point, const std::vector<Vec3f>& positions) {
   const auto distance = [&](const Vec3f& p) { return length_squared(p - point); };
   const auto nearer = [&](const Vec3f& a, const Vec3f& b) { return distance(a) < distance(b); };

@@ -1,4 +1,4 @@
-// See scene_values.h.
+// Converts checked JSON values; scene_values.h describes the functions.
 #include "scene_values.h"
 
 #include <algorithm>
@@ -62,7 +62,7 @@ bool set(const JsonDocument& document, const JsonValue& at, const char* name, Qu
   float degrees = 0;
   set(*value, "axis", axis);
   set(*value, "degrees", degrees);
-  // Scaled to a largest component of 1, because the square of a tiny axis underflows.
+  // The axis is scaled so that its largest component is 1, because the square of a tiny axis underflows.
   const float largest = std::max({axis.x, -axis.x, axis.y, -axis.y, axis.z, -axis.z});
   if (largest < std::numeric_limits<float>::min())
     document.fail(*value->find("axis"), "this axis has length 0", "[0, 1, 0] is upright");
@@ -74,7 +74,7 @@ bool set(const JsonDocument& document, const JsonValue& at, const char* name, St
   const JsonValue* value = at.find(name);
   if (value == nullptr) return false;
   target = Stiffness::rigid();
-  if (value->kind == JsonValue::Kind::string) return true;  // "rigid" is the only word that passes the check
+  if (value->kind == JsonValue::Kind::string) return true;  // the check allows only the word "rigid"
   set(*value, "compliance", target.value);
   set(*value, "damping", target.damping);
   if (!set(*value, "stiffness", target.value)) return true;

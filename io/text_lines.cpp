@@ -1,4 +1,4 @@
-// Custom text parsing: it is short, and each of its rules handles a file that occurs in practice.
+// Parses lines, words and numbers. It is short, and each of its rules is for a file that exists.
 #include "text_lines.h"
 
 #include <cerrno>
@@ -15,15 +15,15 @@ namespace {
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// std::from_chars accepts no plus sign; a second sign after it is invalid.
+/// Removes a leading plus sign, which std::from_chars does not accept. False if another sign follows.
 bool strip_plus(std::string_view& word) {
   if (word.empty() || word.front() != '+') return true;
   word.remove_prefix(1);
   return !word.empty() && word.front() != '-' && word.front() != '+';
 }
 
-/// True if a number out of range is too small rather than too large. It is small if its exponent is negative or, without an
-/// exponent, if only zeros precede the point.
+/// For a number out of range: true if it is too small, false if it is too large. It is too small if its exponent is
+/// negative or, without an exponent, if only zeros precede the point.
 bool is_small(std::string_view word) {
   const std::size_t exponent = word.find_first_of("eE");
   if (exponent != std::string_view::npos) return exponent + 1 < word.size() && word[exponent + 1] == '-';
@@ -39,8 +39,8 @@ std::from_chars_result read_float(const char* first, const char* last, float& va
   return std::from_chars(first, last, value);
 }
 #else
-/// For libraries whose std::from_chars supports integers only (libc++ 14): std::strtof in the C locale on a terminated
-/// copy, for input that from_chars would accept.
+/// Replaces std::from_chars for floats, where it supports only integers (libc++ 14): std::strtof in the C locale on a
+/// terminated copy, for input that from_chars would accept.
 std::from_chars_result read_float(const char* first, const char* last, float& value) {
   const std::string copy(first, last);
   if (copy.find_first_of("xX+ \t\n\v\f\r") == 0 || copy.find_first_of("xX") != std::string::npos)

@@ -1,7 +1,7 @@
-// Lines, words and numbers of text formats, with the same result on every machine.
+// Lines, words and numbers of text formats. Results are the same on every machine.
 //
-// std::from_chars parses numbers without locale or copy. It rejects a leading
-// plus and accepts inf and nan; these functions correct both, for all readers.
+// std::from_chars parses numbers without a locale or a copy. But it rejects a leading plus, and accepts inf and nan;
+// these functions correct both.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,19 @@
 
 namespace pliant {
 
-/// Iterates over the lines of a text. A line ends with \n, \r\n, \r or the end of the text.
+/// Iterates over the lines of a text. A line ends with
+/// , \r
+/// , \r or at the end of the text.
 class LineReader {
  public:
   explicit LineReader(std::string_view text, int first_line = 1) : text_(text), next_number_(first_line) {}
 
-  /// Advances. Returns false at the end.
+  /// Advances to the next line. Returns false at the end of the text.
   bool next();
 
-  std::string_view line() const { return line_; }   ///< the current line without its line end
-  int number() const { return number_; }            ///< number of line(), from 1
-  std::size_t offset() const { return position_; }  ///< byte after line() and its line end
+  std::string_view line() const { return line_; }   ///< current line without its line end
+  int number() const { return number_; }            ///< number of the current line, from 1
+  std::size_t offset() const { return position_; }  ///< offset of the byte after the current line and its line end
 
  private:
   std::string_view text_, line_;
@@ -28,21 +30,21 @@ class LineReader {
   int number_ = 0, next_number_;
 };
 
-/// Takes the first word (no spaces or tabs) off `rest`; empty if there is none.
+/// Removes the first word (without blanks and tabs) from `rest`, and returns it; empty if there is none.
 std::string_view take_word(std::string_view& rest);
 
-/// A name or number from a file, made safe for a message: at most 40 bytes, unprintable ones as '?'.
+/// Makes a word from a file safe for messages: at most 40 bytes, unprintable ones as '?'.
 std::string quoted(std::string_view word);
 
 enum class NumberProblem { none, not_a_number, not_finite, too_large };
 
-/// The problem as a clause: "is not a number".
+/// Describes a problem as the end of a sentence: "is not a number".
 const char* describe(NumberProblem problem);
 
-/// Parses the whole word as a float, correctly rounded. Accepts a leading '+'; values too small become 0.
+/// Parses a whole word as a float, correctly rounded. Accepts a leading '+'; values that are too small become 0.
 NumberProblem parse_float(std::string_view word, float& value);
 
-/// Parses the whole word as an integer; accepts a leading '+'. Returns false if it is none or out of range.
+/// Parses a whole word as an integer. Accepts a leading '+'. Returns false if it is none or out of range.
 bool parse_integer(std::string_view word, std::int64_t& value);
 
 }  // namespace pliant

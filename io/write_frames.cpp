@@ -1,4 +1,4 @@
-// Converts a scene to the writers' view, with the checks that all of them share.
+// Converts a scene to what the writers see, and makes the checks that they share.
 #include "write_frames.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace pliant::output {
 
 namespace {
 
-/// Walks edges as polylines; each edge is used once.
+/// Follows edges to form polylines. Each edge is used once.
 class LineWalk {
  public:
   explicit LineWalk(const std::vector<std::array<int, 2>>& edges) : edges_(edges), used_(edges.size(), false) {
@@ -31,7 +31,7 @@ class LineWalk {
 
   std::vector<std::vector<int>> lines() {
     std::vector<std::vector<int>> result;
-    // Ends and branches first, so that only closed loops remain.
+    // Starts from ends and branches first, so that afterwards only closed loops remain.
     for (const bool loops : {false, true}) {
       for (int particle = 0; particle < static_cast<int>(at_.size()); ++particle) {
         if (!loops && at_[particle].size() == 2) continue;
@@ -46,7 +46,7 @@ class LineWalk {
   std::vector<int> walk(int particle) {
     std::vector<int> line{particle};
     for (bool more = true; more;) {
-      // The resume position at this particle, because a hub with 1e5 edges is visited as often.
+      // Where to resume the search at this particle: a hub with 1e5 edges is visited as often.
       std::size_t& next = next_[particle];
       while (next < at_[particle].size() && used_[at_[particle][next]]) ++next;
       if (next == at_[particle].size()) break;
@@ -62,7 +62,7 @@ class LineWalk {
   const std::vector<std::array<int, 2>>& edges_;
   std::vector<bool> used_;
   std::vector<std::vector<std::size_t>> at_;
-  std::vector<std::size_t> next_;  // per particle: the edges before this index are used
+  std::vector<std::size_t> next_;  // for each particle, how many of its edges are known to be used
 };
 
 bool finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }

@@ -1,8 +1,10 @@
-// glTF 2.0 in one file: each object is a mesh with its frames as morph targets and one animation of weights.
+// Writes glTF 2.0 as one file: each object is a mesh, its frames are morph targets, and an animation of weights plays
+// them.
 //
-// Frame 0 is the mesh itself; frame k is its k-th morph target, as differences. At the time of frame k the k-th weight is 1
-// and all others are 0, so a viewer blends two neighbouring frames. Normals are written because viewers shade meshes
-// without them flat. The frame list precedes the vertices in the file, so vertices wait in a spool.
+// Frame 0 is the mesh itself. Frame k is its k-th morph target, stored as differences; at its time the k-th weight is 1
+// and all others are 0, so a viewer blends two neighbouring frames. Normals are written, because viewers shade meshes
+// without them flat. The list of frames precedes the vertices in the file, so vertices are stored in a Spool until the
+// end.
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -23,7 +25,7 @@ using nlohmann::json;
 enum Component : int { unsigned_int = 5125, float_32 = 5126 };
 enum Target : int { array_buffer = 34962, element_array_buffer = 34963 };
 enum Mode : int { points = 0, lines = 1, triangles = 4 };
-constexpr std::uint64_t largest_file = 0xFFFFFFFFu;  // sizes are 32-bit in the format
+constexpr std::uint64_t largest_file = 0xFFFFFFFFu;  // the format has 32-bit sizes
 
 struct Bounds {
   Vec3f low, high;
@@ -46,7 +48,7 @@ std::vector<Vec3f> difference(const std::vector<Vec3f>& a, const std::vector<Vec
   return result;
 }
 
-/// One object's vertices: a block per frame of positions and, for surfaces, normals.
+/// The vertices of one object: for each frame a block of positions and, for surfaces, of normals.
 class Part {
  public:
   Part(const std::string& path, const FrameObject& object) : object_(object), spool_(path) {}
@@ -101,7 +103,7 @@ class Document {
  public:
   Document() : root_{{"asset", {{"version", "2.0"}, {"generator", "Pliant"}}}, {"scene", 0}} {}
 
-  /// Reserves `size` bytes of the binary part; returns the view's index.
+  /// Reserves `size` bytes of the binary part. Returns the index of the buffer view.
   int add_view(std::uint64_t size, int target, bool vertices) {
     json view{{"buffer", 0}, {"byteOffset", binary_size_}, {"byteLength", size}};
     if (target != 0) view["target"] = target;
@@ -134,7 +136,7 @@ class Document {
   std::uint64_t binary_size_ = 0;
 };
 
-/// Adds a part's mesh and node; returns the node's index.
+/// Adds the mesh and the node of an object. Returns the index of the node.
 int add_part(Document& document, const Part& part) {
   const std::uint64_t count = static_cast<std::uint64_t>(part.object().particles);
   const std::uint64_t half = count * sizeof(Vec3f), block = part.surface() ? 2 * half : half;
@@ -179,7 +181,7 @@ class GlbWriter final : public FormatWriter {
 
   void add(const Frame& frame) override {
     check_frame(path_, objects_, frame, last_time_);
-    // Times are floats in the file and must increase there too.
+    // Times must increase as floats too, because the file stores floats.
     if (!times_.empty() && !(static_cast<float>(frame.time) > times_.back()))
       refuse("has frames too close in time for float precision");
     for (std::size_t o = 0; o < parts_.size(); ++o) parts_[o].add(frame.positions[o]);
@@ -195,7 +197,7 @@ class GlbWriter final : public FormatWriter {
     json nodes = json::array();
     std::vector<int> moving;
     for (const Part& part : parts_) {
-      if (part.blocks().empty()) continue;  // no particles: the format has no empty mesh
+      if (part.blocks().empty()) continue;  // the format has no empty mesh
       nodes.push_back(add_part(document, part));
       moving.push_back(nodes.back());
     }
@@ -254,7 +256,7 @@ class GlbWriter final : public FormatWriter {
     commit(file_);
   }
 
-  /// Writes the buffers in the order of the document's views.
+  /// Writes the buffers in the order of the document's buffer views.
   void write_binary(bool animated) {
     for (Part& part : parts_) {
       if (part.blocks().empty()) continue;

@@ -1,4 +1,4 @@
-// The common part of the two writers of .obj text.
+// Functions that both writers of .obj text use.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace pliant::output {
 
-/// One `v` line for each position.
+/// Returns a `v` line for each position.
 inline std::string obj_vertices(const std::vector<Vec3f>& positions) {
   std::string text;
   for (const Vec3f& position : positions) {
@@ -19,7 +19,8 @@ inline std::string obj_vertices(const std::vector<Vec3f>& positions) {
   return text;
 }
 
-/// The object's `f` lines, else its `l` lines, else its `p` lines; `first` is the index of its first vertex, from 1.
+/// Returns an object's `f` lines, else its `l` lines, else its `p` lines. `first` is the index of its first vertex,
+/// from 1.
 inline std::string obj_elements(const FrameObject& object, int first) {
   std::string text;
   const auto line = [&](const char* kind, const auto& indices) {

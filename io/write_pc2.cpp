@@ -1,8 +1,8 @@
-// NAME.pc2, a point cache, and NAME.obj, the mesh that it animates.
+// Writes NAME.pc2, a point cache, and NAME.obj, the mesh that it animates.
 //
-// The cache is one sequence of points, so all objects share one .obj, as groups (`g`) instead of objects (`o`): importers
-// split a file at `o`, and a split mesh would not match the cache. Layout: "POINTCACHE2\0", int version 1, int points,
-// float start frame, float frames per sample, int samples, then the samples.
+// The cache is one sequence of points, so all objects share one .obj, as groups (`g`) instead of objects (`o`):
+// importers divide a file at `o`, and its parts would not fit the cache. Layout of the cache: "POINTCACHE2\0", int
+// version 1, int points, float start frame, float frames per sample, int samples, then the samples.
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -20,10 +20,10 @@ namespace {
 
 constexpr const char* first_words = "# the mesh that ";
 
-/// Protects the input mesh of a scene: only files that this writer wrote are overwritten.
+/// Throws an Error if NAME.obj exists and this program did not write it: it could be the mesh that the scene reads.
 void refuse_foreign_mesh(const std::string& path, const std::string& mesh) {
   std::error_code unknown;
-  if (!std::filesystem::is_regular_file(mesh, unknown)) return;  // AtomicFile reports whether it can be created
+  if (!std::filesystem::is_regular_file(mesh, unknown)) return;  // AtomicFile reports whether it can be made
   std::ifstream in(mesh, std::ios::binary);
   const std::string expected = first_words;
   std::string found(expected.size(), '\0');
@@ -88,7 +88,7 @@ class Pc2Writer final : public FormatWriter {
   Objects objects_;
   AtomicFile file_;
   std::string mesh_path_;
-  std::string mesh_;  // the .obj, kept so that both files are replaced together
+  std::string mesh_;  // text of the .obj, kept so that both files are replaced together
   std::size_t samples_at_ = 0;
   std::int32_t samples_ = 0;
   bool finished_ = false;

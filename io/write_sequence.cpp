@@ -1,6 +1,6 @@
-// One file per frame: NAME_0000.obj or NAME_0000.ply, with all objects in each.
+// Writes one file per frame: NAME_0000.obj or NAME_0000.ply, with all objects in each.
 //
-// OBJ separates objects by `o`. PLY cannot, so each vertex carries its object's colour and index.
+// OBJ separates objects by `o`. PLY has no objects, so each vertex has the colour and the index of its object.
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -46,7 +46,7 @@ class ObjSequence final : public SequenceWriter {
       : SequenceWriter(path, objects), elements_(elements(objects)) {}
 
  private:
-  /// Faces, lines and points are the same in every frame.
+  /// The faces, lines and points of each object as text, which is the same in every frame.
   static std::vector<std::string> elements(const Objects& objects) {
     std::vector<std::string> result;
     int first = 1;

@@ -1,4 +1,4 @@
-// The nameless file. POSIX calls, for the reasons given in atomic_file.cpp.
+// A temporary file without a name. It uses POSIX calls for the reasons given in atomic_file.cpp.
 #include "write_spool.h"
 
 #include <fcntl.h>

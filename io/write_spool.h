@@ -1,8 +1,8 @@
-// Temporary storage during a run, for formats whose file starts with data known only at the end.
+// Temporary storage during a run, for formats in which a file begins with what is known only at the end.
 //
-// A .glb starts with the list of its frames, and a .usda holds one object's frames
-// before the next object's. Keeping them in memory would take gigabytes for a
-// large cloth. The spool is a nameless file, so nothing remains of it in any case.
+// A .glb begins with the list of its frames, and a .usda has all frames of one object before those of the next. In
+// memory they would take gigabytes for a large cloth. A spool is a file without a name, so nothing remains of it,
+// whatever happens.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace pliant::output {
 
 class Spool {
  public:
-  /// `beside` is the output file; the spool lies in its folder. Throws an Error that names it.
+  /// `beside` is the output file; the spool is stored in its folder. Throws an Error that names the output file.
   explicit Spool(std::string beside);
   ~Spool();
   Spool(Spool&& other) noexcept;
@@ -26,7 +26,7 @@ class Spool {
   void write(std::string_view text) { write(text.data(), text.size()); }
   std::size_t size() const { return written_ + buffer_.size(); }
 
-  /// Appends the spool's whole content to `file`.
+  /// Appends all that the spool contains to `file`.
   void copy_to(AtomicFile& file);
 
  private:

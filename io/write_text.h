@@ -1,4 +1,4 @@
-// Numbers as text for the writers: the shortest digits that read back as the same float, in any locale.
+// Writes numbers as text for the writers: the fewest digits that read back as the same float, in any locale.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ void append(std::string& text, Number number) {
   text.append(digits, write_shortest(digits, digits + sizeof digits, number));
 }
 
-/// Appends three numbers separated by `between`.
+/// Appends the three numbers of a vector with `between` between them.
 inline void append(std::string& text, const Vec3f& v, const char* between = " ") {
   append(text, v.x);
   text += between;

@@ -1,7 +1,7 @@
-// USD as text: one prim per object under /World, points as time samples.
+// Writes USD as text: one prim for each object under /World, its points as time samples.
 //
-// A time code is a frame number, so that tools show integers; samples at other times lie between. The text keeps one prim's
-// samples together, so each object has its own spool until the end.
+// A time code is a frame number, so that tools show integers; samples at other times are between these. The text has
+// all samples of a prim together, so each object has a Spool of its own until the end.
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -51,7 +51,7 @@ std::string extent(const std::vector<Vec3f>& points, float margin) {
   return listed(std::vector<Vec3f>{low - around, high + around}, tuple);
 }
 
-/// One object: its points in the prim's order, and its samples so far.
+/// The prim of an object: its points in the prim's order, and the samples so far.
 class Prim {
  public:
   Prim(const std::string& path, const FrameObject& object) : object_(object), points_(path), extents_(path) {
@@ -115,7 +115,7 @@ class Prim {
   Spool points_, extents_;
 };
 
-/// The shortest decimal rate with this frame time in float precision: 60, where 1 / 0.016666668 is 59.999997.
+/// The shortest decimal frame rate whose inverse is `frame_time` as a float: 60, where 1 / 0.016666668 is 59.999997.
 double frames_per_second(double frame_time) {
   const double rate = 1 / frame_time;
   for (double digits = 1; digits < 1e6; digits *= 10) {
@@ -159,7 +159,7 @@ class UsdaWriter final : public FormatWriter {
   }
 
  private:
-  /// The time code of a time: an integer, up to rounding, if the run's steps equal the frame time.
+  /// The time code of a time: an integer, up to rounding, if the steps of the run have the frame time.
   double time_code(double time) const {
     const double code = time / frame_time_, whole = std::round(code);
     return std::abs(code - whole) < 1e-3 ? whole : code;

@@ -1,7 +1,7 @@
-// The ParaView format: NAME.pvd lists the times, NAME/OBJECT_0000.vtp holds one frame of one object.
+// Writes the ParaView format: NAME.pvd lists the times; NAME/OBJECT_0000.vtp has one frame of one object.
 //
-// Numbers are base64 in the XML: exact, a third of the size of digits, and well-formed. The frames' files are many, so they
-// have their own folder. The .pvd is written last, so it never names a missing file.
+// Numbers are in base64 within the XML, which is exact and a third of the size of digits. There are many files of
+// frames, so these have a folder of their own. The .pvd is written last, so it never names a missing file.
 #include <sys/stat.h>
 
 #include <cerrno>
@@ -20,7 +20,7 @@ namespace pliant::output {
 
 namespace {
 
-/// Base64 encoding: three bytes as four digits (RFC 4648).
+/// Encodes bytes in base64, three bytes as four digits (RFC 4648).
 std::string base64(const std::string& bytes) {
   static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -62,7 +62,7 @@ std::string array(const char* type, const char* name, int components, const std:
   return text + " format=\"binary\">" + base64(bytes) + "</DataArray>\n";
 }
 
-/// The cells of one kind as text, the same in every frame.
+/// The cells of one kind as text, which is the same in every frame.
 template <class Cells>
 std::string cells(const char* kind, const Cells& list) {
   std::vector<std::int64_t> connectivity, offsets;
