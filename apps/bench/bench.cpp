@@ -24,7 +24,7 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// The quantile `rank` of the values. Takes a copy, because it reorders them.
+// The quantile `rank` of the values; the argument is a copy, because values are reordered.
 double quantile(std::vector<double> values, double rank) {
   if (values.empty()) return 0;
   const auto index = static_cast<std::ptrdiff_t>(
@@ -84,7 +84,7 @@ class Bench {
     }
     measure({workload, size, "plain loop"}, cloth, bullets_best, [&] { return make_plain_loop(cloth, bullets_best); });
     measure_pliant(workload, cloth, size, bullets_best);
-    measure_pliant(workload, cloth, size, small_steps);  // the same work in the recommended way: small steps
+    measure_pliant(workload, cloth, size, small_steps);  // the same number of projections as small steps, as recommended
   }
 
   void run_set_up(const std::string& workload, int size) {
@@ -143,7 +143,7 @@ class Bench {
 
   const Options& options_;
   std::vector<Row> rows_;
-  double first_ms_ = 0;  // milliseconds of the reference row, the first of its workload and size
+  double first_ms_ = 0;  // time of the first row of the same workload and size [ms]
 };
 
 void check(const Options& options) {

@@ -30,8 +30,8 @@ class BulletLanding final : public LandingEngine {
     if (ball_) world_.removeRigidBody(ball_.get());
   }
 
-  // In Bullet 3.24 the flag for clusters of one body (CL_SELF) disables all soft body contact, because the handler's mask
-  // contains it. So the contact at the end of a step is triggered explicitly here.
+  // In Bullet 3.24 the flag for self-collision by clusters (CL_SELF) switches off all contact of soft bodies, because
+  // the handler's mask contains it. So contact is called here, at the end of a step.
   void step(float dt) override {
     const float h = dt / static_cast<float>(steps_.substeps);
     for (const auto& body : cloths_) body->m_cfg.kDP = 1 - 1 / (1 + h * damping_);
@@ -103,7 +103,7 @@ class BulletLanding final : public LandingEngine {
   std::unique_ptr<btRigidBody> ball_;
   std::vector<std::unique_ptr<btSoftBody>> cloths_;
   Steps steps_;
-  float damping_ = 0;  ///< [1/s]
+  float damping_ = 0;  ///< damping of velocities [1/s]
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ float distance(const Vec3f& a, const Vec3f& b) { return std::sqrt(length_squared
 
 std::pair<int, int> key(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-// The rank of each edge's first use by a triangle. A sweep over sorted edges, away from the pins, diverges.
+// For each edge, when triangles use it first. A Gauss-Seidel pass over sorted edges, away from the pins, would diverge.
 std::map<std::pair<int, int>, int> mesh_order(const Object& object) {
   std::map<std::pair<int, int>, int> rank;
   for (const std::array<int, 3>& t : object.triangles)
@@ -30,7 +30,7 @@ std::map<std::pair<int, int>, int> mesh_order(const Object& object) {
   return rank;
 }
 
-// Sorts items by the mesh order of their edges.
+// Sorts items by the position of their edges in mesh_order.
 template <class Item, class EdgeOf>
 void sort_by_mesh(std::vector<Item>& items, const std::map<std::pair<int, int>, int>& rank, const EdgeOf& edge_of) {
   std::vector<std::pair<int, int>> order;
@@ -45,7 +45,7 @@ void sort_by_mesh(std::vector<Item>& items, const std::map<std::pair<int, int>, 
 
 namespace {
 
-/// Grid cells are two triangles each, in row order: every second cell gets the other diagonal.
+/// The grid of W1. Each cell is two triangles; with alternating diagonals, every second cell gets the other diagonal.
 TriangleMesh w1_mesh(int size, Diagonals diagonals) {
   TriangleMesh mesh = grid_mesh(size, size, 1, 1);
   if (diagonals == Diagonals::uniform) return mesh;

@@ -1,5 +1,6 @@
-// W1, the standard benchmark cloth: N x N particles, 1 m, hung by two corners, one stretching constraint per edge and
-// optionally one bending constraint per inner edge; and the interface of an engine to be measured on it.
+// W1, the standard benchmark cloth: N x N particles over 1 m x 1 m, hung by two corners, with a distance constraint for
+// each edge and optionally a bending constraint for each inner edge. Also the interface of an engine that is measured
+// on it.
 #pragma once
 
 #include <array>
@@ -24,27 +25,27 @@ struct Hinge {
   float compliance;
 };
 
-/// The workload in an engine-independent form.
+/// A workload in a form that does not depend on the engine.
 struct Cloth {
-  Object object;              ///< the cloth as an object of Pliant, with pins
-  std::vector<Edge> edges;    ///< the object's edges, in the order of their first use by triangles
+  Object object;              ///< the cloth as an object of Pliant, with its pins
+  std::vector<Edge> edges;    ///< edges in the order in which triangles use them first
   std::vector<Hinge> hinges;  ///< hinges in the order of their edges; empty without bending
   std::array<int, 2> pins{};
 };
 
-/// How grid cells are cut: all alike, or alternating,
-/// as in the published figures of other engines.
+/// The diagonals of grid cells: all in one direction, or alternating, as in figures that other engines
+/// publish.
 enum class Diagonals { uniform, alternating };
 
-/// The object alone, without the lists for other engines.
+/// Makes the object without the lists for other engines.
 Object make_w1_object(int size, bool with_bending, Diagonals diagonals = Diagonals::uniform);
 Cloth make_w1(int size, bool with_bending, Diagonals diagonals = Diagonals::uniform);
 
-/// The edges with distance constraints, in the order of their first use by triangles.
+/// The edges that have distance constraints, in the order in which triangles use them first.
 std::vector<Edge> edges_of(const Object& object);
 
-/// A grid of size x size over 1 m without any alignment: inner particles are
-/// displaced by up to 0.3 of a cell, and diagonals have random directions.
+/// A grid of size x size vertices over 1 m x 1 m that is aligned with nothing: inner vertices are displaced by up to
+/// 0.3 of a cell, and diagonals have random directions.
 TriangleMesh make_irregular_mesh(int size);
 
 /// An engine that simulates a Cloth.
@@ -54,7 +55,8 @@ class Engine {
   virtual void step(float dt) = 0;
   virtual std::vector<Vec3f> positions() const = 0;
   virtual int threads() const { return 1; }
-  /// Milliseconds per frame by phase, over `frames` more frames; empty if the engine does not measure phases.
+  /// Simulates `frames` more frames, and returns the time of each phase per frame [ms]; empty if the engine does not
+  /// measure phases.
   virtual std::vector<PhaseTime> phases(float /*dt*/, int /*frames*/) { return {}; }
 };
 
@@ -67,11 +69,11 @@ std::unique_ptr<Engine> make_pliant(const Cloth& cloth, Steps steps, int threads
 
 /// The order in which Bullet solves its links.
 enum class BulletOrder {
-  shuffled,  ///< in the order in which Bullet's mesh helper leaves them
-  spread,    ///< as Bullet's ReoptimizeLinkOrder leaves them: consecutive links share no particle; the faster one
+  shuffled,  ///< the order in which Bullet's mesh helper leaves them
+  spread,    ///< the order of Bullet's ReoptimizeLinkOrder: consecutive links share no particle; faster
 };
 
-/// Null if this build lacks Bullet. Edges only.
+/// Makes Bullet's engine for the edges of a cloth; null if this program was built without Bullet.
 std::unique_ptr<Engine> make_bullet(const Cloth& cloth, Steps steps, BulletOrder order);
 
 }  // namespace pliant::bench

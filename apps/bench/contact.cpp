@@ -1,5 +1,5 @@
-// The draping cloth of docs/internals/performance.md. Larger sizes are independent copies, each with its own ball, so that
-// the cost per particle should not depend on their number.
+// Measures the draping cloth of docs/internals/performance.md. Larger sizes consist of separate cloths, each with a
+// ball of its own, so the cost per particle should not depend on their number.
 #include "apps/bench/contact.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 constexpr float edge = 0.01f, frame_time = 1.f / 60;
 constexpr int largest_cloth = 100;
 
-/// A cloth over a ball, both shifted horizontally by `beside`.
+/// Adds a cloth over a ball, both displaced horizontally by `beside`.
 void add_drape(Scene& scene, int size, const Vec3f& beside, bool self_collision) {
   const float width = edge * static_cast<float>(size - 1);
   TriangleMesh mesh = grid_mesh(size, size, width, width);

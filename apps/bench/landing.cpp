@@ -1,4 +1,4 @@
-// The two landings, Pliant on them, and the measurement.
+// The two landings: their scenes, Pliant's engine for them, and the measurement.
 #include "apps/bench/landing.h"
 
 #include <algorithm>
@@ -16,7 +16,8 @@ namespace pliant::bench {
 namespace {
 
 constexpr float frame_time = 1.f / 60, width = 1, thickness_of_edge = 0.1f;
-constexpr float damping = 6;  // without it Bullet's positions become infinite within 20 frames at N = 64 [1/s]
+constexpr float damping =
+    6;  // rate of damping [1/s]; without it Bullet's positions become infinite within 20 frames at N = 64
 
 Object cloth_at(int size, float height, float degrees, const std::string& name) {
   TriangleMesh mesh = grid_mesh(size, size, width, width);
@@ -45,7 +46,7 @@ class PliantLanding final : public LandingEngine {
     Scene scene;
     scene.settings.substeps = steps.substeps;
     scene.settings.iterations = steps.iterations;
-    scene.settings.sweep = Sweep::tiled;  // with as many projections as Bullet makes
+    scene.settings.sweep = Sweep::tiled;  // makes as many projections as Bullet
     scene.settings.threads = 1;
     for (const Object& cloth : landing.cloths) scene.add(cloth);
     if (landing.radius > 0) {
@@ -95,7 +96,7 @@ void measure_stretch(const Landing& landing, const LandingEngine& engine, Landin
   row.stretch_p99 = quantile(ratios, 0.99);
 }
 
-/// Runs frames until all are done or the time limit is reached.
+/// Simulates frames until all are done or the time limit is reached. Returns the time of each frame [ms].
 std::vector<double> run_frames(LandingEngine& engine, const LandingOptions& options) {
   std::vector<double> times;
   double sum = 0;

@@ -11,17 +11,18 @@
 
 namespace pliant::bench {
 
-/// The workload in an engine-independent form: N x N cloths of 1 m with rigid edges, no bending, self-collision.
+/// The workload in a form that does not depend on the engine: N x N cloths of 1 m with rigid edges, self-collision, no
+/// bending.
 struct Landing {
   std::string on;                        ///< "ball" or "cloth"
   int size = 0;                          ///< N
-  std::vector<Object> cloths;            ///< the cloths as objects of Pliant; of two, the lower has pinned corners
+  std::vector<Object> cloths;            ///< cloths as objects of Pliant; the lower one of two has pinned corners
   std::vector<std::vector<Edge>> edges;  ///< edges of each cloth
-  Vec3f ball{};                          ///< centre [m]
+  Vec3f ball{};                          ///< centre of the ball [m]
   float radius = 0;                      ///< radius of the ball [m]; 0: no ball
 };
 
-/// Throws an Error if `on` is neither.
+/// Makes a landing. Throws an Error if `on` is neither "ball" nor "cloth".
 Landing make_landing(const std::string& on, int size);
 
 /// An engine that simulates a Landing.
@@ -33,15 +34,15 @@ class LandingEngine {
 };
 
 std::unique_ptr<LandingEngine> make_pliant_landing(const Landing& landing, Steps steps);
-/// Bullet's position based soft body, with collision by `clusters` convex clusters
-/// of its faces; 0: one per face, the finest. Null if this build lacks Bullet.
+/// Makes an engine of Bullet's position based soft bodies that collide by `clusters` convex clusters of their faces; 0:
+/// a cluster for each face, which is finest. Null if this program was built without Bullet.
 std::unique_ptr<LandingEngine> make_bullet_landing(const Landing& landing, Steps steps, int clusters);
 
-/// Times are processor time of one thread.
+/// The results of one engine for one landing and size, in processor time of one thread.
 struct LandingRow {
   std::string on, engine;
   int size = 0, substeps = 0, iterations = 0;
-  int frames = 0;       ///< completed within the time limit
+  int frames = 0;       ///< frames completed within the time limit
   bool in_time = true;  ///< true if all frames were completed
   double mean_ms = 0, median_ms = 0, largest_ms = 0;
   std::size_t crossings =
@@ -51,15 +52,16 @@ struct LandingRow {
 };
 
 struct LandingOptions {
-  std::vector<std::string> on{"ball", "cloth"};  ///< landings
+  std::vector<std::string> on{"ball", "cloth"};  ///< what the cloth lands on: "ball", "cloth"
   std::vector<int> sizes{64, 128};
-  int frames = 120;    ///< measured frames from the start: fall, landing and draping
+  int frames = 120;    ///< number of frames from the start, all measured: fall, landing and draping
   double limit = 120;  ///< time limit of each row [s]
   bool against_bullet = false;
   std::function<void(const LandingRow&)> on_row;
 };
 
-/// Throws an Error if a size is outside 2..4096, frames or time are 0, or Bullet is requested but not built in.
+/// Measures landings. Throws an Error if a size is outside 2..4096, frames or time are 0, or Bullet is requested but
+/// not built in.
 std::vector<LandingRow> measure_landings(const LandingOptions& options);
 
 std::string to_json(const std::vector<LandingRow>& rows);

@@ -15,7 +15,8 @@ namespace pliant::bench {
 
 namespace {
 
-/// The value of a line of /proc/self/status such as "VmHWM:   123 kB", in bytes; 0 if missing.
+/// A number of /proc/self/status [bytes]: `name` is for example "VmHWM", whose line is "VmHWM:   123 kB"; 0 if there is
+/// none.
 double resident(const std::string& name) {
   std::ifstream status("/proc/self/status");
   std::string key;
@@ -41,7 +42,7 @@ void step_twice(World& world) {
 
 MemoryRow measure_here(int size, Sweep sweep, bool is_given_away) {
   World small(scene_of(4, sweep));
-  step_twice(small);  // loads code and starts threads, which do not count as memory of a cloth
+  step_twice(small);  // loads code and starts threads, whose memory is not that of a cloth
   const double before = resident("VmRSS"), particles = static_cast<double>(size) * size;
   const auto now = [&](const std::string& name) { return (resident(name) - before) / particles; };
   MemoryRow row{size, sweep};
@@ -55,7 +56,7 @@ MemoryRow measure_here(int size, Sweep sweep, bool is_given_away) {
   return row;
 }
 
-/// Measures in a separate process, so that the high-water mark covers this cloth alone.
+/// Measures in a process of its own, so that the high-water mark is that of this cloth.
 MemoryRow measure(int size, Sweep sweep, bool is_given_away) {
   int ends[2];
   if (pipe(ends) != 0) throw Error({}, "cannot start a process in which to measure memory");

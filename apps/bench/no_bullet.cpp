@@ -1,4 +1,4 @@
-// Replaces the Bullet engines in builds without Bullet.
+// Stands in for the Bullet engines in programs built without Bullet.
 #include "apps/bench/cloth.h"
 #include "apps/bench/landing.h"
 

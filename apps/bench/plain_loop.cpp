@@ -1,5 +1,5 @@
-// The baseline: PBD as a competent programmer writes it in an hour. Array of structures, constraints in mesh order, float,
-// one thread, the same compiler flags as the engine.
+// The baseline: PBD as a competent programmer writes it in an hour. Array of structs, constraints in the order of the
+// mesh, float, one thread, the same compiler flags as the engine.
 #include <cmath>
 
 #include "apps/bench/cloth.h"
@@ -64,7 +64,8 @@ class PlainLoop final : public Engine {
     }
   }
 
-  // One iteration per substep needs no stored XPBD multiplier; more iterations would act as a stiffer spring.
+  // XPBD without a stored multiplier, which is exact for one iteration per substep; more iterations would make a
+  // stiffer spring.
   void bend(float h) {
     for (const Hinge& hinge : hinges_) {
       Particle &p0 = particles_[hinge.v0], &p1 = particles_[hinge.v1], &p2 = particles_[hinge.v2],

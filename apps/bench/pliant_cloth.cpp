@@ -24,7 +24,7 @@ class PliantCloth final : public Engine {
   std::vector<Vec3f> positions() const override { return world_.positions(0); }
   int threads() const override { return world_.threads(); }
 
-  /// Runs a second World, which times phases separately, from this one's State.
+  /// Simulates a second World from this one's State, with phases timed separately.
   std::vector<PhaseTime> phases(float dt, int frames) override {
     Scene scene = scene_;
     scene.settings.separate_phases = true;

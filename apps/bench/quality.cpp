@@ -1,5 +1,5 @@
-// Tries increasing substeps in a geometric series, each in a run from the start; the first within the bounds counts.
-// Stretch is taken after every frame, because the second swing stretches most, not the end.
+// Tries numbers of substeps that increase in a geometric series, each in a run from the start, until one meets the
+// bounds. Stretch is measured after every frame, because it is largest in the second swing, not at the end.
 #include "apps/bench/quality.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int frame_of_energy = 40;
 
-/// A sweep and its largest number of substeps: a plain sweep needs about N^1.5, which takes hours for large N.
+/// A sweep, and the largest number of substeps to try: a plain sweep needs about N^1.5, which takes hours for large N.
 struct Contender {
   const char* engine;
   Sweep sweep;

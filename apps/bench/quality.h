@@ -1,4 +1,5 @@
-// The cost of a frame at equal quality: the substeps until a cloth hardly stretches, and their time.
+// The cost of a frame at equal quality: how many substeps a cloth needs so that it hardly stretches, and how long they
+// take.
 #pragma once
 
 #include <limits>
@@ -15,12 +16,12 @@ struct QualityWorkload {
   double p99, largest;
 };
 
-/// Cloth hung by two corners; the same on an irregular mesh; and cloth draped over a ball without pins, friction 0.3.
+/// The workloads: cloth hung by two corners; the same on an irregular mesh; cloth without pins over a ball, friction 0.3.
 const std::vector<QualityWorkload>& quality_workloads();
 
-/// Runs a cloth of `size` x `size` with the tiled sweep, with chains (and tethers if pinned) and with multigrid. Each row
-/// has the fewest substeps of a geometric series that meet the bounds over `frames` frames. If none up to the sweep's limit
-/// does, the row shows the limit, and `met` is false.
+/// Measures a cloth of `size` x `size` with the tiled sweep, with chains (and tethers if pinned) and with multigrid.
+/// Each row has the fewest substeps of a geometric series that meet the bounds in all of `frames` frames. If no number
+/// up to the sweep's limit does, the row is that of the limit, and `met` is false.
 std::vector<Row> measure_quality(const QualityWorkload& workload, int size, int frames);
 
 }  // namespace pliant::bench

@@ -1,4 +1,4 @@
-// Fits as many substeps as possible into a time budget per frame, for several numbers of iterations.
+// For several numbers of iterations, finds how many substeps fit into a time per frame.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -13,11 +13,11 @@ namespace pliant::compare {
 namespace {
 
 constexpr int iterations_tried[] = {1, 2, 4, 10, 30};
-constexpr int probe_frames = 6;      // frames of the probe run, which gives the first estimate
-constexpr int probe_substeps = 2;    // substeps of the probe run
-constexpr int most_substeps = 2000;  // upper limit: more substeps do not help
-constexpr int most_corrections = 3;  // maximum number of corrections of the estimate
-constexpr double well_used = 1.2;    // accept if budget over time used is below this
+constexpr int probe_frames = 6;      // frames of a first run, which gives an estimate
+constexpr int probe_substeps = 2;    // substeps of that first run
+constexpr int most_substeps = 2000;  // more substeps do not help
+constexpr int most_corrections = 3;  // largest number of corrections of the estimate
+constexpr double well_used = 1.2;    // an estimate is accepted if the budget is at most this many times the time used
 
 Settings settings_of(const Scene& scene, const Method& method, int substeps, int iterations) {
   Settings settings = scene.settings;
@@ -37,10 +37,10 @@ void take_larger(Stretch& worst, const Stretch& stretch) {
   worst.largest = std::max(worst.largest, stretch.largest);
 }
 
-/// The result of one combination of substeps and iterations.
+/// The result of a run with some substeps and iterations.
 struct Trial {
   Budgeted row;
-  bool finite = true;  ///< if false, the row holds the frames before
+  bool finite = true;  ///< false: a value was not finite; `row` is of the frames before
 };
 
 /// Simulates the first `frames` frames, or until a value is not finite.
@@ -63,20 +63,22 @@ Trial simulate(const Scene& scene, const Method& method, int substeps, int itera
   return trial;
 }
 
-/// Why combinations of substeps and iterations failed.
+/// Why numbers of substeps and iterations were not accepted.
 struct Misses {
-  double fastest = std::numeric_limits<double>::infinity();  ///< fastest combination above the budget [ms per frame]
-  int not_finite = 0;                                        ///< combinations within the budget that do not stay finite
+  double fastest = std::numeric_limits<double>::infinity();  ///< least time per frame of those above the budget [ms]
+  int not_finite = 0;  ///< number of those within the budget in which a value became infinite or NaN
 };
 
-/// The next substeps to try, where `share` is budget over time used; a value not above the last ends the search.
+/// The substeps to try next, if the budget is `share` times the time used. The search ends if they are no more than the
+/// last.
 int next_substeps(int substeps, double share) {
   const int scaled = static_cast<int>(std::min(0.98 * share * substeps, 1. * most_substeps));
   return share < 1 ? std::min(substeps - 1, scaled) : scaled;
 }
 
-/// Fits substeps of `iterations` into the budget. The probe may have too few to stay finite, because it only measures time.
-/// If much of the budget is unused because the probe was slow by chance, more are tried.
+/// Finds the substeps with `iterations` iterations that fit into the budget. The first run serves only to measure time,
+/// so its values may become infinite. If much of the budget is unused, because that run happened to be slow, more
+/// substeps are tried.
 std::optional<Budgeted> fit(const Scene& scene, const Method& method, int iterations, const Options& options,
                             Misses& misses) {
   const int frames = std::min(probe_frames, scene.frames);

@@ -1,5 +1,5 @@
-// Six panels: the error that is solved for, the largest stretch and
-// its 99th percentile, each over iterations and over milliseconds.
+// Draws six charts: the residual, the largest stretch and its 99th percentile, each over iterations and over
+// milliseconds.
 #include <algorithm>
 #include <limits>
 
@@ -20,7 +20,7 @@ plot::Chart panel(const std::string& title, const std::string& x, const std::str
   return chart;
 }
 
-/// A line through f(sample) in the method's colour, which is the same in all panels.
+/// A curve of f(sample) in the colour that the method has in all charts.
 template <class X, class Y>
 plot::Series line(const Curve& curve, int colour, const X& x, const Y& y) {
   plot::Series series;
@@ -38,9 +38,9 @@ double milliseconds_of(const Sample& sample) { return sample.milliseconds; }
 double largest_of(const Sample& sample) { return percent(sample.stretch.largest); }
 double p99_of(const Sample& sample) { return percent(sample.stretch.p99); }
 
-constexpr int start_colour = 8;  // the palette's last, used by a sweep only if nine are compared
+constexpr int start_colour = 8;  // last colour of the palette, which a sweep has only if nine are compared
 
-/// Every iteration of the record except the first, which has no place on a logarithmic axis.
+/// All iterations but the prediction, whose number 0 has no place on a logarithmic axis.
 template <class X>
 plot::Series recorded(const Curve& curve, int colour, double scale, const X& x) {
   plot::Series series;
@@ -53,7 +53,7 @@ plot::Series recorded(const Curve& curve, int colour, double scale, const X& x) 
   return series;
 }
 
-/// A horizontal line at the error of the prediction, where all methods start.
+/// A horizontal line at the residual of the prediction, from which all methods start.
 plot::Series start_of(const Result& result, double scale, const plot::Chart& chart) {
   plot::Series series;
   series.name = "at the start";

@@ -1,12 +1,12 @@
-// Solves one substep from one state with increasing iterations.
+// Measures curves: solves one substep from one State with more and more iterations.
 //
-// The speed of a shared machine varies. So the runs of a curve are timed in alternating
-// rounds, and so are the curves (run.cpp): a slow moment affects all or none. The fastest
-// time is kept. A run contains every shorter one, so its time also bounds theirs from above.
+// The speed of a shared machine varies. So the runs of a curve are timed in rounds, and so are the curves (run.cpp): a
+// slow moment affects all or none. The least time is kept. A run contains all shorter ones, so its time is an upper
+// bound of theirs.
 //
-// With surface contact, a restored World searches for initial intersections and rebuilds
-// its near lists, which takes far longer than a sweep. A normal run does so once and rarely
-// again. In that case the next substep is timed, and the error is that of the first.
+// With contact between surfaces, a restored World searches initial intersections and rebuilds its near lists, which
+// takes far longer than a sweep. In an ordinary run this is rare. So in this case the time is that of the next substep,
+// while the residual is that of the first.
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -18,11 +18,11 @@ namespace pliant::compare {
 
 namespace {
 
-constexpr int repeats = 3;  // repetitions of a run in one round, because the first one has cold caches
+constexpr int repeats = 3;  // repetitions of a run in a round, because the first has cold caches
 constexpr int most_rounds = 20;
 constexpr double enough_milliseconds = 10;  // time to spend on all rounds of a run
 
-/// 1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100 and so on, and `last`.
+/// The numbers 1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100 and so on up to `last`, and `last`.
 std::vector<int> sampled_iterations(int last) {
   std::vector<int> numbers;
   for (int decade = 1; decade <= last; decade *= 10)
@@ -64,7 +64,7 @@ std::vector<IterationResidual> record_of(const Scene& scene, World& start, const
   return step_once(world, scene, options).convergence;
 }
 
-/// The substep with one number of iterations, solved repeatedly.
+/// The runs with one number of iterations.
 struct Run {
   World world;
   State start;
@@ -78,8 +78,8 @@ Run run_of(const Scene& scene, World& start, const Method& method, int iteration
   return {std::move(world), std::move(state), {iterations, std::numeric_limits<double>::infinity(), 0, {}}};
 }
 
-/// The time of this substep, or of the next one if this one did work that only follows a restore. If the next is not
-/// finite, because the sweep diverges, the first counts.
+/// The time of this substep; or of the next one, if this one did work that is necessary only after a restore. If the
+/// next one is not finite, because the sweep diverges, that of this one.
 double milliseconds_of(const Report& report, Run& run, const Scene& scene, const Options& options) {
   if (report.pairs.rebuilds == 0) return report.milliseconds;
   run.sample.of_next = true;
@@ -87,7 +87,7 @@ double milliseconds_of(const Report& report, Run& run, const Scene& scene, const
   return next.ok() ? next.milliseconds : report.milliseconds;
 }
 
-/// Returns the milliseconds spent.
+/// Solves the substep once more. Returns the time spent [ms].
 double solve_again(Run& run, const Scene& scene, const Options& options) {
   double spent = 0;
   for (int i = 0; i < repeats; ++i) {
@@ -119,7 +119,8 @@ std::vector<Sample> samples_of(const Scene& scene, World& start, const Method& m
   return samples;
 }
 
-/// The residual of distances if there are any, because it is a length; otherwise of the first type.
+/// The residual that is plotted: that of distances if there are any, because it is a length; otherwise that of the
+/// first type.
 double drawn_residual(const IterationResidual& at) {
   for (const Residual& residual : at.primal)
     if (residual.type == "distance") return residual.rms;

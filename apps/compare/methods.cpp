@@ -1,4 +1,4 @@
-// Method names: a sweep, and options after plus signs.
+// Converts names to methods: a sweep, and options after plus signs.
 #include <algorithm>
 #include <cmath>
 #include <sstream>

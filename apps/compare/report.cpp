@@ -1,4 +1,4 @@
-// The results as a table and as JSON.
+// Writes the results as a table and as JSON.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -23,7 +23,7 @@ std::string format(const char* pattern, Values... values) {
 
 // ------------------------------------------------------------------------------------------------ figures of a curve
 
-/// The first iteration with a tenth of the prediction's residual; -1: none.
+/// The first iteration whose residual is at most a tenth of the prediction's; -1: none.
 int iterations_to_a_tenth(const Curve& curve) {
   for (std::size_t i = 1; i < curve.residuals.size(); ++i)
     if (curve.residuals[i] <= 0.1 * curve.residuals.front()) return static_cast<int>(i);
@@ -36,7 +36,7 @@ double milliseconds_an_iteration(const Curve& curve) {
   return (last.milliseconds - first.milliseconds) / (last.iterations - first.iterations);
 }
 
-/// The samples shown in a table: the first, the middle on a logarithmic axis, the last.
+/// The samples that the table shows: the first, the one in the middle of a logarithmic axis, the last.
 std::vector<std::size_t> shown_samples(const Curve& curve) {
   const std::size_t last = curve.samples.size() - 1;
   std::vector<std::size_t> shown{0};

@@ -1,4 +1,4 @@
-// The order of all measurements.
+// Makes all measurements in order.
 #include <algorithm>
 
 #include "apps/compare/compare.h"
@@ -8,9 +8,9 @@ namespace pliant::compare {
 
 namespace {
 
-constexpr int turns = 3;  // rounds of timing all curves
+constexpr int turns = 3;  // number of rounds in which all curves are timed
 
-/// Runs the scene with its own settings to the frame from which the curves start.
+/// Simulates the scene with its own settings up to the frame from which curves start.
 World run_to(const Scene& scene, int frames, const Options& options) {
   Settings settings = scene.settings;
   settings.measure = settings.record_residuals = settings.record_multipliers = false;
@@ -45,7 +45,7 @@ std::string type_of(const std::vector<Curve>& curves) {
 Result run(const Scene& given, const Options& options) {
   Scene scene = given;
   scene.settings = chosen_settings(given);
-  if (scene.settings.substeps == 0) {  // curves are of one substep of all objects
+  if (scene.settings.substeps == 0) {  // all objects need the same substep
     const std::vector<int> substeps = chosen_substeps(given);
     scene.settings.substeps = *std::max_element(substeps.begin(), substeps.end());
   }

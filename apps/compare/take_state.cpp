@@ -1,8 +1,8 @@
-// Copies the motion of one World into another with a different particle order.
+// Copies the motion of one World to another one whose particles have a different order.
 //
-// A State stores particles in the order of the compiled model, which depends on the sweep;
-// only a World knows the permutation. So it is queried: the World gets a State whose positions
-// encode their own indices, and the positions that it then reports are those indices.
+// A State stores particles in the order of the compiled model, which depends on the sweep. To find that order, the
+// World is given a State whose positions contain their own indices; the positions that it then reports are these
+// indices.
 #include <algorithm>
 
 #include "apps/compare/compare.h"
@@ -11,10 +11,10 @@ namespace pliant::compare {
 
 namespace {
 
-/// Indices are encoded as two digits, each exact in a float.
+/// Indices are written as two digits of this base, each of which is exact in a float.
 constexpr std::size_t digit = std::size_t{1} << 20;
 
-/// The State index of every user particle, object by object.
+/// For each particle in the user's order, object by object, its index in the State.
 std::vector<std::size_t> places_in(World& world) {
   const State kept = world.state();
   State numbered = kept;
@@ -40,7 +40,7 @@ void move(Record& to, const Record& from) { to = {from.x, from.y, from.z, to.w};
 void take_state(World& to, World& from, std::size_t collider_particles) {
   const std::vector<std::size_t> there = places_in(from), here = places_in(to);
   const State& given = from.state();
-  State taken = to.state();  // attachment targets are not copied: the next substep sets them
+  State taken = to.state();  // targets of attachments are not copied, because the next substep sets them
   taken.time = given.time;
   taken.frame = given.frame;
   for (std::size_t i = 0; i < here.size(); ++i) {
@@ -48,7 +48,7 @@ void take_state(World& to, World& from, std::size_t collider_particles) {
     move(taken.remainders[here[i]], given.remainders[there[i]]);
     move(taken.velocities[here[i]], given.velocities[there[i]]);
   }
-  // Mesh colliders come last, in the same order in every World.
+  // Particles of mesh colliders come last, in the same order in every World.
   const std::size_t total = taken.positions.size();
   for (std::size_t i = total - std::min(collider_particles, total); i < total; ++i) {
     move(taken.positions[i], given.positions[i]);

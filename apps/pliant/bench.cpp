@@ -1,4 +1,4 @@
-// pliant bench: the workloads of apps/bench as a table, row by row as they are measured.
+// pliant bench: measures the workloads of apps/bench, and prints each row of a table when it is measured.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -91,7 +91,7 @@ std::string bench_landings(const BenchOptions& options) {
   return to_json(pliant::bench::measure_landings(wanted));
 }
 
-/// The JSON rows of a workload with a separate measurement; empty for all others.
+/// Measures a workload that has rows of its own, and returns them as JSON; nullopt for other workloads.
 std::optional<std::string> bench_by_name(const BenchOptions& options) {
   if (options.workload == "contact") return bench_contact(options);
   if (options.workload == "memory") return bench_memory(options);

@@ -1,5 +1,5 @@
-// pliant check: reads a scene or a mesh and reports errors and warnings with
-// advice. A scene without errors is also run, to test whether its solve converges.
+// pliant check: reads a scene or a mesh, and prints errors and warnings with advice. A scene without errors is also
+// simulated, to test whether its solve converges.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -22,7 +22,7 @@ namespace pliant::command {
 
 namespace {
 
-// ", 1 x 0 x 0.8 m": reveals a mesh modelled in centimetres.
+// The size for messages: ", 1 x 0 x 0.8 m", which reveals a mesh in centimetres.
 std::string extent(const std::vector<Vec3f>& positions) {
   if (positions.empty()) return {};
   Vec3f low = positions.front(), high = low;
@@ -37,7 +37,7 @@ std::string extent(const std::vector<Vec3f>& positions) {
   return text;
 }
 
-// Prints one line per finding, grave ones first, others labelled `lesser`. Returns true if any was grave.
+// Prints a line for each finding, grave ones first, others with the label `lesser`. Returns true if any is grave.
 bool print_findings(const std::vector<Finding>& findings, const std::string& lesser) {
   std::string text;
   bool grave = false;
@@ -63,13 +63,13 @@ std::vector<Finding> check_mesh(const std::string& path) {
   return inspect(file.mesh);
 }
 
-/// The time limit to suggest: enough for all frames with the scene's own settings, or else for more trials of others.
+/// The time limit to suggest: enough for all frames with the scene's own settings, or otherwise for more trials.
 double more_seconds(const Advice& advice, double seconds) {
   const double missing = static_cast<double>(advice.frames) / std::max(1, advice.own.frames);
   return std::min(86400., seconds * std::max(10., std::ceil(1.5 * missing)));
 }
 
-/// Runs the scene and variants of it, unless it has grave findings or no time is given.
+/// Simulates the scene with its own and other settings, unless it has grave findings or `seconds` is 0.
 void try_out(const Scene& scene, double seconds, std::vector<Finding>& findings) {
   const bool grave = std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.grave; });
   if (grave || seconds <= 0 || scene.frames < 1) return;
@@ -88,7 +88,7 @@ void try_out(const Scene& scene, double seconds, std::vector<Finding>& findings)
           compare::figure(more_seconds(advice, seconds), 3) + " gives more\n");
 }
 
-/// "20 substeps a frame", or, where objects differ, "10 substeps a frame for 'flag', 20 for 'sock' and 2 more".
+/// For example "20 substeps a frame", or where objects differ "10 substeps a frame for 'flag', 20 for 'sock' and 2 more".
 std::string substeps_in_words(const Scene& scene, const Settings& chosen) {
   if (chosen.substeps != 0) return counted(static_cast<std::size_t>(std::max(chosen.substeps, 0)), "substep") + " a frame";
   std::map<int, std::vector<std::string>> names;
@@ -131,7 +131,7 @@ std::vector<Finding> check_scene(const std::string& path, double seconds) {
 }  // namespace
 
 int check(const CheckOptions& options) {
-  // Findings that are doubtful in a mesh alone are often normal for cloth, so they are notes.
+  // What is doubtful in a mesh is often usual for cloth, so such findings are called notes.
   const bool is_scene = has_suffix(options.path, ".json");
   const bool grave = print_findings(is_scene ? check_scene(options.path, options.seconds) : check_mesh(options.path),
                                     is_scene ? "doubtful" : "note");

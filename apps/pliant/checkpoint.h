@@ -1,4 +1,4 @@
-// Checkpoints of a run: a file with its State, from which it resumes with the same bits.
+// Checkpoints of a run: files with its State, from which a run continues with the same bits.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,22 @@ namespace pliant::command {
 
 class Checkpoint {
  public:
-  /// Saves to `path` after every `every`-th frame; does nothing if `path` is empty.
+  /// Saves to `path` after every `every`-th frame; an empty path saves nothing.
   Checkpoint(std::string path, int every, const Scene& scene);
 
-  /// Call before the first frame.
+  /// Notes the State at the start; call it before the first frame.
   void begin(const World& world);
-  /// Call after each complete frame.
+  /// Notes the State, and saves it if due; call it after each complete frame.
   void after_frame(const World& world);
-  /// Saves the last complete frame unless it has been saved.
+  /// Saves the last complete frame, unless that is in the file already.
   void write_last();
 
  private:
   std::string path_;
   int every_;
   Fingerprint fingerprint_;
-  State last_;               ///< the State after the last complete frame
-  std::int64_t saved_ = -1;  ///< the frame in the file; -1: none
+  State last_;               ///< State after the last complete frame
+  std::int64_t saved_ = -1;  ///< frame number of the State in the file; -1: none
 };
 
 }  // namespace pliant::command

@@ -1,8 +1,8 @@
-// The subcommands of `pliant` as functions of plain options; only main.cpp parses the command line.
+// The subcommands of `pliant` as functions of plain options. Only main.cpp parses the command line.
 //
-// Each returns the exit status: 0 done; 1 done, with a negative result that it has
-// printed. Each throws pliant::Error, or Interrupted, if it fails. Standard output is for
-// results, standard error for a one-line error message and, on a terminal, for progress.
+// Each returns the exit status: 0 done; 1 done, with a negative result that it has printed. If it fails, it throws
+// pliant::Error or Interrupted. Standard output is for results, standard error for a one-line error and, on a terminal,
+// for progress.
 #pragma once
 
 #include <optional>
@@ -11,26 +11,26 @@
 
 namespace pliant::command {
 
-/// Changes to a scene's settings for run, render and other commands that simulate.
+/// What the command line changes in a scene, for commands that simulate.
 struct Overrides {
   std::optional<int> frames, threads, substeps, iterations;
-  std::string sweep;                ///< name of a sweep with options, "chains+tethers"; empty: the scene's own
-  std::string isa;                  ///< empty: the best available
-  bool sequential = false;          ///< the scalar reference sweep
-  std::vector<std::string> meshes;  ///< "name=path": mesh files for objects and colliders
-  std::string cache;                ///< folder for cached distance grids; empty: none
+  std::string sweep;                ///< name of a sweep, with options: "chains+tethers"; empty: the scene's own
+  std::string isa;                  ///< instruction set level; empty: the best that the machine has
+  bool sequential = false;          ///< use scalar code
+  std::vector<std::string> meshes;  ///< "name=path": mesh files of objects and colliders
+  std::string cache;                ///< folder of cached distance grids; empty: no cache
 };
 
 struct RunOptions {
   std::string scene;
   Overrides overrides;
-  std::vector<std::string> out;  ///< geometry files; the suffix selects the format
-  std::string report;            ///< JSON file, empty: none
+  std::vector<std::string> out;  ///< files for the geometry of each frame; the suffix selects the format
+  std::string report;            ///< file for the report as JSON; empty: none
   std::string checkpoint;        ///< file for the State, saved every `every` frames and at the end; empty: none
-  int every = 60;                ///< frames
-  std::string resume;            ///< checkpoint to resume from, empty: none
-  bool hash_frames = false;      ///< hash the State of every frame in the report
-  bool quiet = false;            ///< no standard output, no progress
+  int every = 60;                ///< frames between checkpoints
+  std::string resume;            ///< checkpoint from which to continue; empty: none
+  bool hash_frames = false;      ///< true: the report has a hash of the State after each frame
+  bool quiet = false;            ///< no output but errors
 };
 
 /// Simulates a scene.
@@ -38,12 +38,12 @@ int run(const RunOptions& options);
 
 struct RenderOptions {
   std::string scene;
-  Overrides overrides;                 ///< all except `frames`
-  std::optional<int> frame;            ///< frame of a picture, or length of a movie; default: the scene's last
-  std::string out;                     ///< .png or .mp4
+  Overrides overrides;                 ///< `frames` is not used
+  std::optional<int> frame;            ///< frame to draw, or length of a movie; default: the scene's last frame
+  std::string out;                     ///< file, .png or .mp4
   std::string size = "1280x720";       ///< WxH in pixels
   float azimuth = 28, elevation = 18;  ///< camera direction [degrees]
-  std::vector<int> strip;              ///< frames side by side in one picture; empty: the last alone
+  std::vector<int> strip;              ///< frames drawn side by side in one picture; empty: one frame
   bool quiet = false;
 };
 
@@ -51,49 +51,50 @@ struct RenderOptions {
 int render(const RenderOptions& options);
 
 struct CheckOptions {
-  std::string path;    ///< a scene (.json) or a mesh
-  double seconds = 3;  ///< approximate time for trial runs; 0: none [s]
+  std::string path;    ///< a scene (.json) or a mesh file
+  double seconds = 3;  ///< approximate time for trial runs [s]; 0: none
 };
 
-/// Prints errors and warnings; returns 1 if there are errors.
+/// Prints errors and warnings of a scene or mesh. Returns 1 if there are errors.
 int check(const CheckOptions& options);
 
 struct ValidateOptions {
-  std::string group;    ///< empty: all
-  bool slow = false;    ///< include rows that take minutes
-  std::string queries;  ///< folder of query sets for continuous collision tests, empty: none
-  std::string json;     ///< file for the rows as JSON, empty: none; "-": standard output instead of the table
-  std::string plot;     ///< PNG file for the curves, empty: none
+  std::string group;    ///< name of a group of rows; empty: all
+  bool slow = false;    ///< true: also rows that take minutes
+  std::string queries;  ///< folder of query sets for continuous collision tests; empty: none
+  std::string json;     ///< file for the rows as JSON; "-": standard output instead of the table; empty: none
+  std::string plot;     ///< PNG file for the charts; empty: none
 };
 
-/// Compares with known answers and prints a table; throws an Error if a row fails.
+/// Compares results with known answers, and prints a table. Throws an Error if a row fails.
 int validate(const ValidateOptions& options);
 
 struct BenchOptions {
-  std::string workload;    ///< empty: all
-  std::string against;     ///< "bullet", or empty
-  std::vector<int> sizes;  ///< empty: 64, 128, 256, 512
-  int frames = 120;        ///< measured, after 20 unmeasured ones
+  std::string workload;    ///< name of a workload; empty: all
+  std::string against;     ///< "bullet" to measure it too; empty: not
+  std::vector<int> sizes;  ///< numbers of vertices along a side; empty: 64, 128, 256, 512
+  int frames = 120;        ///< frames measured, after 20 that are not
   double limit = 120;      ///< time limit of a row of W3 [s]
-  int threads = 0;         ///< threads of the second run; the first run has one; 0: all
-  std::string json;        ///< file for the rows as JSON, empty: none
+  int threads = 0;         ///< threads of the second run; the first one uses one; 0: all hardware threads
+  std::string json;        ///< file for the rows as JSON; empty: none
 };
 
-/// Measures and prints a table.
+/// Measures workloads, and prints a table.
 int bench(const BenchOptions& options);
 
 struct CompareOptions {
   std::string scene;
   Overrides overrides;              ///< only `frames` and `threads` are used
-  std::vector<std::string> sweeps;  ///< names such as "tiled+chebyshev"; empty: all that the scene permits
-  std::optional<int> frame;         ///< frames before the curves' substep; default: half of the scene's
-  int substeps = 0;                 ///< substeps per frame, for the curves' substep; 0: the scene's own
-  int iterations = 100;             ///< maximum of the curves
-  double budget = 0;                ///< milliseconds per frame; 0: curves only
-  std::vector<std::string> out;     ///< a .png, a .json, or both
+  std::vector<std::string> sweeps;  ///< names such as "tiled+chebyshev"; empty: all that suit the scene
+  std::optional<int> frame;         ///< frames before the substep that is compared; default: half of the scene's
+  int substeps = 0;                 ///< substeps per frame, which set the length of that substep; 0: the scene's own
+  int iterations = 100;             ///< largest number of iterations
+  double budget = 0;                ///< time per frame [ms]; 0: measure only the curves
+  std::vector<std::string> out;     ///< files for the results: a .png, a .json, or both
 };
 
-/// Shows how fast each sweep reduces the error of one substep, and its result within a time budget.
+/// Shows how fast each sweep reduces the residual of one substep, and the stretch that it reaches in a given time per
+/// frame.
 int compare(const CompareOptions& options);
 
 /// Prints the JSON Schema of the scene format.

@@ -15,7 +15,7 @@ namespace pliant::command {
 
 namespace {
 
-/// The output files, opened before any measurement, so that an unwritable name fails at once.
+/// The output files. They are opened before any measurement, so that a path that cannot be written fails at once.
 struct Outputs {
   std::unique_ptr<AtomicFile> json;
   std::string picture;

@@ -7,13 +7,13 @@
 
 namespace pliant::command {
 
-/// During its lifetime, large freed arrays return to the system at once, so building adds nothing to a run's memory. Frames
-/// reuse the same arrays and are faster without it.
+/// As long as it lives, freed memory of large arrays returns to the system at once, so that making a World does not add
+/// to the memory of a run. Frames reuse their arrays and are faster without it.
 class GiveBackMemory {
  public:
 #if defined(__GLIBC__)
   GiveBackMemory() { mallopt(M_MMAP_THRESHOLD, 1 << 18); }
-  ~GiveBackMemory() { mallopt(M_MMAP_THRESHOLD, 1 << 25); }  // glibc's own maximum
+  ~GiveBackMemory() { mallopt(M_MMAP_THRESHOLD, 1 << 25); }  // the largest threshold that glibc sets by itself
 #else
   GiveBackMemory() {}
   ~GiveBackMemory() {}

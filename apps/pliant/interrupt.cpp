@@ -12,7 +12,7 @@ namespace pliant::command {
 
 namespace {
 
-/// Time from a signal to the forced end of the program [us].
+/// Time between a signal and the forced end of the program [us].
 constexpr suseconds_t patience = 700000;
 
 std::atomic<int> received{0};
@@ -35,7 +35,8 @@ constexpr const char* consequence = "; no unfinished file is left behind";
 
 void say(const char* text) { (void)!::write(STDERR_FILENO, text, std::strlen(text)); }
 
-/// Async-signal-safe: allocates nothing, takes no lock, does not block.
+/// The signal handler that ends the program. It is async-signal-safe: it allocates nothing, takes no lock and does not
+/// block.
 extern "C" void end_program(int /*signal*/) {
   const int signal = received;
   remove_unfinished_files();
@@ -55,11 +56,11 @@ void catch_signals() {
   struct sigaction action {};
   action.sa_handler = remember_signal;
   sigemptyset(&action.sa_mask);
-  action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second signal has its default effect
+  action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second signal has its default effect, which ends the program
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before {};
     sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // signals ignored by nohup or `&` stay ignored
+    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // signals that nohup or `&` ignore stay ignored
   }
   action.sa_handler = end_program;
   sigaction(SIGALRM, &action, nullptr);

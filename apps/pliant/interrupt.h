@@ -1,6 +1,6 @@
-// Ctrl-C and other termination signals raise a flag; the frame loop and the step poll it and
-// unwind, so that destructors remove all temporary files. If that takes too long, for instance
-// while a World is made, the handler removes the temporary files and ends the program.
+// Ctrl-C and other termination signals set a flag. The frame loop and World::step read it and return, so that
+// destructors remove all temporary files. If that takes too long, for instance while a World is made, the signal
+// handler removes the temporary files and ends the program.
 #pragma once
 
 #include <atomic>
@@ -9,7 +9,7 @@
 
 namespace pliant::command {
 
-/// Thrown after a signal asked the program to end.
+/// Thrown when a signal has asked the program to end.
 class Interrupted : public std::exception {
  public:
   explicit Interrupted(int signal);
@@ -22,14 +22,14 @@ class Interrupted : public std::exception {
   std::string message_;
 };
 
-/// Installs handlers: SIGINT, SIGTERM and SIGHUP raise the flag, and end the program 0.7 s later if it still runs; a second
-/// signal ends it at once. A closed pipe becomes a write error instead of a signal.
+/// Installs signal handlers. SIGINT, SIGTERM and SIGHUP set the flag, and end the program 0.7 s later if it still runs;
+/// a second signal ends it at once. Writing to a closed pipe becomes an error instead of a signal.
 void catch_signals();
 
-/// True after a signal; long-running work may poll it.
+/// True after a signal has come. Functions that run long may read it.
 const std::atomic<bool>& interrupted();
 
-/// Throws Interrupted if a signal came.
+/// Throws Interrupted if a signal has come.
 void throw_if_interrupted();
 
 }  // namespace pliant::command

@@ -1,4 +1,4 @@
-// The command line: parses it, calls a subcommand, and turns exceptions into one line and an exit status.
+// The command line: parses it, calls a subcommand, and turns an exception into one line of text and an exit status.
 //
 // Exit status: 0 done, 1 an error or a grave finding, 2 a command line error, 128 + N ended by signal N.
 #include <CLI/CLI.hpp>
@@ -17,17 +17,17 @@ namespace {
 using namespace pliant::command;
 
 constexpr int most = std::numeric_limits<int>::max();
-constexpr int most_threads = 1024;  // the limit of scene files, too
+constexpr int most_threads = 1024;  // also the limit in scene files
 
 void complain(const std::string& message) { std::fprintf(stderr, "pliant: %s\n", one_line(message).c_str()); }
 
-/// A range check with a message, but without text in the help.
+/// Checks a range, with a message; unlike CLI11's check it adds nothing to the help.
 template <class Number>
 CLI::Validator range(Number least, Number largest) {
   return CLI::Validator(CLI::Range(least, largest)).description("");
 }
 
-/// The options common to run and render.
+/// Adds the options that run and render share.
 void add_settings(CLI::App& app, Overrides& overrides) {
   app.add_option("--mesh", overrides.meshes, "replace the mesh of the object or collider NAME; repeatable")
       ->type_name("NAME=FILE")
@@ -58,7 +58,7 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
       ->excludes("--sweep");
 }
 
-// Each subcommand sets `chosen`, which main then calls.
+// Each subcommand stores the function that main will call.
 using Chosen = std::function<int()>;
 
 void add_run(CLI::App& app, RunOptions& options, Chosen& chosen) {
@@ -200,7 +200,7 @@ void add_compare(CLI::App& app, CompareOptions& options, Chosen& chosen) {
   compare_app->callback([&] { chosen = [&] { return compare(options); }; });
 }
 
-/// Advice for an invalid command line: the list of subcommands for an unknown one, otherwise a pointer to the help.
+/// Advice for a wrong command line: the list of subcommands if one is unknown, otherwise how to get help.
 std::string usage_advice(const CLI::App& app) {
   const std::vector<CLI::App*> given = app.get_subcommands();
   if (!given.empty()) return "see pliant " + given.front()->get_name() + " --help";

@@ -16,7 +16,7 @@ namespace pliant::command {
 
 namespace {
 
-/// The canonical name of a file: "a", "./a" and a link to it are equal.
+/// The real path of a file, which is the same for "a", "./a" and a link to it.
 std::string file_itself(const std::string& path) {
   std::error_code unknown;
   const std::filesystem::path place = std::filesystem::absolute(path, unknown);
@@ -79,7 +79,7 @@ void refuse_unwritable(const std::string& path) {
   if (std::filesystem::is_directory(place, unknown)) fail(path, "cannot write: it is a folder", "name a file");
   if (std::filesystem::exists(place, unknown)) {
     if (::access(place.c_str(), W_OK) != 0) fail(path, cannot_write(errno), elsewhere);
-    if (!std::filesystem::is_regular_file(place, unknown)) return;  // a device or pipe needs no folder
+    if (!std::filesystem::is_regular_file(place, unknown)) return;  // devices and pipes need no folder
   }
   do place = place.parent_path();
   while (!std::filesystem::exists(place, unknown) && place.has_relative_path());

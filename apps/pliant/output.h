@@ -1,4 +1,4 @@
-// Checked standard output: a full disk behind `pliant schema > file` is reported as an error.
+// Standard output that is checked: if `pliant schema > file` fills the disk, that is an error.
 #pragma once
 
 #include <string>
@@ -8,30 +8,32 @@
 
 namespace pliant::command {
 
-/// Prints and flushes text. Throws an Error if the write fails.
+/// Prints text at once. Throws an Error if it cannot be written.
 void print(const std::string& text);
 
-/// `text` on one line, with control characters as \n, \t or \xNN, so that any file name fits an error line.
+/// Makes one line of a text: control characters become
+/// , \t or \xNN, so that any file name fits into an error message.
 std::string one_line(const std::string& text);
 
-/// "1 frame", "2 frames".
+/// A number with a noun: "1 frame", "2 frames".
 std::string counted(std::size_t count, const std::string& noun);
 
-/// "mended: ...", one line for each repair of a mesh: the mesh then differs from its file.
+/// Prints "mended: ..." for each repair of a mesh, which then differs from its file.
 void print_repairs(const std::vector<std::string>& repairs);
 
-/// "wrote draped.glb (1.2 MB)", a line each for one or two files, one line for more; decimal units. Nothing for no files.
+/// Prints what was written, "wrote draped.glb (1.2 MB)": a line for each of one or two files, one line for more. Units
+/// are decimal.
 void print_written(const std::vector<WrittenFile>& files);
 
-/// Throws an Error if one of `written` is also in `read`, directly
-/// or by a link, or occurs twice: outputs must not overwrite inputs.
+/// Throws an Error if a file of `written` is also in `read`, directly or by a link, or occurs twice: outputs must not
+/// overwrite inputs or each other.
 void refuse_same_file_twice(const std::vector<std::string>& read, const std::vector<std::string>& written);
 
-/// Throws an Error if no file can be written at this path because of its type or the folder's permissions. Changes nothing:
-/// a missing folder counts as writable if it can be created.
+/// Throws an Error if no file can be written at this path, because of what is there or because of the folder's
+/// permissions. Changes nothing. A missing folder that can be made is no error.
 void refuse_unwritable(const std::string& path);
 
-/// Creates the missing parent folders of a file. Throws an Error that names the path.
+/// Makes the missing folders of a path. If that fails, throws an Error that names the path.
 void make_folder_of(const std::string& path);
 
 }  // namespace pliant::command

@@ -1,4 +1,4 @@
-// The progress line of a run on a terminal; silent if standard error is a pipe or a file.
+// A line that shows the progress of a run on a terminal. If standard error is a pipe or a file, nothing is shown.
 #pragma once
 
 #include <chrono>
@@ -6,18 +6,18 @@
 
 namespace pliant::command {
 
-/// Progress as text: "frame 17 of 120, 43.1 frames/s, 3 s left". Omits an unknown rate.
+/// The progress as text: "frame 17 of 120, 43.1 frames/s, 3 s left"; without a rate if that is not known.
 std::string progress_line(int done, int total, double seconds);
 
 class Progress {
  public:
-  /// Shows nothing unless `wanted` and standard error is a terminal.
+  /// If `wanted` is false or standard error is no terminal, nothing is shown.
   Progress(int total, bool wanted);
   ~Progress();  ///< clears the line
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Updates at most ten times per second.
+  /// Shows how many frames are done, at most ten times per second.
   void show(int done);
 
  private:

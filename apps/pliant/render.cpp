@@ -1,8 +1,8 @@
 // pliant render: a scene as a picture or a movie, drawn without a display.
 //
-// A movie has one fixed camera that must show the whole motion. So the scene is simulated twice,
-// first to find its extent. Simulation is cheap compared with drawing, and both runs give the
-// same bits. A strip also has one camera, so that only the objects differ between its frames.
+// A movie has one fixed camera, which must show the whole motion. So the scene is simulated twice, first to find its
+// extent: simulation takes little time compared with drawing, and both runs give the same bits. A strip of pictures has
+// one camera too, so that only the objects differ.
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
@@ -48,7 +48,7 @@ void draw_picture(const RenderOptions& options, const Scene& scene, Size size) {
   pliant::render::write_png(options.out, size.width, size.height, renderer.draw(picture));
 }
 
-// The scene after each requested frame, in their order.
+// The scene after each requested frame, in the order of the request.
 std::vector<RenderScene> moments_of(const RenderOptions& options, Scene scene) {
   scene.frames = *std::max_element(options.strip.begin(), options.strip.end());
   std::vector<RenderScene> moments(options.strip.size());
@@ -64,7 +64,7 @@ std::vector<RenderScene> moments_of(const RenderOptions& options, Scene scene) {
 }
 
 void draw_strip(const RenderOptions& options, const Scene& scene, Size size) {
-  constexpr int gap = 4;  // white pixels between two panels
+  constexpr int gap = 4;  // white pixels between two pictures
   const int count = static_cast<int>(options.strip.size());
   const int panel = (size.width - gap * (count - 1)) / count;
   Renderer renderer(panel, size.height);
@@ -84,7 +84,7 @@ void draw_strip(const RenderOptions& options, const Scene& scene, Size size) {
   pliant::render::write_png(options.out, size.width, size.height, strip);
 }
 
-// A camera that shows the scene at the start, at the end and at sampled times between.
+// A camera that shows the scene at the start, at the end and at some times between.
 Camera camera_for(const RenderOptions& options, const Scene& scene, World& world, Size size) {
   const int every = std::max(1, scene.frames / 24);
   const State start = world.state();

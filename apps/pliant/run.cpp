@@ -1,6 +1,6 @@
 // pliant run: simulates a scene and writes the requested files.
 //
-// All checks run before the first frame: the formats and paths of all files.
+// All checks are made before the first frame, among them those of the formats and paths of all files.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -31,13 +31,13 @@ std::string summary(const RunOptions& options, const World& world, const RunRepo
          world.isa() + "\nstate " + world.state_hash() + "\n";
 }
 
-/// Rejects files that cannot be written or that would overwrite one another.
+/// Throws an Error for files that cannot be written, or that would overwrite one another.
 void check_files(const RunOptions& options) {
   std::vector<std::string> files = options.out;
   for (const std::string& file : {options.report, options.checkpoint})
     if (!file.empty()) files.push_back(file);
   refuse_same_file_twice({options.scene}, files);
-  // Only a checkpoint may overwrite the checkpoint that the run resumes from.
+  // The file that the run resumes from may be overwritten only by the checkpoint.
   if (!options.resume.empty() && options.resume != options.checkpoint)
     refuse_same_file_twice({options.scene, options.resume}, files);
   for (const std::string& file : files) refuse_unwritable(file);
@@ -58,7 +58,7 @@ void resume(World& world, const std::string& path, const Scene& scene) {
               "set --frames to a larger number");
 }
 
-/// Steps to the end. After a signal the checkpoint holds the last complete frame.
+/// Simulates to the end. After a signal the checkpoint has the last complete frame.
 bool simulate_with(Checkpoint& checkpoint, World& world, const Scene& scene, bool quiet,
                    const std::function<void(const Report&)>& after_frame) {
   checkpoint.begin(world);
@@ -97,7 +97,7 @@ int run(const RunOptions& options) {
     for (const auto& writer : writers) writer->add(world);
   });
 
-  // A run that diverged keeps its report, which names the place, but no geometry.
+  // If a run became infinite, its report, which says where, is written, but no geometry.
   if (finite) {
     for (const auto& writer : writers) writer->finish();
     checkpoint.write_last();

@@ -44,7 +44,7 @@ Json pairs_json(const PairReport& pairs) {
           {"deepest", pairs.deepest}};
 }
 
-/// Adds a frame: momentary values are those of the last frame, counts are summed over the run.
+/// Adds the figures of a frame to `sum`: counts are added up, momentary values replaced.
 void add_pairs(PairReport& sum, const PairReport& frame) {
   sum.candidates = frame.candidates;
   sum.contacts = frame.contacts;
@@ -72,7 +72,7 @@ Json nonfinite_json(const Report& report) {
           {"message", report.explain()}};
 }
 
-/// The most of any object; where objects differ, those of each, too.
+/// Adds the number of substeps, the largest of any object; if objects differ, also that of each.
 void add_substeps(const World& world, Json& json) {
   int most = world.settings().substeps;
   Json by_object = Json::object();
@@ -142,7 +142,7 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["threads"] = world.threads();
   json["isa"] = world.isa();
   if (hash_frames_) json["frame_hashes"] = hashes_;
-  // A path or a name may contain invalid UTF-8.
+  // Invalid UTF-8 is replaced, because a path or a name may contain it.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,4 +1,4 @@
-// The report of a run, collected frame by frame and written as JSON (docs/reference/command.md lists the fields).
+// The report of a run: collected frame by frame, and written as JSON (docs/reference/command.md lists its fields).
 #pragma once
 
 #include <map>
@@ -11,35 +11,35 @@
 
 namespace pliant::command {
 
-/// The quantile q in [0, 1] of the values, linearly interpolated; 0 if there are none.
+/// The quantile q, 0..1, of the values, interpolated linearly; 0 if there are none.
 double quantile(std::vector<double> values, double q);
 
 class RunReport {
  public:
   explicit RunReport(bool hash_frames) : hash_frames_(hash_frames) {}
 
-  /// Call after every frame.
+  /// Adds the figures of a frame; call it after each.
   void add(const Report& report, const World& world);
 
-  /// The report as JSON: figures of the last frame unless stated otherwise, times over all frames.
+  /// The report as JSON. Figures are those of the last frame unless docs say otherwise; times are over all frames.
   std::string json(const std::string& scene_path, const Scene& scene, const World& world) const;
 
   double median_milliseconds() const { return quantile(milliseconds_, 0.5); }
   double p95_milliseconds() const { return quantile(milliseconds_, 0.95); }
-  std::size_t frames() const { return milliseconds_.size(); }  ///< simulated by this run
+  std::size_t frames() const { return milliseconds_.size(); }  ///< number of frames simulated in this run
   const Report& last() const { return last_; }
-  /// The first warning of each kind with its frame; warnings that differ only in numbers are of one kind.
+  /// For each kind of warning the first one, with its frame. Warnings that differ only in numbers are of one kind.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   bool hash_frames_;
   Report last_;
-  IterationCount iterations_;  ///< the `mean` member holds the sum over frames until it is written
-  PairReport pairs_;           ///< candidates, contacts and intersections of the last frame, the rest summed
+  IterationCount iterations_;  ///< until it is written, `mean` has the sum over frames
+  PairReport pairs_;           ///< candidates, contacts and intersections of the last frame; other counts summed
   std::vector<double> milliseconds_;
   std::map<std::string, double> phase_sums_;
   std::vector<std::string> hashes_, warnings_;
-  std::set<std::string> warned_of_;  ///< warning texts without numbers
+  std::set<std::string> warned_of_;  ///< texts without their numbers
 };
 
 }  // namespace pliant::command

@@ -1,4 +1,4 @@
-// pliant schema: the scene format as a JSON Schema for editors.
+// pliant schema: prints the scene format as a JSON Schema for editors.
 #include "command.h"
 #include "output.h"
 #include "pliant/io.h"

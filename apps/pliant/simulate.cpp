@@ -14,7 +14,7 @@ namespace pliant::command {
 
 namespace {
 
-/// Options that a name such as "chains+tethers" omits keep the scene's values.
+/// Sets the sweep by a name such as "chains+tethers". Options that the name does not mention stay as the scene has them.
 void set_sweep(const std::string& name, Settings& settings) {
   if (name == "automatic") {
     settings.sweep = Sweep::automatic;
@@ -25,7 +25,7 @@ void set_sweep(const std::string& name, Settings& settings) {
   settings.sweep_options = method.options;
 }
 
-/// Selects scalar code: the sweep `sequential` in place of `tiled`, or the scalar code path of other sweeps.
+/// Selects scalar code: the sweep `sequential` instead of `tiled`, or the scalar kernels for other sweeps.
 void set_plain(Scene& scene) {
   scene.settings = chosen_settings(scene);
   if (scene.settings.sweep == Sweep::tiled)

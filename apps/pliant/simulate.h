@@ -1,4 +1,4 @@
-// The common part of run and render: a scene with the caller's overrides, and the frame loop.
+// What run and render share: reading a scene with changes of the command line, and the loop over frames.
 #pragma once
 
 #include <functional>
@@ -12,26 +12,26 @@
 
 namespace pliant::command {
 
-/// Reads a scene and applies the overrides. Prints the repairs of its meshes unless `quiet`.
+/// Reads a scene and applies the changes. Prints the repairs of its meshes unless `quiet`.
 Scene read_scene_with(const std::string& path, const Overrides& overrides, bool quiet);
 
-/// Makes the World of a scene read from `path`; errors name the file.
+/// Makes the World of a scene that was read from `path`, which errors name.
 World make_world(const Scene& scene, const std::string& path);
 
-/// The same error located in the file, unless it names one already.
+/// Adds the path to an error, unless it names a file already.
 Error of_file(const Error& error, const std::string& path);
 
-/// Steps until the World has made all of the scene's frames and calls `after_frame` after each. Returns false after a frame
-/// that is not finite. Shows progress on a terminal unless `quiet`. Throws Interrupted on a termination signal.
+/// Steps a World until it has made all frames of the scene, and calls `after_frame` after each. Returns false after a
+/// frame that is not finite. Shows progress on a terminal unless `quiet`. Throws Interrupted after a termination signal.
 bool simulate(World& world, const Scene& scene, bool quiet, const std::function<void(const Report&)>& after_frame);
 
-/// Throws an Error if the scene has fewer frames.
+/// Throws an Error if the scene has fewer frames than `frame`.
 void require_frame(const Scene& scene, const std::string& path, int frame);
 
-/// True if `path` ends in `suffix` (".png"), case-insensitively.
+/// True if `path` ends with `suffix` (".png"), in upper or lower case.
 bool has_suffix(const std::string& path, std::string_view suffix);
 
-/// Simulates like simulate(), but throws an Error with the report's message if a frame is not finite.
+/// Simulates as simulate() does, but if a frame is not finite it throws an Error with the report's message.
 void simulate_finite(World& world, const Scene& scene, const std::string& path, bool quiet,
                      const std::function<void()>& after_frame);
 

@@ -1,4 +1,4 @@
-// pliant validate: the known answers of apps/validate as a table, and as curves.
+// pliant validate: compares with the known answers of apps/validate, as a table and as charts.
 #include "apps/validate/validate.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// pliant version.
+// pliant version: prints the version.
 #include "command.h"
 #include "output.h"
 

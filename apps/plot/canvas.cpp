@@ -1,4 +1,4 @@
-// The canvas: a pixel's coverage is the depth of its centre inside the shape, clamped to 0..1.
+// Paints shapes: how much of a pixel is covered is the depth of its centre inside the shape, clamped to 0..1.
 #include "apps/plot/canvas.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace {
 
 constexpr int largest_side = 16384;
 
-// A corner of a rectangle in stb_easy_font's layout.
+// A corner of a rectangle as stb_easy_font returns it.
 struct FontCorner {
   float x, y, z;
   std::uint8_t colour[4];
@@ -37,7 +37,7 @@ std::string printable(const std::string& words) {
   return result;
 }
 
-// The letters of a line of text as boxes, in font pixels.
+// The letters of a line of text as boxes in pixels of the font.
 std::vector<FontBox> letter_boxes(const std::string& words) {
   std::string line = printable(words);
   std::vector<FontBox> boxes(line.size() * 10 + 10);
@@ -53,7 +53,7 @@ double distance_to_segment(Point p, Point a, Point b) {
   return std::hypot(p.x - a.x - along * dx, p.y - a.y - along * dy);
 }
 
-// The share of the pixel [i, i + 1] that the interval [low, high] covers.
+// How much of the pixel [i, i + 1] the interval [low, high] covers, 0..1.
 double overlap(int i, double low, double high) {
   return std::clamp(std::min(high, i + 1.0) - std::max(low, static_cast<double>(i)), 0.0, 1.0);
 }

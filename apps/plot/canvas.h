@@ -1,5 +1,5 @@
-// An in-memory picture with lines, boxes and text, for charts. Shapes are painted by
-// the distance of each pixel's centre, which smooths edges without supersampling.
+// A picture in memory with lines, boxes and text, for charts. How much of a pixel a shape covers follows from the
+// distance of the pixel's centre, so edges are smooth without supersampling.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace pliant::plot {
 
-/// Red, green and blue, 0..255, in sRGB.
+/// A colour: red, green and blue, 0..255, in sRGB.
 struct Colour {
   std::uint8_t red = 0, green = 0, blue = 0;
 };
@@ -20,25 +20,28 @@ struct Point {
 
 class Canvas {
  public:
-  /// A canvas of one colour. Throws an Error unless both sides are in 1..16384.
+  /// Makes a canvas of one colour. Throws an Error unless both sides are in 1..16384 pixels.
   Canvas(int width, int height, Colour background);
 
   int width() const { return width_; }
   int height() const { return height_; }
-  const std::vector<std::uint8_t>& pixels() const { return pixels_; }  ///< rows from the top, three bytes per pixel
+  const std::vector<std::uint8_t>& pixels() const {
+    return pixels_;
+  }  ///< rows from the top; red, green and blue of each pixel
 
-  /// A stroke with round ends.
+  /// Draws a line with round ends.
   void line(Point from, Point to, double thickness, Colour colour, double opacity = 1);
   void disc(Point centre, double radius, Colour colour);
   void rectangle(Point upper_left, Point lower_right, Colour colour, double opacity = 1);
 
-  /// Text (ASCII; other characters are skipped), `size` times 7 pixels high, with its upper left corner at `at`.
+  /// Draws text that is `size` times 7 pixels high, with its upper left corner at `at`. Characters that are not ASCII
+  /// are skipped.
   void text(Point at, const std::string& words, double size, Colour colour);
-  /// The same, rotated counter-clockwise by 90 degrees, with its lower left corner at `at`.
+  /// Draws text that runs upwards, with its lower left corner at `at`.
   void text_upwards(Point at, const std::string& words, double size, Colour colour);
   static double text_width(const std::string& words, double size);
 
-  /// Restricts later painting to this box.
+  /// Restricts what is painted afterwards to this box.
   void clip(Point upper_left, Point lower_right);
   void unclip();
 
@@ -47,10 +50,10 @@ class Canvas {
 
   int width_, height_;
   std::vector<std::uint8_t> pixels_;
-  int left_, top_, right_, bottom_;  // the clip box; right and bottom are exclusive
+  int left_, top_, right_, bottom_;  // painting is restricted to this box; right and bottom are exclusive
 };
 
-/// Writes a PNG. Throws an Error that names the path on failure.
+/// Writes a canvas as PNG. If that fails, throws an Error that names the path.
 void write_png(const std::string& path, const Canvas& canvas);
 
 }  // namespace pliant::plot

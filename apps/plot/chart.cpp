@@ -1,4 +1,4 @@
-// Paints charts: finds ranges, then draws frame, ticks, curves and legend.
+// Paints charts: finds the ranges, then draws axes, ticks, curves and legend.
 #include "apps/plot/chart.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ constexpr Colour paper{255, 255, 255}, ink{38, 42, 48}, faint{228, 231, 235}, fr
 constexpr double title_size = 2, text_size = 2, font_height = 7;
 constexpr double left_margin = 104, right_margin = 26, title_height = 44, legend_line = 22, legend_stroke = 34;
 
-// Distinguishable with any colour vision (Okabe and Ito 2008).
+// Colours that can be told apart with any colour vision (Okabe and Ito 2008).
 constexpr Colour palette[] = {{0, 114, 178},  {213, 94, 0},    {0, 158, 115}, {204, 121, 167}, {230, 159, 0},
                               {86, 180, 233}, {110, 110, 110}, {0, 0, 0},     {150, 156, 164}};
 
@@ -31,7 +31,7 @@ struct Range {
   }
 };
 
-// A position along an axis in the unit that is drawn linearly.
+// A value on an axis, or its logarithm on a logarithmic axis.
 double even(double value, bool logarithmic) {
   if (!logarithmic) return value;
   return value > 0 ? std::log10(value) : std::numeric_limits<double>::quiet_NaN();
@@ -43,7 +43,7 @@ std::string number(double value) {
   return text;
 }
 
-// Logarithmic axes write small and large numbers by their power, 2e-4, which keeps labels short.
+// A number on a logarithmic axis: small and large ones by their power, 2e-4, which keeps labels short.
 std::string number_of_power(double place, double factor, int power) {
   if (power >= -2 && power <= 4) return number(place);
   return number(factor) + "e" + std::to_string(power);
@@ -56,11 +56,11 @@ Range padded(Range range, double share) {
   return {range.low - room, range.high + room};
 }
 
-// The layout of a chart.
+// Where the parts of a chart are, and the ranges of its axes.
 struct Layout {
   const Chart& chart;
-  Point upper_left, lower_right;  // corners of the plot area
-  Range x, y;                     // ranges of the axes, logarithms on a logarithmic axis
+  Point upper_left, lower_right;  // corners of the area for curves
+  Range x, y;                     // ranges of the axes; of logarithms on a logarithmic axis
 
   Point place(double px, double py) const {
     const double u = (even(px, chart.logarithmic_x) - x.low) / (x.high - x.low);
@@ -69,8 +69,8 @@ struct Layout {
   }
 };
 
-// The positions of legend entries relative to the chart's corner: below
-// the title, as many per line as fit, so that they never hide a curve.
+// Positions of the entries of the legend, relative to the chart's corner. They are below the title, as many in a line
+// as fit, so that they hide no curve.
 std::vector<Point> legend_places(const Chart& chart, int width) {
   std::vector<Point> places;
   Point at{left_margin, title_height + legend_line / 2};
@@ -141,7 +141,7 @@ void draw_frame(Canvas& canvas, const Layout& layout, Point corner, int height) 
   canvas.text_upwards({corner.x + 16, (a.y + b.y + y_width) / 2}, chart.y_label, text_size, ink);
 }
 
-// Draws the dashes of a segment and returns the offset in the dash pattern at its end.
+// Draws a segment of a dashed line from `offset` in the dash pattern. Returns the offset at its end.
 double dashes(Canvas& canvas, Point from, Point to, double offset, Colour colour) {
   constexpr double on = 9, period = 16;
   const double length = std::hypot(to.x - from.x, to.y - from.y);
@@ -223,7 +223,7 @@ Ticks linear_ticks(double low, double high, int wanted) {
 Ticks logarithmic_ticks(double low, double high, int wanted) {
   Ticks ticks;
   const int first = static_cast<int>(std::ceil(low - 1e-9)), last = static_cast<int>(std::floor(high + 1e-9));
-  const bool fine = last - first < 2;  // less than two decades: ticks at 2 and 5 as well
+  const bool fine = last - first < 2;  // less than two decades: also ticks at 2 and 5 times powers of ten
   const int stride = std::max(1, (last - first) / std::max(wanted, 1));
   for (int k = first - 1; k <= last; k += 1) {
     for (double factor : {1.0, 2.0, 5.0}) {
@@ -235,7 +235,7 @@ Ticks logarithmic_ticks(double low, double high, int wanted) {
       ticks.labels.push_back(number_of_power(place, factor, k));
     }
   }
-  // If fewer than three ticks remain within a decade, uses round numbers at uneven distances.
+  // With fewer than three ticks, within a decade, ticks are at round numbers, at uneven distances.
   return ticks.places.size() < 3 ? linear_ticks(std::pow(10, low), std::pow(10, high), wanted) : ticks;
 }
 
