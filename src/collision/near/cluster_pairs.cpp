@@ -1,6 +1,7 @@
 #include "collision/near/cluster_pairs.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -12,6 +13,23 @@ namespace {
 /// How far clusters may travel between broad-phase rebuilds, over the search radius. More means longer lists, fewer
 /// rebuilds.
 constexpr float travel_over_radius = 2;
+
+/// Two places in an order of clusters.
+using Places = std::array<int, 2>;
+
+/// Sorts pairs of places below `places`, and drops duplicates. Stable sorts by counting, since whole sets are sorted often.
+void sort_unique(std::vector<Places>& pairs, std::size_t places) {
+  std::vector<Places> sorted(pairs.size());
+  std::vector<int> next;
+  for (const std::size_t side : {1, 0}) {
+    next.assign(places + 1, 0);
+    for (const Places& pair : pairs) ++next[static_cast<std::size_t>(pair[side]) + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    for (const Places& pair : pairs) sorted[static_cast<std::size_t>(next[static_cast<std::size_t>(pair[side])]++)] = pair;
+    pairs.swap(sorted);
+  }
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
 
 }  // namespace
 
@@ -55,30 +73,25 @@ void ClusterPairs::fit_boxes(const ClusterMotions& motions) {
   }
 }
 
-void ClusterPairs::mark_joined(const std::vector<StaticGroup>& groups, const std::vector<int>& among, bool only_new) {
-  for (const StaticGroup& group : groups)
-    if (!only_new || group.pair < 0) pairs_[static_cast<std::size_t>(number_of(group, among))].is_joined = true;
-}
-
-void ClusterPairs::find(const ClusterMotions& motions, const std::vector<StaticGroup>& groups) {
+std::vector<int> ClusterPairs::find(const ClusterMotions& motions, const std::vector<StaticGroup>& groups) {
   const std::vector<int>& order = model_.cluster_order;
   fit_boxes(motions);
   tree_.build(boxes_);
-  // Pairs of positions in cluster_order, packed into one integer, which sorts faster.
-  std::vector<std::uint64_t> found;
+  std::vector<Places> found;
   const auto add = [&](int i, int k) {
     if (model_.rules.meet(model_.cluster_body[order[i]], model_.cluster_body[order[k]]))
-      found.push_back(static_cast<std::uint64_t>(std::min(i, k)) << 32 | static_cast<std::uint64_t>(std::max(i, k)));
+      found.push_back({std::min(i, k), std::max(i, k)});
   };
   for (int i = 0; i < static_cast<int>(order.size()); ++i) add(i, i);
   tree_.self_pairs(add);
   for (const StaticGroup& group : groups) add(static_cast<int>(rank_[group.first]), static_cast<int>(rank_[group.second]));
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  sort_unique(found, order.size());
   pairs_.clear();
-  for (const std::uint64_t pair : found) pairs_.push_back(make({order[pair >> 32], order[pair & 0xffffffffU]}));
-  mark_joined(groups, numbers(), false);
+  for (const auto& [a, b] : found) pairs_.push_back(make({order[a], order[b]}));
+  std::vector<int> of_groups = numbers_of(groups);
+  for (const int number : of_groups) pairs_[static_cast<std::size_t>(number)].is_joined = true;
   measure(motions);
+  return of_groups;
 }
 
 std::vector<int> ClusterPairs::find_of_new(const std::vector<int>& clusters, const ClusterMotions& motions,
@@ -103,7 +116,8 @@ std::vector<int> ClusterPairs::find_of_new(const std::vector<int>& clusters, con
     pairs_[slot].measure(motions);
     added.push_back(static_cast<int>(slot));
   }
-  mark_joined(groups, added, true);
+  for (const StaticGroup& group : groups)
+    if (group.pair < 0) pairs_[static_cast<std::size_t>(number_of(group, added))].is_joined = true;
   return added;
 }
 
@@ -125,6 +139,47 @@ std::vector<int> ClusterPairs::numbers() const {
   std::vector<int> all(pairs_.size());
   std::iota(all.begin(), all.end(), 0);
   return all;
+}
+
+PairsOfClusters ClusterPairs::by_cluster(const std::vector<int>& among) const {
+  PairsOfClusters out;
+  const auto for_each = [&](auto visit) {
+    for (const int number : among) {
+      const ClusterPair& pair = pairs_[static_cast<std::size_t>(number)];
+      const int a = static_cast<int>(rank_[pair.a]), b = static_cast<int>(rank_[pair.b]);
+      visit(a, b, number);
+      if (a != b) visit(b, a, number);
+    }
+  };
+  // An entry's place in its cluster's range: those with earlier clusters come from earlier pairs.
+  std::vector<int> next(boxes_.size() + 2, 0);
+  for_each([&](int of, int, int) { ++next[static_cast<std::size_t>(of) + 2]; });
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  out.entries.resize(static_cast<std::size_t>(next.back()));
+  for_each([&](int of, int other, int number) {
+    out.entries[static_cast<std::size_t>(next[static_cast<std::size_t>(of) + 1]++)] = {other, number};
+  });
+  out.start = std::move(next);
+  return out;
+}
+
+/// The index of each group's pair after find(). Groups of a kind are in the order of the entries, so each search goes on
+/// where the last one ended.
+std::vector<int> ClusterPairs::numbers_of(const std::vector<StaticGroup>& groups) const {
+  const PairsOfClusters pairs = by_cluster(numbers());
+  std::vector<int> out;
+  out.reserve(groups.size());
+  int first = -1;
+  const PairsOfClusters::Entry* at = nullptr;
+  for (const StaticGroup& group : groups) {
+    const int second = static_cast<int>(rank_[group.second]);
+    if (group.first != first || second < at->other)
+      at = &pairs.entries[static_cast<std::size_t>(pairs.start[rank_[group.first]])];
+    first = group.first;
+    while (at->other != second) ++at;
+    out.push_back(at->pair);
+  }
+  return out;
 }
 
 int ClusterPairs::number_of(const StaticGroup& group, const std::vector<int>& among) const {

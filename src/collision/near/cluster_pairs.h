@@ -23,12 +23,23 @@ struct ClusterPair {
   void measure(const ClusterMotions& motions);
 };
 
+/// The pairs of each cluster, by the other cluster. Clusters are given by their places in PairModel::cluster_order.
+struct PairsOfClusters {
+  struct Entry {
+    int other;  ///< place of the other cluster
+    int pair;
+  };
+  std::vector<int> start;  ///< of each cluster's entries
+  std::vector<Entry> entries;
+};
+
 class ClusterPairs {
  public:
   explicit ClusterPairs(const PairModel& model) : model_(model) {}
 
   /// Finds all pairs of clusters that can come within the radius before one travels travel(), and the pairs of all groups.
-  void find(const ClusterMotions& motions, const std::vector<StaticGroup>& groups);
+  /// Returns the index of each group's pair.
+  std::vector<int> find(const ClusterMotions& motions, const std::vector<StaticGroup>& groups);
   /// Finds the pairs of new clusters with each other and with old ones, and those of groups that have no pair. Returns
   /// the indices of the pairs found. Old clusters may have travelled up to travel() already.
   std::vector<int> find_of_new(const std::vector<int>& clusters, const ClusterMotions& motions,
@@ -46,6 +57,8 @@ class ClusterPairs {
   const ClusterPair& operator[](int number) const { return pairs_[static_cast<std::size_t>(number)]; }
   /// Returns the index of a group's pair; `among` lists indices of pairs, sorted by their clusters.
   int number_of(const StaticGroup& group, const std::vector<int>& among) const;
+  /// Sorts pairs, given by indices that are sorted by clusters, under both of their clusters.
+  PairsOfClusters by_cluster(const std::vector<int>& among) const;
   /// The indices of all pairs; call it after find() only.
   std::vector<int> numbers() const;
 
@@ -58,7 +71,7 @@ class ClusterPairs {
   void add_if_they_meet(int a, int b, std::vector<Clusters>& to) const;
   void sort(std::vector<Clusters>& pairs) const;
   void fit_boxes(const ClusterMotions& motions);
-  void mark_joined(const std::vector<StaticGroup>& groups, const std::vector<int>& among, bool only_new);
+  std::vector<int> numbers_of(const std::vector<StaticGroup>& groups) const;
   ClusterPair make(const Clusters& clusters) const;
 
   const PairModel& model_;

@@ -73,8 +73,7 @@ void NearLists::update(Executor& executor, const PairParticles& particles) {
 
 void NearLists::pair_clusters() {
   const std::vector<ClusterPair> old = near_.pairs.pairs();
-  near_.pairs.find(near_.motions, near_.static_pairs.groups);
-  carry_groups(old);
+  carry_groups(old, near_.pairs.find(near_.motions, near_.static_pairs.groups));
   make_lists(old);
   cut_into_tasks();
   near_.motions.begin_travel();
@@ -86,12 +85,12 @@ void NearLists::pair_clusters() {
 }
 
 /// Attaches static groups to the new cluster pairs. Their bounds stay valid, unless forget() was called.
-void NearLists::carry_groups(const std::vector<ClusterPair>& old) {
-  const std::vector<int> all = near_.pairs.numbers();
-  for (StaticGroup& group : near_.static_pairs.groups) {
+void NearLists::carry_groups(const std::vector<ClusterPair>& old, const std::vector<int>& pairs) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    StaticGroup& group = near_.static_pairs.groups[i];
     if (!is_listed_) group.forget();
     if (is_listed_ && group.pair >= 0) group.least.since -= old[group.pair].odometer.total;
-    group.pair = near_.pairs.number_of(group, all);
+    group.pair = pairs[i];
   }
 }
 

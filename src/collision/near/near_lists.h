@@ -54,7 +54,7 @@ class NearLists {
   void pair_new_clusters();
   void add_lists(const std::vector<int>& pairs);
   void pair_clusters();
-  void carry_groups(const std::vector<ClusterPair>& old);
+  void carry_groups(const std::vector<ClusterPair>& old, const std::vector<int>& pairs);
   void make_lists(const std::vector<ClusterPair>& old);
   void cut_into_tasks();
   void find_stale();
