@@ -38,6 +38,14 @@ bool may_meet(const LocalShape&, const SurfaceDistance<float>& end, float thickn
 }
 bool may_meet(const SolidField&, const SurfaceDistance<float>&, float, float) { return true; }
 
+/// True if a path provably stays farther than `margin`, with more room than all roundings, so that first_hit finds nothing.
+/// The distance to a convex shape exceeds that of its tangent plane at the path's end everywhere.
+bool misses(const LocalShape&, const SurfaceDistance<float>& end, const Vec3f& to, const Vec3f& path, float margin) {
+  const float rounded = 1e-5f * (largest(to) + largest(path) + margin);
+  return end.distance - max(dot(end.normal, path), 0.f) > margin + rounded;
+}
+bool misses(const SolidField&, const SurfaceDistance<float>&, const Vec3f&, const Vec3f&, float) { return false; }
+
 SurfaceDistance<float> signed_distance(const SolidField& field, const Vec3f& p) { return field.distance(p); }
 
 /// The distance to a solid at a path's start. The distance to terrain is discontinuous at its open sides and between
@@ -59,11 +67,12 @@ FirstHit<float> first_hit(const SolidField& field, const Vec3f& a, const Vec3f& 
 template <class Solid>
 SurfacePlane surface_plane(const Solid& solid, const Vec3f& a, const Vec3f& b, float thickness, float h) {
   const SurfaceDistance<float> end = signed_distance(solid, b);
-  const float path = length(b - a);
+  const Vec3f moved = b - a;
+  const float path = length(moved);
   if (!may_meet(solid, end, thickness, path)) return {};
   // Limits how far a particle that starts inside is moved out; for a start outside this is the thickness itself.
   const auto kept = [&](float start) { return min(thickness, start + largest_separation_speed * h); };
-  if (path > 0.25f * thickness) {
+  if (path > 0.25f * thickness && !misses(solid, end, b, moved, 0.5f * thickness)) {
     const FirstHit<float> hit = first_hit(solid, a, b, 0.5f * thickness);
     if (hit.hit) {
       const float height = hit.t > 0 ? thickness : kept(hit.distance);

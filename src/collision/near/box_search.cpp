@@ -37,7 +37,7 @@ BoxSearch::BoxSearch(const PairModel& model, const PairKernels& kernels, const C
 void BoxSearch::fit_to_layout() {
   for (int kind = 0; kind < 3; ++kind) {
     const std::size_t size = layout_.elements[kind].item.size();
-    for (std::vector<float>& row : boxes_[kind].side) row.resize(size);
+    for (AlignedVector<float>& row : boxes_[kind].side) row.resize(size);
     boxes_[kind].batch.resize(size / 16);
     boxes_[kind].wanted.resize(static_cast<std::size_t>(model_.clusters));
   }

@@ -13,7 +13,7 @@ namespace {
 /// Upper bound of the relative rounding error of a squared float distance.
 constexpr float squared_slack = 1e-5f;
 
-PlaceRows rows_of(std::array<std::vector<float>, 3>& place) {
+PlaceRows rows_of(std::array<AlignedVector<float>, 3>& place) {
   return {{place[0].data(), place[1].data(), place[2].data()}};
 }
 
@@ -62,7 +62,7 @@ void Clearance::add(int body, int first_piece, std::vector<Piece> pieces, const 
     vertex = stored.last;
     line = stored.last_line;
   }
-  for (std::vector<float>& row : place_) row.resize(vertex_.size());
+  for (AlignedVector<float>& row : place_) row.resize(vertex_.size());
   batch_box_.resize(vertex_.size() / 16);
   longest_.resize(pieces_.size());
   leave_out(body, vertices, joined);

@@ -17,6 +17,7 @@
 #include "collision/broad/bounds.h"
 #include "collision/proxies/body_blocks.h"
 #include "collision/proxies/pair_kernels.h"
+#include "model/pool.h"
 
 namespace pliant {
 
@@ -52,7 +53,7 @@ class Clearance {
   std::vector<Stored> pieces_;
   std::vector<std::int32_t> vertex_;
   std::array<std::vector<std::int32_t>, 2> line_;  ///< first and second ends of the lines of all pieces
-  std::array<std::vector<float>, 3> place_;        ///< gathered positions, by coordinate [m]
+  std::array<AlignedVector<float>, 3> place_;      ///< gathered positions, by coordinate [m]
   std::vector<BoxBounds> batch_box_;               ///< for each sixteen gathered vertices, their box
   std::vector<float> longest_;                     ///< for each piece, its largest squared line length [m^2]
   // For each gathered vertex: the vertices that its comparisons exclude, which are itself and its neighbours.

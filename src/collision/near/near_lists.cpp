@@ -196,28 +196,32 @@ void NearLists::refresh(NearList& list, BoxSearch::Scratch& scratch, const PairP
   keep_near(list, activation + max(margin, 1.1f * odometer.next), scratch, particles);
 }
 
-/// Measures the pairs found and adds those nearer than `within` to the list.
+/// Measures the pairs found and adds those nearer than `within` to the list. Which ones is unpredictable, so each is written,
+/// and the next one overwrites it if it is not kept.
 void NearLists::keep_near(NearList& list, float within, BoxSearch::Scratch& scratch, const PairParticles& particles) const {
   std::vector<NearPair>& found = scratch.found;
-  scratch.value.clear();
+  scratch.value.resize(found.size());
   std::size_t kept = 0;
   PairLanes lanes;
   const float spent = list.least.spent(near_.odometer(list));
+  float least = list.least.value;
   for (std::size_t i = 0; i < found.size(); i += 16) {
     const std::size_t count = std::min<std::size_t>(16, found.size() - i);
     for (std::size_t lane = 0; lane < 16; ++lane) lanes.set(lane, found[i + (lane < count ? lane : 0)].vertex);
     near_.kernels.distances(lanes.stencils, list.of_vertices ? 1 : 2, particles.positions, lanes.at);
     for (std::size_t lane = 0; lane < count; ++lane) {
       const float value = (lanes.at.at_least[lane] + spent) * sum_slack;
-      if (value > within) continue;
-      list.least.value = min(list.least.value, value);
-      found[kept++] = found[i + lane];
-      scratch.value.push_back(value);
+      found[kept] = found[i + lane];
+      scratch.value[kept] = value;
+      const bool is_kept = !(value > within);
+      least = min(least, is_kept ? value : least);
+      kept += static_cast<std::size_t>(is_kept);
     }
   }
+  list.least.value = least;
   // Exact-size copies: the growth capacity of vectors would nearly double the memory of contact.
   list.pairs = std::vector<NearPair>(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept));
-  list.value = std::vector<float>(scratch.value);
+  list.value = std::vector<float>(scratch.value.begin(), scratch.value.begin() + static_cast<std::ptrdiff_t>(kept));
 }
 
 }  // namespace pliant
