@@ -1,8 +1,10 @@
-// Projection of contacts between points: SIMD kernels for each instruction set level, and scalar ones with the same bits.
+// SIMD kernels of contacts for each instruction set level, and scalar ones with the same bits: the projection of contacts
+// between points, and the contacts of points with primitive colliders.
 #pragma once
 
 #include "constraints/contact.h"
 #include "math/levels.h"
+#include "model/point_contact.h"
 #include "model/pool.h"
 
 namespace pliant {
@@ -10,6 +12,8 @@ namespace pliant {
 struct ContactKernels {
   /// Projects contacts[order[i]] for first <= i < last once. No two of them may share a dynamic point.
   void (*project)(Contact* contacts, const std::int32_t* order, int first, int last, Record* displacements);
+  /// Makes the contacts of sixteen particles with a primitive collider; null if they are made one at a time (find_contacts).
+  MakePointContacts make_point_contacts;
 };
 
 PLIANT_DECLARE_LEVELS(ContactKernels, contact_kernels)

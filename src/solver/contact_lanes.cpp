@@ -1,4 +1,5 @@
 // Contacts in sixteen SIMD lanes, compiled per instruction set level under the rules of lanes.cpp.
+#include "math/quat.h"
 #include "math/wide.h"
 #include "solver/contact_kernels.h"
 
@@ -92,11 +93,76 @@ void project(Contact* contacts, const std::int32_t* order, int first, int last, 
   for (int i = first; i < last; i += 16) project_batch(contacts, order + i, last - i < 16 ? last - i : 16, displacements);
 }
 
+// ---------------------------------------------------------------- points and primitive colliders
+
+PLIANT_HD Vec3<Wide> everywhere(const Vec3f& v) { return {Wide(v.x), Wide(v.y), Wide(v.z)}; }
+PLIANT_HD Pose<Wide> everywhere(const Pose<float>& p) {
+  return {everywhere(p.position), {Wide(p.rotation.x), Wide(p.rotation.y), Wide(p.rotation.z), Wide(p.rotation.w)}};
+}
+
+/// Bit l: lane l is set.
+PLIANT_HD unsigned bits_of(const WideMask& mask) {
+  std::int32_t set[16];
+  std::memcpy(set, &mask, sizeof mask);
+  unsigned bits = 0;
+  for (int lane = 0; lane < 16; ++lane) bits |= static_cast<unsigned>(set[lane] & 1) << lane;
+  return bits;
+}
+
+PLIANT_HD Vec3<Wide> vectors(const Record* base, const std::int32_t* index) {
+  return from_registers(load_indexed(base, index)).position;
+}
+
+/// Writes the fields that all contacts of a query share, and their particles.
+PLIANT_HD void write_shared(const PointContactQuery& q, const std::int32_t* particles, Contact* contacts) {
+  for (int lane = 0; lane < 16; ++lane) {
+    Contact& c = contacts[lane];
+    const std::int32_t i = particles[lane];
+    c.friction = {0, 0, 0};
+    c.push = 0;
+    c.static_friction = q.static_friction;
+    c.kinetic_friction = q.kinetic_friction;
+    c.restitution = q.restitution;
+    c.thickness = q.thickness;
+    c.point = {i, i, i, i};
+    c.weight = {1, 0, 0, 0};
+    c.share = {1, 0, 0, 0};
+    c.collider = q.collider;
+  }
+}
+
+PointContactLanes make_point_contacts(const PointContactQuery& q, const std::int32_t* particles, Contact* contacts) {
+  const AdvanceArguments& a = q.particles;
+  const WideRecords x = from_registers(load_indexed(a.positions, particles));
+  const Pose<Wide> before = everywhere(q.before), after = everywhere(q.after);
+  const Vec3<Wide> to = to_local(after, x.position + vectors(a.displacements, particles)),
+                   from = to_local(before, x.position), moved = to - from;
+  const SurfaceDistance<Wide> end = signed_distance(q.shape, to);
+  const Wide thickness(q.thickness), path = length(moved);
+  const unsigned meets = bits_of(end.distance < thickness + path) & ~bits_of(x.w == Wide(0.f)),
+                 is_short = bits_of(path <= Wide(share_of_short_path * q.thickness)),
+                 stays = bits_of(stays_beyond(Wide(share_of_first_hit * q.thickness), end, to, moved));
+  const PointContactLanes lanes{meets & (is_short | stays), meets & ~(is_short | stays)};
+  if (lanes.found == 0) return lanes;
+  const Wide height = height_after(signed_distance(q.shape, from).distance, thickness, a.h);
+  const PointContact<Wide> contact =
+      contact_at_plane(plane_at_end(end, to, height), before, after, q.moves, x.position,
+                       vectors(a.velocities, particles) + everywhere(q.gravity), a.inverse_h);
+  const Vec3<Wide> carried = vectors(a.remainders, particles);
+  std::int32_t index[16];
+  for (int lane = 0; lane < 16; ++lane) index[lane] = quads * lane;
+  store_indexed(quads_of(contacts, normal_gap), index, to_registers({contact.normal, contact.gap}));
+  store_indexed(quads_of(contacts, carried_approach), index, to_registers({carried, contact.approach}));
+  store_indexed(quads_of(contacts, motion_collider), index, to_registers({contact.surface_motion, Wide(0.f)}));
+  write_shared(q, particles, contacts);
+  return lanes;
+}
+
 }  // namespace
 }  // namespace PLIANT_ISA
 
 const ContactKernels& PLIANT_OF_LEVEL(contact_kernels)() {
-  static constexpr ContactKernels table{&project};
+  static constexpr ContactKernels table{&project, &make_point_contacts};
   return table;
 }
 

@@ -18,7 +18,7 @@ void project_sequentially(Contact* contacts, const std::int32_t* order, int firs
 }  // namespace
 
 const ContactKernels& contact_kernels_sequential() {
-  static constexpr ContactKernels kernels{project_sequentially};
+  static constexpr ContactKernels kernels{project_sequentially, nullptr};
   return kernels;
 }
 

@@ -1,7 +1,9 @@
 #include "collision/narrow/contact.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "math/motion.h"
@@ -9,10 +11,6 @@
 namespace pliant {
 
 namespace {
-
-/// Limit of the depenetration speed, so that deep overlaps neither explode nor tear the object's own constraints
-/// [m/s].
-constexpr float largest_separation_speed = 2;
 
 BoundingBox<float> merge(const BoundingBox<float>& a, const BoundingBox<float>& b) {
   return {min(a.low, b.low), max(a.high, b.high)};
@@ -23,14 +21,6 @@ bool overlap(const PointBounds& a, const BoundingBox<float>& b, float margin) {
          b.low.x <= a.high.x + margin && b.low.y <= a.high.y + margin && b.low.z <= a.high.z + margin;
 }
 
-/// The plane that a contact keeps a particle above.
-struct SurfacePlane {
-  bool found = false;
-  Vec3f normal{};  // unit normal in the collider's frame
-  Vec3f point{};   // a point of the surface in the collider's frame
-  float offset = 0;
-};
-
 /// Returns false if a path cannot reach a solid, because its end is farther away than the path is long. For terrain it
 /// returns true, because the distance to terrain is discontinuous.
 bool may_meet(const LocalShape&, const SurfaceDistance<float>& end, float thickness, float path) {
@@ -38,13 +28,10 @@ bool may_meet(const LocalShape&, const SurfaceDistance<float>& end, float thickn
 }
 bool may_meet(const SolidField&, const SurfaceDistance<float>&, float, float) { return true; }
 
-/// True if a path provably stays farther than `margin`, with more room than all roundings, so that first_hit finds nothing.
-/// The distance to a convex shape exceeds that of its tangent plane at the path's end everywhere.
-bool misses(const LocalShape&, const SurfaceDistance<float>& end, const Vec3f& to, const Vec3f& path, float margin) {
-  const float rounded = 1e-5f * (largest(to) + largest(path) + margin);
-  return end.distance - max(dot(end.normal, path), 0.f) > margin + rounded;
+bool stays_beyond(const LocalShape&, float margin, const SurfaceDistance<float>& end, const Vec3f& to, const Vec3f& path) {
+  return stays_beyond(margin, end, to, path);
 }
-bool misses(const SolidField&, const SurfaceDistance<float>&, const Vec3f&, const Vec3f&, float) { return false; }
+bool stays_beyond(const SolidField&, float, const SurfaceDistance<float>&, const Vec3f&, const Vec3f&) { return false; }
 
 SurfaceDistance<float> signed_distance(const SolidField& field, const Vec3f& p) { return field.distance(p); }
 
@@ -61,27 +48,23 @@ FirstHit<float> first_hit(const SolidField& field, const Vec3f& a, const Vec3f& 
   return field.first_hit(a, b, margin);
 }
 
-/// Returns the contact plane of a particle that moves from a to b, in the collider's frame. On a long path (continuous)
-/// it is the plane at the entry point, or at the start if the start is inside or within the thickness, because a
-/// particle stays on its side. On a short path (static) it is the plane at the closest surface point.
+/// Returns the contact plane of a particle that moves from a to b, in the collider's frame, if there is one. On a long
+/// path (continuous) it is the plane at the entry point, or at the start if the start is inside or within the thickness,
+/// because a particle stays on its side. On a short path (static) it is the plane at the closest surface point.
 template <class Solid>
-SurfacePlane surface_plane(const Solid& solid, const Vec3f& a, const Vec3f& b, float thickness, float h) {
+std::optional<SurfacePlane<float>> surface_plane(const Solid& solid, const Vec3f& a, const Vec3f& b, float thickness,
+                                                 float h) {
   const SurfaceDistance<float> end = signed_distance(solid, b);
   const Vec3f moved = b - a;
-  const float path = length(moved);
+  const float path = length(moved), margin = share_of_first_hit * thickness;
   if (!may_meet(solid, end, thickness, path)) return {};
-  // Limits how far a particle that starts inside is moved out; for a start outside this is the thickness itself.
-  const auto kept = [&](float start) { return min(thickness, start + largest_separation_speed * h); };
-  if (path > 0.25f * thickness && !misses(solid, end, b, moved, 0.5f * thickness)) {
-    const FirstHit<float> hit = first_hit(solid, a, b, 0.5f * thickness);
-    if (hit.hit) {
-      const float height = hit.t > 0 ? thickness : kept(hit.distance);
-      return {true, hit.normal, hit.point - hit.normal * hit.distance, dot(hit.normal, hit.point) - hit.distance + height};
-    }
+  if (path > share_of_short_path * thickness && !stays_beyond(solid, margin, end, b, moved)) {
+    const FirstHit<float> hit = first_hit(solid, a, b, margin);
+    const float height = hit.t > 0 ? thickness : height_after(hit.distance, thickness, h);
+    if (hit.hit) return plane_at_end<float>({hit.distance, hit.normal}, hit.point, height);
   }
   if (!(end.distance < thickness + path)) return {};
-  const float height = kept(distance_before(solid, a, end, path));
-  return {true, end.normal, b - end.normal * end.distance, dot(end.normal, b) - end.distance + height};
+  return plane_at_end(end, b, height_after(distance_before(solid, a, end, path), thickness, h));
 }
 
 }  // namespace
@@ -175,26 +158,47 @@ void find_contact(const Meeting& m, int i, std::vector<Contact>& contacts) {
   const Vec3f position{x.x, x.y, x.z};
   const Vec3f to = to_local(collider.after, position + Vec3f{d.x, d.y, d.z});
   const Vec3f from = to_local(collider.before, position);
-  const SurfacePlane plane = collider.field != nullptr ? surface_plane(*collider.field, from, to, m.thickness, a.h)
+  const std::optional<SurfacePlane<float>> plane = collider.field != nullptr
+                                                       ? surface_plane(*collider.field, from, to, m.thickness, a.h)
                                                        : surface_plane(collider.shape, from, to, m.thickness, a.h);
-  if (!plane.found) return;
+  if (!plane) return;
+  const Vec3f velocity = Vec3f{v.x, v.y, v.z} + m.gravity;
+  const PointContact<float> found =
+      contact_at_plane(*plane, collider.before, collider.after, collider.moves, position, velocity, a.inverse_h);
   Contact& contact = contacts.emplace_back();
   contact.point = {i, i, i, i};
   contact.weight = contact.share = {1, 0, 0, 0};
   contact.thickness = m.thickness;
   contact.collider = m.number;
-  contact.normal = rotate(collider.after.rotation, plane.normal);
-  // The same plane in world coordinates: it has the same offset from the same point of the collider.
-  const float above = plane.offset - dot(plane.normal, plane.point);
-  contact.gap = dot(contact.normal, position - to_world(collider.after, plane.point)) - above;
-  if (collider.moves)
-    contact.surface_motion = to_world(collider.after, plane.point) - to_world(collider.before, plane.point);
+  contact.normal = found.normal;
+  contact.gap = found.gap;
+  contact.surface_motion = found.surface_motion;
   contact.static_friction = m.static_friction;
   contact.kinetic_friction = m.kinetic_friction;
   contact.restitution = m.restitution;
   contact.carried = {r.x, r.y, r.z};
-  const Vec3f velocity = Vec3f{v.x, v.y, v.z} + m.gravity;
-  contact.approach = dot(contact.normal, velocity - contact.surface_motion * a.inverse_h);
+  contact.approach = found.approach;
+}
+
+/// Appends the contacts of particles with a primitive collider, sixteen at a time. `near` has room for a whole last batch.
+void find_contacts_in_lanes(const Meeting& m, std::vector<std::int32_t>& near, int count, std::vector<Contact>& contacts) {
+  const MovingCollider& collider = m.collider;
+  const PointContactQuery query{m.search.particles, collider.shape,     collider.before, collider.after,
+                                collider.moves,     m.number,           m.thickness,     m.gravity,
+                                m.static_friction,  m.kinetic_friction, m.restitution};
+  std::array<Contact, batch_width> lanes;
+  for (int i = 0; i < count; i += batch_width) {
+    const int valid = std::min(batch_width, count - i);
+    std::fill_n(near.begin() + i + valid, batch_width - valid, near[i]);
+    const auto [found, unclear] = m.search.make_contacts(query, &near[i], lanes.data());
+    for (unsigned left = (found | unclear) & ((1U << valid) - 1); left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(__builtin_ctz(left));
+      if ((found >> lane & 1U) != 0)
+        contacts.push_back(lanes[lane]);
+      else
+        find_contact(m, near[static_cast<std::size_t>(i) + lane], contacts);
+    }
+  }
 }
 
 /// Finds the particles to test against a collider. These are all particles of the tile if the collider moves, because
@@ -234,7 +238,11 @@ void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near,
     const float thickness = search.object.thickness + collider.thickness;
     const int count = find_near(search, collider, thickness, near);
     const Meeting meeting(search, c, thickness);
-    for (int k = 0; k < count; ++k) find_contact(meeting, near[k], contacts);
+    if (search.make_contacts != nullptr && collider.field == nullptr) {
+      find_contacts_in_lanes(meeting, near, count, contacts);
+    } else {
+      for (int k = 0; k < count; ++k) find_contact(meeting, near[k], contacts);
+    }
   }
 }
 

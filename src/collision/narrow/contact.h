@@ -13,6 +13,7 @@
 #include "geometry/shapes.h"
 #include "model/control.h"
 #include "model/model.h"
+#include "model/point_contact.h"
 #include "model/substep.h"
 
 namespace pliant {
@@ -40,6 +41,7 @@ struct ContactSearch {
   const PointBounds& bounds;          ///< encloses the particles before and after the predicted displacement
   const std::vector<MovingCollider>& colliders;
   int (*find_near)(const NearQuery& query, std::int32_t* near);  ///< StepKernels::find_near
+  MakePointContacts make_contacts = nullptr;  ///< ContactKernels::make_point_contacts, or null for one particle at a time
 };
 
 /// Appends the contacts of a tile's particles, ordered by collider, then by particle. `near` is scratch memory.

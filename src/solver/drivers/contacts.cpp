@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "solver/contact_kernels.h"
 #include "solver/drivers/driver.h"
 
 namespace pliant {
@@ -27,7 +28,8 @@ void find_more_in_tile(Substep& s, int task) {
   const CompiledObject& object = object_of(s, task);
   grow_bounds(a, scratch.bounds);
   scratch.more_contacts.clear();
-  find_contacts({object, a, scratch.bounds, s.work.colliders, s.kernels.find_near}, scratch.near, scratch.more_contacts);
+  find_contacts({object, a, scratch.bounds, s.work.colliders, s.kernels.find_near, s.kernels.contacts.make_point_contacts},
+                scratch.near, scratch.more_contacts);
   const auto is_shallow = [&](const Contact& c) {
     const Record& d = a.displacements[c.point[0]];
     const float thickness = object.thickness + s.work.colliders[c.collider].thickness;
@@ -45,7 +47,8 @@ void hold_tile_at_surfaces(Substep& s, int task) {
   TileScratch& scratch = s.work.tiles[task];
   scratch.more_contacts.clear();
   const AdvanceArguments a = particles(s, task);
-  const ContactSearch search{object_of(s, task), a, scratch.bounds, s.work.colliders, s.kernels.find_near};
+  const ContactSearch search{
+      object_of(s, task), a, scratch.bounds, s.work.colliders, s.kernels.find_near, s.kernels.contacts.make_point_contacts};
   find_breaches(search, scratch.contacts, scratch.near, scratch.more_contacts);
   if (scratch.more_contacts.empty()) return;
   project_contacts(scratch.more_contacts, arguments(s, s.model.tiles()[task].object, false));

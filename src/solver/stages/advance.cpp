@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "math/motion.h"
+#include "solver/contact_kernels.h"
 #include "solver/diagnose.h"
 #include "solver/drivers/lanes.h"
 #include "solver/forces.h"
@@ -85,7 +86,8 @@ void predict_tile(const Substep& s, int task, void (*move)(const AdvanceArgument
   move(a, bounds);
   move_kinematics(s, task, a);
   if (bounds == nullptr) return;
-  find_contacts({object, a, *bounds, s.work.colliders, s.kernels.find_near}, scratch.near, scratch.contacts);
+  find_contacts({object, a, *bounds, s.work.colliders, s.kernels.find_near, s.kernels.contacts.make_point_contacts},
+                scratch.near, scratch.contacts);
 }
 
 /// Ends one substep of a tile and starts the next. Returns false, and changes nothing, if a displacement is not finite.
