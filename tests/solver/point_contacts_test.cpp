@@ -5,6 +5,7 @@
 #include <random>
 
 #include "collision/narrow/contact.h"
+#include "pliant/error.h"
 #include "solver/contact_kernels.h"
 #include "solver/kernels.h"
 
