@@ -1,5 +1,6 @@
-// Compares broad phases: the spatial hash and BVHs over each bounding volume, on triangles that deform every frame.
-// Arguments: vertices along a side of the cloth. `pairs`: overlapping volumes.
+// Compares broad phases on triangles that deform in every frame: the spatial hash, and BVHs over each kind of bounding
+// volume. Argument: number of vertices along a side of the cloth. The counter `pairs` is the number of overlapping
+// volumes.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -15,12 +16,12 @@ namespace {
 
 constexpr int frames = 8;
 
-/// Triangles and their vertex positions in each frame.
+/// Triangles, and the positions of their vertices in each frame.
 struct Input {
   std::string name;
   std::vector<Triangle> triangles;
   std::vector<std::vector<Vec3f>> frames;
-  float edge = 0;  ///< typical length [m]
+  float edge = 0;  ///< typical edge length [m]
 };
 
 using Move = std::function<Vec3d(const Vec3d&, double phase)>;
@@ -42,7 +43,7 @@ Vec3d wave(const Vec3d& p, double phase) {
   return {p.x, 0.1 * std::sin(6 * p.x + 5 * phase) * std::cos(7 * p.z - 3 * phase), p.z};
 }
 
-/// Maps onto an Archimedean spiral whose windings are `gap` apart and rotate with the phase.
+/// Rolls a sheet up to an Archimedean spiral whose windings are `gap` apart; `phase` rotates it.
 Vec3d roll(const Vec3d& p, double phase, double gap) {
   constexpr double pi = 3.141592653589793;
   const double along = p.x + 0.5, pitch = gap / (2 * pi), inner = 4 * gap;
@@ -74,12 +75,12 @@ std::vector<B> volumes_of(const Input& input, std::size_t frame) {
   for (const Triangle& t : input.triangles) {
     Vec3f corners[3];
     for (std::size_t k = 0; k < 3; ++k) corners[k] = input.frames[frame][static_cast<std::size_t>(t[k])];
-    volumes.push_back(B::of(corners, 3).grown(0.25f * input.edge));  // pairs within half an edge
+    volumes.push_back(B::of(corners, 3).grown(0.25f * input.edge));  // reports pairs that are within half an edge
   }
   return volumes;
 }
 
-/// Times alternating calls of refit(frame) and query(), which returns a number of pairs.
+/// Measures refit(frame) and query() in turn; query() returns the number of pairs.
 template <class Refit, class Query>
 void measure(benchmark::State& state, const Input& input, const Refit& refit, const Query& query) {
   std::size_t frame = 0;

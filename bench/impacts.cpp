@@ -1,4 +1,4 @@
-// The rate of continuous collision tests: queries with cloth-like motion, which mostly miss, and queries that mostly hit.
+// Measures continuous collision tests: queries that move like cloth, of which few hit, and queries of which most hit.
 #include <benchmark/benchmark.h>
 
 #include <random>
@@ -13,7 +13,7 @@ struct Query {
   Vec3<R> from[4], to[4];
 };
 
-/// Corners about one edge length (1) apart that move by `speed`.
+/// Corners about 1 apart, the length of an edge, that move by `speed`.
 template <class R>
 std::vector<Query<R>> make_queries(int count, double speed) {
   std::mt19937_64 random(1);
@@ -54,7 +54,7 @@ template <class R>
 bool edge_edge(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4]) {
   return edge_edge_impact(from, to, R(0.01f)).hit;
 }
-/// Double precision without the exact predicates for undecided cases.
+/// The test in double precision, without the exact test of cases that it leaves open.
 bool vertex_triangle_undecided(const Vec3d (&from)[4], const Vec3d (&to)[4]) {
   return vertex_triangle_impact<double>(from, to, 0.01).hit;
 }

@@ -1,4 +1,4 @@
-// Adds and removes one of 1000 small objects of a running World.
+// Measures how long a running World of 1000 small objects takes to add and remove one.
 #include <benchmark/benchmark.h>
 
 #include <vector>
@@ -10,9 +10,9 @@ namespace pliant {
 namespace {
 
 constexpr int count = 1000;
-constexpr float dt = 1e-4f;  // nothing moves far: the substeps themselves cost little
+constexpr float dt = 1e-4f;  // so short that nothing moves far, and substeps cost little
 
-/// A cloth of 36 particles in a place of its own. `contact`: 0 none, 1 with other sheets, 2 also with itself.
+/// A cloth of 36 particles at a place of its own. `contact`: 0 none, 1 with other sheets, 2 also with itself.
 Object small_sheet(int number, int contact) {
   Object sheet = make_cloth(grid_mesh(6, 6, 0.1f, 0.1f));
   for (Vec3f& p : sheet.positions)
@@ -32,7 +32,7 @@ World many_sheets(int contact) {
   return World(scene);
 }
 
-/// The two calls alone, as a World takes them between steps.
+/// Measures the two calls alone.
 void add_and_remove(benchmark::State& loop) {
   const int contact = static_cast<int>(loop.range(0));
   World world = many_sheets(contact);
@@ -44,7 +44,7 @@ void add_and_remove(benchmark::State& loop) {
   }
 }
 
-/// With the step that follows, which brings contact among surfaces up to date; compare with `step`.
+/// Measures the calls with the step that follows, which updates contact between surfaces; compare with `step`.
 void add_remove_and_step(benchmark::State& loop) {
   const int contact = static_cast<int>(loop.range(0));
   World world = many_sheets(contact);

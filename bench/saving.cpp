@@ -1,4 +1,4 @@
-// Hashes, saves and loads the State of a million particles, 48 MB, in a temporary folder.
+// Measures how long it takes to hash, save and load the State of a million particles, 48 MB, in a temporary folder.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>

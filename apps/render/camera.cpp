@@ -1,4 +1,4 @@
-// Finds a camera position from which everything is visible.
+// Finds a position of the camera from which everything is visible.
 #include <algorithm>
 #include <cmath>
 
@@ -12,8 +12,8 @@ namespace {
 constexpr float degree = 3.14159265f / 180;
 constexpr float used_share = 0.86f;  // share of the picture's width and height that the scene fills
 
-/// In one picture direction, a point at (x, z) is visible if |x - eye_x| <= (eye_z - z) * slope. The nearest eye that sees
-/// all points follows from the largest x + z slope and the largest -x + z slope.
+/// The extreme lines of sight in one direction of the picture. A point (x, z) is visible if |x - eye_x| <= (eye_z - z)
+/// * slope, so the nearest eye that sees all points follows from the largest x + z slope and the largest -x + z slope.
 struct Side {
   float slope = 1, largest_plus = -1e30f, largest_minus = -1e30f;
 

@@ -1,4 +1,4 @@
-// epoxy aborts the program if a library is missing, so the libraries are probed first.
+// Makes OpenGL contexts. epoxy aborts the program if a library is missing, so the libraries are looked for first.
 #include "context.h"
 
 #include <dlfcn.h>
@@ -17,7 +17,7 @@ namespace {
 [[noreturn]] void fail(const std::string& problem, const std::string& advice) { throw Error({}, problem, advice); }
 
 bool is_there(const char* library) {
-  // Never closed: epoxy keeps it open anyway.
+  // The library is never closed, because epoxy keeps it open anyway.
   return ::dlopen(library, RTLD_LAZY | RTLD_LOCAL) != nullptr;
 }
 
@@ -41,7 +41,7 @@ std::vector<EGLDisplay> displays() {
   return result;
 }
 
-/// Returns a current context with OpenGL 3.3, or EGL_NO_CONTEXT.
+/// Makes an OpenGL 3.3 context current and returns it; EGL_NO_CONTEXT if the display has none.
 EGLContext make_context(EGLDisplay display) {
   EGLint major = 0, minor = 0;
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, &major, &minor)) return EGL_NO_CONTEXT;
@@ -77,7 +77,7 @@ Context::Context() {
 }
 
 Context::~Context() {
-  // All contexts of the program share the display, so it stays open.
+  // The display is not closed, because all contexts of the program share it.
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
 }

@@ -7,14 +7,14 @@ namespace pliant::render {
 
 class Context {
  public:
-  /// Tries, in this order, a Mesa context without a surface, a graphics card,
-  /// and the default display. Throws an Error that names the missing package.
+  /// Tries a Mesa context without a surface, then a graphics card, then the default display. If all fail, throws an
+  /// Error that names the missing package.
   Context();
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  /// Makes it current for the calling thread.
+  /// Makes the context current for the calling thread.
   void make_current() const;
   std::string device() const;
 

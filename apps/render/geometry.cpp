@@ -1,4 +1,4 @@
-// Triangulates shapes.
+// Makes triangles of shapes, lines and meshes.
 #include "geometry.h"
 
 #include <algorithm>
@@ -13,10 +13,10 @@ namespace pliant::render {
 namespace {
 
 constexpr float pi = 3.14159265f;
-constexpr int around_steps = 64;  // segments of round shapes about their axis
+constexpr int around_steps = 64;  // segments of round shapes around their axis
 constexpr int tube_sides = 12;
 
-/// Joins consecutive rings of equal size by quads.
+/// Adds the quads between neighbouring rings of vertices, which all have the same number of vertices.
 void join_rings(Geometry& geometry, std::uint32_t first, std::uint32_t rings, std::uint32_t sides) {
   for (std::uint32_t ring = 0; ring + 1 < rings; ++ring) {
     for (std::uint32_t side = 0; side < sides; ++side) {
@@ -27,12 +27,12 @@ void join_rings(Geometry& geometry, std::uint32_t first, std::uint32_t rings, st
   }
 }
 
-/// A capsule: a sphere split and extended along y by twice `half_length`; 0 gives a sphere.
+/// Adds a capsule: a sphere that is cut in two and extended along y by twice `half_length`; 0 makes a sphere.
 void add_capsule(Geometry& geometry, float radius, float half_length, int steps) {
   const auto first = static_cast<std::uint32_t>(geometry.vertices.size());
   const int rings = steps / 2 + 2;
   for (int ring = 0; ring < rings; ++ring) {
-    // The equator is duplicated, once for each half.
+    // The ring at the equator occurs twice, once for each half.
     const int step = ring < rings / 2 ? ring : ring - 1;
     const float polar = pi * static_cast<float>(step) / static_cast<float>(rings - 2);
     for (int side = 0; side < steps; ++side) {
@@ -80,7 +80,7 @@ void append(Geometry& geometry, const Geometry& other) {
   for (const std::uint32_t i : other.indices) geometry.indices.push_back(first + i);
 }
 
-/// Rings along the line with a twist-free frame, and a ball at each end.
+/// Makes a tube: rings along the line in a frame without twist, and a ball at each end.
 Geometry build_tube(const RenderTube& tube, float radius) {
   Geometry result{.vertices = {}, .indices = {}, .colour = tube.colour, .material = Material::solid};
   const std::size_t count = tube.points.size();
@@ -105,7 +105,7 @@ Geometry build_tube(const RenderTube& tube, float radius) {
   return result;
 }
 
-/// A plane is infinite; a finite slab of it is drawn below the scene's centre.
+/// A plane is infinite, so a finite slab of it is drawn, below the centre of the scene.
 void add_slab(Geometry& geometry, const RenderCollider& plane, const Vec3f& around, float radius) {
   const Quatf back{-plane.rotation.x, -plane.rotation.y, -plane.rotation.z, plane.rotation.w};
   Vec3f middle = rotate(back, around - plane.position);
@@ -124,12 +124,12 @@ Geometry build_collider(const RenderCollider& collider, const Vec3f& around, flo
   return geometry;
 }
 
-/// Unshared vertices, whose normals average the adjacent faces of
-/// similar orientation: round shapes look smooth and edges sharp.
+/// Makes a mesh in which triangles share no vertices. A normal is the mean over adjacent faces of similar direction, so
+/// round shapes look smooth and edges sharp.
 Geometry build_solid(const RenderMesh& mesh) {
-  constexpr float about = 0.8f;  // cosine of the largest angle between smoothed faces
+  constexpr float about = 0.8f;  // cosine of the largest angle between faces that are smoothed
   Geometry geometry{.vertices = {}, .indices = {}, .colour = mesh.colour, .material = Material::solid};
-  std::vector<Vec3f> faces;  // normals scaled by twice the area
+  std::vector<Vec3f> faces;  // normals times twice the area
   std::vector<std::vector<std::size_t>> around(mesh.positions.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
@@ -158,7 +158,7 @@ Geometry build_mesh(const RenderMesh& mesh) {
   return geometry;
 }
 
-/// Half extents of a bounded collider.
+/// Half extents of a collider that is not a plane.
 Vec3f half_size(const Shape& shape) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return {sphere->radius, sphere->radius, sphere->radius};
   if (const auto* c = std::get_if<Capsule>(&shape)) return {c->radius, c->radius + c->half_length, c->radius};

@@ -1,4 +1,4 @@
-// The drawable form of a RenderScene: triangles with normals, and their bounds.
+// A RenderScene in a form that can be drawn: triangles with normals, and their bounds.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ struct Vertex {
   Vec3f position, normal;
 };
 
-/// The shading model of a surface.
+/// How a surface is shaded.
 enum class Material { cloth, solid, ground };
 
 /// Triangles of one colour.
@@ -23,7 +23,7 @@ struct Geometry {
   Material material = Material::solid;
 };
 
-/// A bounding box of points; empty until one is included.
+/// A bounding box of points. It is empty until a point is included.
 struct Bounds {
   Vec3f low{1, 1, 1}, high{-1, -1, -1};
 
@@ -31,21 +31,21 @@ struct Bounds {
   void include(const Vec3f& point, float margin = 0);
   void include(const Bounds& other);
   Vec3f centre() const { return (low + high) * 0.5f; }
-  float radius() const;  ///< radius of the box's circumscribed sphere
+  float radius() const;  ///< radius of the sphere around the box
 };
 
-/// Every point that a picture should show: surfaces, tubes, and colliders not much larger than those.
+/// Every point that a picture should show: surfaces, tubes, and colliders that are not much larger than these.
 std::vector<Vec3f> points_of_interest(const RenderScene& scene);
 Bounds bounds(const std::vector<Vec3f>& points);
 
 /// True if the collider is a horizontal plane that faces up.
 bool is_level_plane(const RenderCollider& collider);
 
-/// All geometry except the ground. `around` and `radius` give the extent
-/// of a plane's slab; tubes have a radius of at least `least_radius`.
+/// Makes all geometry but the ground. A plane becomes a slab of half size `radius` about `around`; tubes have at least
+/// `least_radius`.
 std::vector<Geometry> build_geometry(const RenderScene& scene, const Vec3f& around, float radius, float least_radius);
 
-/// A horizontal square about `centre`.
+/// Makes a horizontal square with the given centre.
 Geometry build_ground(const Vec3f& centre, float half_size, const Vec3f& colour);
 
 /// Throws an Error that names mesh and element if a position is not finite or an index is out of range.

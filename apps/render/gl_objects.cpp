@@ -1,4 +1,4 @@
-// Programs, textures and framebuffers, each checked on creation.
+// Makes shader programs, textures and framebuffers, and checks each.
 #include "gl_objects.h"
 
 #include "pliant/error.h"

@@ -1,4 +1,4 @@
-// OpenGL objects as owning values.
+// OpenGL objects as values that delete them.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -12,7 +12,7 @@
 
 namespace pliant::render {
 
-/// An OpenGL name, deleted with its owner by `Delete`.
+/// Owns the name of an OpenGL object and deletes it by `Delete`.
 template <void (*Delete)(GLuint)>
 class Name {
  public:
@@ -46,7 +46,7 @@ using Buffer = Name<delete_buffer>;
 using Sampler = Name<delete_sampler>;
 using VertexArray = Name<delete_vertex_array>;
 
-/// A program from GLSL source. Throws an Error with the driver's message if it does not compile.
+/// A shader program. Throws an Error with the driver's message if the GLSL source does not compile.
 class Program {
  public:
   Program(const std::string& vertex, const std::string& fragment);
@@ -67,13 +67,13 @@ class Program {
   Name<delete_program> name_;
 };
 
-/// A texture with one level and clamped coordinates; `filter` GL_NEAREST or GL_LINEAR.
+/// Makes a texture with one level and coordinates clamped to its edge; `filter` is GL_NEAREST or GL_LINEAR.
 Texture make_texture(GLint internal, int width, int height, GLenum format, GLenum type, GLint filter);
 
-/// A framebuffer with a colour and a depth texture, 0 for none. Throws an Error if it is incomplete.
+/// Makes a framebuffer with a colour and a depth texture; 0: none. Throws an Error if OpenGL calls it incomplete.
 Framebuffer make_framebuffer(GLuint colour, GLuint depth);
 
-/// A multisampled render target, which is resolved later.
+/// A multisampled framebuffer. Its samples are averaged into another one later.
 struct SampledTarget {
   Renderbuffer colour, depth;
   Framebuffer framebuffer;
@@ -81,7 +81,7 @@ struct SampledTarget {
   SampledTarget(int width, int height, int samples);
 };
 
-/// Throws an Error if the bound framebuffer is incomplete.
+/// Throws an Error if OpenGL calls the bound framebuffer incomplete.
 void require_complete();
 
 }  // namespace pliant::render

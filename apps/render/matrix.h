@@ -10,7 +10,7 @@ namespace pliant::render {
 
 inline float length(const Vec3f& v) { return std::sqrt(length_squared(v)); }
 
-/// `v` normalised, or `otherwise` if it is zero.
+/// The unit vector v / |v|; `otherwise` if v is zero.
 inline Vec3f unit(const Vec3f& v, const Vec3f& otherwise = {0, 1, 0}) {
   const float size = length(v);
   return size > 1e-20f ? v * (1 / size) : otherwise;
@@ -22,7 +22,7 @@ inline Vec3f rotate(const Quatf& q, const Vec3f& v) {
   return v + twice * q.w + cross(imaginary, twice);
 }
 
-/// Column-major.
+/// A 4 x 4 matrix, column after column.
 struct Matrix {
   std::array<float, 16> m{};
   const float* data() const { return m.data(); }
@@ -36,14 +36,14 @@ inline Matrix operator*(const Matrix& a, const Matrix& b) {
   return result;
 }
 
-/// An orthonormal frame that looks along -z.
+/// The camera's axes in the world: an orthonormal frame that looks along its -z.
 struct ViewFrame {
   Vec3f right, up, back;
 };
 
 inline ViewFrame view_frame(const Vec3f& forward) {
   const Vec3f back = unit(-forward, {0, 0, 1});
-  // When looking straight up or down, the picture's up is away from the viewer.
+  // If the camera looks straight up or down, the picture's up is where the viewer's back is.
   const Vec3f about = std::abs(back.y) > 0.9999f ? Vec3f{0, 0, -1} : Vec3f{0, 1, 0};
   const Vec3f right = unit(cross(about, back), {1, 0, 0});
   return {right, cross(back, right), back};
@@ -54,7 +54,7 @@ inline Matrix view_matrix(const ViewFrame& f, const Vec3f& eye) {
            -dot(f.right, eye), -dot(f.up, eye), -dot(f.back, eye), 1}};
 }
 
-/// Perspective projection; half_width and half_height are at distance 1.
+/// The matrix of a perspective view. `half_width` and `half_height` are half the picture's size at distance 1.
 inline Matrix perspective(float half_width, float half_height, float near, float far) {
   Matrix result;
   result.m[0] = 1 / half_width;
@@ -65,7 +65,7 @@ inline Matrix perspective(float half_width, float half_height, float near, float
   return result;
 }
 
-/// Orthographic projection of the box from `low` to `high` in view space (negative z ahead).
+/// The matrix of an orthographic view of the box from `low` to `high` in camera axes; z is negative ahead.
 inline Matrix orthographic(const Vec3f& low, const Vec3f& high) {
   const Vec3f size = high - low;
   return {{2 / size.x, 0, 0, 0, 0, 2 / size.y, 0, 0, 0, 0, -2 / size.z, 0, -(high.x + low.x) / size.x,

@@ -1,4 +1,4 @@
-// Movies: frames piped into ffmpeg.
+// Writes movies: pipes frames into ffmpeg.
 //
 // ffmpeg reads from a socket instead of a pipe: a write to a pipe whose reader
 // has died would kill the program, but a socket reports an error. ffmpeg writes
@@ -29,7 +29,7 @@ namespace pliant::render {
 struct MovieWriter::Implementation {
   std::string path, temporary, words_path;
   std::size_t frame_size = 0;
-  int socket = -1, words = -1;  // descriptors: frames to ffmpeg, and messages from it
+  int socket = -1, words = -1;  // file descriptors: to send frames, and to receive messages
   pid_t process = -1;
   bool finished = false;
 
@@ -37,7 +37,7 @@ struct MovieWriter::Implementation {
     throw Error({.file = path, .line = 0, .object = {}, .element = {}}, problem, advice);
   }
 
-  /// Creates an empty file next to the movie and returns its name.
+  /// Makes an empty file next to the movie. Returns its name.
   std::string make_beside(int& descriptor) const {
     const std::size_t slash = path.rfind('/');
     std::string name = (slash == std::string::npos ? "" : path.substr(0, slash + 1)) + ".pliant-movie-XXXXXX";
@@ -74,7 +74,7 @@ struct MovieWriter::Implementation {
     const std::vector<std::string> words_of_command{
         "ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo", "-pixel_format", "rgb24",
         "-video_size", size, "-framerate", frames, "-i", "pipe:0", "-an", "-vf",
-        // H.264 with subsampled colours needs even sizes, and players assume BT.709.
+        // H.264 with fewer samples of colour needs even sizes, and players assume the colour space BT.709.
         "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "-c:v", "libx264", "-preset", "medium",
         "-crf", "17", "-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
         "-color_range", "tv", "-movflags", "+faststart", "-f", "mp4", "file:" + temporary};
@@ -86,8 +86,8 @@ struct MovieWriter::Implementation {
     posix_spawn_file_actions_adddup2(&actions, input, 0);
     posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, words, 2);
-    // A process group of its own: a terminal interrupt then
-    // reaches only this program, which can end the movie properly.
+    // ffmpeg gets a process group of its own. A terminal's interrupt then reaches only this program, which can finish
+    // the movie properly.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
@@ -98,7 +98,7 @@ struct MovieWriter::Implementation {
     return code;
   }
 
-  /// Waits for ffmpeg to exit; true on success.
+  /// Waits until ffmpeg exits. Returns true on success.
   bool wait() {
     if (socket >= 0) ::close(std::exchange(socket, -1));
     if (process < 0) return false;

@@ -1,5 +1,5 @@
-// One picture in five passes: shadow map, depth, ambient
-// occlusion, the multisampled picture, and its resolve.
+// Draws a picture in five passes: shadow map, depth, ambient occlusion, the multisampled picture, and the mean of its
+// samples.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -19,19 +19,19 @@ namespace {
 constexpr int shadow_size = 2048;
 constexpr float degree = 3.14159265f / 180;
 
-/// The range of the buffers that one Geometry occupies.
+/// Where a Geometry is in the vertex and index buffers.
 struct Range {
   GLsizei count = 0;
-  std::size_t first = 0;  // byte offset in the index buffer
+  std::size_t first = 0;  // offset in the index buffer [bytes]
   Vec3f colour{};
   Material material = Material::solid;
 };
 
-/// The eye, and derived view parameters.
+/// The camera and what follows from it.
 struct Eye {
   Camera camera;
   ViewFrame frame;
-  float half_width = 1, half_height = 1;  // half sizes of the picture at distance 1
+  float half_width = 1, half_height = 1;  // half the picture's size at distance 1
   float near = 0.1f, far = 100;
   Matrix view_projection;
 };
@@ -42,29 +42,29 @@ Eye make_eye(const Camera& camera, int width, int height, const Bounds& content)
   eye.half_width = eye.half_height * static_cast<float>(width) / static_cast<float>(height);
   const float size = std::max(content.radius(), 1e-4f);
   const float distance = dot(eye.frame.back, camera.eye - content.centre());
-  eye.near = 0.05f * size;  // less than the distance to the content, because the ground comes nearer
+  eye.near = 0.05f * size;  // less than the distance of objects, because the ground comes nearer
   eye.far = std::max(distance, 0.f) + 40 * size;
   eye.view_projection =
       perspective(eye.half_width, eye.half_height, eye.near, eye.far) * view_matrix(eye.frame, camera.eye);
   return eye;
 }
 
-/// The sun stands to the left of and behind the viewer, so that folds cast short shadows to the right.
+/// The direction to the sun: behind the viewer to the left, so that folds cast short shadows to the right.
 Vec3f sun_direction(const ViewFrame& view) {
   const Vec3f level_back = unit({view.back.x, 0, view.back.z}, {0, 0, 1});
   const Vec3f level_right{level_back.z, 0, -level_back.x};
   return unit(Vec3f{0, 1.15f, 0} + level_back * 0.38f - level_right * 1.0f);
 }
 
-/// The sun, and an orthographic view along its rays that contains everything.
+/// The sun, and an orthographic view along its rays in which everything is visible.
 struct Sun {
   Vec3f direction{};
   Matrix clip;
-  float softness = 0;  // penumbra radius over the distance to the caster, in shadow map units
+  float softness = 0;  // radius of a shadow's soft edge over the distance of what casts it, in units of the shadow map
 };
 
 Sun make_sun(const ViewFrame& view, const std::vector<Geometry>& geometries) {
-  constexpr float angular_radius = 0.03f;  // seven times the real sun's, as through thin cloud
+  constexpr float angular_radius = 0.03f;  // radius of the sun [rad], seven times the real one, as through thin cloud
   Sun sun{.direction = sun_direction(view), .clip = {}};
   const ViewFrame frame = view_frame(-sun.direction);
   Bounds box;
@@ -75,7 +75,7 @@ Sun make_sun(const ViewFrame& view, const std::vector<Geometry>& geometries) {
   }
   if (box.empty()) box.include(Vec3f{}, 1);
   const float margin = 0.04f * std::max(box.radius(), 1e-4f);
-  // The map extends far along the rays, so that it includes the shadowed ground.
+  // The shadow map extends far along the rays, so that it contains the ground with its shadows.
   const Vec3f low = box.low - Vec3f{margin, margin, 150 * margin}, high = box.high + Vec3f{margin, margin, margin};
   sun.clip = orthographic(low, high) * view_matrix(frame, {});
   sun.softness = angular_radius * (high.z - low.z) / std::max(high.x - low.x, high.y - low.y);
@@ -87,7 +87,7 @@ Matrix to_texture(const Matrix& clip) {
   return halve * clip;
 }
 
-/// Points evenly distributed over the unit disc: golden-angle spiral (Vogel 1979).
+/// Points that are evenly distributed over the unit disc: a golden-angle spiral (Vogel 1979).
 std::vector<std::pair<float, float>> spiral(int count) {
   std::vector<std::pair<float, float>> places;
   for (int i = 0; i < count; ++i) {
@@ -104,7 +104,7 @@ int best_samples() {
   return std::clamp(most, 1, 8);
 }
 
-/// The grid's spacing: a power of ten that gives a few lines.
+/// The spacing of the ground's grid: a power of ten that shows a few lines.
 float grid_spacing(float radius) {
   float spacing = 1;
   while (spacing > 0.5f * radius) spacing /= 10;
@@ -122,13 +122,13 @@ struct Programs {
   Program surface{surface_vertex, std::string(light_functions) + surface_fragment};
 };
 
-/// A texture and its framebuffer.
+/// A texture, and the framebuffer that draws into it.
 struct Target {
   Texture texture;
   Framebuffer framebuffer;
 };
 
-/// Over fifteen members: what OpenGL keeps for the passes of one picture.
+/// Over fifteen members: the OpenGL objects that the passes of a picture use.
 struct Renderer::Implementation {
   Implementation(int w, int h);
   std::vector<std::uint8_t> draw(const RenderScene& scene);
@@ -147,7 +147,7 @@ struct Renderer::Implementation {
   Context context;
   Programs programs;
   VertexArray array, nothing;
-  Sampler plain_sampler;  // reads the shadow map's raw depth
+  Sampler plain_sampler;  // reads depths of the shadow map without comparing them
   Buffer vertices, indices;
   Target shadow, depth, raw_occlusion, occlusion, picture;
   SampledTarget sampled;
@@ -301,7 +301,8 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   program.set("widest", 18.f);
   program.set("softness", sun.softness * shadow_size);
   program.set("spiral", spiral(16));
-  // If a pixel's centre misses the triangle visible in it, its position is up to a pixel off the surface.
+  // If the centre of a pixel is outside the triangle that is visible in it, its position is up to a pixel away from the
+  // surface.
   program.set("bias", std::max(5 * size / shadow_size, 2 * pixel));
   for (const Range& range : ranges) {
     program.set("albedo", range.colour);
@@ -310,7 +311,7 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   }
 }
 
-/// Draws back and front separately: for coincident cloth layers the front wins, without z-fighting.
+/// Draws backs and fronts separately: where two layers of cloth coincide, the front wins, without z-fighting.
 void Renderer::Implementation::draw_both_sides(const Range& range) const {
   const auto* const first = reinterpret_cast<const void*>(range.first);
   if (range.material != Material::cloth) {
@@ -358,7 +359,7 @@ std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scen
     for (const RenderCollider& c : scene.colliders)
       if (is_level_plane(c) && std::abs(c.position.y - *scene.ground) < 1e-6f) colour = c.colour;
     const Vec3f centre = content.centre();
-    const float sink = 0.002f * content.radius();  // so that objects flat on it stay visible
+    const float sink = 0.002f * content.radius();  // keeps objects that lie on the ground visible
     geometries.push_back(build_ground({centre.x, *scene.ground - sink, centre.z}, 30 * content.radius(), colour));
   }
   upload(geometries);
@@ -383,7 +384,7 @@ Renderer::Renderer(int width, int height) {
 }
 
 Renderer::~Renderer() {
-  // OpenGL objects must be deleted in their own context, whichever is current.
+  // OpenGL objects must be deleted while their own context is current.
   if (self_) self_->context.make_current();
 }
 Renderer::Renderer(Renderer&&) noexcept = default;

@@ -1,4 +1,4 @@
-// Converts a Scene and its World to a RenderScene.
+// Makes a RenderScene of a Scene and its World.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -12,7 +12,7 @@ namespace pliant::render {
 
 namespace {
 
-/// The lowest height that an object can reach: hanging ones can swing down by their size, falling ones land on something.
+/// The lowest height that an object can reach: a hanging one can swing down by its size, a falling one lands on something.
 float lowest(const Object& object) {
   Bounds all, held;
   for (std::size_t i = 0; i < object.positions.size(); ++i) {
@@ -27,8 +27,8 @@ float lowest(const Object& object) {
   return held.empty() ? all.low.y : std::min(all.low.y, held.low.y - 2 * all.radius());
 }
 
-/// The ground: the lowest horizontal plane; otherwise 0, or lower if the scene
-/// extends below. It depends on the Scene alone, so it is constant in a movie.
+/// The height of the ground: that of the lowest horizontal plane, otherwise 0, or less if the scene extends below. It
+/// depends on the Scene alone, so it is constant in a movie.
 float ground_height(const Scene& scene, const std::vector<RenderCollider>& at_rest) {
   bool level = false, tilted = false;
   float plane = 0, low = 0;
@@ -55,10 +55,10 @@ float ground_height(const Scene& scene, const std::vector<RenderCollider>& at_re
   return low < 0 ? low - 0.02f * all.radius() : 0;
 }
 
-/// A particle much heavier than the others is a weight, drawn as a ball: of twice
-/// the line's thickness for equal mass, with a volume proportional to mass.
+/// Draws particles that are much heavier than others as balls, with a volume in proportion to their mass. A ball of
+/// equal mass would have twice the line's thickness.
 void add_weights(RenderScene& result, const Object& object, const std::vector<Vec3f>& positions) {
-  constexpr float much = 2.5f;  // more than the end and middle masses of a rope differ
+  constexpr float much = 2.5f;  // more than the ratio between particles in the middle and at the end of a rope
   std::vector<float> masses;
   std::copy_if(object.masses.begin(), object.masses.end(), std::back_inserter(masses),
                [](float mass) { return std::isfinite(mass); });

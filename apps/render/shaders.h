@@ -3,7 +3,7 @@
 
 namespace pliant::render {
 
-/// Positions only: for the shadow map and the depth prepass.
+/// Vertex shader with positions only, for the shadow map and the depth pass.
 inline constexpr const char* depth_vertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
 uniform mat4 view_projection;
@@ -14,7 +14,7 @@ inline constexpr const char* depth_fragment = R"(#version 330 core
 void main() {}
 )";
 
-/// One triangle that covers the picture.
+/// Vertex shader of a triangle that covers the whole picture.
 inline constexpr const char* screen_vertex = R"(#version 330 core
 out vec2 place;
 void main() {
@@ -23,9 +23,9 @@ void main() {
 }
 )";
 
-/// Ambient occlusion from depth alone: nearby points above a pixel's surface hide the sky in proportion to their elevation
-/// (McGuire et al. 2011, "The Alchemy screen-space ambient obscurance algorithm"). The sixteen directions rotate between
-/// pixels in a 4 x 4 pattern that the blur averages exactly.
+/// Ambient occlusion, from depths alone: points near a pixel that are above its surface hide part of the sky, in
+/// proportion to their elevation (McGuire et al. 2011, "The Alchemy screen-space ambient obscurance algorithm"). The
+/// sixteen directions are rotated from pixel to pixel in a 4 x 4 pattern, over which the blur averages exactly.
 inline constexpr const char* occlusion_fragment = R"(#version 330 core
 in vec2 place;
 out float openness;
@@ -33,9 +33,9 @@ uniform sampler2D depth;
 uniform vec2 slope;        // half the picture's extent at distance 1
 uniform vec2 near_far;
 uniform vec2 texel;
-uniform float reach;       // search radius for occluders [m]
+uniform float reach;       // distance within which points hide sky [m]
 vec3 seen(vec2 near_by) {
-  // Depths are exact at pixel centres.
+  // Depths are exact only at the centres of pixels.
   vec2 size = vec2(textureSize(depth, 0)), at = (floor(near_by * size) + 0.5) / size;
   float d = texture(depth, at).r * 2.0 - 1.0;
   float distance = 2.0 * near_far.x * near_far.y / (near_far.y + near_far.x - d * (near_far.y - near_far.x));
@@ -86,8 +86,8 @@ void main() {
 }
 )";
 
-/// Atmosphere colours and tone mapping, shared by sky and surfaces.
-/// The curve is Narkowicz's fit (2015) of the ACES filmic tone scale.
+/// Colours of the sky, and tone mapping by Narkowicz's fit (2015) of the ACES filmic tone scale; used for sky and
+/// surfaces.
 inline constexpr const char* light_functions = R"(#version 330 core
 uniform vec3 eye;
 vec3 sky(vec3 direction) {
@@ -124,8 +124,8 @@ void main() {
 }
 )";
 
-/// Cloth, solids and ground: a sun with soft shadows, a hemispherical sky light
-/// (blue from above), and for cloth a sheen at grazing angles and some translucency.
+/// Shades cloth, solids and ground: sunlight with soft shadows, light from the sky (blue from above), and for cloth a
+/// sheen at grazing angles and some translucency.
 inline constexpr const char* surface_fragment = R"(
 in vec3 at, facing;
 out vec4 colour;
@@ -137,11 +137,11 @@ uniform sampler2D shadow_depth;
 uniform sampler2D occlusion;
 uniform vec2 picture;      // width, height
 uniform vec2 spiral[16];   // points evenly distributed over the unit disc
-uniform float widest, softness;  // largest shadow blur [texel]; its growth [texel per depth]
+uniform float widest, softness;  // largest blur of shadows [texels]; its growth with depth
 uniform float bias, radius, spacing;
 float lit(vec3 normal) {
   vec3 place = (light * vec4(at + normal * bias, 1.0)).xyz;
-  // No probes outside the shadow map, by a zero loop count: a branch would not speed up software rendering.
+  // Outside the shadow map the loop does nothing; in software rendering a branch would save no time.
   int probes = any(greaterThan(abs(place - 0.5), vec3(0.5))) ? 0 : 10;
   float gap = 0.0, found = 0.0, texels = float(textureSize(shadow_depth, 0).x);
   for (int i = 0; i < probes; ++i) {
@@ -173,7 +173,7 @@ void main() {
   }
   float toward = dot(normal, sun), across = max(dot(normal, view), 0.0);
   float seen = lit(toward < 0.0 && material == 0 ? -normal : normal);
-  // Near the terminator self-shadowing would show steps of the mesh's size; fading hides them.
+  // Where light grazes, a surface's shadow on itself would show the triangles of the mesh, so direct light fades there.
   float direct = max(toward, 0.0) * smoothstep(0.0, 0.3, toward);
   vec3 sunlight = vec3(1.90, 1.80, 1.62);
   vec3 above = vec3(0.32, 0.365, 0.44), below = vec3(0.19, 0.175, 0.16);

@@ -10,10 +10,10 @@
 namespace pliant::validate {
 namespace {
 
-/// Distances are measured only every so many frames, because they cost more than the frame.
+/// Distances are measured in one of this many frames, because they take longer than the frame itself.
 constexpr int frames_between_distances = 20;
 
-/// Steps a World and measures the time.
+/// Measures how long frames take.
 class Stopwatch {
  public:
   Report step(World& world, float dt) {
@@ -23,7 +23,7 @@ class Stopwatch {
     return report;
   }
 
-  /// Ends a frame of one or more steps.
+  /// Ends the measurement of a frame, which may consist of several steps.
   void lap(Audit& audit) {
     ++audit.frames;
     audit.ms += (last_ - audit.ms) / audit.frames;
@@ -42,7 +42,7 @@ void note(Audit& audit, std::size_t found, int frame) {
 
 // ---------------------------------------------------------------- ropes
 
-/// The swept box of a link's ends.
+/// The box that a link sweeps.
 struct Box {
   Vec3d low, high;
 
@@ -62,7 +62,7 @@ Box path_of(const std::vector<Vec3f>& from, const std::vector<Vec3f>& to, std::s
   return box;
 }
 
-/// Audits a rope: counts links that meet while particles move linearly, and finds the least distance of near pairs.
+/// Audits a rope: counts the pairs of links that meet while their particles move linearly, and finds the least distance.
 class Links {
  public:
   explicit Links(std::vector<Vec3f> start) : from_(std::move(start)), paths_(from_.size() - 1) {}

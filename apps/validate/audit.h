@@ -1,4 +1,4 @@
-// An exact audit of every frame of a run: intersections, decided by exact predicates.
+// An audit of every frame of a run: counts intersections, decided by exact predicates.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,21 @@ namespace pliant::validate {
 /// The result of an audit.
 struct Audit {
   int frames = 0;
-  int vertices = 0;      ///< number of vertices of all surfaces, including mesh colliders
-  std::size_t most = 0;  ///< largest number of any frame: edges that cross a triangle or touch one without a common vertex
-  int first = -1;        ///< the first frame with an intersection; -1: none
-  std::int64_t unresolvable = 0;  ///< summed over all frames
-  double least_distance = 0;      ///< over the measured frames [m]
+  int vertices = 0;      ///< vertices of all surfaces, with those of mesh colliders
+  std::size_t most = 0;  ///< edges that cross or touch a triangle without a common vertex: largest number in a frame
+  int first = -1;        ///< first frame with an intersection; -1: none
+  std::int64_t unresolvable = 0;  ///< pairs that no step limit separates, summed over all frames
+  double least_distance = 0;      ///< least distance in the frames in which it was measured [m]
   double ms = 0, slowest_ms = 0;  ///< processor time per frame: mean, maximum
-  bool ok = true;                 ///< all values stayed finite
+  bool ok = true;                 ///< true if all values stayed finite
 };
 
-/// All triangles of a World's objects and mesh colliders as one mesh.
+/// The triangles of all objects and mesh colliders of a World as one mesh.
 class Surfaces {
  public:
   explicit Surfaces(const Scene& scene);
 
-  /// The surfaces in the World's current state; valid until the next call.
+  /// Moves the mesh to the World's present state; the result is valid until the next call.
   const TriangleMesh& at(const World& world);
   const TriangleMesh& at_start() const { return mesh_; }
 
@@ -35,12 +35,12 @@ class Surfaces {
   int colliders_ = 0;
 };
 
-/// Runs a scene for `frames` frames and audits each.
+/// Simulates `frames` frames of a scene, and audits each.
 Audit audit_surfaces(const Scene& scene, int frames);
 
-/// Runs a scene of one rope, whose links have no sides that could be told apart.
-/// Each substep is a frame, so paths between audits are linear. All pairs of links
-/// without a common end are tested for a meeting; `most` counts them per frame.
+/// Simulates a scene of one rope, and audits it. A rope has no sides, so each substep is made a frame: paths between
+/// audits are then linear, and all pairs of links without a common end are tested along them. Audit::most counts the
+/// pairs that meet in a frame.
 Audit audit_rope(const Scene& scene, int frames);
 
 }  // namespace pliant::validate

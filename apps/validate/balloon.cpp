@@ -1,4 +1,4 @@
-// A closed membrane with a volume constraint encloses pressure times rest volume, while its skin can stretch.
+// A closed membrane with a volume constraint must enclose pressure times its rest volume, while its skin can stretch.
 #include <cmath>
 
 #include "apps/validate/rows.h"
@@ -9,7 +9,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 
 struct Balloon {
-  double volume = 0, roundness = 1;  // volume over rest volume; smallest over largest radius
+  double volume = 0, roundness = 1;  // ratios: volume to rest volume, smallest to largest radius
 };
 
 Balloon blow_up(double pressure, plot::Series& curve) {

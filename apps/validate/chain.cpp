@@ -1,4 +1,4 @@
-// Chains: the force at the top, the convergence with a heavy end, and the shape between two nails.
+// Chains: the force at the top, convergence with a heavy end, and the shape between two fixed ends.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -138,7 +138,8 @@ void heavy_rows(Result& result) {
 constexpr int nail_links = 20;
 constexpr double nail_span = 1, nail_length = 1.5, nail_mass = 0.05, nail_g = 10;
 
-// Equal links under equal weights: tan(theta) increases by m g / H per link, symmetric about the middle.
+// The rise of tan(theta) per link, for which the chain has this span. With equal links and weights, tan(theta)
+// increases by m g / H from link to link, symmetrically about the middle.
 double span_of(double slope_step, int count, double length) {
   double span = 0;
   for (int i = 0; i < count; ++i) {
@@ -148,7 +149,7 @@ double span_of(double slope_step, int count, double length) {
   return span;
 }
 
-// The increment for which the polygon spans the nails, by bisection: a larger one hangs deeper.
+// The rise per link for which the polygon has exactly this span, by bisection: with a larger rise it hangs deeper.
 double exact_slope_step(int count, double length, double span) {
   double low = 0, high = 1e6;
   for (int i = 0; i < 200; ++i) {
@@ -167,7 +168,7 @@ double exact_sag(double slope_step, int count, double length) {
   return depth;
 }
 
-// The sag of the catenary y = a cosh(x / a) of this length: 2 a sinh(D / 2a) = L.
+// The sag of a catenary y = a cosh(x / a) with this length and span: 2 a sinh(D / 2a) = L.
 double catenary_sag(double length, double span) {
   double low = 1e-3 * span, high = 1e3 * span;
   for (int i = 0; i < 200; ++i) {
@@ -177,7 +178,7 @@ double catenary_sag(double length, double span) {
   return low * (std::cosh(span / (2 * low)) - 1);
 }
 
-// The start: a V of the right length.
+// The initial position of particle i: a V of the right length.
 Vec3d nail_start(int i) {
   const double along = nail_length * i / nail_links, half = nail_length / 2, x = nail_span * i / nail_links;
   const double depth = std::sqrt(nail_length * nail_length - nail_span * nail_span) / nail_length;
@@ -193,7 +194,7 @@ Solver nails_reference() {
   for (int i = 0; i <= nail_links; ++i) solver.add(nail_start(i), nail_weight(i));
   for (int i = 0; i < nail_links; ++i) solver.add("distance", {i, i + 1}, {nail_length / nail_links});
   for (int i = 0; i < 30000; ++i) solver.step(1e-4);
-  for (int i = 0; i < 150000; ++i) solver.step(1e-5);  // the remaining stretch of the links decreases with h^2
+  for (int i = 0; i < 150000; ++i) solver.step(1e-5);  // the links' remaining stretch decreases with h^2
   return solver;
 }
 
@@ -215,7 +216,7 @@ std::vector<Vec3f> nails_engine() {
   return world.positions(0);
 }
 
-// The value of tan(theta_{i+1}) - tan(theta_i) farthest from `expected`, over inner particles.
+// The difference tan(theta_{i+1}) - tan(theta_i) that is farthest from `expected`, over inner particles.
 double farthest_slope_step(const std::vector<Vec3d>& x, double expected) {
   std::vector<double> steps;
   for (std::size_t i = 1; i + 1 < x.size(); ++i)

@@ -1,5 +1,5 @@
-// Collision: continuous tests on queries with an answer known by construction,
-// and the guarantees of a World about surfaces, with and without the filter.
+// Collision: continuous tests on queries whose answer is known by construction, and what a World guarantees about
+// surfaces, with and without the filter.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,14 +17,14 @@ constexpr double pi = 3.14159265358979323846, g = 9.81;
 
 // ------------------------------------------------------------------------------------------------ continuous tests
 
-/// A vertex-triangle or edge-edge pair under linear motion that crosses at a time in between, or misses.
+/// Makes vertex-triangle or edge-edge pairs in linear motion that cross at a time within it, or miss.
 void impact_rows(Result& result) {
   Random random(11);
   constexpr int queries = 20000;
   int missed[2] = {0, 0}, false_alarms[2] = {0, 0};
   for (int i = 0; i < queries; ++i) {
     const bool edges = i % 2 == 1, hits = i % 4 < 2;
-    std::array<Vec3f, 4> at, from, to;  // `at`: corners at contact, in the plane z = 0, crossing or 0.1 apart
+    std::array<Vec3f, 4> at, from, to;  // `at`: corners at the contact, in the plane z = 0, which cross or are 0.1 apart
     const float s = static_cast<float>(random.uniform(0.05, 0.95)), past = hits ? 0.f : 0.1f;
     if (edges) {
       at[0] = {-1, 0, past}, at[1] = {1, 0, past};
@@ -90,7 +90,8 @@ std::size_t crossings(const World& world) {
   return find_crossings(all).size();
 }
 
-/// Layers that fall on the ground and one another: crossings in any frame, and the rest distance of the top layer.
+/// Layers that fall on the ground and on one another: intersections in any frame, and at what distance the top layer
+/// rests.
 void layer_rows(Result& result, bool filter) {
   Scene scene;
   scene.settings = settings_of(20, filter);
@@ -112,7 +113,7 @@ void layer_rows(Result& result, bool filter) {
                                  "the sum of both thicknesses"));
 }
 
-/// The distance that a patch slides in a second down two oblique triangles.
+/// How far a patch slides in a second down two oblique triangles [m].
 double slide(double degrees, bool filter) {
   const double c = std::cos(degrees * pi / 180), s = std::sin(degrees * pi / 180);
   const auto turned = [&](const Vec3f& p) {
@@ -143,7 +144,7 @@ void slope_rows(Result& result, bool filter) {
                                  slide(40, filter), 0.03, "m", "g (sin - mu cos) / 2, in a second"));
 }
 
-/// The rebound height of a patch that falls flat on triangles from 0.5 m.
+/// How high a patch rebounds that falls flat on triangles from 0.5 m [m].
 double apex(float restitution, bool filter) {
   Scene scene;
   scene.settings = settings_of(50, filter);
@@ -161,7 +162,7 @@ double apex(float restitution, bool filter) {
   return 0;
 }
 
-/// A kinematic ball of triangles against a loose sheet.
+/// Rows of a kinematic ball of triangles that meets a loose sheet.
 void ball_rows(Result& result) {
   for (const float speed : {1.f, 10.f, 30.f}) {
     Scene scene;
@@ -192,7 +193,8 @@ void ball_rows(Result& result) {
   }
 }
 
-/// Crossings of three loose sheets thrown at 20 m/s at a fixed fourth, with two substeps per frame.
+/// The number of intersections of three loose sheets that are thrown at a fixed one at 20 m/s, with two substeps per
+/// frame.
 std::size_t thrown_sheets(bool filter) {
   Scene scene;
   scene.gravity = {};
@@ -214,7 +216,7 @@ std::size_t thrown_sheets(bool filter) {
   return most;
 }
 
-/// Without the filter these sheets cross, so these rows detect a filter that does nothing.
+/// Rows of sheets that cross without the filter, so that a filter that does nothing fails here.
 void filter_rows(Result& result) {
   const std::string name = "collision: engine, sheets thrown at 20 m/s, edges through triangles";
   result.rows.push_back(at_most(name, 0, static_cast<double>(thrown_sheets(true)), "", "exact signs, 2 substeps"));

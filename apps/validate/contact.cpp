@@ -1,4 +1,4 @@
-// Friction and restitution: when a body slips, how far it slides, how high it bounces.
+// Friction and restitution: when a body begins to slip, how far it slides, how high it bounces.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ constexpr double pi = 3.14159265358979323846, g = 9.81;
 constexpr float thickness = 0.01f;
 constexpr int substeps = 20, bounce_substeps = 100;
 
-// A particle in contact with a plane tilted by `degrees` about the z-axis, with that friction throughout.
+// A particle in contact with a plane that is tilted by `degrees` about the z-axis; both have the given friction.
 Scene on_plane(double degrees, double friction, const Vec3f& velocity) {
   const double angle = degrees * pi / 180;
   const float away = thickness;
@@ -28,7 +28,7 @@ Scene on_plane(double degrees, double friction, const Vec3f& velocity) {
   return scene;
 }
 
-// The distance that a particle from rest slides along the plane in a second.
+// How far a particle slides along the plane in a second, from rest [m].
 double slide(double degrees, double friction) {
   World world(on_plane(degrees, friction, {}));
   const Vec3f start = world.positions(0)[0];
@@ -68,7 +68,8 @@ struct Bounce {
   plot::Series curve;
 };
 
-// Drops a particle 1 m above contact. The apex follows from position and velocity, so it may lie between frames.
+// Drops a particle from 1 m above contact. The apex is computed from position and velocity, because it may be between
+// frames.
 Bounce drop(double restitution) {
   Object object = particles({{0, 1 + thickness, 0}}, {1});
   object.thickness = thickness;

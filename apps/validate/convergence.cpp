@@ -1,10 +1,10 @@
-// Sweeps that each method needs: a free chain with particles randomly
-// displaced along it, until the links' errors fall to a thousandth.
+// How many sweeps each method needs: a free chain whose particles are displaced randomly along it, until the errors of
+// its links fall to a thousandth.
 //
-// The matrix of n equal links is tridiagonal (-1, 2, -1) / 2. Jacobi multiplies its slowest
-// error by cos(pi / (n + 1)) per sweep, Gauss-Seidel by the square of that. The counts
-// depend on the start's share of the slowest error. The seed was chosen to match the source
-// of the counts, whose random numbers are unknown; one choice makes ten counts agree.
+// The matrix of n equal links is tridiagonal (-1, 2, -1) / 2. Per sweep, Jacobi multiplies its slowest error by
+// cos(pi / (n + 1)), Gauss-Seidel by the square of that. The counts depend on how large that error is at the
+// start. The source of the counts does not give its random numbers; the seed was chosen so that all ten counts
+// agree.
 #include <cmath>
 
 #include "apps/validate/rows.h"
@@ -19,7 +19,7 @@ const double pi = std::acos(-1.0);
 const double jacobi_radius = std::cos(pi / (links + 1));
 const double gauss_seidel_radius = jacobi_radius * jacobi_radius;
 
-/// Positions along the chain: spacing one plus a random displacement each.
+/// Positions along the chain: distance one plus a random displacement each.
 std::vector<double> start() {
   Random random(seed);
   std::vector<double> x;
@@ -75,8 +75,8 @@ void over_relaxed(Places& x) {
 using Sweeper = void (*)(Places&);
 constexpr int most_sweeps = 10000;
 
-/// The residual before the first sweep and after each, down to a
-/// thousandth. If rho > 0, Chebyshev starts after `plain` sweeps.
+/// The residual before the first sweep and after each, until it is a thousandth. If rho > 0, Chebyshev starts after
+/// `plain` sweeps.
 std::vector<double> curve_of(Sweeper sweep, double rho = 0, int plain = 1) {
   Places x = start(), older = x;
   std::vector<double> curve{residual(x)};
@@ -191,10 +191,11 @@ void engine_rows(Result& result) {
   };
   add("Gauss-Seidel, natural order", 1741, engine_sweeps(Sweep::natural, {}, 2500));
   add("Gauss-Seidel, red-black", 2094, engine_sweeps(Sweep::tiled, {}, 2500));
-  // Two constraints share each inner particle, which halves every step and thus 1 - rho; the rate of Chebyshev depends
-  // on its square root.
+  // Two constraints share each inner particle, which halves every step, and therefore 1 - rho. The rate of Chebyshev
+  // depends on the square root of that.
   add("Jacobi, half steps", 2 * 3495, engine_sweeps(Sweep::jacobi, {}, 9000));
-  // Forward and backward over two colours merges repeated colours: the second colour twice in a row, then the first.
+  // Forward and backward over two colours, each colour is visited twice in a row. The second visit changes nothing, so
+  // a symmetric iteration equals one plain sweep.
   add("Gauss-Seidel, symmetric over red-black", 2094, engine_sweeps(Sweep::symmetric, {}, 2500));
   add("over-relaxed Gauss-Seidel", 125, engine_sweeps(Sweep::natural, over, 200));
   add("Chebyshev over Jacobi, half steps", std::sqrt(2.0) * 232,

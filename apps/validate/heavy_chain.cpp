@@ -1,5 +1,5 @@
-// A load up to 100 000 times as heavy as a link of its
-// chain: iterations do not converge, an exact solve does.
+// A load up to 100 000 times as heavy as a link of the chain on which it hangs: iterations do not converge, an exact
+// solve does.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,8 +14,8 @@ constexpr float link = 0.01f;
 
 struct Case {
   int links;
-  float load;   ///< [kg], where a link's particle has 1 kg
-  float slope;  ///< 0: hangs at rest; 1: released at 45 degrees
+  float load;   ///< mass of the load [kg]; a particle of the chain has 1 kg
+  float slope;  ///< 0: the chain hangs at rest; 1: it is released at 45 degrees
   int substeps, iterations;
 };
 
@@ -26,7 +26,7 @@ Object chain_of(const Case& of) {
   return line;
 }
 
-/// The largest relative deviation of the load's distance from the nail, over the chain's length.
+/// The largest deviation of the load's distance from the fixed end, over the length of the chain.
 double error_of(const Case& of, Sweep sweep) {
   Scene scene = scene_with(chain_of(of), 10, of.substeps, of.iterations);
   scene.settings.sweep = sweep;
@@ -44,8 +44,8 @@ double error_of(const Case& of, Sweep sweep) {
 }  // namespace
 
 void heavy_chain_rows(Result& result, bool) {
-  // An exact solve of the linearised chain carries a load at rest. A swinging load moves its light links by much of their
-  // length per substep, where the linearisation fails: it needs short substeps and a second solve.
+  // An exact solve of the linearised chain carries a load at rest. A swinging load moves its light links by much of
+  // their length in a substep, so that the linearisation fails: it needs short substeps and a second solve.
   for (const Case& of : {Case{20, 1e5f, 0, 10, 1}, Case{50, 5e4f, 0, 10, 1}, Case{20, 1e5f, 1, 200, 2}}) {
     const std::string name = "heavy_chain: " + brief(of.links) + " links, load of " + brief(of.load) + " of them, " +
                              (of.slope == 0 ? "hanging" : "swinging") + ", error of length";

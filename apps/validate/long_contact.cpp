@@ -1,4 +1,5 @@
-// Long contact scenes without any intersection allowed: 600 frames, every one audited. Minutes each, so only with `--slow`.
+// Long runs with contact in which no intersection is allowed: 600 frames, all audited. They take minutes, so they need
+// `--slow`.
 #include "apps/validate/long_contact.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace pliant::validate {
 namespace {
 
 constexpr float pi = 3.14159265f;
-constexpr float thickness_of_edge = 0.1f;  // thickness over edge length, as docs/guide/contact.md advises
+constexpr float thickness_of_edge = 0.1f;  // thickness over edge length, as docs/guide/contact.md recommends
 
 /// Self-colliding cotton, for a sheet with edges of length `edge`.
 Object sheet_of(const TriangleMesh& mesh, float edge, const std::string& name = "sheet") {
@@ -38,7 +39,7 @@ Scene scene_of(int substeps) {
   return scene;
 }
 
-/// The particles at one end of a sheet along x (`end` -1 or 1), or along y.
+/// The particles at one border of a sheet: `axis` is x or y, `end` is -1 or 1.
 std::vector<int> border(const Object& sheet, int end, float Vec3f::*axis) {
   float farthest = 0;
   for (const Vec3f& p : sheet.positions) farthest = std::max(farthest, p.*axis * static_cast<float>(end));
@@ -91,7 +92,7 @@ Scene twisted_scene(int side) {
   const int columns = 2 * side, rows = side / 2;  // on a wider sheet, half a turn would pull the ends together
   const float length = edge * static_cast<float>(columns - 1), width = edge * static_cast<float>(rows - 1);
   Scene scene = scene_of(20);
-  scene.settings.sweep = Sweep::multigrid;  // other sweeps stretch so long a sheet by half before it twists
+  scene.settings.sweep = Sweep::multigrid;  // other sweeps would stretch such a long sheet by half before it twists
   const Object sheet = sheet_of(grid_mesh(columns, rows, length, width), edge);
   const int object = scene.add(sheet);
   for (const int end : {-1, 1}) {
@@ -111,7 +112,7 @@ Scene ball_scene(int side) {
   constexpr float edge = 0.01f;
   Scene scene = scene_of(5);
   scene.settings.most_substeps = 2000;  // 10 m/s needs more than eight times the substeps
-  scene.frame_time = 1.f / 240;         // so that no frame starts on one side of the sheet and ends on the other
+  scene.frame_time = 1.f / 240;         // so short that no frame starts on one side of the sheet and ends on the other
   TriangleMesh mesh = square(side, edge);
   const float width = edge * static_cast<float>(side - 1);
   for (Vec3f& p : mesh.positions) p = {0, p.x, p.z};
@@ -123,7 +124,7 @@ Scene ball_scene(int side) {
   ball.mesh = sphere_mesh(3);
   for (Vec3f& p : ball.mesh.positions) p = p * (0.12f * width) + Vec3f{-0.8f * width, -0.2f * width, 0.05f * width};
   const Vec3f across{1.6f * width, 0, 0};
-  const float time = 1.6f * width / 10;  // at 10 m/s
+  const float time = 1.6f * width / 10;  // time for the way at 10 m/s
   ball.motion.keyframes = {{0, {}, {}},        {0.1f, {}, {}},        {0.1f + time, across, {}},
                            {0.6f, across, {}}, {0.6f + time, {}, {}}, {1, {}, {}}};
   ball.motion.repeat = true;
@@ -133,7 +134,7 @@ Scene ball_scene(int side) {
 
 namespace {
 
-/// Resamples a polyline at distances of `apart`.
+/// Places points along a polyline at distances of `apart`.
 std::vector<Vec3f> resampled(const std::vector<Vec3d>& line, double apart) {
   std::vector<Vec3f> result{to_float(line.front())};
   double left = apart;
@@ -150,7 +151,7 @@ std::vector<Vec3f> resampled(const std::vector<Vec3d>& line, double apart) {
   return result;
 }
 
-/// A trefoil cut at the tip of a lobe, with its ends led outward [m].
+/// A trefoil knot that is cut at the tip of a lobe, with its ends led outward [m].
 std::vector<Vec3f> open_trefoil(double size, double link) {
   constexpr double turn = 2 * double(pi), gap = 0.12, leg = 8;
   constexpr int pieces = 2000;

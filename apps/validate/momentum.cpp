@@ -1,8 +1,8 @@
 // Invariants of a constraint: it conserves linear and angular momentum, and its gradient is correct.
 //
-// A projection conserves sum m x' x dx at its own positions. The velocity update conserves linear momentum exactly. Angular
-// momentum decays slightly, as in backward Euler, because the impulse acts along the direction at the substep's end. A
-// spinning dumbbell has that decay in closed form.
+// A projection conserves sum m x' x dx, x' the positions at which its gradient is taken. The velocity update conserves
+// linear momentum exactly. Angular momentum decays slightly, as in backward Euler, because the impulse acts along the
+// direction at the substep's end. For a spinning dumbbell this decay is known in closed form.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,7 +31,7 @@ struct Sample {
   double value() const { return reference::evaluate(type, x, rest).value; }
 };
 
-// A random stencil whose rest data are measured at another one, so that C is not zero.
+// A random stencil with rest data measured at another one, so that C is not zero.
 Sample make_sample(const ConstraintType& type, Random& random) {
   Sample sample{type.name, std::vector<Vec3d>(static_cast<std::size_t>(type.stencil_size)), {}};
   for (Vec3d& x : sample.x) x = random.vector(1);
@@ -40,7 +40,7 @@ Sample make_sample(const ConstraintType& type, Random& random) {
   return sample;
 }
 
-// The five-point central difference of C along one coordinate.
+// The five-point central difference of C with respect to one coordinate of one particle.
 double difference(Sample sample, double Vec3d::*coordinate, std::size_t particle) {
   constexpr double step = 2e-4;
   const double at = sample.x[particle].*coordinate;
@@ -52,7 +52,7 @@ double difference(Sample sample, double Vec3d::*coordinate, std::size_t particle
   return (8 * near - far) / (12 * step);
 }
 
-// Relative to the largest gradient of the stencil.
+// Compares gradients with differences; errors are relative to the largest gradient of the stencil.
 void compare_gradients(const Sample& sample, const std::vector<Vec3d>& gradient, Worst& worst) {
   Vec3d force{}, torque{};
   double scale = 0;
@@ -68,7 +68,7 @@ void compare_gradients(const Sample& sample, const std::vector<Vec3d>& gradient,
   worst.torque = std::max(worst.torque, length(torque) / scale);
 }
 
-// Projects once with random masses; errors relative to the sum of |m dx| and of |x| |m dx|.
+// Projects once with random masses. Errors are relative to the sum of |m dx| and of |x| |m dx|.
 void compare_momenta(const Sample& sample, Random& random, Worst& worst) {
   Solver solver;
   std::vector<int> indices;
@@ -96,7 +96,7 @@ void type_rows(Result& result, const ConstraintType& type) {
     const reference::Evaluation at = reference::evaluate(type.name, sample.x, sample.rest);
     double largest = 0;
     for (const Vec3d& g : at.gradients) largest = std::max(largest, length(g));
-    // Skips samples too steep for differences, near the branch cut of an angle, or with too small a value.
+    // Skips samples that are too steep for differences, near the branch cut of an angle, or whose value is too small.
     if (largest > 30 || std::abs(at.value) > 2.5 || std::abs(at.value) < 0.05 * largest) continue;
     ++samples;
     compare_gradients(sample, at.gradients, worst);
@@ -155,7 +155,7 @@ Solver reference_of(const Object& object) {
 
 struct Momentum {
   Vec3d linear{};
-  double scale = 0;  // sum of m |v|
+  double scale = 0;  // sum of m |v| over all particles
 };
 
 Momentum momentum_of(const Solver& solver) {
@@ -203,8 +203,9 @@ void sheet_rows(Result& result) {
 constexpr double dumbbell_spin = 6, dumbbell_h = 1.0 / 200;
 constexpr int dumbbell_steps = 200;
 
-// The velocity is that of the last chord, at half its angle D to the circle: h v has the components r sin D along it and r
-// (1 - cos D) outward. Hence tan D' = sin D / (2 - cos D), initially tan D = h omega.
+// The velocity is that of the last chord, which is rotated by half of its angle D against the circle: h v has the
+// components r sin D along it and r (1 - cos D) outward. So tan D' = sin D / (2 - cos D), with tan D = h omega at the
+// start.
 double discrete_spin() {
   double angle = std::atan(dumbbell_h * dumbbell_spin);
   for (int i = 1; i < dumbbell_steps; ++i) angle = std::atan(std::sin(angle) / (2 - std::cos(angle)));

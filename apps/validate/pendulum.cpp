@@ -1,5 +1,5 @@
-// A mass on a rigid link: its period grows with amplitude by the
-// complete elliptic integral, and its energy only decreases, slowly.
+// A mass on a rigid link: its period grows with the amplitude by the complete elliptic integral, and its energy only
+// decreases, slowly.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,7 +23,7 @@ double exact_period_ratio(double amplitude) {
   return 1 / a;
 }
 
-// A pendulum of 1 m and 1 kg, independent of its solver.
+// A pendulum of 1 m and 1 kg, whichever solver moves it.
 struct Bob {
   Vec3d position, velocity;
 };
@@ -67,7 +67,7 @@ class EnginePendulum {
   World world_;
 };
 
-// Interpolated time between the first and the third passage through the lowest point.
+// The time between the first and the third passage through the lowest point, interpolated between frames.
 template <class Pendulum>
 double period(double amplitude, int substeps, double dt) {
   Pendulum pendulum(amplitude, substeps);
@@ -109,7 +109,7 @@ void period_rows(Result& result) {
 }
 
 struct Energy {
-  double highest = 0, last = 0;  // as shares of the initial energy above the lowest point
+  double highest = 0, last = 0;  // energies above the lowest point, as shares of the initial one
   plot::Series curve;
 };
 

@@ -1,4 +1,4 @@
-// Continuous tests on query sets with exactly known answers: no misses, few false positives, and the rate.
+// Continuous collision tests on sets of queries with exactly known answers: no misses, few false positives, and the speed.
 #include <ctime>
 
 #include "apps/validate/query_sets.h"
@@ -27,7 +27,7 @@ Answers ask(const std::vector<CollisionQuery>& queries, const Test& test) {
   return answers;
 }
 
-/// Repeats the queries, because a thousand are too few to time.
+/// Repeats the queries `times` times, because a thousand are too few to measure a time.
 std::vector<CollisionQuery> repeated(const std::vector<CollisionQuery>& queries, int times) {
   std::vector<CollisionQuery> result;
   for (int i = 0; i < times; ++i) result.insert(result.end(), queries.begin(), queries.end());

@@ -1,6 +1,6 @@
-// Query sets for continuous tests: eight lines per query in a table of rationals, with the corners at both ends of their
-// motion and the answer. The format is that of the sample queries of B. Wang et al., "A large-scale benchmark and an
-// inclusion-based algorithm for continuous collision detection", 2021.
+// Reads sets of queries for continuous collision tests. A query is eight lines of rational numbers: the corners at both
+// ends of their motion, and the answer. The format is that of the sample queries of B. Wang et al., "A large-scale
+// benchmark and an inclusion-based algorithm for continuous collision detection", 2021.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace pliant::validate {
 
-/// A vertex-triangle or edge-edge pair under linear motion.
+/// A vertex and a triangle, or two edges, in linear motion.
 struct CollisionQuery {
   std::array<Vec3d, 4> from, to;
   bool hits = false;
@@ -25,7 +25,7 @@ inline double quotient(const std::string& numerator, const std::string& denomina
   return std::strtod(numerator.c_str(), nullptr) / std::strtod(denominator.c_str(), nullptr);
 }
 
-/// The queries of one file; empty if it cannot be read.
+/// Reads the queries of one file; none if it cannot be read.
 inline std::vector<CollisionQuery> read_queries(const std::filesystem::path& file) {
   std::vector<CollisionQuery> queries;
   std::ifstream in(file);
@@ -42,8 +42,8 @@ inline std::vector<CollisionQuery> read_queries(const std::filesystem::path& fil
   }
 }
 
-/// All queries of one kind ("vertex-face" or "edge-edge", the name of the file's
-/// folder) below `root`, in the order of file names; empty if there is no such folder.
+/// Reads all queries of one kind ("vertex-face" or "edge-edge", the name of a folder) below `root`, in the order of
+/// file names; none if there is no such folder.
 inline std::vector<CollisionQuery> read_query_sets(const std::filesystem::path& root, const std::string& kind) {
   std::vector<std::filesystem::path> files;
   std::error_code none;

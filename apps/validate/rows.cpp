@@ -1,4 +1,4 @@
-// Helpers that make rows and small scenes.
+// Functions that make rows of the table, and small scenes.
 #include "apps/validate/rows.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Declares the groups of rows, and helpers that make rows and small scenes.
+// The groups of rows, and functions that make rows and small scenes.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ inline Vec3f to_float(const Vec3d& v) {
 }
 inline Vec3d to_double(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
-// Each adds its rows and charts.
+// Each of these functions adds the rows and charts of one group.
 void spring_rows(Result& result, bool slow);
 void chain_rows(Result& result, bool slow);
 void momentum_rows(Result& result, bool slow);
@@ -30,10 +30,10 @@ void steadiness_rows(Result& result, bool slow);
 void heavy_chain_rows(Result& result, bool slow);
 void convergence_rows(Result& result, bool slow);
 void sweep_rows(Result& result, bool slow);
-/// Rows of `collision` from query sets. Throws an Error if the folder holds none.
+/// Adds rows of the group `collision` for sets of queries. Throws an Error if the folder has none.
 void query_set_rows(Result& result, const std::string& folder);
 
-/// Rows with their verdict; non-finite values fail.
+/// Make a row with its verdict; a value that is not finite fails.
 Row relative(std::string name, double expected, double measured, double tolerance, std::string unit, std::string note = {});
 Row absolute(std::string name, double expected, double measured, double tolerance, std::string unit, std::string note = {});
 Row at_most(std::string name, double bound, double measured, std::string unit, std::string note = {});
@@ -42,22 +42,22 @@ Row at_least(std::string name, double bound, double measured, std::string unit, 
 /// A number in few digits: "1e-08", "50", "0.0166667".
 std::string brief(double value);
 
-/// The measured value farthest from `expected`; NaN if any is.
+/// The value of `measured` that is farthest from `expected`; NaN if any is NaN.
 double farthest(double expected, const std::vector<double>& measured);
 
 /// An object of free particles. An infinite mass fixes a particle.
 Object particles(const std::vector<Vec3f>& positions, const std::vector<float>& masses);
 
-/// Adds distance constraints between pairs, with one stiffness and given rest lengths.
+/// Adds distance constraints between pairs of particles, with one stiffness and the given rest lengths.
 void connect(Object& object, const std::vector<int>& pairs, const std::vector<float>& lengths, const Stiffness& stiffness);
 
-/// A straight hanging line of `count` particles at distance `length`, the first fixed at the origin.
+/// A straight hanging line of `count` particles at distances `length`; the first is fixed at the origin.
 Object hanging_line(int count, float length, float mass, float last_mass, const Stiffness& stiffness);
 
 /// A scene with one object, one thread, and gravity (0, -g, 0).
 Scene scene_with(Object object, double g, int substeps, int iterations);
 
-/// The Lehmer generator (Park and Miller 1988), so that every run has the same rows.
+/// The random number generator of Lehmer (Park and Miller 1988), so that every run has the same rows.
 class Random {
  public:
   explicit Random(unsigned seed) : state_(seed % 2147483646U + 1) {}

@@ -1,5 +1,5 @@
-// A mass on a spring. One XPBD iteration on one linear spring equals backward Euler, to the last digit: the sharpest test
-// of compliance, damping, and their powers of h.
+// A mass on a spring. One XPBD iteration on one linear spring equals backward Euler to the last digit. This is the
+// sharpest test of compliance, of damping, and of the powers of h.
 #include <cmath>
 #include <limits>
 
@@ -14,13 +14,13 @@ using reference::Solver;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Along the x-axis, from a fixed particle at the origin, without gravity.
+// A spring along the x-axis from a particle fixed at the origin, without gravity.
 struct Spring {
   double mass = 2, stiffness = 300, damping = 0, rest_length = 1, start = 1.25, h = 1.0 / 60;
   int steps = 120;
 };
 
-// x = (m x~ + h^2 k l0 + h b x_n) / (m + h^2 k + h b), x~ = x_n + h v_n; v = (x - x_n) / h.
+// Backward Euler: x = (m x~ + h^2 k l0 + h b x_n) / (m + h^2 k + h b), x~ = x_n + h v_n; v = (x - x_n) / h.
 std::vector<double> backward_euler(const Spring& s) {
   std::vector<double> path{s.start};
   double x = s.start, v = 0;
@@ -68,7 +68,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return farthest(0, differences);
 }
 
-// A damped oscillation satisfies u(n+1) = 2 r cos(phi) u(n) - r^2 u(n-1); a least-squares fit gives r and phi.
+// A damped oscillation: u(n+1) = 2 r cos(phi) u(n) - r^2 u(n-1). A least-squares fit gives r and phi.
 struct Oscillation {
   double amplitude, phase;
 };
@@ -134,7 +134,7 @@ void backward_euler_rows(Result& result) {
         series("engine", path_float, h, Style::points, 2), series("engine, damped", damped_float, h, Style::points, 2)}});
 }
 
-// A mass that hangs from a damped spring until it rests; damping does not change the rest position.
+// A mass that hangs on a damped spring until it is at rest. Damping must not change the rest position.
 struct Hanging {
   double mass = 1, compliance = 0.01, g = 10, dt = 1.0 / 60;
   int substeps = 1, iterations = 1;
@@ -182,7 +182,7 @@ void static_rows(Result& result) {
   }
 }
 
-// After n substeps a falling particle is at x0 - g h^2 n (n + 1) / 2, in any precision.
+// The height of a falling particle after n substeps is x0 - g h^2 n (n + 1) / 2, in any precision.
 double engine_fall(int substeps, double dt, int frames) {
   Scene scene = scene_with(particles({{0.5f, 2, -0.25f}}, {0.3f}), 9.81, substeps, 1);
   World world(scene);

@@ -1,4 +1,5 @@
-// W1 with inextensible edges, on which engines have diverged: it must stay finite, slow, and never gain energy.
+// W1 with inextensible edges, on which engines have diverged: values must stay finite, speeds low, and energy must not
+// rise.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,12 +9,12 @@
 namespace pliant::validate {
 namespace {
 
-constexpr int first_swing = 60;  // frames
+constexpr int first_swing = 60;  // number of frames of the first swing
 constexpr double speed_limit = 20;
 
 struct Swing {
   double fastest = 0;      // largest speed after the first swing [m/s]
-  double energy_gain = 0;  // highest energy over the initial energy [J]
+  double energy_gain = 0;  // largest energy above the initial one [J]
   bool finite = true;
   double mean_stretch = 1, largest_stretch = 1;
   plot::Series energy;

@@ -1,6 +1,6 @@
-// Stiffness is independent of iterations, time step and mesh: a rubber sheet hangs from its upper
-// edge, and the sag of its lower edge under its own weight must not depend on them. (Without
-// XPBD's multiplier, or with a reset in every iteration, the number of iterations changes it.)
+// Stiffness must not depend on iterations, time step or mesh. A rubber sheet hangs by its upper edge; the sag of its
+// lower edge under its own weight must always be the same. (Without XPBD's multiplier, or if that is reset in every
+// iteration, the number of iterations changes the sag.)
 #include <cmath>
 
 #include "apps/validate/rows.h"
@@ -9,14 +9,15 @@ namespace pliant::validate {
 namespace {
 
 constexpr double g = 9.81;
-constexpr double density = 0.5, membrane = 25;  // [kg/m^2], [N/m]: stretches by about a tenth under its own weight
+constexpr double density = 0.5,
+                 membrane = 25;  // [kg/m^2] and [N/m]; the sheet stretches by about a tenth under its own weight
 
 struct Run {
   int side = 9, substeps = 20, iterations = 2;
   double dt = 1.0 / 60;
 };
 
-// A square of 1 m in the xy-plane.
+// A square mesh of 1 m x 1 m in the xy-plane.
 TriangleMesh upright(int side) {
   TriangleMesh mesh = grid_mesh(side, side, 1, 1);
   for (Vec3f& x : mesh.positions) x = {x.x, -x.z, 0};
@@ -26,7 +27,7 @@ TriangleMesh upright(int side) {
 bool at_top(const Vec3f& x) { return x.y > 0.4999f; }
 bool at_bottom(const Vec3f& x) { return x.y < -0.4999f; }
 
-// The mean sag of the lower edge at rest.
+// The mean sag of the lower edge at rest [m].
 double sinking(const Run& run) {
   ClothOptions options;
   options.material.area_density = static_cast<float>(density);

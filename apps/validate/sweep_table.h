@@ -1,5 +1,5 @@
-// All solver variants in one table, used by the tests of sweeps, the golden hashes and the rows of `pliant validate
-// sweeps`. A line here subjects a new sweep to all of them.
+// A table of all variants of the solver. The tests of sweeps, the golden hashes and `pliant validate sweeps` use it, so
+// a new line makes all of them test a new sweep.
 #pragma once
 
 #include <ostream>
@@ -10,12 +10,12 @@
 
 namespace pliant::validate {
 
-/// A guarantee that a variant lacks.
+/// A property that a variant does not have.
 enum class Lacks {
   nothing,
-  pairs,  ///< no Newton's third law: momentum is not conserved, and compliant constraints rest elsewhere
-  give,   ///< tethers limit what is meant to stretch
-  turns,  ///< if edges rotate far in one step, the linearised correction leaves much to later sweeps
+  pairs,  ///< Newton's third law: without it momentum is not conserved, and compliant constraints rest elsewhere
+  give,   ///< elastic stretch: tethers limit what is meant to stretch
+  turns,  ///< rotation: if edges rotate far in a step, a linearised correction leaves much to later sweeps
 };
 
 struct SweepWay {
@@ -25,14 +25,14 @@ struct SweepWay {
   Lacks lacks = Lacks::nothing;
 };
 
-/// The name in test output.
+/// Prints the variant's name in the output of tests.
 inline void PrintTo(const SweepWay& way, std::ostream* out) { *out << way.name; }
 
-/// Default options with a change applied.
+/// The default options after a change has been applied.
 template <class Change>
 SweepOptions options_with(const Change& change) {
   SweepOptions options;
-  options.plain_iterations = 3;  // so that Chebyshev acts within few iterations
+  options.plain_iterations = 3;  // so few that Chebyshev acts within few iterations
   change(options);
   return options;
 }

@@ -1,6 +1,6 @@
-// Every sweep against the same known answers: rest state and motion must not depend on the
-// order of constraints. The variants are the lines of apps/validate/sweep_table.h. An answer
-// that a variant cannot give has a row with the value it gives instead and the reason.
+// Compares every sweep with the same known answers: rest state and motion must not depend on the order of constraints.
+// The variants are those of apps/validate/sweep_table.h. If a variant cannot give an answer, its row has the value that
+// it gives instead, and the reason.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -38,7 +38,8 @@ double static_stretch(const SweepWay& way) {
   return -1 - static_cast<double>(world.positions(0)[1].y);
 }
 
-// The force lambda / h^2 of the constraint at the top of twenty particles of 1 kg, the first fixed; it carries nineteen.
+// The force lambda / h^2 of the topmost constraint of twenty particles of 1 kg. The first one is fixed, so it carries
+// nineteen.
 double top_force(const SweepWay& way) {
   World world = world_of(way, hanging_line(20, 0.1f, 1, 1, Stiffness::compliance(1e-8f)), 1, 100);
   std::vector<double> forces;
@@ -49,20 +50,20 @@ double top_force(const SweepWay& way) {
   return farthest(190, forces);
 }
 
-// The sag of a rubber sheet that hangs from one edge, over that of 50 substeps of 50 Gauss-Seidel iterations.
+// The sag of a rubber sheet that hangs by one edge, over its sag with 50 substeps of 50 Gauss-Seidel iterations.
 double sinking(const SweepWay& way, int substeps, int iterations) {
   ClothOptions options;
   options.material.area_density = 0.5f;
   options.material.stretch_stiffness = 25;
   options.bending_model = ClothOptions::Bending::none;
   TriangleMesh mesh = grid_mesh(9, 9, 1, 1);
-  for (Vec3f& x : mesh.positions) x = {x.x, -x.z, 0};  // stands upright, the first row on top
+  for (Vec3f& x : mesh.positions) x = {x.x, -x.z, 0};  // turns the mesh upright, the first row on top
   Object object = make_cloth(mesh, options);
   object.damping = 6;
   for (int i = 0; i < 9; ++i) object.pins.push_back({i, {}});
   World world = world_of(way, std::move(object), substeps, iterations);
   step(world, 120);
-  return -0.5 - static_cast<double>(world.positions(0)[76].y);  // the middle of its lower edge
+  return -0.5 - static_cast<double>(world.positions(0)[76].y);  // middle of the lower edge
 }
 double sinking_share(const SweepWay& way) {
   static const double converged = sinking(sweep_ways()[0], 50, 50);
@@ -82,7 +83,7 @@ double inflation(const SweepWay& way) {
   return world.enclosed_volume(0) / rest;
 }
 
-// T / T0 of a pendulum of 1 m released at 90 degrees: a quarter of a period is the time to the lowest point.
+// T / T0 of a pendulum of 1 m released at 90 degrees. The time to the lowest point is a quarter of the period.
 double period(const SweepWay& way) {
   Object object = particles({{0, 0, 0}, {1, 0, 0}}, {std::numeric_limits<float>::infinity(), 1});
   connect(object, {0, 1}, {1}, Stiffness::rigid());
@@ -143,7 +144,7 @@ double momentum_change(const SweepWay& way, bool angular) {
 double linear_momentum(const SweepWay& way) { return momentum_change(way, false); }
 double angular_momentum(const SweepWay& way) { return momentum_change(way, true); }
 
-// A sheet sliding on a floor from 2 m/s stops after v^2 / (2 mu g), whatever its constraints.
+// How far a sheet slides on a floor from 2 m/s [m]; it must be v^2 / (2 mu g), whatever its constraints are.
 double stopping_distance(const SweepWay& way) {
   ClothOptions options;
   options.material = fabric("cotton");
@@ -163,7 +164,7 @@ double stopping_distance(const SweepWay& way) {
   return static_cast<double>(world.positions(0)[24].x) - start;
 }
 
-// Inextensible cloth hung by two corners.
+// A square of inextensible cloth, hung by two corners.
 Object hanging_cloth() {
   constexpr int side = 16;
   ClothOptions options;
@@ -199,7 +200,7 @@ double overstretch(const SweepWay& way) {
 
 // ---------------------------------------------------------------- the table
 
-/// The guarantees that an answer requires of a variant.
+/// What an answer requires of a variant.
 struct Asks {
   bool pairs = false, give = false, speed = false;
 };

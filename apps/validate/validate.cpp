@@ -1,4 +1,4 @@
-// The list of groups, and the two formats of rows.
+// The list of groups, and the table and JSON of rows.
 #include "apps/validate/validate.h"
 
 #include <algorithm>
