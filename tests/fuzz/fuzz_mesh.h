@@ -1,4 +1,4 @@
-// What the fuzzers of mesh readers share: bytes in; a sound mesh or an Error out, and nothing else.
+// What the fuzzers of mesh readers share. Any bytes must give a valid mesh or an Error, and nothing else.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// Any bytes as PLY: a sound mesh or an Error. Start it with a folder of small PLY files as its corpus.
+// Fuzzes the PLY reader: any bytes must give a valid mesh or an Error. Start it with a folder of small PLY files as its
+// corpus.
 #include "fuzz_mesh.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

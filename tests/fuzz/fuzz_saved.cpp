@@ -1,7 +1,7 @@
-// Any bytes as a saved State: it is read, or refused with the file's name and a reason; nothing else. See CMakeLists.txt for
+// Fuzzes load_state: any bytes must give a State, or an Error with the file's name and a reason. CMakeLists.txt says
 // how to run it.
 //
-// The bytes get the checksum that is right for them, so that the search reaches what lies behind it.
+// The checksum in the bytes is corrected first, so that the search reaches the code behind the checksum test.
 #include <unistd.h>
 
 #include <cstddef>
@@ -26,7 +26,7 @@ std::string sealed(const std::uint8_t* data, std::size_t size) {
   return bytes;
 }
 
-/// In the memory of the kernel, since load_state reads files.
+/// The path of the input in memory, since load_state reads files.
 const std::string& path() {
   static const std::string at = "/dev/shm/pliant_fuzz_saved_" + std::to_string(getpid());
   return at;

@@ -1,6 +1,7 @@
-// Any bytes as a scene: it is read, or refused with a place; nothing else. See CMakeLists.txt for how to run it.
+// Fuzzes the scene reader: any bytes must give a scene, or an Error with a position. CMakeLists.txt says how to run it.
 //
-// Meshes of many vertices would only make the search slow: with them, the text is checked but nothing is built.
+// Scenes with meshes of many vertices would only make the search slow, so for these the text is checked, but nothing is
+// built.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -13,7 +13,7 @@ using validate::SweepWay;
 constexpr const char* sweep_prefix = "sweep_";
 
 Object cloth() {
-  constexpr int n = 70;  // 4900 particles: more than a tile holds
+  constexpr int n = 70;  // 4900 particles, more than a tile can have
   ClothOptions options;
   options.name = "cloth";
   options.material = fabric("cotton");
@@ -64,13 +64,13 @@ Scene scene_of(const SweepWay& way) {
 
 namespace {
 
-/// Scenes of contact that take paths of their own: edges on primitives, heightfields, a collider that deforms, distance grids,
-/// untangling.
+/// Scenes in scenes/contact that run code of their own: edges on primitives, heightfields, a deforming collider,
+/// distance grids, untangling.
 const char* const contact_scenes[] = {"contact/corners", "contact/heightfield", "contact/sleeve", "contact/solids",
                                       "contact/untangle"};
 constexpr int contact_frames = 16;
 
-/// Grids as fine as the scene has them take seconds to make.
+/// Upper limit of grid nodes along a side: grids as fine as those of the scenes would take seconds to make.
 constexpr float nodes_a_side = 12;
 
 void coarsen(MeshCollider& collider) {

@@ -1,5 +1,5 @@
-// What the golden hashes are of: every scene of scenes/, and one scene by each sweep. Without GoogleTest, so that a plain program
-// (tests/portable) can run them on machines for which nothing but the engine is built.
+// The scenes whose hashes are golden: every scene in scenes/, and one scene for each sweep. It does not use GoogleTest,
+// so that a plain program (tests/portable) can run them on machines for which only the engine is built.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@
 
 namespace pliant::golden {
 
-/// Names of the files of scenes/, in order.
+/// The names of the files in scenes/, in alphabetical order.
 std::vector<std::string> scene_names();
-/// Names of sweeps in hashes.txt: "sweep_tiled".
+/// The names of sweeps in hashes.txt, such as "sweep_tiled".
 std::vector<std::string> sweep_names();
 
-/// One scene for all sweeps, small but for a cloth of two tiles, with whatever a sweep may meet: rigid and compliant lengths,
-/// bending, a volume, a rope, moving pins and contacts.
+/// The scene that every sweep solves. It is small but for a cloth of two tiles, and has everything that a sweep may
+/// meet: rigid and compliant distances, bending, a volume, a rope, moving pins and contacts.
 Scene scene_of(const validate::SweepWay& way);
 
-/// Long enough for what falls to land: the bits of a frame depend on all before it.
+/// Number of frames; what falls has landed then. The bits of a frame depend on all frames before it.
 inline constexpr int scene_frames = 40;
 inline constexpr int sweep_frames = 4;
 

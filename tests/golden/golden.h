@@ -1,4 +1,4 @@
-// The file of hashes, and the run that a hash is of.
+// Reads and writes the file of golden hashes, and runs a scene to get its hash.
 #pragma once
 
 #include <cstdlib>
@@ -12,10 +12,10 @@ namespace pliant::golden {
 
 inline const char* const hash_file = PLIANT_SOURCE_DIR "/tests/golden/hashes.txt";
 
-/// PLIANT_UPDATE_GOLDEN=1 rewrites hashes.txt.
+/// True if the environment has PLIANT_UPDATE_GOLDEN=1, which rewrites hashes.txt.
 inline bool updating() { return std::getenv("PLIANT_UPDATE_GOLDEN") != nullptr; }
 
-/// PLIANT_THOROUGH=1 runs everything three times, in case threads give the same bits only mostly.
+/// How often each scene runs: three times with PLIANT_THOROUGH=1, in case threads give different bits only sometimes.
 inline int repetitions() { return std::getenv("PLIANT_THOROUGH") != nullptr ? 3 : 1; }
 
 inline std::map<std::string, std::string> read_hashes() {
@@ -26,7 +26,7 @@ inline std::map<std::string, std::string> read_hashes() {
   return hashes;
 }
 
-/// The hash after `frames`, or why there is none.
+/// The hash of the State after `frames` frames, or the reason why there is none.
 inline std::string run(const Scene& scene, const Settings& settings, int frames) {
   World world(scene, settings);
   for (int frame = 0; frame < frames; ++frame) {
@@ -36,7 +36,7 @@ inline std::string run(const Scene& scene, const Settings& settings, int frames)
   return world.state_hash();
 }
 
-/// The hash of each way of apps/validate/sweep_table.h over the scene of the sweeps.
+/// The hash of the sweeps' scene for each variant in apps/validate/sweep_table.h.
 std::map<std::string, std::string> sweep_hashes();
 
 }  // namespace pliant::golden

@@ -1,8 +1,8 @@
-// One hash a scene, whatever runs it: threads, lanes, sweep, compiler, build type. The hashes are kept in hashes.txt; every
-// build of every compiler compares itself with them, so that they compare the builds with one another.
+// A scene has one hash, whatever runs it: threads, lanes, sweep, compiler, build type. hashes.txt has the hashes. Every
+// build compares itself with them, and so with all other builds.
 //
-// A change of a hash is a decision: PLIANT_UPDATE_GOLDEN=1 rewrites hashes.txt, and the commit says why. The hashes of the
-// sweeps (sweeps_golden_test.cpp) stand in the same file.
+// Change a hash only for a written reason: PLIANT_UPDATE_GOLDEN=1 rewrites hashes.txt, and the commit says why. The
+// hashes of sweeps (sweeps_golden_test.cpp) are in the same file.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ class Golden : public testing::TestWithParam<std::string> {
     frames_ = found.frames;
     golden_ = updating() ? run(scene_, scene_.settings, frames_) : read_hashes()[GetParam()];
   }
-  /// The golden hash, or why there is none.
+  /// The hash of the scene, or the reason why there is none.
   std::string hash_with(int threads, const std::string& isa = {}) const {
     pliant::Settings settings = scene_.settings;
     settings.threads = threads;
@@ -53,13 +53,14 @@ TEST_P(Golden, OnAnyInstructionSet) {
       EXPECT_EQ(hash_with(2, isa), golden_) << isa;
       ++tried;
     } catch (const pliant::Error& error) {
-      RecordProperty(isa, error.what());  // this machine does not have it
+      RecordProperty(isa, error.what());  // this machine does not have this instruction set
     }
   }
   EXPECT_GE(tried, 1) << "the generic one runs anywhere";
 }
 
-/// `sequential` is the reference of `tiled` by a name of its own; any other sweep has one by its code path.
+/// `sequential` is the reference of `tiled` and has a name of its own; the reference of any other sweep is the code
+/// path of that name.
 TEST_P(Golden, InTheReferenceSweep) {
   pliant::Settings settings = pliant::chosen_settings(scene_);
   settings.threads = 1;

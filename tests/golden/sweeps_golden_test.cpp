@@ -1,4 +1,4 @@
-// One hash a sweep, whatever runs it: threads, lanes or plain floats, compiler, build type.
+// A sweep has one hash, whatever runs it: threads, lanes or plain floats, compiler, build type.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ TEST_P(GoldenSweep, OnAnyInstructionSetAndInPlainCode) {
       EXPECT_EQ(run_way(GetParam(), 2, isa), golden_) << isa;
       ++tried;
     } catch (const Error& error) {
-      RecordProperty(isa, error.what());  // this machine does not have it
+      RecordProperty(isa, error.what());  // this machine does not have this instruction set
     }
   }
   EXPECT_GE(tried, 2);

@@ -1,6 +1,6 @@
-// Meshes that nobody here made: each becomes cloth, and a balloon where it is closed, and falls against a ball and the
-// ground for a moment. That it stays finite and in its place is asked here; whether it looks right is for
-// scripts/try_meshes and the eye. Without the data folder there is nothing to try.
+// Simulates meshes from elsewhere: each becomes cloth, and a balloon if it is closed, and falls on a ball and the
+// ground for a moment. The test checks that it stays finite and in its place; whether it looks right is for
+// scripts/try_meshes and the eye. Without the data folder there is nothing to test.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ std::vector<std::string> mesh_paths() {
   return paths;
 }
 
-/// Scaled to one metre, its lowest point just above the ball.
+/// Scales a mesh to one metre and puts its lowest point just above the ball.
 TriangleMesh placed(TriangleMesh mesh) {
   Vec3f low = mesh.positions.front(), high = low;
   for (const Vec3f& p : mesh.positions) {

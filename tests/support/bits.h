@@ -1,4 +1,4 @@
-// Bitwise comparison of floats, and floats that break formulas.
+// Bitwise comparison of floats, and random floats that break careless formulas.
 #pragma once
 
 #include <cmath>
@@ -10,12 +10,12 @@
 
 namespace pliant::testing_support {
 
-/// True for equal bits. Any two NaN are equal, because their payloads differ between machines.
+/// True if both floats have the same bits. Two NaN always count as equal, because their payloads differ between machines.
 inline bool same_bits(float a, float b) {
   return (std::isnan(a) && std::isnan(b)) || bits_as<std::uint32_t>(a) == bits_as<std::uint32_t>(b);
 }
 
-/// Mostly plain numbers around 1, with zeros of both signs, subnormals, huge values, infinities and NaN.
+/// A random float: mostly an ordinary number around 1, else a zero of either sign, subnormal, huge, infinite or NaN.
 inline float nasty_float(std::mt19937& random) {
   constexpr float special[] = {0.f,
                                -0.f,
@@ -37,7 +37,8 @@ inline float nasty_float(std::mt19937& random) {
   const float unit = static_cast<float>(random()) * (2.f / 4294967296.f) - 1;
   if (kind == 0) return special[random() % (sizeof special / sizeof *special)];
   if (kind == 1) return std::ldexp(unit, static_cast<int>(random() % 200) - 100);
-  if (kind == 2) return static_cast<float>(static_cast<int>(random() % 3) - 1);  // coincident points, right angles
+  if (kind == 2)
+    return static_cast<float>(static_cast<int>(random() % 3) - 1);  // -1, 0 or 1, for coincident points and right angles
   return unit;
 }
 

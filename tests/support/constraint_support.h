@@ -1,6 +1,6 @@
-// The common part of the typed tests of constraints: the list of types for GoogleTest, and stencils.
+// What the typed tests of constraints share: the list of types for GoogleTest, and random stencils.
 //
-// Everything is queried from the types, so that a new type in constraints/all.h is tested without a change here.
+// Everything is derived from the types, so a new type in constraints/all.h is tested without a change here.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -30,9 +30,9 @@ template <class... Taken, class First, class... More>
 struct AsTypes<::testing::Types<Taken...>, TypeList<First, More...>>
     : AsTypes<std::conditional_t<in_lanes<First>, ::testing::Types<Taken..., First>, ::testing::Types<Taken...>>,
               TypeList<More...>> {};
-/// Every type of all.h with one row over points; tests/stencils covers all.
+/// Every type in constraints/all.h that has one row over points; tests/stencils tests all types.
 using ConstraintTypes = AsTypes<::testing::Types<>, AllConstraints>::Alone;
-/// The same with contacts.
+/// The same types, and the plane contact.
 using ConstraintAndContactTypes = AsTypes<::testing::Types<>, AllConstraints>::WithContact;
 
 struct NameOfType {
@@ -51,13 +51,13 @@ using ParamsOf = typename T::template Params<R>;
 template <class T>
 inline constexpr int field_count = static_cast<int>(sizeof(ParamsOf<T, float>) / sizeof(float));
 
-/// True if the type can measure its rest data from a stencil; contacts have none.
+/// True if a type can measure its rest data from a stencil; the plane contact cannot.
 template <class T>
 inline constexpr bool measures = requires(const Vec3<double> (&x)[size_of<T>]) {
   T::template measure<double>(x);
 };
 
-/// The parameters converted to another precision.
+/// Converts the parameters of a constraint to another precision.
 template <class T, class To, class From>
 ParamsOf<T, To> convert_params(const ParamsOf<T, From>& from) {
   From in[field_count<T>];
@@ -70,7 +70,7 @@ ParamsOf<T, To> convert_params(const ParamsOf<T, From>& from) {
   return to;
 }
 
-/// C and its gradients.
+/// C and its gradients at a stencil.
 template <class T, class R>
 struct Value {
   R c;
@@ -93,7 +93,7 @@ ParamsOf<T, R> measure(const Stencil<T, R>& at) {
   return T::template measure<R>(x);
 }
 
-/// Applies T::canonical if T has it.
+/// Calls T::canonical if T has it.
 template <class T>
 void canonical_order(std::array<int, size_of<T>>& order, ParamsOf<T, float>& params) {
   if constexpr (requires { T::canonical(order, params); }) T::canonical(order, params);
@@ -112,7 +112,7 @@ inline Quatd random_rotation(Random& random) {
   return normalise(Quatd{v.x, v.y, v.z, uniform(random, 0.2, 1)});
 }
 
-/// True if no two points are close and no three nearly collinear: far from every formula's singularities.
+/// True if no two points are close and no three nearly collinear, so that no formula is near a singularity.
 template <std::size_t n>
 bool is_well_spread(const std::array<Vec3d, n>& x) {
   for (std::size_t i = 0; i < n; ++i) {
@@ -135,7 +135,7 @@ Stencil<T, double> random_stencil(Random& random) {
   }
 }
 
-/// Rest data of another stencil, so that C is not zero; for a contact, a random plane.
+/// Rest data measured at another random stencil, so that C is not zero; for the plane contact, a random plane.
 template <class T>
 ParamsOf<T, double> random_params(Random& random) {
   if constexpr (measures<T>) {
@@ -150,7 +150,8 @@ ParamsOf<T, double> random_params(Random& random) {
   }
 }
 
-/// All points in the plane z = 0, the third and fourth on opposite sides of the first two: a flat rest shape.
+/// A random stencil with a flat rest shape: all points at z = 0, the third and the fourth on opposite sides of the
+/// first two.
 template <class T>
 Stencil<T, double> flat_stencil(Random& random) {
   for (;;) {

@@ -1,4 +1,4 @@
-// The kernels that this machine can run.
+// The names of the kernels that this machine can run.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace pliant::testing_support {
 
 #define PLIANT_LEVEL_NAME(suffix, isa, ...) isa,
-/// Narrowest first.
+/// All names, the narrowest kernels first.
 inline const std::vector<std::string>& isa_names() {
   static const std::vector<std::string> names = [] {
     const std::vector<std::string> widest_first{PLIANT_FOR_EACH_LEVEL(PLIANT_LEVEL_NAME, )};
@@ -21,7 +21,7 @@ inline const std::vector<std::string>& isa_names() {
 }
 #undef PLIANT_LEVEL_NAME
 
-/// The SIMD builds that run on this machine; "generic" is the first and always runs.
+/// The names of the SIMD kernels that this machine can run. The first is "generic", which runs on any machine.
 inline std::vector<std::string> available_isas() {
   std::vector<std::string> available;
   for (const std::string& name : isa_names()) {

@@ -1,4 +1,5 @@
-// Small triangle sets that challenge broad phases: distant, on cell boundaries, flat, degenerate, coincident, of all sizes.
+// Small sets of triangles that are hard for broad phases: distant, on cell boundaries, flat, degenerate, coincident, of
+// any size.
 #pragma once
 
 #include <array>
@@ -22,7 +23,7 @@ inline Corners3 random_triangle(std::mt19937_64& random, float place, float size
   return {at + random_vector(random, size), at + random_vector(random, size), at + random_vector(random, size)};
 }
 
-/// `kind` selects the difficulty, 0 to nasty_kinds - 1; up to about twenty triangles.
+/// Makes up to about twenty triangles. `kind`, from 0 to nasty_kinds - 1, selects what is hard about them.
 constexpr int nasty_kinds = 9;
 inline std::vector<Corners3> nasty_triangles(std::mt19937_64& random, int kind) {
   std::vector<Corners3> all(std::uniform_int_distribution<std::size_t>(0, 22)(random));
@@ -31,14 +32,14 @@ inline std::vector<Corners3> nasty_triangles(std::mt19937_64& random, int kind) 
   for (Corners3& t : all) {
     t = random_triangle(random, 1, 0.4f);
     for (Vec3f& p : t) {
-      if (kind == 1) p = p - Vec3f{7, 7, 7};  // all negative
+      if (kind == 1) p = p - Vec3f{7, 7, 7};  // all coordinates negative
       if (kind == 2) p = p + far;             // far from the origin
       if (kind == 3)
         p = {static_cast<float>(static_cast<int>(p.x * 4)), static_cast<float>(static_cast<int>(p.y * 4)),
-             static_cast<float>(static_cast<int>(p.z * 4))};  // on cell boundaries, often degenerate
+             static_cast<float>(static_cast<int>(p.z * 4))};  // on cell boundaries, many degenerate
       if (kind == 4) p.y = 0;                                 // in one plane
       if (kind == 5) p = {p.x, p.x, p.x};                     // on one line
-      if (kind == 6) p = t[0];                                // points
+      if (kind == 6) p = t[0];                                // each triangle is a point
       if (kind == 7) p = p * size;                            // of all sizes
       if (kind == 8) p = p * 1e-20f;                          // tiny
     }

@@ -1,5 +1,5 @@
-// Detects sanitizers, which slow code down tenfold or more: tests that would take over a minute of a core then run fewer
-// scenes or frames. All others are unchanged.
+// Detects sanitizers, which make code ten or more times slower. Tests that would take more than a minute use it to run
+// fewer scenes or frames; other tests are unchanged.
 #pragma once
 
 #if defined(__has_feature)
@@ -19,7 +19,7 @@ inline constexpr bool is_sanitized = true;
 inline constexpr bool is_sanitized = false;
 #endif
 
-/// `all`, or the smaller count under a sanitizer.
+/// Returns `all`, or `sanitized` if a sanitizer is active.
 constexpr int fewer_if_sanitized(int all, int sanitized) { return is_sanitized ? sanitized : all; }
 
 }  // namespace pliant::testing_support

@@ -1,4 +1,4 @@
-// Small scenes shared by tests of a World.
+// Small scenes that several tests of a World use.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace pliant::testing_support {
 
-/// Free particles of 1 kg.
+/// An object of free particles of 1 kg each.
 inline Object loose_particles(std::vector<Vec3f> positions, std::vector<Vec3f> velocities = {}) {
   Object object;
   object.name = "particles";
@@ -19,7 +19,8 @@ inline Object loose_particles(std::vector<Vec3f> positions, std::vector<Vec3f> v
   return object;
 }
 
-/// A line of particles of 1 kg, `spacing` apart along x from the origin, joined by distance constraints.
+/// An object of particles of 1 kg along the x-axis from the origin, `spacing` apart, with distance constraints between
+/// neighbours.
 inline Object chain(int particles, float spacing, const Stiffness& stiffness = {}) {
   Object object;
   object.name = "chain";
@@ -33,7 +34,7 @@ inline Object chain(int particles, float spacing, const Stiffness& stiffness = {
   return object;
 }
 
-/// Settings of a plain sweep.
+/// Settings with the tiled sweep.
 inline Settings settings_of(int substeps, int iterations = 1, int threads = 1) {
   Settings settings;
   settings.sweep = Sweep::tiled;
@@ -43,7 +44,7 @@ inline Settings settings_of(int substeps, int iterations = 1, int threads = 1) {
   return settings;
 }
 
-/// Linear motion by `way` from time 0 to `seconds`.
+/// A motion at constant velocity: by `way` within `seconds`.
 inline Motion straight(const Vec3f& way, float seconds) {
   return {{Keyframe{0, {}, {}}, Keyframe{seconds, way, {}}}, {}, false};
 }

@@ -1,5 +1,5 @@
-// User-defined constraint types through pliant/constraint.h: with frame
-// slots, several rows, or eight points. They include only public headers.
+// Constraint types defined through pliant/constraint.h, as users define them: with frame slots, several rows or eight
+// points. They include only public headers.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace pliant::testing_support {
 
-/// Two bodies (point and frame each) share an anchor. C is the gap in world axes [m].
+/// Two bodies, a point and a frame each, share an anchor. C is the vector between their anchors in world axes [m].
 struct BallJoint {
   static constexpr const char* name = "ball_joint";
   using slots = Slots<Point, Frame, Point, Frame>;
@@ -16,7 +16,7 @@ struct BallJoint {
 
   template <class R>
   struct Params {
-    Vec3<R> anchor_a, anchor_b;  ///< from each body's centre, in its local axes [m]
+    Vec3<R> anchor_a, anchor_b;  ///< position of the anchor relative to each body's centre, in the body's axes [m]
   };
   static constexpr std::array<const char*, 6> fields{"anchor_ax", "anchor_ay", "anchor_az",
                                                      "anchor_bx", "anchor_by", "anchor_bz"};
@@ -37,7 +37,7 @@ struct BallJoint {
   }
 };
 
-/// A point keeps its distances to two others: a two-bar truss solved as a block [m].
+/// A point keeps its distances from two others: two rows, solved together. C in metres.
 struct TwoBars {
   static constexpr const char* name = "two_bars";
   using slots = Points<3>;
@@ -70,7 +70,7 @@ struct TwoBars {
   }
 };
 
-/// Eight points keep their spread, the root mean square distance from their mean [m]. Uses the short form.
+/// Eight points keep their spread, the root mean square distance from their mean [m]. Uses the short form of evaluate.
 struct Spread {
   static constexpr const char* name = "spread";
   using slots = Points<8>;

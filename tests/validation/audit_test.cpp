@@ -1,5 +1,5 @@
-// The auditor itself: that it sees what passes through, measures what brute force measures, and that the long scenes, made small,
-// do what they are for.
+// Tests the auditor: it must detect what passes through, and measure what brute force measures. Small versions of the
+// long contact scenes must do what the large ones are for.
 #include "apps/validate/audit.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,8 @@ TEST(Audit, FindsNothingWhereTheEngineKeepsItsPromise) {
   }
 }
 
-// Ends that turn and do not come nearer would tear what lies between: its contacts would say nothing of cloth.
+// If the ends did not come nearer as they rotate, the sheet between would tear, and its contacts would say nothing
+// about cloth.
 TEST(Audit, TwistsWithoutTearing) {
   Scene scene = twisted_scene(16);
   scene.settings.measure = true;
@@ -57,7 +58,7 @@ TEST(Audit, SeesABallThatPassesThroughASheet) {
   EXPECT_GT(audit_surfaces(scene, 40).most, 10U);
 }
 
-// Without meeting itself the rope comes out of its knot, through itself; no frame shows it but by the ways between.
+// Without self-collision the rope leaves its knot by passing through itself, which only the paths between frames show.
 TEST(Audit, SeesARopeThatPassesThroughItself) {
   Scene scene = knot_scene();
   Audit audit = audit_rope(scene, 250);
