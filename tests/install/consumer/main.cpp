@@ -15,7 +15,7 @@ int main() {
   ball.position = {0, -0.5f, 0};
   scene.add(ball);
 
-  pliant::World world(scene);  // throws pliant::Error, which says what to mend
+  pliant::World world(scene);  // throws pliant::Error, which says what to change
   for (int frame = 0; frame < 90; ++frame) {
     pliant::Report report = world.step(1.f / 60);
     if (!report.ok()) return std::cerr << report.explain() << "\n", 1;
