@@ -106,7 +106,7 @@ void print(const std::string& text) {
 }
 
 void print_repairs(const std::vector<std::string>& repairs) {
-  for (const std::string& repair : repairs) print("mended: " + one_line(repair) + "\n");
+  for (const std::string& repair : repairs) print("repaired: " + one_line(repair) + "\n");
 }
 
 std::string one_line(const std::string& text) {

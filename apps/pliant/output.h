@@ -18,7 +18,7 @@ std::string one_line(const std::string& text);
 /// A number with a noun: "1 frame", "2 frames".
 std::string counted(std::size_t count, const std::string& noun);
 
-/// Prints "mended: ..." for each repair of a mesh, which then differs from its file.
+/// Prints "repaired: ..." for each repair of a mesh, which then differs from its file.
 void print_repairs(const std::vector<std::string>& repairs);
 
 /// Prints what was written, "wrote draped.glb (1.2 MB)": a line for each of one or two files, one line for more. Units

@@ -124,8 +124,10 @@ int render(const RenderOptions& options) {
     throw Error(where, "is neither .png nor .mp4", "give --out one of these suffixes; for geometry use pliant run");
   }
   if (!options.strip.empty() && (is_movie || options.frame)) {
-    throw Error({}, std::string("--strip makes ") + (is_movie ? "a picture, not a movie" : "no --frame"),
-                "give --out a name that ends in .png, and the frames to --strip alone");
+    throw Error(
+        {},
+        std::string("--strip draws ") + (is_movie ? "a picture, not a movie" : "several frames, so it excludes --frame"),
+        "give --out a name that ends in .png, and the frames to --strip alone");
   }
   const Size size = parse_size(options.size);
   refuse_same_file_twice({options.scene}, {options.out});

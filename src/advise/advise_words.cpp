@@ -60,11 +60,12 @@ std::string of_the_nearest(const Advice& advice) {
   const std::string tried = std::to_string(count) + " other setting" + (count == 1 ? "" : "s") + " tried" + in_time;
   if (advice.best < 0)
     return "of " + tried +
-           " none is clearly better: its pins or colliders may force this stretch, or it needs even more substeps";
+           " none is clearly better: pins or colliders may force this stretch, or it needs even more substeps";
   const Trial& best = advice.others[advice.best];
-  return "of " + tried + " none brings it under " + percent(tolerated_overstretch) + "; the best of them, " +
-         setting_and_cost(advice, advice.best) + ", brings it to " + percent(best.worst.largest) + ", 1 edge in 100 to " +
-         percent(best.worst.p99) + "; the present settings take " + cost_in_words(advice.own) + "; " + json_of_best(advice);
+  return "of " + tried + " none reduces the excess stretch to less than " + percent(tolerated_overstretch) +
+         "; the best of them, " + setting_and_cost(advice, advice.best) + ", reduces it to " + percent(best.worst.largest) +
+         ", 1 edge in 100 to " + percent(best.worst.p99) + "; the present settings take " + cost_in_words(advice.own) +
+         "; " + json_of_best(advice);
 }
 
 /// The advice if some settings are good: the cheapest, and the cheapest of another family.
@@ -72,8 +73,9 @@ std::string of_the_good(const Advice& advice) {
   const int other = runner_up(advice);
   const bool one = other < 0 && advice.others[advice.best].settings.substeps == 1;
   return setting_and_cost(advice, advice.best) + (other < 0 ? "" : " or " + setting_and_cost(advice, other)) +
-         (one ? " brings" : " bring") + " it under " + percent(tolerated_overstretch) + "; the present settings take " +
-         cost_in_words(advice.own) + (advice.cut_short ? "; there was no time to search for cheaper ones" : "") +
+         (one ? " reduces" : " reduce") + " the excess stretch to less than " + percent(tolerated_overstretch) +
+         "; the present settings take " + cost_in_words(advice.own) +
+         (advice.cut_short ? "; there was no time to search for cheaper ones" : "") +
          (other < 0 ? "; " : "; for the first, ") + json_of_best(advice);
 }
 

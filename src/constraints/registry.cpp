@@ -43,11 +43,11 @@ Registry& registry() {
 void require_complete(const ConstraintDefinition& definition) {
   if (definition.name.empty()) refuse(definition, "has no name", "set its `name`");
   if (definition.slots.empty() || definition.slots.size() > 8)
-    refuse(definition, "has " + std::to_string(definition.slots.size()) + " slots", "a type has one to eight");
+    refuse(definition, "has " + std::to_string(definition.slots.size()) + " slots", "give it one to eight");
   if (definition.rows < 1 || definition.rows > 6)
-    refuse(definition, "has " + std::to_string(definition.rows) + " rows", "a type has one to six");
+    refuse(definition, "has " + std::to_string(definition.rows) + " rows", "give it one to six");
   if (definition.rest_fields.size() > 32)
-    refuse(definition, "has " + std::to_string(definition.rest_fields.size()) + " rest data", "a type has up to 32");
+    refuse(definition, "has " + std::to_string(definition.rest_fields.size()) + " rest fields", "give it up to 32");
   if (definition.evaluate == nullptr || definition.evaluate_double == nullptr)
     refuse(definition, "has no evaluation function", "use register_constraint<Type>()");
 }

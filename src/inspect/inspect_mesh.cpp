@@ -275,7 +275,7 @@ class Inspector {
   void check_whole() {
     const Pieces pieces = find_pieces(edges_, static_cast<int>(mesh_.triangles.size()));
     if (const std::size_t apart = pieces_apart(); apart > 1)
-      tell(counted(apart, "piece", "pieces") + " that share no vertex",
+      tell("the surface consists of " + counted(apart, "piece", "pieces") + " that share no vertex",
            "each part moves separately; merge their vertices if they belong together");
     const std::size_t border = static_cast<std::size_t>(
         std::count_if(edges_.begin(), edges_.end(), [](const Edge& edge) { return edge.is_border(); }));

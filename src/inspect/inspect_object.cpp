@@ -187,7 +187,7 @@ bool check_triangles(Problems& problems, const Object& object) {
   }
   problems.grave(outside, "triangle", "uses a particle that does not exist; there are " + of(object.positions.size()),
                  "indices count from 0");
-  problems.grave(repeated, "triangle", "uses a particle twice", "leave it out");
+  problems.grave(repeated, "triangle", "uses a particle twice", "remove the triangle");
   return outside.count == 0 && repeated.count == 0;
 }
 

@@ -61,7 +61,7 @@ double squared_substep(const ConversionContext& context) {
 float compliance_from_stiffness(float k, const ConversionContext& context) {
   require_context(context);
   if (!(k >= 0 && k <= 1))
-    throw Error({"", 0, "", "stiffness"}, "is " + std::to_string(k), "PBD stiffness is a share: give 0 to 1");
+    throw Error({"", 0, "", "stiffness"}, "is " + std::to_string(k), "PBD stiffness is a share of the error: give 0 to 1");
   if (k == 0) return std::numeric_limits<float>::infinity();
   if (k == 1) return 0;
   const double share = single_share(k, context.substeps);
@@ -72,7 +72,7 @@ float compliance_from_stiffness(float k, const ConversionContext& context) {
 
 float stiffness_from_compliance(float alpha, const ConversionContext& context) {
   require_context(context);
-  if (!(alpha >= 0)) throw Error({"", 0, "", "compliance"}, "is " + std::to_string(alpha), "compliance is never negative");
+  if (!(alpha >= 0)) throw Error({"", 0, "", "compliance"}, "is " + std::to_string(alpha), "give 0 (rigid) or more");
   if (std::isinf(alpha)) return 0;
   const double weight = squared_substep(context) * context.inverse_mass;
   return static_cast<float>(repeated_share(weight / (weight + alpha), context.substeps));

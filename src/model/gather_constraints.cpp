@@ -107,11 +107,12 @@ class Gatherer {
       throw Error({.object = object_.name, .element = type.name + " constraints"}, problem);
     };
     if (group.particles.size() % size != 0)
-      refuse(std::to_string(group.particles.size()) + " particles do not make stencils of " + std::to_string(size));
+      refuse(std::to_string(group.particles.size()) + " particles cannot be divided into stencils of " +
+             std::to_string(size));
     if (!group.rest.empty() && group.rest.size() != count * fields)
       refuse(std::to_string(group.rest.size()) + " rest values where " + std::to_string(count * fields) + " are needed");
     if (group.rest.empty() && fields > 0 && type.measure == nullptr && count > 0)
-      refuse("this type can't measure its rest data, and `rest` is empty");
+      refuse("this type cannot measure its rest data: give `rest`");
     if (!group.compliances.empty() && group.compliances.size() != count)
       refuse(std::to_string(group.compliances.size()) + " compliances for " + std::to_string(count) + " constraints");
     for (std::size_t i = 0; i < group.particles.size(); ++i) {

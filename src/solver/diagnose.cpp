@@ -134,7 +134,7 @@ std::string explain(const Substep& s, const CompiledObject& object, const std::v
       if (auto culprit = replay_phase(context, object, phase, arguments)) return *culprit;
     }
   }
-  return object.has_volume ? "volume constraint (seen at " + particle + ")" : particle;
+  return object.has_volume ? "volume constraint (first non-finite value at " + particle + ")" : particle;
 }
 
 bool is_finite_orientation(const Record& r) { return is_finite(r) && r.w - r.w == 0; }

@@ -40,7 +40,7 @@ std::string words_of(const Model& model, const Triangle& triangle, const Between
   if (between.stalls) text += "; untangling did not reduce their number in the previous frame";
   if (between.given_up > 0)
     text += "; " + std::to_string(between.given_up) +
-            " of them are not moved apart in this frame, because they cut nothing off or a move would cause more";
+            " of them are not moved apart in this frame, because they cut no piece off or moving would cause more";
   return text + (between.stalls || between.given_up > 0 ? ": move the two apart in the scene" : "");
 }
 
@@ -57,9 +57,8 @@ std::string words_of(const Model& model, const UnresolvablePairs& pairs) {
   const std::string of = a == b ? " and itself: " : " and " + name_of(model, b) + ": ";
   return name_of(model, a) + of + words_of(model, pairs.first) +
          (pairs.count > 1 ? " and " + std::to_string(pairs.count - 1) + " more pairs were" : " were") +
-         " unresolvable: they touched, or static or kinematic surfaces pinched them, and may pass through one another; "
-         "give "
-         "them more room, a greater thickness, or more substeps";
+         " unresolvable in this frame: no step limit keeps them apart, because they touched or colliders pinched them, so "
+         "they may pass through one another; give them more room, a greater thickness, or more substeps";
 }
 
 }  // namespace

@@ -157,15 +157,16 @@ void World::Implementation::note_surfaces(int number) {
 void World::Implementation::require_origins(int number, const Edit& edit) const {
   const CompiledObject& old = model.objects[number];
   const auto refuse = [&](const std::string& element, const std::string& problem) {
-    throw Error({.object = edit.object.name, .element = element}, problem, "give for each particle the one it was, or -1");
+    throw Error({.object = edit.object.name, .element = element}, problem,
+                "give for each new particle the index of the old particle that it replaces, or -1");
   };
   if (edit.from.size() != edit.object.positions.size())
-    refuse("", "has " + std::to_string(edit.object.positions.size()) + " particles and " +
-                   std::to_string(edit.from.size()) + " origins");
+    refuse("", "has " + std::to_string(edit.object.positions.size()) + " particles, but Edit::from has " +
+                   std::to_string(edit.from.size()) + " entries");
   for (std::size_t i = 0; i < edit.from.size(); ++i)
     if (edit.from[i] < -1 || edit.from[i] >= old.user_particles)
       refuse("particle " + std::to_string(i),
-             "comes from particle " + std::to_string(edit.from[i]) + ", which does not exist");
+             "replaces particle " + std::to_string(edit.from[i]) + ", which does not exist");
   require_room(model, edit.object.positions.size() + edit.object.attachments.size(), edit.object.name);
 }
 

@@ -186,7 +186,7 @@ std::string World::advice(const Report& report) const {
   const std::string sweep = in_json(self_->suggested, self_->settings);
   return describe(*report.overstretch) + "; more than " + std::to_string(self_->substeps_of(number)) + " substeps" +
          (sweep == "{}" ? "" : ", or \"settings\": " + sweep + " in the scene,") +
-         " may bring that down: 'pliant check', or advise(), tries how many it takes";
+         " may reduce it: 'pliant check' or advise() finds out how many are needed";
 }
 
 double World::enclosed_volume(ObjectId object) const {

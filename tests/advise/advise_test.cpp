@@ -366,8 +366,8 @@ TEST(Advise, NamesTheBestOfWhatIsNotGoodAndSaysSo) {
   EXPECT_NEAR(best.worst.largest, 0.1, 1e-3);
   for (const Trial& trial : advice.others) EXPECT_TRUE(!trial.complete || trial.worst.largest >= best.worst.largest);
   const std::string words = "of " + std::to_string(advice.others.size()) +
-                            " other settings tried none brings it under 1 %; " + "the best of them, " +
-                            std::to_string(best.settings.substeps) + " substep";
+                            " other settings tried none reduces the excess stretch to less than 1 %; " +
+                            "the best of them, " + std::to_string(best.settings.substeps) + " substep";
   EXPECT_EQ(advice.what_to_do.rfind(words, 0), 0U) << advice.what_to_do;
 }
 

@@ -260,7 +260,7 @@ class Mended : public Command {
     std::ofstream(folder_ / "patch.json")
         << R"({"frames": 1, "objects": [{"name": "p", "cloth": {"mesh": {"file": "patch.obj"}}}]})";
   }
-  const std::string line = "mended: object 'p', patch.obj: dropped 1 vertex of no triangle, the first 3\n";
+  const std::string line = "repaired: object 'p', patch.obj: dropped 1 vertex of no triangle, the first 3\n";
 };
 
 TEST_F(Mended, IsSaidByRunAsByCheck) {
@@ -379,7 +379,8 @@ TEST_F(Command, CheckTellsAMeshItsSizeAndWhatWasMended) {
   const Result result = pliant("check patch.obj");
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.out.rfind("patch.obj: 3 vertices, 1 triangle, 30 x 0 x 20 m", 0), 0u) << result.out;
-  EXPECT_NE(result.out.find("\nmended: dropped 1 vertex of no triangle, the first 3\nthe indices below"), std::string::npos)
+  EXPECT_NE(result.out.find("\nrepaired: dropped 1 vertex of no triangle, the first 3\nthe indices below"),
+            std::string::npos)
       << result.out;
   EXPECT_NE(result.out.find("\nnote: open, with 1 border of 3 edges"), std::string::npos) << result.out;
   EXPECT_EQ(result.out.find("doubtful"), std::string::npos) << "a border is right for a cloth:\n" << result.out;
