@@ -1,4 +1,5 @@
-// What is said of two pieces of a surface from their vertices alone, against the distances of all their primitives.
+// Compares the lower bound of two pieces' distance, computed from vertices alone, with the distances of all their
+// primitives.
 #include "collision/near/clearance.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ namespace {
 
 using namespace testing_support;
 
-/// A sheet of 12 x 12 vertices, 1 cm apart, in nine pieces of 4 x 4 and what begins at them.
+/// A sheet of 12 x 12 vertices, 1 cm apart, in nine pieces of 4 x 4 vertices and the primitives that begin at them.
 class Sheet {
  public:
   static constexpr int side = 12, pieces = 9;
@@ -62,7 +63,7 @@ class Sheet {
     return clearance_.between(kernels, a, b, wanted, scratch_);
   }
 
-  /// By all primitives.
+  /// The distance of two pieces, over all pairs of primitives.
   double distance(int a, int b, const std::vector<Record>& positions) const {
     double least = 1e30;
     for (const PairStencil& pair : pairs_[static_cast<std::size_t>(std::min(a, b) * pieces + std::max(a, b))])
@@ -100,7 +101,7 @@ class Sheet {
   std::vector<std::int32_t> scratch_;
 };
 
-/// Rolled up about an axis through it, stretched, crumpled, and carried away; and some vertices drawn to others near by.
+/// The sheet rolled up about an axis in it, stretched, crumpled and displaced; some vertices are moved close to others.
 std::vector<Record> deformed(const std::vector<Record>& rest, Random& random) {
   const double curvature = uniform(random, 0, 80), angle = uniform(random, 0, 6),
                noise = std::pow(10., uniform(random, -5, -2)), stretch = uniform(random, 0.7, 1.3);
@@ -145,12 +146,12 @@ TEST(Clearance, IsNoMoreThanTheDistanceOfAnyPair) {
         clear += double(same) > 0.5 * std::min(least, double(wanted)) ? 1 : 0;
       }
   }
-  EXPECT_GT(near, 300);    // so that there was something to be missed
-  EXPECT_GT(clear, 1000);  // and something to be known
+  EXPECT_GT(near, 300);    // enough pairs are near
+  EXPECT_GT(clear, 1000);  // enough pairs are clear
 }
 
-/// The formula by hand: the nearest vertices that are no neighbours are the two that the diagonal of a square has on its sides, at
-/// sqrt(2) of the spacing, and two diagonals' squares are taken off: (2 - 1) of its square.
+/// By hand: the nearest vertices that are not adjacent are the two opposite the diagonal of a square, at sqrt(2) of the
+/// spacing. A quarter of a squared diagonal is subtracted for either edge, which leaves (2 - 1) of the squared spacing.
 TEST(Clearance, OfAFlatSheetIsItsSpacing) {
   Sheet sheet;
   for (const auto& [a, b] : {std::pair(0, 0), std::pair(4, 4), std::pair(4, 5), std::pair(1, 4), std::pair(2, 4)})
@@ -158,8 +159,9 @@ TEST(Clearance, OfAFlatSheetIsItsSpacing) {
   EXPECT_EQ(sheet.between(*all_kernels().front(), 0, 8, 0.02f, sheet.rest), 0.02f) << "far apart: as much as is wanted";
 }
 
-/// Where corners are all equally far, the bound is the distance itself: of a vertex above the middle of an equilateral triangle, and
-/// of edges that cross in their middles. The lengths of both pieces count, and which is asked about first does not matter.
+/// If all corners are equally far, the bound equals the distance: for a vertex above the middle of an equilateral
+/// triangle, and for edges that cross in their middles. The edge lengths of both pieces count; the order of the pieces
+/// does not matter.
 TEST(Clearance, IsTheDistanceWhereCornersAreEquallyFar) {
   const float height = 0.003f, side = 0.02f, root = std::sqrt(3.f);
   const std::vector<Record> rest{{0, height, 0, 1},

@@ -1,4 +1,4 @@
-// Colliders as contacts see them.
+// Tests how colliders are converted for contact.
 #include "collision/fields/collider_pose.h"
 
 #include <gtest/gtest.h>
@@ -24,10 +24,11 @@ TEST(ColliderPose, AppliesTheMotionAfterPositionAndRotation) {
   Collider collider;
   collider.shape = Capsule{0.1f, 1};
   collider.position = {1, 0, 0};
-  collider.rotation = rotation({0, 0, 1}, -90);  // its axis along +x
+  collider.rotation = rotation({0, 0, 1}, -90);  // the capsule's axis is along +x
   EXPECT_NEAR(to_world(collider_pose(collider, 5), Vec3d{0, 1, 0}).x, 2, 1e-7);
   collider.motion.keyframes = {{0, {}, {}}, {1, {0, 0, 3}, rotation({0, 1, 0}, 90)}};
-  const Vec3d tip = to_world(collider_pose(collider, 1), Vec3d{0, 1, 0});  // turned about the world's origin, then moved
+  const Vec3d tip =
+      to_world(collider_pose(collider, 1), Vec3d{0, 1, 0});  // rotated about the origin of the world, then moved
   EXPECT_NEAR(tip.x, 0, 1e-6);
   EXPECT_NEAR(tip.y, 0, 1e-6);
   EXPECT_NEAR(tip.z, 1, 1e-6);

@@ -1,4 +1,4 @@
-// Who meets whom, and with what: against the rule applied to every two bodies.
+// Tests which bodies meet, and with which material, by applying the rule to every two bodies.
 #include "collision/proxies/contact_rules.h"
 
 #include <gtest/gtest.h>

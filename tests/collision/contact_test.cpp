@@ -1,5 +1,5 @@
-// Contacts of one tile: the same whether particles are looked at closely one and all or only those found near; and what a
-// contact holds.
+// Tests contacts of one tile: they are the same whether all particles are tested or only those found near; and what a
+// contact stores.
 #include "collision/narrow/contact.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ struct Tiny {
     bounds.low = {min(bounds.low.x, low.x), min(bounds.low.y, low.y), min(bounds.low.z, low.z), 0};
     bounds.high = {max(bounds.high.x, high.x), max(bounds.high.y, high.y), max(bounds.high.z, high.z), 0};
   }
-  /// How far above a contact's plane its particle is.
+  /// The height of a contact's particle above the contact's plane [m].
   float height(const Contact& contact) const {
     const Record& d = displacements[static_cast<std::size_t>(contact.point[0])];
     return contact.gap + dot(contact.normal, Vec3f{d.x, d.y, d.z});
@@ -78,7 +78,7 @@ TEST(Contacts, HoldThePlaneOfTheSurfaceAndThePairsNumbers) {
   EXPECT_EQ(found[0].restitution, 0.3f);
   EXPECT_FLOAT_EQ(found[0].approach, -1);
   EXPECT_EQ(found[0].push, 0);
-  // Within the thickness at the start: out no faster than 2 m/s.
+  // A particle within the thickness at the start moves out at 2 m/s at most.
   EXPECT_NEAR(found[0].gap, 0.005 - (0.005 + 0.02), 1e-6);
 }
 
@@ -116,7 +116,7 @@ TEST(Contacts, BoundsSpareWorkAndNoContact) {
     }
     const std::vector<Contact> few = tiny.contacts(colliders, h, tiny.bounds),
                                all = tiny.contacts(colliders, h, everywhere);
-    // What bounds leave out can be candidates still, but none that is pressed.
+    // Contacts that the search by bounds misses may exist, but none of them may be active.
     std::size_t next = 0;
     for (const Contact& contact : all) {
       const bool same =
@@ -136,7 +136,7 @@ TEST(Contacts, PushAndSlipWithinTheConeOfFriction) {
   tiny.add({0, 0.0f, 0}, {1, -1, 0}, h);
   std::vector<Contact> found = tiny.contacts({Collider{}}, h, tiny.bounds);
   ASSERT_EQ(found.size(), 1u);
-  found[0].gap = 0;  // the surface itself
+  found[0].gap = 0;  // on the surface itself
   found[0].static_friction = 0.6f;
   found[0].kinetic_friction = 0.5f;
   SweepArguments a;

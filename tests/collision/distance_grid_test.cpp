@@ -1,4 +1,4 @@
-// Grids against the solids whose distance is known: a sphere, and a box seen from all sides.
+// Compares distance grids with solids whose distance is known: a sphere, and a box seen from all sides.
 #include "collision/fields/distance_grid.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ TEST(DistanceGrid, OfASphereIsItsRadius) {
     const Vec3f p = random_vector(random, 1.25f);
     const double r = length(convert<double>(p));
     const auto found = grid.sample(p);
-    ASSERT_NEAR(found.distance, r - 1, r < 0.3 ? 0.03 : 0.006) << r;  // the centre is a kink
+    ASSERT_NEAR(found.distance, r - 1, r < 0.3 ? 0.03 : 0.006) << r;  // at the centre the distance has a kink
     ASSERT_NEAR(length(found.normal), 1, 1e-5);
     if (r > 0.3) {
       ASSERT_GT(dot(convert<double>(found.normal), convert<double>(p)) / r, 0.98);

@@ -1,4 +1,4 @@
-// Ground found by place against the same ground as a mesh, triangle by triangle.
+// Compares terrain found by index arithmetic with the same terrain as a mesh, triangle by triangle.
 #include "collision/fields/heightfield.h"
 
 #include <gtest/gtest.h>

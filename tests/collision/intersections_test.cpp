@@ -1,4 +1,4 @@
-// Intersections by the tree against all pairs, and surfaces whose intersections are known.
+// Compares intersections found by the BVH with tests of all pairs, and with surfaces whose intersections are known.
 #include "collision/untangle/intersections.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ TEST(Intersections, KnowACleanSheetAndOneFoldedThroughItself) {
   TriangleMesh sheet = grid_mesh(20, 20, 1, 1);
   IntersectionFinder finder(sheet.triangles, 400);
   EXPECT_TRUE(finder.find(sheet.positions, true).empty());
-  for (std::size_t r = 10; r < 20; ++r)  // its far half folded back and down through the near half
+  for (std::size_t r = 10; r < 20; ++r)  // the far half is folded back and down through the near half
     for (std::size_t c = 0; c < 20; ++c) {
       Vec3f& p = sheet.positions[r * 20 + c];
       p = {p.x + 0.013f, 0.1f - 0.4f * p.z, -p.z * 0.9f - 0.011f};

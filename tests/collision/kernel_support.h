@@ -1,4 +1,4 @@
-// The kernels of pairs that this machine can run.
+// The pair kernels that this machine can run.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace pliant::testing_support {
 
-/// The first runs anywhere.
+/// All of them; the first runs on any machine.
 inline std::vector<const PairKernels*> all_kernels() {
   std::vector<const PairKernels*> all{&pair_kernels_generic()};
 #if defined(__x86_64__)

@@ -1,4 +1,4 @@
-// Closest points and insides against brute force and against solids that are known.
+// Compares closest points and inside tests with brute force and with solids that are known.
 #include "collision/fields/mesh_query.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 using testing_support::random_vector;
 
-/// A cube of half size 1 whose corners are floats, so that its planes are exact.
+/// A cube of half size 1 whose corners are exact in float, so that its planes are exact.
 TriangleMesh cube(const Vec3f& middle = {}) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i)
@@ -54,7 +54,8 @@ TEST(MeshQuery, KnowsTheInsideOfASphereAndOfACubeSeenAlongItsEdges) {
     if (r < 0.98 || r > 1) {
       ASSERT_EQ(in_sphere.winding_number(p), r < 1 ? 1 : 0);
     }
-    // Coordinates of halves: rays in simple directions would run along edges, diagonals and through corners.
+    // Coordinates are multiples of a half, so that rays in simple directions would run along edges and diagonals and
+    // through corners.
     const Vec3f q{static_cast<float>(static_cast<int>(p.x * 4)) / 2, static_cast<float>(static_cast<int>(p.y * 4)) / 2,
                   static_cast<float>(static_cast<int>(p.z * 4)) / 2};
     ASSERT_EQ(in_box.is_inside(q), largest(q) < 1) << q.x << ' ' << q.y << ' ' << q.z;
@@ -77,7 +78,7 @@ TEST(MeshQuery, CountsShellsAndTheirSense) {
 }
 
 TEST(MeshQuery, GivesUpRaysThatTouch) {
-  // A cube, and in it a tetrahedron with a corner exactly in the way of the first ray from the origin, which ends at 16 v.
+  // A cube, and in it a tetrahedron with a corner exactly on the first ray from the origin, which ends at 16 v.
   TriangleMesh mesh = cube();
   const float step = 13;
   const Vec3f v{step / 16, step * 0.0137f / 16, step * 0.0291f / 16};

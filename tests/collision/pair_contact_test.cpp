@@ -1,4 +1,5 @@
-// One contact between things that move: distances in lanes against double, momentum, the thickness reached, the friction cone.
+// Tests one contact between dynamic primitives: distances in lanes compared with double, momentum, the thickness
+// reached, friction.
 #include "collision/narrow/pair_contact.h"
 
 #include <gtest/gtest.h>
@@ -56,7 +57,7 @@ Vec3d momentum(const Four& four, const std::vector<Record>& of) {
   return sum;
 }
 
-/// About the origin, at the substep's start, where weights are measured.
+/// Angular momentum about the origin, at the substep's start, where weights are measured.
 Vec3d angular_momentum(const Four& four, const std::vector<Record>& of) {
   Vec3d sum{};
   for (int i = 0; i < 4; ++i)
@@ -104,7 +105,7 @@ TEST(PairDistance, IsTheSameInLanesAndInDouble) {
   }
 }
 
-/// Edges with angles from 10^-5 and triangles with heights from 10^-6 of their length, 10^-5 to 10^-2 apart.
+/// Edges at angles from 10^-5 and triangles with heights from 10^-6 of their length, 10^-5 to 10^-2 apart.
 void hard_to_tell(Random& random, bool edges, std::vector<Record>& four) {
   const auto power = [&](float low) { return std::pow(10.f, uniform(random, low, -1)); };
   const float apart = power(-5), angle = power(-5), at = uniform(random, -1, 1), reach = edges ? power(-2) * 10 : 0;
@@ -142,8 +143,8 @@ TEST(PairContact, KeepsMomentum) {
   for (int i = 0; i < 20000; ++i) {
     Four four = random_four(random, true);
     Contact contact = contact_of(four, {0.5f, 0.6f, 0.4f});
-    // The parts along the normal go through the closest points, so that they turn nothing; friction is tangential at points a
-    // gap apart, so its moment is that of the gap.
+    // Normal corrections act through the closest points, so they have no moment. Friction acts tangentially at points
+    // that are a gap apart, so its moment is that of the gap.
     const Vec3d before = momentum(four, four.displacements), turn = angular_momentum(four, four.displacements);
     project_contact(contact, four.displacements.data());
     project_contact(contact, four.displacements.data());
@@ -191,7 +192,7 @@ TEST(PairContact, ReachesTheThicknessAndMovesNothingFixed) {
   }
 }
 
-/// A vertex of 1 kg that came down at 3 m/s on a triangle of three: 1 / (1 + 1 / 9 * 3) = 3 / 4 of its momentum stays with them.
+/// A vertex of 1 kg falls at 3 m/s on a triangle of three others: 1 / (1 + 1 / 9 * 3) = 3 / 4 of the momentum stays.
 TEST(PairContact, LeavesNoApproachOfAnImpact) {
   Four four;
   four.positions = {{0, 0.01f, 0, 1}, {-1, 0, -1, 1}, {1, 0, -1, 1}, {0, 0, 2, 1}};
@@ -221,7 +222,7 @@ TEST(PairContact, SeparatesWhatOverlapsNoFasterThanTheCap) {
   EXPECT_FLOAT_EQ(contact.thickness, 0.001f + largest_pair_separation_speed * h);
 }
 
-/// A particle that lies on a triangle at the thickness, under gravity for a second; how far it slid [m].
+/// How far a particle slides in a second that lies on a triangle at the thickness, under gravity [m].
 double slide(float degrees, float static_friction, float kinetic_friction) {
   const double angle = double(degrees) * 3.14159265358979 / 180, h = 1. / 600;
   const Vec3d down{std::cos(angle), -std::sin(angle), 0}, normal{std::sin(angle), std::cos(angle), 0};
@@ -247,7 +248,7 @@ double slide(float degrees, float static_friction, float kinetic_friction) {
 }
 
 TEST(PairContact, SticksBelowTheAngleOfFrictionAndSlipsAbove) {
-  const double mu = 0.5;  // 26.565 degrees
+  const double mu = 0.5;  // the friction angle is 26.565 degrees
   EXPECT_LT(slide(26.3f, 0.5f, 0.5f), 1e-3);
   EXPECT_GT(slide(26.9f, 0.5f, 0.5f), 0.01);
   EXPECT_GT(slide(5, 0, 0), 0.4);

@@ -1,4 +1,4 @@
-// The kernels of pairs in lanes: against plain double precision, and the same bits whatever they are compiled for.
+// Compares the pair kernels in lanes with plain double precision, and with each other: all levels give the same bits.
 #include "collision/proxies/pair_kernels.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,8 @@ struct Particles {
   }
 };
 
-/// A heap about `at` that moves along and turns by `angle` about an axis, and crumples by `noise`.
+/// Random particles about `at` that move together, rotate by `angle` about an axis, and are displaced randomly by up to
+/// `noise`.
 Particles heap(Random& random, const Vec3d& at, double angle, double noise, int count = 48) {
   Particles p;
   const Vec3d axis = random_place(random, 1), along = random_place(random, 0.02);
@@ -63,7 +64,7 @@ TEST(PairKernels, BoundHowFarDistancesFallInACluster) {
     const ClusterMotion motion = motion_of(*all_kernels().front(), p);
     for (const std::int32_t a : p.vertices) {
       EXPECT_LE(length(p.start(a) - convert<double>(motion.centre)), double(motion.radius));
-      // The vertex by itself, in double.
+      // The residual motion of the vertex, in double.
       const Vec3d move = p.end(a) - p.start(a),
                   turn = cross(convert<double>(motion.spin), p.start(a) - convert<double>(motion.centre));
       EXPECT_LE(length(move - convert<double>(motion.mean) - turn), double(motion.largest));
@@ -82,7 +83,7 @@ TEST(PairKernels, SeeThroughATurn) {
   Random random(2);
   for (int trial = 0; trial < 50; ++trial) {
     Particles turning = heap(random, {}, 0.2, 0), crumpling = heap(random, {}, 0.2, 1e-3);
-    // 0.2 rad at 0.05 m and more are a centimetre; of that next to nothing is left.
+    // 0.2 rad at 0.05 m and more are a centimetre, of which next to nothing may remain as residual motion.
     EXPECT_LT(double(motion_of(*all_kernels().front(), turning).largest), 1e-4);
     EXPECT_GT(double(motion_of(*all_kernels().front(), crumpling).largest), 3e-4);
   }
@@ -111,7 +112,7 @@ TEST(PairKernels, SumWhatCanBePushed) {
   EXPECT_LT(length(sum - convert<double>(motion.sum)), 1e-6);
 }
 
-/// Boxes of random elements, some of a batch filled up.
+/// Boxes of random elements; the last batch is padded.
 struct Boxes {
   std::vector<float> row[6];
   explicit Boxes(Random& random, int count) {
@@ -217,7 +218,7 @@ TEST(PairKernels, GiveALeastDistanceThatIsNone) {
   }
 }
 
-/// Slivers and edges that are nearly parallel, down to angles and heights of a millionth: floats tell little of these.
+/// Slivers and nearly parallel edges, with angles and heights down to a millionth, for which floats are inaccurate.
 TEST(PairKernels, GiveALeastDistanceThatIsNoneOfSlivers) {
   Random random(17);
   for (int trial = 0; trial < 4000; ++trial) {
@@ -245,8 +246,9 @@ TEST(PairKernels, GiveALeastDistanceThatIsNoneOfSlivers) {
   }
 }
 
-/// Random edges come nowhere near the worst: edges that cross in their middles at so small an angle that floats, or least_distance on
-/// purpose, take them for parallel. Along (1, 1, 1) they are longest for their coordinates. The first two were found by climbing uphill.
+/// Random edges are far from the worst cases: edges that cross in their middles at so small an angle that floats, or
+/// least_distance on purpose, take them for parallel. Along (1, 1, 1) they are longest for their coordinates. The first
+/// two were found by hill climbing.
 TEST(PairKernels, GiveALeastDistanceThatIsNoneOfEdgesThatCrossAtSmallAngles) {
   std::vector<std::array<Record, 4>> all{{{{0.0520643033f, 0.0519618057f, 0.0519606583f, 1},
                                            {-0.999916792f, -1.00050592f, -0.99964267f, 1},

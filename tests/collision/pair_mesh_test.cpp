@@ -1,4 +1,4 @@
-// Pairs of meshes that are no grids.
+// Tests pairs on meshes that are no grids.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,8 @@ namespace {
 
 constexpr int spokes = 30;
 
-/// A wheel of triangles about vertex 0, flat, 0.1 m in radius; the last vertex, at which nothing begins, is a cluster of its own.
+/// A flat wheel of triangles about vertex 0, of radius 0.1 m. The last vertex, at which no primitive begins, is a
+/// cluster of its own.
 PairModel wheel() {
   PairModel model;
   model.rest.push_back({0, 0, 0, 1});
@@ -41,8 +42,8 @@ PairModel wheel() {
   return model;
 }
 
-/// The hub has more neighbours than surroundings are made of: what it has to do with them is looked for like anything else, and what
-/// says that nothing is near may not leave it aside. The rim is folded over, to 1 cm beyond the hub.
+/// The hub has too many neighbours for static pairs, so its pairs are found by search, and the lower bound of distances
+/// must include them. The rim is folded over, to 1 cm beyond the hub.
 TEST(Pairs, OfAVertexOfManyNeighboursAreFound) {
   const PairModel model = wheel();
   std::vector<Record> positions = model.rest, remainders(positions.size()), displacements(positions.size());
@@ -57,7 +58,7 @@ TEST(Pairs, OfAVertexOfManyNeighboursAreFound) {
   EXPECT_EQ(std::count_if(system.contacts().begin(), system.contacts().end(), is_wanted), 1);
 }
 
-/// A sheet of 3 x 10 vertices, 2 cm apart, in two clusters of five rows each; lists last for a third of its thickness.
+/// A sheet of 3 x 10 vertices, 2 cm apart, in two clusters of five rows each. Lists last for a third of its thickness.
 PairModel strip() {
   PairModel model;
   std::vector<Triangle> triangles;
@@ -86,7 +87,7 @@ PairModel strip() {
   return model;
 }
 
-/// Half of it is folded over the other half by 0.4 degrees a substep: what is clear at first is so for some substeps, and no longer.
+/// One half is folded over the other by 0.4 degrees a substep. Pairs that are clear at first must be found in time.
 TEST(Pairs, OfASheetThatFoldsAreFoundInTime) {
   const PairModel model = strip();
   std::vector<Record> positions = model.rest, remainders(positions.size()), displacements(positions.size());

@@ -1,5 +1,5 @@
-// The pair system against brute force: in every substep of random moving soups its contacts are those of all pairs, a system
-// that has just been made does the same to the bit, and after the filter nothing crosses.
+// Compares surface contact with brute force: in every substep of random moving triangles, its contacts are those of all
+// pairs, a newly made SurfaceContact gives the same bits, and after the filter nothing crosses.
 #include "collision/surfaces/surface_contact.h"
 
 #include <gtest/gtest.h>
@@ -22,9 +22,9 @@ using namespace testing_support;
 struct Body {
   TriangleMesh mesh;
   bool movable = true, meets_itself = true;
-  float thickness = 0.02f;  ///< of either side of a pair with it
-  Vec3d velocity{};         ///< of all of it [m/s]
-  Vec3d spin{};             ///< about the origin [rad/s]
+  float thickness = 0.02f;  ///< thickness of either side of a pair with this body
+  Vec3d velocity{};         ///< velocity of the whole body [m/s]
+  Vec3d spin{};             ///< rotation about the origin [rad/s]
 };
 
 TriangleMesh sheet(int n, double size, const Vec3d& at) {
@@ -33,7 +33,7 @@ TriangleMesh sheet(int n, double size, const Vec3d& at) {
   return mesh;
 }
 
-/// Nine vertices of one body each, and what begins at them.
+/// Makes clusters of nine vertices of one body each, with the primitives that begin at them.
 void cluster(PairModel& model) {
   int size = 0;
   for (std::size_t v = 0; v < model.rest.size(); ++v) {
@@ -99,7 +99,7 @@ std::vector<PairStencil> all_pairs(const PairModel& model) {
   return pairs;
 }
 
-/// Bodies that move as told: what World does with particles, without constraints.
+/// Bodies in given motion. It does with particles what a World does, without constraints.
 class Soup {
  public:
   Soup(const std::vector<Body>& bodies, bool filter = true)
@@ -115,7 +115,7 @@ class Soup {
     for (std::size_t i = 0; i < velocities_.size(); ++i) velocities_[i] = velocity_at(static_cast<int>(i));
   }
 
-  /// A substep: predict, find, project, filter, update; all is checked on the way.
+  /// Makes a substep: predict, find contacts, project, filter, update; checks everything on the way.
   void step(Random& random, double jitter) {
     for (std::size_t i = 0; i < positions_.size(); ++i) {
       if (positions_[i].w > 0) velocities_[i] += random_place(random, jitter);
@@ -131,7 +131,7 @@ class Soup {
     check_contacts();
     most_contacts = std::max(most_contacts, system_.contacts().size());
     for (Contact& contact : system_.contacts()) project_contact(contact, displacements_.data());
-    // As constraints would: something else moves them, too.
+    // Displacements change as if by constraints.
     for (std::size_t i = 0; i < positions_.size(); ++i)
       if (positions_[i].w > 0 && random() % 4 == 0) disturb(displacements_[i], random_place(random, 4 * jitter * h));
     const std::vector<Record> solved = displacements_;
@@ -181,8 +181,8 @@ class Soup {
     return std::min(material(pair).thickness, static_cast<float>(rest));
   }
 
-  /// Whether another pair of the same two surfaces is closer, so that this one is oblique: of a vertex, a triangle that touches this one; of
-  /// edges, an end of either and a triangle at the other.
+  /// True if another pair of the same two surfaces is closer, so that this one is oblique: for a vertex and a triangle,
+  /// an adjacent triangle; for edges, an end of one and a triangle at the other.
   bool is_covered(const PairStencil& pair, double now) const {
     const auto has = [](const Triangle& t, int v) { return t[0] == v || t[1] == v || t[2] == v; };
     const auto is_closer = [&](int v, const Triangle& t, double than) {
@@ -198,11 +198,11 @@ class Soup {
     });
   }
 
-  /// Every pair that is nearer than its thickness, or will be if all moves as predicted, is a contact; each once, in order. A pair
-  /// that is covered by others may wait until it is nearer.
+  /// Every pair that is nearer than its thickness, or will be after the predicted motion, must be a contact, exactly
+  /// once, and in order. A pair that others cover may become one later, when it is nearer.
   void check_contacts() {
     using Key = std::array<std::int32_t, 4>;
-    // A vertex and a triangle may have the same four as two edges.
+    // The same four vertices may be a vertex and a triangle as well as two edges.
     std::map<Key, int> found, wanted;
     for (const Contact& contact : system_.contacts()) ASSERT_LE(++found[contact.point], 2) << "twice";
     for (const PairStencil& pair : pairs_) {
@@ -236,7 +236,7 @@ class Soup {
           << "particle " << i;
   }
 
-  /// Where the four of a pair begin and end.
+  /// The positions of a pair's four vertices at the start and at the end.
   void find_path(const PairStencil& pair, Record (&starts)[4], Record (&ends)[4]) const {
     for (int i = 0; i < 4; ++i) {
       const Record &x = starts[i] = positions_[pair.vertex[i]], &d = displacements_[pair.vertex[i]];
@@ -244,7 +244,7 @@ class Soup {
     }
   }
 
-  /// What no pair comes nearer than: min(least, 0.98 of the last distance).
+  /// No pair may come nearer than min(least, 0.98 of the last distance).
   void check_distances() {
     if (!model_.filter || system_.counts().unresolvable > 0) return;
     for (const PairStencil& pair : pairs_) {
@@ -281,14 +281,14 @@ class Soup {
 
 struct Way {
   const char* name;
-  double jitter;  ///< change of each velocity in a substep, at most [m/s]
-  Vec3d carried;  ///< velocity of all [m/s]
+  double jitter;  ///< largest random change of each velocity in a substep [m/s]
+  Vec3d carried;  ///< velocity of all bodies [m/s]
   Vec3d at;
   int bodies;
-  double approach;    ///< of the bodies [m/s]
-  bool immovable;     ///< the lowest, which moves all the same
-  Vec3d spin{};       ///< of the highest [rad/s]
-  double gap = 0.12;  ///< from one to the next [m]
+  double approach;    ///< relative velocity of the bodies [m/s]
+  bool immovable;     ///< true: the lowest body is immovable, but moves kinematically
+  Vec3d spin{};       ///< rotation of the highest body [rad/s]
+  double gap = 0.12;  ///< distance from one body to the next [m]
 };
 void PrintTo(const Way& motion, std::ostream* out) { *out << motion.name; }
 
@@ -329,12 +329,12 @@ TEST_P(PairsOf, AreThoseOfBruteForceAndNothingCrosses) {
     Random random(seed);
     Soup soup(bodies_of(GetParam()));
     ASSERT_EQ(soup.crossings(), 0u);
-    const int substeps = GetParam().at.y == 1e4 ? 200 : 40;  // half a rounding of the positions in each
+    const int substeps = GetParam().at.y == 1e4 ? 200 : 40;  // in each, bodies move by half a rounding of their positions
     for (int substep = 0; substep < substeps && soup.counts().unresolvable == 0 && !HasFatalFailure(); ++substep) {
       soup.step(random, GetParam().jitter);
-      // What nothing pushes may overrun what lies between it and another; nobody else may.
+      // A kinematic body can catch what lies between it and another one; other pairs must always be resolvable.
       ASSERT_TRUE(GetParam().immovable || soup.counts().unresolvable == 0);
-      const bool flat = GetParam().jitter == 0;  // so that exact signs are those of zeros, and slow
+      const bool flat = GetParam().jitter == 0;  // then exact signs are those of zeros, which are slow to compute
       if (soup.counts().unresolvable == 0 && (!flat || substep == substeps - 1)) {
         ASSERT_EQ(soup.crossings(), 0u) << "seed " << seed << ", substep " << substep;
       }
@@ -354,7 +354,8 @@ TEST(Pairs, CrossWithoutTheFilter) {
   EXPECT_GT(most, 0u);
 }
 
-/// Positions are rounded by how far they are from the origin: what is far away makes nothing else look farther.
+/// Rounding depends on a position's distance from the origin. A body that is far away must not increase the bounds of
+/// others.
 TEST(Pairs, AreNoMoreWhereAnythingElseIsFarAway) {
   std::vector<Body> bodies = bodies_of({"", 0, {}, {}, 2, 0, false, {}, 0.09});
   for (Body& body : bodies) body.thickness = 5e-4f;
@@ -376,7 +377,7 @@ TEST(Pairs, AreNoMoreWhereAnythingElseIsFarAway) {
   EXPECT_EQ(candidates[0], candidates[1]);
 }
 
-/// What is kept apart grows with the roundings of positions: lists made near the origin do not do far from it, wherever all began.
+/// The filter's margin grows with the rounding of positions, so lists made near the origin are not valid far from it.
 TEST(Pairs, AreLookedForAnewFarFromWhereTheyWere) {
   std::vector<Body> bodies = bodies_of({"", 0, {}, {}, 2, 0, false, {}, 0.09});
   for (Body& body : bodies) {
@@ -418,7 +419,7 @@ TEST(Pairs, AreLookedForAnewFarFromWhereTheyWere) {
       for (int i = 0; i < 2; ++i) go(0, -0.1f);  // so that lists are made there
     }
     go(5e4f, 0);
-    // The upper comes closer; a tenth of a metre is what 32 roundings are here.
+    // The upper body comes closer. Here 32 roundings are a tenth of a metre.
     plan(0, -0.03f);
     const std::vector<Record> predicted = displacements;
     SurfaceContact fresh(model);

@@ -1,4 +1,5 @@
-// The filter of one pair: random, degenerate and nearly touching pairs keep their distance to the end and all along the way.
+// Tests the filter of a single pair: random, degenerate and nearly touching pairs keep their distance at the end and on
+// the whole way.
 #include "collision/filter/plane_filter.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,7 @@ Record record(const Vec3d& v, float w = 0) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), w};
 }
 
-/// Without extent, on a line, or with two corners in one place.
+/// Makes a primitive degenerate: without extent, on a line, or with two corners in one place.
 void degenerate(Random& random, Vec3d (&x)[4]) {
   switch (random() % 4) {
     case 0:
@@ -45,7 +46,7 @@ void degenerate(Random& random, Vec3d (&x)[4]) {
   }
 }
 
-/// Moves the first side until it is `gap` away from the second.
+/// Moves the first side so that it is `gap` away from the second.
 void bring_near(const PairStencil& pair, Vec3d (&x)[4], double gap) {
   Record at[4];
   for (int i = 0; i < 4; ++i) at[i] = record(x[i]);
@@ -53,7 +54,7 @@ void bring_near(const PairStencil& pair, Vec3d (&x)[4], double gap) {
   for (int i = 0; i < pair.first_side; ++i) x[i] = x[i] - now.normal * (now.distance - gap);
 }
 
-/// Sides that make for one another, each corner in its own way.
+/// Two sides that move towards each other, each corner with a motion of its own.
 Case random_case(Random& random) {
   Case c;
   c.pair.first_side = random() % 2 == 0 ? 1 : 2;
@@ -78,7 +79,7 @@ Case random_case(Random& random) {
 
 Record end_of(const Record& x, const Record& d) { return {x.x + d.x, x.y + d.y, x.z + d.z, x.w}; }
 
-/// What the filter does with one pair alone.
+/// Applies the filter to one pair.
 Separation filter(Case& c, std::array<float, 4>& shares) {
   SeparatingSlab slab;
   shares = {1, 1, 1, 1};
@@ -93,7 +94,7 @@ Separation filter(Case& c, std::array<float, 4>& shares) {
   return found;
 }
 
-/// Distance in double at time t of the way.
+/// The distance in double at time t of the motion.
 double distance_at(const Case& c, double t) {
   Vec3d x[4];
   for (int i = 0; i < 4; ++i) {
@@ -107,7 +108,8 @@ double distance_at(const Case& c, double t) {
   return std::sqrt(closest_on_segments({x[0], x[1]}, {x[2], x[3]}).distance_squared);
 }
 
-/// The least distance seen while going along the way in steps that no distance can be lost in; -1 where they are too many.
+/// The least distance along the motion, by steps so small that no smaller distance can be missed; -1 if they would be
+/// too many.
 double least_on_the_way(const Case& c) {
   double first = 0, second = 0;
   for (int i = 0; i < 4; ++i) {
@@ -126,7 +128,8 @@ double least_on_the_way(const Case& c) {
   return least < 1e-7 * c.size ? least : -1;
 }
 
-/// Distances are right to rounding, but the plane's normal only to its root (geometry/triangle.h).
+/// The distance that the filter guarantees. Distances are accurate to rounding, but the plane's normal only to its
+/// square root (geometry/triangle.h).
 double promised(const Case& c, double distance) { return std::min(c.least, 0.98 * distance) * (1 - 1e-6) - 1e-7 * c.size; }
 
 TEST(PlaneFilter, KeepsPairsApartAtTheEndAndOnTheWay) {
@@ -214,7 +217,7 @@ TEST(PlaneFilter, LeavesWhatCannotBeShortened) {
 }
 
 TEST(PlaneFilter, ShortensNoMoreThanItMust) {
-  // A vertex 1 above a large triangle that falls by 2 is to stop at the slab's upper side.
+  // A vertex 1 above a large triangle falls by 2. It must stop at the upper bound of the separating margin.
   Case c;
   c.positions[0] = {0, 1, 0, 1};
   c.positions[1] = {-9, 0, -9, 0};

@@ -1,4 +1,4 @@
-// Random numbers and places that tests of collision share.
+// Random numbers and positions for tests of collision.
 #pragma once
 
 #include <random>
@@ -13,7 +13,7 @@ inline double uniform(Random& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-/// Each coordinate within `range` of 0, x drawn first.
+/// A position whose coordinates are within `range` of 0; x is drawn first.
 inline Vec3d random_place(Random& random, double range) {
   const double x = uniform(random, -range, range), y = uniform(random, -range, range), z = uniform(random, -range, range);
   return {x, y, z};

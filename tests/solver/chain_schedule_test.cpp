@@ -1,4 +1,4 @@
-// What a schedule of chains must be, and that tethers are as long as the way to their pins and lead to them.
+// Tests the schedule of chains, and that tethers are as long as the way to the pins to which they lead.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using namespace testing_support;
 
 TEST(Chains, hold_every_distance_once_and_batches_of_a_colour_share_nothing) {
   Object from = grid(40, 23, 0);
-  from.attachments.push_back({5, {0, 1, 0}, {}, Stiffness::rigid()});  // has no direction: stays with the tiles
+  from.attachments.push_back({5, {0, 1, 0}, {}, Stiffness::rigid()});  // it has no direction, so it stays with the tiles
   const CompiledObject object = compile(from, chained(0.1f));
   std::vector<int> times(from.constraints[0].particles.size() / 2 + 1, 0);
   for (const Pool& pool : object.pools)
@@ -41,7 +41,7 @@ TEST(Chains, hold_every_distance_once_and_batches_of_a_colour_share_nothing) {
   }
 }
 
-/// Calls visit(place in the pool, number of the constraint) for every link.
+/// Calls visit(position in the pool, index of the constraint) for every link.
 template <class Visit>
 void for_links(const CompiledObject& object, const Visit& visit) {
   for (const ChainBatch& chain : object.chains) {
@@ -88,7 +88,7 @@ TEST(Chains, leave_damped_and_pbd_distances_to_the_tiles) {
   }
 }
 
-/// Of each particle, in ascending order: the lengths of its tethers and the pins at their ends.
+/// The tethers of a particle, ascending: their lengths, and the pins at their ends.
 std::vector<std::pair<float, int>> tethers_of(const CompiledObject& object, int particle) {
   const Tethers& tethers = object.tethers;
   const int place = particle % batch_width, lane = 4 * (place % 4) + place / 4;
@@ -124,8 +124,7 @@ TEST(Tethers, lead_to_the_four_nearest_of_many_pins) {
     std::sort(straight.begin(), straight.end());
     ASSERT_EQ(found.size(), 4U);
     EXPECT_NEAR(found[0].first, straight[0], 1e-5);
-    for (const auto& [length, pin] :
-         found) {  // what lies behind four other pins may be thought a little farther than it is
+    for (const auto& [length, pin] : found) {  // a pin behind four others may count as a little farther than it is
       const Record& anchor = object.positions[pin];
       const double own = 1.25 * std::hypot(x.x - anchor.x, x.z - anchor.z);
       EXPECT_GT(length, own - 1e-5) << "another's pin, or the slack left out";

@@ -1,4 +1,4 @@
-// Chains and tethers compiled, and one object in the midst of a substep.
+// Compiles objects with chains and tethers, and prepares one for the middle of a substep.
 #pragma once
 
 #include <algorithm>
@@ -51,7 +51,7 @@ inline CompileOptions chained(float softness, bool tethers = false) {
   return options;
 }
 
-/// One object in the middle of a substep.
+/// An object in the middle of a substep.
 struct ChainedSubstep {
   CompiledObject object;
   Records positions, displacements;

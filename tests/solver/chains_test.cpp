@@ -1,4 +1,5 @@
-// Chains and tethers: the exact solution against elimination in double, every build against the sequential reference.
+// Tests chains and tethers: the exact solution compared with elimination in double, all kernels with the sequential
+// reference.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +17,7 @@ using namespace testing_support;
 
 // ---------------------------------------------------------------- the exact solution
 
-/// (J W J^T + s) dlambda = -C - alpha~ lambda by elimination with pivoting, all in double.
+/// Solves (J W J^T + s) dlambda = -C - alpha~ lambda by elimination with pivoting, in double precision.
 std::vector<double> solve_in_double(std::vector<std::vector<double>> matrix, std::vector<double> right) {
   const std::size_t n = right.size();
   for (std::size_t k = 0; k < n; ++k) {

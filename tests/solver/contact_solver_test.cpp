@@ -1,4 +1,5 @@
-// Contacts in colours: no two of a colour share what moves, and lanes, levels and threads give the bits of the plain loop.
+// Tests coloured contacts: no two of a colour share a dynamic point, and lanes, levels and threads give the bits of a
+// plain loop.
 #include "solver/contact_solver.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,7 @@ Vec3f random_vector(std::mt19937& random, float range) {
   return {x, y, uniform(random, -range, range)};
 }
 
-/// Contacts of random points, of which every fifth is fixed, `apart` numbers from one another at most.
+/// Contacts between random points, whose indices differ by at most `apart`. Every fifth point is fixed.
 Tangle random_tangle(int points, int contacts, int apart, unsigned seed) {
   std::mt19937 random(seed);
   Tangle out;
@@ -45,7 +46,7 @@ Tangle random_tangle(int points, int contacts, int apart, unsigned seed) {
     std::copy(four.begin(), four.end(), c.point.begin());
     const float s = uniform(random, 0, 1), t = i % 3 == 0 ? 0 : uniform(random, 0, 1);
     c.weight = {1 - s, s, t - 1, -t};
-    if (i % 7 == 0) {  // two points alone
+    if (i % 7 == 0) {  // contacts of two points only
       c.point[2] = c.point[3] = c.point[0];
       c.weight = {1, -1, 0, 0};
     }
@@ -65,7 +66,7 @@ TEST(ContactColours, ShareNothingThatMovesAndLeaveNothingOut) {
   for (const int apart : {8, 40, 900}) {
     const Tangle tangle = random_tangle(1000, apart == 8 ? 30000 : 6000, apart, 1);
     ContactColours colours;
-    for (int round = 0; round < 2; ++round)  // tables are kept
+    for (int round = 0; round < 2; ++round)  // twice, because tables are kept
       colours.colour(tangle.contacts, 0, tangle.contacts.size(), tangle.positions.data(), tangle.positions.size());
     const std::vector<std::int32_t>&order = colours.order(), &start = colours.start();
     ASSERT_EQ(std::set<std::int32_t>(order.begin(), order.end()).size(), tangle.contacts.size());
@@ -102,7 +103,7 @@ std::vector<Record> projected(const Kernels& kernels, int threads, const Tangle&
   return displacements;
 }
 
-/// By colours alone the third would come before the second, with which it shares a point.
+/// By colours alone, the third contact would be projected before the second one, with which it shares a point.
 TEST(ContactSolver, ProjectsTheLeadingContactsFirst) {
   std::vector<Contact> contacts(3);
   for (int i = 0; i < 3; ++i) contacts[i].point = {i, i + 1, i, i};
@@ -138,7 +139,7 @@ TEST(ContactSolver, GivesTheSameBitsOnAnyThreadsAndInstructionSet) {
         try {
           kernels = &pick_kernels(isa);
         } catch (const std::exception&) {
-          continue;  // not on this machine
+          continue;  // this machine does not have this level
         }
         std::vector<Contact> contacts;
         const std::vector<Record> found = projected(*kernels, threads, tangle, contacts);

@@ -1,6 +1,6 @@
-// Every build of the kernels against the sequential reference, bit by bit: sweeps of every type by every law with and
-// without multipliers, over runs and over single particles; prediction, update, bounds and the search for what is not
-// finite, over all lengths that leave a tail.
+// Compares all kernels with the sequential reference bit by bit: sweeps of every type and law, with and without
+// multipliers, over contiguous and single slots; prediction, update, bounds and the search for non-finite values, for
+// all lengths of the tail.
 #include "solver/kernels.h"
 
 #include <gtest/gtest.h>
@@ -25,8 +25,8 @@ std::vector<const Kernels*> kernels_in_lanes() {
   return all;
 }
 
-/// `count` constraints that share no particle. In a slot whose bit `ladder` has, constraint i has particle slot * count + i, which
-/// makes runs of four; in the others particles are dealt at random.
+/// Makes `count` constraints that share no particle. In a slot whose bit is set in `ladder`, constraint i has particle
+/// slot * count + i, which gives contiguous groups of four; other slots have random particles.
 template <class T>
 Object separate_constraints(int count, Law law, int ladder, Random& random) {
   Object object;
@@ -45,7 +45,7 @@ Object separate_constraints(int count, Law law, int ladder, Random& random) {
     for (int slot = 0; slot < slot_count<T>; ++slot)
       group.particles.push_back(deal[static_cast<std::size_t>(slot * count + i)]);
   }
-  // Different for each, so that none of their rows is kept once for all; damping and k are.
+  // Rest data differ between constraints, so that their rows are not stored once; damping and k are equal.
   for (int i = 0; i < count * field_count<T>; ++i) group.rest.push_back(static_cast<float>(i));
   for (int i = 0; i < count && law != Law::pbd; ++i) group.compliances.push_back(static_cast<float>(i));
   group.stiffness = law == Law::pbd ? Stiffness::pbd(0.5f) : Stiffness::compliance(1, law == Law::damped ? 1.f : 0.f);
@@ -53,7 +53,7 @@ Object separate_constraints(int count, Law law, int ladder, Random& random) {
   return object;
 }
 
-/// Other numbers for all constraints of a pool; what is kept once for all stays the same for all.
+/// Fills a pool with random numbers; rows that are stored once stay the same for all constraints.
 void fill(Pool& pool, Random& random, bool nasty) {
   const auto number = [&] { return nasty ? nasty_float(random) : static_cast<float>(uniform(random, 0.2, 1)); };
   for (float& value : pool.blocks) value = number();
@@ -62,7 +62,7 @@ void fill(Pool& pool, Random& random, bool nasty) {
   }
 }
 
-/// Numbers for a sweep: mostly plain, some nasty.
+/// Random arrays for a sweep: mostly ordinary numbers, some extreme.
 struct Numbers {
   Records positions, displacements, remainders;
   Numbers(std::size_t particles, Random& random, bool nasty) {
@@ -88,7 +88,7 @@ void expect_same(const Records& a, const Records& b, const std::string& what) {
 
 using SweepOfKernels = decltype(&Kernels::sweep);
 
-/// Three passes of one substep.
+/// The displacements after three passes of a substep.
 Records swept(const Kernels& kernels, const CompiledObject& object, Numbers numbers, AlignedVector<float>* multipliers,
               SweepOfKernels sweep = &Kernels::sweep) {
   SweepArguments a;
@@ -155,7 +155,7 @@ TYPED_TEST(Sweeps, GiveTheBitsOfTheReference) {
   }
 }
 
-/// A batch of every set of slots in runs, side by side: laid out by hand, since no object has all of them.
+/// Batches with every set of contiguous slots, laid out by hand, because no object has them all.
 template <class T>
 CompiledObject every_set_of_slots(Law law, Random& random) {
   CompiledObject compiled = compile(separate_constraints<T>(batch_width << slot_count<T>, law, 0, random), {10, 4096});
@@ -212,8 +212,8 @@ TYPED_TEST(Sweeps, LeaveOthersAloneAndPaddingUnwritten) {
   fill(compiled.pools[0], this->random_, false);
   Numbers numbers(static_cast<std::size_t>(compiled.particles), this->random_, false);
   for (Record& p : numbers.positions) p.w = 1;
-  // Five constraints alone: what moves is what their lanes name. With padding written the first would be projected 12
-  // times.
+  // Five constraints only: just the particles of their lanes may move. With padding written, the first constraint would
+  // be projected 12 times.
   const Records once = swept(kernels_sequential(), compiled, numbers, nullptr);
   for (const Kernels* kernels : kernels_in_lanes()) {
     ASSERT_NO_FATAL_FAILURE(expect_same(swept(*kernels, compiled, numbers, nullptr), once, kernels->isa));
@@ -261,7 +261,8 @@ void expect_same(const Particles& a, const Particles& b, const std::string& what
   ASSERT_NO_FATAL_FAILURE(expect_same(a.velocities, b.velocities, what + ", velocities"));
 }
 
-/// act(kernels, arguments) on particles [first, last) of 24, for every kind of tail, compared with the reference.
+/// Runs act(kernels, arguments) on particles [first, last) of 24, for every length of the tail, and compares with the
+/// reference.
 template <class Act>
 void compare_on_all_lengths(const Act& act) {
   Random random(17);
@@ -387,7 +388,7 @@ TEST(Kernels, FindAnythingThatIsNotFinite) {
 }
 
 TEST(Kernels, KeepWhatAFloatCannotHold) {
-  // A step far below the last bit of the position, taken a hundred thousand times, arrives.
+  // Displacements far below the last bit of the position must add up over a hundred thousand substeps.
   Records all(4, Record{});
   AdvanceArguments a;
   a.positions = &all[0];

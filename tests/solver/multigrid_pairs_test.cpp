@@ -1,4 +1,4 @@
-// Objects that contacts join, corrected as one: against elimination of their dense matrix in double.
+// Tests the correction of objects that contacts connect: compared with elimination of their dense matrix in double.
 #include "solver/multigrid_support.h"
 
 namespace pliant {
@@ -6,7 +6,7 @@ namespace {
 
 using namespace testing_support;
 
-/// Two sheets of which the upper falls on the lower, off the grid's places; both touch in many contacts.
+/// Two sheets, the upper one falling on the lower, displaced against its grid; they have many contacts.
 std::vector<Object> two_sheets() {
   std::vector<Object> sheets{crumpled(9, 9, 2), crumpled(7, 8, 3)};
   for (Vec3f& p : sheets[1].positions) p = p * 0.6f + Vec3f{0.031f, 0.06f, 0.017f};
@@ -21,7 +21,7 @@ std::vector<Object> two_sheets() {
   return sheets;
 }
 
-/// Both objects' dense systems in one, and the springs of their contacts.
+/// The dense matrices of both objects as one, with the springs of their contacts.
 System dense_system_of(const std::vector<Object>& objects, const Corrected& found) {
   System joint;
   std::vector<std::size_t> first;
@@ -71,7 +71,8 @@ TEST(MultigridPairs, AreSolvedWithTheirObjectsAsOne) {
   EXPECT_LT(error_of(found.change(), eliminate(joint.a, joint.b)), 1e-3);
 }
 
-/// What a contact's springs did is kept as its push and friction, for the projection to go on from: the force times w h^2.
+/// The force of a contact's springs is stored as its push and friction, from which projection continues: the force
+/// times w h^2.
 TEST(MultigridPairs, KeepTheirForcesAsPushes) {
   const Corrected found(two_sheets(), 100);
   const std::vector<Contact>& contacts = found.workspace.pairs->contacts();
@@ -94,7 +95,7 @@ TEST(MultigridPairs, KeepTheirForcesAsPushes) {
   EXPECT_NEAR(pushed, expected, 1e-3 * expected);
 }
 
-/// By how much a contact's sides overlap at the end of the displacements [m].
+/// By how much the sides of a contact overlap after the displacements [m].
 double overlap_of(const Contact& contact, const Corrected& found) {
   double apart = double(contact.gap);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -104,7 +105,8 @@ double overlap_of(const Contact& contact, const Corrected& found) {
   return std::max(0., -apart);
 }
 
-/// Between there and back an iteration sweeps contacts: of objects without levels nothing else pushes apart what overlaps.
+/// Contacts are projected between the forward and the backward pass: for objects without levels nothing else resolves
+/// overlaps.
 TEST(MultigridPairs, AreSweptBetweenThereAndBack) {
   std::vector<Object> loose = two_sheets();
   for (Object& object : loose) object.constraints.clear();
@@ -121,7 +123,7 @@ TEST(MultigridPairs, AreSweptBetweenThereAndBack) {
   EXPECT_LT(after, 0.2 * before);
 }
 
-/// A sheet folded over onto itself, off the grid's places, its upper half falling onto the lower; nothing holds it.
+/// A free sheet folded over itself, displaced against its grid; its upper half falls on the lower.
 Object folded_sheet() {
   constexpr int columns = 15, rows = 8;
   Object sheet = crumpled(columns, rows, 4);
@@ -139,7 +141,7 @@ Object folded_sheet() {
   return sheet;
 }
 
-/// What pushes itself goes nowhere by that: its contacts with itself hold it to nothing, and its momentum stays, however few the
+/// Contacts of an object with itself must neither move it as a whole nor hold it: its momentum stays for any number of
 /// cycles.
 TEST(MultigridPairs, OfAPieceWithItselfKeepItsMomentum) {
   const Corrected found({folded_sheet()}, 1);

@@ -1,4 +1,5 @@
-// What tests of the multigrid correction share: crumpled sheets, their matrices dense and in double, and sheets corrected once.
+// What tests of the multigrid correction share: crumpled sheets, dense matrices in double, and sheets that were
+// corrected once.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,7 +25,7 @@ inline float uniform(std::mt19937& random, float low, float high) {
   return low + (high - low) * static_cast<float>(random() % 65536) / 65536;
 }
 
-/// A crumpled sheet, some of it taut and some of it slack, of springs rigid and soft; particle 0 and another one pinned.
+/// A crumpled sheet, partly taut and partly slack, with rigid and soft springs; particle 0 and another one are pinned.
 inline Object crumpled(int columns, int rows, unsigned seed) {
   std::mt19937 random(seed);
   const TriangleMesh mesh = grid_mesh(columns, rows, 1, 1);
@@ -49,7 +50,7 @@ inline Object crumpled(int columns, int rows, unsigned seed) {
 using Matrix = std::vector<std::vector<double>>;
 using Vector = std::vector<double>;
 
-/// Gauss elimination with pivots; `a` is small.
+/// Gaussian elimination with pivoting, for small matrices.
 inline Vector eliminate(Matrix a, Vector b) {
   const std::size_t n = b.size();
   for (std::size_t k = 0; k < n; ++k) {
@@ -84,7 +85,7 @@ inline double size_of(const Vector& a) {
   return largest;
 }
 
-/// The object linearised by an instruction set's kernels, on every level.
+/// An object linearised on every level by the kernels of an instruction set.
 struct Linearised {
   CompiledObject object;
   Records positions, displacements;
@@ -119,7 +120,7 @@ struct Linearised {
     options.gravity = 9.81f;
     return compile(from, options);
   }
-  /// A contact of stiffness 1e4 along y, pushing with 3 N, on particle 7.
+  /// Adds a contact of particle 7 along y with stiffness 1e4, which pushes with 3 N.
   void touch() {
     const int place = lane_place(7);
     of().extra.resize(of().has_extra.size() * 9 * batch_width);
@@ -136,7 +137,7 @@ struct Linearised {
   bool moves(int row) const { return positions[static_cast<std::size_t>(row)].w > 0; }
 };
 
-/// Adds s (g g^T + k I) to the rows and columns of two particles as a spring does.
+/// Adds s (g g^T + k I) to the rows and columns of two particles, as a spring does.
 inline void add_coupling(Matrix& a, int i, int j, const Vec3d& g, double k) {
   const double of[3] = {g.x, g.y, g.z};
   for (std::size_t r = 0; r < 3; ++r) {
@@ -157,8 +158,8 @@ struct System {
   Vector b;
 };
 
-/// The Hessian and minus the gradient of |x - x~|^2_M / 2 h^2 + sum K C^2 / 2, in double, spring by spring; of a slack spring
-/// without its (negative) geometric stiffness.
+/// The Hessian and the negative gradient of |x - x~|^2_M / 2 h^2 + sum K C^2 / 2, in double, spring by spring. The
+/// (negative) geometric stiffness of slack springs is left out.
 inline System dense_system(const Linearised& of, bool touches = false) {
   const std::size_t n = 3 * of.positions.size();
   System system{Matrix(n, Vector(n, 0)), Vector(n, 0)};
@@ -171,7 +172,7 @@ inline System dense_system(const Linearised& of, bool touches = false) {
     const int at = lane_place(row), batch = at / batch_width, lane = at % batch_width;
     for (int slot = level.first_slot[batch]; slot < level.first_slot[batch + 1]; ++slot) {
       const int other = level.column[slot * batch_width + lane];
-      if (other <= row) continue;  // once a spring
+      if (other <= row) continue;  // each spring once
       const double stiffness = level.stiffness[slot * batch_width + lane],
                    rest = level.rest_length[slot * batch_width + lane];
       const Vec3d u = place(other) - place(row);
@@ -197,7 +198,7 @@ inline System dense_system(const Linearised& of, bool touches = false) {
   return system;
 }
 
-/// Rows and columns of what can't move made those of the identity.
+/// Replaces the rows and columns of fixed particles by those of the identity.
 inline void hold(const Linearised& of, System& system) {
   for (std::size_t i = 0; i < system.b.size(); ++i) {
     if (of.moves(static_cast<int>(i / 3))) continue;
@@ -207,7 +208,7 @@ inline void hold(const Linearised& of, System& system) {
   }
 }
 
-/// An object predicted and corrected, before any sweep; or given a whole iteration, by iterate_multigrid.
+/// An object after prediction and one correction without sweeps, or after a whole iteration by iterate_multigrid.
 struct Corrected {
   using Part = void (*)(Substep& s, bool first);
 

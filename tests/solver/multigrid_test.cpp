@@ -1,4 +1,4 @@
-// The multigrid correction: its matrices against dense ones in double, and its solution against elimination.
+// Tests the multigrid correction: its matrices compared with dense ones in double, its solution with elimination.
 #include "solver/multigrid_support.h"
 
 namespace pliant {
@@ -6,7 +6,7 @@ namespace {
 
 using namespace testing_support;
 
-/// The matrix that the kernels apply on a level, column by column.
+/// The matrix that the kernels apply on a level, computed column by column.
 Matrix applied(Linearised& of, int l) {
   const MultigridLevel& level = of.level(l);
   const std::size_t n = 3 * static_cast<std::size_t>(level.rows);
@@ -60,7 +60,8 @@ TEST_P(Matrices, OfTheFinestLevelAreTheHessian) {
     EXPECT_NEAR(right[i], of.moves(static_cast<int>(i / 3)) ? expected.b[i] : 0, 1e-4 * size_of(expected.b)) << i;
 }
 
-/// P^T A P of the level above with what couples two rows halved, and what holds a row (inertia, contacts, anchors) as it is.
+/// P^T A P of the finer level, in which the coupling of two rows is halved, while what holds a row (inertia, contacts,
+/// anchors) is not.
 Matrix coarsened(Linearised& of, int l) {
   const MultigridLevel &fine = of.level(l - 1), &coarse = of.level(l);
   const Matrix a = applied(of, l - 1);
@@ -76,7 +77,7 @@ Matrix coarsened(Linearised& of, int l) {
       const std::size_t row = 3 * std::size_t(from) + i % 3, column = 3 * std::size_t(to) + j % 3;
       const std::size_t own = 3 * std::size_t(from) + j % 3;
       out[row][column] += a[i][j];
-      if (from != to) {  // half of the coupling away, from the diagonal block too
+      if (from != to) {  // subtracts half of the coupling, from the diagonal block too
         out[row][column] -= 0.5 * a[i][j];
         out[row][own] += 0.5 * a[i][j];
       }
@@ -186,7 +187,7 @@ TEST(MultigridCorrection, ComesNearerWithEveryFewCycles) {
   EXPECT_LT(before, 2e-3) << "conjugate directions; steepest descent stands at 0.013";
 }
 
-/// Where a correction leaves the range of floats it is not made, and the prediction stays for the sweeps.
+/// If a correction exceeds the range of floats it must be rejected, so that the sweeps start from the prediction.
 TEST(MultigridCorrection, ThatIsNotFiniteIsNotMade) {
   Object sheet = crumpled(9, 9, 2);
   const Corrected sound({sheet}, 3);

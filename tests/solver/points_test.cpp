@@ -1,5 +1,5 @@
-// The functors of particles, run block by block from the last to the first, give the bits of every table of kernels: what a device
-// will run is what the lanes run.
+// Tests that the functors of particles, run block by block in reverse order, give the bits of every kernel table: what
+// a device will run is what the lanes run.
 #include "solver/points.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ using testing_support::available_isas;
 
 constexpr int count = 2 * launch_block + 37;
 
-/// Records of particles, a seventh of them without mass.
+/// Records of particles, a seventh of them with infinite mass.
 struct Particles {
   std::vector<Record> positions, displacements, remainders, velocities;
 

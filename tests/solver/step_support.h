@@ -1,4 +1,4 @@
-// What the tests of a step and those of the sweeps share: the constraints of a grid, a balloon, and states compared bit by bit.
+// What the tests of steps and sweeps share: the constraints of a grid, a balloon, and bitwise comparison of States.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 namespace pliant::testing_support {
 
-/// Stencils of a grid of n x n particles, row after row, a diagonal from (r, c) to (r + 1, c + 1) in each cell.
+/// Stencils of a grid of n x n particles, row after row; the diagonal of a cell runs from (r, c) to (r + 1, c + 1).
 struct GridStencils {
   std::vector<int> across, along, diagonals, hinges;
   std::vector<std::array<int, 3>> triangles;
@@ -35,7 +35,7 @@ inline GridStencils grid_stencils(int n) {
   return grid;
 }
 
-/// A closed ball of radius 0.2 m, 1 g a particle, with a skin of compliant edges.
+/// A closed ball of radius 0.2 m with 1 g per particle, and a skin of compliant edges.
 inline Object balloon(int subdivisions, float pressure, const Stiffness& stiffness, const Vec3f& centre = {0, 1.5f, 0.4f}) {
   const TriangleMesh mesh = sphere_mesh(subdivisions);
   Object object;

@@ -1,5 +1,5 @@
-// A whole step on small tiles, so that schedules with many tiles and inter-tile constraints run on small scenes: the same bits on any
-// number of threads and in any lanes; volumes; and the naming of what went wrong.
+// Tests whole steps on small tiles, so that small scenes have many tiles and inter-tile constraints: the same bits on
+// any number of threads and any lanes; volumes; and how errors are named.
 #include "solver/step.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ Object sheet(int n, float y) {
   return object;
 }
 
-/// Objects, colliders, wind and a field of force, compiled with tiles of `largest_tile`.
+/// A model of objects, colliders, wind and a force field, compiled with tiles of `largest_tile` particles.
 Model make_model(int largest_tile, int passes, bool forces) {
   Model model;
   model.gravity = {0, -9.81f, 0};
@@ -120,7 +120,7 @@ TEST(Step, KeepingMultipliersOfOneIterationChangesNoBit) {
 }
 
 TEST(Step, TheScheduleOfOneObjectKnowsNothingOfAnother) {
-  // The same sheet alone and among others moves in the same bits.
+  // The same sheet must move with the same bits alone and among others.
   Model alone, together;
   together.add(compile(balloon(1, 1, Stiffness::compliance(0)), {6, 40}));
   alone.add(compile(sheet(9, 1), {6, 40}));
@@ -167,7 +167,7 @@ struct VolumeCase {
     prepare_sweeps(model, Settings{}, 1, workspace);
     workspace.displacements.assign(state.positions.size(), Record{});
   }
-  /// Of the places with their displacements.
+  /// The volume error at the displaced positions.
   double error() const {
     Records places = state.positions;
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -235,7 +235,7 @@ TEST(Volume, SumsAreTheSameOnAnyNumberOfThreads) {
   }
 }
 
-/// The largest distance of a place, displaced, from a point.
+/// The largest distance of a displaced particle from a point.
 double reach(const VolumeCase& sphere, const Vec3d& centre) {
   double largest = 0;
   for (std::size_t i = 0; i < sphere.state.positions.size(); ++i) {
@@ -305,7 +305,7 @@ NonFinite failure(const Model& model, State& state, int iterations) {
   return report.nonfinite.value_or(NonFinite{});
 }
 
-/// A line whose constraint 7 has rest data that no World would take, and that spoils its particles at once.
+/// A line whose constraint 7 has rest data that a World would reject, and that make its particles non-finite at once.
 Object line_with_a_fault(const std::string& type) {
   Object object;
   object.name = "line";
@@ -338,7 +338,7 @@ TEST(Diagnosis, NamesTheConstraintInATileAndBetweenTiles) {
         State state = initial_state(model);
         const NonFinite found = failure(model, state, iterations);
         EXPECT_EQ(found.object, "line");
-        // Its ends may come in either order: that of the storage.
+        // The ends may come in either order, as they are stored.
         const std::string particles = type == "distance" ? "(particles (7, 8|8, 7))" : "(particles 28, 29, 30, 31)";
         const std::regex expected(type + " constraint 7 \\" + particles.substr(0, particles.size() - 1) + "\\)");
         EXPECT_TRUE(std::regex_match(found.element, expected))

@@ -1,4 +1,5 @@
-// Chebyshev acceleration: it is fast, it finds its rho, it leaves alone what touches, and it gives up rather than diverge.
+// Tests Chebyshev acceleration: it is fast, estimates rho, leaves particles in contact alone, and ends rather than
+// diverges.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,7 +50,7 @@ TEST(Chebyshev, ItsFirstIterationsArePlain) {
   EXPECT_NE(plain[8], accelerated[8]);
 }
 
-/// Two links, one particle free: the whole iteration by hand, in double.
+/// Two links with one free particle: the whole iteration computed by hand, in double.
 TEST(Chebyshev, FollowsItsRecurrence) {
   Object object = stretched_chain(2, {0.2, 0.1}, Stiffness::rigid());
   object.masses = {std::numeric_limits<float>::infinity(), 1, std::numeric_limits<float>::infinity()};
@@ -57,7 +58,7 @@ TEST(Chebyshev, FollowsItsRecurrence) {
   SweepOptions options = chebyshev(rho, 1);
   options.relaxation = 0.25f;
   const Outcome out = run_sweep({object}, run_of(Sweep::jacobi, 1, 3, options), 0);
-  // Jacobi with split mass: each link sees w = 2, moves the particle by 0.25 C, and the mean of the two is taken:
+  // Jacobi with split masses: each link sees w = 2, moves the particle by 0.25 C, and the particle moves by the mean:
   // G(x) = x - 0.125 (C0 - C1) with C0 = 0.02 + x, C1 = 0.01 - x.
   const auto sweep = [](double x) { return x - 0.125 * (0.01 + 2 * x); };
   double older = 0, before = 0, weight = 1;
@@ -73,7 +74,7 @@ TEST(Chebyshev, FollowsItsRecurrence) {
 }
 
 TEST(Chebyshev, RhoFarTooLargeGivesUpInsteadOfDiverging) {
-  // Over-relaxed Jacobi has eigenvalues below -1 in reach: extrapolating such an iteration is hopeless.
+  // Over-relaxed Jacobi can have eigenvalues below -1, for which extrapolation cannot converge.
   SweepOptions options = chebyshev(0.99999f, 1);
   options.sharing = Sharing::average;
   options.relaxation = 1.95f;
@@ -84,7 +85,7 @@ TEST(Chebyshev, RhoFarTooLargeGivesUpInsteadOfDiverging) {
   EXPECT_LT(report.convergence.back().primal[0].rms, 1);
 }
 
-/// What lies on the floor ends where the plain sweep puts it, and nowhere lower.
+/// A particle that lies on the floor must end where the plain sweep puts it, and nowhere lower.
 TEST(Chebyshev, LeavesAloneWhatTouches) {
   Object sheet = mixed_sheet(9, false);
   for (Vec3f& v : sheet.velocities) v = {0, -1, 0};
@@ -95,7 +96,7 @@ TEST(Chebyshev, LeavesAloneWhatTouches) {
   for (const Record& p : out.state.positions) EXPECT_GT(p.y, -0.003f + 0.0009f);
 }
 
-/// Where everything touches, nothing is extrapolated: the bits are those of the plain sweep.
+/// If all particles touch, none is extrapolated, so the bits are those of the plain sweep.
 TEST(Chebyshev, OfWhatAllTouchesIsThePlainSweep) {
   std::vector<double> stretch;
   for (int i = 0; i < 20; ++i) stretch.push_back(0.02 + 0.02 * std::sin(12.9898 * i));
@@ -110,7 +111,7 @@ TEST(Chebyshev, OfWhatAllTouchesIsThePlainSweep) {
   expect_equal(end_of(chebyshev(0.9f, 3)), end_of({}), "touching");
 }
 
-/// Over natural order it grows without bound, which is why a World refuses it; here nobody does.
+/// Over natural order it diverges, so a World rejects it; this test has no World.
 TEST(Chebyshev, IsGivenUpWhereCorrectionsGrow) {
   const double rho = std::cos(pi / (links + 1)) * std::cos(pi / (links + 1));
   const Report report = solve(Sweep::natural, chebyshev(static_cast<float>(rho), 1), 2000);
@@ -123,7 +124,8 @@ TEST(Chebyshev, RhoIsThatOfTheChain) {
   SweepRun run = run_of(Sweep::jacobi, 1, 400, chebyshev());
   std::vector<double> stretch;
   for (int i = 0; i < links; ++i) stretch.push_back(0.02 + 0.02 * std::sin(12.9898 * i));
-  // Split masses halve the step of Jacobi: its slowest mode keeps (1 + cos) / 2, a little more for the ends' whole masses.
+  // Split masses halve the step of Jacobi: the slowest error is multiplied by (1 + cos) / 2, a little more because of
+  // the ends' whole masses.
   const Outcome out = run_sweep({stretched_chain(links, stretch, Stiffness::rigid())}, run, 0);
   const auto& scratch = static_cast<const ChebyshevScratch&>(*out.workspace.sweeps.at(Sweep::jacobi).acceleration);
   const double rho = scratch.recurrence.spectral_radius, expected = (1 + std::cos(pi / (links + 1))) / 2;

@@ -1,4 +1,4 @@
-// Scenes and runs that the tests of the sweeps share: compiled with small tiles, so that there are many inter-tile constraints.
+// Scenes and runs that the tests of sweeps share. Tiles are small, so that there are many inter-tile constraints.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ using validate::SweepWay;
 using Sharing = SweepOptions::Sharing;
 using Acceleration = SweepOptions::Acceleration;
 
-/// A sheet of n x n particles with every type and law, uneven and in motion, pinned at one corner where `pinned`.
+/// An uneven moving sheet of n x n particles with every type and law; pinned at one corner if `pinned`.
 inline Object mixed_sheet(int n, bool pinned) {
   Object object;
   object.name = "sheet";
@@ -49,7 +49,7 @@ inline Object ball(float pressure, const Vec3f& centre) {
   return balloon(2, pressure, Stiffness::compliance(1e-7f), centre);
 }
 
-/// A line of 1 kg particles along x, every link stretched by a share of its own.
+/// A line of 1 kg particles along x. Entry i of `stretch` is the stretch of link i.
 inline Object stretched_chain(int links, const std::vector<double>& stretch, const Stiffness& stiffness,
                               bool even_masses = true) {
   Object object;
@@ -68,7 +68,7 @@ inline Object stretched_chain(int links, const std::vector<double>& stretch, con
   return object;
 }
 
-/// Everything that decides a run.
+/// Everything on which a run depends.
 struct SweepRun {
   Settings settings;
   int largest_tile = 40, frames = 1, threads = 1;
@@ -92,7 +92,7 @@ struct Outcome {
   std::vector<Report> reports;
 };
 
-/// Steps objects over a floor where `floor` says so.
+/// Simulates objects, over a floor if `floor` is true.
 inline Outcome run_sweep(const std::vector<Object>& objects, const SweepRun& run, float gravity = 9.81f,
                          bool floor = false) {
   Outcome out;
@@ -127,14 +127,14 @@ inline Outcome run_sweep(const std::vector<Object>& objects, const SweepRun& run
   return out;
 }
 
-/// Root mean square of the first type's primal residual after each iteration, from the prediction on.
+/// The root mean square of the first type's primal residual after each iteration, beginning with the prediction.
 inline std::vector<double> residual_curve(const Report& report) {
   std::vector<double> curve;
   for (const IterationResidual& at : report.convergence) curve.push_back(at.primal.at(0).rms);
   return curve;
 }
 
-/// The first iteration whose residual is a thousandth of the prediction's; -1: none.
+/// The first iteration whose residual is at most a thousandth of the prediction's; -1: none.
 inline int iterations_to_a_thousandth(const Report& report) {
   const std::vector<double> curve = residual_curve(report);
   for (std::size_t i = 0; i < curve.size(); ++i) {

@@ -1,5 +1,5 @@
-// Every sweep gives one hash whatever runs it, ends where every other sweep ends, and keeps the momentum that it says it
-// keeps.
+// Tests that every sweep has one hash whatever runs it, converges to the same result as all others, and conserves the
+// momentum that it promises to conserve.
 #include <gtest/gtest.h>
 
 #include "solver/sweeps_support.h"
@@ -49,7 +49,7 @@ TEST_P(Sweeps, GivesTheSameBitsWhateverRunsIt) {
   }
 }
 
-/// Nothing but the State is carried from one step to the next.
+/// Nothing but the State may carry over from one step to the next.
 TEST_P(Sweeps, GoesOnFromAStateThatWasPutBack) {
   SweepRun run = run_of(GetParam().sweep, 2, 6, GetParam().options);
   run.frames = 3;
@@ -81,7 +81,7 @@ double largest_difference(const State& a, const State& b) {
   return largest;
 }
 
-/// A hanging line with masses from 1 to 4 kg, compliant, so that where it ends depends on the multipliers too.
+/// A hanging line with masses from 1 to 4 kg. It is compliant, so that the result depends on the multipliers too.
 Object compliant_line() {
   std::vector<double> stretch;
   for (int i = 0; i < 12; ++i) stretch.push_back(0.05 * std::sin(3.0 * i));
@@ -90,8 +90,8 @@ Object compliant_line() {
   return line;
 }
 
-/// But two kinds, which end elsewhere and must be seen to: averaging gives neighbours of different counts different parts of one
-/// force, and tethers hold back what is meant to stretch.
+/// Two kinds of sweep converge elsewhere, which the test allows: averaging applies different parts of a force to
+/// neighbours with different counts, and tethers hold back what is meant to stretch.
 TEST_P(Sweeps, EndsWhereAllSweepsEnd) {
   const Outcome expected = run_sweep({compliant_line()}, run_of(Sweep::natural, 1, 4000));
   const Outcome found = run_sweep({compliant_line()}, run_of(GetParam().sweep, 1, 4000, GetParam().options));
@@ -123,7 +123,7 @@ TEST_P(Sweeps, MeetsVolumesToo) {
   SweepRun run = run_of(GetParam().sweep, 1, 500, GetParam().options);
   run.settings.record_residuals = true;
   Object soft = ball(1.02f, {});
-  soft.constraints[0].stiffness = Stiffness::compliance(1);  // a skin that gives way
+  soft.constraints[0].stiffness = Stiffness::compliance(1);  // a compliant skin
   const Outcome out = run_sweep({soft}, run, 0);
   const IterationResidual &first = out.reports[0].convergence.front(), &last = out.reports[0].convergence.back();
   ASSERT_EQ(first.primal[1].type, "volume");
@@ -133,13 +133,13 @@ TEST_P(Sweeps, MeetsVolumesToo) {
   EXPECT_LT(last.dual_largest, 1e-4) << "multipliers explain the motion, but for the turning of gradients";
 }
 
-/// Of a sheet in small tiles, so that there are inter-tile constraints.
+/// A sheet in small tiles, so that there are inter-tile constraints.
 TEST_P(Sweeps, MeetsEveryTypeInAndBetweenTiles) {
   SweepRun run = run_of(GetParam().sweep, 1, 500, GetParam().options);
   run.settings.record_residuals = true;
   Object sheet = mixed_sheet(9, false);
-  sheet.constraints.pop_back();                // PBD, of which there is always something left
-  sheet.constraints[2].stiffness.damping = 0;  // as there is of what is damped
+  sheet.constraints.pop_back();                // PBD, which always leaves an error
+  sheet.constraints[2].stiffness.damping = 0;  // as damping does
   const Outcome out = run_sweep({sheet}, run, 0);
   EXPECT_TRUE(GetParam().sweep == Sweep::natural || inter_tile_colours(out.model) > 0);
   const IterationResidual &first = out.reports[0].convergence.front(), &last = out.reports[0].convergence.back();
@@ -206,7 +206,7 @@ TEST(DualResidual, LeavesOutWhatNoMultiplierMoves) {
 
 // ---------------------------------------------------------------- one iteration, by hand
 
-/// Two links of different masses: the middle particle has two constraints, the ends one.
+/// Two links of different masses: the middle particle has two constraints, the ends have one.
 Object three_particles() {
   Object object = stretched_chain(2, {0.5, 0.25}, Stiffness::rigid());
   object.masses = {1, 2, 4};
@@ -225,7 +225,7 @@ std::vector<double> displacements_after_one(const SweepOptions& options, Sweep s
 }
 
 TEST(Jacobi, SplitsMasses) {
-  // C = 0.05, 0.025. The middle counts as two of 1 kg: dlambda = -0.05 / (1 + 1), -0.025 / (1 + 0.25).
+  // C = 0.05 and 0.025. The middle particle counts as two of 1 kg: dlambda = -0.05 / (1 + 1) and -0.025 / (1 + 0.25).
   const std::vector<double> moved = displacements_after_one({});
   EXPECT_NEAR(moved[0], 0.025, 1e-7);
   EXPECT_NEAR(moved[1], (-0.025 + 0.02) / 2, 1e-7);
@@ -233,7 +233,7 @@ TEST(Jacobi, SplitsMasses) {
 }
 
 TEST(Jacobi, AveragesCorrections) {
-  // dlambda = -0.05 / (1 + 1/2), -0.025 / (1/2 + 1/4); the middle moves by the mean of its two corrections.
+  // dlambda = -0.05 / (1 + 1/2) and -0.025 / (1/2 + 1/4); the middle particle moves by the mean of its two corrections.
   const std::vector<double> moved = displacements_after_one(options_of(1, Sharing::average));
   EXPECT_NEAR(moved[0], 0.05 / 1.5, 1e-7);
   EXPECT_NEAR(moved[1], (-0.05 / 1.5 + 0.025 / 0.75) / 2 / 2, 1e-7);
@@ -241,7 +241,8 @@ TEST(Jacobi, AveragesCorrections) {
 }
 
 TEST(Jacobi, AveragedMultipliersAreThoseOfTheMeanForce) {
-  // Of the first link (0.05 / 1.5): (1 + 0.5 / 2) / 1.5 of it; of the second (0.025 / 0.75): (0.5 / 2 + 0.25) / 0.75.
+  // The shares of the multipliers' changes: for the first link (0.05 / 1.5) it is (1 + 0.5 / 2) / 1.5; for the second
+  // (0.025 / 0.75) it is (0.5 / 2 + 0.25) / 0.75.
   const Outcome out = run_sweep({three_particles()}, run_of(Sweep::jacobi, 1, 1, options_of(1, Sharing::average)), 0);
   const Pool& pool = out.model.objects[0].pools[0];
   for (std::size_t lane = 0; lane < pool.origin.size(); ++lane) {
@@ -284,7 +285,8 @@ TEST(Relaxation, OfOneChangesNoBit) {
 }
 
 TEST(Symmetric, GoesThereAndBack) {
-  // On one chain the last colour is done twice in a row, the first at either end: the first links are met when it is over.
+  // On one chain the last colour is projected twice in a row and the first one at both ends, so the first links are
+  // satisfied at the end.
   std::vector<double> stretch(9, 0.1);
   SweepRun run = run_of(Sweep::symmetric, 1, 1);
   run.largest_tile = 4096;
@@ -304,7 +306,7 @@ TEST(Symmetric, GoesThereAndBack) {
   EXPECT_GT(met, 1);
 }
 
-/// Particles on a line, joined to their neighbours and to the next but one: along it a projection is linear.
+/// Particles on a line, each joined to its neighbours and to the next but one. Along the line projections are linear.
 Object braced_line(const std::vector<double>& moved) {
   Object object;
   object.name = "line";
@@ -322,7 +324,7 @@ Object braced_line(const std::vector<double>& moved) {
   return object;
 }
 
-/// What is left of a displacement of the braced line after one iteration.
+/// What remains of a displacement of the braced line after one iteration.
 std::vector<double> left_after_one(const std::vector<double>& moved, Sweep sweep) {
   SweepRun run = run_of(sweep, 1, 1);
   run.largest_tile = 6;
@@ -340,7 +342,7 @@ double mass_product(const std::vector<double>& a, const std::vector<double>& b) 
   return sum;
 }
 
-/// |<a, M b> - <M a, b>| over |a| |b|, for an iteration M and two displacements.
+/// |<a, M b> - <M a, b>| over |a| |b| in the mass norm, for an iteration M and two displacements: 0 if M is symmetric.
 double asymmetry(Sweep sweep) {
   std::vector<double> a, b;
   for (int i = 0; i < 40; ++i) {

@@ -1,5 +1,5 @@
-// Iterations that stop at a tolerance: where the double precision record of the solve says so, by the same bits whatever runs
-// them, and by nothing at all where no tolerance is set.
+// Tests iterations that stop at a tolerance: at the iteration at which the record in double precision reaches it, with
+// the same bits whatever runs them; without a tolerance nothing changes.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -18,7 +18,7 @@ struct Stopped {
   std::vector<Report> reports;
 };
 
-/// As run_sweep, with a tolerance.
+/// Simulates as run_sweep does, with a tolerance.
 Stopped run_with_tolerance(const std::vector<Object>& objects, const SweepRun& run, double tolerance) {
   SweepRun none = run;
   none.frames = 0;
@@ -42,7 +42,7 @@ bool equal_bits(const State& a, const State& b) {
          std::memcmp(a.velocities.data(), b.velocities.data(), a.velocities.size() * sizeof(Record)) == 0;
 }
 
-/// Without PBD stiffness and damping, which keep |C + alpha~ lambda| from ever vanishing.
+/// Objects without PBD stiffness and damping, which would keep |C + alpha~ lambda| from vanishing.
 std::vector<Object> company() {
   Object sheet = mixed_sheet(13, true);
   std::erase_if(sheet.constraints, [](const ConstraintGroup& group) {
@@ -62,7 +62,7 @@ class ToleranceOf : public testing::TestWithParam<Sweep> {};
 INSTANTIATE_TEST_SUITE_P(Sweeps, ToleranceOf,
                          testing::Values(Sweep::tiled, Sweep::symmetric, Sweep::jacobi, Sweep::natural));
 
-/// The record is made in double by other code, and holds every iteration of the last substep.
+/// The record is computed in double by other code, and has every iteration of the last substep.
 TEST_P(ToleranceOf, EndsWhereTheRecordPassesIt) {
   SweepRun run = run_of(GetParam(), 2, 400);
   run.frames = 4;
@@ -124,7 +124,7 @@ TEST(Tolerance, LargeOneMakesOneIterationWithTheBitsOfOne) {
   EXPECT_TRUE(equal_bits(one.state, plain.state));
 }
 
-/// What is not a distance is not judged, and nothing judged is not the same as all met.
+/// Constraints other than distances do not count. If there are no distances, the tolerance must not count as met.
 TEST(Tolerance, WithoutDistancesMakesAllIterations) {
   Object sheet = mixed_sheet(6, true);
   std::erase_if(sheet.constraints, [](const ConstraintGroup& group) { return group.type == "distance"; });
@@ -132,7 +132,7 @@ TEST(Tolerance, WithoutDistancesMakesAllIterations) {
   EXPECT_EQ(out.reports.back().iterations.smallest, 9);
 }
 
-/// Sixteen constraints make a batch; counts around it have padding, which is not to count.
+/// A batch has sixteen constraints. For numbers near multiples of it, padding must not count.
 TEST(Tolerance, CountsNoPadding) {
   for (int links : {1, 2, 15, 16, 17, 33, 70}) {
     Object chain = stretched_chain(links, std::vector<double>(static_cast<std::size_t>(links), 0.0), Stiffness::rigid());

@@ -1,4 +1,5 @@
-// Whole runs with chains and tethers: one hash whatever runs them, ropes that hold, cloth that hardly stretches.
+// Tests whole runs with chains and tethers: the same hash on any threads and kernels, ropes that hold, cloth that
+// hardly stretches.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -152,7 +153,7 @@ TEST(ChainSweep, gives_multipliers_and_counts_as_any_other) {
   const float h = 1.f / 60 / 20;
   const std::vector<float> multipliers = world.multipliers(rope, "distance");
   ASSERT_EQ(multipliers.size(), 10u);
-  for (int k = 0; k < 10; ++k)  // each link carries what hangs below it
+  for (int k = 0; k < 10; ++k)  // each link carries the weight of all links below it
     EXPECT_NEAR(-multipliers[k] / (h * h), 9.81f * (9.5f - static_cast<float>(k)), 0.05f);
   EXPECT_EQ(world.info(rope).constraints[0].second, 10);
 }

@@ -1,4 +1,5 @@
-// What a scene is solved by that names no sweep: known answers, among them the bending length at which a sheet counts as stiff.
+// Tests which sweep a scene gets if it names none: known answers, among them the bending length from which a sheet
+// counts as stiff.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -82,8 +83,8 @@ TEST(ChosenSettings, ArePlainWherePbdStiffnessOrIterationsSaySo) {
   expect_chosen(scene, Sweep::tiled, 20, "more than one iteration");
 }
 
-// Peirce's bending length c = (B / rho g)^(1/3); stiff where it is more than a quarter of the sheet's size, whatever the mesh and
-// the model of bending.
+// Peirce's bending length is c = (B / rho g)^(1/3). A sheet is stiff if c is more than a quarter of its size, whatever
+// the mesh and the type of bending.
 TEST(ChosenSettings, ArePlainForSheetsThatHoldThemselvesUp) {
   for (const auto model : {ClothOptions::Bending::dihedral, ClothOptions::Bending::isometric}) {
     ClothOptions options;
@@ -102,7 +103,7 @@ TEST(ChosenSettings, ArePlainWhereSurfacesMeet) {
   Scene scene = sheet(20, 1);
   scene.objects[0].name = "shirt";
   scene.objects[0].collides = true;
-  expect_chosen(scene, Sweep::multigrid, 10, "particles");  // nobody else does
+  expect_chosen(scene, Sweep::multigrid, 10, "particles");  // all other objects are solved by tiled
   scene.objects[0].self_collision = true;
   expect_chosen(scene, Sweep::tiled, 20, "'shirt', a surface that can touch itself or others");
   scene.objects[0].self_collision = false;

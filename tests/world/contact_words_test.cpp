@@ -1,4 +1,5 @@
-// What inspect(), a World and its Reports say of contact: mesh colliders that can't be, thickness, tangles.
+// Tests the messages of inspect(), World and Report about contact: invalid mesh colliders, thickness, initial
+// intersections.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -81,7 +82,7 @@ TEST(Thickness, BeyondTheMedianEdgeIsDoubted) {
   scene.objects[0].collides = false;
   scene.objects[0].self_collision = true;
   EXPECT_EQ(words_of(scene), "");
-  scene.objects[0].thickness = 0.15f;  // edges of 0.25 and 0.354
+  scene.objects[0].thickness = 0.15f;  // the edges are 0.25 and 0.354 long
   EXPECT_TRUE(says(words_of(scene),
                    "object 'sheet', thickness: is 0.15 m: two layers keep twice this distance, more than the "
                    "median edge, 0.25 m"))
@@ -93,7 +94,7 @@ TEST(Thickness, BeyondTheMedianEdgeIsDoubted) {
   EXPECT_TRUE(says(words_of(scene), "thickness: is 0:"));
 }
 
-// Short links are what makes a thick rope bend smoothly; a radius of ten of them is a mistake of units.
+// Short links make a thick rope bend smoothly. A radius of ten links is a mistake of units.
 TEST(Thickness, OfRopesMayBeMoreThanTheirLinks) {
   Scene scene;
   RopeOptions options;
@@ -106,7 +107,7 @@ TEST(Thickness, OfRopesMayBeMoreThanTheirLinks) {
   EXPECT_TRUE(says(words_of(scene), "thickness: is 1.1 m, more than the shortest edge, 0.1 m")) << words_of(scene);
 }
 
-/// Where a frame's cost is out of proportion, and what to do about it, before it is paid.
+/// A thickness of many edges makes frames expensive. inspect() must say so, and what to change, before the run.
 TEST(Cost, OfAThicknessOfManyEdgesIsSaid) {
   Scene scene;
   Object cloth = make_cloth(grid_mesh(31, 31, 1, 1));
@@ -115,12 +116,13 @@ TEST(Cost, OfAThicknessOfManyEdgesIsSaid) {
   cloth.thickness = 0.3f / 30;
   scene.add(cloth);
   EXPECT_FALSE(says(words_of(scene), "million pairs")) << words_of(scene);
-  scene.objects[0].thickness = 3.f / 30;  // six edges kept: dear, and possible
+  scene.objects[0].thickness = 3.f / 30;  // two layers keep six edges: expensive, but possible
   const std::string dear = words_of(scene);
   EXPECT_TRUE(says(dear, "doubtful: object 'sheet', thickness: is 0.1 m: about ")) << dear;
   EXPECT_TRUE(says(dear, "times as many as usual, and a frame takes longer by the same factor; reduce it to about 0.02"))
       << dear;
-  scene.objects[0].thickness = 4.5f / 30;  // nine edges kept: 1.33 million pairs were counted at 30 x 30, 1480 a vertex
+  scene.objects[0].thickness =
+      4.5f / 30;  // two layers keep nine edges: 1.33 million pairs were counted at 30 x 30 vertices, 1480 per vertex
   const std::string refused = words_of(scene);
   EXPECT_TRUE(says(refused, "wrong: object 'sheet', thickness: is 0.15 m, and the median edge is 0.0333 m")) << refused;
 }
@@ -128,7 +130,7 @@ TEST(Cost, OfAThicknessOfManyEdgesIsSaid) {
 TEST(Cost, OfAMeshThatIsFineInOnePlaceIsSaid) {
   Scene scene;
   TriangleMesh mesh = grid_mesh(31, 31, 1, 1);
-  for (Vec3f& p : mesh.positions) {  // nearly all of it within a centimetre
+  for (Vec3f& p : mesh.positions) {  // nearly the whole mesh within a centimetre
     p.x *= std::fabs(p.x) < 0.45f ? 0.02f : 1;
     p.z *= std::fabs(p.z) < 0.45f ? 0.02f : 1;
   }
@@ -168,7 +170,7 @@ TEST(Start, InsideOfAClosedColliderIsDoubted) {
   EXPECT_TRUE(says(words_of(scene), "it will be moved out at untangling_speed")) << words_of(scene);
 }
 
-/// Nothing is said where another object or a mesh collider is met.
+/// No warning if the object can meet another object or a mesh collider.
 TEST(Company, WhatCollidesWithNobodyIsDoubted) {
   Scene scene;
   for (int i = 0; i < 2; ++i) {
@@ -227,7 +229,7 @@ TEST(Tangles, AreNamedBeforeAnythingMoves) {
   EXPECT_FALSE(says(words_of(scene), "edge ")) << "their masks keep them apart";
 }
 
-/// The names must be right: the edge that is named does pass through the triangle that is named.
+/// The warning must name an edge and a triangle that do intersect.
 TEST(Tangles, AreNamedInTheReport) {
   Scene scene;
   scene.add(sheet("table", 0));
@@ -256,7 +258,7 @@ TEST(Tangles, AreNamedInTheReport) {
 
 TEST(Tangles, WithColliderNameThem) {
   Scene scene = with_mesh(sphere_mesh(1));
-  for (Vec3f& p : scene.mesh_colliders[0].mesh.positions) p.y += 2;  // radius 1 about the sheet of width 1
+  for (Vec3f& p : scene.mesh_colliders[0].mesh.positions) p.y += 2;  // a ball of radius 1 around the sheet of width 1
   for (Vec3f& p : scene.objects[0].positions) p = p + Vec3f{0.9f, 0.013f, 0.017f};
   EXPECT_TRUE(says(words_of(scene), "collider 'rock'") || says(words_of(scene), "object 'rock', edge")) << words_of(scene);
   World world(scene);
@@ -304,7 +306,7 @@ TEST(Unresolvable, PinchesAreSaid) {
   EXPECT_TRUE(says(words, "may pass through one another; give them more room")) << words;
 }
 
-/// Bending of a rope is a distance too, but no line that anything could touch.
+/// The bending of a rope consists of distance constraints too, but these are no lines that could touch anything.
 TEST(Ropes, DoNotTouchTheirOwnBending) {
   Scene scene;
   scene.gravity = {};

@@ -1,5 +1,5 @@
-// Particles and colliders, as a World moves them: rest, shots, friction, bounces, overlaps, and colliders that move. The
-// expected values are those of a point on a rigid surface.
+// Tests contact of particles with colliders in a World: rest, shots, friction, bounces, overlaps, and moving colliders.
+// Expected values are those of a point on a rigid surface.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +35,7 @@ Collider without_friction(const Shape& shape) {
 struct Named {
   std::string name;
   Shape shape;
-  float top;  ///< of the shape, above its centre
+  float top;  ///< height of the shape above its centre [m]
 };
 void PrintTo(const Named& named, std::ostream* out) { *out << named.name; }
 
@@ -95,8 +95,8 @@ struct Shots {
   std::vector<Vec3f> from, velocity;
 };
 
-/// Shots of 1 to 1000 m/s at a point near the centre of a collider that itself moves at `carried`, from above within 40
-/// degrees.
+/// Particles shot at 1 to 1000 m/s at points near the centre of a collider, which itself moves at `carried`; they come
+/// from above, within 40 degrees of the vertical.
 Shots shots_at(const Vec3f& centre, const Vec3f& carried, float spread, int count) {
   std::mt19937 random(1);
   const auto uniform = [&](double low, double high) {
@@ -116,7 +116,7 @@ Shots shots_at(const Vec3f& centre, const Vec3f& carried, float spread, int coun
   return shots;
 }
 
-/// Shoots and counts what is inside after some frame, or goes on as if nothing had been there.
+/// Counts the shots that are inside the collider after some frame, or that continue as if it were not there.
 int passed_through(const Collider& collider, const Vec3f& carried, float spread, int substeps, float thickness) {
   const Shots shots = shots_at(collider.position, carried, spread, 1000);
   Scene scene;
@@ -128,17 +128,18 @@ int passed_through(const Collider& collider, const Vec3f& carried, float spread,
   scene.add(object);
   World world(scene, settings_of(substeps));
   std::vector<char> bad(shots.from.size(), 0);
-  for (int frame = 0; frame < 45; ++frame) {  // the slowest need 0.65 s
+  for (int frame = 0; frame < 45; ++frame) {  // the slowest shots need 0.65 s
     EXPECT_TRUE(world.step(dt).ok());
     const std::vector<Vec3f> now = world.positions(0);
     for (std::size_t i = 0; i < now.size(); ++i) {
-      // A float 20 m away is exact to 2e-6 m.
+      // At 20 m from the origin, a float has an error of 2e-6 m.
       if (distance_to(collider, world.state().time, now[i]) < -1e-5) bad[i] = 1;
     }
   }
   const std::vector<Vec3f> after = world.velocities(0);
   for (std::size_t i = 0; i < after.size(); ++i) {
-    // Stopped along the normal, a shot keeps at most sin^2 of its angle to it along its own way: under 0.8 here.
+    // The normal velocity of a stopped shot vanishes, so along its own direction it keeps at most sin^2 of its angle to
+    // the normal: under 0.8.
     const Vec3f before = shots.velocity[i] - carried, left = after[i] - carried;
     if (dot(before, left) > 0.9f * dot(before, before)) bad[i] = 1;
   }
@@ -191,7 +192,8 @@ TEST(Shots, NoneGoesThroughWhatMoves) {
 }
 
 TEST(Shots, NoneGoesThroughFromWithinTheThickness) {
-  // What presses on a thin plate lies a little deeper than its thickness says; from there, too, the plate is no door.
+  // A particle pressed on a thin plate is a little deeper than the thickness. From there it must not pass through the
+  // plate either.
   for (float above : {0.f, 1e-5f, 0.0003f, 0.0007f, 0.001f}) {
     Scene scene;
     scene.gravity = {};
@@ -206,7 +208,8 @@ TEST(Shots, NoneGoesThroughFromWithinTheThickness) {
   }
 }
 
-/// A balloon as it lands: constraints move what no contact was predicted for below the ground, and it must not stay there.
+/// Constraints of a landing balloon move particles below the ground that had no predicted contact. They must not stay
+/// there.
 TEST(Landing, OfABalloonNeverDipsBelowTheGround) {
   ClothOptions options;
   options.material = fabric("rubber sheet");
@@ -221,7 +224,7 @@ TEST(Landing, OfABalloonNeverDipsBelowTheGround) {
   scene.add(Collider{});
   World world(scene);
   float lowest = 1;
-  for (int substep = 0; substep < 4 * 120; ++substep) {  // four to a frame
+  for (int substep = 0; substep < 4 * 120; ++substep) {  // four substeps per frame
     world.step(dt / 4);
     for (const Vec3f& p : world.positions(0)) lowest = std::min(lowest, p.y);
   }
@@ -230,7 +233,7 @@ TEST(Landing, OfABalloonNeverDipsBelowTheGround) {
 
 // ------------------------------------------------------------------------------------------------ friction and bounce
 
-/// A ramp along +x that falls by `degrees`, with a particle lying on it.
+/// A ramp that falls by `degrees` along +x, and a particle that lies on it.
 Scene ramp(float degrees, float static_friction, float kinetic_friction) {
   Scene scene;
   Collider plane;
@@ -248,7 +251,7 @@ Scene ramp(float degrees, float static_friction, float kinetic_friction) {
 }
 
 TEST(Friction, SticksBelowItsAngleAndSlipsAbove) {
-  const float mu = 0.5f;  // 26.565 degrees
+  const float mu = 0.5f;  // the friction angle is 26.565 degrees
   for (int substeps : {1, 10, 20}) {
     World below(ramp(25.6f, mu, mu), settings_of(substeps)), above(ramp(27.5f, mu, mu), settings_of(substeps));
     for (int frame = 0; frame < 120; ++frame) {
@@ -362,7 +365,7 @@ TEST(MovingCollider, CarriesByFrictionLikeAConveyor) {
   Scene scene;
   Collider belt;
   belt.shape = Box{{20, 0.1f, 1}};
-  belt.motion = straight({10, 0, 0}, 10);  // 1 m/s
+  belt.motion = straight({10, 0, 0}, 10);  // moves at 1 m/s
   belt.static_friction = belt.kinetic_friction = 0.1f;
   scene.add(belt);
   Object object = loose_particles({{0, 0.101f, 0}});
@@ -388,7 +391,7 @@ TEST(MovingCollider, TurnsWhatLiesOnIt) {
   object.static_friction = object.kinetic_friction = 1;
   scene.add(object);
   World world(scene, settings_of(20));
-  for (int frame = 0; frame < 60; ++frame) world.step(dt);  // a right angle
+  for (int frame = 0; frame < 60; ++frame) world.step(dt);  // rotates by a right angle
   const Vec3f p = world.positions(0)[0];
   EXPECT_NEAR(std::hypot(p.x, p.z), 0.5, 0.01);
   EXPECT_NEAR(p.x, 0, 0.02);

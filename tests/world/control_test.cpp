@@ -1,4 +1,5 @@
-// What holds, drives and stiffens things: pins, targets, wind, PBD and compliance, and floats in many substeps.
+// Tests what controls and stiffens objects: pins, targets, wind, PBD and compliance; and float precision with many
+// substeps.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,7 +39,7 @@ TEST(Pins, FollowTheirKeyframes) {
   for (int frame = 1; frame <= 75; ++frame) {
     world.step(1.f / 64);
     const double time = frame / 64.0;
-    // About the pivot (0.5, 0, 0) the rest place lies at (-0.5, 0, 0); at a quarter turn about y it is at z = +0.5.
+    // Relative to the pivot (0.5, 0, 0) the rest position is (-0.5, 0, 0). After a quarter turn about y it is at z = +0.5.
     if (frame == 32) {
       EXPECT_LT(distance(world.positions(0)[0], {0.8f, 0.1f, 0.5f}), 1e-6);
     }
@@ -120,7 +121,7 @@ TEST(PbdStiffness, RemovesItsShareWhateverTheIterations) {
 }
 
 TEST(Compliance, IsBackwardEulerWhateverTheIterations) {
-  // One mass on a fixed point: x = (m x~ + h^2 k l0) / (m + h^2 k), every step.
+  // In every step of one mass on a spring from a fixed point: x = (m x~ + h^2 k l0) / (m + h^2 k).
   for (int iterations : {1, 2, 7, 50}) {
     Scene scene;
     scene.gravity = {};
@@ -142,7 +143,7 @@ TEST(Compliance, IsBackwardEulerWhateverTheIterations) {
 }
 
 TEST(Multipliers, StandInTheOrderOfTheGroups) {
-  // A chain that hangs: link i carries the weight of all below it. Its links are given in two groups, out of order.
+  // A hanging chain, in which link i carries the weight of all below it. Its links are in two groups, and out of order.
   Scene scene;
   Object object = chain(7, 0.5f);
   for (Vec3f& p : object.positions) p = {0, -p.x, 0};

@@ -1,5 +1,5 @@
-// One hash a scene, whatever runs it: threads, lanes, the sequential reference, a second World. Scenes made in code, large
-// enough to have several tiles; those in files are held to recorded hashes by tests/golden.
+// A scene has one hash, whatever runs it: threads, lanes, the sequential reference, a second World. These scenes are
+// made in code and large enough for several tiles; tests/golden compares those in files with recorded hashes.
 #include <gtest/gtest.h>
 
 #include "support/kernels.h"
@@ -12,7 +12,7 @@ using namespace testing_support;
 
 constexpr float dt = 1.f / 60;
 
-/// Cloth of more than one tile over a ball and a floor, in the wind.
+/// Cloth of more than one tile that falls over a ball and a floor, in wind.
 Scene large_cloth() {
   Scene scene;
   ClothOptions options;
@@ -29,7 +29,7 @@ Scene large_cloth() {
   return scene;
 }
 
-/// Things of all kinds by all laws, with more than one iteration.
+/// Objects of every kind with every law of stiffness, and more than one iteration.
 Scene mixture() {
   Scene scene;
   ClothOptions isometric, balloon;

@@ -1,4 +1,5 @@
-// What goes wrong in a step is left out or stops it, is named, and leaves a state to go on from.
+// Tests errors within a step: each is skipped or stops the step, is named, and leaves a State from which a run can
+// continue.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -46,7 +47,7 @@ TEST(BadForce, ThatThrowsStopsTheWorldUntilARestore) {
   EXPECT_TRUE(world.step(dt).ok());
 }
 
-/// A scene in which everything explodes once `armed` is set.
+/// A scene in which everything becomes infinite when `armed` is set.
 Scene bomb(const bool& armed, Object object) {
   Scene scene;
   scene.add(loose_particles({{5, 5, 5}}));

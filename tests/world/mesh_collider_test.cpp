@@ -1,5 +1,5 @@
-// Meshes that nothing pushes: how they move and deform, what single particles make of them, and what two things are to one
-// another: bounce, friction and thickness against formulas.
+// Tests mesh colliders: how they move and deform, contact with single particles, and the contact properties of pairs:
+// bounce, friction and thickness compared with formulas.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ MeshCollider floor_of_triangles() {
 
 // ------------------------------------------------------------------------------------------------ what deforms
 
-/// A floor whose middle rises by 0.2 m in half a second under a sheet that lies loose on it.
+/// A floor whose middle rises by 0.2 m in half a second below a sheet that lies on it.
 TEST(DeformingMesh, LiftsWhatLiesOnIt) {
   Scene scene = scene_of(10);
   MeshCollider ground;
@@ -67,7 +67,7 @@ TEST(DeformingMesh, IsCarriedByItsMotionToo) {
   World world(scene);
   EXPECT_EQ(world.mesh_collider_positions(0)[1], (Vec3f{1, 0, 0}));
   for (int frame = 0; frame < 90; ++frame) world.step(dt);
-  const Vec3f at = world.mesh_collider_positions(0)[1];  // after 1.5 s: half of its second round
+  const Vec3f at = world.mesh_collider_positions(0)[1];  // after 1.5 s: half of the second period
   EXPECT_NEAR(at.x, 1 + 4.5f, 1e-5f);
   EXPECT_NEAR(at.z, 1.f, 1e-5f);
 }
@@ -86,7 +86,7 @@ TEST(MeshCollider, BeginsWhereItsKeyframesHaveIt) {
 
 // ------------------------------------------------------------------------------------------------ single particles
 
-/// Grains shot at a mesh, fast and slow, from all sides; how many are inside it after a while.
+/// Particles shot at a mesh from all sides, fast and slow. Returns how many are inside it after some time.
 int grains_inside(float thickness) {
   Scene scene = scene_of(4);
   scene.gravity = {};
@@ -109,7 +109,8 @@ int grains_inside(float thickness) {
   int inside = 0;
   for (int frame = 0; frame < 60; ++frame) {
     EXPECT_TRUE(world.step(dt).ok());
-    for (const Vec3f& p : world.positions(0)) inside += length(p) < 0.98f ? 1 : 0;  // the mesh is inscribed
+    for (const Vec3f& p : world.positions(0))
+      inside += length(p) < 0.98f ? 1 : 0;  // the mesh is inscribed in the ball, so it is a little smaller
   }
   return inside;
 }
@@ -126,7 +127,7 @@ TEST(SingleParticles, ComeToRestOnAMesh) {
   for (int frame = 0; frame < 120; ++frame) world.step(dt);
   EXPECT_NEAR(world.positions(0)[0].y, 0.01f, 1e-4f);
   EXPECT_NEAR(world.positions(0)[1].y, 0.01f, 1e-4f);
-  EXPECT_LT(world.positions(0)[2].y, -10.f);  // beside it
+  EXPECT_LT(world.positions(0)[2].y, -10.f);  // it falls beside the mesh
 }
 
 TEST(SingleParticles, MeetClothThatCollides) {
@@ -145,7 +146,7 @@ TEST(SingleParticles, MeetClothThatCollides) {
 
 // ------------------------------------------------------------------------------------------------ what two are to one another
 
-/// How high a patch that falls flat from 0.5 m onto triangles comes up again.
+/// How high a patch rises again that falls flat from 0.5 m onto triangles [m].
 float bounce(float object, float collider, std::optional<float> pair) {
   Scene scene = scene_of(20);
   MeshCollider floor = floor_of_triangles();
@@ -215,10 +216,10 @@ TEST(Pairs, HaveAThicknessAndFrictionOfTheirOwn) {
     return mean;
   };
   EXPECT_NEAR(run({}).y, 0.002f, 1e-4f);
-  EXPECT_LT(run({}).x, 0.01f);  // 1 / 9.81 is less than the coefficient, the mean of 1 and 0.4
+  EXPECT_LT(run({}).x, 0.01f);  // 1 / 9.81 is less than the coefficient, which is the mean of 1 and 0.4
   EXPECT_NEAR(run({"patch", "floor", 0.01f, {}, {}, {}}).y, 0.01f, 1e-4f);
-  EXPECT_NEAR(run({"floor", "patch", {}, 0.f, {}, {}}).x, 0.5f, 0.02f);      // slides as if there were no floor
-  EXPECT_NEAR(run({"patch", "patch", 0.1f, 0.f, {}, {}}).y, 0.002f, 1e-4f);  // of it with itself
+  EXPECT_NEAR(run({"floor", "patch", {}, 0.f, {}, {}}).x, 0.5f, 0.02f);      // slides as if there were no friction
+  EXPECT_NEAR(run({"patch", "patch", 0.1f, 0.f, {}, {}}).y, 0.002f, 1e-4f);  // the patch with itself
 }
 
 TEST(Pairs, AreRefusedWhereTheyNameNobody) {

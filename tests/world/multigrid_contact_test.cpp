@@ -1,4 +1,5 @@
-// The multigrid sweep where surfaces meet: what is folded and layered stretches as little as what is not, and keeps its momentum.
+// Tests the multigrid sweep with contact between surfaces: folded and layered cloth stretches as little as single
+// cloth, and momentum is conserved.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +21,7 @@ TriangleMesh sheet_at(int n, float size, const Vec3f& at) {
   return mesh;
 }
 
-/// Three sheets, the upper two put down on the lowest, which hangs by its corners.
+/// Three sheets: the upper two lie on the lowest, which hangs by its corners.
 Scene hammock() {
   Scene scene;
   for (int i = 0; i < 3; ++i)
@@ -48,7 +49,8 @@ TEST(MultigridContact, LayersStretchAsLittleAsOneSheet) {
   EXPECT_GT(worst_p99(hammock(), Sweep::tiled, 20), 1.05);
 }
 
-/// Two sheets of unlike mass meet head on in free flight: contacts push both sides alike, whatever the correction makes of them.
+/// Two sheets of different mass meet head-on in free flight. Contacts must push both equally, whatever the correction
+/// does.
 TEST(MultigridContact, KeepsMomentum) {
   Scene scene;
   scene.gravity = {};

@@ -1,5 +1,5 @@
-// The multigrid sweep as a user of a World meets it: cloth that hardly stretches however fine it is, on regular meshes and
-// irregular ones, hung and draped; what is meant to stretch stretches as it should; what slides slides.
+// Tests the multigrid sweep in a World: cloth hardly stretches however fine it is, on regular and irregular meshes,
+// hung and draped; compliant cloth stretches as it should; sliding cloth slides.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace testing_support;
 
-/// Particles of a grid moved by up to 0.3 of a cell, each cell's diagonal either way.
+/// A grid whose particles are moved by up to 0.3 of a cell; the diagonal of each cell has a random direction.
 TriangleMesh jittered(int n) {
   std::mt19937 random(7);
   const auto uniform = [&] { return static_cast<float>(random() % 65536) / 32768 - 1; };
@@ -49,7 +49,7 @@ Scene hung(const TriangleMesh& mesh, int n) {
   return scene;
 }
 
-/// Over the top of a ball, pinned nowhere.
+/// A sheet without pins over the top of a ball.
 Scene draped(const TriangleMesh& mesh) {
   Scene scene;
   Object object = cotton(mesh);
@@ -82,7 +82,7 @@ Worst worst_of(Scene scene, Sweep sweep, int substeps, int frames = 70) {
   return worst;
 }
 
-/// Through the first swing and into the second.
+/// Simulates the first swing, and part of the second.
 TEST(Multigrid, StretchesNoMoreTheFinerTheMesh) {
   double plain = 0;
   for (int n : {24, 48, 64}) {
@@ -129,7 +129,7 @@ TEST(Multigrid, LeavesWhatHangsOnSpringsWhereTheirStiffnessSays) {
   }
 }
 
-/// A sheet pushed along a floor at 1 m/s stops after v^2 / (2 mu g): the correction's springs against sliding are no glue.
+/// A sheet pushed along a floor at 1 m/s stops after v^2 / (2 mu g): the correction's tangential springs must not hold it.
 TEST(Multigrid, LetsWhatSlidesSlide) {
   Scene scene;
   Object sheet = cotton(grid_mesh(12, 12, 0.3f, 0.3f));
@@ -149,8 +149,8 @@ TEST(Multigrid, LetsWhatSlidesSlide) {
   EXPECT_NEAR(way, 1 / (2 * 0.4 * 9.81), 0.03 * way);
 }
 
-/// A cloth falls on a rough box, corners and all: what the contacts' projection gives back is never more than friction could
-/// have held, or the cloth is torn.
+/// Cloth falls on a rough box, corners included. If the friction that contacts take over from the correction exceeded
+/// the Coulomb limit, the cloth would tear.
 TEST(Multigrid, IsNotTornByWhatFrictionHolds) {
   Scene scene;
   Object sheet = cotton(grid_mesh(40, 40, 1, 1));
@@ -190,7 +190,7 @@ TEST(Multigrid, CyclesOutOfRangeAreRefusedByName) {
   }
 }
 
-/// What has no distance, or nothing that moves, is solved as `tiled` has it there and back.
+/// Objects without distances, or without dynamic particles, are solved as by `tiled`, forwards and backwards.
 TEST(Multigrid, TakesObjectsWithNothingToCorrect) {
   Scene scene;
   scene.add(loose_particles({{0, 0, 0}, {1, 0, 0}}));

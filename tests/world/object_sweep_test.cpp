@@ -1,4 +1,4 @@
-// Each object is solved by its own sweep: side by side, objects get the bits that each gets alone.
+// Tests that each object is solved by its own sweep: side by side, objects get the bits that each gets alone.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing_support;
 
-/// Hung by two corners over a ball and a floor; of a thickness of its own, so that no two are alike.
+/// Cloth hung by two corners over a ball and a floor. Each has a different thickness, so that no two are equal.
 Object hung_cloth(Sweep sweep, int number) {
   ClothOptions options;
   options.name = sweep_name(sweep);
@@ -61,7 +61,7 @@ void expect_the_same_alone(const std::vector<Object>& objects, SweepOptions::Acc
     SCOPED_TRACE(objects[o].name);
     Object object = objects[o];
     Scene scene = scene_of({}, acceleration);
-    scene.settings.sweep = object.sweep;  // by the scene's settings, with none of its own
+    scene.settings.sweep = object.sweep;  // the sweep comes from the scene's settings; the object has none
     object.sweep = Sweep::automatic;
     scene.add(object);
     World alone(scene);

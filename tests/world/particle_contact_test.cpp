@@ -1,4 +1,4 @@
-// Free particles meet one another as spheres of their thickness.
+// Tests contact between free particles, which are spheres with the radius of their thickness.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,8 +1,8 @@
-// Random small scenes with extremes in them: time steps of 1e-5 to 1 s, mass ratios of 1e6, compliance from none to plenty,
-// 1 to 50 iterations, degenerate stencils, scales of 1e-3 to 1e3, places 1e4 m away. Every one is refused with its element
-// named, or stays finite, or stops with the culprit named; none crashes. Cloth does stay finite: what may grow until no float
-// holds it is a balloon of any pressure and stiffness, and a heap of random constraints that hold nothing together. PLIANT_RANDOM_SCENES=3000 tries more,
-// PLIANT_RANDOM_SEED others.
+// Tests small random scenes with extremes: time steps of 1e-5 to 1 s, mass ratios of 1e6, compliance from none to much,
+// 1 to 50 iterations, degenerate stencils, scales of 1e-3 to 1e3, positions 1e4 m away. Each must be rejected with its
+// element named, or stay finite, or stop with the cause named; none may crash. Cloth must stay finite. Only balloons of
+// any pressure and stiffness, and heaps of random constraints, may grow beyond float range. PLIANT_RANDOM_SCENES=3000
+// tries more scenes, PLIANT_RANDOM_SEED others.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,14 +23,14 @@ int number_from(const char* variable, int otherwise) {
   return text != nullptr ? std::atoi(text) : otherwise;
 }
 
-/// Two calls of one Dice never stand in the same list of arguments, which compilers evaluate in orders of their own.
+/// Never call a Dice twice in one list of arguments: compilers evaluate arguments in different orders.
 class Dice {
  public:
   explicit Dice(unsigned seed) : random_(seed) {}
   int below(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
   bool one_in(int n) { return below(n) == 0; }
   float between(float low, float high) { return low + (high - low) * static_cast<float>(random_() >> 8) / 16777216.f; }
-  /// Evenly over the magnitudes from 10^low to 10^high.
+  /// A number between 10^low and 10^high whose logarithm is uniformly distributed.
   float magnitude(float low, float high) { return std::pow(10.f, between(low, high)); }
   Vec3f point(float reach) { return {between(-reach, reach), between(-reach, reach), between(-reach, reach)}; }
 
@@ -91,7 +91,7 @@ Object random_object(Dice& dice, float scale, const Vec3f& place) {
   } else {
     const int particles = 1 + dice.below(40);
     for (int i = 0; i < particles; ++i) {
-      // Now and then many in one place, or in line.
+      // Sometimes many particles are in one place, or on one line.
       const Vec3f at = kind == 2 && dice.one_in(2) ? Vec3f{static_cast<float>(dice.below(3)), 0, 0} : dice.point(1);
       object.positions.push_back(at * scale + place);
     }
@@ -176,7 +176,7 @@ void expect_finite_or_said(Sweep sweep, unsigned first, int scenes) {
         ++stopped;
         EXPECT_NE(report.nonfinite->object, "cloth") << report.explain();
         EXPECT_FALSE(report.nonfinite->object.empty());
-        // What multigrid corrects by far too much is no constraint's doing: then it is the particle that is named.
+        // If multigrid corrects by far too much, no constraint is the cause; then the particle is named.
         const char* culprit = sweep == Sweep::tiled ? " constraint " : " ";
         EXPECT_NE(report.nonfinite->element.find(culprit), std::string::npos) << report.explain();
         EXPECT_FALSE(world.step(step).ok());
@@ -202,8 +202,8 @@ void expect_finite_or_said(Sweep sweep) {
 TEST(RandomScenes, StayFiniteOrSayWhatDidNot) { expect_finite_or_said(Sweep::tiled); }
 TEST(RandomScenes, StayFiniteOrSayWhatDidNotByMultigrid) { expect_finite_or_said(Sweep::multigrid); }
 
-// Cloth of masses from 1e-3 to 1e3 whose rigid bending undoes in each substep what was corrected: every correction by an unsound
-// Newton step threw it further, until no float held it.
+// Cloth with masses from 1e-3 to 1e3 whose rigid bending undoes in each substep what was corrected. Every correction by
+// a harmful Newton step would throw it farther, until values are infinite.
 TEST(RandomScenes, UnsoundCorrectionsAreNotMade) { expect_finite_or_said(Sweep::multigrid, 1091, 1); }
 
 }  // namespace

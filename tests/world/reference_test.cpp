@@ -1,6 +1,6 @@
-// A World against the tests' own solver: double precision, one constraint after another in the order in which they were
-// given. They visit constraints in different orders, so they are compared where the order does not matter: constraints that
-// share nothing, and systems projected until they are met.
+// Compares a World with the tests' own solver: double precision, constraints one after another in the order in which
+// they were given. The orders differ, so the tests use cases in which the order does not matter: constraints that share
+// no particle, and systems projected until they converge.
 #include "pliant/reference.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ reference::Hardness hardness_of(const Stiffness& stiffness) {
   return hardness;
 }
 
-/// The same object for the reference solver; rest data as given or measured in double.
+/// Adds an object to the reference solver. Rest data are those given, or measured in double precision.
 void add_object(const Object& object, reference::Solver& solver) {
   for (std::size_t i = 0; i < object.positions.size(); ++i) {
     const Vec3d velocity = object.velocities.empty() ? Vec3d{} : convert<double>(object.velocities[i]);
@@ -48,7 +48,7 @@ void add_object(const Object& object, reference::Solver& solver) {
   }
 }
 
-/// The largest distance between the two after some frames.
+/// The largest distance between a particle's two positions after some frames [m].
 double difference(const Object& object, int substeps, int iterations, int frames) {
   Scene scene;
   scene.add(object);
@@ -74,7 +74,7 @@ template <class T>
 class AgainstReference : public testing::Test {};
 TYPED_TEST_SUITE(AgainstReference, ConstraintTypes, NameOfType);
 
-/// Many constraints that share no particle, each away from its rest.
+/// Many constraints of a type that share no particle, each away from its rest shape.
 template <class T>
 Object separate(const Stiffness& stiffness) {
   Random random(31);
@@ -88,7 +88,7 @@ Object separate(const Stiffness& stiffness) {
       object.velocities.push_back(convert<float>(random_point(random, 0.5)));
       object.masses.push_back(static_cast<float>(uniform(random, 0.5, 2)));
     }
-    // A rest that is a little different.
+    // The rest data are measured at slightly different positions.
     auto y = x;
     for (Vec3d& p : y) p += random_point(random, 0.03);
     const auto rest = convert_params<T, float, double>(measure<T, double>(y));
@@ -115,7 +115,7 @@ TEST(Reference, AgreesOnAChainProjectedUntilItIsMet) {
   for (const Stiffness& stiffness : {Stiffness::rigid(), Stiffness::compliance(1e-4f), Stiffness::compliance(1e-3f, 2)}) {
     Object object = chain(6, 0.2f, stiffness);
     object.masses[0] = std::numeric_limits<float>::infinity();
-    // Gradients turn while projections go on, so even what is met keeps a trace of the order.
+    // Gradients rotate between projections, so even converged constraints keep a trace of the order.
     EXPECT_LT(difference(object, 2, 400, 20), 1.5e-3);
   }
 }

@@ -1,5 +1,5 @@
-// Contact among surfaces while objects come and go: a World that brings it up to date steps bit for bit as one that makes it
-// from the start.
+// Tests contact between surfaces while objects are added and removed: a World that updates its contact must give the
+// same bits as one that makes it anew.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -29,10 +29,10 @@ MeshCollider block(const Vec3f& at) {
   return collider;
 }
 
-/// A World to which things are added and from which they are removed, and what they were made of.
+/// A World to which objects are added and from which they are removed, with the descriptions of all its objects.
 class Life {
  public:
-  /// Every other one has a material of its own for two names.
+  /// With an even seed, the pair of two names has contact properties of its own.
   Life(const Settings& settings, std::uint64_t seed)
       : random_(seed), is_split_(settings.substeps == 0), world_(begin(settings, seed % 2 == 0)) {}
 
@@ -59,7 +59,7 @@ class Life {
     }
   }
 
-  /// The same World made from the start, in the same state.
+  /// The same World made from the start, in the same State.
   World made_again() const {
     Scene scene;
     scene.settings = world_.settings();
@@ -85,7 +85,7 @@ class Life {
     meshes_[{0, 0}] = block({});
     scene.add(objects_[{0, 0}]);
     scene.add(meshes_[{0, 0}]);
-    if (is_split_) {  // a World whose objects agree in substeps keeps their number
+    if (is_split_) {  // a World whose objects all have the same number of substeps keeps that number
       Object& other = objects_[{1, 0}] = sheet("other", {1, 1, 1}, 5, 0.002f);
       other.sweep = Sweep::multigrid;
       other.groups = other.mask = 2;
@@ -107,7 +107,7 @@ class Life {
       rope.collides = true;
       return rope;
     }
-    if (kind == 1) {  // free particles that meet one another
+    if (kind == 1) {  // free particles that collide with one another
       Object grains;
       grains.name = "grains";
       for (int i = 0; i < 12; ++i) grains.positions.push_back(at + Vec3f{0.01f * static_cast<float>(i), 0.3f, 0});
@@ -119,14 +119,15 @@ class Life {
     if (kind == 2) return sheet("thick", at, 5, 0.015f);
     Object object = sheet("sheet", at, 4 + static_cast<int>(random_() % 9), 0.002f);
     object.self_collision = kind == 3 || kind == 4;
-    if (kind == 5) object.groups = object.mask = 2;  // meets only its like
+    if (kind == 5) object.groups = object.mask = 2;  // meets only objects of this group
     if (is_split_ && kind > 2) split(object);
     if (kind == 6)
-      for (Vec3f& p : object.positions) p = {p.x, p.z, 0.02f};  // upright, through what is there
+      for (Vec3f& p : object.positions) p = {p.x, p.z, 0.02f};  // upright, through the other objects
     return object;
   }
 
-  /// Three sets that never meet, two of them with half the substeps, and now and then an object that joins one to the first.
+  /// Makes three sets that never meet, two of them with half the substeps, and sometimes an object that joins one of
+  /// them to the first.
   void split(Object& object) {
     const std::uint64_t set = random_() % 9;
     if (set < 3) return;
@@ -134,7 +135,7 @@ class Life {
     if (set < 8) object.sweep = Sweep::multigrid;
   }
 
-  /// Another size of particles in the same place.
+  /// Edits an object: other particles in the same place.
   void edit() {
     const auto at = std::next(objects_.begin(), static_cast<std::ptrdiff_t>(random_() % objects_.size()));
     Edit edit;
@@ -146,11 +147,11 @@ class Life {
   }
 
   std::mt19937_64 random_;
-  bool is_split_ = false;  ///< into several groups of substeps
+  bool is_split_ = false;  ///< true: several groups of substeps
   std::map<Key, Object> objects_;
   std::map<Key, MeshCollider> meshes_;
   std::vector<PairProperties> pairs_;
-  World world_;  // the last, since begin() fills the others
+  World world_;  // last, since begin() fills the other members
 };
 
 Settings settings_of_life(Settings::Intersections intersections, bool filter) {
@@ -201,7 +202,7 @@ TEST(RunTimeContact, IsThatOfAWorldMadeFromTheStartWhereSetsHaveDifferentSubstep
   for (std::uint64_t seed = 9; seed <= 12; ++seed) expect_the_bits_of_a_world_made_again(settings, seed, 300);
 }
 
-/// What falls beside the place of a removed object travels no farther than alone.
+/// An object that falls beside the place of a removed one must not cause more rebuilds than one that falls alone.
 TEST(RunTimeContact, PairsClustersAgainNoMoreOftenAfterARemoval) {
   Scene scene;
   scene.settings = settings_of(10);

@@ -1,4 +1,4 @@
-// What a user moves and pushes between steps, against known answers.
+// Tests what the user moves and pushes between steps, with known answers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,7 +40,7 @@ TEST(Control, AnImpulseChangesMomentumByItself) {
   world.add_impulses(0, impulses);
   expect_near(momentum(world, 0), {0.01, 0.02, -0.01}, 1e-8);
   world.step(dt);
-  expect_near(momentum(world, 0), {0.01, 0.02, -0.01}, 1e-6);  // inner forces change nothing of it
+  expect_near(momentum(world, 0), {0.01, 0.02, -0.01}, 1e-6);  // internal forces do not change it
 }
 
 TEST(Control, AForceForAFrameGivesForceTimesTimeAndIsGone) {
@@ -173,7 +173,7 @@ TEST(Control, ADrivenPoseEqualsTheSameMotionByKeyframes) {
     world.step(1.f / 64);
     expected.step(1.f / 64);
   }
-  // Every pose, of frames and of their eight substeps, is a float without rounding: contact sees the same ball.
+  // Every pose, of frames and of their eight substeps, is exact in float, so contact sees the same ball.
   EXPECT_EQ(world.positions(0), expected.positions(0));
   EXPECT_LT(distance(world.collider_position(0), expected.collider_position(0)), 1e-6);
 }

@@ -1,4 +1,4 @@
-// Objects that are changed in place: torn, cut, pinned, made heavier.
+// Tests objects that are edited while they move: torn, cut, pinned, made heavier.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace testing_support;
 
-/// Nine by nine particles, row after row; the middle column from edge to edge.
+/// Of nine by nine particles, row after row: the middle column from border to border.
 std::vector<int> middle_column() {
   std::vector<int> path;
   for (int row = 0; row < 9; ++row) path.push_back(9 * row + 4);
@@ -28,7 +28,7 @@ double mass_of(const Object& object) {
   return sum;
 }
 
-/// Particles that triangles join, each with the least of its piece.
+/// For each particle, the lowest particle of its connected component.
 std::vector<int> pieces_of(const Object& object) {
   std::vector<int> piece(object.positions.size());
   for (std::size_t i = 0; i < piece.size(); ++i) piece[i] = static_cast<int>(i);

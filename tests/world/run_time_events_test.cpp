@@ -1,4 +1,4 @@
-// Contact events against known answers: who touches whom, when it begins and ends, and how hard.
+// Tests contact events with known answers: which things touch, when contact begins and ends, and how hard they touch.
 #include <gtest/gtest.h>
 
 #include <algorithm>

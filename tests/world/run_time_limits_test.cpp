@@ -1,4 +1,4 @@
-// A World that changed as it ran, where it is at its limits.
+// Tests the limits of a World to which objects are added at run time.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ TEST(RunTimeLimits, AHoleBelongsToNoBody) {
   scene.add(sheet({}));
   World world(scene);
   world.remove(ObjectId(0));
-  world.add(block());  // gets the number of what was removed, and does not fit its place
+  world.add(block());  // gets the number of the removed object, but does not fit into its block
   made_at_once.add(sheet({}));
   made_at_once.add(block());
   World other(made_at_once);
@@ -79,10 +79,10 @@ TEST(RunTimeLimits, ThingsThatBeganInOnePlaceOneAfterAnotherAreLaidOutAgain) {
   scene.settings.initial_intersections = Settings::Intersections::refuse;
   scene.add(sheet({}));
   World world(scene);
-  for (int frame = 0; frame < 20; ++frame) world.step(dt);  // it falls
+  for (int frame = 0; frame < 20; ++frame) world.step(dt);  // the object falls
   Object next = sheet({});
   const Vec3f middle = (next.positions.front() + next.positions.back()) * 0.5f;
-  for (Vec3f& p : next.positions)  // across where the first began
+  for (Vec3f& p : next.positions)  // across the place where the first object began
     p = middle + Vec3f{p.x - middle.x + 0.03f, p.z - middle.z + 0.02f, p.y - middle.y + 0.01f};
   ASSERT_NO_THROW(world.add(next));
   scene.add(next);

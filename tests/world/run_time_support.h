@@ -5,7 +5,7 @@
 
 namespace pliant::testing_support {
 
-/// A closed box about the origin, its triangles outwards.
+/// A closed box about the origin; its triangles face outward.
 inline TriangleMesh box_mesh(const Vec3f& size) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i)
@@ -16,7 +16,7 @@ inline TriangleMesh box_mesh(const Vec3f& size) {
   return mesh;
 }
 
-/// Of all particles that can move [kg m/s].
+/// The linear momentum of an object's dynamic particles [kg m/s].
 inline Vec3<double> momentum(const World& world, ObjectId object) {
   Vec3<double> sum{};
   const auto positions = world.positions_in_storage_order(object), velocities = world.velocities_in_storage_order(object);

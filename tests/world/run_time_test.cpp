@@ -1,4 +1,4 @@
-// Objects that come and go while a World runs.
+// Tests objects that are added and removed while a World runs.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -28,7 +28,7 @@ Collider ball() {
   return collider;
 }
 
-/// A static box under everything, as triangles.
+/// A static box of triangles below everything.
 MeshCollider table() {
   MeshCollider collider;
   collider.name = "table";
@@ -282,14 +282,14 @@ TEST(RunTime, IntersectionsOfWhatIsAddedAreRefusedWhereTheSceneRefusesThem) {
   EXPECT_EQ(world.object_count(), 1);
   EXPECT_TRUE(world.mesh_colliders().empty());
   Object apart = at_height(1);
-  apart.groups = 2;  // nothing meets it, so it may be anywhere
+  apart.groups = 2;  // no object meets this group, so it may be anywhere
   apart.mask = 2;
   EXPECT_EQ(refused(apart), "");
   EXPECT_EQ(refused(at_height(0)), "") << "where the sheet was at the start";
   EXPECT_TRUE(world.step(dt).ok());
 }
 
-/// The same random adds, removes and steps: a hash of all that is left.
+/// Makes the same random additions, removals and steps; returns a hash of all that remains.
 std::string random_life(int threads, int changes, std::size_t& largest) {
   std::mt19937 random(11);
   Scene scene;

@@ -1,4 +1,4 @@
-// Scenes as data, and the look through one: everything that a World would refuse is grave, and only that.
+// Tests scenes as data, and their inspection: exactly what a World rejects is grave.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ Attachment bond(int particle, const Vec3f& target) {
   return attachment;
 }
 
-/// A cloth above a ball, of which nothing is doubtful.
+/// A scene of a cloth above a ball, in which nothing is doubtful.
 Scene good_scene() {
   Scene scene;
   ClothOptions options;
@@ -59,7 +59,7 @@ std::string text_of(const std::vector<Finding>& findings) {
 
 using Change = std::function<void(Scene&)>;
 
-/// Expects that a scene so changed is refused, that the message holds `words`, and that inspect() says the same.
+/// Expects that a scene with this change is rejected, that the message contains `words`, and that inspect() says the same.
 void expect_grave(const std::string& words, const Change& change, Scene scene = good_scene()) {
   change(scene);
   const std::vector<Finding> findings = inspect(scene);
@@ -70,7 +70,7 @@ void expect_grave(const std::string& words, const Change& change, Scene scene = 
   EXPECT_THROW(refuse_grave(scene), Error) << words;
 }
 
-/// Expects that a scene so changed is accepted with a doubt that holds `words`.
+/// Expects that a scene with this change is accepted with a warning that contains `words`.
 void expect_doubt(const std::string& words, const Change& change, Scene scene = good_scene()) {
   change(scene);
   const std::string text = text_of(inspect(scene));
@@ -292,7 +292,7 @@ TEST(InspectScene, DoubtfulConstraintsAndSurfaces) {
 
 TEST(InspectScene, DoubtfulOverlaps) {
   expect_doubt("inside of collider 'ball'", [](Scene& s) { s.colliders[0].position.y = 0; });
-  expect_doubt("inside of collider 'ball'", [](Scene& s) {  // there at time 0 only by its motion
+  expect_doubt("inside of collider 'ball'", [](Scene& s) {  // at time 0 only its motion takes it there
     s.colliders[0].motion.keyframes = {{0, {0, 0.5f, 0}}, {1}};
   });
   expect_doubt("inside of collider 'ground'", [](Scene& s) { s.add(solid("ground", Plane{}, {0, 0.1f, 0})); });

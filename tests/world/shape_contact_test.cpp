@@ -1,4 +1,5 @@
-// Edges and triangles on spheres, capsules and boxes: at rest where they must be, and not through what is smaller than they are.
+// Tests edges and triangles in contact with spheres, capsules and boxes: where they rest, and that solids smaller than
+// they are do not pass through.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +17,8 @@ using namespace testing_support;
 constexpr float dt = 1.f / 60;
 constexpr float thickness = 0.01f;
 
-/// The least signed distance of a triangle's or a segment's inside to a collider, at many places, and closer about the least [m].
+/// The least signed distance of the inside of a triangle or segment to a collider [m]: sampled, more finely near the
+/// least sample.
 double nearest(const Collider& collider, double time, const std::vector<Vec3f>& corners) {
   const Posed pose = collider_pose(collider, time);
   const LocalShape shape = local_shape(collider.shape);
@@ -46,7 +48,7 @@ Collider smooth(const Shape& shape) {
   return collider;
 }
 
-/// Particles that keep all their distances; a triangle where there are three.
+/// Particles that keep all their distances, and a triangle if there are three.
 Object rigid(const std::vector<Vec3f>& corners) {
   Object object = loose_particles(corners);
   object.name = "element";
@@ -67,7 +69,7 @@ struct Rest {
   std::string name;
   Collider collider;
   std::vector<Vec3f> corners;
-  float top;  ///< of the solid below the element [m]
+  float top;  ///< height of the solid below the element [m]
 };
 void PrintTo(const Rest& rest, std::ostream* out) { *out << rest.name; }
 
@@ -80,7 +82,7 @@ Collider on_its_edge() {
 /// A box that stands on a corner.
 Collider on_its_corner() {
   Collider box = smooth(Box{{0.1f, 0.1f, 0.1f}});
-  // The diagonal (1, 1, 1) is turned to (0, 1, 0).
+  // Rotates the diagonal (1, 1, 1) to (0, 1, 0).
   box.rotation = rotation({1, 0, -1}, -180 / 3.14159265f * std::acos(1 / std::sqrt(3.f)));
   return box;
 }
@@ -123,7 +125,7 @@ TEST_P(ElementsAtRest, AreHeldAtTheirThickness) {
       EXPECT_GT(nearest(collider, 0, world.positions(0)), thickness - 2e-4) << substeps << " substeps, frame " << frame;
       EXPECT_TRUE(frame < 10 || report.contacts > 0) << "frame " << frame;
     }
-    // It is on its way off a corner by now, but no farther from it than it was put.
+    // By now it is sliding off a corner, but its distance is still that at which it was placed.
     EXPECT_NEAR(nearest(collider, 0, world.positions(0)), thickness, 1e-3) << substeps << " substeps";
   }
 }
@@ -172,7 +174,7 @@ TEST(ShapeContacts, AreCarriedByWhatMoves) {
   for (const Vec3f& v : world.velocities(0)) EXPECT_NEAR(v.y, 1, 0.05f);
 }
 
-/// A link across an edge of a box that moves along that edge: friction takes it along, without it stays.
+/// A link across an edge of a box that moves along that edge: friction must take it along; without friction it must stay.
 TEST(ShapeContacts, HaveFriction) {
   for (const float friction : {0.f, 0.5f}) {
     Scene scene;
@@ -201,10 +203,11 @@ TEST(ShapeContacts, AreMadeWithAColliderThatCameLater) {
   world.add(smooth(Sphere{0.05f}));
   for (int frame = 0; frame < 30; ++frame) world.step(dt);
   EXPECT_NEAR(world.positions(0)[0].y, 0.06f, 1e-4f);
-  EXPECT_EQ(world.step(dt).contacts, 0);  // it was stopped, and nothing presses it down
+  EXPECT_EQ(world.step(dt).contacts, 0);  // it was stopped, and no force presses it down
 }
 
-/// From any side and at any angle a small sphere stops a triangle that is shot at it, and thin capsules and boxes links.
+/// A small sphere must stop a triangle that is shot at it from any side and at any angle; so must thin capsules and
+/// boxes stop links.
 TEST(ShapeContacts, StopShots) {
   std::mt19937 random(7);
   const auto uniform = [&](double low, double high) {
@@ -235,13 +238,13 @@ TEST(ShapeContacts, StopShots) {
   EXPECT_EQ(through, 0) << "of " << shots;
 }
 
-/// A cloth whose edges are longer than the sphere is wide.
+/// Cloth whose edges are longer than the sphere is wide.
 TEST(ShapeContacts, HoldCoarseClothOnASmallSphere) {
   for (const float speed : {0.f, 3.f}) {
     Scene scene;
     Collider sphere;
     sphere.shape = Sphere{0.04f};
-    sphere.position = {0.03f, 0, 0.02f};  // under the inside of a triangle
+    sphere.position = {0.03f, 0, 0.02f};  // below the inside of a triangle
     scene.add(sphere);
     ClothOptions options;
     options.name = "cloth";

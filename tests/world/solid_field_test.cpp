@@ -1,4 +1,5 @@
-// Solids met through a distance: a ball's grid against the ball itself, ground against its planes, and Worlds with either.
+// Tests solids given by a distance function: a ball's grid compared with the ball, terrain with its planes, and Worlds
+// with either.
 #include "collision/fields/solid_field.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +25,7 @@ MeshCollider ball(int subdivisions, float radius) {
   return collider;
 }
 
-/// Ground that rises by a third of x.
+/// Terrain that rises by a third of x.
 MeshCollider ramp() {
   MeshCollider collider;
   collider.name = "ramp";
@@ -67,7 +68,7 @@ TEST(SolidField, OfGroundIsItsPlane) {
 
 TEST(SolidField, OfGroundEndsAtItsUnderside) {
   const SolidField field(heightfield_of(ramp().mesh));
-  const float underside = -2.f / 3 - 4;  // as deep below its lowest point as it is wide
+  const float underside = -2.f / 3 - 4;  // it is as far below the lowest point as the terrain is wide
   EXPECT_NEAR(field.bounds().low.y, underside, 1e-5f);
   const auto below = field.distance({0.3f, underside - 0.5f, 0.2f}), in = field.distance({0.3f, underside + 0.5f, 0.2f});
   EXPECT_NEAR(below.distance, 0.5f, 1e-5f);
@@ -98,7 +99,7 @@ MeshCollider measured_ball(float radius) {
   return collider;
 }
 
-/// Where particles end that fall on it from all over.
+/// Where particles end that fall on the collider from all over.
 std::vector<Vec3f> rained_on(const MeshCollider& collider, float speed, float friction) {
   Scene scene;
   scene.settings = settings_of(10);
@@ -129,7 +130,8 @@ TEST(SolidField, LetsNothingThroughThatIsFast) {
   for (const Vec3f& p : rained_on(round, 300, 2)) EXPECT_TRUE(length(p) > 0.59f && (p.y > -1 || length(p) > 5)) << p.y;
 }
 
-/// A particle on its own or with another far above, which is in the same tile and reaches into the ground.
+/// The path of a particle near a ramp, alone or with another particle far above, which is in the same tile and extends
+/// into the ground.
 std::vector<Vec3f> way_near_the_ramp(const Vec3f& place, const Vec3f& velocity, bool with_another) {
   Scene scene;
   scene.gravity = {};
@@ -160,12 +162,13 @@ TEST(SolidField, OfGroundIsSolidToADepthThatDependsOnNobodyElse) {
   const Vec3f out = way_near_the_ramp({0, -0.5f, 0}, {}, true).back();
   EXPECT_GT(out.y, out.x / 3) << "up";
   EXPECT_LT(way_near_the_ramp({0, -4.3f, 0}, {}, true).back().y, underside) << "down, which is closer";
-  // What comes from below stays there, and nothing is pushed faster than 2 m/s.
+  // A particle that comes from below stays below, and no particle is pushed out faster than 2 m/s.
   for (const float speed : {0.5f, 5.f, 300.f}) {
     const std::vector<Vec3f> way = way_near_the_ramp({0.3f, -6, 0.2f}, {0, speed, 0}, true);
     EXPECT_NEAR(way.back().y, std::fmin(-6 + 40 * speed * dt, underside - 0.01f), 1e-3f) << speed;
   }
-  const std::vector<Vec3f> way = way_near_the_ramp({2.1f, -0.6f, 0}, {-1, 0, 0}, true);  // in through a side, which is open
+  const std::vector<Vec3f> way =
+      way_near_the_ramp({2.1f, -0.6f, 0}, {-1, 0, 0}, true);  // enters through a side of the terrain, which is open
   EXPECT_LT(way.back().x, 1.9f);
   EXPECT_GT(way.back().y, 0.3f) << "on its way up";
   for (std::size_t i = 1; i < way.size(); ++i) EXPECT_LT(length(way[i] - way[i - 1]), 2.3f * dt) << i;
@@ -203,7 +206,7 @@ TEST(SolidField, MovesAndIsMaskedAsTrianglesAre) {
   }
   World world(scene);
   for (int frame = 0; frame < 30; ++frame) world.step(dt);
-  EXPECT_GE(world.positions(0)[0].y, 1.99f);  // in front of it
+  EXPECT_GE(world.positions(0)[0].y, 1.99f);  // it stays in front of the solid
   EXPECT_EQ(world.positions(1)[0].y, 1.f);
 }
 

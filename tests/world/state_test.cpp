@@ -1,4 +1,4 @@
-// A State is a value: put back, it goes on in the same bits, and its hash sees all of it.
+// Tests that a State is a value: a restored one continues with the same bits, and its hash depends on all of it.
 #include <gtest/gtest.h>
 
 #include <cmath>

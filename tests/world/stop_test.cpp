@@ -1,4 +1,4 @@
-// A step that is asked to stop ends with the substep under way, in a State that means something.
+// Tests stopping: a step that is asked to stop ends with the current substep, in a valid State.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,8 @@ namespace {
 
 using namespace testing_support;
 
-/// A particle that falls, in a frame of ten substeps whose force field, asked once a substep, sets the flag in number `last`.
+/// A falling particle, in a frame of ten substeps. The force field, called once per substep, sets the flag in call
+/// number `last`.
 Scene falling(std::atomic<bool>& flag, int& asked, int last) {
   Scene scene;
   scene.settings = settings_of(10);

@@ -1,4 +1,4 @@
-// Groups of substeps within a frame: reports, stopping, division, events and control go by each group's own substeps.
+// Tests groups of substeps within a frame: reports, stopping, division, events and control use each group's own substeps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ TEST(SubstepGroups, AddUpInTheReport) {
   EXPECT_GT(among_surfaces, 0) << "or this shows nothing";
 }
 
-/// The residual C + alpha~ lambda of each object counts with its own length of a substep.
+/// The residual C + alpha~ lambda of each object must be measured with the length of its own substeps.
 TEST(SubstepGroups, AreMeasuredWithTheirOwnSubsteps) {
   World world(scene_of({flag(), sock()})), one(scene_of({flag()})), other(scene_of({sock()}));
   for (World* each : {&world, &one, &other}) run(*each, 20);
@@ -53,7 +53,7 @@ TEST(SubstepGroups, StopWhereAllHaveReachedTheSameTime) {
     int asked = 0;
     Scene scene = scene_of({flag(), sock()});
     scene.wind = {};
-    // Called for each free particle of the object whose substep it is; counted for one particle of each.
+    // Called for each free particle in each substep of its object; counted for one particle of each object.
     scene.forces.push_back([&](const Vec3f&, const Vec3f&, float, float) { return ++asked, Vec3f{}; });
     World world(scene);
     world.step(dt);
@@ -71,7 +71,7 @@ TEST(SubstepGroups, StopWhereAllHaveReachedTheSameTime) {
     EXPECT_NEAR(tenth, std::round(tenth), 1e-9) << "the end of a substep of both";
     EXPECT_EQ(report.stopped, tenth < 9.5);
     EXPECT_EQ(stopped.state().frame, report.stopped ? 0 : 1);
-    // Both have moved so far: what falls freely has the velocity of that time.
+    // All objects have moved up to this time, so a freely falling one has the velocity of that time.
     stopped.stop_when(nullptr);
     stop = false;
     stopped.restore(before);
@@ -80,7 +80,7 @@ TEST(SubstepGroups, StopWhereAllHaveReachedTheSameTime) {
   }
 }
 
-/// Free fall says how far each group has come.
+/// The positions in free fall show up to which time each group has moved.
 TEST(SubstepGroups, HaveAllMovedAsFarWhereTheyStop) {
   std::atomic<bool> stop{false};
   Object falling = flag(), other = sheet("sock", {0, -0.5f, 3}, 14);
@@ -138,7 +138,7 @@ TEST(SubstepGroups, NameWhatIsNotFiniteAndLeaveAFiniteState) {
   EXPECT_FALSE(world.step(dt).ok());
 }
 
-/// How many contacts the events of an object have, and their impulses.
+/// The numbers of contacts in an object's events, and their impulses.
 std::vector<std::pair<int, double>> events_of(const World& world, int object) {
   std::vector<std::pair<int, double>> found;
   for (const ContactEvent& event : world.contact_events())
@@ -178,7 +178,7 @@ TEST(SubstepGroups, MoveTargetsAndGivenForcesInTheirOwnTime) {
   expect_the_same(world, 1, other, 0);
 }
 
-/// A scene names neither number; the settings of a World of it do.
+/// The scene names no number of substeps; the settings of a World made of it do.
 TEST(SubstepGroups, AreOneForALayoutWithATolerance) {
   Scene scene = scene_of({flag(), sock()});
   scene.settings.tolerance = 1e-5f;

@@ -1,4 +1,4 @@
-// What the tests of substep groups share: a flag and a sock, which never meet, in air over a floor.
+// What the tests of substep groups share: a flag and a sock that never meet, in air over a floor.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,10 +22,10 @@ inline Object sheet(const std::string& name, const Vec3f& at, int n = 12) {
   return cloth;
 }
 
-/// By `multigrid`, 10 substeps.
+/// A sheet solved by `multigrid` in 10 substeps.
 inline Object flag() { return sheet("flag", {0, 0.5f, 0}); }
 
-/// It touches itself, so it is solved by `tiled` in 20 substeps. It lies in two layers, which fall onto the floor.
+/// A self-colliding sheet, solved by `tiled` in 20 substeps. It lies in two layers, which fall on the floor.
 inline Object sock() {
   Object object = sheet("sock", {0, -0.6f, 3}, 14);
   for (Vec3f& p : object.positions)
@@ -35,7 +35,7 @@ inline Object sock() {
   return object;
 }
 
-/// What flag and sock share: air, a ball that moves under the flag, a floor that the sock falls on.
+/// A scene with air, a ball that moves under the flag, and a floor on which the sock falls.
 inline Scene scene_with_floor() {
   Scene scene;
   scene.wind.velocity = {1, 0, 2};
@@ -67,7 +67,7 @@ void expect_equal_bits(const std::vector<T>& a, const std::vector<T>& b) {
 
 inline constexpr int frames = 40;
 
-/// Object `o` of a World has the positions and velocities of object `other` of another.
+/// Expects that object `o` of one World has the positions and velocities of object `other` of another World.
 inline void expect_the_same(const World& world, ObjectId o, const World& alone, ObjectId other) {
   expect_equal_bits(world.positions(o), alone.positions(other));
   expect_equal_bits(world.velocities(o), alone.velocities(other));
@@ -78,7 +78,7 @@ inline void run(World& world, int count = frames) {
   for (int frame = 0; frame < count; ++frame) ASSERT_TRUE(world.step(dt).ok());
 }
 
-/// All of `sets` together; each set has the bits that it gets alone.
+/// Simulates all of `sets` together, and expects that each set gets the bits that it gets alone.
 inline void expect_each_set_as_alone(const std::vector<std::vector<Object>>& sets) {
   Scene scene = scene_with_floor();
   for (const std::vector<Object>& set : sets)

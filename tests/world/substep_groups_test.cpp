@@ -1,5 +1,5 @@
-// Substeps belong to sets of objects that can meet; sets of one number are a group, and each group gets the bits that it gets
-// alone. Within a group sets with contact among surfaces share its searches and rounds.
+// Tests that substeps belong to sets of objects that can meet. Sets with the same number form a group, and each group
+// gets the bits that it gets alone. Within a group, sets share the searches of contact between surfaces.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,8 @@ TEST(SubstepGroups, AFlagBesideASockIsAsAlone) {
   expect_each_set_as_alone({{sock()}, {flag()}});
 }
 
-/// Frames, volumes, chains, tethers, attachments and inter-tile constraints each have loops of their own.
+/// Frames, volumes, chains, tethers, attachments and inter-tile constraints have loops of their own, so each kind is
+/// tested.
 TEST(SubstepGroups, ObjectsOfEveryKindAreAsAlone) {
   Object spinner = loose_particles({{3, 1, 0}, {3.5f, 1, 0}});
   spinner.name = "spinner";
@@ -40,7 +41,7 @@ TEST(SubstepGroups, ObjectsOfEveryKindAreAsAlone) {
   const Object balloon = make_cloth(mesh, options);
   Object rope = chain(60, 0.02f, Stiffness::compliance(1e-6f)), held = sheet("held", {6, 0, 0});
   rope.pins = {{0, {}}};
-  Object large = sheet("large", {-6, 0, 0}, 50);  // of two tiles
+  Object large = sheet("large", {-6, 0, 0}, 50);  // it has two tiles
   held.pins.clear();
   for (const int i : {0, 11}) held.attachments.push_back({i, held.positions[i], {}, Stiffness::compliance(1e-4f)});
   expect_each_set_as_alone({{spinner}, {rope}, {balloon}, {held}, {large}, {flag()}});
@@ -54,7 +55,7 @@ TEST(SubstepGroups, TwoGroupsWithContactAmongSurfacesAreAsAlone) {
   Object towel = sock(), cape = sock();
   for (Vec3f& p : towel.positions) p.x += 4;
   towel.name = "towel";
-  towel.sweep = Sweep::multigrid;  // and touches itself
+  towel.sweep = Sweep::multigrid;  // it collides with itself
   for (Vec3f& p : cape.positions) p.x -= 4;
   cape.name = "cape";
   cape.collides = true;
@@ -158,7 +159,7 @@ TEST(SubstepGroups, GiveTheSameBitsUnfused) {
   Object stiff = sheet("stiff", {3, 0.5f, 0});
   stiff.sweep = Sweep::tiled;
   Scene scene = scene_of({flag(), stiff});
-  scene.wind = {};  // its forces need velocities between substeps, which are never fused then
+  scene.wind = {};  // wind needs velocities between substeps, so that substeps would not be fused
   EXPECT_EQ(chosen_substeps(scene), (std::vector<int>{10, 20}));
   World world(scene);
   scene.settings.separate_phases = true;
@@ -184,7 +185,7 @@ TEST(SubstepGroups, AreFoundAgainWhenObjectsComeAndGo) {
   run(alone);
   run(world, 10);
   world.remove(ObjectId(1));
-  run(world, 10);  // one group now
+  run(world, 10);  // one group from now on
   EXPECT_EQ(world.step(dt).substeps, 10);
   const ObjectId next = world.add(sock());
   EXPECT_EQ(world.info(next).substeps, 20) << "before the next step, too";
@@ -222,7 +223,7 @@ TEST(SubstepGroups, AreThoseOfAWorldMadeFromALayout) {
   scene.settings = world.settings();
   World resumed(scene, world.layout());
   resumed.restore(world.state());
-  world.remove(ObjectId(1));  // a flag is left, and the number stays open
+  world.remove(ObjectId(1));  // a flag remains, and the number is free
   resumed.remove(ObjectId(1));
   run(world, 5);
   run(resumed, 5);

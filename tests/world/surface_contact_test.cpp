@@ -1,5 +1,5 @@
-// Surfaces that touch surfaces, as a World moves them: cloth with itself, with other cloth and with meshes. Whatever is promised
-// not to cross is looked at with exact signs in every frame.
+// Tests contact between surfaces in a World: cloth with itself, with other cloth and with meshes. Exact signs check in
+// every frame that nothing crosses that must not.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing_support;
 
-/// A sheet folded back over itself in a half circle, dropped onto a floor.
+/// A sheet folded over itself in a half circle, dropped on a floor.
 Scene folded_cloth() {
   TriangleMesh mesh = sheet(24, 0.5f, 0);
   constexpr float pi = 3.14159265f, radius = 0.03f, flat = 0.25f - pi / 2 * radius;
@@ -40,7 +40,7 @@ Scene layers() {
   return scene;
 }
 
-/// Two ends turned against each other, two turns in a second and a half.
+/// A sheet whose ends rotate against each other, two turns in a second and a half.
 Scene twisted_cloth() {
   Scene scene = scene_of(10);
   const TriangleMesh mesh = sheet(20, 0.4f, 0);
@@ -60,7 +60,7 @@ Scene twisted_cloth() {
   return scene;
 }
 
-/// Over a ball of triangles.
+/// A sheet that falls on a ball of triangles.
 Scene cloth_on_a_mesh() {
   Scene scene = scene_of(10);
   scene.add(cloth(sheet(20, 0.5f, 0.35f)));

@@ -1,4 +1,4 @@
-// Surfaces that touch, beyond not crossing: who meets whom, where they come to rest, friction, and tangles that come apart.
+// Tests contact between surfaces beyond not crossing: which objects meet, where they rest, friction, and untangling.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using namespace testing_support;
 
 // ------------------------------------------------------------------------------------------------ who meets whom
 
-/// How far a sheet that falls onto another, which is held, comes below it.
+/// How far a sheet that falls on another, fixed one gets below it [m].
 float sinks(const std::function<void(Object& held, Object& falling)>& change) {
   Scene scene = scene_of(10);
   Object held = cloth(sheet(10, 0.4f, 0)), falling = cloth(sheet(9, 0.2f, 0.02f));
@@ -53,7 +53,8 @@ TEST(Groups, SayWhoMeetsWhom) {
 
 // ------------------------------------------------------------------------------------------------ rest and friction
 
-// What is near in the mesh keeps no more than nine tenths of its distance there: a mesh is not pushed apart by its own neighbours.
+// Mesh neighbours keep at most nine tenths of their distance at rest, so a thickness of several edges must not push a
+// mesh apart.
 TEST(Thickness, OfMoreThanTheEdgesMovesNothing) {
   Scene scene = scene_of(10);
   scene.gravity = {};
@@ -83,7 +84,7 @@ TEST(Layers, ComeToRestAtTheirThickness) {
       EXPECT_NEAR(p.y, 0.002f + 0.004f * static_cast<float>(i), 2e-4f) << "layer " << i;
 }
 
-/// How far a patch of cloth slides in a second down two triangles that lie askew.
+/// How far a patch of cloth slides in a second down two oblique triangles [m].
 float slid(float degrees, float friction) {
   Scene scene = scene_of(10);
   const double angle = double(degrees) * 3.14159265358979 / 180;
@@ -123,7 +124,7 @@ TEST(Tangle, IsCountedDoesNotExplodeAndIsForgottenOnceApart) {
   for (int i = 0; i < 100; ++i)
     if (i < 10 || i >= 90 || i % 10 == 0 || i % 10 == 9) border.push_back(i);
   scene.pin(scene.add(cloth(sheet(10, 0.4f, 0))), border);
-  TriangleMesh upright = grid_mesh(9, 9, 0.31f, 0.31f);  // stands across it, its lower edge below
+  TriangleMesh upright = grid_mesh(9, 9, 0.31f, 0.31f);  // upright across the other one, its lower edge below it
   for (Vec3f& p : upright.positions) p = {p.x + 0.007f, p.z + 0.1f, 0.012f};
   Object object = cloth(upright);
   object.velocities.assign(object.positions.size(), Vec3f{0, 0.5f, 0});

@@ -1,4 +1,4 @@
-// What is shot at surfaces, or carries them along: nothing passes through at any speed, or the Report says that it may.
+// Tests fast motion against surfaces: nothing passes through at any speed, or the Report says that it may.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing_support;
 
-/// A small tetrahedron that holds its shape.
+/// A small tetrahedron that keeps its shape.
 Object pebble(const Vec3f& at, const Vec3f& velocity) {
   TriangleMesh mesh;
   const float s = 0.006f;
@@ -26,7 +26,7 @@ Object pebble(const Vec3f& at, const Vec3f& velocity) {
   return object;
 }
 
-/// Pebbles at 1 to 1000 m/s against cloth that is held at its border; how many went through.
+/// Shoots pebbles at 1 to 1000 m/s at cloth that is fixed at its border. Returns how many went through.
 int shot_through(bool filter, std::size_t& crossings) {
   Scene scene = scene_of(10);
   scene.gravity = {};
@@ -41,7 +41,7 @@ int shot_through(bool filter, std::size_t& crossings) {
     const float speed = std::pow(10.f, static_cast<float>(k) / 5), x = 0.08f * static_cast<float>(k % 4) - 0.113f;
     const Vec3f direction{0.2f, -0.97f, 0.1f}, aim{x, 0, 0.08f * static_cast<float>(k / 4) - 0.127f};
     Object stone = pebble(aim - direction * (0.02f + std::min(1.f, 0.05f * speed)), direction * speed);
-    stone.groups = 2;  // they meet the cloth alone: none is turned aside on its way to it
+    stone.groups = 2;  // they meet only the cloth, so that none is deflected on its way
     stone.mask = 1;
     scene.add(stone);
   }
@@ -55,7 +55,8 @@ int shot_through(bool filter, std::size_t& crossings) {
   for (const Vec3f& p : world.positions(target)) lowest = std::min(lowest, p.y);
   int through = 0;
   for (int k = 0; k < 16; ++k) {
-    // One that slid over the border is below, too: its free flight back to the level of the cloth tells.
+    // A pebble that slid over the border is below the cloth too. Its free flight back to the level of the cloth shows
+    // where it passed.
     const Vec3f at = world.positions(1 + k)[0], v = world.velocities(1 + k)[0], passed = at - v * (at.y / v.y);
     if (at.y < lowest - 0.02f && std::abs(passed.x) < 0.2f && std::abs(passed.z) < 0.2f) ++through;
   }
@@ -73,7 +74,8 @@ TEST(Shot, PassesWithoutTheFilter) {
   EXPECT_GT(shot_through(false, crossings) + static_cast<int>(crossings), 0);
 }
 
-/// How far the middle of a sheet has gone sideways, at most, in frames after it was thrown straight down on cloth that is pinned all over.
+/// How far the middle of a sheet moves sideways, at most, after it was thrown straight down on cloth that is pinned
+/// everywhere [m].
 float drift_of_a_thrown_sheet(float speed, float friction, int vertices_across, int frames) {
   Scene scene = scene_of(10);
   const int base = scene.add(cloth(sheet(vertices_across, 0.6f, 0)));
@@ -95,7 +97,7 @@ float drift_of_a_thrown_sheet(float speed, float friction, int vertices_across, 
   return most;
 }
 
-/// All that pushes it is level, so nothing may push it sideways: not friction, not the directions of contacts.
+/// All surfaces are level, so nothing may push the sheet sideways: neither friction nor the normals of contacts.
 TEST(Thrown, DoesNotDriftSideways) {
   for (const float speed : {3.f, 10.f, 30.f})
     for (const int vertices_across : {24, 31}) {
@@ -105,7 +107,7 @@ TEST(Thrown, DoesNotDriftSideways) {
     }
 }
 
-/// A ball of triangles that nothing stops, through where a loose sheet lies.
+/// A kinematic ball of triangles that moves through the place of a loose sheet.
 struct Passage {
   std::size_t crossings = 0;
   std::int64_t unresolvable = 0;
@@ -141,7 +143,7 @@ Passage ball_through(float speed, int most_substeps) {
 }
 
 TEST(Shot, OfABallCarriesTheSheetAlong) {
-  // 20 substeps of 1/1200 s: at 1 m/s already 0.83 mm of the 1 mm, half the pair's thickness, that it may go in one.
+  // In 20 substeps of 1/1200 s, a ball of 1 m/s moves 0.83 mm per substep; half the pair's thickness is 1 mm.
   for (const auto& [speed, substeps] : {std::pair{1.f, 20}, {3.f, 50}, {10.f, 167}, {30.f, 500}}) {
     const Passage passage = ball_through(speed, 2000);
     EXPECT_EQ(passage.crossings, 0u) << speed << " m/s";
@@ -151,7 +153,7 @@ TEST(Shot, OfABallCarriesTheSheetAlong) {
   }
 }
 
-/// Two sheets, the second held at its corners, which hold up what a ball drives into them.
+/// Two sheets, the second one fixed at its corners, that hold up a ball which is driven into them.
 TEST(Shot, OfABallDrivesOneSheetIntoAnotherAndThroughNeither) {
   for (const Sweep sweep : {Sweep::tiled, Sweep::symmetric}) {
     Scene scene = scene_of(20);
@@ -176,7 +178,7 @@ TEST(Shot, OfABallDrivesOneSheetIntoAnotherAndThroughNeither) {
 }
 
 TEST(Shot, OfABallThatOverrunsTheSheetIsSaidToBe) {
-  // What nothing pushes and goes farther in a substep than the gap to what it meets can't be kept from it by shortening moves.
+  // The filter cannot limit a kinematic collider that moves farther in a substep than the gap.
   for (const float speed : {10.f, 100.f, 1000.f}) {
     const Passage passage = ball_through(speed, 20);
     EXPECT_TRUE(passage.crossings == 0 || passage.unresolvable > 0) << speed << " m/s";
@@ -185,8 +187,8 @@ TEST(Shot, OfABallThatOverrunsTheSheetIsSaidToBe) {
   }
 }
 
-/// Eight times the substeps are as many as a scene gets that does not ask for more; and whoever wonders why a frame takes so
-/// long is told.
+/// By default a frame gets at most eight times the substeps, and the Report says why it takes so
+/// long.
 TEST(Shot, OfABallMakesAFrameEightTimesDearerAtMostAndTheReportSaysSo) {
   for (const auto& [speed, substeps] : {std::pair{1.f, 20}, {3.f, 50}, {30.f, 160}}) {
     const Passage passage = ball_through(speed, 0);

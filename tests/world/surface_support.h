@@ -1,4 +1,4 @@
-// What the tests of surfaces that touch share: cloth that does, sheets to make it of, and a watch on what crosses.
+// What the tests of contact between surfaces share: colliding cloth, sheets to make it of, and a search for crossings.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace pliant::testing_support {
 
-/// Rigid cotton that meets itself and others.
+/// Rigid cotton with self-collision that collides with other objects.
 inline Object cloth(const TriangleMesh& mesh, float thickness = 0.002f) {
   ClothOptions options;
   options.material = fabric("cotton");
@@ -21,7 +21,7 @@ inline Object cloth(const TriangleMesh& mesh, float thickness = 0.002f) {
   return object;
 }
 
-/// n x n vertices, level.
+/// A level sheet of n x n vertices.
 inline TriangleMesh sheet(int n, float size, float height) {
   TriangleMesh mesh = grid_mesh(n, n, size, size);
   for (Vec3f& p : mesh.positions) p.y += height;
@@ -40,7 +40,7 @@ inline Collider floor_at(float height) {
   return floor;
 }
 
-/// Finds what crosses among the objects of a World that their masks let meet, and meshes that are carried along.
+/// Finds the crossings among those objects of a World whose masks let them meet, and moving mesh colliders.
 class Watch {
  public:
   Watch(const World& world, const Scene& scene) : scene_(scene), objects_(world.object_count()) {
@@ -54,7 +54,7 @@ class Watch {
     finder_ = std::make_unique<IntersectionFinder>(triangles_, static_cast<int>(object_of_.size()));
   }
 
-  /// `carried`: how far mesh colliders have come.
+  /// `carried`: how far the mesh colliders have moved.
   std::size_t crossings(const World& world, const Vec3f& carried = {}) {
     std::vector<Vec3f> places;
     for (int o = 0; o < objects_; ++o) {
@@ -79,7 +79,7 @@ class Watch {
   const Scene& scene_;
   int objects_;
   std::vector<Triangle> triangles_;
-  std::vector<int> object_of_;  ///< of each vertex; objects_: of a mesh
+  std::vector<int> object_of_;  ///< object of each vertex; objects_ has the objects of each mesh
   std::unique_ptr<IntersectionFinder> finder_;
 };
 

@@ -1,4 +1,4 @@
-// Sweeps as a user of a World meets them: what is refused and why, what the Report says, and what goes wrong.
+// Tests sweeps in a World: what is rejected and why, what the Report says, and errors.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -67,7 +67,7 @@ Scene square_on_square(const SweepOptions& options) {
   return scene;
 }
 
-/// Nothing is extrapolated: the bits are those of the plain sweep.
+/// No particle may be extrapolated, so the bits are those of the plain sweep.
 TEST(WorldSweeps, ChebyshevDoesNotExtrapolateWhatTouchesASurface) {
   const auto end_of = [](const SweepOptions& options) {
     World world(square_on_square(options));
@@ -80,7 +80,8 @@ TEST(WorldSweeps, ChebyshevDoesNotExtrapolateWhatTouchesASurface) {
   EXPECT_EQ(hash(end_of(options)), hash(end_of({})));
 }
 
-/// No multiplier explains what contacts moved: the dual residual is of the particles that do not touch.
+/// No multiplier explains the displacements by contacts, so the dual residual must be that of the particles that do not
+/// touch.
 TEST(WorldSweeps, DualResidualLeavesOutWhatTouchesASurface) {
   Scene scene = square_on_square({});
   scene.settings.record_residuals = true;
@@ -149,7 +150,7 @@ TEST(WorldSweeps, TheReportFollowsTheLastSubstep) {
   }
   EXPECT_EQ(report.convergence.front().dual_largest, 0) << "nothing has moved that needs explaining";
   EXPECT_LT(report.convergence.back().primal[0].rms, 0.5 * report.convergence.front().primal[0].rms);
-  // Gauss-Seidel keeps the dual residual at what the turning of gradients makes of it: small, and not nothing.
+  // With Gauss-Seidel the dual residual stays at what the rotation of gradients causes: small, but not zero.
   EXPECT_LT(report.convergence.back().dual_largest, 1e-3);
 }
 

@@ -1,4 +1,5 @@
-// What lies at a distance of 0 at the start, or inside of a closed surface, is named by inspect and refused where the scene says so.
+// Tests surfaces at distance 0 at the start, or inside a closed surface: inspect() names them, and a World rejects them
+// if the scene says so.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +20,7 @@ Object named_cloth(const TriangleMesh& mesh, const std::string& name) {
   return object;
 }
 
-/// A sheet `above` a level one, which is cloth or a mesh collider.
+/// A sheet at height `above` over a level one, which is cloth or a mesh collider.
 Scene lying(float above, bool on_cloth) {
   Scene scene;
   scene.settings = settings_of(4);

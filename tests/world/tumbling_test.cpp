@@ -1,5 +1,6 @@
-// Small stiff things that are thrown come to rest. A hinge that is flung open by a fast spin used to be closed along tangents,
-// which stretched its triangles and fed the spin: square tubes of a few millimetres then rolled about for ever.
+// Tests that small stiff objects come to rest after they were thrown. A fast spin throws open a hinge. If projections
+// closed it along tangents without limit, its triangles would stretch and feed the spin: square tubes of a few
+// millimetres rolled for ever.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,8 +15,8 @@
 namespace pliant {
 namespace {
 
-/// An open square tube, 6 x 4 x 40 mm, turned about a slanted axis and held up: at ten substeps a frame some of these never
-/// came to rest.
+/// An open square tube, 6 x 4 x 40 mm, rotated about a slanted axis and raised. With ten substeps per frame, some of
+/// these never came to rest.
 TriangleMesh tube(float degrees, float aside) {
   const Quatf turn = rotation({0.26f, 0.23f, 1}, degrees);
   TriangleMesh mesh;

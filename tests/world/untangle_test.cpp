@@ -1,4 +1,4 @@
-// What passes through at the beginning: drawn apart at a capped speed, left, or refused.
+// Tests surfaces that intersect at the start: moved apart at limited speed, left, or rejected.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ Object cloth(const TriangleMesh& mesh, const std::string& name) {
   return object;
 }
 
-/// A sheet that is held flat, and one that stands across it, most of it above.
+/// A fixed level sheet, and one that stands across it, most of it above.
 Scene crossed(Intersections what) {
   Scene scene;
   scene.gravity = {};
@@ -71,7 +71,7 @@ std::size_t crossings(const World& world, const Scene& scene) {
   return IntersectionFinder(triangles, static_cast<int>(places.size())).find(places).size();
 }
 
-/// How many crossings are left after some frames, and how fast anything moved on the way.
+/// The number of crossings that are left after some frames, and the largest speed in these frames.
 std::size_t left_after(const Scene& scene, int frames, float& fastest) {
   World world(scene);
   EXPECT_GT(crossings(world, scene), 5U);
@@ -123,7 +123,7 @@ TEST(Untangle, KeepsToItsSpeed) {
   EXPECT_LT(most, 3 * 0.05f * dt);
 }
 
-/// A sheet at rest through a ball, so high above its middle.
+/// A sheet at rest through a ball, at height `height` above the ball's centre.
 Scene sheet_in_a_ball(float height, Sweep sweep) {
   Scene scene = pierced(Intersections::untangle);
   scene.settings.sweep = sweep;
@@ -131,7 +131,7 @@ Scene sheet_in_a_ball(float height, Sweep sweep) {
   return scene;
 }
 
-/// The fastest of anything, while something passes through at a frame's start, and in all frames.
+/// The largest speed in frames that start with an intersection, and in all frames [m/s].
 struct Fastest {
   float while_tangled = 0, ever = 0;
 };
@@ -147,8 +147,8 @@ Fastest watch_speeds(World& world, int frames) {
   return fastest;
 }
 
-/// Whoever solves, what is drawn is no faster than it may be; what stretched links make of it afterwards is some metres a second at
-/// most. Relaxed by 1.3 this cloth flies apart by itself.
+/// With any sweep, vertices that are moved apart must keep the speed limit; after that, stretched links may cause at
+/// most some metres per second. With a relaxation of 1.3 this cloth would become infinite by itself.
 TEST(Untangle, ThrowsNothingAndEndsClearByAnySweep) {
   Scene scenes[] = {crossed(Intersections::untangle), sheet_in_a_ball(0, Sweep::tiled),
                     sheet_in_a_ball(0.02f, Sweep::tiled)};
@@ -198,7 +198,7 @@ TEST(Untangle, MayBeRefused) {
   EXPECT_NO_THROW(World{apart});
 }
 
-/// What a World says that is not made; empty: it is.
+/// The Error for which making a World of the scene fails; empty if it succeeds.
 std::string refusal_of(const Scene& scene) {
   try {
     World world(scene);
@@ -208,7 +208,8 @@ std::string refusal_of(const Scene& scene) {
   return "";
 }
 
-/// A ball of triangles about the origin of half a metre, with a small sheet and two grains in it, and one outside.
+/// A ball of triangles of radius half a metre about the origin, with a small sheet and two particles in it, and one
+/// outside.
 Scene shut_up(MeshCollider::As as) {
   Scene scene;
   scene.settings = settings_of(4);
@@ -261,7 +262,7 @@ TEST(Untangle, RefusesWhatIsShutUpInClosedClothAndNotWhatIsInAnOpenOne) {
   EXPECT_EQ(refusal_of(scene), "") << "beside it";
 }
 
-/// A skirt whose folds deepen downwards, 0.3 m wide at the hip.
+/// A skirt whose folds become deeper towards the hem, 0.3 m wide at the hip.
 TriangleMesh skirt(float radius, float folds, float phase) {
   constexpr int around = 64, rows = 16;
   TriangleMesh mesh;
@@ -288,11 +289,11 @@ TriangleMesh both(const TriangleMesh& first, const TriangleMesh& second) {
   return mesh;
 }
 
-/// Two skirts pinned at the hip whose folds pass through one another, as one object or as two.
+/// Two skirts pinned at the hip whose folds intersect, as one object or as two.
 Scene nested_skirts(bool as_one) {
   const TriangleMesh inner = skirt(0.15f, 6, 0);
   TriangleMesh outer = skirt(0.158f, 5, 1);
-  // Turned and raised a little, so that no edges meet exactly: such pairs cross only once something has moved.
+  // Rotated and raised a little, so that no edges touch exactly: such pairs cross only after something has moved.
   for (Vec3f& p : outer.positions) p = {p.x * 0.9999f + p.z * 0.013f, p.y + 0.0031f, p.z * 0.9999f - p.x * 0.013f};
   Scene scene;
   scene.settings = settings_of(10);
@@ -310,7 +311,7 @@ Scene nested_skirts(bool as_one) {
   return scene;
 }
 
-/// The crossings that are left after each of some frames.
+/// The number of crossings that are left after each of some frames.
 std::vector<std::size_t> crossings_of_frames(const Scene& scene, int frames) {
   World world(scene);
   std::vector<std::size_t> counts{crossings(world, scene)};
@@ -321,7 +322,8 @@ std::vector<std::size_t> crossings_of_frames(const Scene& scene, int frames) {
   return counts;
 }
 
-/// Components of one mesh are parts of their own: they come apart as two objects do, and crossings never rise.
+/// The components of one mesh are parts of their own: they are moved apart as two objects are, and crossings never
+/// increase.
 TEST(Untangle, LeadsComponentsOfOneMeshApart) {
   for (const bool as_one : {false, true}) {
     const std::vector<std::size_t> counts = crossings_of_frames(nested_skirts(as_one), 20);
@@ -332,7 +334,7 @@ TEST(Untangle, LeadsComponentsOfOneMeshApart) {
   }
 }
 
-/// Two sheets that are slotted into one another halfway: neither is cut in pieces.
+/// Two sheets slotted into each other halfway: neither is cut into pieces.
 TEST(Untangle, SaysWhatItDoesNotLeadApart) {
   Scene scene = crossed(Intersections::untangle);
   for (Vec3f& p : scene.objects[1].positions) p.x += 0.11f;

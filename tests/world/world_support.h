@@ -19,7 +19,7 @@ inline bool is_finite(const State& state) {
   return std::isfinite(state.time);
 }
 
-/// Over a ball that moves.
+/// A scene of cloth that hangs by two corners over a moving ball.
 inline Scene hanging_cloth() {
   Scene scene;
   const int cloth = scene.add_cloth(grid_mesh(12, 12, 1, 1));
@@ -33,7 +33,7 @@ inline Scene hanging_cloth() {
   return scene;
 }
 
-/// A sheet of n x n vertices, level, its middle at a place [m].
+/// A level sheet of n x n vertices with its middle at a given position [m].
 inline Object sheet_at(const std::string& name, const Vec3f& at, int n, float size, const ClothOptions& like = {}) {
   ClothOptions options = like;
   options.name = name;

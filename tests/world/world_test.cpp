@@ -1,4 +1,4 @@
-// A World from the outside: what it answers and what it refuses, however little or odd the steps and scenes are.
+// Tests a World from outside: what it returns and what it rejects, for steps and scenes however small or odd.
 #include <gtest/gtest.h>
 
 #include <limits>
