@@ -1,4 +1,5 @@
-// What a solve left undone: measured against known answers, said in words, and mended by settings that were really tried.
+// Tests overstretch and advice: measured values compared with known answers, the words, and settings that were really
+// tried.
 #include "pliant/advise.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ Settings measuring(int substeps, int iterations = 1) {
   return settings;
 }
 
-/// A weight of 1 kg that hangs from a pin by one link of 1 m.
+/// A weight of 1 kg that hangs on a pin by one link of 1 m.
 Scene weight_on(const Stiffness& stiffness) {
   Scene scene;
   Object object = chain(2, 1, stiffness);
@@ -51,7 +52,7 @@ TEST(Overstretch, OfRigidLinksIsTheirStretch) {
 
 TEST(Overstretch, OfWhatIsMeantToStretchIsNothing) {
   for (float damping : {0.f, 0.2f}) {
-    Scene scene = weight_on(Stiffness::compliance(0.05f, damping));  // 0.49 m longer at rest, and it swings up and down
+    Scene scene = weight_on(Stiffness::compliance(0.05f, damping));  // 0.49 m longer at rest; swings up and down
     World world(scene, measuring(10));
     double longest = 1;
     for (int frame = 0; frame < 120; ++frame) {
@@ -142,7 +143,7 @@ TEST(Words, OfAReportComeFromItsFigures) {
   EXPECT_FALSE(World(scene).step(dt).overstretch.has_value());
 }
 
-/// What World::advice names besides more substeps.
+/// The part of World::advice that names other settings than more substeps.
 std::string suggestion(Scene scene) {
   scene.settings.measure = true;
   World world(scene);
@@ -153,7 +154,7 @@ std::string suggestion(Scene scene) {
   return first == std::string::npos ? "" : words.substr(first, words.rfind('}') + 1 - first);
 }
 
-/// What a scene leaves open may differ between sets of objects; advice for all of them names the most.
+/// If the scene names no substeps, sets of objects can have different numbers; advice for all must name the largest.
 TEST(Words, NameSubstepsThatTheSceneLeavesOpen) {
   Settings wanted, own;
   wanted.sweep = Sweep::multigrid;
@@ -184,7 +185,7 @@ TEST(Words, NameTheSweepThatSuitsTheScene) {
       << "tethers would hold back what is meant to stretch";
 }
 
-/// Chains and tethers hold what hangs; where what moves touches what moves, multigrid alone counts with it.
+/// Chains and tethers suit hanging objects. If dynamic objects touch, only multigrid takes the contacts into account.
 TEST(Words, NameMultigridWhereWhatMovesTouches) {
   const std::string multigrid = R"({"substeps": 20, "sweep": "multigrid"})",
                     chains = R"({"substeps": 20, "sweep": "chains"})";
@@ -209,7 +210,7 @@ TEST(Words, NameMultigridWhereWhatMovesTouches) {
   EXPECT_EQ(suggestion(two), chains) << "whichever of them wants it so";
 }
 
-/// What knows no bending makes a sheet rattle that holds itself up, so that it is neither named nor tried.
+/// Multigrid ignores bending and makes a stiff sheet oscillate, so it must neither be named nor tried.
 TEST(Words, NameNoMultigridForSheetsThatHoldThemselvesUp) {
   ClothOptions options;
   options.material.bending_stiffness = 5;
@@ -245,7 +246,7 @@ Scene hanging_sheet(int n, const Stiffness& stretch, int substeps) {
   return scene;
 }
 
-/// The largest stretch of any frame, by another way than that of a trial.
+/// The largest stretch of any frame, measured otherwise than in a trial.
 double largest_stretch(const Scene& scene, const Settings& settings) {
   World world(scene, settings);
   double largest = 1;
@@ -291,7 +292,7 @@ TEST(Advise, TriesMultigridWhereWhatMovesTouchesToo) {
 }
 
 TEST(Advise, FindsTheLeastOfWhatHelps) {
-  // Chains hold a rope at 20 substeps and with far fewer: less is tried too, and more than is needed is not.
+  // Chains hold a rope with 20 substeps and with far fewer, so fewer must be tried too, and not more than needed.
   Scene scene;
   scene.add(chain(40, 0.02f));
   scene.pin(0, {0});
@@ -356,7 +357,7 @@ TEST(Advise, NamesTheBestOfWhatIsNotGoodAndSaysSo) {
   for (Vec3f& p : taut.positions) p.z = 1;
   scene.add(taut);
   scene.pin(1, {0});
-  scene.pin(1, {1}, straight({0.1f, 0, 0}, 0.1f));  // no setting makes it shorter than 110 %
+  scene.pin(1, {1}, straight({0.1f, 0, 0}, 0.1f));  // no setting can reduce this below 110 %
   scene.settings = settings_of(1);
   scene.frames = 20;
   const Advice advice = advise(scene, unhurried);
@@ -372,7 +373,7 @@ TEST(Advise, NamesTheBestOfWhatIsNotGoodAndSaysSo) {
 }
 
 TEST(Advise, HoldsForTheFramesThatItHadTimeForAndSaysSo) {
-  int frames = 0;  // the scene as it is has time for five, and what else is tried has all that it wants
+  int frames = 0;  // the scene's own settings get time for five frames; other trials get all they want
   const Scene scene = hanging_sheet(12, Stiffness::rigid(), 2);
   const Advice advice = advise(scene, {1e6, 120, [&] { return ++frames == 5; }});
   EXPECT_EQ(advice.frames, 30);
@@ -383,8 +384,8 @@ TEST(Advise, HoldsForTheFramesThatItHadTimeForAndSaysSo) {
   EXPECT_NE(advice.what_to_do.find(" to try it, add to the scene's"), std::string::npos) << advice.what_to_do;
 }
 
-/// A field that nothing survives which hangs lower than it should: what keeps its lengths must do so to the end of the scene,
-/// and not only up to where the scene as it is had to stop.
+/// A force field that makes anything infinite that hangs too low. Settings that keep lengths must do so to the end of
+/// the scene, not only up to where the scene's own settings had to stop.
 TEST(Advise, RunsOthersBeyondWhereTheSceneIsNotFinite) {
   Scene scene = hanging_sheet(12, Stiffness::rigid(), 1);
   scene.frames = 40;

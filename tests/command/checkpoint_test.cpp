@@ -1,4 +1,4 @@
-// pliant run --checkpoint and --resume: the bits of the run that never stopped, whenever and however it was stopped.
+// Tests pliant run --checkpoint and --resume: the bits of a run that never stopped, however and whenever it was stopped.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-/// A folder with a scene for one test, gone with it.
+/// A temporary folder with a scene, for one test.
 class Checkpoint : public testing::Test {
  protected:
   void SetUp() override {
@@ -46,7 +46,7 @@ class Checkpoint : public testing::Test {
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  /// Starts `pliant run` with these arguments in the test's folder, where what it says goes to the file "said".
+  /// Starts `pliant run` with these arguments in the test's folder. Its output goes to the file "said".
   pid_t start(std::vector<std::string> arguments, const char* subcommand = "run") const {
     arguments.insert(arguments.begin(), {"pliant", subcommand});
     std::vector<char*> words;
@@ -78,7 +78,7 @@ class Checkpoint : public testing::Test {
   fs::path folder_;
 };
 
-/// The hash of the state that a scene has after some frames, for frames that do not go down.
+/// The hash of the State of a scene after a number of frames; ask for increasing numbers.
 class Uninterrupted {
  public:
   explicit Uninterrupted(const pliant::Scene& scene) : scene_(scene), world_(scene) {}
@@ -147,7 +147,7 @@ TEST_F(Checkpoint, ASignalEndsAFrameThatTakesAnHour) {
   }
 }
 
-/// What never looks at the flag is ended all the same.
+/// A signal must also end a program that does not read the flag.
 TEST_F(Checkpoint, ASignalEndsWhatLooksAtNoFlag) {
   const pid_t child = start({"W1-stretching", "--frames", "1000000", "--sizes", "64", "--json", "rows.json"}, "bench");
   std::this_thread::sleep_for(1s);
@@ -157,7 +157,7 @@ TEST_F(Checkpoint, ASignalEndsWhatLooksAtNoFlag) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2) << "the scene and what was said";
 }
 
-/// PLIANT_KILLS: how many, 30 unless said.
+/// The environment variable PLIANT_KILLS sets how many kills are made; 30 by default.
 TEST_F(Checkpoint, AKillAtAnyMomentLeavesAWholeFile) {
   const char* const wanted = std::getenv("PLIANT_KILLS");
   const int kills = wanted != nullptr ? std::atoi(wanted) : 30;

@@ -1,4 +1,4 @@
-// The command as a user meets it: exit status, the one line on standard error, files whole or not there.
+// Tests the command as users see it: exit status, the one line on standard error, files that are complete or do not exist.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -26,7 +26,7 @@ std::string slurp(const fs::path& path) {
   return text.str();
 }
 
-/// A folder for one test, gone with it.
+/// A temporary folder for one test.
 class Command : public testing::Test {
  protected:
   void SetUp() override {
@@ -37,7 +37,7 @@ class Command : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  /// A cloth of 12 x 12 over a sphere.
+  /// A scene of a 12 x 12 cloth over a sphere.
   static std::string small_scene(int frames) {
     return R"({"frames": )" + std::to_string(frames) + R"(, "settings": {"substeps": 4},
       "objects": [{"cloth": {"mesh": {"grid": {"columns": 12, "rows": 12, "width": 1, "depth": 1}}, "material": "cotton"}}],
@@ -59,8 +59,8 @@ class Command : public testing::Test {
     return result;
   }
 
-  /// Why nothing at all can be drawn on this machine, by the simplest picture; empty where it can, or where that fails in any
-  /// other way: then what is drawn in a test must succeed.
+  /// Why nothing can be drawn on this machine, found by the simplest picture. Empty if it can, or if that fails for
+  /// another reason; then the tests must succeed in drawing.
   std::string why_nothing_is_drawn() {
     const Result probe = pliant("render small.json --out probe.png --frame 0 --size 16x16 --quiet");
     fs::remove(folder_ / "probe.png");
@@ -70,7 +70,7 @@ class Command : public testing::Test {
     return "";
   }
 
-  /// Refused with one line that says so.
+  /// Expects that the command fails with this status and one line that contains `word`.
   void expect_refused(const std::string& arguments, int status, const std::string& word) {
     SCOPED_TRACE(arguments);
     const Result result = pliant(arguments);
@@ -358,7 +358,7 @@ TEST_F(Command, CheckRunsASceneAndNamesWhatWouldMendIt) {
   EXPECT_EQ(result.out.find("--seconds"), std::string::npos) << "there was time enough";
   EXPECT_EQ(pliant("check sagging.json --seconds 0").out.find("stretched"), std::string::npos) << "not run at all";
 
-  // What it says to put into the scene, put into the scene.
+  // Puts the advised settings into the scene.
   const std::string mark = "add to the scene's \"settings\": ";
   const std::size_t at = result.out.find(mark);
   ASSERT_NE(at, std::string::npos) << result.out;

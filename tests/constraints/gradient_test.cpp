@@ -1,4 +1,4 @@
-// The mathematics of every constraint type, in double: gradients, invariance, zero net force and torque, momentum.
+// Tests the mathematics of every constraint type, in double: gradients, invariance, zero net force and torque, momentum.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ TYPED_TEST_SUITE(Internal, ConstraintTypes, NameOfType);
 
 double& component(Vec3d& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-/// The central difference of sixth order: its error is h^6 / 140 of the seventh derivative.
+/// The central difference of sixth order. Its error is h^6 / 140 times the seventh derivative.
 template <class T>
 double difference(Stencil<T, double> x, const ParamsOf<T, double>& params, std::size_t slot, int axis) {
   const double h = 3e-3, here = component(x[slot], axis);
@@ -40,7 +40,7 @@ double difference(Stencil<T, double> x, const ParamsOf<T, double>& params, std::
   return (45 * (at(h) - at(-h)) - 9 * (at(2 * h) - at(-2 * h)) + (at(3 * h) - at(-3 * h))) / (60 * h);
 }
 
-/// Whether C goes round, as angles do, among the points of the difference.
+/// True if C wraps around, as angles do, among the points of the difference.
 template <class T>
 bool has_jump(const Stencil<T, double>& at, const ParamsOf<T, double>& params, std::size_t slot) {
   bool jumps = false;
@@ -80,7 +80,7 @@ TYPED_TEST(Formula, GradientIsTheDerivative) {
   EXPECT_LT(jumps, samples / 50);
 }
 
-/// For a contact the plane belongs to the world and not to the stencil, so these are for the others.
+/// The plane of a contact belongs to the world, not to the stencil, so these tests are for the other types.
 TYPED_TEST(Internal, RigidMotionChangesNothing) {
   for (int sample = 0; sample < samples; ++sample) {
     const auto x = random_stencil<TypeParam>(this->random_);
@@ -114,13 +114,13 @@ TYPED_TEST(Internal, NoNetForceAndNoNetTorque) {
   }
 }
 
-/// One projection in double. Returns C before.
+/// Projects once in double. Returns C before the projection.
 template <class T, Law law, bool keeps>
 double project_once(Stencil<T, double>& at, const std::array<double, size_of<T>>& inverse_mass,
                     const ParamsOf<T, double>& params, const Stencil<T, double>& moved,
                     ConstraintResponse<double>& response) {
   SweepArguments arguments;
-  arguments.h = 0.0078125f;  // powers of two, so that float holds them
+  arguments.h = 0.0078125f;  // powers of two, which are exact in float
   arguments.inverse_h = 128;
   arguments.inverse_h2 = 16384;
   Vec3<double> x[size_of<T>], motion[size_of<T>], correction[size_of<T>];
@@ -155,7 +155,7 @@ void expect_momentum_kept(Random& random) {
       const Vec3d change = (after[i] - before[i]) * (1 / w[i]);
       momentum += change;
       angular += cross(before[i], change);
-      // What x + dx rounds away is not the constraint's: an ulp of the position, seen through the mass.
+      // The rounding of x + dx is not the constraint's error: an ulp of the position, weighted by the mass.
       moved += length(change) + 1e-3 / w[i];
     }
     ASSERT_GT(moved, 0);
@@ -214,7 +214,7 @@ TYPED_TEST(Internal, WhatIsMeasuredIsMet) {
   for (int sample = 0; sample < samples; ++sample) {
     const auto flat = flat_stencil<TypeParam>(this->random_);
     EXPECT_NEAR((evaluate<TypeParam, double>(flat, measure<TypeParam, double>(flat)).c), 0, 1e-13);
-    if constexpr (std::is_same_v<TypeParam, IsometricBending>) continue;  // knows flat rest shapes alone, by its definition
+    if constexpr (std::is_same_v<TypeParam, IsometricBending>) continue;  // has flat rest shapes only, by definition
     const auto x = random_stencil<TypeParam>(this->random_);
     EXPECT_NEAR((evaluate<TypeParam, double>(x, measure<TypeParam, double>(x)).c), 0, 1e-13);
   }
@@ -223,7 +223,7 @@ TYPED_TEST(Internal, WhatIsMeasuredIsMet) {
 TYPED_TEST(Internal, CanonicalOrderIsTheSameConstraint) {
   int exchanged = 0;
   for (int sample = 0; sample < samples; ++sample) {
-    const auto x = random_stencil<TypeParam>(this->random_);  // of particle i
+    const auto x = random_stencil<TypeParam>(this->random_);  // x[i] is the position of particle i
     std::array<int, size_of<TypeParam>> ids, ordered;
     for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<int>(i);
     std::shuffle(ids.begin(), ids.end(), this->random_);

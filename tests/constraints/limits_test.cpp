@@ -1,5 +1,6 @@
-// Every constraint type in float where formulas break: points in one place, flat and folded hinges, faces without area,
-// scales from a micrometre to a thousand kilometres. All stays finite, and what is at rest is not set in motion.
+// Tests every constraint type in float where formulas break: coincident points, flat and folded hinges, triangles
+// without area, scales from a micrometre to a thousand kilometres. All must stay finite, and a stencil at rest must not
+// be set in motion.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -12,7 +13,7 @@ namespace {
 
 using namespace testing_support;
 
-/// Four points; a type uses as many of them as it needs.
+/// Four points, of which a type uses as many as it needs.
 struct Case {
   const char* name;
   std::array<Vec3d, 4> x;
@@ -121,7 +122,7 @@ TYPED_TEST(Limits, NothingMovesFromRest) {
       const auto x = scaled<TypeParam>(shape, scale);
       if (std::is_same_v<TypeParam, IsometricBending> && std::string(shape.name).find("flat") == std::string::npos)
         continue;
-      if (shape.x[1].x == 1e-6 && scale < 1e-3) continue;  // edges below a nanometre: products of six underflow
+      if (shape.x[1].x == 1e-6 && scale < 1e-3) continue;  // edges below a nanometre: products of six numbers underflow
       const auto after = projected<TypeParam, Law::compliant>(x, measured<TypeParam>(x), {0, 0, 0}, 50);
       for (std::size_t i = 0; i < x.size(); ++i) {
         EXPECT_LT(length(after[i] - x[i]), 2e-5 * scale) << shape.name << " at " << scale << ", slot " << i;
@@ -162,7 +163,7 @@ TEST(Distance, EndsInOnePlaceHaveNoDirection) {
 }
 
 Stencil<DihedralBending, double> hinge(double angle) {
-  // The tips lie at +-y where flat; the second one is turned about the edge, the x-axis.
+  // In the flat hinge the tips are at +-y; the second one is rotated about the edge, the x-axis.
   return {Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{0.3, 1, 0}, Vec3d{0.6, -std::cos(angle), -std::sin(angle)}};
 }
 
@@ -184,7 +185,7 @@ TEST(DihedralBending, GoesTheShorterWayRound) {
 }
 
 TEST(DihedralBending, HoldsAFoldThroughTheFlatHinge) {
-  // Pressed past flat, it comes back to the side it was on: what an acos can't know.
+  // After it was pressed past flat, it must return to the side on which it was, which an acos cannot know.
   const double rest = measure<DihedralBending, double>(hinge(0.6)).rest_angle;
   const auto value = evaluate<DihedralBending, double>(hinge(-0.2), {rest});
   EXPECT_NEAR(std::fabs(value.c), 0.8, 1e-12);
@@ -195,8 +196,8 @@ TEST(DihedralBending, HoldsAFoldThroughTheFlatHinge) {
 }
 
 TEST(IsometricBending, IsTheEnergyOfBergouOnEqualTriangles) {
-  // Two equilateral triangles of side 1, their areas together h = sqrt(3)/2, at a small angle t: a tip weighs 2/sqrt(3)
-  // times sqrt(3/h) and stands h t out of the plane. Then C^2 = 3 t^2 / h, which is the paper's 3 |e|^2 t^2 / (A1 + A2).
+  // Two equilateral triangles of side 1 at a small angle t; their areas sum to h = sqrt(3)/2. A tip has weight 2/sqrt(3)
+  // times sqrt(3/h) and is h t out of the plane. So C^2 = 3 t^2 / h, which is the paper's 3 |e|^2 t^2 / (A1 + A2).
   const double t = 1e-4, height = std::sqrt(3.0) / 2;
   const Stencil<IsometricBending, double> flat{Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{0.5, height, 0},
                                                Vec3d{0.5, -height, 0}};

@@ -1,6 +1,6 @@
-// Sixteen lanes give the bits of sixteen floats: every constraint type, evaluated and projected by every law, on plain and
-// on nasty numbers. This unit is built for the machine that all others are built for; tests/solver holds the same of the
-// wider ones.
+// Tests that sixteen lanes give the bits of sixteen floats: every constraint type, evaluated and projected with every
+// law, on ordinary and extreme numbers. This file is compiled for the default machine; tests/solver does the same for
+// wider instruction sets.
 #include "math/wide.h"
 
 #include <gtest/gtest.h>
@@ -14,9 +14,9 @@ namespace {
 
 using namespace testing_support;
 
-constexpr int batches = 7000;  // of sixteen: more than 100 000 constraints
+constexpr int batches = 7000;  // batches of sixteen: more than 100 000 constraints
 
-/// Sixteen of everything that a projection takes.
+/// Sixteen of each input of a projection.
 template <class T>
 struct Inputs {
   float x[size_of<T>][3][wide_width], w[size_of<T>][wide_width], motion[size_of<T>][3][wide_width];

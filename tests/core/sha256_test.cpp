@@ -1,4 +1,4 @@
-// SHA-256 against the examples of FIPS 180-4 and its own pieces.
+// Compares SHA-256 with the examples in FIPS 180-4, and hashes of pieces with hashes of the whole.
 #include "core/sha256.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Every probe as a kernel, one thread an input.
+// Runs every probe as a kernel, one thread for each input.
 #include <cuda_runtime.h>
 
 #include <stdexcept>
@@ -14,7 +14,7 @@ void require(cudaError_t status) {
   if (status != cudaSuccess) throw std::runtime_error(cudaGetErrorString(status));
 }
 
-/// Memory of the device that is given back whatever happens.
+/// Device memory that is freed on every path.
 struct Buffer {
   float* data = nullptr;
   explicit Buffer(std::size_t count) { require(cudaMalloc(&data, count * sizeof(float))); }

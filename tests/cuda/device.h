@@ -1,4 +1,4 @@
-// The device's side of the comparison, as plain functions that the host's compiler can call.
+// The device's part of the comparison, as plain functions that the host's compiler can call.
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 
 namespace pliant::cuda {
 
-/// Why there is no device to run on; empty where there is one.
+/// Why there is no device to run on; empty if there is one.
 std::string why_no_device();
 
-/// Runs probe number `probe` of AllProbes over `count` inputs that lie one after the other. Throws std::runtime_error where
-/// the device refuses.
+/// Runs probe number `probe` of AllProbes on `count` inputs, which are contiguous. Throws std::runtime_error if the
+/// device reports an error.
 std::vector<float> run_on_device(int probe, const std::vector<float>& inputs, int count, int outputs);
 
 }  // namespace pliant::cuda

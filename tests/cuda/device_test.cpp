@@ -1,4 +1,5 @@
-// Host and device give the same bits, on a million inputs a formula: ordinary ones, and every kind of odd one.
+// Tests that host and device give the same bits, for a million inputs to each formula: ordinary ones, and odd ones of
+// every kind.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,7 +15,7 @@
 namespace pliant::cuda {
 namespace {
 
-/// SplitMix64: the same numbers everywhere, from a few lines.
+/// The generator SplitMix64: short, and the same numbers everywhere.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -43,7 +44,8 @@ float odd_number(Random& random) {
   return any;
 }
 
-/// Of every eight inputs six are metres of cloth, one has values that repeat (points in one place), one anything at all.
+/// Of every eight inputs, six have the sizes of cloth in metres, one has repeated values (coincident points), one has
+/// any bits.
 std::vector<float> make_inputs(int count, int width, std::uint64_t seed) {
   Random random(seed);
   std::vector<float> inputs;
@@ -60,7 +62,7 @@ std::vector<float> make_inputs(int count, int width, std::uint64_t seed) {
 }
 
 bool same(float a, float b) {
-  return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b));  // a NaN's payload is the machine's own
+  return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b));  // payloads of NaN differ between machines
 }
 
 template <class Probe>

@@ -1,4 +1,4 @@
-// The functors of the engine as kernels, over the device's own memory.
+// Runs functors of the engine as kernels in device memory.
 #include "parallel/launch_cuda.h"
 
 #include <stdexcept>

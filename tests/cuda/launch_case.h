@@ -1,4 +1,4 @@
-// Functors of the engine one after the other through launch, written once for any backend.
+// Runs functors of the engine one after another by launch, for any backend.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace pliant::cuda {
 
-/// What the functors work on; pointers into the memory of whoever runs them.
+/// The arrays on which the functors work: pointers into the memory of the backend.
 struct LaunchView {
   Record *positions, *displacements, *remainders, *velocities;
   int particles;
@@ -19,7 +19,7 @@ struct LaunchView {
   unsigned char* nonfinite;
 };
 
-/// The numbers themselves, on the host.
+/// The arrays in host memory.
 struct LaunchCase {
   std::vector<Record> positions, displacements, remainders, velocities;
   std::vector<int> triangles, corner_begin, corners;
@@ -61,7 +61,8 @@ void launch_all(Backend& backend, const LaunchView& v) {
   launch(backend, "predict", v.particles, PredictPoint{a});
 }
 
-/// launch_all on a device, over a copy there; the results come back. Throws std::runtime_error where the device refuses.
+/// Runs launch_all on a device, on a copy in its memory, and copies the results back. Throws std::runtime_error if the
+/// device reports an error.
 void launch_all_on_device(LaunchCase& on_host);
 
 }  // namespace pliant::cuda

@@ -1,4 +1,4 @@
-// The same functors by launch on the host and on a device: the same bits.
+// Tests that launch runs the same functors on the host and on a device with the same bits.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -17,7 +17,7 @@ void add_triangle(LaunchCase& c, int a, int b, int d) {
   for (const int corner : {a, b, d}) c.triangles.push_back(corner);
 }
 
-/// A crumpled sheet of `side` by `side` particles that moves; a seventh of them has no mass.
+/// A crumpled moving sheet of `side` by `side` particles; a seventh of them has infinite mass.
 LaunchCase sheet() {
   LaunchCase c;
   std::uint32_t state = 10;
@@ -72,7 +72,7 @@ TEST(Launch, SameBitsOnHostAndDevice) {
   EXPECT_TRUE(same(host.nonfinite, device.nonfinite));
 }
 
-/// Where there is no device, at least that the host's run does something.
+/// Without a device, tests at least that the run on the host has an effect.
 TEST(Launch, MovesTheSheet) {
   LaunchCase before = sheet(), after = sheet();
   Executor executor(1);

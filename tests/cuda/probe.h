@@ -1,7 +1,8 @@
-// One formula as floats in, floats out: the same text run by the host's compiler and by nvcc, to be compared bit by bit.
+// Formulas with floats in and floats out: the same text is compiled by the host's compiler and by nvcc, to compare the
+// bits.
 //
-// A probe has a name, how many floats go in and come out, and a function for both machines. The list grows by itself with
-// the list of constraints.
+// A probe has a name, numbers of floats in and out, and a function for both machines. New constraint types are in the
+// list automatically.
 #pragma once
 
 #include <cstring>
@@ -10,7 +11,7 @@
 
 namespace pliant::cuda {
 
-/// C, the gradients, and what `measure` reads off the positions, where the type has one.
+/// Probes C, the gradients and, if the type has it, `measure`.
 template <class T>
 struct ConstraintProbe {
   using Parameters = typename T::template Params<float>;
@@ -35,7 +36,7 @@ struct ConstraintProbe {
   }
 };
 
-/// The functions that stand in for libm.
+/// Probes the functions that replace libm.
 struct FunctionProbe {
   static constexpr const char* name = "functions";
   static constexpr int inputs = 2;

@@ -1,5 +1,6 @@
-// Continuous tests against samples: if at any sampled time two primitives are within the thickness, an impact is found and not
-// later; and where one is found, they are that near at its time. Then against queries with known answers, where there are any.
+// Compares continuous tests with samples: if two primitives are within the thickness at a sampled time, an impact must
+// be found, and not later; at the time of an impact they must be that near. Then compares them with queries that have
+// known answers.
 #include "geometry/continuous.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +29,7 @@ Vec3d random_point(std::mt19937_64& random, double range) {
   return {x, y, z};
 }
 
-/// Random corners, and the sort of trouble that `kind` names.
+/// Random corners with the difficulty that `kind` selects.
 Motion4 random_motion(std::mt19937_64& random, int kind) {
   Motion4 m;
   const Vec3d far = kind % 7 == 6 ? Vec3d{1000, -2000, 500} : Vec3d{};
@@ -48,10 +49,10 @@ Motion4 random_motion(std::mt19937_64& random, int kind) {
       m.from[3] = m.from[2] + (m.from[1] - m.from[0]);
       m.to[3] = m.to[2] + (m.to[1] - m.to[0]);
       break;
-    case 4:  // nothing moves
+    case 4:  // no corner moves
       for (int i = 0; i < 4; ++i) m.to[i] = m.from[i];
       break;
-    case 5:  // they begin with a point in common
+    case 5:  // they start with a point in common
       m.from[0] = m.from[2];
       break;
     default:
@@ -79,7 +80,7 @@ Impact<R> impact_of(const Motion4& m, R thickness) {
   return vertex_triangle_impact(from, to, thickness);
 }
 
-/// By the arithmetic of R alone, which for double is not what is asked by default.
+/// Runs the test in the arithmetic of R only; for double the public function does more.
 template <bool edges, class R>
 bool undecided_hit(const Motion4& m, R thickness) {
   Vec3<R> from[4], to[4];
@@ -97,7 +98,7 @@ void check_against_samples(double tolerance) {
   int hits = 0, misses = 0;
   for (int i = 0; i < 4000; ++i) {
     Motion4 m = random_motion(random, i);
-    for (int k = 0; k < 4; ++k) {  // what a float holds, so that both precisions see the same motion
+    for (int k = 0; k < 4; ++k) {  // exact in float, so that both precisions see the same motion
       m.from[k] = convert<double>(convert<float>(m.from[k]));
       m.to[k] = convert<double>(convert<float>(m.to[k]));
     }
@@ -130,11 +131,11 @@ TEST(EdgeEdgeImpact, IsNeitherMissedNorInvented) {
   check_against_samples<true, float>(2e-4);
 }
 
-/// Every corner moves straight to where a rotation about (1, 1, 1) by 30 degrees takes it. At each time that is one linear map of
-/// all, and invertible: what is apart stays apart, though no fixed plane lies between for long.
+/// Every corner moves linearly to where a rotation about (1, 1, 1) by 30 degrees takes it. At each time this is one
+/// invertible linear map of all points, so what is apart stays apart, though no fixed plane separates it for long.
 Motion4 turned_together(const Vec3d (&from)[4]) {
   constexpr double a = 0.9106836025229591, b = 0.3333333333333333,
-                   c = -0.2440169358562925;  // rows (a c b), (b a c), (c b a)
+                   c = -0.2440169358562925;  // rows of the rotation: (a c b), (b a c), (c b a)
   Motion4 m;
   for (int i = 0; i < 4; ++i) {
     const Vec3d& p = from[i];
@@ -184,16 +185,16 @@ TEST(VertexTriangleImpact, SeesTheFastestAndTheTouching) {
   EXPECT_FALSE(vertex_triangle_impact(beside, along, 0.f).hit);
 }
 
-/// What double precision can't tell: the first primitive and the other in the plane z = 0, as they are at `time`.
+/// Cases that double precision cannot decide: at `time` the primitives are as described here, in the plane z = 0.
 enum class Near {
   border,        ///< they cross `beside` of a border
-  along_border,  ///< the same, and move along it for all the time
-  end,           ///< they end at `beside` of one another
-  sliding,       ///< they slide over one another at the thickness and `beside`
+  along_border,  ///< the same, and they move along it all the time
+  end,           ///< they end at the distance `beside` from each other
+  sliding,       ///< they slide over each other at the thickness and `beside`
   kinds
 };
 
-/// Rounding to double, where all is turned and moves, puts them a little elsewhere.
+/// Makes such a case. Rotation and rounding to double displace the primitives a little.
 template <bool edges>
 Motion4 near_motion(std::mt19937_64& random, Near kind, double beside, double thickness) {
   std::uniform_real_distribution<double> uniform(0.1, 0.9);
@@ -228,7 +229,7 @@ Motion4 near_motion(std::mt19937_64& random, Near kind, double beside, double th
   return m;
 }
 
-/// Proofs in double must not contradict what all of it in twice the precision says.
+/// What is proved in double precision must agree with a computation entirely in double-double precision.
 template <bool edges>
 void check_decisions() {
   std::mt19937_64 random(edges ? 31 : 32);
@@ -250,8 +251,8 @@ void check_decisions() {
 TEST(VertexTriangleImpact, DecidesAsTwiceThePrecisionDoes) { check_decisions<false>(); }
 TEST(EdgeEdgeImpact, DecidesAsTwiceThePrecisionDoes) { check_decisions<true>(); }
 
-// All coordinates are what doubles hold, so the answers are known: at half time what comes down aslant is at height 0 and y = 0, where
-// something begins, or a hair beside it.
+// All coordinates are exact in double, so the answers are known: at half time the oblique motion is at height 0 and y =
+// 0, where the other primitive begins, or very slightly beside it.
 TEST(EdgeEdgeImpact, TellsWhatTouchesFromWhatPassesByAHair) {
   for (const double hair : {1e-17, 1e-20, 1e-25}) {
     for (const double end : {hair, 0.0, -hair}) {
@@ -267,8 +268,8 @@ TEST(EdgeEdgeImpact, TellsWhatTouchesFromWhatPassesByAHair) {
   }
 }
 
-// A border that turns while what is near it moves along: inside long before and long after, and at half time, as they cross, at the
-// border or a hair beside it.
+// A border rotates while a near primitive moves along it: inside long before and long after, and at half time, when
+// they cross, at the border or very slightly beside it.
 TEST(EdgeEdgeImpact, LooksBetweenTheTimesAtWhichItIsSure) {
   for (const double end : {1e-17, 0.0, -1e-17}) {
     const Motion4 edges{{{-1, -0.5, 0.5}, {1, 0.5, 0.5}, {0.25, end, 0}, {0.25, 1, 0}},
@@ -284,7 +285,8 @@ TEST(EdgeEdgeImpact, LooksBetweenTheTimesAtWhichItIsSure) {
 
 struct Counts {
   int queries = 0, missed = 0, invented = 0;
-  int missed_in_double = 0, far_in_double = 0;  ///< of those that double precision invents: not even touching within 1e-12
+  int missed_in_double = 0,
+      far_in_double = 0;  ///< false impacts of double precision, in which the primitives are not within 1e-12
 };
 
 template <bool edges>

@@ -1,4 +1,4 @@
-// Twice double's precision: results multiplied back, and digits that double can't hold.
+// Tests double-double arithmetic: results multiplied back, and digits that a double cannot represent.
 #include "geometry/double_double.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Exact signs against integers: coordinates are small integers, often few enough that points coincide, lie on one line or in one
-// plane, and are then moved by powers of two, which changes no sign.
+// Compares exact signs with integer arithmetic. Coordinates are small integers, so that points often coincide or lie on
+// one line or plane; then they are scaled by powers of two, which changes no sign.
 #include "geometry/exact.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ Point random_point(std::mt19937_64& random, int range) {
   return {x, y, z};
 }
 
-/// Whether 0 is in the convex hull: in that of some one to four of the points that are affinely independent (Caratheodory).
+/// True if 0 is in the convex hull: in that of one to four of the points that are affinely independent (Caratheodory).
 bool holds_origin(const std::vector<Point>& p) {
   const Point o{0, 0, 0};
   const auto n = p.size();
@@ -101,7 +101,7 @@ TEST(VolumeSign, IsThatOfIntegers) {
 }
 
 TEST(VolumeSign, TellsNeighbouringFloatsApart) {
-  // A plane through points whose coordinates have all their bits, and a fourth point one unit in the last place off it.
+  // A plane through points whose coordinates use all bits, and a fourth point one unit in the last place off it.
   const Vec3f a{0.1f, 0.1f, 0.1f}, b{1e6f + 0.1f, 1e6f + 0.1f, 1e-3f}, c{-3.3f, -3.3f, 7e7f}, d{77.7f, 77.7f, 77.7f};
   EXPECT_EQ(volume_sign(a, b, c, d), 0);  // all in x = y
   const float infinity = std::numeric_limits<float>::infinity();

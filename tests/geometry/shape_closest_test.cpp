@@ -1,4 +1,4 @@
-// The closest place on a segment to a primitive solid, against many places in double precision.
+// Compares the closest point of a segment to a primitive solid with many sampled points in double precision.
 #include "geometry/shape_closest.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ LocalShape some_shape(std::mt19937& random, int round) {
   return {ShapeKind::box, a, b, c};
 }
 
-/// The least distance at many places on a segment, and closer about the least of them.
+/// The least distance of sampled points on a segment, sampled more finely near the least.
 double least_of_many(const LocalShape& shape, const Vec3d& a, const Vec3d& b) {
   double low = 0, high = 1, least = 1e30;
   for (int round = 0; round < 4; ++round) {
@@ -67,7 +67,7 @@ TYPED_TEST(ClosestToShapes, IsTheLeastOfManyPlaces) {
     EXPECT_LE(static_cast<double>(segment.lower_bound()), least + exact) << round;
     const ClosestToShape<R> closest = closest_between(segment);
     EXPECT_NEAR(static_cast<double>(length(closest.normal)), 1, 1e-5) << round;
-    if (least < 0) {  // where faces meet inside, what is measured is the way to their edge, which is farther
+    if (least < 0) {  // inside, where two faces meet, the measured distance is that to their edge, which is longer
       EXPECT_LE(static_cast<double>(closest.distance), least + exact) << round;
       continue;
     }
@@ -79,7 +79,7 @@ TYPED_TEST(ClosestToShapes, IsTheLeastOfManyPlaces) {
 
 TEST(ClosestToShape, InsideABoxIsItsEdge) {
   const LocalShape box{ShapeKind::box, 1, 1, 1};
-  // Across the edge x = y = 1, which is 0.1 sqrt(2) beyond the segment's middle.
+  // Across the edge x = y = 1, which is 0.1 sqrt(2) away from the segment's middle.
   const SegmentNearShape<float> segment(box, {1.3f, 0.5f, 0}, {0.5f, 1.3f, 0});
   ASSERT_TRUE(segment.dips());
   const ClosestToShape<float> closest = closest_between(segment);

@@ -1,4 +1,4 @@
-// The primitive solids: known answers at the places where formulas break, and brute force everywhere else.
+// Tests the primitive solids: known answers where formulas break, brute force everywhere else.
 #include "geometry/shapes.h"
 
 #include <gtest/gtest.h>
@@ -89,7 +89,7 @@ TEST(SignedDistance, HasAUnitNormalAndIsItsOwnGradientEverywhere) {
       ASSERT_NEAR(length(at.normal), 1, 1e-12);
       ASSERT_NEAR(length(signed_distance(shape, convert<float>(p)).normal), 1, 1e-6);
       const auto near = signed_distance(shape, p + at.normal * 1e-7);
-      ASSERT_NEAR(near.distance - at.distance, 1e-7, 1e-12);  // outward at unit rate
+      ASSERT_NEAR(near.distance - at.distance, 1e-7, 1e-12);  // the distance grows at a rate of one along the normal
       const auto surface = signed_distance(shape, p - at.normal * at.distance);
       ASSERT_NEAR(surface.distance, 0, 1e-12);  // the closest surface point
     }
@@ -108,7 +108,7 @@ TEST(SignedDistance, IsFiniteAtTheMedialAxisAndFarAway) {
   }
 }
 
-/// The first sampled moment within the margin, or none: `count` + 1 places along the path.
+/// The first of `count` + 1 sampled positions along the path that is within the margin; none if there is none.
 double march(const LocalShape& shape, const Vec3d& a, const Vec3d& b, double margin, int count) {
   for (int i = 0; i <= count; ++i) {
     const double t = static_cast<double>(i) / count;
@@ -129,8 +129,8 @@ TEST(FirstHit, AgreesWithMarching) {
         const auto single = first_hit(shape, convert<float>(a), convert<float>(b), static_cast<float>(margin));
         if (marched >= 0) {
           ASSERT_TRUE(found.hit);
-          ASSERT_LE(found.t, marched + 1e-12);  // marching can only be late, and by no more than a step unless it grazes
-          if (found.t > 0) {                    // it is at the margin there, and nowhere nearer before
+          ASSERT_LE(found.t, marched + 1e-12);  // sampling can only be late, and by at most a step unless the path grazes
+          if (found.t > 0) {                    // the position is at the margin, and no earlier one is nearer
             ASSERT_NEAR(signed_distance(shape, a + (b - a) * found.t).distance, margin, 1e-9);
             ASSERT_EQ(march(shape, a, a + (b - a) * found.t, margin - 1e-9, 200), -1);
           }
@@ -168,7 +168,7 @@ TEST(FirstHit, KnowsPlainCases) {
   EXPECT_FALSE(first_hit(sphere, Vec3d{0, 2, 0}, Vec3d{0, 9, 0}, 0.5).hit);     // moves away
   EXPECT_TRUE(first_hit(sphere, Vec3d{0, 5, 0}, Vec3d{0, 1.5, 0}, 0.5).hit);    // reaches it at the very end
   const auto rounded = first_hit(LocalShape{ShapeKind::box, 1, 1, 1}, Vec3d{4, 4, 4}, Vec3d{0, 0, 0}, 0.3);
-  ASSERT_TRUE(rounded.hit);  // a corner is met on the ball about it, not on the grown box
+  ASSERT_TRUE(rounded.hit);  // a corner is hit on the ball around it, not on the grown box
   EXPECT_NEAR(rounded.point.x, 1 + 0.3 / std::sqrt(3.0), 1e-12);
   const auto top = first_hit(kPlane, Vec3d{0, 1, 0}, Vec3d{8, -1, 0}, 0.0);
   ASSERT_TRUE(top.hit);
@@ -206,7 +206,7 @@ TEST(FirstHit, TreatsPathsOfNoLengthAndStartsInside) {
 }
 
 TEST(FirstHit, NothingTunnelsAtAnySpeed) {
-  // Every path goes through the shape's centre, so every one must hit, on the side that it comes from.
+  // Every path goes through the shape's centre, so each must hit, on the side from which it comes.
   std::mt19937_64 random(3);
   const std::vector<LocalShape> thin = {{ShapeKind::box, 0.5f, 1e-6f, 0.5f},   {ShapeKind::box, 0.5f, 0, 0.5f},
                                         {ShapeKind::sphere, 0.001f, 0, 0},     {ShapeKind::capsule, 0.001f, 0.5f, 0},

@@ -1,7 +1,7 @@
-// Closest points: known answers, and the condition that characterises a closest point of a convex set as the oracle.
+// Tests closest points by known answers, and by the condition that characterises a closest point of a convex set.
 //
-// r is the point of a convex set nearest to p exactly if (p - r) . (v - r) <= 0 for each of its corners v. Nothing in that
-// depends on how r was found, so it judges slivers and parallel edges as well as anything.
+// r is the point of a convex set nearest to p if and only if (p - r) . (v - r) <= 0 for each of its corners v. The
+// condition does not depend on how r was found, so it works for slivers and parallel edges too.
 #include "geometry/triangle.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ void expect_near(const Vec3d& a, const Vec3d& b, double tolerance = 1e-12) {
   EXPECT_NEAR(a.z, b.z, tolerance);
 }
 
-/// How far the point found is from satisfying the condition, in metres.
+/// By how much a point fails the condition [m].
 double excess(const Vec3d& p, const Vec3d& r, const Vec3d (&corners)[3]) {
   const Vec3d away = p - r;
   const double size = std::max(length(away), 1e-30);
@@ -47,7 +47,7 @@ void check_triangle(const Vec3<R>& p, const Vec3<R>& a, const Vec3<R>& b, const 
       corners[0] * static_cast<double>(w.x) + corners[1] * static_cast<double>(w.y) + corners[2] * static_cast<double>(w.z);
   expect_near(convert<double>(found.point), r, tolerance * 3);
   ASSERT_NEAR(found.distance_squared, length_squared(convert<double>(p) - r), tolerance * 10);
-  // Where the distance is small, the direction in which it lies says little about the place.
+  // If the distance is small, its direction says little about the position.
   const double distance = length(convert<double>(p) - r);
   ASSERT_LE(excess(convert<double>(p), r, corners) * std::min(1.0, distance), place_tolerance);
 }
@@ -77,7 +77,7 @@ TEST(ClosestOnTriangle, IsOptimalForRandomTrianglesAndSlivers) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 20000; ++i) {
     const auto p = random_point<double>(random), a = random_point<double>(random), b = random_point<double>(random);
-    const double height = std::pow(10.0, -(i % 20));  // from well shaped to flatter than double can tell
+    const double height = std::pow(10.0, -(i % 20));  // from well shaped to flatter than double can resolve
     const auto c = a + (b - a) * (0.3 + 2.0 * (i % 7 - 3)) + random_point<double>(random) * height;
     check_triangle(p, a, b, c, 1e-13, 1e-10);
     const Vec3f single[4] = {convert<float>(p), convert<float>(a), convert<float>(b), convert<float>(c)};
@@ -144,7 +144,8 @@ void check_segments(const Vec3<R> (&p)[2], const Vec3<R> (&q)[2], double toleran
   expect_near(convert<double>(found.second), second, tolerance);
   const Vec3d apart = second - first;
   ASSERT_NEAR(found.distance_squared, length_squared(apart), tolerance * 10);
-  // Optimal exactly if no end of either segment lies nearer to the other's point, along the line between the two.
+  // The points are optimal if and only if no end of either segment is nearer to the other's point, along the line
+  // between both.
   double worst = 0;
   for (const Vec3d& end : {p0, p1}) worst = std::max(worst, dot(apart, end - first));
   for (const Vec3d& end : {q0, q1}) worst = std::max(worst, -dot(apart, end - second));
@@ -202,7 +203,7 @@ TEST(Triangle, KnowsAreaNormalAndVolume) {
   expect_near(triangle_normal(o, y, x), {0, 0, -1});
   EXPECT_NEAR(tetrahedron_volume(o, x, y, z), 10, 1e-12);
   EXPECT_NEAR(tetrahedron_volume(o, y, x, z), -10, 1e-12);
-  const Vec3d shift{7, -3, 2};  // a closed surface holds the same volume wherever the origin is
+  const Vec3d shift{7, -3, 2};  // the volume of a closed surface does not depend on the origin
   const Vec3d c[4] = {o + shift, x + shift, y + shift, z + shift};
   const double sum = six_volumes(c[0], c[2], c[1]) + six_volumes(c[0], c[1], c[3]) + six_volumes(c[1], c[2], c[3]) +
                      six_volumes(c[2], c[0], c[3]);

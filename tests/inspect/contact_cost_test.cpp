@@ -1,4 +1,4 @@
-// Scenes whose contact would take memory and time out of all proportion are refused, and the object and number are named.
+// Tests that scenes whose contact would take excessive memory and time are rejected, and that object and number are named.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// inspect(): each thing that it tells, on the smallest mesh that has it, and nothing on a mesh without fault.
+// Tests inspect() for meshes: each finding on the smallest mesh that has it, and none on a valid mesh.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 const std::vector<Vec3f> square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
-/// All findings as text, a line each, grave ones marked.
+/// All findings as text, one per line; grave ones are marked.
 std::string told(const TriangleMesh& mesh) {
   std::string text;
   for (const Finding& finding : inspect(mesh)) {
@@ -136,7 +136,7 @@ TEST(Inspect, FindsWhatIsInsideOut) {
 }
 
 TEST(Inspect, FindsWhereAMeshPassesThroughItself) {
-  // A needle through a square's first triangle: each of its two long sides pierces it once.
+  // A needle through a square's first triangle: each of its two long sides crosses the triangle once.
   const TriangleMesh needle{{{0.7f, 0.2f, 1}, {0.7f, 0.2f, -1}, {0.7f, 0.25f, 1}}, {{0, 1, 2}}};
   const TriangleMesh mesh = both({square, {{0, 1, 2}, {0, 2, 3}}}, needle);
   EXPECT_TRUE(tells(mesh, "an edge pierces a triangle in 2 places, the first edge 4-5 and triangle 0"));
@@ -145,7 +145,7 @@ TEST(Inspect, FindsWhereAMeshPassesThroughItself) {
   EXPECT_FALSE(tells(both(tetrahedron(), tetrahedron()), "passes")) << "lies in the same planes";
 }
 
-/// The same by brute force in extended precision, over all pairs.
+/// The number of intersections by brute force over all pairs, in extended precision.
 std::size_t count_by_brute_force(const TriangleMesh& mesh, const std::vector<Edge>& edges) {
   using Vec3l = Vec3<long double>;
   const auto at = [&](int i) {

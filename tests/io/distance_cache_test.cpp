@@ -1,4 +1,4 @@
-// Grids of distances that are kept: the same as measured, never another mesh's, and never damaged ones.
+// Tests cached distance grids: equal to measured ones, never those of another mesh, never damaged.
 #include <gtest/gtest.h>
 
 #include <filesystem>

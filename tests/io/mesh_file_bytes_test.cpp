@@ -1,4 +1,4 @@
-// Reading files as bytes: what is no regular file is refused at once, never waited for.
+// Tests reading files as bytes: anything but a regular file is rejected at once and never waited for.
 #include <sys/stat.h>
 
 #include "io/file_bytes.h"

@@ -1,5 +1,5 @@
-// The collection of meshes of public projects, well-formed and not: every one is read as its manifest counts it, or refused
-// for the reason that this table gives. A file that the table does not name must be read.
+// Reads a collection of meshes of public projects, valid and invalid: each must have the counts in its manifest, or be
+// rejected for the reason in the table below. A file that is not in the table must be readable.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 const std::string data = PLIANT_SHARED_DATA;
 
-/// Part of the message that refuses a file, by its path in the collection.
+/// For each file that must be rejected, by its path in the collection: a part of the error message.
 const std::map<std::string, std::string> refused = {
     {"nasty_mesh/assimp/Cube.off", "is an OFF file"},
     {"nasty_mesh/assimp/box_UTF16BE.obj", "is text in UTF-16"},
@@ -59,7 +59,7 @@ const std::map<std::string, std::string> refused = {
     {"nasty_mesh/warp-lfs-pointers/bunny.usd", "is a pointer of Git LFS"},
 };
 
-/// Files of these suffixes belong to readers that are not this one's.
+/// True for files with the suffixes of other readers.
 bool is_of_another_kind(const fs::path& path) {
   const std::set<std::string> others = {".msh", ".md", ".usd", ".seg"};
   return others.count(path.extension()) > 0 && path.string().find("lfs-pointers") == std::string::npos;
@@ -81,7 +81,7 @@ struct Row {
   std::optional<long> vertices, triangles, boundary_edges, crossings;
 };
 
-/// The manifest's counts, which a program of others took of the raw files.
+/// The counts in the manifest, which another program made from the raw files.
 std::map<std::string, Row> manifest() {
   std::map<std::string, Row> rows;
   std::ifstream in(data + "/MANIFEST.tsv");
@@ -110,11 +110,11 @@ TEST(MeshFiles, EachIsReadAsTheManifestCountsItOrRefusedForItsReason) {
       EXPECT_EQ(reason, refused.end()) << "was read though it should be refused";
       expect_sound(mended.mesh);
       const Row& row = rows.at(name);
-      const bool is_stl = name.find(".stl") != std::string::npos;  // the manifest counts its vertices merged
+      const bool is_stl = name.find(".stl") != std::string::npos;  // the manifest counts its vertices after merging
       if (row.vertices) {
         EXPECT_EQ((is_stl ? mended : raw).mesh.positions.size(), static_cast<std::size_t>(*row.vertices));
       }
-      // Its one polygon that goes round and round the manifest cuts into 938 triangles.
+      // The manifest's program divides its only polygon, which goes round several times, into 938 triangles.
       if (row.triangles && name != "nasty_mesh/assimp/box_longline.obj") {
         EXPECT_EQ(raw.mesh.triangles.size(), static_cast<std::size_t>(*row.triangles));
       }
@@ -142,7 +142,7 @@ TEST(MeshFiles, ClothAndSurfacesHaveNothingGrave) {
   }
 }
 
-/// Where polygons are cut up differently than by the manifest's program, the pairs differ; these have triangles only.
+/// The pairs depend on how polygons are divided, so these files have triangles only.
 TEST(MeshFiles, SelfIntersectionsAreThoseOfTheManifest) {
   const std::map<std::string, std::string> expected = {
       {"surface/odedstein/wingnut/wingnut.obj", "in 2 places"},
@@ -160,7 +160,7 @@ TEST(MeshFiles, SelfIntersectionsAreThoseOfTheManifest) {
   }
 }
 
-/// A closed surface that comes as loose triangles, or with its seams open, is closed once it is read.
+/// A closed surface that is stored as loose triangles, or with open seams, must be closed after reading.
 TEST(MeshFiles, SeamsCloseOnReading) {
   for (const char* name : {"nasty_mesh/assimp/cube_uv.ply", "nasty_mesh/mujoco/duplicate_vertices.stl",
                            "nasty_mesh/geometry-central/stl_box_binary.stl", "surface/mujoco/cube_cup.obj",

@@ -1,5 +1,5 @@
-// Damaged files: every prefix of small files, and thousands of seeded changes to them. Each is read to a sound mesh or
-// refused by Error; run under the sanitizers this is a small fuzzer that always runs (tests/fuzz holds the large ones).
+// Tests damaged files: every prefix of small files, and thousands of random changes to them. Each must give a valid
+// mesh or an Error. Under the sanitizers this is a small fuzzer; tests/fuzz has the large ones.
 #include <algorithm>
 #include <random>
 
@@ -48,7 +48,7 @@ std::vector<Sample> samples() {
   return all;
 }
 
-/// Reads it under every option. True where it was read.
+/// Reads the bytes with every combination of options. True if they could be read.
 bool is_read(const std::string& bytes, const std::string& name) {
   bool read = false;
   for (const MeshReadOptions options : {MeshReadOptions{}, as_it_is}) try {

@@ -1,4 +1,4 @@
-// OBJ: every form that a face can take, every ending that a line can have, and refusals by line.
+// Tests the OBJ reader: every form of a face, every line ending, and rejection with the line.
 #include "mesh_support.h"
 
 namespace pliant::test {
@@ -99,7 +99,7 @@ TEST(MeshObj, SaysWhatItPassedOver) {
                        "has 3 vertices but no faces (ignored 1 line, the first on line 4)"));
 }
 
-/// As programs for garments write them.
+/// Keywords as programs for garments write them.
 TEST(MeshObj, NamesKeywordsThatTheFormatDoesNotHave) {
   const MeshFile file = parse_mesh(three + "seam 1 2\nstitch 1 3\nseam 2 3\nf 1 2 3\nseam-allowance 0.01\n", "a.obj");
   EXPECT_EQ(file.mesh.triangles, (Triangles{{0, 1, 2}}));

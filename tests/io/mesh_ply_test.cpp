@@ -1,4 +1,5 @@
-// PLY: the same mesh as text and as bytes of both orders, with properties of all types in any order; headers that lie.
+// Tests the PLY reader: the same mesh as text and as bytes of both orders, with properties of all types in any order;
+// false headers.
 #include "mesh_support.h"
 
 namespace pliant::test {
@@ -73,7 +74,8 @@ TEST(MeshPly, PassesOverWhatItDoesNotNeed) {
 }
 
 TEST(MeshPly, FindsTheFirstByteBehindTheHeader) {
-  // The first coordinate's first byte is \n or \r: it belongs to the data.
+  // The first byte of the first coordinate is
+  //  or \r, and must be read as data.
   for (const char first : {'\n', '\r'}) {
     std::string bytes = binary_mesh<float, std::uint8_t, std::int32_t>(false, "float", "uchar int");
     const std::size_t data = bytes.find("end_header\n") + 11;

@@ -1,4 +1,4 @@
-// Repairs: what is mended, what is left alone, and that every repair is told.
+// Tests repairs: what is repaired, what is left alone, and that every repair is described.
 #include "mesh_support.h"
 
 namespace pliant::test {
@@ -48,7 +48,7 @@ TEST(MeshRepair, DropsIsolatedVerticesAndRenumbers) {
   EXPECT_EQ(read(text, {true, true, false}).mesh.positions.size(), 5u) << "what merging emptied goes all the same";
 }
 
-/// A strip of n cells in the xz-plane at height 0, as text.
+/// A grid of columns x rows vertices in the xz-plane at height 0, as OBJ text.
 std::string sheet(int columns, int rows, int first_index) {
   std::string text;
   for (int r = 0; r < rows; ++r)
@@ -92,7 +92,7 @@ TEST(MeshRepair, TakesASheetThatIsThereTwiceForOne) {
 }
 
 TEST(MeshRepair, KeepsAFoldTogetherWhoseStripHasNoWidth) {
-  // Two sheets in one place, held together at row 0 by a strip of triangles between vertices in the same places.
+  // Two sheets in one place. At row 0 a strip of triangles between coincident vertices connects them.
   std::string text = sheet(4, 3, 1) + reversed_sheet(4, 3, 13);
   for (int c = 1; c < 4; ++c)
     text += "f " + std::to_string(c) + " " + std::to_string(c + 1) + " " + std::to_string(c + 13) + "\nf " +

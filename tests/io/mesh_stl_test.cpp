@@ -1,4 +1,4 @@
-// STL: text and bytes told apart by what they are, joined by place, refused by line and byte.
+// Tests the STL reader: text and binary recognised by content, vertices merged by position, rejection with line and byte.
 #include "mesh_support.h"
 
 namespace pliant::test {
@@ -22,7 +22,7 @@ std::string binary_mesh(const std::vector<std::array<float, 9>>& triangles, std:
   head.resize(80, ' ');
   std::string bytes = head + bytes_of(static_cast<std::uint32_t>(triangles.size()));
   for (const auto& triangle : triangles) {
-    bytes += bytes_of(0.0f) + bytes_of(0.0f) + bytes_of(NAN);  // normals are not looked at
+    bytes += bytes_of(0.0f) + bytes_of(0.0f) + bytes_of(NAN);  // normals are ignored
     for (const float value : triangle) bytes += bytes_of(value);
     bytes += "ab";
   }

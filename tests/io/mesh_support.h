@@ -1,4 +1,4 @@
-// What the tests of mesh files share: meshes from text, errors as text, and bytes of binary files.
+// What the tests of mesh files share: meshes from text, error texts, and bytes of binary files.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ inline TriangleMesh mesh_of(std::string_view bytes, const std::string& name) {
   return parse_mesh(bytes, name, as_it_is).mesh;
 }
 
-/// What reading `bytes` throws, or "" where it throws nothing.
+/// The text of the Error that reading `bytes` throws; empty if it throws none.
 inline std::string error_of(std::string_view bytes, const std::string& name, const MeshReadOptions& options = {}) {
   try {
     parse_mesh(bytes, name, options);
@@ -32,7 +32,7 @@ inline std::string error_of(std::string_view bytes, const std::string& name, con
   return {};
 }
 
-/// All repairs as one text.
+/// Joins all lines to one text.
 inline std::string joined(const std::vector<std::string>& lines) {
   std::string text;
   for (const std::string& line : lines) text += line + "\n";
@@ -44,7 +44,7 @@ inline testing::AssertionResult contains(const std::string& text, const std::str
   return testing::AssertionFailure() << "'" << text << "' does not contain '" << part << "'";
 }
 
-/// What every mesh that is read must be, whatever the file was.
+/// Expects what every mesh that was read must be, whatever the file was.
 inline void expect_sound(const TriangleMesh& mesh) {
   EXPECT_FALSE(mesh.triangles.empty());
   for (const Vec3f& p : mesh.positions) ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
@@ -52,7 +52,7 @@ inline void expect_sound(const TriangleMesh& mesh) {
     for (const int corner : t) ASSERT_TRUE(corner >= 0 && static_cast<std::size_t>(corner) < mesh.positions.size());
 }
 
-/// A number's bytes in the order asked for.
+/// The bytes of a number in the given order.
 template <class T>
 std::string bytes_of(T value, bool big_endian = false) {
   std::string bytes(sizeof value, '\0');

@@ -1,5 +1,5 @@
-// Polygons to triangles, against what is known of any cut-up polygon: n - 2 triangles, none turned over, their areas
-// summing to the polygon's own, in every direction that the polygon may face.
+// Tests triangulation by what holds for every polygon: n - 2 triangles, none reversed, whose areas sum to the polygon's
+// area, whatever direction the polygon faces.
 #include <iomanip>
 #include <random>
 #include <sstream>
@@ -10,7 +10,7 @@ namespace pliant::test {
 namespace {
 
 struct Polygon {
-  std::vector<std::array<double, 2>> corners;  // counter-clockwise
+  std::vector<std::array<double, 2>> corners;  // positions in a plane, counter-clockwise
 };
 
 double area(const Polygon& polygon) {
@@ -35,7 +35,7 @@ PolygonMesh placed(const Polygon& polygon, const Vec3d& u, const Vec3d& v) {
   return mesh;
 }
 
-/// Triangulates it facing each way of each axis and askew, and checks the areas along the normal.
+/// Triangulates the polygon facing along each axis in both directions, and obliquely; checks the areas along the normal.
 void expect_cut_well(const Polygon& polygon, const std::string& what) {
   const Vec3d frames[][2] = {{{1, 0, 0}, {0, 1, 0}},   {{0, 1, 0}, {0, 0, 1}},        {{0, 0, 1}, {1, 0, 0}},
                              {{0, 1, 0}, {1, 0, 0}},   {{0, 0, 1}, {0, 1, 0}},        {{1, 0, 0}, {0, 0, 1}},
@@ -91,7 +91,7 @@ TEST(MeshTriangulate, CutsASquareFromItsFirstCorner) {
 }
 
 TEST(MeshTriangulate, KeepsNeedlesAwayWhereItCan) {
-  // A square whose sides have points on them, but for rounding: a fan, or the first ear that is found, makes needles there.
+  // A square with points on its sides, up to rounding. A fan, or cutting the first ear found, would make needles there.
   std::string text, face = "f";
   const int along[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}}, start[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   constexpr int parts = 7;
@@ -105,7 +105,7 @@ TEST(MeshTriangulate, KeepsNeedlesAwayWhereItCan) {
         text += (axis == 0 ? "v " : " ") + number.str();
       }
       text += " 0\n";
-      // It begins at a corner that is a needle by itself.
+      // The face begins at a corner that would be a needle.
       face += " " + std::to_string((side * parts + i + 1) % (4 * parts) + 1);
     }
   const TriangleMesh mesh = parse_mesh(text + face, "a.obj").mesh;

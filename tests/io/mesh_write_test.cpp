@@ -1,4 +1,4 @@
-// write_mesh: what is written reads back to the same bits, and what cannot be written leaves the old file as it was.
+// Tests write_mesh: what is written reads back with the same bits; if writing fails, the old file stays unchanged.
 #include <random>
 
 #include "mesh_support.h"
@@ -7,7 +7,7 @@
 namespace pliant::test {
 namespace {
 
-/// Floats of every size, with the signs and ends of their range.
+/// Floats of every size, of both signs, and at the ends of the range.
 TriangleMesh varied_mesh() {
   std::mt19937 random(3);
   TriangleMesh mesh;

@@ -1,5 +1,5 @@
-// Every scene of scenes/, saved at random frames and gone on with in a new World from the file alone: the bits of the run that
-// never stopped. What a step depends on beside its State would show here.
+// Saves every scene in scenes/ at random frames, and continues in a new World from the file alone: the bits must be
+// those of a run that never stopped. Any dependence of a step on more than its State would show here.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::vector<std::string> all_scenes() {
 
 class Resume : public testing::TestWithParam<std::string> {};
 
-/// PLIANT_RESUME_FRAMES=all runs a scene to its end, and saves it ten times.
+/// With PLIANT_RESUME_FRAMES=all a scene runs to its end and is saved ten times.
 TEST_P(Resume, EqualsTheRunThatNeverStopped) {
   const Scene scene = read_scene(PLIANT_SOURCE_DIR "/scenes/" + GetParam());
   const bool all = std::getenv("PLIANT_RESUME_FRAMES") != nullptr;

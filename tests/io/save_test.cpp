@@ -1,4 +1,5 @@
-// What was saved goes on in the same bits, and what is not a whole file of this format is refused with the reason.
+// Tests saving: a loaded State or World continues with the same bits, and anything but a complete file of this format
+// is rejected with the reason.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -20,7 +21,7 @@ using test::Folder;
 
 constexpr float dt = 1.f / 60;
 
-/// A scene with something in every member that a file holds.
+/// A scene with a value in every member that a file contains.
 Scene full_scene() {
   Scene scene;
   scene.gravity = {0.5f, -9, 0.25f};
@@ -82,7 +83,7 @@ std::string hash_of_file(const std::string& bytes) {
   return digest;
 }
 
-/// The bytes with a checksum that is right for them: a forged file, not a damaged one.
+/// The bytes with a correct checksum: a forged file, not a damaged one.
 std::string sealed(std::string bytes) {
   bytes.resize(bytes.size() - 32);
   return bytes + hash_of_file(bytes);
@@ -186,7 +187,7 @@ TEST(Save, AWorldOfWhichThingsCameAndWentGoesOnWithTheSameIds) {
   bell.masses = {std::numeric_limits<float>::infinity(), 1};
   bell.frames = {ObjectFrame{{}, {0, 1, 0}, {1, 2, 3}}, ObjectFrame{{}, {3, 1, 0}, {1, 1, 1}}};
   const ColliderId ground = world.add(extra);
-  world.remove(ObjectId(1));  // the balloon: its block is larger than what takes its place
+  world.remove(ObjectId(1));  // the balloon, whose block is larger than the one that takes its place
   const ObjectId gone = world.add(bell), first = world.add(fringe), second = world.add(bell);
   world.remove(gone);
   world.remove(ColliderId(0));
@@ -194,7 +195,7 @@ TEST(Save, AWorldOfWhichThingsCameAndWentGoesOnWithTheSameIds) {
   const RigidPose low{{0, -0.4f, 0}, {}};
   world.set_poses({&ground, 1}, {&low, 1});
   world.step(dt);
-  // What is there now, by slot: the second bell took the first one's, which was the balloon's.
+  // The present contents by slot: the second bell took the slot of the first, which had been the balloon's.
   Scene now = scene;
   now.objects = {};
   for (const ObjectId id : world.objects()) {
@@ -216,7 +217,7 @@ TEST(Save, AWorldOfWhichThingsCameAndWentGoesOnWithTheSameIds) {
     if (world.has(first)) {
       EXPECT_EQ(loaded.world.positions(first), world.positions(first));
     }
-    if (frame == 2)  // what comes next takes the same place
+    if (frame == 2)  // the next object takes the same slot
       for (World* each : {&world, &loaded.world}) each->add(scene.objects[1]);
     if (frame == 4)
       for (World* each : {&world, &loaded.world}) each->remove(first);
@@ -298,7 +299,7 @@ TEST(Save, TheReasonIsNamed) {
   says(reason([&] { load_state(folder / "pipe"); }), "is a pipe");
 }
 
-/// With a checksum that is right, so that nothing but the sizes themselves can be found wrong.
+/// With a correct checksum, so that only the sizes themselves can be found wrong.
 TEST(Save, ForgedSizesAreRefusedBeforeMemoryIsTaken) {
   const Folder folder;
   const std::string path = folder / "state";
@@ -326,7 +327,7 @@ TEST(Save, ForgedSizesAreRefusedBeforeMemoryIsTaken) {
             std::string::npos);
 }
 
-/// Forged files of a World, thousands of them, each with a checksum that is right: an Error or a World, never a crash or a
+/// Thousands of forged files of a World, each with a correct checksum: an Error or a World, never a crash or
 /// bad_alloc.
 TEST(Save, AForgedWorldIsRefusedOrLoaded) {
   const Folder folder;

@@ -1,4 +1,4 @@
-// Contact in scene files: what is said of objects, mesh colliders, groups, and the surfaces that can be asked for.
+// Tests contact in scene files: members of objects, mesh colliders and groups, and the generated surfaces.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -36,7 +36,7 @@ TEST_F(FullContact, HasItsMeshColliders) {
   const MeshCollider& box = scene.mesh_colliders[0];
   EXPECT_EQ(box.name, "mesh");
   EXPECT_EQ(scene.mesh_colliders[1].name, "mesh_2");
-  // A box of 1 x 2 x 3 after its scale, turned by 90 degrees about y, moved along z by 1.
+  // A box of 1 x 2 x 3 after scaling, rotated by 90 degrees about y and moved along z by 1.
   Vec3f low = box.mesh.positions.front(), high = low;
   for (const Vec3f& p : box.mesh.positions) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
@@ -84,7 +84,7 @@ TEST_F(FullContact, KnowsWhatPairsAre) {
   EXPECT_EQ(scene.settings.untangling_speed, 0.25f);
 }
 
-/// The longest side of a mesh's box, and its lowest point.
+/// The longest side of a mesh's bounding box, and its lowest point.
 std::pair<float, float> extent(const TriangleMesh& mesh) {
   Vec3f low = mesh.positions.front(), high = low;
   for (const Vec3f& p : mesh.positions) {
@@ -101,7 +101,7 @@ TEST_F(FullContact, FitsMeshes) {
 }
 
 TEST(SceneSurfaces, RabbitsAreClosedAndFaceOutwards) {
-  for (const int cells : {16, 20, 25, 29, 36, 40, 48}) {  // some need the grid elsewhere
+  for (const int cells : {16, 20, 25, 29, 36, 40, 48}) {  // some need another grid offset
     const TriangleMesh rabbit = scene_file::rabbit_mesh(0.3f, cells);
     for (const Finding& found : inspect(rabbit)) {
       EXPECT_FALSE(found.grave) << cells << " cells: " << found.message;
@@ -133,7 +133,7 @@ TEST_F(FullContact, HasItsHeightfields) {
   }
 }
 
-/// Every edge is of two triangles that run along it in opposite ways, and they all look outwards.
+/// Every edge has two triangles that traverse it in opposite directions, and all triangles face outward.
 TEST(SceneSurfaces, BoxesAreClosedAndFaceOutwards) {
   for (const int segments : {1, 2, 5}) {
     const TriangleMesh box = scene_file::box_mesh({2, 3, 4}, segments);
@@ -168,7 +168,7 @@ TEST(SceneMeshes, MayComeFromElsewhereByName) {
       << "fitted as the scene says: 8 m are 2, and the middle is above the origin";
 }
 
-/// What reading a scene file says where this name is given a mesh.
+/// The error of reading a scene file if this name is given a mesh.
 std::string error_of_mesh_for(const std::string& name, const std::string& scene) {
   const std::string folder = testing::TempDir() + "pliant_elsewhere_refused";
   std::filesystem::create_directories(folder);
@@ -208,7 +208,7 @@ TEST(SceneMeshes, FromElsewhereAreForNamesThatHaveOne) {
 TEST(SceneMeshes, DeformByFiles) {
   const std::string folder = testing::TempDir() + "pliant_frames";
   std::filesystem::create_directories(folder);
-  // Two vertices in one place: they are merged where a mesh stands still, and kept where it deforms.
+  // Two vertices at one position: they are merged in a rigid mesh, and kept in a deforming one.
   const auto write = [&](const std::string& name, float height) {
     std::ofstream(folder + "/" + name) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 " << height
                                        << " 1\nf 1 2 3\nf 4 5 6\n";

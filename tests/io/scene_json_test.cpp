@@ -1,4 +1,4 @@
-// JSON itself: what is accepted, what is refused, and where.
+// Tests the JSON reader: what it accepts, what it rejects, and at which position.
 #include "io/scene_json.h"
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "" where the text is accepted.
+/// The error text; empty if the text is accepted.
 std::string json_message(const std::string& text) {
   try {
     parse_json(text, "x.json");

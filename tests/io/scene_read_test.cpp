@@ -1,4 +1,4 @@
-// What a scene says arrives, field by field; the scenes of the project read; the documents match the table.
+// Tests reading scenes: every field is stored, the project's scenes are readable, and the documents match the table.
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -102,7 +102,7 @@ TEST_F(FullScene, HasItsSheetInPlace) {
   const Object& sheet = scene.objects.at(0);
   EXPECT_EQ(sheet.name, "sheet");
   ASSERT_EQ(sheet.positions.size(), 12U);
-  // The corner (-1.5, 0, -1), scaled to (-3, 0, -0.5), turned by 90 degrees about y to (-0.5, 0, 3), lifted by 2.
+  // The corner (-1.5, 0, -1), scaled to (-3, 0, -0.5), rotated by 90 degrees about y to (-0.5, 0, 3), raised by 2.
   expect_near(sheet.positions[0], {-0.5f, 2, 3});
   expect_near(sheet.positions[3], {-0.5f, 2, -3});
   expect_near(sheet.positions[8], {0.5f, 2, 3});
@@ -135,7 +135,7 @@ TEST_F(FullScene, HasItsPinsAndAttachments) {
   const Object& sheet = scene.objects.at(0);
   std::vector<int> pinned;
   for (const Pin& pin : sheet.pins) pinned.push_back(pin.particle);
-  EXPECT_EQ(pinned, (std::vector<int>{0, 3, 8, 11, 2, 6, 10}));  // the corners, and those at z = -1
+  EXPECT_EQ(pinned, (std::vector<int>{0, 3, 8, 11, 2, 6, 10}));  // the corners, and the vertices at z = -1
   const Motion& motion = sheet.pins.back().motion;
   ASSERT_EQ(motion.keyframes.size(), 2U);
   EXPECT_EQ(motion.keyframes[0].time, 1.f);
@@ -261,7 +261,8 @@ TEST(SceneMesh, TubesAreRoundAndFaceOutwards) {
   for (const Vec3f& p : tube.positions) EXPECT_NEAR(p.x * p.x + p.z * p.z, 0.25, 1e-6);
   EXPECT_EQ(tube.positions.front().y, 0);
   EXPECT_EQ(tube.positions.back().y, -2);
-  // Without its caps: two thirds of pi r^2 h about the middle, of which the upper cap is at the origin and the lower at h.
+  // Without caps, the signed volume is two thirds of pi r^2 h. The upper cap contains the origin and would add nothing;
+  // the lower one would add the cone to the origin, a third.
   EXPECT_NEAR(signed_volume(tube), 2.0 / 3 * 3.14159265 * 0.25 * 2, 0.003);
 }
 
@@ -283,7 +284,7 @@ TEST(SceneMesh, TubesHaveAsManyFoldsAsTold) {
 TEST(SceneSchema, HoldsEveryFieldWithItsRange) {
   const nlohmann::json schema = nlohmann::json::parse(scene_schema());
   EXPECT_EQ(schema.at("$schema"), "https://json-schema.org/draft/2020-12/schema");
-  EXPECT_EQ(schema.at("$defs").size(), scene_file::all_records().size());  // no two records of one name
+  EXPECT_EQ(schema.at("$defs").size(), scene_file::all_records().size());  // no two records have the same name
   const nlohmann::json& settings = schema.at("$defs").at("settings");
   EXPECT_EQ(settings.at("additionalProperties"), false);
   EXPECT_EQ(settings.at("properties").at("substeps").at("maximum"), 10000);

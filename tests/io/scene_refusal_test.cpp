@@ -1,4 +1,4 @@
-// Everything that a scene may get wrong, and how the error reads.
+// Tests everything that can be wrong in a scene, and the text of the error.
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ TEST(SceneRefusal, SaysWhatIsWrongAndWhatToDo) {
             "x.json:1:30: /settings/gravity: 'gravity' is unknown in settings; it is a member of scene");
 }
 
-/// Names that are right, or nearly, somewhere else.
+/// Names that are right, or nearly right, elsewhere in the format.
 TEST(SceneRefusal, KnowsWhereANameBelongs) {
   const auto hint = [](const std::string& scene) {
     const std::string message = scene_message(scene);
@@ -155,7 +155,7 @@ TEST_F(EveryField, ThatIsNotANumberIsRefusedWithItsPlace) {
   });
 }
 
-/// Removes one member after the other: what the table calls required must be missed by name.
+/// Removes each member in turn: an Error must name those that the table calls required.
 TEST_F(EveryField, ThatIsRequiredIsMissed) {
   int required = 0;
   const auto visit = [&](const Json& value, const Json::json_pointer& at) {

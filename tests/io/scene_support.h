@@ -18,7 +18,7 @@ inline std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// What reading a scene throws; an Error without text where it throws nothing.
+/// The Error that reading a scene throws; one without text if it throws none.
 inline Error scene_error(const std::string& text, const std::string& folder = ".", bool allow_outside = true) {
   try {
     parse_scene(text, "x.json", folder, allow_outside);
@@ -30,7 +30,7 @@ inline Error scene_error(const std::string& text, const std::string& folder = ".
 
 inline std::string scene_message(const std::string& text) { return scene_error(text).what(); }
 
-/// A scene in which every field of the format appears once or more, but for mesh files.
+/// A scene in which every field of the format occurs, except mesh files.
 inline std::string full_scene() { return text_of(PLIANT_SOURCE_DIR "/tests/io/every_field.json"); }
 
 }  // namespace pliant::test

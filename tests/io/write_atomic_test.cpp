@@ -1,4 +1,4 @@
-// A file is written whole, or the old one stands and an Error names the path.
+// Tests that a file is written completely, or the old one stays and an Error names the path.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -18,7 +18,7 @@ namespace {
 
 using test::Folder;
 
-/// What the Error says, or "" where there is none.
+/// The text of the Error that `action` throws; empty if it throws none.
 template <class Action>
 std::string problem(Action action) {
   try {
@@ -93,7 +93,7 @@ TEST(AtomicFile, ReportsAFullDevice) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
-/// The exit status of `action`, run in a child.
+/// The exit status of `action` in a child process.
 template <class Action>
 int in_child(Action action) {
   const pid_t child = fork();
@@ -109,7 +109,7 @@ TEST(AtomicFile, RefusesAFolderOrFileThatIsReadOnly) {
   ASSERT_EQ(chmod((open / "file").c_str(), 0444), 0);
   ASSERT_EQ(chmod(open.path().c_str(), 0777), 0);
   ASSERT_EQ(chmod(folder.path().c_str(), 0555), 0);
-  // Root may write anywhere, so the child is nobody.
+  // Root may write anywhere, so the child runs as the user nobody.
   const int refused = in_child([&] {
     if (geteuid() == 0 && setuid(65534) != 0) return 0;
     int count = 0;
@@ -123,7 +123,7 @@ TEST(AtomicFile, RefusesAFolderOrFileThatIsReadOnly) {
   EXPECT_EQ(open.names().size(), 1u);
 }
 
-/// The same where no file may grow longer than `bytes`.
+/// Runs `action` in a child process in which no file may grow longer than `bytes`.
 template <class Action>
 int with_a_full_disk(rlim_t bytes, Action action) {
   return in_child([&] {
@@ -170,7 +170,7 @@ TEST(Spool, GivesBackWhatWasWritten) {
   EXPECT_EQ(test::read(folder / "file"), all);
 }
 
-/// While it lives no file can be opened; sanitizers open some of their own, so that it must not outlive the failure.
+/// While it exists no file can be opened. Sanitizers open files of their own, so it must end before the test fails.
 class NoMoreFiles {
  public:
   NoMoreFiles() {
@@ -196,7 +196,7 @@ TEST(Spool, SaysWhatToDoWhereNoMoreFilesMayBeOpen) {
 TEST(FormatWriters, LeaveTheOldFilesWhenTheDiskIsFull) {
   for (const std::string suffix : {"obj", "ply", "glb", "usda", "pc2", "pvd"}) {
     const Folder folder;
-    const std::string old = "# the mesh that was there before";  // which a point cache may replace
+    const std::string old = "# the mesh that was there before";  // a point cache may replace it
     test::put(folder / ("run." + suffix), old);
     test::put(folder / "run.obj", old);
     const int status = with_a_full_disk(64, [&] {
@@ -260,7 +260,7 @@ TEST(JoinLines, WalksForksAndLoops) {
 TEST(JoinLines, TakesTimeInProportionAlsoAtAHub) {
   std::vector<std::array<int, 2>> spokes;
   for (int i = 1; i <= 1000000; ++i) spokes.push_back({0, i});
-  const auto lines = output::join_lines(spokes);  // half an hour, where each spoke looks through all before it
+  const auto lines = output::join_lines(spokes);  // would take half an hour if each spoke searched all before it
   EXPECT_EQ(lines.size(), spokes.size());
   EXPECT_EQ(lines.back(), (std::vector<int>{0, 1000000}));
 }

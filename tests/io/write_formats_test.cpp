@@ -1,4 +1,4 @@
-// Every format read back by a reader of its own, against the frames that were written.
+// Reads every format by a reader of its own, and compares with the frames that were written.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using nlohmann::json;
 using test::Folder;
 using test::value_at;
 
-/// All places of a frame, object after object.
+/// All positions of a frame, object after object.
 std::vector<Vec3f> joined(const output::Frame& frame) {
   std::vector<Vec3f> result;
   for (const auto& positions : frame.positions) result.insert(result.end(), positions.begin(), positions.end());
@@ -109,7 +109,7 @@ TEST(Pc2, HoldsEverySampleBesideItsMesh) {
   EXPECT_EQ(obj.groups.size(), 3u);
 }
 
-/// A .glb cut into its two chunks.
+/// A .glb divided into its two chunks.
 struct Glb {
   json document;
   std::string binary;
@@ -143,7 +143,7 @@ struct Glb {
   }
 };
 
-/// The bounds that an accessor states are those of its values, exactly.
+/// Expects the bounds of an accessor to be exactly those of its values.
 void expect_exact_bounds(const Glb& glb, std::size_t index) {
   const std::vector<Vec3f> values = glb.read<Vec3f>(index);
   Vec3f low = values[0], high = values[0];
@@ -251,11 +251,11 @@ TEST(Usda, IsBalancedAndHoldsEverySample) {
   EXPECT_EQ(occurrences(text, "points.timeSamples"), 3);
   EXPECT_EQ(occurrences(text, "extent.timeSamples"), 3);
   EXPECT_NE(text.find("2: [(0, 2, 0), (1, 2, 0), (0, 2, 1), (1, 2.1, 1)],"), std::string::npos);
-  EXPECT_NE(text.find("2: [(0, 2, 0), (1, 2.1, 1)],"), std::string::npos);           // the sheet's extent
-  EXPECT_NE(text.find("2: [(0, 2, 0), (4, 0, 0), (2, 1, 0)],"), std::string::npos);  // along the rope
+  EXPECT_NE(text.find("2: [(0, 2, 0), (1, 2.1, 1)],"), std::string::npos);           // extent of the sheet
+  EXPECT_NE(text.find("2: [(0, 2, 0), (4, 0, 0), (2, 1, 0)],"), std::string::npos);  // positions along the rope
 }
 
-/// A reader of XML that is only as good as it must be: tags nest, attributes are quoted, text has no stray signs.
+/// A minimal XML check: tags nest, attributes are quoted, text has no stray characters.
 testing::AssertionResult well_formed(const std::string& text) {
   std::vector<std::string> open;
   for (std::size_t at = 0; at < text.size();) {
@@ -298,7 +298,7 @@ std::string decode(const std::string& text) {
   return bytes;
 }
 
-/// The bytes of the array called `name`, its header checked and taken off.
+/// The bytes of the array `name`, after its header was checked and removed.
 std::string array(const std::string& text, const std::string& name) {
   const std::size_t tag = text.find("Name=\"" + name + "\"");
   if (tag == std::string::npos) return "no such array";

@@ -1,4 +1,4 @@
-// A small scene for every writer's test, and a folder that goes away.
+// A small scene for the tests of all writers, and a folder that is removed after the test.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace pliant::test {
 
-/// A folder of its own for one test.
+/// A temporary folder for one test.
 class Folder {
  public:
   Folder() {
@@ -31,7 +31,7 @@ class Folder {
   std::string operator/(const std::string& name) const { return path_ + "/" + name; }
   const std::string& path() const { return path_; }
 
-  /// The names in it, sorted.
+  /// The names of the files in the folder, sorted.
   std::vector<std::string> names() const {
     std::vector<std::string> result;
     for (const auto& entry : std::filesystem::directory_iterator(path_)) result.push_back(entry.path().filename().string());
@@ -50,7 +50,7 @@ inline std::string read(const std::string& path) {
 
 inline void put(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 
-/// The value of type T at a byte of a file.
+/// The value of type T at an offset in a file.
 template <class T>
 T value_at(const std::string& bytes, std::size_t at) {
   T value{};
@@ -59,15 +59,15 @@ T value_at(const std::string& bytes, std::size_t at) {
   return value;
 }
 
-/// A sheet of two triangles, a rope of three particles out of order, two loose particles; names that no format can take as
-/// they are.
+/// A sheet of two triangles, a rope of three particles out of order, and two loose particles. No format can use their
+/// names as they are.
 inline output::Objects sample_objects() {
   return {{"a <sheet> & \"more\"", {0.5f, 0.25f, 1}, 0.002f, 4, {{0, 1, 2}, {1, 3, 2}}, {}},
           {"rope", {1, 0, 0}, 0.02f, 3, {}, {{0, 2, 1}}},
           {"rope", {0, 1, 0}, 0.1f, 2, {}, {}}};
 }
 
-/// Frame k of them: the sheet rises by k, the rope swings.
+/// Frame k of these objects: the sheet rises by k, the rope swings.
 inline output::Frame sample_frame(int k) {
   const auto f = static_cast<float>(k);
   return {
@@ -77,7 +77,7 @@ inline output::Frame sample_frame(int k) {
       k};
 }
 
-/// Writes `frames` of them to `path`.
+/// Writes `frames` frames of these objects to `path`.
 inline void write_sample(const std::string& path, int frames) {
   const auto writer = output::make_format_writer(path, sample_objects(), 1. / 60);
   for (int k = 0; k < frames; ++k) writer->add(sample_frame(k));

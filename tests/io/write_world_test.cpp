@@ -1,4 +1,4 @@
-// The public writer, fed by a World.
+// Tests the public FrameWriter with a World.
 #include <gtest/gtest.h>
 
 #include <sstream>

@@ -1,6 +1,6 @@
-// The engine's own functions against the C library in higher precision, over dense sweeps and the ends of the number range.
+// Compares the engine's own functions with the C library in higher precision, densely and at the ends of the number range.
 //
-// The bounds are the ones that functions.h promises. Errors are counted in units in the last place (ulp) of the true value.
+// The bounds are those in functions.h. Errors are in units in the last place (ulp) of the true value.
 #include "math/functions.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ constexpr float kFloatMin = std::numeric_limits<float>::min();
 constexpr float kFloatLeast = std::numeric_limits<float>::denorm_min();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// |value - truth| in units in the last place that `truth` has in the type of `value`.
+/// |value - truth| in units in the last place of `truth`, in the type of `value`.
 template <class R>
 double ulps(R value, long double truth) {
   if (std::isnan(value)) return kInfinity;
@@ -28,7 +28,7 @@ double ulps(R value, long double truth) {
   return static_cast<double>(std::fabs(static_cast<long double>(value) - truth) / static_cast<long double>(ulp));
 }
 
-/// The largest error of a function and where it is.
+/// The largest error of a function, and the argument that has it.
 struct Worst {
   double error = 0;
   long double at = 0, other = 0;
@@ -40,7 +40,7 @@ std::ostream& operator<<(std::ostream& out, const Worst& w) {
   return out << w.error << " ulp at " << static_cast<double>(w.at) << ", " << static_cast<double>(w.other);
 }
 
-/// A finite number of any magnitude: random bits.
+/// A finite number of any magnitude, from random bits.
 template <class R, class Bits>
 R any_finite(std::mt19937_64& random) {
   for (;;) {
@@ -125,7 +125,7 @@ TEST(Atan2, EveryPairOfExtremesIsFiniteWithTheRightSigns) {
 }
 
 TEST(Atan2, HasNoBiggerJumpsThanItsErrorBetweenNeighbours) {
-  // A fold that is nearly flat must have an angle that grows with it, or a bending constraint pushes the wrong way.
+  // The angle of a nearly flat hinge must increase with the fold, or a bending constraint would push the wrong way.
   float before = atan2(-1e-3f, 1.f);
   for (float y = -1e-3f; y < 1e-3f; y += 1e-7f) {
     const float angle = atan2(y, 1.f);
@@ -149,7 +149,7 @@ TEST(Acos, IsWithinFourUlpFromEndToEnd) {
     single.see(ulps(acos(static_cast<float>(x)), std::acos(static_cast<long double>(static_cast<float>(x)))), x);
     twice.see(ulps(acos(x), std::acos(static_cast<long double>(x))), x);
   }
-  for (float x = 1; x > 0.999f; x = std::nextafter(x, 0.f)) {  // where a naive formula loses its digits
+  for (float x = 1; x > 0.999f; x = std::nextafter(x, 0.f)) {  // where a naive formula loses digits
     single.see(ulps(acos(x), std::acos(static_cast<long double>(x))), x);
     single.see(ulps(acos(-x), std::acos(static_cast<long double>(-x))), -x);
   }
@@ -178,7 +178,7 @@ TEST(SineCosine, AreWithinThreeUlpUpToAMillion) {
       worst.see(ulps(cos(x), std::cos(static_cast<long double>(x))), x);
     }
   }
-  for (int k = -1000; k <= 1000; ++k) {  // next to the zeros, where the reduction must not cancel
+  for (int k = -1000; k <= 1000; ++k) {  // near the zeros, where the reduction must not cancel
     const double x = k * 1.5707963267948966;
     worst.see(ulps(sin(x), std::sin(static_cast<long double>(x))), x);
     worst.see(ulps(cos(x), std::cos(static_cast<long double>(x))), x);
@@ -300,7 +300,7 @@ TEST(Pow, KnowsItsEnds) {
   EXPECT_TRUE(std::isnan(pow(-1.0, 0.5)));
 }
 
-/// A number whose bits are random but the same on every machine: every magnitude, infinities and NaN left out.
+/// A finite number of any magnitude, from bits that are random but the same on every machine.
 template <class R, class Bits>
 R next_finite(std::uint64_t& state) {
   for (;;) {
@@ -311,7 +311,7 @@ R next_finite(std::uint64_t& state) {
 }
 
 TEST(Functions, GiveTheSameBitsOnEveryMachine) {
-  // The digest of a million results: another compiler, optimisation level or machine must find the same.
+  // A digest of a million results, which must be the same for any compiler, optimisation level and machine.
   std::uint64_t state = 1, digest = 14695981039346656037u;
   const auto add = [&digest](auto value) {
     const double wide = std::isnan(value) ? 0 : static_cast<double>(value);

@@ -1,4 +1,4 @@
-// Rotations and keyframed motions: angles and places that a person can check by hand.
+// Tests rotations and keyframed motions with angles and positions that can be checked by hand.
 #include "math/motion.h"
 
 #include <gtest/gtest.h>
@@ -85,10 +85,10 @@ TEST(Quat, InterpolatesBetweenNearlyEqualAndOppositeRotations) {
     const Quatd end = normalise(Quatd{0, angle / 2, 0, 1});
     EXPECT_NEAR(slerp(Quatd{}, end, 0.5).y, angle / 4, 1e-16 + angle * 1e-9);
   }
-  const Quatd half_turn{1, 0, 0, 0};  // neither arc is shorter: either sense will do, but it must be half-way
+  const Quatd half_turn{1, 0, 0, 0};  // neither arc is shorter; any direction will do, but the result must be half-way
   EXPECT_NEAR(std::fabs(slerp(Quatd{}, half_turn, 0.5).x), std::sqrt(0.5), 1e-12);
   EXPECT_NEAR(slerp(Quatd{}, half_turn, 0.5).w, std::sqrt(0.5), 1e-12);
-  const Quatd same = slerp(half_turn, Quatd{-1, 0, 0, 0}, 0.3);  // the same rotation, written otherwise
+  const Quatd same = slerp(half_turn, Quatd{-1, 0, 0, 0}, 0.3);  // the same rotation with another sign
   EXPECT_NEAR(std::fabs(same.x), 1, 1e-12);
 }
 
@@ -117,7 +117,7 @@ TEST(Motion, FindsItsKeyframesAmongMany) {
 TEST(Motion, Repeats) {
   const Motion motion{{key(1, {0, 0, 0}), key(2, {1, 0, 0}), key(5, {4, 0, 0})}, {}, true};
   expect_near(pose_at(motion, 0.5).position, {0, 0, 0});
-  expect_near(pose_at(motion, 5).position, {4, 0, 0});  // the last keyframe itself is still seen
+  expect_near(pose_at(motion, 5).position, {4, 0, 0});  // the last keyframe itself is reached
   for (int cycle = 0; cycle < 1000; cycle += 7) {
     expect_near(pose_at(motion, 3.5 + 4 * cycle).position, {2.5, 0, 0}, 1e-9);
     expect_near(pose_at(motion, 5.25 + 4 * cycle).position, {0.25, 0, 0}, 1e-9);
@@ -126,10 +126,10 @@ TEST(Motion, Repeats) {
 
 TEST(Motion, TurnsAboutItsPivot) {
   const Motion motion{{key(0, {0, 0, 0}), key(2, {0, 0, 6}, rotation({0, 0, 1}, 90))}, {1, 1, 0}, false};
-  expect_near(to_world(pose_at(motion, 2), Vec3d{1, 1, 0}), {1, 1, 6}, 1e-7);  // the pivot is only moved
+  expect_near(to_world(pose_at(motion, 2), Vec3d{1, 1, 0}), {1, 1, 6}, 1e-7);  // the pivot only translates
   expect_near(to_world(pose_at(motion, 2), Vec3d{3, 1, 0}), {1, 3, 6}, 1e-7);
   expect_near(to_world(pose_at(motion, 1), Vec3d{3, 1, 0}), {1 + std::sqrt(2.0), 1 + std::sqrt(2.0), 3}, 1e-7);
-  EXPECT_EQ(carried(pose_at(motion, 0), Vec3f{0.1f, 0.2f, 0.3f}), (Vec3f{0.1f, 0.2f, 0.3f}));  // to the bit at rest
+  EXPECT_EQ(carried(pose_at(motion, 0), Vec3f{0.1f, 0.2f, 0.3f}), (Vec3f{0.1f, 0.2f, 0.3f}));  // exact at rest
 }
 
 TEST(Motion, GivesSomePoseWhateverItsKeyframes) {

@@ -1,4 +1,4 @@
-// Every operation of Wide against the plain float, lane by lane, and the ways in and out of records.
+// Compares every operation of Wide with that of plain floats, lane by lane, and tests loading and storing records.
 #include "math/wide.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ Lanes nasty_lanes(std::mt19937& random) {
   return lanes;
 }
 
-/// f of two Wides and of the floats in their lanes, on many numbers.
+/// Compares f of two Wides with f of the floats in their lanes, for many numbers.
 template <class F>
 void expect_lanewise(const char* name, const F& f) {
   std::mt19937 random(1);

@@ -1,4 +1,4 @@
-// Cloth and ropes from meshes: energies and masses that do not depend on the mesh, and refusals that name the place.
+// Tests cloth and ropes: energies and masses that do not depend on the mesh, and errors that name the place.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 Vec3d in_double(const Vec3f& p) { return {p.x, p.y, p.z}; }
 
-/// Sum of C^2 / (2 alpha) over a group whose particles are moved to `moved`; rest data is measured on the object.
+/// The sum of C^2 / (2 alpha) over a group, with particles moved to `moved`; rest data are measured on the object.
 template <class Type>
 double energy(const Object& object, const ConstraintGroup& group, const std::vector<Vec3d>& moved) {
   double sum = 0;
@@ -43,7 +43,7 @@ std::vector<Vec3d> moved(const Object& object, const std::function<Vec3d(const V
   return result;
 }
 
-/// A flat mesh of random shape: the grid's inner vertices are shaken.
+/// A flat grid whose inner vertices are displaced randomly.
 TriangleMesh shaken_grid(int columns, int rows, float width, float depth) {
   TriangleMesh mesh = grid_mesh(columns, rows, width, depth);
   std::mt19937 random(11);
@@ -81,7 +81,7 @@ ClothOptions with_material(const Fabric& material) {
   return options;
 }
 
-/// What an Error says where making cloth is refused.
+/// The Error that make_cloth throws for a mesh.
 Error refusal(const TriangleMesh& mesh, const ClothOptions& options = {}) {
   try {
     make_cloth(mesh, options);
@@ -112,7 +112,7 @@ TEST(Cloth, VanGelderOnASquareGridByHand) {
   for (std::size_t e = 0; e < stretch.compliances.size(); ++e) {
     const bool diagonal = stretch.rest[e] > 1.2f;
     const int a = stretch.particles[2 * e], b = stretch.particles[2 * e + 1];
-    const bool inner = a == 4 || b == 4;  // the middle vertex is on every inner side
+    const bool inner = a == 4 || b == 4;  // the middle vertex is on every inner edge
     EXPECT_FLOAT_EQ(stretch.compliances[e], diagonal ? 0.02f : inner ? 0.01f : 0.02f);
   }
 }
@@ -126,11 +126,11 @@ TEST(Cloth, MassIsAreaTimesDensityWhateverTheMesh) {
     for (float m : cloth.masses) mass += m;
     EXPECT_NEAR(mass, 0.3 * area_of(mesh), 1e-6);
   }
-  EXPECT_FLOAT_EQ(make_cloth(grid_mesh(2, 2, 1, 1), with_material(material)).masses[1], 0.05f);  // one triangle's third
+  EXPECT_FLOAT_EQ(make_cloth(grid_mesh(2, 2, 1, 1), with_material(material)).masses[1], 0.05f);  // a third of one triangle
 }
 
 TEST(Cloth, StretchEnergyOfEqualStrainIsTheSameOnEveryMesh) {
-  // Strained by s in all directions each edge gains s L, so the energy is 3/2 s^2 Y times the area.
+  // Stretched by s in all directions, each edge gains s L, so the energy is 3/2 s^2 Y times the area.
   const double strain = 1e-3;
   for (const TriangleMesh& mesh : {grid_mesh(4, 4, 1, 1), grid_mesh(30, 9, 1, 1), shaken_grid(20, 20, 1, 1)}) {
     const Object cloth = make_cloth(mesh, with_material(fabric("denim")));
@@ -140,8 +140,8 @@ TEST(Cloth, StretchEnergyOfEqualStrainIsTheSameOnEveryMesh) {
 }
 
 TEST(Cloth, EquilateralSheetHasTheYoungsModulusAskedFor) {
-  // A lattice of springs is an isotropic sheet with Poisson's ratio 1/3: pulled along x by s it thins by s / 3 and stores
-  // s^2 Y / 2 an area. Borders have half the springs, so the area is the sheet's own.
+  // A lattice of springs is an isotropic sheet with Poisson's ratio 1/3: stretched along x by s, it contracts by s / 3
+  // and stores s^2 Y / 2 per area. Edges at the border have half the stiffness, so the area is that of the sheet.
   const double s = 1e-3;
   const TriangleMesh mesh = equilateral_sheet(40, 40, 0.01f);
   const Object cloth = make_cloth(mesh, with_material(fabric("silk")));
@@ -149,7 +149,8 @@ TEST(Cloth, EquilateralSheetHasTheYoungsModulusAskedFor) {
   EXPECT_NEAR(energy<Distance>(cloth, cloth.constraints[0], pulled) / (s * s * 12000 / 2 * area_of(mesh)), 1, 1e-3);
 }
 
-/// The energy an area of a sheet rolled to radius 1 m about an axis at `degrees` to the z-axis, as a share of B / 2.
+/// The energy per area of a sheet that is rolled to radius 1 m about an axis at `degrees` to the z-axis, as a share of
+/// B / 2.
 template <class Type>
 double rolled_energy(const TriangleMesh& mesh, ClothOptions::Bending model, double degrees) {
   ClothOptions options = with_material(fabric("wool"));
@@ -164,8 +165,8 @@ double rolled_energy(const TriangleMesh& mesh, ClothOptions::Bending model, doub
 }
 
 TEST(Cloth, RolledSheetStoresWhatItsFlexuralRigiditySays) {
-  // Half of the border's hinges are missing, hence up to 2 % less. A lattice of equilateral triangles has no grain; a grid
-  // rolled along its sides or its diagonals is exact too.
+  // Half of the border's hinges are missing, so up to 2 % less. A lattice of equilateral triangles has no preferred
+  // direction; a grid rolled along its sides or diagonals is exact too.
   using Bending = ClothOptions::Bending;
   for (double degrees : {0., 20., 45., 70., 90.}) {
     const TriangleMesh sheet = equilateral_sheet(80, 80, 0.01f);
@@ -205,8 +206,8 @@ TEST(Cloth, NoBendingWhereNoneIsAskedFor) {
 }
 
 TEST(Cloth, BendingDampingIsTheFractionOfCriticalOfAHinge) {
-  // Two right triangles of a unit square: their tips are 1/sqrt(2) from the diagonal, the ends of which take half of each
-  // tip's gradient and the other way. With a mass m a corner: w |grad|^2 sums to 2 (2/m_tip + 2/m_end).
+  // Two right triangles of a unit square. Their tips are 1/sqrt(2) from the diagonal, whose ends each take half of both
+  // tips' gradients with the opposite sign. With a mass m at each corner, w |grad|^2 sums to 2 (2/m_tip + 2/m_end).
   Fabric material;
   material.area_density = 3;
   material.bending_damping = 0.25f;
@@ -271,7 +272,7 @@ TEST(Cloth, RefusalsNameThePlace) {
 
 TEST(Cloth, AnEdgeOfThreeTrianglesStretchesAndIsNotBent) {
   TriangleMesh mesh = grid_mesh(3, 3, 1, 1);  // 16 edges, 8 of them inner
-  mesh.triangles.push_back({0, 4, 2});        // a third one at 0-4; 4-2 and 2-0 are new
+  mesh.triangles.push_back({0, 4, 2});        // a third triangle at edge 0-4; edges 4-2 and 2-0 are new
   const Object cloth = make_cloth(mesh);
   ASSERT_EQ(cloth.constraints.size(), 2u);
   EXPECT_EQ(cloth.constraints[0].particles.size(), 2u * 18);

@@ -1,4 +1,5 @@
-// Stiffness and compliance: inverse to each other, and the same motion when they are put into the two solvers' formulas.
+// Tests stiffness and compliance: the conversions are inverse to each other, and both give the same motion in the
+// formulas of the two solvers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,8 +13,8 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// A particle of mass 1 / w on a spring to the origin (C = x), in double; no gravity. `inertia` false: it stops every
-/// substep.
+/// A particle of mass 1 / w on a spring to the origin (C = x), in double, without gravity. If `inertia` is false, it
+/// stops in every substep.
 struct IsolatedConstraint {
   double x = 1, v = 0;
 

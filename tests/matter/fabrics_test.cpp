@@ -1,4 +1,4 @@
-// The fabrics: their table in docs/guide/materials.md says what the code says, and the numbers are physically possible.
+// Tests the fabrics: the table in docs/guide/materials.md agrees with the code, and the numbers are physically possible.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -20,7 +20,7 @@ std::string table_row(const Fabric& f) {
   return text;
 }
 
-/// What docs/guide/materials.md must hold; printed where it does not, to be copied.
+/// The table that docs/guide/materials.md must contain; printed if it does not, to be copied.
 std::string table() {
   std::string rows =
       "| name | kg/m^2 | thickness, mm | Y, N/m | B, N m | damping | static friction | kinetic friction |\n"
@@ -54,10 +54,10 @@ TEST(Fabrics, AllThatWerePromisedAreThere) {
 TEST(Fabrics, NumbersArePossible) {
   for (const Fabric& f : fabrics()) {
     EXPECT_FALSE(f.source.empty());
-    EXPECT_GT(f.area_density / f.thickness, 100) << f.name;   // kg/m^3: airy
-    EXPECT_LT(f.area_density / f.thickness, 1600) << f.name;  // cellulose without air
+    EXPECT_GT(f.area_density / f.thickness, 100) << f.name;   // density [kg/m^3] of a loose fabric
+    EXPECT_LT(f.area_density / f.thickness, 1600) << f.name;  // density of cellulose without air
     EXPECT_LE(f.kinetic_friction, f.static_friction) << f.name;
-    // Yarns that slide make a sheet softer in bending than the same stuff in one piece, never stiffer.
+    // Yarns that slide make a fabric softer in bending than a solid sheet of the same material, never stiffer.
     EXPECT_LE(f.bending_stiffness, f.stretch_stiffness * f.thickness * f.thickness / 9 * 1.0001f) << f.name;
     EXPECT_GT(f.bending_stiffness, 0) << f.name;
   }

@@ -1,6 +1,6 @@
-// Every number of a scene made bad in every way, one at a time: a World refuses it by an Error that says where, or it runs
-// and stays finite. Nothing else may happen. Which values are refused, and in which words, is tests/world/scene_test.cpp's
-// affair.
+// Makes every number of a scene bad in every way, one at a time. A World must reject the scene with an Error that
+// says where, or run and stay finite. tests/world/scene_test.cpp tests which values are rejected, and with which
+// words.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace pliant {
 namespace {
 
-/// A scene in which everything occurs that a scene can hold.
+/// A scene with everything that a scene can contain.
 Scene full_scene() {
   Scene scene;
   scene.settings.substeps = 3;
@@ -139,7 +139,7 @@ bool is_finite(const State& state) {
 
 enum class Outcome { refused, ran, stopped };
 
-/// Makes a World and steps it; fails the test where anything but an Error with words or a finite state comes of it.
+/// Makes a World and steps it. The result must be an Error with a text, or a finite State.
 Outcome try_out(const Scene& scene) {
   try {
     World world(scene);
@@ -178,7 +178,7 @@ TEST(Misuse, NoBadNumberBreaksAnything) {
       number.of(scene) = bad;
       const Outcome outcome = try_out(scene);
       refused += outcome == Outcome::refused ? 1 : 0;
-      // What a World takes it can simulate; only a mass or a place at the very end of what is allowed may stop it.
+      // A World can simulate what it accepts. Only a mass or position at the very end of the allowed range may stop it.
       EXPECT_TRUE(outcome != Outcome::stopped || std::fabs(bad) >= 1e8f);
       ++tried;
     }

@@ -1,4 +1,5 @@
-// Blocks of a State: nobody overlaps, holes are used again, and the end falls when the last block goes.
+// Tests the blocks of a State: they do not overlap, holes are used again, and the end decreases when the last block is
+// removed.
 #include "model/blocks.h"
 
 #include <gtest/gtest.h>

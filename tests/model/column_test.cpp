@@ -1,4 +1,4 @@
-// Columns and ordinals hold what was appended, however they keep it.
+// Tests that columns and ordinals contain what was appended, however they store it.
 #include "model/column.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ TEST(Column, DoesNotCopyTheFirstArrayUntilItChanges) {
   Column<float> column;
   column.append(given);
   EXPECT_EQ(column.row(1, 2).first, given.data() + 1);
-  column.set(2, 3);  // what it is already
+  column.set(2, 3);  // the value that it has already
   EXPECT_EQ(&column[0], given.data());
   column.set(2, 30);
   EXPECT_EQ(values_of(column), (std::vector<float>{1, 2, 30, 4}));

@@ -1,5 +1,5 @@
-// From an Object to a schedule: every constraint once, padding never a constraint, tasks that share no particle, numbers
-// that find their way back.
+// Tests the compilation of an Object to a schedule: every constraint occurs once, padding is never a constraint, tasks
+// share no particle, and indices can be mapped back.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 namespace pliant {
 namespace {
 
-/// A rumpled grid with edges, hinges of both kinds by every law, pins, attachments: something of everything.
+/// A crumpled grid with edges, hinges of both types with every law, pins and attachments.
 Object rumpled_grid(int columns, int rows) {
   Object object;
   object.name = "grid";
@@ -61,14 +61,14 @@ Object rumpled_grid(int columns, int rows) {
   return object;
 }
 
-/// A lane of a segment as the user gave it.
+/// A lane of a segment in terms of the user's description.
 struct Found {
   std::array<int, 4> particles{};
   float first_field = 0, response = 0;
   Law law = Law::compliant;
 };
 
-/// Every valid lane by (type, origin). Fails where one comes twice, and where padding has a number.
+/// All valid lanes by (type, origin). Fails if one occurs twice, or if padding has an origin.
 std::map<std::pair<int, int>, Found> all_lanes(const CompiledObject& object) {
   std::map<std::pair<int, int>, Found> found;
   for (const Segment& segment : object.segments) {
@@ -107,7 +107,7 @@ int count_of(const Object& object, const std::string& type, int size) {
   return static_cast<int>(count);
 }
 
-/// The stencil that the user gave to number `origin` of a type; attachments come after all groups.
+/// The user's stencil of constraint `origin` of a type; attachments come after all groups.
 std::vector<int> stencil_given(const Object& object, const std::string& type, int size, int origin) {
   for (const ConstraintGroup& group : object.constraints) {
     if (group.type != type) continue;
@@ -119,11 +119,11 @@ std::vector<int> stencil_given(const Object& object, const std::string& type, in
   return {attachment.particle, static_cast<int>(object.positions.size()) + origin};
 }
 
-/// The same under other numbers, so that no lines are left to number along.
+/// The same object with particles renumbered, so that no lines are left for numbering.
 Object renumbered(const Object& object) {
   std::vector<int> name(object.positions.size());
   std::iota(name.begin(), name.end(), 0);
-  std::shuffle(name.begin() + 2, name.end(), std::mt19937(3));  // 0 and 1 are fixed, and tests know them
+  std::shuffle(name.begin() + 2, name.end(), std::mt19937(3));  // 0 and 1 stay, because tests use them
   Object out = object;
   for (std::size_t i = 0; i < name.size(); ++i) {
     const auto to = static_cast<std::size_t>(name[i]);
@@ -145,7 +145,7 @@ std::vector<ObjectPhase> phases_of(const CompiledObject& object, Driver driver) 
   return phases;
 }
 
-/// Tiles of some size, the grid numbered line by line or anyhow.
+/// Parameters: size of tiles; true if the grid is numbered line by line, false if randomly.
 class Compiled : public testing::TestWithParam<std::tuple<int, bool>> {
  protected:
   int largest_tile() const { return std::get<0>(GetParam()); }
@@ -221,7 +221,7 @@ TEST_P(Compiled, TilesPartitionParticlesAndSegments) {
   EXPECT_EQ(segment, static_cast<int>(compiled_.segments.size()));
 }
 
-/// Storage numbers of all particles that the valid lanes of a segment write, and those of its padding read.
+/// Storage indices of all particles that the valid lanes of a segment write; padding reads the same ones.
 std::vector<int> particles_of(const CompiledObject& object, const Segment& segment) {
   std::vector<int> particles;
   const Pool& pool = object.pools[static_cast<std::size_t>(segment.pool)];
@@ -340,7 +340,7 @@ TEST(Compile, OneParticleAndNothingElse) {
 TEST(Compile, MovingPinsAndTargetsAreKinematic) {
   const Object object = rumpled_grid(5, 5);
   const CompiledObject compiled = compile(object, {});
-  ASSERT_EQ(compiled.kinematics.size(), 1u);  // the attachment's target stands still
+  ASSERT_EQ(compiled.kinematics.size(), 1u);  // the attachment's target does not move
   EXPECT_EQ(compiled.order[static_cast<std::size_t>(compiled.kinematics[0].particle)], 0);
   EXPECT_EQ(compiled.kinematics[0].rest, object.positions[0]);
 }
@@ -420,7 +420,7 @@ TEST(Model, JoinsObjectsEndToEnd) {
   EXPECT_EQ(state.positions.size(), 47u);
   EXPECT_EQ(state.velocities.size(), 47u);
   EXPECT_EQ(state.remainders.size(), 47u);
-  // A phase runs over the objects, whose particles are apart anyway.
+  // A phase contains all objects, whose particles differ anyway.
   std::size_t tasks = 0, segments = 0;
   for (const Phase& phase : model.phases) tasks += phase.driver == Driver::inter_tile ? phase.tasks.size() : 0;
   for (const CompiledObject& object : model.objects) {
@@ -431,7 +431,7 @@ TEST(Model, JoinsObjectsEndToEnd) {
   EXPECT_EQ(tasks, segments);
 }
 
-/// What a phase visits, as numbers to compare.
+/// What a phase visits, as numbers that can be compared.
 std::vector<std::vector<int>> visits_of(const Model& model) {
   std::vector<std::vector<int>> visits;
   for (const Phase& phase : model.phases) {

@@ -1,5 +1,6 @@
-// The hierarchy of the multigrid correction against the graph that it was made from: every spring in both its rows, every
-// particle that can move in one group, every block of a coarser level the sum of just those finer ones that it stands for.
+// Compares the levels of the multigrid correction with the graph from which they were made: every spring is in both its
+// rows, every dynamic particle in one group, and every block of a coarser level is the sum of exactly the finer blocks
+// that it represents.
 #include "model/multigrid.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +41,7 @@ Object sheet(int columns, int rows) {
   return object;
 }
 
-/// Points anywhere, each joined to some that came before: no order, no planarity, degrees from 1 up.
+/// Random points, each connected to some earlier ones: no order, not planar, degrees from 1 up.
 Object tangle(int points, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<Vec3f> positions;
@@ -73,7 +74,7 @@ Object two_pieces() {
   return object;
 }
 
-/// One particle that all others are joined to.
+/// One particle to which all others are connected.
 Object hub(int others) {
   std::vector<Vec3f> positions(1);
   std::vector<std::array<int, 2>> edges;
@@ -84,7 +85,7 @@ Object hub(int others) {
   return with_edges(positions, edges);
 }
 
-/// Every link twice.
+/// An object in which every link occurs twice.
 Object doubled() {
   Object object = sheet(8, 9);
   std::vector<int>& particles = object.constraints[0].particles;
@@ -113,8 +114,8 @@ Built build(const Object& object, float gravity = 9.81f) {
   return built;
 }
 
-/// Slots of a row that stand for a neighbour: 16 x slot + lane, and the neighbour. On the finest level those with a
-/// stiffness; on others those that something is summed into.
+/// The slots of a row that have a neighbour: 16 x slot + lane, and the neighbour. On the finest level these have a
+/// stiffness; on coarser levels they have sources.
 std::vector<std::array<int, 2>> links_of(const MultigridLevel& level, int row) {
   std::vector<std::array<int, 2>> links;
   const int place = lane_place(row), batch = place / batch_width, lane = place % batch_width;
@@ -145,7 +146,7 @@ void expect_every_spring_twice(const Built& built) {
   EXPECT_EQ(found, expected);
 }
 
-/// Whether the members of a group hang together by links among themselves.
+/// True if links among the members of a group connect all of them.
 bool hangs_together(const MultigridLevel& fine, const std::vector<int>& members) {
   std::set<int> reached{members[0]};
   for (std::size_t pass = 0; pass < members.size(); ++pass)
@@ -181,8 +182,8 @@ void expect_families(const Built& built, const MultigridLevel& fine, const Multi
   }
 }
 
-/// Each link of the finer level is in one sum: of the block between its groups, of its group's anchors, or, inside a group,
-/// of none.
+/// Each link of the finer level is in one sum: of the block between its groups, or of its group's anchors; links inside
+/// a group are in none.
 void expect_sums(const MultigridLevel& fine, const MultigridLevel& coarse) {
   std::map<std::array<int, 2>, std::vector<int>> blocks, found_blocks;
   std::map<int, std::vector<int>> anchors, found_anchors;
@@ -217,7 +218,7 @@ void expect_sums(const MultigridLevel& fine, const MultigridLevel& coarse) {
 struct Case {
   std::string name;
   Object object;
-  int most_levels, coarsest;  ///< rows of the last level, at the most
+  int most_levels, coarsest;  ///< largest number of rows of the last level
 };
 
 void PrintTo(const Case& from, std::ostream* out) { *out << from.name; }
@@ -291,8 +292,8 @@ TEST(SpringStiffness, IsOneOverComplianceUpToTheLimit) {
   EXPECT_EQ(spring_stiffness(1e-6f, 1000), 1000.f);
 }
 
-/// A line that one end holds carries its weight through every cross-section of one link: K = 1700 W / L, over the 41 / 40
-/// links that its particles have to a length.
+/// A line held at one end carries its weight through every cross-section, which is one link: K = 1700 W / L, over the
+/// 41 / 40 links per length that its particles have.
 TEST(StiffnessLimit, StretchesWhatHangsByAboutAThousandth) {
   Object object = line(41);
   object.masses[0] = infinity;
@@ -303,7 +304,7 @@ TEST(StiffnessLimit, StretchesWhatHangsByAboutAThousandth) {
   EXPECT_NEAR(double(build(object, 0).multigrid.stiffness_limit[40]), expected, 1e-3 * expected) << "without gravity";
 }
 
-/// Towards few pins an edge carries more: a sheet of 40 edges across hung by two corners, 40 / (8 x 2) times as much.
+/// Near few pins an edge carries more: in a sheet of 40 edges across, hung by two corners, 40 / (8 x 2) times as much.
 TEST(StiffnessLimit, IsLargerBesideAPin) {
   const Built built = build(sheet(40, 40));
   const std::vector<float>& limit = built.multigrid.stiffness_limit;

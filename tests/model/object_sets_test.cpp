@@ -1,4 +1,4 @@
-// Sets of objects that can meet: known answers, and a search over all pairs as oracle.
+// Tests sets of objects that can meet: known answers, and a search over all pairs as the oracle.
 #include "model/object_sets.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The parallel loop: every index once, on any number of threads, inside and outside of enter; and what it says of its time.
+// Tests the parallel loop: every index once, on any number of threads, inside and outside enter(); and its timings.
 #include "parallel/executor.h"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ TEST(Executor, CanBeMoved) {
 
 TEST(Timings, AddUpUnderTheirNames) {
   Timings timings;
-  char copy[] = "solve";  // another pointer, the same name
+  char copy[] = "solve";  // another pointer to the same name
   timings.add("solve", 1);
   timings.add("predict", 10);
   timings.add(copy, 2);

@@ -1,4 +1,4 @@
-// launch: every item once, on any number of threads, in blocks that make up the whole.
+// Tests launch: every item once, on any number of threads, in blocks that cover all items.
 #include "parallel/launch.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-// golden_portable [NAME...]: runs what tests/golden/hashes.txt has hashes of, once each on one thread, and says which are equal.
-// A plain program, for machines that run neither GoogleTest nor threads: aarch64 under qemu-user, WebAssembly under node
-// (scripts/portable).
+// golden_portable [NAME...]: runs the cases in tests/golden/hashes.txt once each on one thread, and prints which hashes
+// are equal. It is a plain program for machines that run neither GoogleTest nor threads: aarch64 under qemu-user,
+// WebAssembly under node (scripts/portable).
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

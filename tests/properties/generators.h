@@ -1,4 +1,4 @@
-// Random inputs that rapidcheck can shrink: meshes, stencils and small scenes of cloth.
+// Random inputs that rapidcheck can shrink: meshes, stencils and small scenes with cloth.
 #pragma once
 
 #include <rapidcheck.h>
@@ -11,19 +11,19 @@
 
 namespace pliant::properties {
 
-/// A float in [low, high] on a grid of `steps` values, so that shrinking ends.
+/// A float in [low, high], one of `steps` equidistant values, so that shrinking ends.
 inline rc::Gen<float> between(float low, float high, int steps = 1000) {
   return rc::gen::map(rc::gen::inRange(0, steps + 1),
                       [=](int i) { return low + (high - low) * static_cast<float>(i) / static_cast<float>(steps); });
 }
 
-/// A point of the cube [-reach, reach]^3 [m].
+/// A point in the cube [-reach, reach]^3 [m].
 inline Vec3f point(float reach) {
   const float x = *between(-reach, reach), y = *between(-reach, reach), z = *between(-reach, reach);
   return {x, y, z};
 }
 
-/// Triangles among `vertices` points; no corner twice in one, but triangles may repeat and cross.
+/// Triangles among `vertices` points. No triangle has a corner twice, but triangles may repeat and cross.
 inline TriangleMesh soup(int vertices, int triangles, float reach) {
   TriangleMesh mesh;
   for (int i = 0; i < vertices; ++i) mesh.positions.push_back(point(reach));
@@ -35,7 +35,7 @@ inline TriangleMesh soup(int vertices, int triangles, float reach) {
   return mesh;
 }
 
-/// `count` stencils of `size` different particles each, out of `particles`.
+/// `count` stencils, each of `size` different particles out of `particles`.
 inline std::vector<int> stencils(int count, int size, int particles) {
   std::vector<int> all;
   for (int i = 0; i < count; ++i) {
@@ -45,7 +45,7 @@ inline std::vector<int> stencils(int count, int size, int particles) {
   return all;
 }
 
-/// One or two sheets of cloth over a ball or the ground, with any sweep, that may touch themselves and one another.
+/// One or two sheets of cloth over a ball or the ground, with any sweep; they may collide with themselves and each other.
 inline Scene small_scene() {
   Scene scene;
   const int sheets = *rc::gen::inRange(1, 3);

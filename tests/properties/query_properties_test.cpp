@@ -1,4 +1,4 @@
-// Exact queries: answers that must not depend on how a mesh is written down, and one that must not miss.
+// Tests exact queries: answers must not depend on how a mesh is stored, and no impact may be missed.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

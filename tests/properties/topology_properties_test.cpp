@@ -1,4 +1,4 @@
-// What numbering, colouring and tiling must keep for any mesh.
+// Tests what numbering, colouring and tiling guarantee for any mesh.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

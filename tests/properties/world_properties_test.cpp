@@ -1,4 +1,4 @@
-// What any World keeps: the same bits however it is run, put back or loaded.
+// Tests what any World guarantees: the same bits however it is run, restored or loaded.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -58,7 +58,7 @@ RC_GTEST_PROP(Worlds, GoOnFromTheirFile, ()) {
 RC_GTEST_PROP(Worlds, WithoutGravityKeepTheirMomentum, ()) {
   Scene scene = small_scene();
   scene.gravity = {};
-  scene.settings.contact_filter = false;  // it truncates the steps of single vertices
+  scene.settings.contact_filter = false;  // the filter truncates steps of single vertices, which changes momentum
   scene.colliders.clear();
   for (Object& object : scene.objects) {
     object.pins.clear();
@@ -84,11 +84,11 @@ RC_GTEST_PROP(Worlds, WithoutGravityKeepTheirMomentum, ()) {
   for (int o = 0; o < world.object_count(); ++o) after = after + momentum(o);
   const double change = std::sqrt(length_squared(after - before));
   RC_LOG() << "momentum changed by " << change << " of a mass of " << mass;
-  RC_ASSERT(change <= 2e-4 * mass);  // rounding of velocities of 1 m/s over some dozens of substeps
+  RC_ASSERT(change <= 2e-4 * mass);  // rounding of velocities of 1 m/s over several dozen substeps
 }
 
 RC_GTEST_PROP(Worlds, ThatAreMirroredMoveMirrored, ()) {
-  // Negating x is exact in floating point and every formula is even or odd in it, up to which hinge is wound which way.
+  // Negating x is exact in floating point, and every formula is even or odd in it, except for how hinges are wound.
   Scene scene = small_scene();
   for (Object& object : scene.objects) {
     object.self_collision = object.collides = false;

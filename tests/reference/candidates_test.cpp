@@ -1,4 +1,5 @@
-// Candidates against brute force over boxes, against true distances, over threads, and over frames without new memory.
+// Compares candidates with brute force over boxes and with true distances; tests threads, and frames that allocate
+// nothing.
 #include "reference/candidates.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ struct Moving {
   std::vector<int> loose_vertices;
 };
 
-/// Triangles with vertices of their own or shared with the one before, two threads of edges and two loose vertices.
+/// Triangles with vertices of their own or shared with the previous one, two lines of edges and two loose vertices.
 Moving random_things(std::mt19937_64& random, int kind) {
   Moving m;
   for (const auto& corners : testing_support::nasty_triangles(random, kind % testing_support::nasty_kinds)) {
@@ -132,7 +133,7 @@ TEST(Candidates, HoldEveryPairThatComesWithinTheRadius) {
   EXPECT_GT(close, 3000);
 }
 
-/// Two sheets, one upon the other, that move through one another and crumple a little.
+/// Two sheets, one on the other, that move through each other and crumple a little.
 std::pair<std::vector<Vec3f>, std::vector<Vec3f>> sheets_at(const TriangleMesh& sheet, int frame) {
   std::mt19937_64 random(static_cast<unsigned>(frame));
   std::vector<Vec3f> from;

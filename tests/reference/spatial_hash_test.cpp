@@ -1,5 +1,5 @@
-// The hash against brute force: boxes and points, cells far smaller and far larger than what is in them, and coordinates
-// beyond the last cell.
+// Compares the spatial hash with brute force: boxes and points, cells much smaller and much larger than these, and
+// coordinates beyond the last cell.
 #include "reference/spatial_hash.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Every hierarchy against brute force over its own volumes, and every volume against the distances of what it holds.
+// Compares every BVH with brute force over its own volumes, and every volume with the distances of what it encloses.
 #include "collision/broad/tree.h"
 
 #include <gtest/gtest.h>
@@ -176,7 +176,7 @@ TYPED_TEST(TreeOf, HoldsThePointsAndNoMoreThanItShould) {
         ASSERT_LE(all.distance_bound(beside), away * (1 + 1e-6));
         ASSERT_TRUE(overlap(leaves[k].grown(detail::float_above(away)), B::of(&beside, 1))) << i;
       }
-    // Of the whole, the middle is at most some diagonals away, and what lies ten away from it overlaps nothing.
+    // The middle is at most some diagonals away from the points, and a box ten diagonals away overlaps nothing.
     const BoxBounds box = BoxBounds::merged(bounds_of<BoxBounds>(triangles, 0).data(), static_cast<int>(triangles.size()));
     const Vec3f outside = box.high + 10.f * (box.high - box.low) + Vec3f{1, 1, 1};
     ASSERT_FALSE(overlap(all, B::of(&outside, 1))) << i;

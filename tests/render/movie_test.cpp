@@ -1,5 +1,5 @@
-// Files of pictures: a PNG as its own chunks say, a movie as ffprobe counts it, and nothing left behind where writing
-// fails.
+// Tests picture files: a PNG by its chunks, a movie by ffprobe's counts, and that a failed write leaves nothing
+// behind.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -78,7 +78,7 @@ TEST_F(Files, MovieHasEveryFrame) {
   const std::string bytes = read(at("a.mp4"));
   EXPECT_EQ(bytes.substr(4, 4), "ftyp");
   EXPECT_LT(bytes.find("moov"), bytes.find("mdat")) << "a page can't play it while it loads";
-  // `stsz`, the sizes of the samples: version, one size for all (0), how many.
+  // The MP4 box `stsz` has the sizes of the samples: version, common size (0: none), count.
   const std::size_t sizes = bytes.find("stsz");
   ASSERT_NE(sizes, std::string::npos);
   EXPECT_EQ(static_cast<int>(bytes[sizes + 15]), 12);
@@ -121,7 +121,7 @@ TEST_F(Files, MovieSaysWhichPackageIsMissing) {
 }
 
 TEST_F(Files, MovieRepeatsWhatFfmpegSays) {
-  // A false ffmpeg that complains and ends.
+  // A fake ffmpeg that prints an error and exits.
   std::ofstream(at("ffmpeg")) << "#!/bin/sh\necho 'no such encoder' >&2\nexit 1\n";
   std::filesystem::permissions(at("ffmpeg"), std::filesystem::perms::owner_all);
   const std::string old = std::getenv("PATH") != nullptr ? std::getenv("PATH") : "";

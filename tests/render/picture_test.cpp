@@ -1,4 +1,5 @@
-// Pictures measured, not compared with stored ones: a driver may round otherwise, but a sphere covers what it covers.
+// Measures pictures instead of comparing them with stored ones: a driver may round differently, but a sphere covers
+// what it covers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr int width = 320, height = 240;
 
-/// A renderer, or none where this machine has no OpenGL; then `why` says so.
+/// A renderer; null if this machine has no OpenGL, and then `why` says so.
 std::unique_ptr<Renderer> make_renderer(std::string& why) {
   try {
     return std::make_unique<Renderer>(width, height);
@@ -25,7 +26,7 @@ std::unique_ptr<Renderer> make_renderer(std::string& why) {
   }
 }
 
-/// Everything that draws needs one; a machine without OpenGL skips these tests and says why.
+/// Base of all tests that draw. On a machine without OpenGL they are skipped, with the reason.
 class Picture : public testing::Test {
  protected:
   void SetUp() override {
@@ -43,7 +44,7 @@ class Picture : public testing::Test {
     return {picture[i], picture[i + 1], picture[i + 2]};
   }
 
-  /// How many pixels two pictures do not share.
+  /// The number of pixels in which two pictures differ.
   static int different(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
     int count = 0;
     for (int y = 0; y < height; ++y) {
@@ -55,7 +56,7 @@ class Picture : public testing::Test {
     return count;
   }
 
-  /// Looks along -z at the origin, so that 1 m there is `pixels_per_metre` high.
+  /// A camera that looks along -z at the origin; there, 1 m is `pixels_per_metre` pixels high.
   static Camera straight(float distance = 4) { return {{0, 0, distance}, {}, 40}; }
   static float pixels_per_metre(float distance = 4) { return height / (2 * distance * std::tan(20 * 3.14159265f / 180)); }
 
@@ -147,7 +148,7 @@ TEST_F(Picture, HasShadowsOnTheGround) {
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const float from_sphere = std::hypot(static_cast<float>(x) - width / 2.f, static_cast<float>(y) - height / 2.f);
-      if (from_sphere < 35) continue;  // the sphere itself, and the sky that it hides from the ground
+      if (from_sphere < 35) continue;  // the sphere itself, and the ground from which it hides the sky
       const int change = at(shaded, x, y).brightness() - at(bare, x, y).brightness();
       darker += change < -90;
       brighter += change > 30;
@@ -190,7 +191,7 @@ TEST_F(Picture, ShowsTheFrontWhereTwoLayersLieInOnePlace) {
   scene.meshes.push_back(square(0.8f, {}, {0.8f, 0.1f, 0.1f}));
   const auto single = renderer->draw(scene);
   RenderMesh layer = square(0.8f, {}, {0.8f, 0.1f, 0.1f});
-  layer.triangles = {{0, 3, 1}, {1, 3, 2}};  // the other way round, cut along the other diagonal
+  layer.triangles = {{0, 3, 1}, {1, 3, 2}};  // wound the other way, and divided along the other diagonal
   scene.meshes.insert(scene.meshes.begin(), layer);
   EXPECT_EQ(different(renderer->draw(scene), single), 0);
 }
@@ -205,7 +206,7 @@ TEST_F(Picture, ShowsWhatLiesFlatOnTheGround) {
   EXPECT_GT(red, width * height / 20);
 }
 
-// A pixel whose middle lies beside the triangle that it shows is not where the shadow map thinks.
+// If a pixel's centre is outside the triangle that it shows, its position in the shadow map is wrong.
 TEST_F(Picture, OfAWavySheetInTheSunHasNoSpecks) {
   RenderScene scene;
   const TriangleMesh grid = grid_mesh(17, 17, 1, 1);

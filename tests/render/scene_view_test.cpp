@@ -1,4 +1,4 @@
-// What of a Scene and a World is drawn, and where the ground lies.
+// Tests what of a Scene and a World is drawn, and at which height the ground is.
 #include <gtest/gtest.h>
 
 #include "render/render.h"

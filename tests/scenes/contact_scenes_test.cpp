@@ -1,5 +1,5 @@
-// Every scene of scenes/contact, frame by frame, by exact signs: an edge of a surface passes through a triangle only where the
-// scene says that it may. A new scene there is audited without a line here.
+// Simulates every scene in scenes/contact frame by frame, and checks with exact signs that an edge passes through a
+// triangle only where the scene allows it. A new scene there is tested without a change here.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a scene shows other than that nothing crosses, and how long it takes to show it.
+/// What a scene shows besides that nothing crosses, and how many frames it takes to show it.
 struct Expectation {
   int frames = 90;
   bool crosses_at_start = false;
@@ -25,9 +25,9 @@ struct Expectation {
 Expectation expectation_of(const std::string& scene) {
   static const std::map<std::string, Expectation> special{
       {"fold_no_filter", {40, false, true}},   // the filter is off
-      {"fold_no_contact", {90, false, true}},  // so is contact
-      {"untangle", {90, true, false}},         // begins intersecting and is drawn apart
-      {"layers", {24, false, false}},          // ten layers; they land on one another in frame 16
+      {"fold_no_contact", {90, false, true}},  // contact is off too
+      {"untangle", {90, true, false}},         // intersects at the start and is moved apart
+      {"layers", {24, false, false}},          // ten layers, which land on each other in frame 16
       {"fold_filter", {60, false, false}},    {"fold", {60, false, false}},
   };
   const auto found = special.find(scene);
@@ -42,7 +42,7 @@ std::vector<std::string> scene_names() {
   return names;
 }
 
-/// Triangles of all surfaces that a scene keeps apart: objects, and mesh colliders that are met as triangles.
+/// The triangles of all surfaces that a scene keeps apart: objects, and mesh colliders as triangles.
 class Surfaces {
  public:
   explicit Surfaces(const Scene& scene) {

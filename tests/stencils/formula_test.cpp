@@ -1,5 +1,6 @@
-// The mathematics of types in the long form, in double: gradients by finite differences, rotations too; forces and torques that sum to
-// zero; sixteen lanes against one. Every type of all.h takes part, so a type put there is tested without a change here.
+// Tests the mathematics of types in the long form, in double: gradients by finite differences, also for rotations;
+// forces and torques that sum to zero; sixteen lanes compared with one. Every type in all.h takes part, so a new type
+// is tested without a change here.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,7 +47,7 @@ class Stencil : public testing::Test {
 
   static bool is_frame(int slot) { return T::slots::kinds[static_cast<std::size_t>(slot)] == SlotKind::frame; }
 
-  /// Points well apart, since formulas have corners where they meet.
+  /// Points that are well apart, because formulas have kinks where points coincide.
   Values<T, double> values() {
     Values<T, double> at;
     const Quatd turned = rotation();
@@ -77,7 +78,7 @@ class Stencil : public testing::Test {
     return out;
   }
 
-  /// `at` with a slot moved, or turned, by h along an axis of the world.
+  /// A copy of `at` in which one slot is moved, or rotated, by h along an axis of the world.
   static Values<T, double> moved(Values<T, double> at, int slot, int axis, double h) {
     const Vec3d v{axis == 0 ? h : 0, axis == 1 ? h : 0, axis == 2 ? h : 0};
     if (!is_frame(slot)) {
@@ -107,7 +108,7 @@ TYPED_TEST(Stencil, GradientIsTheDerivativeOfPlacesAndRotations) {
         const auto high = this->rows(this->moved(at, slot, axis, h), params);
         const auto low = this->rows(this->moved(at, slot, axis, -h), params);
         for (int row = 0; row < TypeParam::rows; ++row) {
-          if (std::fabs(high.c[row] - low.c[row]) > 1) continue;  // an angle that goes round
+          if (std::fabs(high.c[row] - low.c[row]) > 1) continue;  // an angle that wraps around
           const double numeric = (high.c[row] - low.c[row]) / (2 * h);
           ASSERT_NEAR(part(here.gradient[row][slot], axis), numeric, 2e-8 * (1 + std::fabs(numeric)))
               << "row " << row << ", slot " << slot << ", axis " << axis;
@@ -134,7 +135,7 @@ TYPED_TEST(Stencil, NoNetForceAndNoNetTorque) {
         torque += this->is_frame(slot) ? g : cross(at.point[slot], g);
       }
       EXPECT_LT(length(force), 1e-12 * (1 + length(found.gradient[row][0])));
-      // A joint with a gap has the torque of its force across that gap; every other type has none.
+      // The force of a joint with a gap has a torque across that gap; other types have none.
       const double gap = TypeParam::slots::frames > 0 ? error : 0;
       EXPECT_LT(length(torque), gap + 1e-12 * (1 + length(found.gradient[row][0])));
     }

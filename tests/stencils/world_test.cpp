@@ -1,4 +1,5 @@
-// Types of a user in a World: with frames, several rows, eight points. Known answers, conservation, the same bits.
+// Tests user-defined types in a World: with frames, several rows, eight points. Known answers, conservation, the same
+// bits.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,7 +42,7 @@ ConstraintGroup group(const std::string& type, const std::vector<int>& stencils,
   return made;
 }
 
-/// A rod from the origin whose centre of mass is at `centre`: a fixed particle and frame, and a body.
+/// A rod from the origin with its centre of mass at `centre`: a fixed particle and frame, and a body.
 Object rod(const Vec3f& centre, float mass, const Vec3f& inertia) {
   Object object;
   object.name = "rod";
@@ -74,7 +75,7 @@ TEST_F(UserTypes, ARodSwingsWithThePeriodOfAPhysicalPendulum) {
   EXPECT_LT(anchor, 1e-5) << "the gap of the joint";
 }
 
-/// Bodies in space, each joined to the next, flung about.
+/// Bodies in space, each joined to the next, that tumble.
 Scene tumbling_chain(int bodies) {
   std::mt19937 random(5);
   const auto uniform = [&] { return static_cast<float>(static_cast<double>(random()) / 4294967295.0 * 2 - 1); };
@@ -139,7 +140,7 @@ TEST_F(UserTypes, AFreeBodyTumblesAsEulersEquationsSay) {
   World world(scene, settings(10));
   const double energy = world.kinetic_energy();
   const Vec3d momentum = momenta_of(world, scene).angular;
-  // About the middle axis it turns over: from w_y = 1 to -1 within half a period of 20.7546 s.
+  // Rotation about the middle axis is unstable: w_y goes from 1 to -1 within half a period of 20.7546 s.
   double half_period = 0;
   for (int frame = 0; frame < 1500; ++frame) {
     ASSERT_TRUE(world.step(frame_time).ok());
@@ -190,7 +191,7 @@ TEST_F(UserTypes, RigidBarsAreMetAtOnceAndTheirMultipliersAreTheForces) {
   EXPECT_LT(world.residuals()[0].largest, 1e-6);
   const std::vector<float> multipliers = world.multipliers(0, "two_bars");
   ASSERT_EQ(multipliers.size(), 2u);
-  const double h = frame_time / 2.0, tension = 3 * 9.81 / std::sqrt(2.0);  // half the weight each, at 45 degrees
+  const double h = frame_time / 2.0, tension = 3 * 9.81 / std::sqrt(2.0);  // half the weight on each, at 45 degrees
   for (float multiplier : multipliers) EXPECT_NEAR(-multiplier / (h * h) / tension, 1, 0.01);
 }
 
@@ -217,7 +218,7 @@ TEST_F(UserTypes, EightPointsKeepTheirSpread) {
   EXPECT_NEAR(mean.x, 0.5 + 0.35, 1e-4) << "and drift as before";
 }
 
-/// One hinge whose edge is fixed, bent at the start.
+/// A single hinge whose edge is fixed, bent at the start.
 Scene hinge(const std::string& type, const Stiffness& stiffness) {
   Object object;
   object.name = "hinge";
@@ -242,14 +243,14 @@ TEST_F(UserTypes, OneAtATimeGivesTheBitsOfLanes) {
       ASSERT_TRUE(one.step(frame_time).ok());
       ASSERT_TRUE(library.step(frame_time).ok());
     }
-    EXPECT_EQ(one.positions(0), library.positions(0));  // a State has them in an order of its own
+    EXPECT_EQ(one.positions(0), library.positions(0));  // compared in the user's order, because a State has its own
     EXPECT_EQ(one.velocities(0), library.velocities(0));
     EXPECT_LT(one.positions(0)[2].y, 5.2f) << "it has moved";
   }
 }
 
 TEST_F(UserTypes, SameBitsOnAnyThreadsInEverySweepAndAfterRestore) {
-  const Scene scene = tumbling_chain(700);  // colours of more batches than are worth sharing out
+  const Scene scene = tumbling_chain(700);  // colours with enough batches for several threads
   for (const NamedSweep& way : sweeps()) {
     std::string hash;
     for (int threads : {1, 2, 4}) {

@@ -1,5 +1,5 @@
-// Colours: every constraint in exactly one, no particle twice in one, and runs that are runs; on random stencils and on
-// stars.
+// Tests colours: every constraint is in exactly one, no particle occurs twice in one, and runs are contiguous; on
+// random stencils and on stars.
 #include "topology/colouring.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ void expect_runs(const Constraints& c, const Colour& colour) {
   }
 }
 
-/// Colours and checks everything that a schedule relies on.
+/// Colours constraints, and checks everything on which a schedule relies.
 std::vector<Colour> checked_colours(const Constraints& c, const std::vector<int>& members) {
   Colouring colouring(c.particles);
   const std::vector<Colour> colours = colouring.colour(c.stencils, c.size, members);
@@ -107,7 +107,7 @@ TEST(Colouring, OfManyStarsThatShareTips) {
   for (int centre = 0; centre < 5; ++centre) {
     for (int i = 5; i < 300; ++i) stars.stencils.insert(stars.stencils.end(), {centre, i});
   }
-  EXPECT_LT(checked_colours(stars, all_of(stars)).size(), 2 * 300u);  // 295 would do
+  EXPECT_LT(checked_colours(stars, all_of(stars)).size(), 2 * 300u);  // 295 colours would be enough
 }
 
 TEST(Colouring, OfTheSameConstraintOverAndOver) {
@@ -117,7 +117,7 @@ TEST(Colouring, OfTheSameConstraintOverAndOver) {
 }
 
 TEST(Colouring, FindsTheRunsOfALadder) {
-  // Particles 0..63 joined to 64..127 one by one: sixteen runs of four, all of one colour.
+  // Particles 0..63 joined to 64..127 one by one: sixteen runs of four, all in one colour.
   Constraints ladder{128, 2, {}};
   for (int i = 0; i < 64; ++i) ladder.stencils.insert(ladder.stencils.end(), {i, 64 + i});
   const std::vector<Colour> colours = checked_colours(ladder, all_of(ladder));
@@ -126,7 +126,7 @@ TEST(Colouring, FindsTheRunsOfALadder) {
 }
 
 TEST(Colouring, NeverTakesAChainForARun) {
-  // (0,1), (1,2), (2,3), (3,4) follow one another and share particles.
+  // (0,1), (1,2), (2,3), (3,4) are contiguous, but share particles.
   Constraints chain{40, 2, {}};
   for (int i = 0; i < 39; ++i) chain.stencils.insert(chain.stencils.end(), {i, i + 1});
   for (const Colour& colour : checked_colours(chain, all_of(chain))) EXPECT_NE(colour.runs, 3);
@@ -136,7 +136,7 @@ TEST(Colouring, NeverTakesAChainForARun) {
 }
 
 TEST(Colouring, GroupsWhatIsInRunsWithSomeSlotsAlone) {
-  // Particles 0..2047 joined to strangers: nothing is in runs with both slots, nearly all with the first.
+  // Particles 0..2047 joined to random others: no constraint is contiguous in both slots, nearly all can be in the first.
   std::mt19937 random(6);
   std::vector<int> strangers(2048);
   std::iota(strangers.begin(), strangers.end(), 2048);
@@ -150,7 +150,7 @@ TEST(Colouring, GroupsWhatIsInRunsWithSomeSlotsAlone) {
 }
 
 TEST(Colouring, LeavesALittleThatIsLeftAlone) {
-  // A ladder of 64 rungs and 16 that would be in runs with one slot: too few to fill batches of their own.
+  // A ladder of 64 rungs, and 16 constraints that could be contiguous in one slot: too few to fill batches of their own.
   std::mt19937 random(7);
   std::vector<int> strangers(16);
   std::iota(strangers.begin(), strangers.end(), 200);
@@ -199,7 +199,7 @@ TEST(Colouring, IsTheSameEachTimeAndAfterOthers) {
 }
 
 TEST(Colouring, UsesFewColoursForACoarseGrid) {
-  // A particle of a triangulated grid has up to eight edges; first fit stays near that.
+  // A particle of a triangulated grid has up to eight edges; first fit needs only a few more colours.
   const int n = 40;
   Constraints grid{n * n, 2, {}};
   for (int r = 0; r < n; ++r) {

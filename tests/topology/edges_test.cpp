@@ -1,4 +1,5 @@
-// Edges, hinges and wholes of surfaces against brute force and against meshes whose answers are known by Euler's formula.
+// Compares edges, hinges and global properties of surfaces with brute force, and with meshes whose answers follow from
+// Euler's formula.
 #include "topology/edges.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ int count_of(const std::vector<Vec3f>& positions) { return static_cast<int>(posi
 
 std::vector<Edge> edges_of(const TriangleMesh& mesh) { return find_edges(mesh.triangles, count_of(mesh.positions)); }
 
-/// A band of `quads` quads whose ends are joined, after half a turn where `twisted`.
+/// A band of `quads` quads whose ends are joined, after half a turn if `twisted`.
 std::vector<Triangle> band(int quads, bool twisted) {
   std::vector<Triangle> triangles;
   for (int q = 0; q < quads; ++q) {
@@ -39,7 +40,7 @@ TEST(Edges, EachPropertyOfOneTriangle) {
   EXPECT_EQ(edges[0].opposites[0], 2);
   EXPECT_TRUE(edges[0].forward[0]);
   EXPECT_EQ(edges[1].b, 2);
-  EXPECT_FALSE(edges[1].forward[0]);  // the triangle runs 2 -> 0
+  EXPECT_FALSE(edges[1].forward[0]);  // the triangle traverses the edge 2 -> 0
   EXPECT_EQ(edges[1].opposites[1], -1);
   EXPECT_TRUE(edges[2].is_border());
 }
@@ -51,7 +52,8 @@ TEST(Edges, BruteForceOnRandomTriangles) {
     std::vector<Triangle> triangles(random() % 25);
     for (Triangle& t : triangles)
       for (int& v : t) v = static_cast<int>(random() % static_cast<unsigned>(vertices));
-    std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> expected;  // edge -> (triangle, opposite) in order
+    std::map<std::pair<int, int>, std::vector<std::pair<int, int>>>
+        expected;  // key: edge; value: its triangles and opposite corners, in order
     for (std::size_t t = 0; t < triangles.size(); ++t)
       for (std::size_t c = 0; c < 3; ++c) {
         const int from = triangles[t][c], to = triangles[t][(c + 1) % 3];
@@ -60,7 +62,7 @@ TEST(Edges, BruteForceOnRandomTriangles) {
     const std::vector<Edge> edges = find_edges(triangles, vertices);
     ASSERT_EQ(edges.size(), expected.size());
     std::size_t e = 0;
-    for (const auto& [ends, users] : expected) {  // std::map runs in ascending order, as the edges must
+    for (const auto& [ends, users] : expected) {  // std::map is sorted, as edges must be
       const Edge& edge = edges[e++];
       ASSERT_EQ(std::make_pair(edge.a, edge.b), ends);
       ASSERT_EQ(edge.triangle_count, static_cast<int>(users.size()));

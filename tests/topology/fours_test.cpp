@@ -1,4 +1,5 @@
-// Fours: what they claim is so, nobody is in two, those with most slots in runs are found first.
+// Tests groups of four: they have the contiguous slots that they claim, no constraint is in two, and those with most
+// contiguous slots are found first.
 #include "topology/fours.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@
 namespace pliant {
 namespace {
 
-/// Checks every claim of the fours taken from all constraints of `stencils`, and that none was lost.
+/// Checks the groups taken from all constraints of `stencils`, and that no constraint was lost.
 std::vector<Four> checked_fours(const std::vector<int>& stencils, int size) {
   std::vector<int> members(stencils.size() / static_cast<std::size_t>(size));
   std::iota(members.begin(), members.end(), 0);
@@ -41,8 +42,8 @@ std::vector<Four> checked_fours(const std::vector<int>& stencils, int size) {
   return fours;
 }
 
-/// `count` constraints; those slots that `runs` has go in step from a multiple of four on, the others are strangers that no run could
-/// have: all are multiples of four.
+/// `count` constraints. Slots whose bit is set in `runs` are contiguous from a multiple of four on; other slots have
+/// random multiples of four, which no group can have.
 std::vector<int> stencils_with(int runs, int size, int count, std::mt19937& random) {
   std::vector<int> others(static_cast<std::size_t>(size * count));
   for (std::size_t i = 0; i < others.size(); ++i) others[i] = size * count + 4 * static_cast<int>(i);
@@ -63,7 +64,7 @@ TEST(Fours, FindsEverySetOfSlots) {
       const std::vector<Four> fours = checked_fours(stencils_with(runs, size, 400, random), size);
       const auto as_made =
           std::count_if(fours.begin(), fours.end(), [&](const Four& f) { return (f.runs & runs) == runs; });
-      EXPECT_GE(as_made, 98) << "slots " << runs << " of " << size;  // chance may join one with strangers
+      EXPECT_GE(as_made, 98) << "slots " << runs << " of " << size;  // one may by chance match random ones
     }
   }
 }
@@ -95,7 +96,7 @@ TEST(Fours, NoneOfNothingAndNoneOfAHub) {
 }
 
 TEST(Fours, TakesSeveralOfOnePlace) {
-  // Particles 0..3, each with three constraints to strangers: three fours in slot 0.
+  // Particles 0..3, each with three constraints to random others: three groups, contiguous in slot 0.
   std::vector<int> stencils;
   for (int i = 0; i < 12; ++i) stencils.insert(stencils.end(), {i % 4, 100 + 7 * i});
   const std::vector<Four> fours = checked_fours(stencils, 2);

@@ -1,4 +1,4 @@
-// The generated meshes: their numbering is promised by the public header and pins count on it.
+// Tests generated meshes. The public header promises their numbering, on which pins rely.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ TEST(GridMesh, CornersCellsAndFacing) {
   EXPECT_EQ(grid.positions[3], (Vec3f{-2, 0, 3}));  // row 1, column 0
   ASSERT_EQ(grid.triangles.size(), 4u);
   for (const auto& triangle : grid.triangles) EXPECT_EQ(normal_of(grid, triangle), (Vec3f{0, 12, 0}));
-  EXPECT_EQ(grid.triangles[0], (std::array{0, 3, 4}));  // both hold the diagonal (0, 0)-(1, 1)
+  EXPECT_EQ(grid.triangles[0], (std::array{0, 3, 4}));  // both triangles have the diagonal (0, 0)-(1, 1)
   EXPECT_EQ(grid.triangles[1], (std::array{0, 4, 1}));
 }
 

@@ -1,4 +1,4 @@
-// Distances within a mesh: the straight line on what lies flat, whatever its triangles; over the edge of a fold; groups.
+// Tests distances within a mesh: the straight line on flat meshes, whatever their triangles; across a fold; groups.
 #include "topology/geodesics.h"
 
 #include <gtest/gtest.h>
@@ -49,13 +49,14 @@ TEST(Geodesics, on_a_flat_sheet_are_straight) {
       }
       EXPECT_LE(found[v][0].distance, found[v][1].distance);
     }
-    // A shaken border is not convex, and the line may have to go round a dent.
+    // A displaced border is not convex, so the shortest line may have to go round a dent.
     EXPECT_LT(worst, shaken == 0 ? 1e-5 : 0.01);
   }
 }
 
 TEST(Geodesics, go_round_a_corner_that_is_cut_out) {
-  TriangleMesh mesh = grid_mesh(9, 9, 8, 8);  // vertex (row r, column c) is 9 r + c; what is beyond row 4 and column 4 goes
+  TriangleMesh mesh =
+      grid_mesh(9, 9, 8, 8);  // vertex (row r, column c) is 9 r + c; vertices beyond row 4 and column 4 are removed
   const auto is_cut = [](const std::array<int, 3>& t) {
     return std::all_of(t.begin(), t.end(), [](int v) { return v / 9 >= 4 && v % 9 >= 4; });
   };
@@ -85,7 +86,7 @@ TEST(Geodesics, count_a_hem_once_and_keep_the_nearest_groups) {
     line.edges.push_back({i, i + 1});
     line.lengths.push_back(1);
   }
-  const auto hem = nearest_sources(line, {0, 1, 8}, 4);  // 0 and 1 are joined
+  const auto hem = nearest_sources(line, {0, 1, 8}, 4);  // 0 and 1 are joined, so they form one group
   ASSERT_EQ(hem[5].size(), 2u);
   EXPECT_EQ(hem[5][0].source, 8);
   EXPECT_EQ(hem[5][1].source, 1);

@@ -1,4 +1,5 @@
-// Four patches in step: a permutation in any case, whole runs where four patches are alike, many on a mesh without lines.
+// Tests the lockstep order: a permutation in any case, complete runs if four patches are equal, many runs on a mesh
+// without lines.
 #include "topology/lockstep.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ struct Mesh {
   Links links;
 };
 
-/// A grid of n x n whose points stray by up to 0.3 of a cell, each cell's diagonal either way: nothing in it lines up.
+/// A grid of n x n whose points are displaced by up to 0.3 of a cell, with random diagonals, so that it has no lines.
 Mesh irregular_mesh(int n, unsigned seed) {
   std::mt19937 random(seed);
   const auto stray = [&] { return 0.6f * (static_cast<float>(random() % 1000) / 1000 - 0.5f); };
@@ -40,7 +41,7 @@ Mesh irregular_mesh(int n, unsigned seed) {
   return mesh;
 }
 
-/// The same under other numbers.
+/// The same mesh with vertices renumbered randomly.
 Mesh shuffled(const Mesh& mesh, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<int> name(mesh.positions.size());
@@ -52,7 +53,7 @@ Mesh shuffled(const Mesh& mesh, unsigned seed) {
   return out;
 }
 
-/// Four of them, far apart.
+/// Four copies of a mesh, far apart.
 Mesh four_times(const Mesh& mesh) {
   Mesh out;
   const int n = static_cast<int>(mesh.positions.size());
@@ -100,7 +101,7 @@ TEST(Lockstep, IsAPermutationInTileOrder) {
       for (int i = 0; i < count; ++i) {
         positions.push_back({static_cast<float>(number(100)), static_cast<float>(number(100)), 0});
         tile.push_back(std::min(tiles - 1, number(5)));
-        for (int k = 0; k < 3; ++k) links.push_back({i, number(count)});  // also to itself, also twice
+        for (int k = 0; k < 3; ++k) links.push_back({i, number(count)});  // some to itself, some twice
       }
       expect_permutation_in_tile_order(number_in_lockstep(positions, tile, links), tile);
     }
@@ -125,7 +126,7 @@ TEST(Lockstep, PutsManyLinksOfAnIrregularMeshInRuns) {
 }
 
 TEST(Lockstep, BeginsFoursAtMultiplesOfFour) {
-  // Tiles of odd sizes: without care those after the first would begin anywhere.
+  // Tiles of odd sizes: those after the first must also begin at a multiple of four.
   const Mesh mesh = shuffled(irregular_mesh(30, 4), 5);
   std::vector<int> tile(mesh.positions.size());
   for (std::size_t i = 0; i < tile.size(); ++i)

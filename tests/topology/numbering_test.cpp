@@ -1,4 +1,4 @@
-// The storage order: a permutation, tile after tile, each line of linked particles evens first.
+// Tests the storage order: a permutation, tile after tile, in each line of linked particles the even ones first.
 #include "topology/numbering.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST(Numbering, CutsLinesWhereTheLinkIsMissing) {
 
 TEST(Numbering, CutsLinesWhereTheTileChanges) {
   EXPECT_EQ(number_in_chains({0, 0, 0, 1, 1, 1}, {1, 1, 1, 1, 1, 0}), (std::vector<int>{0, 2, 1, 3, 5, 4}));
-  // A line that leaves its tile and comes back is two lines.
+  // A line that leaves its tile and returns is two lines.
   EXPECT_EQ(number_in_chains({0, 0, 1, 0, 0, 0}, {1, 1, 1, 1, 1, 0}), (std::vector<int>{0, 1, 3, 5, 4, 2}));
 }
 

@@ -1,5 +1,5 @@
-// Paths through meshes: rows, columns and diagonals of a grid, whole; on any mesh every edge once, no vertex twice, no two
-// paths of a colour touching.
+// Tests paths through meshes: whole rows, columns and diagonals of a grid; on any mesh every edge once, no vertex twice
+// in a path, no two paths of a colour with a common vertex.
 #include "topology/paths.h"
 
 #include <gtest/gtest.h>
@@ -116,13 +116,13 @@ TEST(Paths, of_a_colour_run_the_same_way) {
 TEST(Paths, of_knots_end_where_they_would_meet_themselves) {
   std::vector<Vec3f> ring;
   EdgeList edges;
-  for (int i = 0; i < 24; ++i) {  // a circle: turns of 15 degrees, and no end
+  for (int i = 0; i < 24; ++i) {  // a circle: angles of 15 degrees, and no end
     const float t = static_cast<float>(i) * 0.2617994f;
     ring.push_back({std::cos(t), std::sin(t), 0});
     edges.push_back({i, (i + 1) % 24});
   }
   ASSERT_NO_FATAL_FAILURE(expect_sound(ring, edges));
-  const std::vector<Vec3f> line(5, Vec3f{});  // all in one place
+  const std::vector<Vec3f> line(5, Vec3f{});  // all at one position
   ASSERT_NO_FATAL_FAILURE(expect_sound(line, {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {1, 2}}));
   EXPECT_TRUE(lay_paths(line, {}).empty());
 }

@@ -1,4 +1,4 @@
-// Cutting into tiles: every particle in one tile, none too large, whatever the positions.
+// Tests tiles: every particle is in one, and none is too large, whatever the positions.
 #include "topology/tiles.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ std::vector<Vec3f> random_points(int count, unsigned seed) {
   return points;
 }
 
-/// How many particles each tile has; fails where a number is skipped.
+/// The number of particles in each tile. Fails if a tile number is skipped.
 std::vector<int> sizes_of(const std::vector<int>& tile) {
   std::vector<int> sizes;
   for (int t : tile) {
@@ -36,7 +36,7 @@ TEST(Tiles, HoldEveryParticleOnceAndAreNotTooLarge) {
       ASSERT_EQ(tile.size(), static_cast<std::size_t>(count));
       const std::vector<int> sizes = sizes_of(tile);
       EXPECT_LE(*std::max_element(sizes.begin(), sizes.end()), largest) << count << " points in tiles of " << largest;
-      // Halved by count: all are of one size, give or take one.
+      // Bisection by number: all sizes are equal, up to one.
       EXPECT_LE(*std::max_element(sizes.begin(), sizes.end()) - *std::min_element(sizes.begin(), sizes.end()), 1);
     }
   }

@@ -71,7 +71,7 @@ TEST(Audit, SeesARopeThatPassesThroughItself) {
   EXPECT_LT(audit.least_distance, 0.001);
 }
 
-/// Of all vertices and triangles, and all edges, that share no vertex.
+/// The least distance over all vertices and triangles, and all edges, that have no vertex in common.
 double brute_force(const std::vector<Triangle>& triangles, const std::vector<Vec3f>& places) {
   const auto at = [&](int vertex) { return convert<double>(places[static_cast<std::size_t>(vertex)]); };
   double least = 1e300;

@@ -1,4 +1,5 @@
-// What `pliant bench` compares must be one and the same cloth, or its ratios mean nothing. No test here looks at a clock.
+// Tests that `pliant bench` gives all engines the same cloth, without which its ratios would mean nothing. No test
+// measures time.
 #include "apps/bench/bench.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +42,7 @@ TEST(Bench, W1HasAConstraintAnEdgeAndAHingeAnInnerEdge) {
   EXPECT_TRUE(make_w1(side, false).hinges.empty());
 }
 
-// Another order of the sweep gives another crumple; where the cloth as a whole goes must agree.
+// Another order of constraints crumples the cloth differently, but its motion as a whole must agree.
 TEST(Bench, ThePlainLoopSwingsAsTheEngineDoes) {
   for (bool bending : {false, true}) {
     const Cloth cloth = make_w1(side, bending);
@@ -61,7 +62,7 @@ TEST(Bench, BulletSwingsAsTheEngineDoes) {
   }
 }
 
-// Small ones, on which even plain sweeps reach what is asked for.
+// Small cloths, on which even plain sweeps reach the bounds.
 TEST(BenchQuality, FindsTheSubstepsThatKeepTheBounds) {
   for (const QualityWorkload& workload : quality_workloads()) {
     const std::vector<Row> rows = measure_quality(workload, 16, 60);
@@ -159,7 +160,7 @@ TEST(Bench, WhatIsUnknownIsRefused) {
 
 // ---------------------------------------------------------------- W3
 
-/// Whether no cloth is where the ball is.
+/// The least distance of a particle from the ball's surface [m]; negative: inside.
 double nearest_to_ball(const Landing& landing, const LandingEngine& engine) {
   double nearest = 9;
   for (const Vec3f& x : engine.positions(0))
@@ -180,7 +181,7 @@ TEST(BenchLanding, OnABallRestsOnItInBothEngines) {
   }
 }
 
-// What its own flag does not do in 3.24 (bullet_landing.cpp): a cloth that falls on another stays above it.
+// Bullet 3.24 does not do this by its own flag (bullet_landing.cpp): a cloth that falls on another must stay above it.
 TEST(BenchLanding, OnAClothIsCarriedInBothEngines) {
   const Landing landing = make_landing("cloth", 8);
   std::vector<std::unique_ptr<LandingEngine>> engines;
@@ -190,7 +191,7 @@ TEST(BenchLanding, OnAClothIsCarriedInBothEngines) {
     for (int i = 0; i < 40; ++i) engine->step(1.f / 60);
     double middle = 0;
     for (const Vec3f& x : engine->positions(1)) middle += double(x.y) / 64;
-    EXPECT_GT(middle, -0.5);  // it would have fallen by a metre
+    EXPECT_GT(middle, -0.5);  // without contact it would have fallen by a metre
   }
 }
 

@@ -1,4 +1,5 @@
-// pliant compare: every sweep starts from one state, the curves are what single runs give, and what can't be is said by name.
+// Tests pliant compare: all sweeps start from one State, the curves equal single runs, and errors name what cannot be
+// compared.
 #include "apps/compare/compare.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@
 namespace pliant::compare {
 namespace {
 
-/// A sheet that swings from a corner, held by an attachment besides, and a rope.
+/// A sheet that swings from a corner and is held by an attachment, and a rope.
 Scene swinging(int columns = 9) {
   Scene scene;
   scene.frames = 4;
@@ -44,7 +45,7 @@ bool equal_bits(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
 }
 
 TEST(TakeState, IsThatOfTheOtherWorldHoweverParticlesAreNumbered) {
-  const Scene scene = swinging(68);  // more particles than a tile has: in given order there are no tiles
+  const Scene scene = swinging(68);  // more particles than a tile can have; the natural order has no tiles
   World start(scene);
   for (int frame = 0; frame < 5; ++frame) start.step(scene.frame_time);
   const std::string before = start.state_hash();
@@ -100,7 +101,7 @@ TEST(Compare, EverySweepSolvesTheSameSubstep) {
   }
 }
 
-/// The stretch of a sample, by stepping a World by hand.
+/// The stretch of a sample must be that of a World stepped by hand.
 TEST(Compare, ASampleIsWhatARunGives) {
   Scene scene = swinging();
   Options options = quick({"tiled"});
@@ -117,7 +118,7 @@ TEST(Compare, ASampleIsWhatARunGives) {
   }
 }
 
-/// A sheet that lies on a fixed one: every World rebuilds their near lists after a State is restored.
+/// A sheet that lies on a fixed one, so that every restored World rebuilds its near lists.
 Scene touching() {
   Scene scene;
   scene.frames = 4;
@@ -181,7 +182,7 @@ TEST(Compare, ATightRopeIsSolvedByChainsAtOnce) {
   scene.settings.substeps = 1;
   scene.settings.sweep_options.chain_softness = 0;
   const Result result = run(scene, quick({"tiled", "chains"}));
-  // Hanging straight down, nothing turns: one exact solve is all there is to do, and a sweep has hardly begun.
+  // The rope hangs straight down, so nothing rotates: one exact solve is enough, while a sweep has hardly begun.
   EXPECT_LT(result.curves[1].residuals[1], 0.01 * result.curves[1].residuals[0]);
   EXPECT_GT(result.curves[0].residuals[1], 0.1 * result.curves[0].residuals[0]);
 }
@@ -231,7 +232,7 @@ TEST(Budget, TakesWhatFitsAndRefusesWhatDoesNot) {
   Scene scene = swinging();
   scene.frames = 2;
   Options options = quick({"tiled", "chains"});
-  options.budget = 1e6;  // nothing on any machine takes so long
+  options.budget = 1e6;  // no machine is so slow
   const Result plenty = run(scene, options);
   ASSERT_EQ(plenty.budgeted.size(), 2U);
   for (const Budgeted& row : plenty.budgeted) {
@@ -254,7 +255,7 @@ TEST(Budget, TellsWhatIsTooSlowFromWhatDoesNotStayFinite) {
   Scene scene = swinging();
   scene.frames = 12;
   scene.forces.push_back([](const Vec3f&, const Vec3f&, float, float time) {
-    return Vec3f{time > 0.15f ? 3e38f : 0, 0, 0};  // after the frame of the curves and that of the probe
+    return Vec3f{time > 0.15f ? 3e38f : 0, 0, 0};  // after the frame of the curves and that of the first run
   });
   Options options = quick({"tiled"});
   options.frame = 1;

@@ -1,4 +1,4 @@
-// Every row that `pliant validate` shows, asserted: one test a group, so that they run side by side.
+// Asserts every row of `pliant validate`, one test for each group, so that they can run in parallel.
 #include <gtest/gtest.h>
 
 #include <algorithm>

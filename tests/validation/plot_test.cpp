@@ -1,4 +1,4 @@
-// Charts: marks where a reader expects them, ink where the curve is, and no crash whatever the data.
+// Tests charts: ticks where a reader expects them, pixels of a curve where it is, and no crash whatever the data.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The oracle against answers that need no oracle.
+// Compares the reference solver with answers that need no oracle.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ TEST(ReferenceSolver, PbdStiffnessRemovesItsShareHoweverManyIterations) {
   }
 }
 
-// alpha / h^2 equal to the generalised inverse mass: half the gap stays, and the spring balances what is left.
+// If alpha / h^2 equals the generalised inverse mass, half of the error remains, which the spring's force balances.
 TEST(ReferenceSolver, CompliantProjectionIsTheSameHoweverManyIterations) {
   const double h = 0.1, weight = 1 + 1.0 / 3;
   for (int iterations : {1, 3, 10}) {

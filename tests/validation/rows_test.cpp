@@ -1,4 +1,4 @@
-// The judge itself: what passes, what fails, and that nothing that is not a number passes.
+// Tests the verdicts of rows: what passes, what fails, and that NaN never passes.
 #include "apps/validate/rows.h"
 
 #include <gtest/gtest.h>

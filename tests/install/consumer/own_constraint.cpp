@@ -1,4 +1,5 @@
-// A constraint type of the user's own, registered with the installed library: a weight on a line that must not grow longer than a tether.
+// A user-defined constraint type, registered with the installed library: a weight on a line that cannot grow longer
+// than a tether.
 #include <pliant/constraint.h>
 #include <pliant/pliant.h>
 
@@ -12,7 +13,7 @@ struct Leash {
   static constexpr int rows = 1;
   template <class R>
   struct Params {
-    R longest;  // [m]
+    R longest;  // length [m]
   };
   static constexpr std::array<const char*, 1> fields{"longest"};
 

@@ -1,5 +1,5 @@
-// Somebody else's program, by the installed headers alone: a running world that things are added to and removed from, cut, moved
-// and pushed, that tells what touches, that holds a constraint type of the program's own, and that goes on from a file.
+// A user's program that uses only installed headers: objects of a running World are added, removed, cut, moved and
+// pushed; it reads contact events, has a constraint type of its own, and continues from a file.
 #include <pliant/constraint.h>
 #include <pliant/pliant.h>
 
@@ -9,14 +9,14 @@
 #include <span>
 #include <vector>
 
-/// A weight on a line that must not grow longer than a tether.
+/// A constraint that keeps a weight on a line that cannot grow longer than a tether.
 struct Tether {
   static constexpr const char* name = "tether";
   using slots = pliant::Points<2>;
   static constexpr int rows = 1;
   template <class R>
   struct Params {
-    R longest;  // [m]
+    R longest;  // length [m]
   };
   static constexpr std::array<const char*, 1> fields{"longest"};
 
@@ -58,7 +58,7 @@ pliant::Object weight_on_a_tether() {
   return weight;
 }
 
-/// From a scene of what exists, with the same ids and in the same bits.
+/// Expects that a World saved with this scene and loaded again has the same ids and gives the same bits.
 void expect_to_go_on_from_a_file(pliant::World& world, const pliant::Scene& now) {
   pliant::save("run_time.world", world, now);
   pliant::LoadedWorld loaded = pliant::load_world("run_time.world");

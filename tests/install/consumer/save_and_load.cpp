@@ -1,4 +1,4 @@
-// Somebody else's program that saves a run, loads it in a new World and goes on in the same bits.
+// A user's program that saves a run, loads it in a new World and continues with the same bits.
 #include <pliant/pliant.h>
 
 #include <iostream>
