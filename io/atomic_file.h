@@ -58,7 +58,7 @@ class AtomicFile {
   std::string path_;       // the path as given by the caller, for errors
   std::string target_;     // path_ with symbolic links followed
   std::string temporary_;  // empty while the file has no name
-  bool direct_ = false;    // a device or pipe, written directly
+  bool direct_ = false;    // true: a device or pipe, which is written directly
   std::vector<char> buffer_;
   std::size_t written_ = 0;
   int descriptor_ = -1;

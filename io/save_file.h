@@ -26,7 +26,7 @@ enum class Type : std::uint32_t { bytes = 1, int64 = 2, float32 = 3, float64 = 4
 
 /// A block to write. Its bytes belong to the caller.
 struct Block {
-  std::string_view name;  ///< at most 24 bytes
+  std::string_view name;  ///< name of the block, at most 24 bytes
   Type type = Type::bytes;
   std::uint32_t element_size = 1;  ///< size of an element [bytes]
   std::uint64_t count = 0;

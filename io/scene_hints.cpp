@@ -86,7 +86,7 @@ std::string nearest_name(const std::string& wanted, const std::vector<std::strin
   if (wanted.size() > longest_name) return {};
   std::string best = nearest_spelling(wanted, names);
   if (!best.empty() || wanted.size() < 4) return best;
-  for (const std::string& name : names)  // finds 'static_friction' for 'friction'
+  for (const std::string& name : names)  // for 'friction' this finds 'static_friction'
     if (name.find(wanted) != std::string::npos) return name;
   return best;
 }
@@ -105,7 +105,7 @@ std::string hint_for(const std::string& wanted, const Record& record) {
 
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1),
-      row(b.size() + 1);  // rows i - 2, i - 1 and i of the table
+      row(b.size() + 1);  // rows i - 2, i - 1 and i of the edit distance table
   for (std::size_t k = 0; k <= b.size(); ++k) row[k] = k;
   for (std::size_t i = 1; i <= a.size(); ++i) {
     before.swap(last), last.swap(row);

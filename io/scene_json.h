@@ -34,7 +34,7 @@ struct JsonValue {
 
 /// A JSON text and its tree.
 struct JsonDocument {
-  std::string name;  ///< stands for the file in errors
+  std::string name;  ///< name of the file in errors
   std::string text;
   JsonValue root;
 

@@ -21,7 +21,7 @@ class LineReader {
   bool next();
 
   std::string_view line() const { return line_; }   ///< current line without its line end
-  int number() const { return number_; }            ///< number of the current line, from 1
+  int number() const { return number_; }            ///< number of the current line; the first is 1
   std::size_t offset() const { return position_; }  ///< offset of the byte after the current line and its line end
 
  private:

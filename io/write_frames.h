@@ -23,7 +23,7 @@ namespace pliant::output {
 /// What does not change in an object. It is a surface if it has triangles, else lines if it has these, else points.
 struct FrameObject {
   std::string name;
-  Vec3f colour{};       ///< linear RGB
+  Vec3f colour{};       ///< colour as linear RGB
   float width = 0.01f;  ///< width of lines and points [m]
   int particles = 0;
   std::vector<std::array<int, 3>> triangles;

@@ -14,8 +14,8 @@ namespace pliant::bench {
 /// The workload in a form that does not depend on the engine: N x N cloths of 1 m with rigid edges, self-collision, no
 /// bending.
 struct Landing {
-  std::string on;                        ///< "ball" or "cloth"
-  int size = 0;                          ///< N
+  std::string on;                        ///< what the cloth lands on: "ball" or "cloth"
+  int size = 0;                          ///< number N of vertices along a side of each cloth
   std::vector<Object> cloths;            ///< cloths as objects of Pliant; the lower one of two has pinned corners
   std::vector<std::vector<Edge>> edges;  ///< edges of each cloth
   Vec3f ball{};                          ///< centre of the ball [m]

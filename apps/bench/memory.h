@@ -14,11 +14,11 @@ namespace pliant::bench {
 struct MemoryRow {
   int size = 0;  ///< N of an N x N cloth
   Sweep sweep = Sweep::tiled;
-  double scene = 0;            ///< after the Scene was made
+  double scene = 0;            ///< memory after the Scene was made
   double scene_peak = 0;       ///< peak while the Scene is made, with the mesh
   double peak = 0;             ///< peak while Scene and World are made and two frames are simulated; the Scene is kept
   double peak_given_away = 0;  ///< the same peak if the Scene is given to the World
-  double world = 0;            ///< of the World alone, after these frames
+  double world = 0;            ///< memory of the World alone, after these frames
 };
 
 struct MemoryOptions {

@@ -15,7 +15,7 @@ namespace {
 constexpr int iterations_tried[] = {1, 2, 4, 10, 30};
 constexpr int probe_frames = 6;      // frames of a first run, which gives an estimate
 constexpr int probe_substeps = 2;    // substeps of that first run
-constexpr int most_substeps = 2000;  // more substeps do not help
+constexpr int most_substeps = 2000;  // limit of substeps; more do not help
 constexpr int most_corrections = 3;  // largest number of corrections of the estimate
 constexpr double well_used = 1.2;    // an estimate is accepted if the budget is at most this many times the time used
 

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int repeats = 3;  // repetitions of a run in a round, because the first has cold caches
 constexpr int most_rounds = 20;
-constexpr double enough_milliseconds = 10;  // time to spend on all rounds of a run
+constexpr double enough_milliseconds = 10;  // time to spend on all rounds of a run [ms]
 
 /// The numbers 1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100 and so on up to `last`, and `last`.
 std::vector<int> sampled_iterations(int last) {

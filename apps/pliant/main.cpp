@@ -17,7 +17,7 @@ namespace {
 using namespace pliant::command;
 
 constexpr int most = std::numeric_limits<int>::max();
-constexpr int most_threads = 1024;  // also the limit in scene files
+constexpr int most_threads = 1024;  // limit of threads, as in scene files
 
 void complain(const std::string& message) { std::fprintf(stderr, "pliant: %s\n", one_line(message).c_str()); }
 

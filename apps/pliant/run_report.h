@@ -39,7 +39,7 @@ class RunReport {
   std::vector<double> milliseconds_;
   std::map<std::string, double> phase_sums_;
   std::vector<std::string> hashes_, warnings_;
-  std::set<std::string> warned_of_;  ///< texts without their numbers
+  std::set<std::string> warned_of_;  ///< texts of warnings that have occurred, without numbers
 };
 
 }  // namespace pliant::command

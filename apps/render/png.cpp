@@ -22,7 +22,7 @@ void write_png(const std::string& path, int width, int height, const std::vector
   if (width <= 0 || height <= 0 || rgb.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3)
     throw Error(where, "the pixels of a picture do not match its size");
   AtomicFile file(path);
-  std::string bytes;  // collected first, because exceptions must not pass through stb's C code
+  std::string bytes;  // the encoded picture; written afterwards, because exceptions must not pass through stb's C code
   const auto gather = [](void* to, void* data, int size) {
     static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
   };

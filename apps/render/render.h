@@ -22,7 +22,7 @@ namespace pliant::render {
 struct RenderMesh {
   std::vector<Vec3f> positions;  ///< [m]
   std::vector<std::array<int, 3>> triangles;
-  Vec3f colour{0.75f, 0.35f, 0.30f};  ///< linear RGB, 0..1
+  Vec3f colour{0.75f, 0.35f, 0.30f};  ///< colour as linear RGB, 0..1
   bool is_solid = false;              ///< true: a collider, drawn with sharp edges
 };
 

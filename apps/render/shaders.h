@@ -135,7 +135,7 @@ uniform mat4 light;        // transform from the world into the shadow map, 0..1
 uniform sampler2DShadow shadow;
 uniform sampler2D shadow_depth;
 uniform sampler2D occlusion;
-uniform vec2 picture;      // width, height
+uniform vec2 picture;      // width and height of the picture in pixels
 uniform vec2 spiral[16];   // points evenly distributed over the unit disc
 uniform float widest, softness;  // largest blur of shadows [texels]; its growth with depth
 uniform float bias, radius, spacing;
@@ -150,7 +150,7 @@ float lit(vec3 normal) {
     gap += (place.z - blocker) * covers;
     found += covers;
   }
-  // Shadows get softer with the distance of the caster (Fernando 2005).
+  // Shadows get softer with the distance of the object that casts them (Fernando 2005).
   float wide = clamp(gap / max(found, 1.0) * softness, 1.2, widest) / texels;
   int taps = found > 0.0 && found < 9.5 ? 16 : 0;
   float sum = 0.0;

@@ -21,12 +21,12 @@ struct AdviseOptions {
 /// Settings, and the result of a trial run with them.
 struct Trial {
   Settings settings;
-  int frames = 0;           ///< frames completed
+  int frames = 0;           ///< number of frames that the trial completed
   bool complete = false;    ///< false if it ended early: worse than another trial, or out of time
   bool worse = false;       ///< true if it ended early because another trial was better
   double milliseconds = 0;  ///< mean computing time of a frame [ms]
   Overstretch worst;        ///< largest 99th percentile of any frame; largest overstretch, and where it was
-  std::int64_t frame = 0;   ///< frame of the largest overstretch, from 1
+  std::int64_t frame = 0;   ///< number of the frame with the largest overstretch; the first frame is 1
 };
 
 /// The result of all trials.
@@ -39,7 +39,7 @@ struct Advice {
   int best = -1;
   bool cut_short = false;  ///< true if time ran out before all trials were done
   std::string words;       ///< what is wrong, in one sentence; empty if nothing was found in `own.frames` frames
-  std::string what_to_do;  ///< what to do about it
+  std::string what_to_do;  ///< what to do about the overstretch
 };
 
 /// True if the overstretch of a trial never exceeded tolerated_overstretch.

@@ -19,7 +19,7 @@ struct TriangleMesh {
 struct Finding {
   bool grave = false;
   std::string message;  ///< what is wrong and where: "3 sliver triangles, the first 17 (aspect 1:4000)"
-  std::string advice;   ///< what to do
+  std::string advice;   ///< what to do about the problem
 };
 
 /// A flat rectangle of `columns` x `rows` vertices, `width` x `depth` metres, in the xz-plane, centred at the origin,

@@ -17,15 +17,15 @@ namespace pliant::reference {
 
 /// A particle. Inverse mass 0 makes it a pin, which moves only if you set `position` between steps.
 struct Particle {
-  Vec3d position{};         ///< position [m]
-  Vec3d velocity{};         ///< velocity [m/s]
+  Vec3d position{};         ///< position of the particle [m]
+  Vec3d velocity{};         ///< velocity of the particle [m/s]
   double inverse_mass = 1;  ///< inverse mass >= 0 [1/kg]
 };
 
 /// The stiffness of a constraint: compliance with damping, or PBD stiffness if that is not negative.
 struct Hardness {
-  double compliance = 0;  ///< alpha >= 0 [m/N for a distance]
-  double damping = 0;     ///< beta >= 0 [N s/m for a distance]
+  double compliance = 0;  ///< compliance alpha >= 0 [m/N for a distance]
+  double damping = 0;     ///< damping coefficient beta >= 0 [N s/m for a distance]
   double pbd = -1;        ///< PBD stiffness k in [0, 1]; negative: use compliance
 };
 
@@ -47,7 +47,7 @@ class AnyConstraint;
 /// A system of particles and constraints, and the loop that solves it.
 class Solver {
  public:
-  Vec3d gravity{};     ///< gravity [m/s^2]
+  Vec3d gravity{};     ///< acceleration of gravity [m/s^2]
   double damping = 0;  ///< rate at which velocities decay: by a factor exp(-damping) per second [1/s]
   int substeps = 1;    ///< substeps per step, >= 1
   int iterations = 1;  ///< iterations per substep, >= 1

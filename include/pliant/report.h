@@ -53,7 +53,7 @@ struct Overstretch {
 /// Where the first value that is not finite arose.
 struct NonFinite {
   std::string object, element;  ///< "distance constraint 17 (particles 3, 4)", "particle 12"; no object: see World::step
-  std::int64_t frame = 0;       ///< number of complete frames before it
+  std::int64_t frame = 0;       ///< number of complete frames before the error
   int substep = 0;              ///< index of the substep within the frame, from 0
 };
 

@@ -54,7 +54,7 @@ using Records = std::vector<Record, CacheLineAllocator<Record>>;
 
 /// The block of particles of an object or mesh collider in a State.
 struct StateBlock {
-  int first = 0, particles = 0;  ///< no particles: the object was removed
+  int first = 0, particles = 0;  ///< range of particles in the State; no particles: the object was removed
   int generation = 0;            ///< increases whenever another object is compiled into the block
   friend bool operator==(const StateBlock&, const StateBlock&) = default;
 };
@@ -93,9 +93,9 @@ struct State {
   std::vector<StateBlock> blocks;  ///< block of each object or mesh collider, in the order of addition
   Records positions;               ///< x, y, z [m] and the inverse mass w [1/kg]
   Records remainders;              ///< rounding residues: what the float positions cannot represent [m]
-  Records velocities;              ///< velocities [m/s]
+  Records velocities;              ///< velocities of the particles [m/s]; w is zero
   FrameRecords frames;             ///< orientations, object after object; usually none
-  std::vector<Channel> channels;   ///< usually none
+  std::vector<Channel> channels;   ///< channels of all objects; usually none
   std::vector<HeldPose> held_poses;
 };
 

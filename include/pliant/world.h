@@ -64,7 +64,7 @@ struct WorldLayout {
     int number = -1;     ///< index of the object or mesh collider in `blocks`, or of the collider; -1: free slot
     int generation = 0;  ///< generation of the present id, or of the next one if the slot is free
   };
-  std::vector<Slot> objects, colliders, mesh_colliders;  ///< one for each slot
+  std::vector<Slot> objects, colliders, mesh_colliders;  ///< ids: an entry for each slot
   std::vector<StateBlock> blocks;                        ///< block of each object or mesh collider
   std::vector<int> first_frames;                         ///< first frame of each object in a State
   std::vector<Sweep> sweeps;                             ///< sweep of each object
@@ -177,7 +177,7 @@ class World {
   std::vector<Vec3f> velocities(ObjectId object) const;
   /// The orientations of an object's frames, in the order of Object::frames.
   std::vector<Quatf> orientations(ObjectId object) const;
-  std::vector<Vec3f> angular_velocities(ObjectId object) const;  ///< in world axes [rad/s]
+  std::vector<Vec3f> angular_velocities(ObjectId object) const;  ///< in world axes, in the order of Object::frames [rad/s]
   TriangleMesh mesh(ObjectId object) const;
   /// Copies positions into the caller's memory, one for each particle. Throws an Error if the size differs.
   void read_positions(ObjectId object, std::span<Vec3f> into) const;

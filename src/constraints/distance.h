@@ -24,7 +24,7 @@ struct Distance {
 
   template <class R>
   struct Params {
-    R rest_length;  ///< [m]
+    R rest_length;  ///< rest length [m]
   };
   static constexpr std::array<const char*, 1> fields{"rest_length"};
 

@@ -25,7 +25,7 @@ struct IsometricBending {
 
   template <class R>
   struct Params {
-    R k1, k2, k3;  ///< [1/m]
+    R k1, k2, k3;  ///< coefficients of C, from the rest shape [1/m]
   };
   static constexpr std::array<const char*, 3> fields{"k1", "k2", "k3"};
 

@@ -39,7 +39,7 @@ struct Corners {
 
 template <class R>
 struct Slab {
-  Vec3<R> normal;  ///< unit, or zero
+  Vec3<R> normal;  ///< unit normal of the plane, or zero
   R gap;           ///< least distance of the two primitives along the normal
 };
 
@@ -147,9 +147,9 @@ PLIANT_HD R extent(const Corners<R>& start, const Corners<R>& motion) {
 PLIANT_HD float unit_roundoff(float) { return 6e-8f; }
 PLIANT_HD double unit_roundoff(double) { return 1.2e-16; }
 
-constexpr int most_advances = 400;    // a handful except in constructed cases
-constexpr int plain_advances = 4;     // before the plane may rotate
-constexpr float longest_attempt = 4;  // in units of the last advance
+constexpr int most_advances = 400;    // largest number of advances; few except in constructed cases
+constexpr int plain_advances = 4;     // number of advances before the plane may rotate
+constexpr float longest_attempt = 4;  // limit of an attempted advance, as a multiple of the last one
 
 /// For nearly parallel edges that rotate, a fixed plane is valid only briefly: the far ends run into it. A plane that
 /// rotates towards its later orientation stays valid longer, by the root of the gap instead of the gap. Its normal
@@ -248,7 +248,7 @@ PLIANT_HD Impact<R> vertex_triangle_impact(const Vec3<R> (&from)[4], const Vec3<
   return impact;
 }
 
-/// The same test for the edges (0, 1) and (2, 3) of the arrays.
+/// The first time at which the edges (0, 1) and (2, 3) of the arrays come within `thickness`, as vertex_triangle_impact.
 template <class R>
 PLIANT_HD Impact<R> edge_edge_impact(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], const R& thickness) {
   return detail::first_impact<2>(from, to, thickness);

@@ -34,7 +34,7 @@ inline DoubleDouble two_sum(double a, double b) {
 
 /// a b exactly, without overflow or underflow.
 inline DoubleDouble two_product(double a, double b) {
-  constexpr double splitter = 134217729;  // 2^27 + 1
+  constexpr double splitter = 134217729;  // 2^27 + 1 divides a double into two halves of its bits
   const double product = a * b, a_scaled = splitter * a, b_scaled = splitter * b;
   const double a_high = a_scaled - (a_scaled - a), a_low = a - a_high;
   const double b_high = b_scaled - (b_scaled - b), b_low = b - b_high;

@@ -28,7 +28,7 @@ class ExactSum {
 
   /// Adds the product a b c exactly. The 48 bits of a b are split into two halves of at most 26 bits.
   void add_product(double a, double b, double c) {
-    constexpr double splitter = 134217729;  // 2^27 + 1
+    constexpr double splitter = 134217729;  // 2^27 + 1 divides a double into two halves of its bits
     const double ab = a * b, scaled = splitter * ab, high = scaled - (scaled - ab);
     add(high * c);
     add((ab - high) * c);

@@ -15,7 +15,7 @@ int volume_sign(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d);
 
 /// How a closed edge and a closed triangle meet.
 enum class EdgeTriangle {
-  apart,     ///< no common point
+  apart,     ///< edge and triangle have no point in common
   touching,  ///< common points, but not a crossing: ends or borders touch, or all is coplanar
   crossing   ///< the interior of the edge crosses the interior of the triangle
 };

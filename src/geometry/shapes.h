@@ -26,7 +26,7 @@ struct LocalShape {
 /// The signed distance of a point to a surface, and the outward normal.
 template <class R>
 struct SurfaceDistance {
-  R distance;      ///< negative inside [m]
+  R distance;      ///< signed distance, negative inside [m]
   Vec3<R> normal;  ///< gradient of the distance: unit length, defined everywhere
 };
 
@@ -95,12 +95,12 @@ struct FirstHit {
 /// give no hit; no hit is guaranteed beyond 1e18.
 template <class R>
 PLIANT_HD FirstHit<R> first_hit(const LocalShape& shape, const Vec3<R>& a, const Vec3<R>& b, const R& margin) {
-  const R rounding = sizeof(R) == sizeof(float) ? R(2.4e-7f) : R(4.5e-16);  // two units in the last place of 1
+  const R rounding = sizeof(R) == sizeof(float) ? R(2.4e-7f) : R(4.5e-16);  // two units in the last place of the number 1
   const Vec3<R> path = b - a;
   const R path_size = abs(path.x) + abs(path.y) + abs(path.z);
   if (!(path_size + abs(a.x) + abs(a.y) + abs(a.z) < R(1e38f))) return {};
   FirstHit<R> at{false, R(0), a, {}, R(0)};
-  R travelled = R(0);  // advance of the last step
+  R travelled = R(0);  // how far the last step advanced
   // Convergence is quadratic if the path crosses the surface. If it
   // grazes, the gap shrinks fourfold per step: 64 steps suffice from 1e38.
   for (int step = 0; step < 96; ++step) {
@@ -113,7 +113,7 @@ PLIANT_HD FirstHit<R> first_hit(const LocalShape& shape, const Vec3<R>& a, const
     if (step == 0 || !leaving) at.normal = surface.normal;
     at.hit = gap <= exact || (leaving && gap <= rounding * travelled);
     if (at.hit) return at;
-    if (leaving || !(at.t < R(1))) return {};  // convex: a receding point never returns
+    if (leaving || !(at.t < R(1))) return {};  // a convex shape: if the point recedes, it never comes back
     const R advance = -gap / slope;
     const bool last = !(at.t + advance < R(1));
     travelled = last ? (R(1) - at.t) * path_size : advance * path_size;

@@ -93,7 +93,7 @@ class Neighbours {
 
   const Scene& scene_;
   std::vector<double> edge_;  ///< median edge of each object [m]; 0: it has no contact
-  std::vector<Vertex> all_;   ///< ascending by x
+  std::vector<Vertex> all_;   ///< all vertices, ascending by x
   double thickest_ = 0;
 };
 

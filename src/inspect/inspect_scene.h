@@ -13,10 +13,10 @@ constexpr double shortest_substep = 1e-12;
 /// and ranges.
 void refuse_grave(const Scene& scene);
 
-/// Does the same without checks of initial positions, for objects that were added at different times and have moved.
+/// refuse_grave without checks of initial positions, for objects that were added at different times and have moved.
 void refuse_grave_but_places(const Scene& scene);
 
-/// Does the same for one object or collider that is added to a World.
+/// Throws an Error for the first grave finding about an object or collider that is added to a World.
 void refuse_grave(const Object& object);
 void refuse_grave(const Collider& collider);
 void refuse_grave(const MeshCollider& collider);

@@ -56,7 +56,7 @@ PLIANT_HD Quatd slerp(const Quatd& a, const Quatd& b, double share) {
 /// A rigid transform p -> rotation p + position.
 template <class R>
 struct Pose {
-  Vec3<R> position{};  ///< [m]
+  Vec3<R> position{};  ///< translation [m]
   Quat<R> rotation{};  ///< unit quaternion
 };
 using Posef = Pose<float>;

@@ -19,7 +19,7 @@ std::vector<Sweep> better_sweeps(const Scene& scene);
 /// The scene's settings with the sweep and tethers that measured best on such scenes (docs/internals/convergence.md).
 /// Where these are the default, the scene's settings stay as they are.
 Settings suggest(const Scene& scene);
-/// Does the same with `settings` instead of the scene's own.
+/// Suggests settings for a scene as suggest(scene) does, with `settings` instead of the scene's own.
 Settings suggest(const Scene& scene, const Settings& settings);
 /// Like chosen_sweep in pliant/scene.h, with `settings` instead of the scene's own.
 Sweep chosen_sweep(const Scene& scene, const Settings& settings, int object, std::string* reason = nullptr);

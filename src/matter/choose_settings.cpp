@@ -152,7 +152,8 @@ Choice choose(const Scene& scene, const Settings& settings, const Object& object
   if (springs > 0 && object.volume) return {Sweep::tiled, name + ", which has a volume"};
   if (springs > 0 && is_stiff_sheet(object, gravity))
     return {Sweep::tiled, name + ", a sheet whose bending length is more than a quarter of its size"};
-  const std::size_t particles = springs == 0 ? 0 : std::min(object.positions.size(), springs + 1);  // as many as in a path
+  const std::size_t particles =
+      springs == 0 ? 0 : std::min(object.positions.size(), springs + 1);  // a path has one particle more than springs
   if (particles < fewest_particles) return {Sweep::tiled, too_coarse};
   if (can_touch(scene, object)) return {Sweep::tiled, name + ", a surface that can touch itself or others"};
   return {Sweep::multigrid, "cloth or rope, the largest of " + std::to_string(particles) + " particles"};

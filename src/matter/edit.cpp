@@ -226,7 +226,7 @@ class Cut {
   const Object& object_;
   const std::set<Edge>& edges_;
   Around around_;
-  std::map<std::pair<int, int>, int> copies_;  ///< key: particle and triangle
+  std::map<std::pair<int, int>, int> copies_;  ///< copy that a triangle uses of a particle; key: particle and triangle
   std::vector<int> origins_;                   ///< original particle of each copy
 };
 

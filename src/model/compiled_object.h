@@ -49,8 +49,8 @@ inline constexpr float no_tether = 1e30f;
 
 /// A particle that follows a given motion.
 struct Kinematic {
-  int particle = 0;  ///< index in storage order
-  Vec3f rest{};      ///< position at time 0 [m]
+  int particle = 0;  ///< index of the particle in storage order
+  Vec3f rest{};      ///< position of the particle at time 0 [m]
   Motion motion;
 };
 
@@ -122,7 +122,7 @@ CompiledObject compile(const MeshCollider& collider);
 /// Compiles an object for which inspect() reports nothing grave. Throws an Error that names an unknown constraint type,
 /// or a constraint group whose particles or rest data have the wrong size.
 CompiledObject compile(const Object& object, const CompileOptions& options);
-/// Does the same with less memory: the constraints may be moved out of the object.
+/// Compiles an object with less memory: its constraints may be moved out of it.
 CompiledObject compile(Object&& object, const CompileOptions& options);
 
 }  // namespace pliant

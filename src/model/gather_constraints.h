@@ -32,7 +32,7 @@ struct ConstraintList {
 /// to additional particles. Missing rest data are computed from the initial positions in double precision. The lists
 /// refer to the object, which must outlive them.
 std::vector<ConstraintList> gather_constraints(const Object& object, int passes);
-/// Does the same with less memory: arrays are moved out of the object.
+/// Lists all constraints of an object with less memory: arrays are moved out of the object.
 std::vector<ConstraintList> gather_constraints(Object&& object, int passes);
 
 }  // namespace pliant

@@ -26,7 +26,7 @@ struct MultigridLevel {
   std::vector<std::int32_t> column;      ///< sixteen per slot: the neighbour, or the row itself if there is none
 
   // Finest level only: springs. Their stiffness is zero in lanes without a neighbour.
-  AlignedVector<float> stiffness, rest_length;  ///< sixteen per slot [N/m], [m]
+  AlignedVector<float> stiffness, rest_length;  ///< of each slot, sixteen values [N/m] and [m]
 
   // Coarser levels only: each block is a sum of blocks of the finer level, listed as 16 x slot + lane. The list for
   // lane l of slot s starts at sources[source_begin[16 s + l]]. Anchors are blocks between a row and a fixed particle.

@@ -38,7 +38,7 @@ struct Task {
 struct Phase {
   Driver driver = Driver::tile;
   int colour = 0;             ///< number of the phase among those of its driver
-  std::vector<Task> tasks{};  ///< ordered by object
+  std::vector<Task> tasks{};  ///< tasks of all objects, ordered by object
   int work = 0;               ///< sum of the work of all tasks
 };
 

@@ -244,7 +244,7 @@ PLIANT_HD Wide spread_w(const Wide& a) {
   return r;
 }
 
-/// The same (x, y, z, 0) in four records.
+/// Four records with the same (x, y, z, 0).
 PLIANT_HD Wide spread(const Vec3f& v) {
   float all[wide_width];
   for (int i = 0; i < wide_width; i += 4) {

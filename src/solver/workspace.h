@@ -53,7 +53,7 @@ struct Workspace {
   std::vector<double> volume_multipliers;           ///< multiplier of each object's volume constraint
   Records volume_gradients;                         ///< gradient at each particle, if any object has a volume constraint
   std::vector<std::vector<Vec3f>> triangle_forces;  ///< [object][triangle], if there is air
-  std::vector<TileScratch> tiles;                   ///< one for each tile of the model
+  std::vector<TileScratch> tiles;                   ///< scratch data of each tile of the model
   std::vector<MovingCollider> colliders;
   std::unique_ptr<ContactLog> contact_log;  ///< null if contact events are not requested
   Control control;                          ///< what the user set for the current frame

@@ -54,7 +54,7 @@ SphereInDouble subdivided(const SphereInDouble& coarse) {
   fine.positions = coarse.positions;
   const int old_count = static_cast<int>(coarse.positions.size());
   const std::vector<Edge> edges = find_edges(coarse.triangles, old_count);
-  std::vector<Triangle> middles(coarse.triangles.size());  // the midpoint of the side opposite each corner
+  std::vector<Triangle> middles(coarse.triangles.size());  // new vertex at the middle of the side opposite each corner
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const Edge& edge = edges[e];
     fine.positions.push_back(normalised(coarse.positions[static_cast<std::size_t>(edge.a)] +

@@ -16,7 +16,7 @@ struct NearSource {
 struct Distances {
   int vertices = 0;
   std::vector<std::array<int, 2>> edges;
-  std::vector<float> lengths;  ///< one per edge, >= 0
+  std::vector<float> lengths;  ///< length of each edge, >= 0 [m]
   /// Triangles that paths may cross. A triangle is ignored unless all three of its edges are present.
   std::vector<std::array<int, 3>> triangles;
 };

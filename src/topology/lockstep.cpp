@@ -224,7 +224,7 @@ class Growth {
   std::vector<Rank> ranks_;
   std::vector<std::vector<int>> links_;  // for each rank, the ranks to which it is linked
   std::priority_queue<Open> open_;
-  int oldest_ = 0;  // all older ranks cannot grow any more
+  int oldest_ = 0;  // index of the oldest rank beside which another may still fit
   std::array<std::size_t, patches> first_left_{};
 };
 

@@ -14,13 +14,13 @@ namespace pliant {
 
 /// A path of edges that visits no vertex twice.
 struct Path {
-  std::vector<int> edges;     ///< indices in the order of the path; at least one
+  std::vector<int> edges;     ///< indices of the path's edges, in order; at least one
   std::vector<int> vertices;  ///< one more than edges; edge k is between vertices k and k + 1
 };
 
 /// A set of paths that share no vertex, so that they can be solved at the same time.
 struct PathColour {
-  std::vector<Path> paths;  ///< longest first
+  std::vector<Path> paths;  ///< paths of this colour, the longest first
 };
 
 /// Decomposes edges into paths; each edge is in exactly one path. `edges` has two different vertices for each edge;

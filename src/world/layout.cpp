@@ -108,7 +108,7 @@ World::Implementation::Implementation(const Scene& scene, const WorldLayout& lay
     if (taken[number] == 0) state.blocks[number] = {0, 0, model.generation[number]};
     prepare(static_cast<int>(number));
   }
-  groups.clear();  // they are those of the World without objects
+  groups.clear();  // groups of the World without objects
   bring_up_to_date();
 }
 

@@ -319,7 +319,8 @@ void World::Implementation::bring_up_to_date() {
   if (objects_changed || groups.empty()) prepare_groups();
   update_surfaces();
   if (!objects_changed) return;
-  for (TileScratch& tile : workspace.tiles) tile.contacts.clear();  // their collider indices are out of date
+  for (TileScratch& tile : workspace.tiles)
+    tile.contacts.clear();  // contacts have collider indices, which may have changed
   if (settings.tolerance > 0) prepare_residual(model, workspace.residual);
   objects_changed = false;
 }
@@ -385,7 +386,7 @@ void World::remove(ColliderId collider) {
   self_->collider_ids.close_gap(number);
   self_->model.colliders.erase(self_->model.colliders.begin() + number);
   self_->prepare_shape_contacts();
-  std::map<int, PoseDrive> drives;  // keys: removal decreases larger numbers by one
+  std::map<int, PoseDrive> drives;  // with the new numbers: a removal decreases larger ones by one
   for (const auto& [other, drive] : self_->workspace.control.colliders)
     if (other != number) drives.emplace(other > number ? other - 1 : other, drive);
   self_->workspace.control.colliders = std::move(drives);

@@ -40,7 +40,7 @@ struct ContactSearch {
   const AdvanceArguments& particles;  ///< particles of the tile, with predicted displacements
   const PointBounds& bounds;          ///< encloses the particles before and after the predicted displacement
   const std::vector<MovingCollider>& colliders;
-  int (*find_near)(const NearQuery& query, std::int32_t* near);  ///< StepKernels::find_near
+  int (*find_near)(const NearQuery& query, std::int32_t* near);  ///< the kernel StepKernels::find_near
   MakePointContacts make_contacts = nullptr;  ///< ContactKernels::make_point_contacts, or null for one particle at a time
 };
 

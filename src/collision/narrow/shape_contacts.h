@@ -50,7 +50,7 @@ class ShapeContacts {
  private:
   void detect_tile(const ShapeContactSearch& search, int task);
 
-  std::vector<ShapeElements> elements_;       ///< [object]
+  std::vector<ShapeElements> elements_;       ///< elements of each object
   std::vector<ShapeContactScratch> scratch_;  ///< scratch of each task of the model
   std::vector<Contact> contacts_;
 };

@@ -33,7 +33,7 @@ class BoxSearch {
 
  private:
   struct Boxes {
-    AlignedVector<float> side[6];  ///< low x, y, z, high x, y, z of each primitive
+    AlignedVector<float> side[6];  ///< boxes of all primitives by coordinate: low x, y, z, high x, y, z
     std::vector<BoxBounds> batch;  ///< for each sixteen primitives, the union of their boxes
     std::vector<char> wanted;      ///< for each cluster, 1 if its boxes are requested
     BoxBounds around_sixteen(int first) const;

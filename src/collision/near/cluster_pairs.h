@@ -26,7 +26,7 @@ struct ClusterPair {
 /// The pairs of each cluster, by the other cluster. Clusters are given by their places in PairModel::cluster_order.
 struct PairsOfClusters {
   struct Entry {
-    int other;  ///< place of the other cluster
+    int other;  ///< position of the other cluster in cluster_order
     int pair;
   };
   std::vector<int> start;  ///< of each cluster's entries

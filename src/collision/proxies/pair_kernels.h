@@ -45,7 +45,7 @@ struct ElementCorners {
 
 /// The columns that a row excludes within a batch of sixteen columns.
 struct LeftOut {
-  std::int32_t batch;  ///< columns 16 batch to 16 batch + 15
+  std::int32_t batch;  ///< index of the batch: columns 16 batch to 16 batch + 15
   std::uint32_t bits;
 };
 

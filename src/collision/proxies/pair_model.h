@@ -37,7 +37,7 @@ struct PairModel {
       free_points;  ///< particles of bodies without triangles and lines, ordered by body; they meet one another as spheres
   /// Clusters: about 64 neighbouring vertices of one body, with the edges and triangles whose first vertex is one of them.
   int clusters = 0;                                                               ///< one past the last cluster in use
-  std::vector<int> vertex_cluster, edge_cluster, triangle_cluster, cluster_body;  ///< -1: no cluster, no body
+  std::vector<int> vertex_cluster, edge_cluster, triangle_cluster, cluster_body;  ///< -1: none
   std::vector<int> cluster_order;                                                 ///< clusters in use, ordered by body
   /// For each cluster: its pairs have no contact where positions round by more than this [m]. Empty: no limit.
   std::vector<float> coarsest;

@@ -12,7 +12,7 @@ namespace pliant {
 /// Four particles: the first `first_side` are the corners of one primitive, the rest those of the other.
 struct PairStencil {
   std::array<std::int32_t, 4> vertex{};
-  int first_side = 1;  ///< 1: vertex-triangle; 2: edge-edge
+  int first_side = 1;  ///< number of vertices on the first side; 1: vertex-triangle, 2: edge-edge
 };
 
 /// The closest points of two primitives and their distance.
@@ -43,9 +43,9 @@ void pair_distances(const PairStencil* pairs, int count, const Record* positions
 
 /// The contact parameters of two surfaces.
 struct PairMaterial {
-  float thickness = 0;  ///< minimum distance [m]
+  float thickness = 0;  ///< minimum distance of both surfaces [m]
   float static_friction = 0, kinetic_friction = 0;
-  float restitution = 0;  ///< 0..1 [-]
+  float restitution = 0;  ///< coefficient of restitution, 0..1 [-]
 };
 
 }  // namespace pliant

@@ -41,7 +41,7 @@ class InitialIntersections {
   std::vector<int> triangles_;                  ///< indices in the model of the triangles that finder_ searches
   std::vector<int> new_bodies_;                 ///< bodies added since the last search, ascending
   std::vector<Intersection> found_;
-  std::map<std::pair<int, int>, std::size_t> counts_, counts_before_;  ///< by two bodies, the lower index first
+  std::map<std::pair<int, int>, std::size_t> counts_, counts_before_;  ///< counts by two bodies, the lower index first
   std::vector<std::array<std::int32_t, 5>> exempt_;  ///< exempt pairs: four vertices, size of the first side; ascending
 };
 

@@ -176,7 +176,7 @@ namespace {
 
 /// A point inside a closed surface, the direction to the closest surface point, and its distance.
 struct Depth {
-  Vec3f from, out;  // unit vector
+  Vec3f from, out;  // position, and unit vector to the closest surface point
   float way;
 };
 

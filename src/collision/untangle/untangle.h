@@ -66,7 +66,7 @@ class Untangler {
   using PartPair = std::pair<int, int>;
 
   struct Closed {
-    int body, part, first;  ///< `first` is the body's first particle
+    int body, part, first;  ///< indices of the closed body, of its part and of its first particle
     std::unique_ptr<MeshQuery> query;
   };
 

@@ -20,12 +20,12 @@ namespace pliant {
 /// Results of link k that link k + 1 needs.
 template <class R>
 struct ChainEnd {
-  Vec3<R> direction;  ///< n_k
+  Vec3<R> direction;  ///< n_k, unit vector along link k
   R length;           ///< current length of link k; zero: no direction
   R weight;           ///< inverse mass of the particle between links k and k + 1
   R mobility;         ///< q_k, mobility of the first end
   R added;            ///< s_k, added to the diagonal
-  R inverse_pivot;    ///< 1 / p_k
+  R inverse_pivot;    ///< 1 / p_k, inverse of the pivot
   R change;           ///< dlambda_k if no link followed
 };
 

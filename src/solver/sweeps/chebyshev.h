@@ -36,7 +36,7 @@ struct ChebyshevIterate {
 
 /// The state of the recurrence in this substep. Norms are those of sweep corrections |G(x) - x|.
 struct ChebyshevRecurrence {
-  double spectral_radius = 0;                    ///< rho
+  double spectral_radius = 0;                    ///< rho, the spectral radius in use
   double weight = 1;                             ///< omega of the last extrapolation
   double polynomial = 1, polynomial_before = 1;  ///< Chebyshev polynomials T_n(1 / rho) and T_(n-1)(1 / rho), n = steps
   int steps = -1;                                ///< n, steps since the recurrence was started; -1: not started
@@ -48,7 +48,7 @@ struct ChebyshevRecurrence {
 
 /// The last two iterates of a sweep group, and its recurrence.
 struct ChebyshevScratch : SweepScratch {
-  ChebyshevIterate before, older;  ///< x_k and x_(k-1)
+  ChebyshevIterate before, older;  ///< iterates x_k and x_(k-1)
   ChebyshevRecurrence recurrence;
   std::vector<double> tile_sums;  ///< sum of m |correction|^2 over each tile
   std::vector<std::vector<Record>>

@@ -23,7 +23,7 @@ struct MultigridValues {
 
 /// The positions at which springs are linearised.
 struct LinearisedAt {
-  const Record* positions = nullptr;      ///< w is the inverse mass
+  const Record* positions = nullptr;      ///< positions at the substep's start; w is the inverse mass
   const Record* displacements = nullptr;  ///< displacements predicted by inertia alone
   float inverse_h2 = 0;                   ///< [1/s^2]
   const float* extra = nullptr;           ///< matrix terms of contacts: stiffness and force, nine rows of sixteen per batch
