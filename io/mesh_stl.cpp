@@ -171,7 +171,7 @@ PolygonMesh parse_binary(std::string_view bytes, const std::string& name) {
   mesh.corners.reserve(3 * count);
   mesh.ends.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t corners = head_size + i * triangle_size + 12;  // offset of the corners, after the normal
+    const std::size_t corners = head_size + i * triangle_size + 12;  // the corners of a triangle follow its normal
     for (std::size_t at = corners; at < corners + 36; at += 12)
       add_corner(mesh, {coordinate(bytes, at, name), coordinate(bytes, at + 4, name), coordinate(bytes, at + 8, name)});
     mesh.close_polygon();

@@ -151,7 +151,7 @@ class Checker {
       const JsonValue& member = at.items[i];
       const Field* field = record.find(member.key);
       if (field == nullptr) unknown(member, record);
-      for (std::size_t k = 0; k < i; ++k)  // earlier members are known and distinct, so there are at most as many as fields
+      for (std::size_t k = 0; k < i; ++k)  // earlier members are known and distinct: no more than there are fields
         if (at.items[k].key == member.key)
           document_.fail_key(member, "'" + member.key + "' occurs twice", "keep one of the two");
       value(member, field->type);

@@ -16,11 +16,11 @@ struct Row {
   int size = 0;          ///< N of an N x N cloth
   std::string engine;    ///< "plain loop", "bullet" or "pliant"
   int threads = 1, substeps = 0, iterations = 0;
-  double ms_per_frame = 0;       ///< median over the frames; total time for workloads without frames
+  double ms_per_frame = 0;       ///< median time of a frame [ms]; total time for workloads without frames
   double ns_per_projection = 0;  ///< time of a whole frame, with prediction and velocity update, over its projections
   double stretch_mean = 0, stretch_p99 = 0, stretch_max = 0;  ///< length over rest length after the last frame
   double energy_lost = 0;                                     ///< energy lost by frame 40 [J]; W1-quality only
-  bool met = true;                                            ///< W1-quality only: true if the required quality was reached
+  bool met = true;                                            ///< true if the required quality was reached; W1-quality only
   std::vector<PhaseTime>
       phases{};      ///< for "pliant": time of each phase per frame [ms], from a separate run that times phases
   double ratio = 0;  ///< time of the first row of the same workload and size over the time of this one

@@ -235,7 +235,7 @@ Ticks logarithmic_ticks(double low, double high, int wanted) {
       ticks.labels.push_back(number_of_power(place, factor, k));
     }
   }
-  // With fewer than three ticks, within a decade, ticks are at round numbers, at uneven distances.
+  // Within a decade there may be fewer than three ticks; then place ticks at round numbers, which are at uneven distances.
   return ticks.places.size() < 3 ? linear_ticks(std::pow(10, low), std::pow(10, high), wanted) : ticks;
 }
 

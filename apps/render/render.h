@@ -20,7 +20,7 @@ namespace pliant::render {
 
 /// A surface with two sides; its back is slightly less bright than its front.
 struct RenderMesh {
-  std::vector<Vec3f> positions;  ///< [m]
+  std::vector<Vec3f> positions;  ///< positions of the vertices [m]
   std::vector<std::array<int, 3>> triangles;
   Vec3f colour{0.75f, 0.35f, 0.30f};  ///< colour as linear RGB, 0..1
   bool is_solid = false;              ///< true: a collider, drawn with sharp edges
@@ -29,7 +29,7 @@ struct RenderMesh {
 /// A line drawn as a round tube, for ropes; a single point becomes a ball.
 struct RenderTube {
   std::vector<Vec3f> points;
-  float radius = 0.005f;  ///< [m]; drawn about a pixel wide at least
+  float radius = 0.005f;  ///< radius of the tube [m]; it is drawn at least about a pixel wide
   Vec3f colour{0.75f, 0.35f, 0.30f};
 };
 

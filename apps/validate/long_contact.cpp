@@ -124,7 +124,7 @@ Scene ball_scene(int side) {
   ball.mesh = sphere_mesh(3);
   for (Vec3f& p : ball.mesh.positions) p = p * (0.12f * width) + Vec3f{-0.8f * width, -0.2f * width, 0.05f * width};
   const Vec3f across{1.6f * width, 0, 0};
-  const float time = 1.6f * width / 10;  // time for the way at 10 m/s
+  const float time = 1.6f * width / 10;  // time for the distance at 10 m/s
   ball.motion.keyframes = {{0, {}, {}},        {0.1f, {}, {}},        {0.1f + time, across, {}},
                            {0.6f, across, {}}, {0.6f + time, {}, {}}, {1, {}, {}}};
   ball.motion.repeat = true;

@@ -33,7 +33,7 @@ void sweep_rows(Result& result, bool slow);
 /// Adds rows of the group `collision` for sets of queries. Throws an Error if the folder has none.
 void query_set_rows(Result& result, const std::string& folder);
 
-/// Make a row with its verdict; a value that is not finite fails.
+/// Makes a row with its verdict. A value that is not finite fails.
 Row relative(std::string name, double expected, double measured, double tolerance, std::string unit, std::string note = {});
 Row absolute(std::string name, double expected, double measured, double tolerance, std::string unit, std::string note = {});
 Row at_most(std::string name, double bound, double measured, std::string unit, std::string note = {});

@@ -2,10 +2,10 @@
 //
 //     C(x) = gap + normal . r >= 0        r = sum_i weight_i d_i - surface_motion, the relative displacement
 //
-// All pairs of kinds share one record, one friction rule and one restitution rule. Weights sum to 1 over the points of the
-// first side and to -1 over those of the second. A static or kinematic second side has no points: its motion is
-// `surface_motion`, and the weights sum to 1. Only sums depend on the number of points, so a point carried by a frame needs
-// only its own weight and generalised inverse mass.
+// All pairs of kinds share one record, one friction rule and one restitution rule. Weights sum to 1 over the points of
+// the first side and to -1 over those of the second. A static or kinematic second side has no points: its motion is
+// `surface_motion`, and the weights sum to 1. A contact enters the formulas only by sums over its points, so a point
+// carried by a frame needs only its own weight and generalised inverse mass.
 //
 // Unilateral constraints: Mueller et al. 2007, section 3.4. Friction: a Coulomb cone on the sum of a contact's normal
 // corrections in the substep. Inside the static cone the contact sticks; outside it slides with the kinetic coefficient.

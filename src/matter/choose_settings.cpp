@@ -173,8 +173,8 @@ struct SweepsInUse {
     int objects = 0;
   };
   std::map<Sweep, Use> uses;
-  std::string reason = too_coarse;  ///< for the largest object with multigrid, else for the first object
-  std::size_t particles = 0;        ///< number of particles of that object
+  std::string reason = too_coarse;  ///< reason of the largest object with multigrid, else of the first object
+  std::size_t particles = 0;        ///< number of particles of the object that `reason` concerns
 
   void add(const Object& object, const Choice& choice) {
     Use& use = uses[choice.sweep];

@@ -294,7 +294,7 @@ Object make_cloth(const TriangleMesh& mesh, const ClothOptions& options) {
   require_positions(piece);
   try {
     piece.find_edges_again();
-  } catch (const Error& error) {  // the error names the triangle; add the object
+  } catch (const Error& error) {  // the error names the triangle; add the name of the object
     piece.refuse(error.where().element, error.problem(), error.advice());
   }
   measure_areas(piece);

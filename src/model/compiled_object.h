@@ -78,14 +78,14 @@ struct CompiledObject {
   int particles = 0;                          ///< number of particles, with the targets of attachments
   int user_particles = 0;                     ///< number of particles, without the targets of attachments
   std::vector<int> order;                     ///< order[storage index] = user's index
-  std::vector<int> place;                     ///< place[user's index] = storage index
-  std::vector<Record> positions, velocities;  ///< initial values; velocities are empty if all are zero
-  FrameRecords frames;                        ///< initial values, in the order of Object::frames
+  std::vector<int> place;                     ///< place[user's index] = storage index; the inverse of `order`
+  std::vector<Record> positions, velocities;  ///< initial positions and velocities; no velocities if all are zero
+  FrameRecords frames;                        ///< initial values of the frames, in the order of Object::frames
   std::vector<Pool> pools;
   std::vector<Segment>
       segments;  ///< of tiles, then inter-tile constraints, then links of chains, then constraints projected one at a time
   std::vector<Tile> tiles;
-  std::vector<ObjectPhase> phases;  ///< sorted by driver; those of one driver by colour
+  std::vector<ObjectPhase> phases;  ///< phases sorted by driver; those of one driver by colour
   std::vector<ChainBatch> chains;
   AlignedVector<float> chain_softness;  ///< sixteen per ChainBatch: regularisation added to the diagonal [1/kg]
   Tethers tethers;
@@ -105,7 +105,7 @@ struct CompiledObject {
 /// Data apart from the object on which its schedule depends.
 struct CompileOptions {
   int passes = 1;           ///< projections of each constraint per frame (substeps x iterations), which determine k'
-  int largest_tile = 2048;  ///< in particles; a tile of this size fits the shared memory of a thread block on any GPU
+  int largest_tile = 2048;  ///< most particles of a tile; that many fit the shared memory of a thread block on any GPU
   /// `chains` and `multigrid` need additional data. `natural` has a single tile and keeps the given order: by type,
   /// then law, then index. Other sweeps differ in nothing.
   Sweep sweep = Sweep::tiled;

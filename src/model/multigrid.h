@@ -22,11 +22,11 @@ inline constexpr int coarsest_rows = 16;
 
 struct MultigridLevel {
   int rows = 0;
-  std::vector<std::int32_t> first_slot;  ///< first slot of each batch; one more at the end
+  std::vector<std::int32_t> first_slot;  ///< for each batch, its first slot; the total number of slots at the end
   std::vector<std::int32_t> column;      ///< sixteen per slot: the neighbour, or the row itself if there is none
 
   // Finest level only: springs. Their stiffness is zero in lanes without a neighbour.
-  AlignedVector<float> stiffness, rest_length;  ///< of each slot, sixteen values [N/m] and [m]
+  AlignedVector<float> stiffness, rest_length;  ///< for each slot, sixteen values [N/m] and [m]
 
   // Coarser levels only: each block is a sum of blocks of the finer level, listed as 16 x slot + lane. The list for
   // lane l of slot s starts at sources[source_begin[16 s + l]]. Anchors are blocks between a row and a fixed particle.
@@ -45,11 +45,11 @@ struct MultigridLevel {
 /// The levels of one object. There are none if it has no distance constraint with a positive rest length.
 struct Multigrid {
   std::vector<MultigridLevel> levels;
-  std::vector<std::int32_t> piece;  ///< of each particle: index of the connected component of springs that has it; -1: none
+  std::vector<std::int32_t> piece;           ///< for each particle, index of its connected component of springs; -1: none
   std::vector<std::int32_t> coarsest_piece;  ///< connected component of each row of the last level; -1: none
   int pieces = 0;
   float edge_length = 0;               ///< mean rest length of all springs [m]
-  std::vector<float> stiffness_limit;  ///< of each particle; an edge has the larger limit of its ends [N/m]
+  std::vector<float> stiffness_limit;  ///< for each particle; an edge has the larger limit of its ends [N/m]
 };
 
 /// row_of returns the matrix row in a lane of a batch; lane_place is the inverse and returns 16 x batch + lane.
@@ -59,7 +59,7 @@ PLIANT_HD int lane_place(int row) {
   return row - within + within / 4 + 4 * (within % 4);
 }
 
-/// The spring stiffness of a distance constraint [N/m]: 1 / compliance, at most the larger stiffness limit of its particles.
+/// The spring stiffness of a distance constraint [N/m]: 1 / compliance, at most `limit`.
 PLIANT_HD float spring_stiffness(float compliance, float limit) { return compliance * limit > 1 ? 1 / compliance : limit; }
 
 /// Builds the levels. `positions`: in storage order, inverse mass in w; `gravity`: its magnitude [m/s^2].

@@ -17,14 +17,14 @@ inline constexpr float largest_separation_speed = 2;
 /// A plane that a particle must stay above, in the collider's frame.
 template <class R>
 struct SurfacePlane {
-  Vec3<R> normal;  ///< unit
+  Vec3<R> normal;  ///< unit normal
   Vec3<R> point;   ///< a point of the surface
-  R offset;        ///< of the plane along the normal [m]
+  R offset;        ///< offset of the plane from the origin along the normal [m]
 };
 
-/// Paths longer than this share of the thickness are searched for their first hit.
+/// A path longer than this share of the thickness is searched for its first hit, unless stays_beyond excludes one.
 inline constexpr float share_of_short_path = 0.25f;
-/// A first hit is within this share of the thickness.
+/// The distance from the surface at which a path hits it, over the thickness.
 inline constexpr float share_of_first_hit = 0.5f;
 
 /// True if a path provably stays farther than `margin` from a convex shape, with more room than all roundings, so that
@@ -47,7 +47,7 @@ PLIANT_HD SurfacePlane<R> plane_at_end(const SurfaceDistance<R>& end, const Vec3
   return {end.normal, to - end.normal * end.distance, dot(end.normal, to) - end.distance + height};
 }
 
-/// The computed fields of a particle's contact.
+/// The fields of a particle's contact that its geometry and velocity determine.
 template <class R>
 struct PointContact {
   Vec3<R> normal;
@@ -62,7 +62,7 @@ PLIANT_HD PointContact<R> contact_at_plane(const SurfacePlane<R>& plane, const P
                                            bool moves, const Vec3<R>& position, const Vec3<R>& velocity, float inverse_h) {
   PointContact<R> out;
   out.normal = rotate(after.rotation, plane.normal);
-  // The plane in world coordinates, with the same point and the same offset from it.
+  // The plane in world coordinates: the same point, and the same height of the plane above it.
   const Vec3<R> point = to_world(after, plane.point);
   const R above = plane.offset - dot(plane.normal, plane.point), zero = R(0.f);
   out.gap = dot(out.normal, position - point) - above;
@@ -74,23 +74,23 @@ PLIANT_HD PointContact<R> contact_at_plane(const SurfacePlane<R>& plane, const P
 
 /// The particles of an object, a primitive collider, and what all their contacts have in common.
 struct PointContactQuery {
-  AdvanceArguments particles;  ///< with predicted displacements
+  AdvanceArguments particles;  ///< the particles, with their predicted displacements
   LocalShape shape;
-  Pose<float> before, after;  ///< of the collider at the substep's start and end
+  Pose<float> before, after;  ///< poses of the collider at the substep's start and end
   bool moves;                 ///< true if the poses differ
   int collider;               ///< index of the collider
-  float thickness;            ///< of both [m]
-  Vec3f gravity;              ///< added to a velocity: that before this substep's gravity [m/s]
+  float thickness;            ///< thickness of particles and collider together [m]
+  Vec3f gravity;              ///< to add to a velocity for that before this substep's gravity [m/s]
   float static_friction, kinetic_friction, restitution;
 };
 
-/// Of sixteen particles, by lane.
+/// The results for sixteen particles, one per lane.
 struct PointContactLanes {
   unsigned found = 0;    ///< bit l: particle l has a contact, which is complete
   unsigned unclear = 0;  ///< bit l: particle l is fast, so its path must be searched for the first hit
 };
 
-/// Writes the contacts of sixteen particles, contact l for particle l, those without one included.
+/// Writes sixteen contacts, of particle l into contact l. Contacts of particles that are not `found` are meaningless.
 using MakePointContacts = PointContactLanes (*)(const PointContactQuery& query, const std::int32_t* particles,
                                                 Contact* contacts);
 

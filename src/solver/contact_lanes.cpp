@@ -100,7 +100,7 @@ PLIANT_HD Pose<Wide> everywhere(const Pose<float>& p) {
   return {everywhere(p.position), {Wide(p.rotation.x), Wide(p.rotation.y), Wide(p.rotation.z), Wide(p.rotation.w)}};
 }
 
-/// Bit l: lane l is set.
+/// Converts a mask to bits: bit l is set if lane l is true.
 PLIANT_HD unsigned bits_of(const WideMask& mask) {
   std::int32_t set[16];
   std::memcpy(set, &mask, sizeof mask);
@@ -113,7 +113,7 @@ PLIANT_HD Vec3<Wide> vectors(const Record* base, const std::int32_t* index) {
   return from_registers(load_indexed(base, index)).position;
 }
 
-/// Writes the fields that all contacts of a query share, and their particles.
+/// Writes each contact's particle, and the fields that are equal in all contacts of a query.
 PLIANT_HD void write_shared(const PointContactQuery& q, const std::int32_t* particles, Contact* contacts) {
   for (int lane = 0; lane < 16; ++lane) {
     Contact& c = contacts[lane];

@@ -208,7 +208,7 @@ void sweep_type(const Pool& pool, const Segment& segment, float* multipliers, co
   }
 }
 
-/// The sweep of type T; null for types that are projected one at a time, whose pools never get here.
+/// The sweep of type T; null for types that are projected one at a time, because their pools are never swept in lanes.
 template <class T, bool general>
 constexpr auto sweep_of() -> void (*)(const Pool&, const Segment&, float*, const SweepArguments&) {
   if constexpr (in_lanes<T>)

@@ -16,7 +16,7 @@ using Triangle = std::array<int, 3>;
 /// An edge with its first two triangles, ascending. Missing entries are -1.
 struct Edge {
   int a = 0, b = 0;        ///< vertices of the edge, a < b
-  int triangle_count = 0;  ///< 1 at a border, 2 inside, more at a non-manifold edge
+  int triangle_count = 0;  ///< number of triangles: 1 at a border, 2 inside, more at a non-manifold edge
   std::array<int, 2> triangles{-1, -1};
   std::array<int, 2> opposites{-1, -1};       ///< the corner opposite the edge in each of `triangles`
   std::array<bool, 2> forward{false, false};  ///< true if the triangle traverses the edge from a to b

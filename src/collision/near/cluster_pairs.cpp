@@ -14,7 +14,7 @@ namespace {
 /// rebuilds.
 constexpr float travel_over_radius = 2;
 
-/// Two places in an order of clusters.
+/// Two positions in an order of clusters.
 using Places = std::array<int, 2>;
 
 /// Sorts pairs of places below `places`, and drops duplicates. Two stable counting sorts are faster than a comparison sort.
@@ -151,7 +151,7 @@ PairsOfClusters ClusterPairs::by_cluster(const std::vector<int>& among) const {
       if (a != b) visit(b, a, number);
     }
   };
-  // An entry's place in its cluster's range: those with earlier clusters come from earlier pairs.
+  // next[c + 1]: the next entry of cluster c. Pairs are visited in sorted order, which sorts each cluster's entries.
   std::vector<int> next(boxes_.size() + 2, 0);
   for_each([&](int of, int, int) { ++next[static_cast<std::size_t>(of) + 2]; });
   std::partial_sum(next.begin(), next.end(), next.begin());
@@ -163,8 +163,8 @@ PairsOfClusters ClusterPairs::by_cluster(const std::vector<int>& among) const {
   return out;
 }
 
-/// The index of each group's pair after find(). Groups of a kind are in the order of the entries, so each search goes on
-/// where the last one ended.
+/// The index of each group's pair after find(). Groups of one kind come in the order of the entries, so each search
+/// continues where the previous one ended.
 std::vector<int> ClusterPairs::numbers_of(const std::vector<StaticGroup>& groups) const {
   const PairsOfClusters pairs = by_cluster(numbers());
   std::vector<int> out;

@@ -23,13 +23,13 @@ struct ClusterPair {
   void measure(const ClusterMotions& motions);
 };
 
-/// The pairs of each cluster, by the other cluster. Clusters are given by their places in PairModel::cluster_order.
+/// For each cluster, its pairs in the order of the other cluster. Clusters are given by position in cluster_order.
 struct PairsOfClusters {
   struct Entry {
     int other;  ///< position of the other cluster in cluster_order
     int pair;
   };
-  std::vector<int> start;  ///< of each cluster's entries
+  std::vector<int> start;  ///< for each cluster, the index of its first entry
   std::vector<Entry> entries;
 };
 
@@ -57,7 +57,7 @@ class ClusterPairs {
   const ClusterPair& operator[](int number) const { return pairs_[static_cast<std::size_t>(number)]; }
   /// Returns the index of a group's pair; `among` lists indices of pairs, sorted by their clusters.
   int number_of(const StaticGroup& group, const std::vector<int>& among) const;
-  /// Sorts pairs, given by indices that are sorted by clusters, under both of their clusters.
+  /// Lists each pair at both of its clusters. `among`: indices of pairs, sorted by their clusters.
   PairsOfClusters by_cluster(const std::vector<int>& among) const;
   /// The indices of all pairs; call it after find() only.
   std::vector<int> numbers() const;

@@ -19,7 +19,7 @@ namespace pliant {
 struct ClusterSides {
   int first = 0, second = 0;
   bool of_vertices = false;
-  int pair = -1;  ///< index of their ClusterPair
+  int pair = -1;  ///< index of the ClusterPair of the two clusters
 };
 
 /// The static pairs of two clusters and of one kind.

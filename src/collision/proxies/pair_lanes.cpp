@@ -342,10 +342,10 @@ PLIANT_HD unsigned overlaps(const float* box, const BoxRows& boxes, int at) {
 #endif
 }
 
-/// Writes the hits of a row and sixteen columns from `first` on, and returns their number. `hits` has room for sixteen.
+/// Writes the hits of a row in the sixteen columns from `first` on, and returns their number. `hits` has room for sixteen.
 PLIANT_HD int write_hits(std::int32_t row, std::int32_t first, unsigned bits, BoxHit* hits) {
 #if PLIANT_X86_BITS == 512
-  // How many there are is unpredictable, so all sixteen places are written.
+  // The number of hits is unpredictable, so all sixteen entries are written.
   const __m512i lane = _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0),
                 column = _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits),
                                                      _mm512_add_epi32(lane, _mm512_set1_epi32(first))),

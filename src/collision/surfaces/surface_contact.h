@@ -2,7 +2,7 @@
 //
 //   near      which pairs of primitives are near one another         (near/near_lists.h)
 //   narrow    which of them become contacts in this substep          (narrow/contact_detector.h)
-//   filter    truncates steps so that no pair crosses                (filter/step_filter.h)
+//   filter    truncates steps that would make a pair cross           (filter/step_filter.h)
 //   untangle  initially intersecting pairs: exempt, and moved apart  (untangle/)
 //
 // A substep's result depends on positions and displacements alone. Lists and bounds only save work, so a restored State
@@ -36,8 +36,8 @@ class SurfaceContact {
   /// `kernels` must be of an instruction set level that this machine runs; all give the same bits.
   explicit SurfaceContact(const PairModel& model, const PairKernels& kernels = pair_kernels_generic());
 
-  /// Applies the changes of update_pair_model between frames; not with untangling, which needs a new SurfaceContact.
-  /// What was found about other bodies is kept.
+  /// Applies the changes of update_pair_model between frames, and keeps what was found about other bodies. Not for
+  /// models with untangling, which need a new SurfaceContact.
   void change(const PairChanges& changes);
 
   /// Call it at a frame's start: resets counts and updates the initially intersecting pairs. If `rebuild`, all pairs
@@ -49,7 +49,7 @@ class SurfaceContact {
   /// True if a kinematic collider moves into vertices that contacts have not yet moved out of its way, so that the
   /// filter may fail. Then project the contacts again, which propagates the push.
   bool is_overrun(const PairParticles& particles) const;
-  /// Truncates displacements so that no surface crosses another.
+  /// Truncates displacements that would make surfaces cross.
   void filter(Executor& executor, const PairParticles& particles);
   /// Measures the remaining penetration of contacts; call it after a frame's last substep.
   void measure_overlaps(const PairParticles& particles);

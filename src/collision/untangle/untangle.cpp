@@ -180,8 +180,8 @@ struct Depth {
   float way;
 };
 
-/// The distance along a unit direction to the outside of a closed surface, at most `most` [m]. Steps are closest
-/// distances.
+/// The distance along a unit direction to the outside of a closed surface, at most `most` [m]. Each step is the
+/// distance to the closest surface point, but not less than `least`.
 float way_out(const MeshQuery& query, const Vec3f& from, const Vec3f& direction, float most) {
   const float least = 0.01f * most;
   float way = 0;

@@ -56,7 +56,7 @@ class Untangler {
   struct Push {
     int vertex;
     Vec3f direction;
-    float remaining;  ///< distance still to go [m]
+    float remaining;  ///< distance that the vertex still has to move [m]
   };
   /// A vertex that moves back through a part, unless the trial shows that this creates more intersections.
   struct Candidate {

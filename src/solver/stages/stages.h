@@ -24,7 +24,7 @@ void collide(Substep& s);
 /// Projects all constraints and contacts, iteration by iteration.
 void solve(Substep& s);
 
-/// Truncates steps so that no surface crosses another.
+/// Truncates displacements that would make surfaces cross.
 void filter(Substep& s);
 
 /// Updates velocities by the corrections, x += displacement, and applies restitution at colliders. Returns false if a

@@ -43,7 +43,7 @@ struct ChebyshevRecurrence {
   double plain_norm = 0;                         ///< norm of the substep's first correction
   double first_norm = 0;                         ///< norm when acceleration began
   double start_norm = 0, last_norm = 0;          ///< norm when the recurrence was (re)started; last norm
-  bool given_up = false;                         ///< the rest of the substep is plain: diverged, or at rounding error
+  bool given_up = false;  ///< true: the rest of the substep has plain sweeps, after divergence or at rounding error
 };
 
 /// The last two iterates of a sweep group, and its recurrence.

@@ -20,11 +20,11 @@ namespace pliant {
 /// The data of one object in the multigrid correction.
 struct MultigridObject {
   std::vector<MultigridValues> levels;
-  Records direction, change;    ///< conjugate gradients: search direction p, solution x
+  Records direction, change;    ///< conjugate gradients: search direction p and solution x
   AlignedVector<float> extra;   ///< matrix terms of contacts: nine rows of sixteen per batch; empty before the first
   std::vector<char> has_extra;  ///< for each batch, 1 if one of its rows has contacts
   std::vector<double> sums;     ///< partial sums of reductions, one for each task
-  /// A connected piece: its stiffness against pins and contacts (xx yy zz xy xz yz) [N/m], and the residual force [N].
+  /// A connected component: its stiffness against pins and contacts (xx yy zz xy xz yz) [N/m], and its residual force [N].
   struct Piece {
     double held[6], force[3];
   };

@@ -25,7 +25,7 @@ struct MultigridValues {
 struct LinearisedAt {
   const Record* positions = nullptr;      ///< positions at the substep's start; w is the inverse mass
   const Record* displacements = nullptr;  ///< displacements predicted by inertia alone
-  float inverse_h2 = 0;                   ///< [1/s^2]
+  float inverse_h2 = 0;                   ///< 1 / h^2, h being the substep [1/s^2]
   const float* extra = nullptr;           ///< matrix terms of contacts: stiffness and force, nine rows of sixteen per batch
   const char* has_extra = nullptr;        ///< for each batch, 1 if it has contacts
 };
