@@ -101,7 +101,7 @@ Contents::Contents(std::string path, Content expected) : path_(std::move(path)) 
   bytes_ = read_file_bytes(path_, header_size, AtMost::first_bytes);
   check_header(expected);
   std::error_code unknown;
-  check_size(std::filesystem::file_size(path_, unknown));  // before memory is allocated for the whole file
+  check_size(std::filesystem::file_size(path_, unknown));  // check the size before memory is allocated for the whole file
   bytes_ = read_file_bytes(path_, largest_save);
   check_header(expected);  // again, because the file may have been replaced meanwhile
   check_size(bytes_.size());

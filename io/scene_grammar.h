@@ -21,7 +21,7 @@ struct Type {
   std::string unit;                  ///< unit of a number or vector; "-" for a ratio
   std::vector<std::string> choices;  ///< allowed words of a choice
   std::vector<std::string> (*choices_now)() =
-      nullptr;                     ///< of a choice that can grow at run time, read at each use instead of `choices`
+      nullptr;  ///< returns the words of a choice that can grow at run time; read at each use instead of `choices`
   std::string choices_documented;  ///< replaces, in the reference, a list of words that can grow
   bool single_line = true;         ///< true: a string may have no control characters
   std::size_t minimum_items = 0;   ///< smallest number of items of a list

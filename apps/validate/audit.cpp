@@ -87,7 +87,7 @@ class Links {
   double least() const { return least_; }
 
  private:
-  static constexpr double reach = 0.01;  // [m]
+  static constexpr double reach = 0.01;  // distances up to this one are measured [m]
   std::vector<Vec3f> from_;
   std::vector<Box> paths_;
   double least_ = 0;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double g = 9.81;
 constexpr double density = 0.5,
-                 membrane = 25;  // [kg/m^2] and [N/m]; the sheet stretches by about a tenth under its own weight
+                 membrane = 25;  // units [kg/m^2] and [N/m]; the sheet stretches by about a tenth under its own weight
 
 struct Run {
   int side = 9, substeps = 20, iterations = 2;

@@ -18,7 +18,7 @@ struct Stiffness {
   Kind kind = Kind::compliance;
   float value = 0;  ///< compliance alpha >= 0, or k in [0, 1]
   float damping =
-      0;  ///< with compliance: damping coefficient beta >= 0 in N s/m (the type's own unit), eq. 26 of the paper
+      0;  ///< damping coefficient beta >= 0 of a compliance, in N s/m (the type's own unit), eq. 26 of the paper
 
   static Stiffness rigid() { return {}; }
   static Stiffness compliance(float alpha, float beta = 0) { return {Kind::compliance, alpha, beta}; }

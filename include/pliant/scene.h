@@ -134,7 +134,7 @@ struct RopeOptions {
   std::string name = "rope";
   float linear_density = 0.05f;  ///< mass per length [kg/m]
   Stiffness stretch{};
-  Stiffness bending = Stiffness::compliance(1);  ///< for the distance of particles two links apart; used if `bends` is set
+  Stiffness bending = Stiffness::compliance(1);  ///< stiffness between particles two links apart; used if `bends` is set
   bool bends = false;
   float thickness = 0.005f;  ///< radius [m]; two ropes keep the sum of their radii
 };
@@ -147,13 +147,13 @@ Object make_rope(const std::vector<Vec3f>& points, const RopeOptions& options = 
 struct Plane {};  ///< solid is the half-space y <= 0 of the collider's frame
 struct Sphere {
   float radius = 0.5f;
-};  ///< [m]
+};  ///< a solid ball of this radius [m]
 struct Capsule {
   float radius = 0.25f, half_length = 0.5f;
 };  ///< a solid capsule along the y-axis of its frame; half_length excludes the caps [m]
 struct Box {
   Vec3f half_extents{0.5f, 0.5f, 0.5f};
-};  ///< [m]
+};  ///< a solid box; half_extents are half its edge lengths [m]
 using Shape = std::variant<Plane, Sphere, Capsule, Box>;
 
 /// A static solid, or a kinematic one that follows keyframes or is moved by the user.
@@ -201,7 +201,7 @@ struct MeshCollider {
   bool repeat_frames = false;     ///< true: restart at the first frame after the last
   As as = As::triangles;
   float grid_spacing = 0;                        ///< spacing of a distance grid [m]; 0: a 48th of the longest side
-  std::shared_ptr<const DistanceField> field{};  ///< for a distance grid; null: measured when a World is made
+  std::shared_ptr<const DistanceField> field{};  ///< the field of a distance grid; null: measured when a World is made
   float thickness = 0;                           ///< distance that it adds to the thickness of objects [m]
   float static_friction = 0.4f;                  ///< a contact uses the geometric mean of both sides
   float kinetic_friction = 0.3f;

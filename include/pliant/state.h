@@ -71,7 +71,7 @@ struct HeldPose {
 /// The orientations in a State: three arrays with one record per frame.
 struct FrameRecords {
   Records orientations;        ///< unit quaternion from the frame's principal axes to the world
-  Records angular_velocities;  ///< in the frame's principal axes [rad/s]; w is zero
+  Records angular_velocities;  ///< angular velocities in the frames' principal axes [rad/s]; w is zero
   Records inverse_inertias;    ///< about the frame's principal axes [1/(kg m^2)]; w is zero; constant
 
   std::size_t size() const { return orientations.size(); }

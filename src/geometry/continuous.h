@@ -24,7 +24,7 @@ template <class R>
 struct Impact {
   bool hit = false;
   R time{};           ///< share of the motion, 0..1: at or before the true time; 0 if they start within the thickness
-  Vec3<R> normal{};   ///< unit, from the second primitive to the first at `time`; zero if they start with a common point
+  Vec3<R> normal{};   ///< unit normal, from the second primitive to the first at `time`; zero if their points coincide
   R gap{};            ///< distance along the normal at `time` [m]: about the thickness, or less if they start within it
   bool front = true;  ///< vertex-triangle: true if the vertex is on the side of the triangle's normal
 };

@@ -17,7 +17,7 @@ std::vector<Residual> measure_residuals(const Model& model, const State& state, 
 /// The results of measure_lengths, with its scratch memory, which is kept so that only the first frame allocates.
 struct Lengths {
   Stretch stretch;          ///< stretch of all distance constraints with a rest length
-  Overstretch overstretch;  ///< of those without PBD stiffness; uses multipliers and h as measure_residuals
+  Overstretch overstretch;  ///< excess stretch of those without PBD stiffness; uses multipliers and h as measure_residuals
   std::vector<float> ratios, excesses;
 };
 

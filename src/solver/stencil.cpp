@@ -35,7 +35,7 @@ struct SlotMass {
 struct Work {
   StencilArrays<float> arrays;
   SlotMass mass[most_slots];
-  Vec3f motion[most_slots];                        ///< since the substep's start: displacement [m] or rotation [rad]
+  Vec3f motion[most_slots];  ///< of each slot since the substep's start: displacement [m] or rotation [rad]
   float matrix[most_components][most_components];  ///< A, then its factors: D on the diagonal, L below it
   float change[most_components];                   ///< right-hand side, then dlambda
 };

@@ -29,7 +29,7 @@ struct alignas(64) TileScratch {
 
 /// For how long gravity of this frame has acted on an object's particles, reduced by damping [s].
 struct FrameGravity {
-  double finished = 0, begun = 0, settled = 0;  ///< in the ending substep; in the starting one; already in velocities
+  double finished = 0, begun = 0, settled = 0;  ///< time in the ending substep; in the starting one; already in velocities
   float kept = 1;                               ///< factor by which damping reduces a velocity in a substep
 
   void next(float h) {

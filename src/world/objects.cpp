@@ -386,7 +386,7 @@ void World::remove(ColliderId collider) {
   self_->collider_ids.close_gap(number);
   self_->model.colliders.erase(self_->model.colliders.begin() + number);
   self_->prepare_shape_contacts();
-  std::map<int, PoseDrive> drives;  // with the new numbers: a removal decreases larger ones by one
+  std::map<int, PoseDrive> drives;  // by new numbers: a removal decreases larger ones by one
   for (const auto& [other, drive] : self_->workspace.control.colliders)
     if (other != number) drives.emplace(other > number ? other - 1 : other, drive);
   self_->workspace.control.colliders = std::move(drives);

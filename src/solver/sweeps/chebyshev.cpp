@@ -186,7 +186,7 @@ double correction_norm(Substep& s) {
                                 tile.first_particle, tile.last_particle);
   });
   double sum = 0;
-  for (double tile : c.tile_sums) sum += tile;  // in the order of tiles, independent of threads
+  for (double tile : c.tile_sums) sum += tile;  // sum in the order of tiles, so that it does not depend on threads
   return std::sqrt(sum);
 }
 

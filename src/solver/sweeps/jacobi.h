@@ -19,13 +19,13 @@ struct JacobiObject {
   Incidence incidence;
   Records corrections;                       ///< corrections of all slots of all constraints, in the order of pools
   std::vector<Record*> correction_pointers;  ///< start of each pool's corrections
-  std::vector<AlignedVector<float>> shares;  ///< from averaging_shares, for each pool; empty if masses are split
+  std::vector<AlignedVector<float>> shares;  ///< averaging_shares of each pool; empty if masses are split
   std::vector<const float*> share_pointers;
-  Records positions;  ///< with w multiplied by the number of constraints; empty if corrections are averaged
+  Records positions;  ///< positions with w multiplied by the number of constraints; empty if corrections are averaged
 };
 
 struct JacobiScratch : SweepScratch {
-  std::vector<JacobiObject> objects;  ///< for each object; empty for objects of other groups
+  std::vector<JacobiObject> objects;  ///< data of each object; empty for objects of other groups
 
   void prepare(const SweepSetup& setup, int object) override;
 };

@@ -15,7 +15,7 @@ inline constexpr int spring_floats = 4 * batch_width;
 
 /// Matrix and vectors of a level in one solve. Records are padded to whole batches plus one zero record; their w is zero.
 struct MultigridValues {
-  AlignedVector<float> blocks;  ///< of slots: negative off-diagonal blocks of all rows, spring_floats or block_floats each
+  AlignedVector<float> blocks;    ///< negative off-diagonal blocks of all rows by slot: spring_floats or block_floats each
   AlignedVector<float> diagonal;  ///< diagonal blocks of each batch without neighbours' part: inertia, contacts, anchors
   AlignedVector<float> inverse;   ///< damped inverses of each batch's diagonal blocks, zero for fixed rows
   Records right, x, y;            ///< right-hand side, solution, scratch
