@@ -187,7 +187,7 @@ std::vector<bool> merge_vertices(Work& work, const std::vector<int>& connected, 
   std::vector<bool> emptied(merged.size(), false);
   const auto stays = [&, i = 0](int to) mutable { return to == i++; };
   if (std::all_of(merged.begin(), merged.end(), stays))
-    return emptied;  // nothing to merge, the usual case; the rest is slow
+    return emptied;  // no two vertices coincide, as in most meshes: skips the slow merging below
   for (Triangle& t : mesh.triangles) t = {connected[index(t[0])], connected[index(t[1])], connected[index(t[2])]};
   const std::vector<bool> branching =
       is_soup ? std::vector<bool>(merged.size(), false) : find_branching(mesh.triangles, merged);

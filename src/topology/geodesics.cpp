@@ -17,7 +17,7 @@ struct Neighbour {
 
 /// A triangle at one of its vertices.
 struct Corner {
-  int next, last;                   ///< other two vertices
+  int next, last;                   ///< the triangle's other two vertices
   double to_next, to_last, across;  ///< distances from the vertex to the other two, and between those
 };
 
