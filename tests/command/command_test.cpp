@@ -354,7 +354,8 @@ TEST_F(Command, CheckRunsASceneAndNamesWhatWouldMendIt) {
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.out.find("doubtful: in frame "), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("object 'sheet': stretched "), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find(" it under 1 %; the present settings take "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(" the excess stretch to less than 1 %; the present settings take "), std::string::npos)
+      << result.out;
   EXPECT_EQ(result.out.find("--seconds"), std::string::npos) << "there was time enough";
   EXPECT_EQ(pliant("check sagging.json --seconds 0").out.find("stretched"), std::string::npos) << "not run at all";
 
