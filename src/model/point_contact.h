@@ -27,7 +27,7 @@ inline constexpr float share_of_short_path = 0.25f;
 /// The distance from the surface at which a path hits it, over the thickness.
 inline constexpr float share_of_first_hit = 0.5f;
 
-/// True if a path provably stays farther than `margin` from a convex shape, with more room than all roundings, so that
+/// True if a path longer than 1e-18 m stays farther than `margin` from a convex shape, with room for all roundings, so that
 /// first_hit finds nothing: the distance nowhere falls below that of the tangent plane at the path's end.
 template <class R>
 PLIANT_HD auto stays_beyond(const R& margin, const SurfaceDistance<R>& end, const Vec3<R>& to, const Vec3<R>& path) {

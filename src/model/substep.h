@@ -49,8 +49,8 @@ struct AdvanceArguments {
   float h = 0, inverse_h = 0;
   float velocity_kept = 1;   ///< factor by which damping reduces the velocity in a substep
   Vec3f gravity_step{};      ///< h times gravity [m/s]
-  Vec3f gravity_finished{};  ///< this frame's gravity to add to velocities in the ending substep [m/s]
-  Vec3f gravity_begun{};     ///< this frame's gravity to add to velocities in the starting substep [m/s]
+  Vec3f gravity_finished{};  ///< this frame's gravity that velocities lack in the substep that ends [m/s]
+  Vec3f gravity_begun{};     ///< this frame's gravity that velocities lack in the substep that starts [m/s]
   Vec3f gravity_settled{};   ///< gravity that the update adds permanently to velocities [m/s]
 };
 

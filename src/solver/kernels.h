@@ -19,7 +19,7 @@ inline constexpr int correction_place(int lane) { return 4 * (lane % 4) + lane /
 struct ChainKernels;      // solver/sweeps/chain_kernels.h
 struct MultigridKernels;  // solver/sweeps/multigrid_kernels.h
 struct ContactKernels;    // solver/contact_kernels.h
-struct PairKernels;       // collision/pair_kernels.h
+struct PairKernels;       // collision/proxies/pair_kernels.h
 
 struct StepKernels {
   /// Projects every constraint of the segments, segment by segment.

@@ -6,7 +6,7 @@ namespace pliant {
 
 namespace {
 
-/// Rounds that truncate steps to the permitted share; in later rounds those vertices stay at their start.
+/// In these first rounds a vertex keeps the share of its step that a pair permits; in later ones it stays at its start.
 constexpr int rounds_of_shares = 3;
 
 bool moves_at_all(const Record& d) { return d.x != 0 || d.y != 0 || d.z != 0; }

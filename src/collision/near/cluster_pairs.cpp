@@ -176,7 +176,7 @@ std::vector<int> ClusterPairs::numbers_of(const std::vector<StaticGroup>& groups
     if (group.first != first || second < at->other)
       at = &pairs.entries[static_cast<std::size_t>(pairs.start[rank_[group.first]])];
     first = group.first;
-    while (at->other != second) ++at;
+    while (at->other != second) ++at;  // finds it: the list has the pairs of all static groups
     out.push_back(at->pair);
   }
   return out;

@@ -107,7 +107,7 @@ struct PairKernels {
   /// Swept boxes of primitives `first` to `last` - 1, both multiples of sixteen, relative to a frame moving by `drift`.
   void (*fit_boxes)(const ElementCorners& elements, int first, int last, const PairParticles& particles, const Vec3f& drift,
                     const BoxRows& out);
-  /// Writes all pairs of overlapping rows and columns to `hits`, which has room for all, ascending. Returns their number.
+  /// Writes all pairs of overlapping rows and columns to `hits`, ascending; returns their number. Room: 256 a batch of rows.
   int (*find_overlaps)(const BoxComparison& boxes, BoxHit* hits);
   /// Writes to `near` the ascending indices i with reach[i] - gone <= within; `near` has room for all. Lowers `least`
   /// to the smallest reach of all other indices. Returns the number of indices written.
