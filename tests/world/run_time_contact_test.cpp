@@ -1,5 +1,5 @@
 // Tests contact between surfaces while objects are added and removed: a World that updates its contact must give the
-// same bits as one that makes it anew.
+// same bits as one that makes it from the start.
 #include <gtest/gtest.h>
 
 #include <map>

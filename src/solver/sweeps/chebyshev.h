@@ -5,7 +5,7 @@
 // G is one iteration of the sweep, rho its spectral radius. x consists of displacements and multipliers, whose linear
 // relation must persist. The first iterations of a substep are plain, that is, not extrapolated.
 //
-// rho is estimated anew in each substep, so that the State needs no additional data. The ratio of the last two
+// rho is estimated again in each substep, so that the State needs no additional data. The ratio of the last two
 // corrections |G(x) - x| of plain iterations (in the mass norm) is a lower bound. That is safe: an overestimate of rho
 // costs far more. n steps should reduce corrections by T_n(1 / rho). If they are e times larger, an eigenvalue lambda
 // lies above rho, with T_n(lambda / rho) >= e. Then the recurrence restarts with that lambda, still a lower bound
