@@ -141,6 +141,14 @@ PLIANT_HD Wide operator-(const Wide& a) {
 PLIANT_HD Wide& operator+=(Wide& a, const Wide& b) { return a = a + b; }
 PLIANT_HD Wide& operator-=(Wide& a, const Wide& b) { return a = a - b; }
 
+/// True if any lane is set.
+PLIANT_HD bool any(const WideMask& mask) {
+  std::uint64_t bits[sizeof(WideMask) / 8], all = 0;
+  std::memcpy(bits, &mask, sizeof bits);
+  for (const std::uint64_t some : bits) all |= some;
+  return all != 0;
+}
+
 /// In each lane: a where the mask is set, else b.
 PLIANT_HD Wide select(const WideMask& mask, const Wide& a, const Wide& b) {
   Wide r;

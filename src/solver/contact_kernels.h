@@ -2,9 +2,9 @@
 // between points, and the contacts of points with primitive colliders.
 #pragma once
 
+#include "collision/narrow/point_contact.h"
 #include "constraints/contact.h"
 #include "math/levels.h"
-#include "model/point_contact.h"
 #include "model/pool.h"
 
 namespace pliant {

@@ -51,13 +51,6 @@ PLIANT_HD void store_masked(Record* base, const std::int32_t* index, const Regis
     if (set[lane] != 0) base[index[lane]] = records[lane % 4][lane / 4];
 }
 
-PLIANT_HD bool any(const WideMask& mask) {
-  std::int32_t set[16], sum = 0;
-  std::memcpy(set, &mask, sizeof mask);
-  for (const std::int32_t lane : set) sum |= lane;
-  return sum != 0;
-}
-
 /// Projects the contacts number[0] to number[lanes - 1]. All sixteen entries of `number` must be valid indices.
 PLIANT_HD void project_batch(Contact* contacts, const std::int32_t* number, int lanes, Record* displacements) {
   std::int32_t index[16];

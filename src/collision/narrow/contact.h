@@ -9,11 +9,11 @@
 
 #include "collision/fields/collider_pose.h"
 #include "collision/fields/solid_field.h"
+#include "collision/narrow/point_contact.h"
 #include "constraints/contact.h"
 #include "geometry/shapes.h"
 #include "model/control.h"
 #include "model/model.h"
-#include "model/point_contact.h"
 #include "model/substep.h"
 
 namespace pliant {

@@ -141,13 +141,6 @@ struct WideAnchors {
   }
 };
 
-PLIANT_HD bool any(const WideMask& mask) {
-  std::uint64_t bits[sizeof(WideMask) / 8], all = 0;
-  std::memcpy(bits, &mask, sizeof bits);
-  for (const std::uint64_t some : bits) all |= some;
-  return all != 0;
-}
-
 PLIANT_HD void hold_batch(const Tethers& tethers, int batch, const Record* anchors, const SweepArguments& a) {
   const int first = batch * batch_width;
   const std::int32_t runs[4] = {first, first + 4, first + 8, first + 12};
