@@ -23,13 +23,13 @@ using namespace save_file;
 constexpr std::string_view time_block = "state.time", frame_block = "state.frame", blocks_block = "state.blocks",
                            positions_block = "state.positions", remainders_block = "state.remainders",
                            velocities_block = "state.velocities";
-/// Names of blocks that a saved State has only if it has frames, channels or held poses.
+/// Names of blocks that a saved State has only if it has frames, channels, held poses or substeps.
 constexpr std::string_view orientations_block = "state.orientations", spins_block = "state.angular_velocities",
                            inertias_block = "state.inverse_inertias", channels_block = "state.channels",
-                           poses_block = "state.held_poses";
+                           poses_block = "state.held_poses", substeps_block = "state.substeps";
 const std::vector<std::string_view> state_blocks{time_block,       frame_block,      blocks_block,       positions_block,
                                                  remainders_block, velocities_block, orientations_block, spins_block,
-                                                 inertias_block,   channels_block,   poses_block};
+                                                 inertias_block,   channels_block,   poses_block,        substeps_block};
 constexpr std::string_view fingerprint_blocks[] = {"fingerprint.scene", "fingerprint.settings"};
 constexpr std::string_view scene_block = "scene", settings_block = "settings", layout_block = "layout";
 
@@ -60,7 +60,8 @@ struct Columns {
 /// The blocks of a State; `columns` has memory for some. A new member of State is a compile error here until it is
 /// written.
 std::vector<Block> blocks_of(const State& state, Columns& columns) {
-  const auto& [time, frame, object_blocks, positions, remainders, velocities, frames, channels, held_poses] = state;
+  const auto& [time, frame, object_blocks, positions, remainders, velocities, frames, channels, held_poses, substeps] =
+      state;
   const auto bytes = [](std::string_view name, const std::string& column) {
     return Block{name, Type::bytes, 1, column.size(), column.data()};
   };
@@ -82,6 +83,7 @@ std::vector<Block> blocks_of(const State& state, Columns& columns) {
   }
   if (!channels.empty()) blocks.push_back(bytes(channels_block, columns.channels));
   if (!held_poses.empty()) blocks.push_back(bytes(poses_block, columns.held_poses));
+  if (!substeps.empty()) blocks.push_back({substeps_block, Type::float32, sizeof(float), substeps.size(), substeps.data()});
   return blocks;
 }
 
@@ -89,6 +91,12 @@ void read(const Contents& from, std::string_view name, Records& column) {
   const Block& block = from.block(name, Type::record, sizeof(Record));
   column.resize(block.count);
   if (block.count > 0) std::memcpy(column.data(), block.data, block.count * sizeof(Record));
+}
+
+void read(const Contents& from, std::string_view name, std::vector<float>& column) {
+  const Block& block = from.block(name, Type::float32, sizeof(float));
+  column.resize(block.count);
+  if (block.count > 0) std::memcpy(column.data(), block.data, block.count * sizeof(float));
 }
 
 template <class T>
@@ -101,7 +109,7 @@ void read(const Contents& from, std::string_view name, Type type, T& value) {
 
 State state_in(const Contents& from) {
   State state;
-  auto& [time, frame, blocks, positions, remainders, velocities, frames, channels, held_poses] = state;
+  auto& [time, frame, blocks, positions, remainders, velocities, frames, channels, held_poses, substeps] = state;
   read(from, time_block, Type::float64, time);
   read(from, frame_block, Type::int64, frame);
   blocks = read_bytes<std::vector<StateBlock>>(from, blocks_block);
@@ -117,6 +125,7 @@ State state_in(const Contents& from) {
   }
   if (from.has(channels_block)) channels = read_bytes<std::vector<Channel>>(from, channels_block);
   if (from.has(poses_block)) held_poses = read_bytes<std::vector<HeldPose>>(from, poses_block);
+  if (from.has(substeps_block)) read(from, substeps_block, substeps);
   return state;
 }
 

@@ -150,17 +150,17 @@ void fields(A& a, Is<Wind> auto& of) {
 template <class A>
 void fields(A& a, Is<SweepOptions> auto& of) {
   auto& [relaxation, sharing, acceleration, plain_iterations, spectral_radius, tethers, tether_slack, chain_softness,
-         multigrid_cycles] = of;
+         most_overstretch, multigrid_cycles] = of;
   a(relaxation, sharing, acceleration, plain_iterations, spectral_radius, tethers, tether_slack, chain_softness,
-    multigrid_cycles);
+    most_overstretch, multigrid_cycles);
 }
 template <class A>
 void fields(A& a, Is<Settings> auto& of) {
-  auto& [substeps, iterations, tolerance, threads, sweep, sweep_options, contact_filter, most_substeps,
+  auto& [substeps, iterations, tolerance, threads, sweep, sweep_options, contact_filter, most_substeps, least_substeps,
          initial_intersections, untangling_speed, separate_phases, measure, record_residuals, record_multipliers, isa] = of;
   a(substeps, iterations, tolerance);
   a.aside(threads);
-  a(sweep, sweep_options, contact_filter, most_substeps, initial_intersections, untangling_speed);
+  a(sweep, sweep_options, contact_filter, most_substeps, least_substeps, initial_intersections, untangling_speed);
   a.aside(separate_phases, measure, record_residuals, record_multipliers, isa);
 }
 /// Force fields are functions, so only their number is stored, by the caller of `fields`. Settings have a block of
@@ -177,7 +177,7 @@ void fields(A& a, Is<Scene> auto& of) {
 /// The last value of an enumeration, so that a reader can reject larger ones.
 constexpr int last_value(Stiffness::Kind) { return static_cast<int>(Stiffness::Kind::pbd); }
 constexpr int last_value(MeshCollider::As) { return static_cast<int>(MeshCollider::As::heightfield); }
-constexpr int last_value(Sweep) { return static_cast<int>(Sweep::multigrid); }
+constexpr int last_value(Sweep) { return static_cast<int>(Sweep::tethered_chains); }
 constexpr int last_value(SweepOptions::Sharing) { return static_cast<int>(SweepOptions::Sharing::average); }
 constexpr int last_value(SweepOptions::Acceleration) { return static_cast<int>(SweepOptions::Acceleration::chebyshev); }
 constexpr int last_value(Settings::Intersections) { return static_cast<int>(Settings::Intersections::refuse); }

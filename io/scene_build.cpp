@@ -31,6 +31,7 @@ SweepOptions sweep_options_of(const JsonValue& at) {
   set(at, "tethers", options.tethers);
   set(at, "tether_slack", options.tether_slack);
   set(at, "chain_softness", options.chain_softness);
+  set(at, "most_overstretch", options.most_overstretch);
   set(at, "multigrid_cycles", options.multigrid_cycles);
   return options;
 }
@@ -42,6 +43,7 @@ Settings settings_of(const JsonValue& at) {
   set(at, "threads", settings.threads);
   set(at, "contact_filter", settings.contact_filter);
   set(at, "most_substeps", settings.most_substeps);
+  set(at, "least_substeps", settings.least_substeps);
   set(at, "untangling_speed", settings.untangling_speed);
   std::string intersections;
   set(at, "initial_intersections", intersections);

@@ -229,6 +229,8 @@ const Record& sweep_options_record() {
              "Share by which tether lengths may be exceeded, for cloth that is meant to stretch."),
        field("chain_softness", number("-", 0, 1000), SweepOptions{}.chain_softness,
              "For `chains`: regularises straight rows between two pins; a link stretches by about this times g h^2."),
+       field("most_overstretch", number("-", 0, 1000), SweepOptions{}.most_overstretch,
+             "For `chains`: the greatest share by which a distance may stay longer than its force explains; 0: no limit."),
        field("multigrid_cycles", integer(1, 100), SweepOptions{}.multigrid_cycles,
              "For `multigrid`: W-cycles per substep, each a conjugate gradient step.")},
       {}};
@@ -248,17 +250,21 @@ const Record& settings_record() {
              "A substep ends its iterations when the root mean square error of its distance constraints falls below this; "
              "0: never."),
        field("threads", integer(0, 1024), Settings{}.threads, "Number of threads; 0: all hardware threads."),
-       field("sweep", choice(sweep_names()), "automatic",
-             "The method that projects constraints (docs/internals/convergence.md), unless an object has its own. "
-             "`automatic` chooses for each object: `multigrid` for cloth and rope of 32 particles or more, but `tiled` for "
-             "volumes, stiff sheets, PBD stiffness, several iterations, or a surface that can touch others or itself. "
-             "`sequential` is the slow scalar reference with the bits of `tiled`."),
+       field(
+           "sweep", choice(sweep_names()), "automatic",
+           "The method that projects constraints (docs/internals/convergence.md), unless an object has its own. "
+           "`automatic` chooses for each object: `chains` for cloth and rope of 32 particles or more that can touch others "
+           "or itself, `multigrid` for those that meet at most primitive colliders, and `tiled` for volumes, stiff sheets, "
+           "PBD stiffness, or several iterations. "
+           "`sequential` is the slow scalar reference with the bits of `tiled`."),
        field("sweep_options", record(sweep_options_record()), "the defaults", "Options of sweeps."),
        field("contact_filter", boolean(), Settings{}.contact_filter,
              "Truncate steps so that colliding surfaces never cross (docs/guide/contact.md). Without it only contacts keep "
              "them apart."),
        field("most_substeps", integer(0, 10000), "eight times `substeps`",
              "Maximum number of substeps of a frame in which a mesh collider moves fast (docs/guide/contact.md)."),
+       field("least_substeps", integer(0, 10000), "12",
+             "Where substeps follow the State: at least this many per frame, and up to `most_substeps`, or 100."),
        field("initial_intersections", choice({"leave", "untangle", "refuse"}), "leave",
              "Treatment of surfaces that intersect at the start: leave them, move them apart, or refuse the scene."),
        field("untangling_speed", positive("m/s", 1000), Settings{}.untangling_speed, "Speed limit of depenetration."),

@@ -40,6 +40,9 @@ std::string type_of(const std::vector<Curve>& curves) {
   return primal.empty() ? "none" : primal.front().type;
 }
 
+/// The substeps of curves and runs where those of the scene follow the State.
+constexpr int substeps_where_they_follow_the_state = 30;
+
 }  // namespace
 
 Result run(const Scene& given, const Options& options) {
@@ -47,7 +50,8 @@ Result run(const Scene& given, const Options& options) {
   scene.settings = chosen_settings(given);
   if (scene.settings.substeps == 0) {  // all objects need the same substep
     const std::vector<int> substeps = chosen_substeps(given);
-    scene.settings.substeps = *std::max_element(substeps.begin(), substeps.end());
+    const int most = *std::max_element(substeps.begin(), substeps.end());
+    scene.settings.substeps = most > 0 ? most : substeps_where_they_follow_the_state;
   }
   const std::vector<Method> methods = methods_of(scene, options);
   Result result;

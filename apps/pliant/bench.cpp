@@ -9,11 +9,13 @@
 #include "apps/bench/contact.h"
 #include "apps/bench/landing.h"
 #include "apps/bench/memory.h"
+#include "apps/bench/scene_table.h"
 #include "atomic_file.h"
 #include "command.h"
 #include "give_back.h"
 #include "interrupt.h"
 #include "output.h"
+#include "simulate.h"
 
 namespace pliant::command {
 
@@ -91,9 +93,29 @@ std::string bench_landings(const BenchOptions& options) {
   return to_json(pliant::bench::measure_landings(wanted));
 }
 
+std::string bench_default(const BenchOptions& options) {
+  if (options.scenes.empty()) throw Error({}, "'default' measures scene files", "name them: --scenes scenes/*.json");
+  std::vector<pliant::bench::NamedScene> scenes;
+  for (const std::string& path : options.scenes) scenes.push_back({path, read_scene_with(path, {}, true)});
+  pliant::bench::SceneTableOptions wanted;
+  wanted.against = options.settings;
+  print(
+      "scene                          settings      substeps  ms/frame  p99, % (frame)  largest, % (frame)  gain, J/kg  "
+      "moved, mm\n");
+  wanted.on_row = [](const pliant::bench::SceneRow& row) {
+    throw_if_interrupted();
+    print(fmt::format("{:<30} {:<13} {:8.1f} {:9.2f} {:8.2f} {:<7} {:11.2f} {:<8} {:10.4f} {:10.4f}{}\n", row.scene,
+                      row.settings, row.substeps, row.milliseconds, 100 * row.p99, fmt::format("({})", row.frame_of_p99),
+                      100 * row.largest, fmt::format("({})", row.frame_of_largest), row.gain, 1000 * row.moved,
+                      row.finite ? "" : "  not finite"));
+  };
+  return to_json(pliant::bench::measure_scenes(scenes, wanted));
+}
+
 /// Measures a workload that has rows of its own, and returns them as JSON; nullopt for other workloads.
 std::optional<std::string> bench_by_name(const BenchOptions& options) {
   if (options.workload == "contact") return bench_contact(options);
+  if (options.workload == "default") return bench_default(options);
   if (options.workload == "memory") return bench_memory(options);
   if (options.workload == "W3" || options.workload == "W3-ball" || options.workload == "W3-cloth")
     return bench_landings(options);

@@ -96,9 +96,12 @@ std::string substeps_in_words(const Scene& scene, const Settings& chosen) {
   for (std::size_t o = 0; o < substeps.size(); ++o) names[substeps[o]].push_back(scene.objects[o].name);
   std::string text;
   for (const auto& [number, of] : names) {
-    text +=
-        text.empty() ? counted(static_cast<std::size_t>(number), "substep") + " a frame" : ", " + std::to_string(number);
-    text += " for '" + of.front() + "'" + (of.size() > 1 ? " and " + std::to_string(of.size() - 1) + " more" : "");
+    const std::string count = number == 0    ? "substeps that follow its strain and motion"
+                              : text.empty() ? counted(static_cast<std::size_t>(number), "substep") + " a frame"
+                                             : std::to_string(number);
+    text += (text.empty() ? "" : ", ") + count;
+    if (names.size() > 1 || of.size() < scene.objects.size())
+      text += " for '" + of.front() + "'" + (of.size() > 1 ? " and " + std::to_string(of.size() - 1) + " more" : "");
   }
   return text;
 }

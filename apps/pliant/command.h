@@ -77,6 +77,7 @@ struct BenchOptions {
   double limit = 120;      ///< time limit of a row of W3 [s]
   int threads = 0;         ///< threads of the second run; the first one uses one; 0: all hardware threads
   std::string json;        ///< file for the rows as JSON; empty: none
+  std::vector<std::string> scenes, settings;  ///< of workload `default`: scene files, and settings beside the default
 };
 
 /// Measures workloads, and prints a table.

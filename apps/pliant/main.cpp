@@ -161,6 +161,10 @@ void add_bench(CLI::App& app, BenchOptions& options, Chosen& chosen) {
                    "threads of a second run, after one with a single thread; 0: all hardware threads")
       ->type_name("N")
       ->check(range(0, most_threads));
+  bench_app->add_option("--scenes", options.scenes, "of 'default': scene files to measure")->type_name("FILES");
+  bench_app->add_option("--settings", options.settings, "of 'default': also measure these, such as \"chains 40,multigrid\"")
+      ->type_name("SETTINGS")
+      ->delimiter(',');
   bench_app->add_option("--json", options.json, "write the rows to this JSON file")->type_name("FILE");
   bench_app->callback([&] { chosen = [&] { return bench(options); }; });
 }

@@ -72,14 +72,15 @@ Json nonfinite_json(const Report& report) {
           {"message", report.explain()}};
 }
 
-/// Adds the number of substeps, the largest of any object; if objects differ, also that of each.
-void add_substeps(const World& world, Json& json) {
+/// Adds the number of substeps, the largest of any object; if objects differ, also that of each. Where they follow the
+/// State that is 0, and the largest is that of any frame.
+void add_substeps(const World& world, int most_of_frames, Json& json) {
   int most = world.settings().substeps;
   Json by_object = Json::object();
   for (const ObjectId id : world.objects()) {
     const ObjectInfo info = world.info(id);
     by_object[info.name] = info.substeps;
-    most = std::max(most, info.substeps);
+    most = std::max(most, info.substeps > 0 ? info.substeps : most_of_frames);
   }
   json["substeps"] = most;
   if (world.settings().substeps == 0) json["substeps_by_object"] = by_object;
@@ -104,6 +105,8 @@ void RunReport::add(const Report& report, const World& world) {
   add_pairs(pairs_, report.pairs);
   iterations_.mean += report.iterations.mean;
   milliseconds_.push_back(report.milliseconds);
+  most_substeps_ = std::max(most_substeps_, report.substeps);
+  sum_of_substeps_ += report.substeps;
   for (const PhaseTime& phase : report.phases) phase_sums_[phase.name] += phase.milliseconds;
   if (hash_frames_) hashes_.push_back(world.state_hash());
   for (const std::string& warning : report.warnings)
@@ -121,7 +124,8 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["frames"] = world.state().frame;
   json["frame_time"] = scene.frame_time;
   json["sweep"] = sweep_name(world.settings().sweep);
-  add_substeps(world, json);
+  add_substeps(world, most_substeps_, json);
+  json["mean_substeps"] = static_cast<double>(sum_of_substeps_) / frames;
   json["iterations"] = world.settings().iterations;
   json["iterations_used"] = {
       {"smallest", iterations_.smallest}, {"largest", iterations_.largest}, {"mean", iterations_.mean / frames}};

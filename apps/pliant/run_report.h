@@ -35,7 +35,9 @@ class RunReport {
   bool hash_frames_;
   Report last_;
   IterationCount iterations_;  ///< until it is written, `mean` has the sum over frames
-  PairReport pairs_;           ///< candidates, contacts and intersections of the last frame; other counts summed
+  int most_substeps_ = 0;      ///< of any frame
+  std::int64_t sum_of_substeps_ = 0;
+  PairReport pairs_;  ///< candidates, contacts and intersections of the last frame; other counts summed
   std::vector<double> milliseconds_;
   std::map<std::string, double> phase_sums_;
   std::vector<std::string> hashes_, warnings_;

@@ -15,6 +15,7 @@ enum class Lacks {
   nothing,
   pairs,  ///< Newton's third law: without it momentum is not conserved, and compliant constraints rest elsewhere
   give,   ///< elastic stretch: tethers limit what is meant to stretch
+  force,  ///< multipliers that show the whole force: tethers carry part of the load
   turns,  ///< rotation: if edges rotate far in a step, a linearised correction leaves much to later sweeps
 };
 
@@ -67,6 +68,7 @@ inline const std::vector<SweepWay>& sweep_ways() {
       {"chebyshev_at_once", Sweep::tiled, at_once},
       {"chains", Sweep::chains, plain},
       {"multigrid", Sweep::multigrid, plain, Lacks::turns},
+      {"tethered_chains", Sweep::tethered_chains, plain, Lacks::force},
       {"chebyshev_chains", Sweep::chains, chebyshev},
       {"tiled_tethers", Sweep::tiled, tethers, Lacks::give},
       {"chains_tethers", Sweep::chains, tethers, Lacks::give},

@@ -76,7 +76,13 @@ enum class Sweep {
   natural,     ///< Gauss-Seidel in the user's order, one constraint at a time: slow, for comparisons
   chains,      ///< direct solves along paths of distance constraints; all other constraints as in `tiled`
   multigrid,   ///< a multigrid correction of all distances, then `tiled` twice; for fine meshes
+  /// `chains`, and no particle farther from the pins than along the mesh, while the pins keep their distances: for cloth
+  /// and rope that hang
+  tethered_chains,
 };
+
+/// True for `chains` and `tethered_chains`.
+constexpr bool solves_chains(Sweep sweep) { return sweep == Sweep::chains || sweep == Sweep::tethered_chains; }
 
 /// An orientation with inertia. A frame and a particle make a rigid body; constraints act on it by frame slots.
 struct ObjectFrame {
@@ -282,6 +288,9 @@ struct SweepOptions {
   /// For `chains`, 0..1000: regularisation of the solve of a straight path between two pins, as a share of the inverse
   /// of its mass. A link stretches by about this times g h^2 [-].
   float chain_softness = 0.1f;
+  /// For `chains`, 0..1000: no distance stays longer than its force explains by more than this share of its rest length,
+  /// unless contact or the filter demands it; 0: no limit. Does not apply to PBD stiffness [-].
+  float most_overstretch = 0.05f;
   int multigrid_cycles = 2;  ///< for `multigrid`: conjugate gradient steps per substep, each with a W-cycle, 1..100
 };
 
@@ -300,6 +309,9 @@ struct Settings {
   /// most half the pair's thickness in each: the filter cannot limit kinematic colliders. The Report warns of the cost.
   /// 1..10000; 0: eight times `substeps`; a value up to `substeps` switches it off.
   int most_substeps = 0;
+  /// Where substeps follow the State (chosen_substeps), a frame has at least this many, and up to most_substeps. 0: at least
+  /// 12 and up to 100.
+  int least_substeps = 0;
   /// What happens to surfaces that intersect initially.
   enum class Intersections {
     leave,     ///< nothing: contact ignores them until they are apart
@@ -340,17 +352,21 @@ struct Scene {
 };
 
 /// Returns the sweep of one object: its own, else that of the settings, else the one that measured best on such
-/// objects. The latter is `multigrid` for cloth and rope of 32 particles or more, but `tiled` where multigrid does not
-/// help: a volume, a bending length (B / rho g)^(1/3) above a quarter of the sheet's size, PBD stiffness of bending or
-/// all distances, several iterations, or a surface that can touch itself or others. Smaller objects use multigrid if
-/// all others do. If the sweep was left open, `reason` receives the deciding fact.
+/// objects. The latter is `chains` for cloth and rope of 32 particles or more whose surface can touch itself or others.
+/// For those that meet at most primitive colliders it is `multigrid` if their springs are irregular, `tethered_chains`
+/// if they hang from pins and are not meant to stretch, else `chains`. It is `tiled` where none of these helps: a
+/// volume, a bending length (B / rho g)^(1/3) above a quarter of the sheet's size, PBD stiffness of bending or all
+/// distances, or several iterations. Smaller objects use the sweep of all others. If the sweep was left open, `reason`
+/// receives the deciding fact.
 Sweep chosen_sweep(const Scene& scene, int object, std::string* reason = nullptr);
 
 /// Returns the substeps per frame of each object: those of the settings, or, if they are 0, those of its set. A set
 /// consists of objects and mesh colliders (as triangles) whose surfaces can touch, by groups, masks and `collides`,
-/// directly or through others. An object that touches nothing is a set of its own. A set has 10 substeps if all its
-/// objects use `multigrid` and have no PBD stiffness between 0 and 1, else 20 (docs/internals/convergence.md). With a
-/// tolerance or recorded residuals all objects form one set.
+/// directly or through others. An object that touches nothing is a set of its own. 0 stands for substeps that follow
+/// the State: they are decided in each quarter of a frame by strain and motion. They do so if an object of the set is
+/// solved by chains and not meant to stretch, and none has PBD stiffness between 0 and 1. Any other set has 10 substeps
+/// if all its objects use `multigrid` and have no such stiffness, else 20 (docs/internals/convergence.md). With a
+/// tolerance or recorded residuals all objects form one set, whose substeps are fixed.
 std::vector<int> chosen_substeps(const Scene& scene);
 
 /// Returns the settings of a World of this scene; what the scene leaves open is chosen by its content.

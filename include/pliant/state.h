@@ -97,10 +97,14 @@ struct State {
   FrameRecords frames;             ///< orientations, object after object; usually none
   std::vector<Channel> channels;   ///< channels of all objects; usually none
   std::vector<HeldPose> held_poses;
+  /// For each block, the substeps per frame that its object had last, if they follow the State (chosen_substeps), else 0.
+  /// Empty if none do.
+  std::vector<float> substeps;
 };
 
 /// The SHA-256 hash of a State as 64 hexadecimal digits. It includes blocks only after a removal or an edit, because
-/// contiguous blocks follow from the particles; frames, channels and held poses only if there are any.
+/// contiguous blocks follow from the particles; frames, channels, held poses and substeps only if there
+/// are any.
 std::string hash(const State& state);
 
 }  // namespace pliant

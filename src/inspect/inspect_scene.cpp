@@ -33,6 +33,7 @@ void check_sweep(Problems& problems, const Settings& settings, bool uses_natural
                    "give a number above 0 and below 2; 1 is no relaxation");
   require_range(problems, "settings, sweep_options, tether_slack", options.tether_slack, 0, 1000);
   require_range(problems, "settings, sweep_options, chain_softness", options.chain_softness, 0, 1000);
+  require_range(problems, "settings, sweep_options, most_overstretch", options.most_overstretch, 0, 1000);
   require_range(problems, "settings, sweep_options, multigrid_cycles", options.multigrid_cycles, 1, 100);
   if (options.acceleration == SweepOptions::Acceleration::none) return;
   require_range(problems, "settings, sweep_options, plain_iterations", options.plain_iterations, 1, 10000);
@@ -57,6 +58,7 @@ void check_settings(Problems& problems, const Scene& scene) {
   require_range(problems, "settings, threads", settings.threads, 0, 1024);
   require_range(problems, "settings, tolerance", settings.tolerance, 0, largest_place);
   require_range(problems, "settings, most_substeps", settings.most_substeps, 0, 10000);
+  require_range(problems, "settings, least_substeps", settings.least_substeps, 0, 10000);
   if (!(settings.untangling_speed > 0 && settings.untangling_speed <= 1000))
     problems.grave("settings, untangling_speed", "is " + words(settings.untangling_speed) + " m/s",
                    "give a speed above 0 and up to 1000 m/s");
@@ -139,7 +141,7 @@ void doubt_settings(Problems& problems, const Scene& scene) {
     problems.doubtful("settings, substeps",
                       "make substeps of " + words(substep) + " s, in which float precision loses small motions",
                       "use fewer");
-  const bool solves_at_once = settings.sweep == Sweep::chains || settings.sweep == Sweep::multigrid;
+  const bool solves_at_once = solves_chains(settings.sweep) || settings.sweep == Sweep::multigrid;
   if (!solves_at_once && substeps * static_cast<std::int64_t>(settings.iterations) < 5)
     problems.doubtful("settings, substeps", "times iterations project each constraint fewer than 5 times per frame",
                       "stiff objects will stretch like rubber: 10 to 20 substeps are usual");

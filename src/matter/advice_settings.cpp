@@ -50,7 +50,8 @@ std::vector<Sweep> better_sweeps(const Scene& scene) {
   std::vector<Sweep> better{Sweep::chains, Sweep::multigrid};
   if (suggest(scene).sweep == Sweep::multigrid) std::swap(better[0], better[1]);
   better.erase(std::remove(better.begin(), better.end(), scene.settings.sweep), better.end());
-  if (has_stiff_sheet(scene)) better.erase(std::remove(better.begin(), better.end(), Sweep::multigrid), better.end());
+  if (has_stiff_sheet(scene) || movers_may_touch(scene))
+    better.erase(std::remove(better.begin(), better.end(), Sweep::multigrid), better.end());
   return better;
 }
 
@@ -59,6 +60,7 @@ Settings suggest(const Scene& scene) { return suggest(scene, scene.settings); }
 Settings suggest(const Scene& scene, const Settings& settings) {
   Settings wanted = settings;
   if (wanted.sweep == Sweep::multigrid || has_volume(scene)) return wanted;
+  if (wanted.substeps == 0 && solves_chains(wanted.sweep)) return wanted;  // the substeps follow what is missing
   if (!has_pins(scene) || movers_may_touch(scene)) {
     if (!has_stiff_sheet(scene)) wanted.sweep = Sweep::multigrid;
     return wanted;

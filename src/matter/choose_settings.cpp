@@ -24,6 +24,12 @@ constexpr int fewest_particles = 32;
 constexpr double stiff_share = 0.25;
 /// Lower limit of the acceleration that bends a sheet [m/s^2]: with less gravity, other forces bend it.
 constexpr double least_acceleration = 9.81;
+/// A spring continues straight at an end if another one leaves there within 10 degrees of its direction.
+constexpr double straight_cosine = -0.985;
+/// A mesh with more of its ends so is regular. Of a grid of 6 x 6 three quarters are, of irregular meshes a third.
+constexpr double straight_share = 0.6;
+/// Particles with more springs, such as the hub of a wheel, are left out of that count, which compares each with each.
+constexpr std::size_t most_neighbours = 64;
 constexpr const char* too_coarse = "only objects with fewer than 32 linked particles";
 
 /// The position of a particle; zero if it does not exist, because this runs before the scene is validated.
@@ -139,6 +145,62 @@ bool can_touch(const Scene& scene, const Object& object) {
          std::any_of(scene.mesh_colliders.begin(), scene.mesh_colliders.end(), meets_mesh);
 }
 
+bool have_same_motion(const Motion& a, const Motion& b) {
+  const auto same_place = [](const Vec3f& p, const Vec3f& q) { return p.x == q.x && p.y == q.y && p.z == q.z; };
+  const auto same = [&](const Keyframe& k, const Keyframe& l) {
+    return k.time == l.time && same_place(k.position, l.position) && k.rotation.x == l.rotation.x &&
+           k.rotation.y == l.rotation.y && k.rotation.z == l.rotation.z && k.rotation.w == l.rotation.w;
+  };
+  return a.repeat == b.repeat && same_place(a.pivot, b.pivot) &&
+         std::equal(a.keyframes.begin(), a.keyframes.end(), b.keyframes.begin(), b.keyframes.end(), same);
+}
+
+/// Each particle's neighbours along springs that multigrid and chains correct.
+std::vector<std::vector<int>> neighbours_of(const Object& object) {
+  std::vector<std::vector<int>> neighbours(object.positions.size());
+  const auto exists = [&](int particle) { return particle >= 0 && static_cast<std::size_t>(particle) < neighbours.size(); };
+  for (const ConstraintGroup& group : object.constraints) {
+    if (!is_length(group.type) || group.stiffness.kind != Stiffness::Kind::compliance) continue;
+    for (std::size_t i = 0; i + 1 < group.particles.size(); i += 2) {
+      const int a = group.particles[i], b = group.particles[i + 1];
+      if (!exists(a) || !exists(b)) continue;
+      neighbours[static_cast<std::size_t>(a)].push_back(b);
+      neighbours[static_cast<std::size_t>(b)].push_back(a);
+    }
+  }
+  return neighbours;
+}
+
+/// True if most springs continue straight at most of their ends, as on a grid and in a rope: chains are then long and carry
+/// a force across the object in one pass.
+bool is_regular(const Object& object) {
+  const std::vector<std::vector<int>> neighbours = neighbours_of(object);
+  std::size_t straight = 0, ends = 0;
+  for (std::size_t p = 0; p < neighbours.size(); ++p) {
+    if (neighbours[p].size() > most_neighbours) continue;
+    std::vector<Vec3d> ways;
+    for (const int other : neighbours[p]) {
+      const Vec3d way = position(object, other) - position(object, static_cast<int>(p));
+      const double length = std::sqrt(length_squared(way));
+      if (length > 0) ways.push_back(way * (1 / length));
+    }
+    const auto goes_on = [&](const Vec3d& way) {
+      return std::any_of(ways.begin(), ways.end(), [&](const Vec3d& other) { return dot(way, other) < straight_cosine; });
+    };
+    straight += static_cast<std::size_t>(std::count_if(ways.begin(), ways.end(), goes_on));
+    ends += ways.size();
+  }
+  return static_cast<double>(straight) > straight_share * static_cast<double>(ends);
+}
+
+/// True if it has pins whose distances stay the same: none moves, or all have one motion.
+bool hangs(const Object& object) {
+  const auto moves_alike = [&](const Pin& pin) { return have_same_motion(pin.motion, object.pins.front().motion); };
+  return !object.pins.empty() && std::all_of(object.pins.begin(), object.pins.end(), moves_alike);
+}
+
+double gravity_of(const Scene& scene) { return std::sqrt(static_cast<double>(length_squared(scene.gravity))); }
+
 struct Choice {
   Sweep sweep = Sweep::tiled;
   std::string reason;
@@ -146,7 +208,7 @@ struct Choice {
 
 Choice choose(const Scene& scene, const Settings& settings, const Object& object) {
   const std::string name = "'" + object.name + "'";
-  const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
+  const double gravity = gravity_of(scene);
   const std::size_t springs = springs_of(object);
   if (settings.iterations > 1) return {Sweep::tiled, "more than one iteration"};
   if (springs > 0 && object.volume) return {Sweep::tiled, name + ", which has a volume"};
@@ -155,7 +217,10 @@ Choice choose(const Scene& scene, const Settings& settings, const Object& object
   const std::size_t particles =
       springs == 0 ? 0 : std::min(object.positions.size(), springs + 1);  // a path has one particle more than springs
   if (particles < fewest_particles) return {Sweep::tiled, too_coarse};
-  if (can_touch(scene, object)) return {Sweep::tiled, name + ", a surface that can touch itself or others"};
+  if (can_touch(scene, object)) return {Sweep::chains, name + ", a surface that can touch itself or others"};
+  if (is_regular(object) && hangs(object) && !is_meant_to_stretch(object, gravity))
+    return {Sweep::tethered_chains, name + ", which hangs from pins and has its springs in straight rows"};
+  if (is_regular(object)) return {Sweep::chains, name + ", whose springs lie in straight rows"};
   return {Sweep::multigrid, "cloth or rope, the largest of " + std::to_string(particles) + " particles"};
 }
 
@@ -218,14 +283,15 @@ Choices choices_of(const Scene& scene, const Settings& settings) {
     out.sweeps.push_back(choice.sweep);
   }
   const Sweep common = out.used.common(Sweep::tiled);
-  for (const std::size_t o : coarse) out.sweeps[o] = common == Sweep::multigrid ? Sweep::multigrid : Sweep::tiled;
+  const bool may_follow = common == Sweep::multigrid || solves_chains(common);
+  for (const std::size_t o : coarse) out.sweeps[o] = may_follow ? common : Sweep::tiled;
   return out;
 }
 
 }  // namespace
 
 bool has_stiff_sheet(const Scene& scene) {
-  const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
+  const double gravity = gravity_of(scene);
   return std::any_of(scene.objects.begin(), scene.objects.end(),
                      [&](const Object& object) { return springs_of(object) > 0 && is_stiff_sheet(object, gravity); });
 }
@@ -248,17 +314,22 @@ std::vector<Sweep> chosen_sweeps(const Scene& scene, const Settings& settings) {
 namespace {
 
 /// The substeps of each object's set, if the settings name none. With a tolerance or recorded residuals, all objects
-/// have the largest.
+/// have the largest. 0 where they follow the State.
 std::vector<int> substeps_of_objects(const Scene& scene, const std::vector<Sweep>& sweeps) {
   std::vector<SetMember> members;
+  const double gravity = gravity_of(scene);
   for (std::size_t o = 0; o < sweeps.size(); ++o)
-    members.push_back(member_of(scene.objects[o], own_substeps(scene.objects[o], sweeps[o])));
+    members.push_back(member_of(scene.objects[o], own_substeps(scene.objects[o], sweeps[o]),
+                                substep_rule(scene.objects[o], sweeps[o], gravity)));
   for (const MeshCollider& collider : scene.mesh_colliders) members.push_back(member_of(collider));
-  std::vector<int> substeps = substeps_of_sets(members);
-  substeps.resize(scene.objects.size());
+  std::vector<SetSubsteps> sets = substeps_of_sets(members);
+  sets.resize(scene.objects.size());
   const bool is_one_set = scene.settings.tolerance > 0 || scene.settings.record_residuals;
-  if (is_one_set && !substeps.empty())
-    substeps.assign(substeps.size(), *std::max_element(substeps.begin(), substeps.end()));
+  int most = 0;
+  for (const SetSubsteps& set : sets) most = std::max(most, set.substeps);
+  std::vector<int> substeps;
+  substeps.reserve(sets.size());
+  for (const SetSubsteps& set : sets) substeps.push_back(is_one_set ? most : set.by_state ? 0 : set.substeps);
   return substeps;
 }
 

@@ -5,9 +5,10 @@ namespace pliant {
 
 const std::vector<NamedSweep>& sweeps() {
   static const std::vector<NamedSweep> list = {
-      {"tiled", Sweep::tiled},         {"sequential", Sweep::sequential}, {"symmetric", Sweep::symmetric},
-      {"jacobi", Sweep::jacobi},       {"natural", Sweep::natural},       {"chains", Sweep::chains},
-      {"multigrid", Sweep::multigrid},
+      {"tiled", Sweep::tiled},         {"sequential", Sweep::sequential},
+      {"symmetric", Sweep::symmetric}, {"jacobi", Sweep::jacobi},
+      {"natural", Sweep::natural},     {"chains", Sweep::chains},
+      {"multigrid", Sweep::multigrid}, {"tethered_chains", Sweep::tethered_chains},
   };
   return list;
 }

@@ -12,6 +12,7 @@
 #include "model/compiled_object.h"
 #include "model/fill_pool.h"
 #include "model/gather_constraints.h"
+#include "model/length_ranges.h"
 #include "model/object_sets.h"
 #include "model/stiffness.h"
 #include "topology/colouring.h"
@@ -258,9 +259,20 @@ void merge(const std::vector<ListSchedule>& schedules, CompiledObject& out) {
   }
 }
 
+bool has_tethers(const CompileOptions& options) { return options.tethers || options.sweep == Sweep::tethered_chains; }
+
+/// Tethers that the user did not ask for leave room for the strain that the object's weight causes, also near the pins.
+float tether_slack(const Object& object, const CompileOptions& options) {
+  constexpr double strain_at_pins = 5;  // over the mean strain
+  if (options.tethers) return options.tether_slack;
+  const double strain = strain_by_weight(object, double(options.gravity)).value_or(0);
+  return options.tether_slack + static_cast<float>(strain_at_pins * strain);
+}
+
 /// True if a later step of compile() reads the list: chains, stencils, tethers or multigrid.
 bool is_needed_later(const ConstraintList& list, const CompileOptions& options) {
-  return list.chained || !list.in_lanes || (is_length(list.type) && (options.tethers || options.sweep == Sweep::multigrid));
+  return list.chained || !list.in_lanes ||
+         (is_length(list.type) && (has_tethers(options) || options.sweep == Sweep::multigrid));
 }
 
 /// Schedules one list after another and frees each if possible, to limit the peak of memory.
@@ -375,12 +387,14 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   const std::vector<Vec3f>& positions = object.attachments.empty() ? object.positions : with_targets;
   out.particles = static_cast<int>(positions.size());
   out.user_particles = static_cast<int>(object.positions.size());
+  const float slack = tether_slack(object, options);  // before the constraints are moved out of the object
   out.own_substeps = own_substeps(object, options.sweep);
+  out.substep_rule = substep_rule(object, options.sweep, static_cast<double>(options.gravity));
 
   std::vector<ConstraintList> lists = given_away != nullptr ? gather_constraints(std::move(*given_away), options.passes)
                                                             : gather_constraints(object, options.passes);
   const bool in_given_order = options.sweep == Sweep::natural;
-  if (options.sweep == Sweep::chains) split_off_chains(lists);
+  if (solves_chains(options.sweep)) split_off_chains(lists);
   std::vector<int> tile;
   const int largest_tile = in_given_order ? std::numeric_limits<int>::max() : options.largest_tile;
   number_particles(positions, lists, largest_tile, tile, out);
@@ -392,10 +406,11 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   schedule_stencils(lists, in_given_order, out);
   fill_triangles(object, out);
   if (options.air || object.volume) fill_corners(out);
-  if (options.tethers) out.tethers = find_tethers(lists, options.tether_slack, out);
+  if (has_tethers(options)) out.tethers = find_tethers(lists, slack, out);
   if (options.sweep == Sweep::multigrid) out.multigrid = build_multigrid(lists, out.positions, options.gravity);
   fill_volume(object, options.passes, out);
   add_whole_object_phases(out);
+  out.lengths = find_length_ranges(out);
 
   if (object.triangles.empty()) out.lines = lines_of(object, out.place);
   out.self_collision = object.self_collision;
@@ -463,6 +478,7 @@ CompiledObject compile(const MeshCollider& collider) {
   CompiledObject out = compile(object, CompileOptions{});
   out.is_collider = true;
   out.own_substeps = 0;
+  out.substep_rule = SubstepRule::any;
   fill_carrier(collider, out);
   return out;
 }

@@ -9,6 +9,7 @@
 
 #include "model/carrier.h"
 #include "model/multigrid.h"
+#include "model/object_sets.h"
 #include "model/phase.h"
 #include "model/pool.h"
 #include "pliant/scene.h"
@@ -71,6 +72,13 @@ struct CompiledVolume {
   float damping = 0;
 };
 
+/// A range of segments, some of which hold distance constraints: a task of loops that only measure these.
+struct LengthRange {
+  int first = 0, last = 0;       ///< segments, half-open
+  int batches = 0;               ///< of distances
+  std::int64_t constraints = 0;  ///< with a rest length above zero, a multiplier, and a free particle
+};
+
 /// The output of compile(). It has over thirty members, because each stage of a step reads a few of them.
 struct CompiledObject {
   std::string name;
@@ -88,6 +96,7 @@ struct CompiledObject {
   std::vector<ObjectPhase> phases;  ///< phases sorted by driver; those of one driver by colour
   std::vector<ChainBatch> chains;
   AlignedVector<float> chain_softness;  ///< sixteen per ChainBatch: regularisation added to the diagonal [1/kg]
+  std::vector<LengthRange> lengths;     ///< all distance constraints
   Tethers tethers;
   Multigrid multigrid;
   std::vector<Kinematic> kinematics;  ///< particles with keyframes
@@ -98,6 +107,7 @@ struct CompiledObject {
   CompiledVolume volume;
   bool self_collision = false, collides = false, is_collider = false;
   int own_substeps = 0;  ///< own_substeps() of model/object_sets.h; 0: a collider
+  SubstepRule substep_rule = SubstepRule::any;
   std::uint32_t groups = 1, mask = 0xffffffffu;
   float thickness = 0, static_friction = 0, kinetic_friction = 0, restitution = 0, drag = 0, lift = 0, damping = 0;
 };

@@ -1,5 +1,7 @@
 #include "model/fill_pool.h"
 
+#include "constraints/registry.h"
+
 namespace pliant {
 
 std::vector<Row> rows_of(const ConstraintList& list) {
@@ -32,6 +34,7 @@ Pool make_pool(const ConstraintList& list) {
   pool.components = list.components;
   pool.fields = list.fields;
   pool.in_lanes = list.in_lanes;
+  pool.is_length = is_length(list.type);
   pool.constraints = list.count();
   for (const Row& row : rows_of(list)) {
     const bool constant = is_constant(row, list.count());

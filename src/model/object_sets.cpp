@@ -1,9 +1,14 @@
 #include "model/object_sets.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <tuple>
+
+#include "constraints/registry.h"
+#include "math/vector.h"
 
 namespace pliant {
 
@@ -12,6 +17,30 @@ namespace {
 bool is_converted(const Stiffness& stiffness, bool has_own_values) {
   return stiffness.kind == Stiffness::Kind::pbd && (has_own_values || (stiffness.value > 0 && stiffness.value < 1));
 }
+
+bool has_converted(const Object& object) {
+  if (object.volume && is_converted(object.volume->stiffness, false)) return true;
+  const auto group_is = [](const ConstraintGroup& group) {
+    return !group.particles.empty() && is_converted(group.stiffness, !group.compliances.empty());
+  };
+  return std::any_of(object.constraints.begin(), object.constraints.end(), group_is) ||
+         std::any_of(object.attachments.begin(), object.attachments.end(),
+                     [](const Attachment& attachment) { return is_converted(attachment.stiffness, false); });
+}
+
+/// Up to this strain under its own weight an object counts as one that is not meant to stretch [-].
+constexpr double most_strain_by_weight = 0.002;
+/// Lower bound of the acceleration that loads an object: under less gravity, other forces load it [m/s^2].
+constexpr double least_acceleration = 9.81;
+
+/// Zero for a missing particle, because this runs before the scene is validated.
+float distance(const Object& object, int from, int to) {
+  const auto a = static_cast<std::size_t>(from), b = static_cast<std::size_t>(to), count = object.positions.size();
+  return a < count && b < count ? length(object.positions[b] - object.positions[a]) : 0.f;
+}
+
+/// Smaller objects keep the fixed number: they are cheap, and many of them share one group.
+constexpr std::size_t fewest_particles_by_state = 400;
 
 bool can_meet(const SetMember& a, const SetMember& b) {
   const bool by_masks = (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
@@ -54,18 +83,43 @@ std::vector<std::vector<int>> classes_of(const std::vector<SetMember>& members) 
 
 }  // namespace
 
-int own_substeps(const Object& object, Sweep sweep) {
-  if (sweep != Sweep::multigrid || (object.volume && is_converted(object.volume->stiffness, false)))
-    return substeps_of_others;
-  for (const ConstraintGroup& group : object.constraints)
-    if (!group.particles.empty() && is_converted(group.stiffness, !group.compliances.empty())) return substeps_of_others;
-  for (const Attachment& attachment : object.attachments)
-    if (is_converted(attachment.stiffness, false)) return substeps_of_others;
-  return substeps_of_multigrid;
+std::optional<double> strain_by_weight(const Object& object, double gravity) {
+  double mass = 0, strain = 0;
+  std::size_t count = 0;
+  for (const float m : object.masses) mass += std::isfinite(m) ? static_cast<double>(m) : 0;
+  for (const ConstraintGroup& group : object.constraints) {
+    if (!is_length(group.type) || group.stiffness.kind != Stiffness::Kind::compliance) continue;
+    for (std::size_t i = 0; 2 * i + 1 < group.particles.size(); ++i) {
+      const float rest =
+          i < group.rest.size() ? group.rest[i] : distance(object, group.particles[2 * i], group.particles[2 * i + 1]);
+      const float compliance = i < group.compliances.size() ? group.compliances[i] : group.stiffness.value;
+      if (!(rest > 0)) continue;
+      strain += static_cast<double>(compliance) / static_cast<double>(rest);
+      ++count;
+    }
+  }
+  const double row = object.triangles.empty() ? 1 : std::sqrt(static_cast<double>(object.positions.size()));
+  if (count == 0) return std::nullopt;
+  return strain / static_cast<double>(count) * mass * std::max(gravity, least_acceleration) / row;
 }
 
-SetMember member_of(const Object& object, int substeps) {
-  return {object.groups, object.mask, object.collides, false, substeps};
+int own_substeps(const Object& object, Sweep sweep) {
+  return sweep == Sweep::multigrid && !has_converted(object) ? substeps_of_multigrid : substeps_of_others;
+}
+
+bool is_meant_to_stretch(const Object& object, double gravity) {
+  return strain_by_weight(object, gravity).value_or(0) > most_strain_by_weight;
+}
+
+SubstepRule substep_rule(const Object& object, Sweep sweep, double gravity) {
+  if (has_converted(object)) return SubstepRule::fixed;
+  if (!solves_chains(sweep) || object.positions.size() < fewest_particles_by_state) return SubstepRule::any;
+  const std::optional<double> strain = strain_by_weight(object, gravity);
+  return strain && *strain <= most_strain_by_weight ? SubstepRule::by_state : SubstepRule::any;
+}
+
+SetMember member_of(const Object& object, int substeps, SubstepRule rule) {
+  return {object.groups, object.mask, object.collides, false, substeps, rule};
 }
 
 SetMember member_of(const MeshCollider& collider) {
@@ -92,11 +146,18 @@ std::vector<int> find_sets(const std::vector<SetMember>& members) {
   return sets;
 }
 
-std::vector<int> substeps_of_sets(const std::vector<SetMember>& members) {
+std::vector<SetSubsteps> substeps_of_sets(const std::vector<SetMember>& members) {
   const std::vector<int> sets = find_sets(members);
-  std::vector<int> most(members.size(), 0), out;
-  for (std::size_t i = 0; i < members.size(); ++i) most[sets[i]] = std::max(most[sets[i]], members[i].substeps);
-  for (const int set : sets) out.push_back(most[set]);
+  std::vector<int> most(members.size(), 0), least(members.size(), 0);
+  std::vector<SubstepRule> rule(members.size(), SubstepRule::any);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    most[sets[i]] = std::max(most[sets[i]], members[i].substeps);
+    if (members[i].rule != SubstepRule::by_state) least[sets[i]] = std::max(least[sets[i]], members[i].substeps);
+    rule[sets[i]] = std::max(rule[sets[i]], members[i].rule);
+  }
+  std::vector<SetSubsteps> out;
+  out.reserve(sets.size());
+  for (const int set : sets) out.push_back({set, most[set], rule[set] == SubstepRule::by_state, least[set]});
   return out;
 }
 

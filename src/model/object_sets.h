@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "pliant/scene.h"
@@ -22,21 +23,47 @@ inline int most_substeps_of(const Settings& chosen) { return chosen.substeps > 0
 /// the largest default: its stiffness is converted for a fixed number of projections, which no set may change.
 int own_substeps(const Object& object, Sweep sweep);
 
+/// How the number of substeps of an object's set may be decided.
+enum class SubstepRule {
+  any,       ///< at least own_substeps; the rule of others in the set
+  by_state,  ///< by the State of each quarter of a frame (solver/substep_law.h), unless one of the set needs a fixed number
+  fixed,     ///< own_substeps, because PBD stiffness is converted for that number
+};
+
+/// The mean strain of an object's distances under a load: its weight, which in a sheet the particles of one row share [-].
+/// Empty if it has no distances with a compliance.
+std::optional<double> strain_by_weight(const Object& object, double gravity);
+
+/// True if an object's weight strains its distances so much that its stretch counts as intended.
+bool is_meant_to_stretch(const Object& object, double gravity);
+
+/// Objects of 400 particles or more solved by chains follow the State, unless they are meant to stretch: the law sees strain, not what force explains.
+SubstepRule substep_rule(const Object& object, Sweep sweep, double gravity);
+
 /// The data that determine the set of an object or mesh collider.
 struct SetMember {
   std::uint32_t groups = 0, mask = 0;
   bool collides = false;     ///< true if it collides with other objects
   bool is_collider = false;  ///< a mesh collider, which touches all objects, but no other collider
   int substeps = 0;          ///< substeps that it needs by itself; 0: any number
+  SubstepRule rule = SubstepRule::any;
 };
 
-SetMember member_of(const Object& object, int substeps);
+SetMember member_of(const Object& object, int substeps, SubstepRule rule);
 SetMember member_of(const MeshCollider& collider);
 
 /// For each member, the first member of its set.
 std::vector<int> find_sets(const std::vector<SetMember>& members);
 
-/// For each member, the substeps of its set: the largest number that a member of the set needs.
-std::vector<int> substeps_of_sets(const std::vector<SetMember>& members);
+/// The substeps of a set: the largest number that a member needs.
+struct SetSubsteps {
+  int set = 0;  ///< its first member
+  int substeps = 0;
+  bool by_state = false;  ///< true: decided by the State instead
+  int least = 0;          ///< the largest number that a member needs that does not follow the State
+};
+
+/// For each member, the substeps of its set.
+std::vector<SetSubsteps> substeps_of_sets(const std::vector<SetMember>& members);
 
 }  // namespace pliant

@@ -38,6 +38,7 @@ struct Pool {
   std::int32_t stencil = 0;              ///< slots per constraint
   std::int32_t components = 1;           ///< components of C, the type's rows
   std::int32_t fields = 0;               ///< number of rest data rows; the response's row follows them
+  bool is_length = false;                ///< of a type with is_length (registry.h)
   bool in_lanes = true;                  ///< false: projected one at a time by Driver::stencil
   std::int32_t block_floats = 0;         ///< floats of a batch in `blocks`
   std::vector<std::int32_t> row_offset;  ///< offset of each row in a batch's block; -1: equal for all, in `constants`

@@ -135,7 +135,8 @@ int divided_substeps(const Model& model, const Control& control, const PairModel
         warnings.push_back(too_fast(collider, model.objects[o], sweep.largest * frame.substeps / most, thickness, most));
     }
   }
-  if (substeps > frame.substeps) warnings.push_back(divides(model, demand, frame.substeps, substeps));
+  const int usual = std::max(frame.substeps, frame.usual_substeps);
+  if (substeps > usual) warnings.push_back(divides(model, demand, usual, substeps));
   return substeps;
 }
 

@@ -18,6 +18,7 @@ namespace pliant {
 struct PlannedFrame {
   double start = 0, dt = 0;  ///< start and length of the frame [s]
   int substeps = 1, most_substeps = 1;
+  int usual_substeps = 0;  ///< a warning is given only if the frame gets more than these
 };
 
 /// Returns the number of substeps: at least `substeps`, and up to `most_substeps` so that no mesh collider near an

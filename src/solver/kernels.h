@@ -19,6 +19,7 @@ inline constexpr int correction_place(int lane) { return 4 * (lane % 4) + lane /
 struct ChainKernels;      // solver/sweeps/chain_kernels.h
 struct MultigridKernels;  // solver/sweeps/multigrid_kernels.h
 struct ContactKernels;    // solver/contact_kernels.h
+struct LengthKernels;     // solver/length_kernels.h
 struct PairKernels;       // collision/proxies/pair_kernels.h
 
 struct StepKernels {
@@ -55,6 +56,7 @@ struct Kernels : StepKernels {
   const ChainKernels& chains;
   const MultigridKernels& multigrid;
   const ContactKernels& contacts;
+  const LengthKernels& lengths;
   const PairKernels& pairs;
 };
 

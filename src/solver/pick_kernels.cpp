@@ -5,6 +5,7 @@
 #include "pliant/error.h"
 #include "solver/contact_kernels.h"
 #include "solver/kernels.h"
+#include "solver/length_kernels.h"
 #include "solver/sweeps/chain_kernels.h"
 #include "solver/sweeps/multigrid_kernels.h"
 
@@ -29,7 +30,8 @@ bool runs_generic() { return true; }
   const Kernels& kernels_##suffix() {                                                    \
     static const Kernels table{step_kernels_##suffix(),    isa,                          \
                                chain_kernels_##suffix(),   multigrid_kernels_##suffix(), \
-                               contact_kernels_##suffix(), pair_kernels_##suffix()};     \
+                               contact_kernels_##suffix(), length_kernels_##suffix(),    \
+                               pair_kernels_##suffix()};                                 \
     return table;                                                                        \
   }
 PLIANT_FOR_EACH_LEVEL(PLIANT_LEVEL_TABLE, )
@@ -52,7 +54,8 @@ std::string level_names() {
 const Kernels& kernels_sequential() {
   static const Kernels table{step_kernels_sequential(),    "sequential",
                              chain_kernels_sequential(),   multigrid_kernels_generic(),
-                             contact_kernels_sequential(), pair_kernels_generic()};
+                             contact_kernels_sequential(), length_kernels_sequential(),
+                             pair_kernels_generic()};
   return table;
 }
 

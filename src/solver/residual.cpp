@@ -4,16 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "constraints/registry.h"
 #include "solver/project.h"
 #include "solver/substep.h"
 
 namespace pliant {
 
 namespace {
-
-/// Least number of batches of a task: a smaller one is done before another thread wakes up.
-constexpr int fewest_batches = 128;
 
 struct Lanes {
   float at[batch_width];
@@ -67,26 +63,15 @@ double sum_of(const SweepArguments& a, const Pool& pool, const Segment& segment)
   return sum;
 }
 
-/// Adds a segment to the last task, or to a new one if the last is large enough or belongs to another object.
-void add_segment(std::int32_t object, std::int32_t segment, std::int32_t batches,
-                 std::vector<ResidualScratch::Task>& tasks) {
-  if (tasks.empty() || tasks.back().object != object || tasks.back().batches >= fewest_batches)
-    tasks.push_back({object, segment, segment, 0});
-  tasks.back().last = segment + 1;
-  tasks.back().batches += batches;
-}
-
 }  // namespace
 
 void prepare_residual(const Model& model, ResidualScratch& scratch) {
   scratch = {};
-  for (std::size_t o = 0; o < model.objects.size(); ++o) {
+  for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) {
     const CompiledObject& object = model.objects[o];
-    for (std::size_t s = 0; s < object.segments.size(); ++s) {
-      if (!is_length(object.pools[object.segments[s].pool].type)) continue;
-      add_segment(static_cast<std::int32_t>(o), static_cast<std::int32_t>(s), object.segments[s].batches, scratch.tasks);
-      scratch.constraints += count_valid(object.segments[s]);
-    }
+    for (int i = 0; i < static_cast<int>(object.lengths.size()); ++i) scratch.tasks.push_back({o, i});
+    for (const Segment& segment : object.segments)
+      scratch.constraints += object.pools[segment.pool].is_length ? count_valid(segment) : 0;
   }
   scratch.squares.assign(scratch.tasks.size(), 0);
 }
@@ -95,13 +80,14 @@ double distance_residual(Substep& s) {
   ResidualScratch& scratch = s.work.residual;
   if (scratch.constraints == 0) return std::numeric_limits<double>::infinity();
   for_tasks(s, "solve: residual", static_cast<int>(scratch.tasks.size()), [&](int task) {
-    const ResidualScratch::Task& of = scratch.tasks[task];
-    const CompiledObject& object = s.model.objects[of.object];
+    const int number = scratch.tasks[task].object;
+    const CompiledObject& object = s.model.objects[number];
+    const LengthRange& range = object.lengths[scratch.tasks[task].item];
     double sum = 0;
-    for (int i = of.first; i < of.last; ++i) {
+    for (int i = range.first; i < range.last; ++i) {
       const Segment& segment = object.segments[i];
       const Pool& pool = object.pools[segment.pool];
-      if (is_length(pool.type)) sum += sum_of(arguments(s, of.object, false), pool, segment);
+      if (pool.is_length) sum += sum_of(arguments(s, number, false), pool, segment);
     }
     scratch.squares[task] = sum;
   });

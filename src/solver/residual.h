@@ -8,18 +8,16 @@
 #include <cstdint>
 #include <vector>
 
+#include "model/phase.h"
+
 namespace pliant {
 
-struct Substep;
 struct Model;
+struct Substep;
 
-/// Which segments each task sums, which depends on the model alone, and the sums.
+/// The tasks of the sum, and their results.
 struct ResidualScratch {
-  struct Task {
-    std::int32_t object, first, last;  ///< object, and range of its segments; some are no distances
-    std::int32_t batches;
-  };
-  std::vector<Task> tasks;
+  std::vector<Task> tasks;       ///< an object, and one of its LengthRanges
   std::vector<double> squares;   ///< sum of squared residuals, one per task [m^2]
   std::int64_t constraints = 0;  ///< number of constraints of all tasks
 };

@@ -7,6 +7,7 @@
 //                   contacts of particles with colliders along the predicted path
 //     collide       contacts between surfaces are found
 //     solve         iterations x (constraints in the order of the sweep, acceleration, tethers, contacts)
+//     limit         the few distances that are still far too long are shortened
 //     filter        steps that would make surfaces cross are truncated
 //     update        v from the corrections, x += displacement; restitution at colliders
 //     respond       restitution between surfaces (friction is part of a contact's projection)
@@ -19,6 +20,7 @@
 #include <cstdint>
 
 #include "solver/stages/stages.h"
+#include "solver/substep_law.h"
 
 namespace pliant {
 
@@ -52,6 +54,7 @@ void run(const StepContext& context, double dt, Report& report) {
     if (!predict(s)) return;
     collide(s);
     solve(s);
+    limit(s);
     stops = stops || (context.stop != nullptr && *context.stop && all_end_together(groups, s));
     if (stops) s.substeps = s.number + 1;  // makes this substep the last of its group
     filter(s);
@@ -60,6 +63,8 @@ void run(const StepContext& context, double dt, Report& report) {
     respond(s);
     if (s.is_last()) end_group(s);
     ++s.number;
+    ++s.made;
+    begin_quarter(s);
   }
   end_frame(groups);
 }

@@ -29,6 +29,17 @@ struct Substep {
   const SweepGroup* group =
       nullptr;  ///< the sweep group that is being iterated; null: loops over swept objects visit every object
 
+  int least = 0, most = 0;  ///< bounds of substeps that follow the State; `most` is 0 if they are fixed
+  int least_hanging = 0;    ///< replaces `least` in quarters in which the group hangs
+  bool hangs = false;       ///< true if it does in this quarter: SubstepGroup::hangs, and its tethers hold
+  int made = 0;             ///< substeps made in this frame
+  const std::vector<Task>* own_lengths = nullptr;  ///< SubstepGroup::lengths; null: none
+
+  /// The distances that the limit and the law of substeps apply to.
+  const std::vector<Task>& lengths() const {
+    static const std::vector<Task> none;
+    return own_lengths == nullptr ? none : *own_lengths;
+  }
   bool is_last() const { return number + 1 == substeps; }
   bool has_pairs() const { return pairs != nullptr; }
   const std::vector<Phase>& phases() const { return part == nullptr ? model.phases : part->phases; }

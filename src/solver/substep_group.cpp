@@ -1,6 +1,7 @@
 #include "solver/substep_group.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "model/object_sets.h"
@@ -11,7 +12,8 @@ namespace {
 
 SetMember member_of(const CompiledObject& object) {
   if (object.particles == 0) return {};  // the object was removed
-  return {object.groups, object.mask, object.collides && !object.is_collider, object.is_collider, object.own_substeps};
+  return {object.groups,      object.mask,         object.collides && !object.is_collider,
+          object.is_collider, object.own_substeps, object.substep_rule};
 }
 
 /// Copies a phase with the tasks of a group only. Phases whose tasks are found in each substep have none, and are kept.
@@ -25,13 +27,28 @@ Phase part_of(const Phase& phase, const std::vector<char>& has) {
   return part;
 }
 
-SubstepGroup group_of(const Model& model, const std::vector<int>& of_object, int substeps) {
+void list_lengths(const Model& model, SubstepGroup& group) {
+  group.hangs = group.by_state;
+  for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) {
+    const CompiledObject& object = model.objects[o];
+    if (object.particles == 0 || !(group.has_all || group.has[o] != 0)) continue;
+    group.hangs = group.hangs && (object.is_collider || object.sweep == Sweep::tethered_chains);
+    if (!solves_chains(object.sweep)) continue;
+    for (int i = 0; i < static_cast<int>(object.lengths.size()); ++i)
+      group.lengths.push_back({o, i, object.lengths[i].batches});
+  }
+}
+
+/// The group with the objects whose key is `key`.
+SubstepGroup group_of(const Model& model, const std::vector<int>& of_object, int key, const SetSubsteps& of_set) {
   SubstepGroup group;
-  group.substeps = substeps;
+  group.substeps = of_set.substeps;
+  group.by_state = of_set.by_state;
+  group.least = of_set.least;
   group.has_all = false;
   for (std::size_t o = 0; o < of_object.size(); ++o) {
     const CompiledObject& object = model.objects[o];
-    const bool is_in = object.particles > 0 && of_object[o] == substeps;
+    const bool is_in = object.particles > 0 && of_object[o] == key;
     group.has.push_back(is_in ? 1 : 0);
     if (!is_in) continue;
     group.objects.push_back(static_cast<int>(o));
@@ -44,32 +61,44 @@ SubstepGroup group_of(const Model& model, const std::vector<int>& of_object, int
     Phase part = part_of(phase, group.has);
     if (phase.tasks.empty() || !part.tasks.empty()) group.phases.push_back(std::move(part));
   }
+  list_lengths(model, group);
   return group;
+}
+
+/// Sets that share a group have the same key, in ascending order of substeps; each set that follows its State has its own.
+int key_of(const SetSubsteps& set) {
+  constexpr int most = 10000;  // Settings::substeps
+  return set.by_state ? most + 1 + set.set : set.substeps;
 }
 
 }  // namespace
 
-SubstepGroup group_of_all(int substeps) {
+SubstepGroup group_of_all(const Model& model, int substeps, bool by_state, int least) {
   SubstepGroup group;
   group.substeps = substeps;
+  group.by_state = by_state;
+  group.least = least;
+  list_lengths(model, group);
   return group;
 }
 
 std::vector<SubstepGroup> make_substep_groups(const Model& model) {
   std::vector<SetMember> members;
   for (const CompiledObject& object : model.objects) members.push_back(member_of(object));
-  std::vector<int> of_object = substeps_of_sets(members), numbers;
-  for (const int substeps : of_object)
-    if (substeps > 0) numbers.push_back(substeps);
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  std::map<int, SetSubsteps> keys;
+  std::vector<int> of_object;
+  for (const SetSubsteps& set : substeps_of_sets(members)) {
+    of_object.push_back(key_of(set));
+    if (of_object.back() > 0) keys.try_emplace(of_object.back(), set);
+  }
   std::vector<SubstepGroup> groups;
-  if (numbers.size() < 2) {
-    groups.push_back(group_of_all(numbers.empty() ? substeps_of_others : numbers.front()));
+  if (keys.size() < 2) {
+    const SetSubsteps all = keys.empty() ? SetSubsteps{0, substeps_of_others} : keys.begin()->second;
+    groups.push_back(group_of_all(model, all.substeps, all.by_state, all.least));
     return groups;
   }
-  for (int& substeps : of_object) substeps = std::max(substeps, numbers.front());
-  for (const int substeps : numbers) groups.push_back(group_of(model, of_object, substeps));
+  for (int& key : of_object) key = key > 0 ? key : keys.begin()->first;
+  for (const auto& [key, set] : keys) groups.push_back(group_of(model, of_object, key, set));
   return groups;
 }
 

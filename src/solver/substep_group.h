@@ -1,4 +1,5 @@
-// A substep group: all sets of objects (model/object_sets.h) that have the same number of substeps in a frame.
+// A substep group: all sets of objects (model/object_sets.h) that have the same number of substeps in a frame, or one set
+// whose substeps follow its State (substep_law.h).
 //
 // Groups share nothing within a frame, so each gets the bits that it gets alone. The group whose substep ends first
 // always goes next, so that a frame can be stopped where all groups have reached the same time (solver/step.cpp).
@@ -15,11 +16,15 @@ namespace pliant {
 /// The data of a group that stages use. Its lists are subsets of the model's lists, in the same order.
 struct SubstepGroup {
   int substeps = 1;                     ///< substeps per frame, unless a fast collider requires more (solver/divide.h)
+  bool by_state = false;                ///< true: `substeps` is a first guess, decided again in each quarter of a frame
+  int least = 0;                        ///< where they follow the State: what objects need that do not
+  bool hangs = false;                   ///< true: all of its objects are solved by tethered chains
   bool has_all = true;                  ///< true: all objects; stages then use the model's lists, and all below is empty
   std::vector<char> has{};              ///< for each object of the model, 1 if the group has it
   std::vector<int> objects{}, tiles{};  ///< ascending; indices of Model::objects and Model::tiles()
   std::vector<Phase> phases{};          ///< phases with the tasks of these objects only
   std::vector<Sweep> sweeps{};          ///< sweeps that these objects use
+  std::vector<Task> lengths{};          ///< also where it has all: objects solved by chains, and each of their LengthRanges
   std::unique_ptr<PairModel> pair_model{};
   std::unique_ptr<SurfaceContact> pairs{};  ///< contact between surfaces; null if no two of the group can touch
 };
@@ -28,12 +33,14 @@ struct SubstepGroup {
 std::vector<SubstepGroup> make_substep_groups(const Model& model);
 
 /// Makes one group of all objects.
-SubstepGroup group_of_all(int substeps);
+SubstepGroup group_of_all(const Model& model, int substeps, bool by_state = false, int least = 0);
 
 /// A group and its number of substeps in a frame.
 struct GroupFrame {
   const SubstepGroup* group = nullptr;
-  int substeps = 1;
+  int substeps = 1;       ///< where they follow the State the least number
+  int most_substeps = 0;  ///< where they follow the State the largest number; 0: `substeps` is fixed
+  int least_hanging = 0;  ///< the least number where the group hangs; 0: it cannot
 };
 
 }  // namespace pliant

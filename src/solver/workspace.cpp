@@ -21,7 +21,8 @@ void prepare_multipliers(const CompiledObject& object, Multipliers kept, std::ve
   pointers.clear();
   if (kept == Multipliers::none) return;
   for (const Pool& pool : object.pools) {
-    const bool keeps = pool.law != Law::pbd && (kept == Multipliers::all || needs_multipliers(pool));
+    const bool is_asked_for = kept != Multipliers::lengths || pool.is_length;
+    const bool keeps = pool.law != Law::pbd && is_asked_for && (kept == Multipliers::all || needs_multipliers(pool));
     multipliers.emplace_back(keeps ? static_cast<std::size_t>(pool.batches) * batch_width * pool.components : 0, 0.f);
   }
   for (AlignedVector<float>& values : multipliers) pointers.push_back(values.empty() ? nullptr : values.data());
@@ -38,6 +39,7 @@ void resize(const Model& model, Workspace& workspace) {
   workspace.volume_multipliers.resize(objects);
   workspace.triangle_forces.resize(objects);
   workspace.gravity.resize(objects);
+  workspace.last_h.resize(objects);
   workspace.anchors.resize(objects);
   workspace.tiles.resize(model.tiles().size());
   if (!workspace.volume_gradients.empty()) workspace.volume_gradients.resize(model.particles());
@@ -64,6 +66,7 @@ void prepare(const Model& model, int object, Multipliers kept, Workspace& worksp
   const CompiledObject& from = model.objects[object];
   prepare_multipliers(from, kept, workspace.multipliers[object], workspace.multiplier_pointers[object]);
   workspace.volume_multipliers[object] = 0;
+  workspace.last_h[object] = 0;
   workspace.triangle_forces[object] = {};
   workspace.anchors[object].resize(2 * from.tethers.anchors.size());
   workspace.shape_contacts.prepare(model, object);

@@ -13,6 +13,7 @@
 #include "pliant/state.h"
 #include "solver/contact_log.h"
 #include "solver/contact_solver.h"
+#include "solver/limit.h"
 #include "solver/residual.h"
 #include "solver/sweeps/sweep.h"
 
@@ -66,11 +67,14 @@ struct Workspace {
   ShapeContacts shape_contacts;             ///< contacts of edges and triangles with primitive colliders
   ContactSolver shape_contact_solver;
   bool look_for_tangles = true;  ///< true: the next frame searches all initial intersections (first frame, restored State)
+  std::vector<float> demands;    ///< substeps that constraints demand (substep_law.h)
+  std::vector<float> last_h;     ///< length of each object's last substep [s]; 0: none yet
+  LimitScratch limit;            ///< the limit of overstretch
   ResidualScratch residual;      ///< the residual for Settings::tolerance
 };
 
 /// Which multipliers are stored: none, those that a second iteration needs, or all.
-enum class Multipliers { none, needed, all };
+enum class Multipliers { none, lengths, needed, all };
 
 /// Resizes everything for a model but its sweeps.
 void prepare(const Model& model, Multipliers kept, Workspace& workspace);

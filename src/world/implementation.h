@@ -121,13 +121,11 @@ struct World::Implementation {
   std::vector<Vec3f> in_given_order(int number, const Records& records) const;
   void measure(Lengths& measured) const;
   /// Length of an object's substeps in the last step [s]; 1 if it took part in none, because then multipliers are zero.
-  float h_of(int number) const {
-    return number < static_cast<int>(last_h.size()) && last_h[number] > 0 ? last_h[number] : 1.f;
-  }
+  float h_of(int number) const { return workspace.last_h[number] > 0 ? workspace.last_h[number] : 1.f; }
 
   /// Substeps per frame: of an object as planned; and of a group in the next frame, which fast colliders can increase.
   int substeps_of(int number) const;
-  int substeps_for(const SubstepGroup& group, double dt, std::vector<std::string>& warnings) const;
+  GroupFrame plan(const SubstepGroup& group, double dt, std::vector<std::string>& warnings) const;
   std::vector<GroupFrame> plan_frame(double dt, Report& report);
 
   Settings settings, suggested;  ///< the World's settings; those that measured best on such scenes
@@ -144,7 +142,6 @@ struct World::Implementation {
   Lengths lengths;
   std::vector<std::pair<Thing, Thing>> touching;  ///< pairs of bodies that were in contact in the last step, ascending
   std::vector<ContactEvent> events;
-  std::vector<float> last_h;  ///< for each object, length of its substeps in the last step [s]
   bool stopped = false;
   const std::atomic<bool>* stop = nullptr;  ///< flag given to World::stop_when
   bool may_drift = false;             ///< fixed particles may have a velocity from a frame in which the user moved them

@@ -17,11 +17,13 @@ namespace pliant {
 
 namespace {
 
-/// Which multipliers to store: all if requested, else those that a second pass or the measurement of overstretch needs.
+/// Which multipliers to store: all if requested, else those that a second pass, the measurement of overstretch or its limit
+/// needs.
 Multipliers kept_multipliers(const Settings& settings, Sweep sweep) {
   if (settings.record_multipliers || settings.record_residuals) return Multipliers::all;
   const bool more_passes = settings.iterations * sweep_method(sweep).passes > 1;
-  return more_passes || settings.measure ? Multipliers::needed : Multipliers::none;
+  if (more_passes || settings.measure) return Multipliers::needed;
+  return solves_chains(sweep) && settings.sweep_options.most_overstretch > 0 ? Multipliers::lengths : Multipliers::none;
 }
 
 constexpr int most_particles = std::numeric_limits<int>::max() / 4;
@@ -111,6 +113,7 @@ void World::Implementation::add_field(const MeshCollider& collider, std::shared_
 
 void World::Implementation::put(int number) {
   put_at_start(model, number, state);
+  if (number < static_cast<int>(state.substeps.size())) state.substeps[number] = 0;  // of an earlier object
   fit_state();
   if (state.time != 0) move_to_present(model.objects[number], state.time, &state.positions[model.first[number]]);
   prepare(number);
@@ -124,6 +127,7 @@ void World::Implementation::remove(int number) {
   forget_control(number);
   std::erase_if(model.fields, [&](const FieldCollider& field) { return field.object == number; });
   state.blocks[number] = {0, 0, model.generation[number]};
+  if (!state.substeps.empty()) state.substeps[number] = 0;
   fit_state();
   prepare(number);
   drop_unused_sweeps(model, workspace);
@@ -239,6 +243,7 @@ void World::Implementation::fit_state() {
   const auto particles = static_cast<std::size_t>(model.particles());
   for (Records* records : {&state.positions, &state.remainders, &state.velocities}) records->resize(particles);
   resize_frames(model, state.frames);
+  if (!state.substeps.empty()) state.substeps.resize(model.objects.size());
   for (Channel& channel : state.channels) channel.values.resize(particles * static_cast<std::size_t>(channel.components));
 }
 
@@ -285,15 +290,27 @@ void World::Implementation::take_over_pairs(SubstepGroup& group, SubstepGroup& b
 std::vector<SubstepGroup> World::Implementation::find_groups() const {
   std::vector<SubstepGroup> found;
   if (settings.substeps > 0)
-    found.push_back(group_of_all(settings.substeps));
+    found.push_back(group_of_all(model, settings.substeps));
   else
     found = make_substep_groups(model);
-  if (found.size() < 2 || (settings.tolerance <= 0 && !settings.record_residuals)) return found;
-  const int most = found.back().substeps;  // because the tolerance is for all objects together
+  if (settings.substeps > 0 || (settings.tolerance <= 0 && !settings.record_residuals)) return found;
+  int most = 0;  // because the tolerance is for all objects together
+  for (const SubstepGroup& group : found) most = std::max(most, group.substeps);
   found.clear();
-  found.push_back(group_of_all(most));
+  found.push_back(group_of_all(model, most));
   return found;
 }
+
+namespace {
+
+bool have_common_object(const SubstepGroup& a, const SubstepGroup& b) {
+  const std::size_t count = std::min(a.has.size(), b.has.size());
+  for (std::size_t o = 0; o < count; ++o)
+    if (a.has[o] != 0 && b.has[o] != 0) return true;
+  return false;
+}
+
+}  // namespace
 
 void World::Implementation::prepare_groups() {
   std::vector<SubstepGroup> before = std::exchange(groups, find_groups());
@@ -302,7 +319,8 @@ void World::Implementation::prepare_groups() {
   pair_model = nullptr;
   for (SubstepGroup& group : groups) {
     const auto same = std::find_if(before.begin(), before.end(), [&](const SubstepGroup& one) {
-      return !one.has_all && !group.has_all && one.substeps == group.substeps;
+      if (one.has_all || group.has_all || one.by_state != group.by_state) return false;
+      return group.by_state ? have_common_object(one, group) : one.substeps == group.substeps;
     });
     same != before.end() ? take_over_pairs(group, *same) : make_pairs(group);
   }

@@ -184,7 +184,10 @@ std::string World::advice(const Report& report) const {
   if (!report.overstretch || !(report.overstretch->largest > tolerated_overstretch)) return {};
   const int number = self_->object_ids.number(self_->object_ids.id_in(report.overstretch->object));
   const std::string sweep = in_json(self_->suggested, self_->settings);
-  return describe(*report.overstretch) + "; more than " + std::to_string(self_->substeps_of(number)) + " substeps" +
+  const int substeps = self_->substeps_of(number);
+  const std::string more = substeps > 0 ? "more than " + std::to_string(substeps) + " substeps"
+                                        : "a larger \"least_substeps\" or \"most_substeps\"";
+  return describe(*report.overstretch) + "; " + more +
          (sweep == "{}" ? "" : ", or \"settings\": " + sweep + " in the scene,") +
          " may reduce it: 'pliant check' or advise() finds out how many are needed";
 }

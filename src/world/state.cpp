@@ -52,6 +52,17 @@ void require_channels(const State& state) {
   }
 }
 
+void require_substeps(const State& state) {
+  if (!state.substeps.empty() && state.substeps.size() != state.blocks.size())
+    throw Error({},
+                "the state has substeps of " + std::to_string(state.substeps.size()) + " objects, the world has " +
+                    std::to_string(state.blocks.size()),
+                "restore a state of this world");
+  for (const float substeps : state.substeps)
+    if (!(substeps >= 0 && substeps <= 10000))
+      throw Error({}, "the state has an object of " + std::to_string(substeps) + " substeps", "give 0 to 10000");
+}
+
 /// True if blocks are contiguous and in order, as in a World in which nothing was removed or edited.
 bool follow_one_another(const std::vector<StateBlock>& blocks) {
   int first = 0;
@@ -116,6 +127,7 @@ void World::restore(const State& state) {
   }
   require_frames_of(self_->state.frames, state.frames);
   require_channels(state);
+  require_substeps(state);
   if (!std::isfinite(state.time)) throw Error({}, "the state's time is not finite", "restore an earlier state");
   if (state.frame < 0 || state.frame > largest_frame)
     throw Error({}, "the state's frame is " + std::to_string(state.frame), "restore a state of this world");
@@ -155,6 +167,7 @@ std::string hash(const State& state) {
     sha.add(&pose.position, sizeof pose.position);
     sha.add(&pose.rotation, sizeof pose.rotation);
   }
+  if (!state.substeps.empty()) sha.add(state.substeps.data(), state.substeps.size() * sizeof(float));
   return sha.finish();
 }
 

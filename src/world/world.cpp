@@ -9,6 +9,7 @@
 #include "matter/advice_settings.h"
 #include "solver/divide.h"
 #include "solver/step.h"
+#include "solver/substep_law.h"
 #include "world/implementation.h"
 
 namespace pliant {
@@ -49,29 +50,38 @@ int World::Implementation::substeps_of(int number) const {
   if (settings.substeps > 0) return settings.substeps;
   const auto find = [&](const std::vector<SubstepGroup>& all) {
     const auto has = [&](const SubstepGroup& group) { return group.has_all || group.has[number] != 0; };
-    return std::find_if(all.begin(), all.end(), has)->substeps;
+    const SubstepGroup& group = *std::find_if(all.begin(), all.end(), has);
+    return group.by_state ? 0 : group.substeps;
   };
   return objects_changed ? find(find_groups()) : find(groups);
 }
 
-int World::Implementation::substeps_for(const SubstepGroup& group, double dt, std::vector<std::string>& warnings) const {
-  const PairModel* pairs = group.has_all ? pair_model.get() : group.pair_model.get();
-  if (pairs == nullptr) return group.substeps;
+GroupFrame World::Implementation::plan(const SubstepGroup& group, double dt, std::vector<std::string>& warnings) const {
   const double shortest = dt / shortest_substep;
-  const int wanted = settings.most_substeps > 0 ? settings.most_substeps : default_division * group.substeps;
-  const int most = shortest < wanted ? static_cast<int>(shortest) : wanted;
-  return divided_substeps(model, workspace.control, *pairs, state, {state.time, dt, group.substeps, most}, warnings);
+  const auto limited = [&](int substeps) { return shortest < substeps ? static_cast<int>(shortest) : substeps; };
+  GroupFrame frame{&group, group.substeps};
+  int most = settings.most_substeps > 0 ? settings.most_substeps : default_division * group.substeps;
+  if (group.by_state) {
+    const bool is_named = settings.least_substeps > 0;
+    frame.substeps = limited(is_named ? settings.least_substeps : std::max(group.least, least_by_state));
+    if (group.hangs) frame.least_hanging = is_named ? frame.substeps : limited(least_of_hanging);
+    // A limit below the least number only switches the division for fast colliders off.
+    const bool has_most = settings.most_substeps >= frame.substeps;
+    frame.most_substeps = limited(std::max(frame.substeps, has_most ? settings.most_substeps : most_by_state));
+  }
+  const PairModel* pairs = group.has_all ? pair_model.get() : group.pair_model.get();
+  if (pairs == nullptr) return frame;
+  frame.substeps = divided_substeps(model, workspace.control, *pairs, state,
+                                    {state.time, dt, frame.substeps, limited(most), group.substeps}, warnings);
+  if (group.by_state) frame.most_substeps = std::max(frame.substeps, frame.most_substeps);
+  return frame;
 }
 
 std::vector<GroupFrame> World::Implementation::plan_frame(double dt, Report& report) {
   std::vector<GroupFrame> frames;
-  last_h.resize(model.objects.size());
   for (const SubstepGroup& group : groups) {
-    const int substeps = substeps_for(group, dt, report.warnings);
-    frames.push_back({&group, substeps});
-    report.substeps = std::max(report.substeps, substeps);
-    for (std::size_t o = 0; o < last_h.size(); ++o)
-      if (group.has_all || group.has[o] != 0) last_h[o] = static_cast<float>(dt / substeps);
+    frames.push_back(plan(group, dt, report.warnings));
+    report.substeps = std::max(report.substeps, frames.back().substeps);
   }
   return frames;
 }

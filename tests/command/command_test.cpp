@@ -228,8 +228,8 @@ TEST_F(Command, PlainCodeGivesTheBitsOfTheSweepThatIsChosen) {
   std::ofstream(folder_ / "small.json") << R"({"frames": 3, "objects": [{"name": "sheet", "pins": [{"particles": [0]}],
       "cloth": {"mesh": {"grid": {"columns": 12, "rows": 12, "width": 1, "depth": 1}}}}]})";
   const nlohmann::json lanes = report(""), plain = report("--sequential");
-  EXPECT_EQ(lanes.at("sweep"), "multigrid");
-  EXPECT_EQ(plain.at("sweep"), "multigrid");
+  EXPECT_EQ(lanes.at("sweep"), "tethered_chains");
+  EXPECT_EQ(plain.at("sweep"), "tethered_chains");
   EXPECT_EQ(plain.at("isa"), "sequential");
   EXPECT_EQ(plain.at("state_hash"), lanes.at("state_hash"));
 }

@@ -39,6 +39,7 @@ TEST_F(FullScene, HasItsSurroundings) {
   EXPECT_EQ(scene.settings.iterations, 5);
   EXPECT_EQ(scene.settings.tolerance, 0.03125f);
   EXPECT_EQ(scene.settings.threads, 2);
+  EXPECT_EQ(scene.settings.least_substeps, 7);
   EXPECT_EQ(scene.settings.sweep, Sweep::symmetric);
   const SweepOptions& options = scene.settings.sweep_options;
   EXPECT_EQ(options.relaxation, 1.25f);
@@ -49,6 +50,7 @@ TEST_F(FullScene, HasItsSurroundings) {
   EXPECT_TRUE(options.tethers);
   EXPECT_EQ(options.tether_slack, 0.25f);
   EXPECT_EQ(options.chain_softness, 0.125f);
+  EXPECT_EQ(options.most_overstretch, 0.375f);
   EXPECT_EQ(options.multigrid_cycles, 3);
   EXPECT_TRUE(scene.settings.record_residuals);
   EXPECT_TRUE(scene.settings.measure);
@@ -57,10 +59,11 @@ TEST_F(FullScene, HasItsSurroundings) {
 }
 
 TEST(SceneSettings, ReadEverySweepByItsName) {
-  const std::pair<const char*, Sweep> names[] = {{"tiled", Sweep::tiled},         {"sequential", Sweep::sequential},
-                                                 {"symmetric", Sweep::symmetric}, {"jacobi", Sweep::jacobi},
-                                                 {"natural", Sweep::natural},     {"chains", Sweep::chains},
-                                                 {"multigrid", Sweep::multigrid}};
+  const std::pair<const char*, Sweep> names[] = {
+      {"tiled", Sweep::tiled},         {"sequential", Sweep::sequential},
+      {"symmetric", Sweep::symmetric}, {"jacobi", Sweep::jacobi},
+      {"natural", Sweep::natural},     {"chains", Sweep::chains},
+      {"multigrid", Sweep::multigrid}, {"tethered_chains", Sweep::tethered_chains}};
   EXPECT_EQ(sweeps().size(), std::size(names)) << "a sweep that this test does not know";
   EXPECT_EQ(parse_scene(R"({"settings": {"sweep": "automatic"}, "objects": []})", "x.json", ".").settings.sweep,
             Sweep::automatic);

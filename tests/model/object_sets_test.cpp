@@ -13,11 +13,17 @@ SetMember object(std::uint32_t groups, std::uint32_t mask, int substeps = 10) {
   return {groups, mask, true, false, substeps};
 }
 
+std::vector<int> most_of_sets(const std::vector<SetMember>& members) {
+  std::vector<int> most;
+  for (const SetSubsteps& set : substeps_of_sets(members)) most.push_back(set.substeps);
+  return most;
+}
+
 TEST(ObjectSets, NobodyMeetsWhatDoesNotCollide) {
   SetMember loner = object(1, ~0u, 10);
   loner.collides = false;
   EXPECT_EQ(find_sets({loner, object(1, ~0u), loner, object(1, ~0u)}), (std::vector<int>{0, 1, 2, 1}));
-  EXPECT_EQ(substeps_of_sets({loner, object(1, ~0u, 20), object(1, ~0u, 10)}), (std::vector<int>{10, 20, 20}));
+  EXPECT_EQ(most_of_sets({loner, object(1, ~0u, 20), object(1, ~0u, 10)}), (std::vector<int>{10, 20, 20}));
 }
 
 TEST(ObjectSets, CollidersJoinObjectsAndNoOtherCollider) {
@@ -54,10 +60,23 @@ TEST(ObjectSets, AreTheConnectedPartsOfAllPairs) {
     for (int i = 0; i < count; ++i)
       for (int j = 0; j < count; ++j)
         if (sets[i] == sets[j]) most[i] = std::max(most[i], members[j].substeps);
-    ASSERT_EQ(substeps_of_sets(members), most);
+    ASSERT_EQ(most_of_sets(members), most);
     several += std::count(sets.begin(), sets.end(), 0) < count ? 1 : 0;
   }
   EXPECT_GT(several, 100);
+}
+
+/// One that follows the State makes its set do so, unless another needs a fixed number.
+TEST(ObjectSets, FollowTheStateUnlessOneIsFixed) {
+  SetMember any = object(1, ~0u, 20), by_state = object(1, ~0u, 20), fixed = object(1, ~0u, 20);
+  by_state.rule = SubstepRule::by_state;
+  fixed.rule = SubstepRule::fixed;
+  any.substeps = 15;
+  EXPECT_FALSE(substeps_of_sets({any, any})[0].by_state);
+  EXPECT_TRUE(substeps_of_sets({any, by_state})[0].by_state);
+  EXPECT_EQ(substeps_of_sets({any, by_state})[0].least, 15);
+  EXPECT_EQ(substeps_of_sets({by_state, by_state})[1].least, 0);
+  EXPECT_FALSE(substeps_of_sets({any, by_state, fixed})[2].by_state);
 }
 
 }  // namespace

@@ -92,8 +92,13 @@ TEST(ChainSweep, bears_a_straight_row_between_two_pins) {
   scene.settings.substeps = 10;
   scene.settings.sweep = Sweep::chains;
   World world(scene);
-  for (int frame = 0; frame < 120; ++frame) ASSERT_TRUE(world.step(1.f / 60).ok());
-  EXPECT_LT(world.stretch().largest, 1.01);
+  double largest = 0;
+  for (int frame = 0; frame < 120; ++frame) {
+    ASSERT_TRUE(world.step(1.f / 60).ok());
+    largest = std::max(largest, world.stretch().largest);
+  }
+  EXPECT_LT(largest, 1.07) << "the row swings; without the limit a link is 9.8 % too long at its first turn";
+  EXPECT_LT(world.stretch().mean, 1.005);
   for (const Vec3f& p : world.positions(rope)) EXPECT_LT(std::fabs(p.y), 0.1f);
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "pliant/scene.h"
 #include "pliant/world.h"
@@ -21,6 +22,19 @@ Scene with(const TriangleMesh& mesh, const ClothOptions& options) {
 
 Scene sheet(int n, float size, const ClothOptions& options = {}) { return with(grid_mesh(n, n, size, size), options); }
 
+/// The same with its inner vertices moved by up to a third of an edge: no springs lie in rows.
+TriangleMesh irregular_mesh(int n, float size) {
+  TriangleMesh mesh = grid_mesh(n, n, size, size);
+  std::mt19937 random(5);
+  const float range = size / static_cast<float>(3 * (n - 1));
+  for (Vec3f& p : mesh.positions) {
+    const float x = std::uniform_real_distribution<float>(-range, range)(random);
+    p += Vec3f{x, 0, std::uniform_real_distribution<float>(-range, range)(random)};
+  }
+  return mesh;
+}
+Scene irregular(int n, float size) { return with(irregular_mesh(n, size), {}); }
+
 void expect_chosen(const Scene& scene, Sweep sweep, int substeps, const std::string& why) {
   SCOPED_TRACE(why);
   std::string reason;
@@ -33,11 +47,25 @@ void expect_chosen(const Scene& scene, Sweep sweep, int substeps, const std::str
   EXPECT_EQ(world.settings().substeps, substeps);
 }
 
-TEST(ChosenSettings, AreMultigridForCloth) { expect_chosen(sheet(40, 1), Sweep::multigrid, 10, "1600 particles"); }
+TEST(ChosenSettings, AreMultigridForIrregularCloth) {
+  expect_chosen(irregular(40, 1), Sweep::multigrid, 10, "1600 particles");
+  expect_chosen(irregular(6, 1), Sweep::multigrid, 10, "36 particles");
+}
+
+TEST(ChosenSettings, AreChainsForRegularCloth) {
+  expect_chosen(sheet(40, 1), Sweep::chains, 0, "springs lie in straight rows");
+  expect_chosen(sheet(19, 1), Sweep::chains, 20, "springs lie in straight rows");  // fewer than 400 particles
+  Scene hung = sheet(40, 1);
+  hung.pin(0, {0, 39});
+  expect_chosen(hung, Sweep::tethered_chains, 0, "hangs from pins");
+  for (ConstraintGroup& group : hung.objects[0].constraints)
+    if (group.type == "distance") group.compliances.assign(group.particles.size() / 2, 0.1f);
+  expect_chosen(hung, Sweep::chains, 20, "springs lie in straight rows");  // it is meant to stretch
+}
 
 TEST(ChosenSettings, ArePlainForWhatIsCoarse) {
   expect_chosen(sheet(5, 1), Sweep::tiled, 20, "fewer than 32");
-  expect_chosen(sheet(6, 1), Sweep::multigrid, 10, "36 particles");
+  expect_chosen(sheet(6, 1), Sweep::chains, 20, "straight rows");
   expect_chosen(Scene{}, Sweep::tiled, 20, "fewer than 32");
 }
 
@@ -54,19 +82,19 @@ TEST(ChosenSettings, AreEachObjectsOwn) {
   ball.volume = Volume{1, Stiffness::rigid()};
   sock.name = "sock";
   Scene scene = with(sphere_mesh(2), ball);
-  scene.add_cloth(grid_mesh(20, 20, 1, 1));
+  scene.add_cloth(irregular_mesh(20, 1));
   scene.add_cloth(grid_mesh(20, 20, 1, 1), sock);
   scene.objects[2].self_collision = true;
   EXPECT_EQ(chosen_sweep(scene, 0), Sweep::tiled);
   EXPECT_EQ(chosen_sweep(scene, 1), Sweep::multigrid) << "whatever is beside it";
-  EXPECT_EQ(chosen_sweep(scene, 2), Sweep::tiled);
+  EXPECT_EQ(chosen_sweep(scene, 2), Sweep::chains);
   expect_chosen(scene, Sweep::automatic, 0, "'cloth' by 'multigrid'");
-  EXPECT_EQ(chosen_substeps(scene), (std::vector<int>{20, 10, 20}));
-  scene.objects[2].sweep = Sweep::chains;
-  EXPECT_EQ(chosen_sweep(scene, 2), Sweep::chains) << "what it names itself";
+  EXPECT_EQ(chosen_substeps(scene), (std::vector<int>{20, 10, 0}));
+  scene.objects[2].sweep = Sweep::jacobi;
+  EXPECT_EQ(chosen_sweep(scene, 2), Sweep::jacobi) << "what it names itself";
   scene.settings.sweep = Sweep::symmetric;
   EXPECT_EQ(chosen_sweep(scene, 1), Sweep::symmetric) << "else what the settings name";
-  EXPECT_EQ(chosen_sweep(scene, 2), Sweep::chains);
+  EXPECT_EQ(chosen_sweep(scene, 2), Sweep::jacobi);
 }
 
 TEST(ChosenSettings, ArePlainWherePbdStiffnessOrIterationsSaySo) {
@@ -94,24 +122,24 @@ TEST(ChosenSettings, ArePlainForSheetsThatHoldThemselvesUp) {
     const double length = std::cbrt(0.02 / (0.75 * 9.81));
     for (const int n : {8, 30}) {
       expect_chosen(sheet(n, static_cast<float>(3.9 * length), options), Sweep::tiled, 20, "a quarter of its size");
-      expect_chosen(sheet(n, static_cast<float>(4.1 * length), options), Sweep::multigrid, 10, "particles");
+      expect_chosen(sheet(n, static_cast<float>(4.1 * length), options), Sweep::chains, 20, "straight rows");
     }
   }
 }
 
-TEST(ChosenSettings, ArePlainWhereSurfacesMeet) {
-  Scene scene = sheet(20, 1);
+TEST(ChosenSettings, AreChainsWhereSurfacesMeet) {
+  Scene scene = irregular(20, 1);
   scene.objects[0].name = "shirt";
   scene.objects[0].collides = true;
-  expect_chosen(scene, Sweep::multigrid, 10, "particles");  // all other objects are solved by tiled
+  expect_chosen(scene, Sweep::multigrid, 10, "particles");  // nothing else is there
   scene.objects[0].self_collision = true;
-  expect_chosen(scene, Sweep::tiled, 20, "'shirt', a surface that can touch itself or others");
+  expect_chosen(scene, Sweep::chains, 0, "'shirt', a surface that can touch itself or others");
   scene.objects[0].self_collision = false;
   Object other = scene.objects[0];
   other.name = "trousers";
   for (Vec3f& p : other.positions) p.y += 1;
   scene.add(other);
-  expect_chosen(scene, Sweep::tiled, 20, "'shirt', a surface");
+  expect_chosen(scene, Sweep::chains, 0, "'shirt', a surface");
   scene.objects[1].collides = false;
   expect_chosen(scene, Sweep::multigrid, 10, "particles");
   MeshCollider body;
@@ -122,7 +150,7 @@ TEST(ChosenSettings, ArePlainWhereSurfacesMeet) {
   scene.add(body);
   expect_chosen(scene, Sweep::multigrid, 10, "particles");
   scene.mesh_colliders[0].as = MeshCollider::As::triangles;
-  expect_chosen(scene, Sweep::tiled, 20, "'shirt', a surface");
+  expect_chosen(scene, Sweep::chains, 0, "'shirt', a surface");
 }
 
 TEST(ChosenSettings, LeaveWhatIsNamed) {
@@ -131,7 +159,8 @@ TEST(ChosenSettings, LeaveWhatIsNamed) {
     scene.settings.sweep = one.sweep;
     std::string reason;
     EXPECT_EQ(chosen_settings(scene, &reason).sweep, one.sweep);
-    EXPECT_EQ(chosen_settings(scene).substeps, one.sweep == Sweep::multigrid ? 10 : 20) << one.name;
+    const int substeps = one.sweep == Sweep::multigrid ? 10 : solves_chains(one.sweep) ? 0 : 20;
+    EXPECT_EQ(chosen_settings(scene).substeps, substeps) << one.name;
     EXPECT_EQ(reason, "");
   }
   scene.settings.substeps = 7;
@@ -150,7 +179,7 @@ TEST(ChosenSettings, AreNotDecidedByAHingeOfNoArea) {
 TEST(ChosenSettings, AreNotDecidedByAFewStiffHingesOrLooseParticles) {
   Scene scene = sheet(20, 1);
   scene.objects[0].constraints[1].compliances.at(7) = 0;
-  expect_chosen(scene, Sweep::multigrid, 10, "400 particles");
+  expect_chosen(scene, Sweep::chains, 0, "straight rows");
   ClothOptions stiff;
   stiff.material.bending_stiffness = 5;
   scene = sheet(20, 1, stiff);
@@ -164,7 +193,7 @@ TEST(ChosenSettings, AreNotDecidedByAFewStiffHingesOrLooseParticles) {
 }
 
 TEST(ChosenSettings, AreFoundForScenesThatWillBeRefused) {
-  Scene scene = sheet(40, 1);
+  Scene scene = irregular(40, 1);
   scene.objects[0].constraints[1].particles[3] = 1 << 30;
   scene.objects[0].constraints[1].particles[4] = -1;
   scene.objects[0].triangles[0] = {-5, 1 << 30, 0};

@@ -23,7 +23,11 @@ inline Object sheet(const std::string& name, const Vec3f& at, int n = 12) {
 }
 
 /// A sheet solved by `multigrid` in 10 substeps.
-inline Object flag() { return sheet("flag", {0, 0.5f, 0}); }
+inline Object flag() {
+  Object object = sheet("flag", {0, 0.5f, 0});
+  object.sweep = Sweep::multigrid;
+  return object;
+}
 
 /// A self-colliding sheet, solved by `tiled` in 20 substeps. It lies in two layers, which fall on the floor.
 inline Object sock() {
@@ -32,6 +36,7 @@ inline Object sock() {
     if (p.z > 3) p = {p.x, p.y + 0.02f, 6 - p.z};
   object.pins = {{0, {}}};
   object.self_collision = true;
+  object.sweep = Sweep::tiled;
   return object;
 }
 

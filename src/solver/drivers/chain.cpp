@@ -27,13 +27,14 @@ void solve_one(const Model& model, const ChainKernels& kernels, const Task& task
 }  // namespace
 
 void project_chains(Substep& s, const Phase& phase, const Pass& pass) {
-  if (s.group->sweep != Sweep::chains) return;
+  if (!solves_chains(s.group->sweep)) return;
   std::vector<AlignedVector<float>>& scratch = static_cast<ChainScratch&>(*s.group->scratch).of_thread;
   const int tasks = static_cast<int>(phase.tasks.size());
   const int shares = phase.work < fewest_steps_to_share ? 1 : std::min(tasks, static_cast<int>(scratch.size()));
   for_tasks(s, "solve: chains", shares, [&](int share) {  // every n-th task, because neighbouring paths are alike
     for (int i = share; i < tasks; i += shares) {
       const Task& task = phase.tasks[i];
+      if (!is_swept(s, task.object)) continue;
       solve_one(s.model, s.kernels.chains, task, arguments(s, task.object, pass.first), scratch[share].data());
     }
   });

@@ -13,15 +13,19 @@
 #include "solver/forces.h"
 #include "solver/rotation.h"
 #include "solver/stages/stages.h"
+#include "solver/substep_law.h"
 
 namespace pliant {
 
 namespace {
 
+/// True if the update puts all of this frame's gravity so far into the velocities.
+bool settles(const Substep& s) { return s.is_last() || ends_quarter(s); }
+
 /// True if a stage between update and predict reads velocities, or if phases are timed separately; then update is not
 /// deferred.
 bool velocities_are_read(const Substep& s) {
-  return s.is_last() || s.has_pairs() || !s.work.shape_contacts.contacts().empty() || has_forces(s.model, s.work.control) ||
+  return settles(s) || s.has_pairs() || !s.work.shape_contacts.contacts().empty() || has_forces(s.model, s.work.control) ||
          s.context.separate_phases;
 }
 
@@ -128,7 +132,7 @@ bool predict(Substep& s) {
   });
   if (s.sweeps_on_entry && !sweeps_at_once) for_tiles(s, "solve: tiles", sweep_first);  // tiles were entered already
   s.update_is_due = false;
-  return all_finite(s, s.number - 1);
+  return all_finite(s, s.made - 1);
 }
 
 bool update(Substep& s) {
@@ -140,9 +144,9 @@ bool update(Substep& s) {
   if (s.context.separate_phases) for_tiles(s, "find non-finite values", find_non_finite);
   for_tiles(s, "update", [&](int task) {
     if (!s.context.separate_phases) find_non_finite(task);
-    if (s.work.tiles[task].finite) update_tile(s, task, s.is_last());
+    if (s.work.tiles[task].finite) update_tile(s, task, settles(s));
   });
-  return all_finite(s, s.number);
+  return all_finite(s, s.made);
 }
 
 }  // namespace pliant

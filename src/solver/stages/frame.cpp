@@ -3,6 +3,7 @@
 
 #include "solver/pair_words.h"
 #include "solver/stages/stages.h"
+#include "solver/substep_law.h"
 
 namespace pliant {
 
@@ -23,9 +24,16 @@ Substep begin_group(const StepContext& context, const GroupFrame& of, double dt,
   s.dt = dt;
   s.h = static_cast<float>(dt / of.substeps);
   s.planned = s.substeps = of.substeps;
+  s.least = of.substeps;
+  s.most = of.most_substeps;
+  s.least_hanging = of.least_hanging;
+  if (of.group != nullptr) s.own_lengths = &of.group->lengths;
   for_objects(s, [&](int o) {
     s.work.gravity[o] = {0, static_cast<double>(s.h), 0, 1 / (1 + s.h * s.model.objects[o].damping)};
+    s.work.last_h[o] = s.h;
   });
+  forget_substeps(s);
+  begin_quarter(s);
   if (s.has_pairs()) s.pairs->begin_frame(s.state.positions.data(), s.work.look_for_tangles);
   s.sweeps_on_entry = may_sweep_on_entry(s);
   return s;
@@ -58,6 +66,7 @@ std::vector<Substep> begin_frame(const StepContext& context, double dt, Report& 
 }
 
 void end_group(Substep& s) {
+  s.report.substeps = std::max(s.report.substeps, s.made + 1);
   const auto count = [&](const std::vector<Contact>& contacts) {
     s.report.contacts += std::count_if(contacts.begin(), contacts.end(), [](const Contact& c) { return c.push > 0; });
   };

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "solver/stages/stages.h"
+#include "solver/substep_law.h"
 
 namespace pliant {
 
@@ -51,7 +52,7 @@ void respond_to_shapes(Substep& s, float slow, FunctionRef<Vec3f(int object)> gr
 void respond(Substep& s) {
   const float slow = 2 * length(s.model.gravity) * s.h;
   std::vector<Vec3f> missing(s.work.gravity.size());
-  if (!s.is_last())
+  if (!s.is_last() && !ends_quarter(s))
     for (std::size_t o = 0; o < missing.size(); ++o) missing[o] = gravity_for(s, s.work.gravity[o].settled);
   const auto gravity = [&](int object) { return missing[static_cast<std::size_t>(object)]; };
   respond_to_shapes(s, slow, gravity);

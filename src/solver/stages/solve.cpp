@@ -58,10 +58,10 @@ int iterate_to_tolerance(Substep& s) {
 
 void count_iterations(Substep& s, int iterations) {
   IterationCount& count = s.report.iterations;
-  count.smallest = s.number == 0 ? iterations : std::min(count.smallest, iterations);
+  count.smallest = s.made == 0 ? iterations : std::min(count.smallest, iterations);
   count.largest = std::max(count.largest, iterations);
   s.iterations_made += iterations;
-  count.mean = static_cast<double>(s.iterations_made) / (s.number + 1);
+  count.mean = static_cast<double>(s.iterations_made) / (s.made + 1);
 }
 
 }  // namespace

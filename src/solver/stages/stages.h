@@ -24,6 +24,9 @@ void collide(Substep& s);
 /// Projects all constraints and contacts, iteration by iteration.
 void solve(Substep& s);
 
+/// Shortens the few distances that the iterations left far too long (stages/limit.cpp).
+void limit(Substep& s);
+
 /// Truncates displacements that would make surfaces cross.
 void filter(Substep& s);
 

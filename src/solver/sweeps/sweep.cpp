@@ -31,6 +31,7 @@ const SweepMethod& sweep_method(Sweep sweep) {
     case Sweep::jacobi:
       return jacobi;
     case Sweep::chains:
+    case Sweep::tethered_chains:
       return chains;
     case Sweep::multigrid:
       return multigrid;

@@ -1,0 +1,141 @@
+#include "apps/bench/scene_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "pliant/error.h"
+#include "pliant/world.h"
+
+namespace pliant::bench {
+
+namespace {
+
+constexpr std::size_t frames_at_rest = 30;  ///< over which SceneRow::moved is the mean
+
+double mass_of(const Scene& scene) {
+  double mass = 0;
+  for (const Object& object : scene.objects)
+    for (const float m : object.masses) mass += std::isfinite(m) ? static_cast<double>(m) : 0;
+  return mass;
+}
+
+/// The mean distance between the particles of two moments.
+double mean_motion(const World& world, const std::vector<std::vector<Vec3f>>& before) {
+  double sum = 0;
+  std::size_t count = 0, o = 0;
+  for (const ObjectId id : world.objects()) {
+    const std::vector<Vec3f> now = world.positions(id);
+    for (std::size_t i = 0; i < now.size(); ++i) sum += std::sqrt(double(length_squared(now[i] - before[o][i])));
+    count += now.size();
+    ++o;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0;
+}
+
+std::vector<std::vector<Vec3f>> positions_of(const World& world) {
+  std::vector<std::vector<Vec3f>> all;
+  for (const ObjectId id : world.objects()) all.push_back(world.positions(id));
+  return all;
+}
+
+/// Leaves sweep, substeps and iterations open.
+void leave_open(Scene& scene) {
+  scene.settings.sweep = Sweep::automatic;
+  scene.settings.sweep_options = {};
+  scene.settings.substeps = 0;
+  scene.settings.iterations = 1;
+  for (Object& object : scene.objects) object.sweep = Sweep::automatic;
+}
+
+/// "chains+tethers 40" as a sweep with tethers and 40 substeps; without a number the substeps that the scene chooses for it.
+void apply(const std::string& text, Scene& scene) {
+  if (text == "own") return;
+  leave_open(scene);
+  if (text == "default") return;
+  Settings& settings = scene.settings;
+  const std::size_t space = text.find(' ');
+  const std::string method = text.substr(0, space), name = method.substr(0, method.find('+'));
+  const auto known = std::find_if(sweeps().begin(), sweeps().end(), [&](const NamedSweep& s) { return s.name == name; });
+  const int substeps = space == std::string::npos ? 0 : std::atoi(text.c_str() + space);
+  if (known == sweeps().end() || (space != std::string::npos && substeps < 1))
+    throw Error({}, "'" + text + "' names no sweep and substeps", "write for example 'chains 40'");
+  settings.sweep = known->sweep;
+  settings.sweep_options.tethers = method == name + "+tethers";
+  settings.substeps = substeps;
+}
+
+void add_overstretch(const World& world, int frame, SceneRow& row) {
+  const Overstretch now = world.overstretch();
+  if (now.p99 > row.p99) row.frame_of_p99 = frame;
+  if (now.largest > row.largest) row.frame_of_largest = frame;
+  row.p99 = std::max(row.p99, now.p99);
+  row.largest = std::max(row.largest, now.largest);
+}
+
+SceneRow measure(const NamedScene& named, const std::string& settings, const SceneTableOptions& options) {
+  Scene scene = named.scene;
+  apply(settings, scene);
+  scene.settings.threads = options.threads;
+  scene.settings.record_multipliers = true;
+  World world(scene);
+  SceneRow row{named.name, settings};
+  row.frames = options.frames > 0 ? options.frames : scene.frames;
+  for (const ObjectId id : world.objects()) row.particles += world.info(id).particles;
+  const double mass = std::max(mass_of(scene), 1e-30);
+  double least = world.kinetic_energy() + world.potential_energy();
+  std::vector<double> motions;
+  for (int frame = 1; frame <= row.frames; ++frame) {
+    const auto before = positions_of(world);
+    const Report report = world.step(scene.frame_time);
+    row.finite = report.ok();
+    if (!row.finite) break;
+    add_overstretch(world, frame, row);
+    const double energy = world.kinetic_energy() + world.potential_energy();
+    least = std::min(least, energy);
+    row.gain = std::max(row.gain, (energy - least) / mass);
+    row.milliseconds += report.milliseconds / row.frames;
+    row.substeps += double(report.substeps) / row.frames;
+    motions.push_back(mean_motion(world, before));
+  }
+  const std::size_t last = std::min(frames_at_rest, motions.size());
+  if (last > 0)
+    row.moved = std::accumulate(motions.end() - static_cast<std::ptrdiff_t>(last), motions.end(), 0.0) / double(last);
+  return row;
+}
+
+}  // namespace
+
+std::vector<SceneRow> measure_scenes(const std::vector<NamedScene>& scenes, const SceneTableOptions& options) {
+  std::vector<std::string> settings{"default"};
+  settings.insert(settings.end(), options.against.begin(), options.against.end());
+  std::vector<SceneRow> rows;
+  for (const NamedScene& scene : scenes)
+    for (const std::string& one : settings) {
+      rows.push_back(measure(scene, one, options));
+      if (options.on_row) options.on_row(rows.back());
+    }
+  return rows;
+}
+
+std::string to_json(const std::vector<SceneRow>& rows) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const SceneRow& row : rows)
+    list.push_back({{"scene", row.scene},
+                    {"settings", row.settings},
+                    {"particles", row.particles},
+                    {"frames", row.frames},
+                    {"p99", row.p99},
+                    {"frame_of_p99", row.frame_of_p99},
+                    {"largest", row.largest},
+                    {"frame_of_largest", row.frame_of_largest},
+                    {"energy_gain", row.gain},
+                    {"moved", row.moved},
+                    {"ms_per_frame", row.milliseconds},
+                    {"substeps", row.substeps},
+                    {"finite", row.finite}});
+  return list.dump(2) + "\n";
+}
+
+}  // namespace pliant::bench

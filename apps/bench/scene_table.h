@@ -1,0 +1,45 @@
+// The overstretch, energy and cost of scene files under their own and other settings (`pliant bench default`).
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pliant/report.h"
+#include "pliant/scene.h"
+
+namespace pliant::bench {
+
+/// A scene, with the name under which the table lists it.
+struct NamedScene {
+  std::string name;
+  Scene scene;
+};
+
+/// Figures of one scene under one setting, over all frames of a run.
+struct SceneRow {
+  std::string scene, settings;  ///< "default", "own", or a sweep and its substeps such as "chains 40"
+  int particles = 0, frames = 0;
+  double p99 = 0, largest = 0;  ///< the worst overstretch of any frame [-]
+  int frame_of_p99 = 0, frame_of_largest = 0;
+  double gain = 0;          ///< most by which kinetic + potential energy rises above an earlier minimum [J/kg]
+  double moved = 0;         ///< mean displacement of a particle in each of the last 30 frames [m]
+  double milliseconds = 0;  ///< mean per frame
+  double substeps = 0;      ///< mean per frame
+  bool finite = true;       ///< false: the run ended at a non-finite value
+};
+
+struct SceneTableOptions {
+  /// Settings besides the default: those of the file ("own"), or a sweep and optionally its substeps ("multigrid 6").
+  std::vector<std::string> against;
+  int frames = 0;  ///< 0: those of the scene
+  int threads = 1;
+  std::function<void(const SceneRow&)> on_row;
+};
+
+/// Throws an Error if a scene cannot be simulated or a setting is not understood.
+std::vector<SceneRow> measure_scenes(const std::vector<NamedScene>& scenes, const SceneTableOptions& options);
+
+std::string to_json(const std::vector<SceneRow>& rows);
+
+}  // namespace pliant::bench

@@ -1,0 +1,63 @@
+// The search for long distances in scalar floats, one constraint after another: the readable reference of length_lanes.cpp.
+#include "solver/length_kernels.h"
+#include "solver/length_of.h"
+
+namespace pliant {
+
+namespace {
+
+Vec3f between(const Record* base, int from, int to) {
+  return {base[to].x - base[from].x, base[to].y - base[from].y, base[to].z - base[from].z};
+}
+
+float overstretch_in(const Pool& pool, std::int64_t batch, int lane, const Vec3f& across, const float* multipliers,
+                     const LengthQuery& q) {
+  const float rest = pool.row(0, batch)[lane];
+  if (multipliers == nullptr) return overstretch(across, rest);
+  return overstretch(across, rest, pool.row(1, batch)[lane], multipliers[batch * batch_width + lane], q.inverse_h2);
+}
+
+void find_long(const Pool& pool, const Segment* segments, int first, int last, const LengthQuery& q,
+               FoundLengthCallback found, void* context) {
+  const float* multipliers = q.multipliers != nullptr ? q.multipliers[segments[first].pool] : nullptr;
+  for (int s = first; s < last; ++s) {
+    const std::int32_t* index = pool.indices.data() + segments[s].index_offset;
+    for (int b = 0; b < segments[s].batches; ++b, index += indices_per_batch(pool, segments[s])) {
+      const std::int64_t batch = std::int64_t{segments[s].first_batch} + b;
+      for (int lane = 0; lane < batch_width; ++lane) {
+        if (!lane_is_valid(segments[s], b, lane) || !(pool.row(0, batch)[lane] > 0)) continue;
+        const int from = particle_of(segments[s], index, 0, lane), to = particle_of(segments[s], index, 1, lane);
+        Vec3f across = between(q.positions, from, to);
+        if (q.displacements != nullptr) across += between(q.displacements, from, to);
+        const float by = overstretch_in(pool, batch, lane, across, multipliers, q);
+        if (by > q.above) found(context, {s, b, lane, by});
+      }
+    }
+  }
+}
+
+void find_demanding(const Pool& pool, const Segment* segments, int first, int last, const DemandQuery& q,
+                    FoundLengthCallback found, void* context) {
+  for (int s = first; s < last; ++s) {
+    const std::int32_t* index = pool.indices.data() + segments[s].index_offset;
+    for (int b = 0; b < segments[s].batches; ++b, index += indices_per_batch(pool, segments[s])) {
+      for (int lane = 0; lane < batch_width; ++lane) {
+        const float rest = pool.row(0, std::int64_t{segments[s].first_batch} + b)[lane];
+        if (!lane_is_valid(segments[s], b, lane) || !(rest > 0)) continue;
+        const int from = particle_of(segments[s], index, 0, lane), to = particle_of(segments[s], index, 1, lane);
+        const float substeps =
+            demand(between(q.positions, from, to), between(q.velocities, from, to), rest, q.by_stretch, q.by_turn);
+        if (substeps > q.above) found(context, {s, b, lane, substeps});
+      }
+    }
+  }
+}
+
+}  // namespace
+
+const LengthKernels& length_kernels_sequential() {
+  static constexpr LengthKernels table{&find_long, &find_demanding};
+  return table;
+}
+
+}  // namespace pliant

@@ -1,0 +1,132 @@
+// The limit of overstretch: what an iteration of chains leaves too long is shortened constraint by constraint.
+//
+// Contacts move particles after the chains were solved, so single edges end far too long where cloth meets an obstacle.
+// They are few. Chains leave the rest within a few percent, so a sequential pass over those few is enough.
+#include <algorithm>
+
+#include "solver/stages/stages.h"
+
+namespace pliant {
+
+namespace {
+
+constexpr int rounds = 2;  ///< of search, passes and contacts
+/// If more constraints of an object are too long than these, and than this share, the cloth is pulled as a whole. Shortening one constraint after another
+/// would take long and achieve nothing.
+constexpr double largest_share = 0.05, most_at_once = 500;
+constexpr int passes = 6;  ///< over the list of a round, alternately forward and backward
+
+Vec3f across(const LimitedLength& pair, const Record* positions, const Record* displacements) {
+  const Record &p = positions[pair.from], &q = positions[pair.to];
+  const Record &d = displacements[pair.from], &e = displacements[pair.to];
+  return {(q.x - p.x) + (e.x - d.x), (q.y - p.y) + (e.y - d.y), (q.z - p.z) + (e.z - d.z)};
+}
+
+/// Finds the constraints that are too long. False if there are none, or too many in each object.
+bool find_all(Substep& s, LimitScratch& scratch) {
+  const std::vector<Task>& tasks = s.lengths();
+  if (scratch.found.size() < tasks.size()) scratch.found.resize(tasks.size());
+  for_tasks(s, "limit: search", static_cast<int>(tasks.size()), [&](int i) {
+    const int object = tasks[i].object;
+    const SweepArguments a = arguments(s, object, false);
+    scratch.found[i].clear();
+    find_long(s.model.objects[object], s.model.objects[object].lengths[tasks[i].item], s.kernels.lengths,
+              {a.positions, a.displacements, a.multipliers, a.inverse_h2, s.context.options.most_overstretch},
+              scratch.found[i]);
+  });
+  scratch.is_moved.assign(s.model.objects.size(), 0);
+  bool any = false;
+  for (std::size_t first = 0, last = 0; first < tasks.size(); first = last) {
+    double constraints = 0, too_long = 0;
+    for (; last < tasks.size() && tasks[last].object == tasks[first].object; ++last) {
+      constraints += static_cast<double>(s.model.objects[tasks[last].object].lengths[tasks[last].item].constraints);
+      too_long += static_cast<double>(scratch.found[last].size());
+    }
+    const bool is_limited = too_long > 0 && too_long <= std::max(most_at_once, largest_share * constraints);
+    scratch.is_moved[tasks[first].object] = is_limited ? 1 : 0;
+    any = any || is_limited;
+  }
+  return any;
+}
+
+/// The constraint as a pair of particles and the length that it may have: never less than its rest length.
+LimitedLength limited(const Substep& s, int number, const FoundLength& found) {
+  const CompiledObject& object = s.model.objects[number];
+  const Segment& segment = object.segments[found.segment];
+  const float rest = object.pools[segment.pool].row(0, std::int64_t{segment.first_batch} + found.batch)[found.lane];
+  const auto [from, to] = ends_of(object, found);
+  LimitedLength pair{s.model.first[number] + from, s.model.first[number] + to, 0};
+  const float now = length(across(pair, s.state.positions.data(), s.work.displacements.data()));
+  pair.longest = std::max(rest, now - (found.value - s.context.options.most_overstretch) * rest);
+  return pair;
+}
+
+void list_all(const Substep& s, LimitScratch& scratch) {
+  scratch.limited.clear();
+  for (std::size_t i = 0; i < s.lengths().size(); ++i) {
+    const int object = s.lengths()[i].object;
+    if (scratch.is_moved[object] == 0) continue;
+    for (const FoundLength& found : scratch.found[i]) scratch.limited.push_back(limited(s, object, found));
+  }
+}
+
+/// Shortens a pair of particles to its longest length, by their inverse masses.
+void shorten(const LimitedLength& pair, const Record* positions, Record* displacements) {
+  const Record &p = positions[pair.from], &q = positions[pair.to];
+  Record &d = displacements[pair.from], &e = displacements[pair.to];
+  const Vec3f way = across(pair, positions, displacements);
+  const float now = length(way);
+  if (!(now > pair.longest)) return;
+  const Vec3f by = way * ((now - pair.longest) / (now * (p.w + q.w)));
+  d = {d.x + by.x * p.w, d.y + by.y * p.w, d.z + by.z * p.w, 0};
+  e = {e.x - by.x * q.w, e.y - by.y * q.w, e.z - by.z * q.w, 0};
+}
+
+void shorten_all(Substep& s, const std::vector<LimitedLength>& limited) {
+  const Stopwatch watch(s.context.executor.timings(), "limit");
+  const Record* positions = s.state.positions.data();
+  Record* displacements = s.work.displacements.data();
+  for (int pass = 0; pass < passes; ++pass) {
+    if (pass % 2 == 0)
+      for (const LimitedLength& pair : limited) shorten(pair, positions, displacements);
+    else
+      for (std::size_t i = limited.size(); i-- > 0;) shorten(limited[i], positions, displacements);
+  }
+}
+
+/// Projects once more the contacts of objects that were moved. Others keep the bits that they have alone.
+void project_contacts_again(Substep& s, const LimitScratch& scratch) {
+  const auto touches_moved = [&](const Contact& contact) {
+    for (std::size_t i = 0; i < contact.point.size(); ++i)
+      if (contact.weight[i] != 0 && scratch.is_moved[s.model.object_of(contact.point[i])] != 0) return true;
+    return false;
+  };
+  const char* name = "limit: contacts";
+  Record* displacements = s.work.displacements.data();
+  if (s.has_pairs())
+    s.work.contact_solver.only(s.pairs->contacts(), touches_moved)
+        .project(s.context.executor, name, s.pairs->contacts(), displacements);
+  if (s.work.colliders.empty()) return;
+  std::vector<Contact>& with_shapes = s.work.shape_contacts.contacts();
+  s.work.shape_contact_solver.only(with_shapes, touches_moved)
+      .project(s.context.executor, name, with_shapes, displacements);
+  for_tiles(s, name, [&](int task) {
+    const int object = s.model.tiles()[task].object;
+    std::vector<Contact>& contacts = s.work.tiles[task].contacts;
+    if (scratch.is_moved[object] != 0 && !contacts.empty()) project_contacts(contacts, arguments(s, object, false));
+  });
+}
+
+}  // namespace
+
+void limit(Substep& s) {
+  LimitScratch& scratch = s.work.limit;
+  if (s.lengths().empty() || !(s.context.options.most_overstretch > 0)) return;
+  for (int round = 0; round < rounds && find_all(s, scratch); ++round) {
+    list_all(s, scratch);
+    shorten_all(s, scratch.limited);
+    project_contacts_again(s, scratch);
+  }
+}
+
+}  // namespace pliant

@@ -1,0 +1,109 @@
+#include "solver/substep_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "solver/lengths.h"
+#include "solver/tethers.h"
+
+namespace pliant {
+
+namespace {
+
+/// Substeps per frame for each unit of strain, and for each radian that a constraint turns by in a frame. Measured: with
+/// fewer, folds pass 2 % of strain at their impact (docs/internals/convergence.md).
+constexpr double substeps_per_strain = 5000, substeps_per_radian = 20;
+/// Tethers leave no long errors, and an impact on a primitive collider moves few particles.
+constexpr double substeps_per_strain_hanging = 1000;
+/// Substeps decrease to no less than this share from one quarter to the next. The strain of a swinging rope goes with the
+/// square of the substep: left to demand alone, few and many substeps would alternate, and each change do work.
+constexpr double slowest_decrease = 1 / 1.1;
+constexpr double first_substeps = 40, first_of_hanging = 10;  ///< before the first quarter
+/// The share of constraints that may demand more.
+constexpr double share_beyond = 0.01;
+
+/// The substeps per frame that all but a share of the constraints are satisfied with; `least` if those are fewer.
+double demanded(Substep& s, int least) {
+  const std::vector<Task>& tasks = s.lengths();
+  std::vector<std::vector<FoundLength>>& found = s.work.limit.found;
+  if (found.size() < tasks.size()) found.resize(tasks.size());
+  for_tasks(s, "choose substeps", static_cast<int>(tasks.size()), [&](int i) {
+    const CompiledObject& object = s.model.objects[tasks[i].object];
+    const int first = s.model.first[tasks[i].object];
+    found[i].clear();
+    find_demanding(
+        object, object.lengths[tasks[i].item], s.kernels.lengths,
+        {s.state.positions.data() + first, s.state.velocities.data() + first,
+         static_cast<float>(s.hangs ? substeps_per_strain_hanging : substeps_per_strain),
+         static_cast<float>((s.hangs ? substeps_per_radian / 2 : substeps_per_radian) * s.dt), static_cast<float>(least)},
+        found[i]);
+  });
+  double constraints = 0;
+  std::vector<float>& all = s.work.demands;
+  all.clear();
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    constraints += static_cast<double>(s.model.objects[tasks[i].object].lengths[tasks[i].item].constraints);
+    for (const FoundLength& one : found[i]) all.push_back(one.value);
+  }
+  const auto beyond = static_cast<std::size_t>(share_beyond * constraints);
+  if (all.size() <= beyond) return least;
+  const auto place = all.begin() + static_cast<std::ptrdiff_t>(beyond);
+  std::nth_element(all.begin(), place, all.end(), std::greater<>());
+  return static_cast<double>(*place);
+}
+
+/// Calls body(object) for the objects of a group that have not been removed.
+template <class Body>
+void for_present(const Substep& s, const Body& body) {
+  for_objects(s, [&](int o) {
+    if (s.model.objects[o].particles > 0) body(o);
+  });
+}
+
+/// The substeps per frame of the last quarter; before the first one a cautious guess.
+double substeps_before(const Substep& s) {
+  float before = 0;
+  for_present(s, [&](int o) { before = std::max(before, s.state.substeps[o]); });
+  return before > 0 ? static_cast<double>(before) : s.hangs ? first_of_hanging : first_substeps;
+}
+
+void begin_quarter_with(Substep& s, double substeps) {
+  const int quarter = s.number * quarters / s.planned;
+  const int in_quarter = std::clamp(static_cast<int>(std::ceil(substeps / quarters)), 1, std::max(1, s.most / quarters));
+  s.planned = s.substeps = quarters * in_quarter;
+  s.number = quarter * in_quarter;
+  s.h = static_cast<float>(s.dt / s.planned);
+  for_present(s, [&](int o) {
+    // The end of a quarter has put all gravity into the velocities, as the end of a frame does.
+    s.work.gravity[o] = {0, static_cast<double>(s.h), 0, 1 / (1 + s.h * s.model.objects[o].damping)};
+    s.work.last_h[o] = s.h;
+    s.state.substeps[o] = static_cast<float>(substeps);
+  });
+}
+
+/// True if all objects of the group hang by tethers that hold, and meet no surface.
+bool hangs(const Substep& s) {
+  bool all = s.least_hanging > 0 && !s.has_pairs();
+  for_present(s,
+              [&](int o) { all = all && tethers_hold(s.model.objects[o], s.state.positions.data() + s.model.first[o]); });
+  return all;
+}
+
+}  // namespace
+
+void begin_quarter(Substep& s) {
+  if (s.most == 0 || s.number == s.substeps || s.number * quarters % s.planned != 0) return;
+  s.state.substeps.resize(s.model.objects.size());
+  s.hangs = hangs(s);
+  const int least = std::min(s.hangs ? s.least_hanging : s.least, s.most);
+  const double wanted = std::max(demanded(s, least), substeps_before(s) * slowest_decrease);
+  begin_quarter_with(s, std::clamp(wanted, double(least), double(s.most)));
+}
+
+void forget_substeps(Substep& s) {
+  if (s.most > 0 || s.state.substeps.empty()) return;
+  for_objects(s, [&](int o) { s.state.substeps[o] = 0; });
+}
+
+}  // namespace pliant

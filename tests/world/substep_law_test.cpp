@@ -1,0 +1,403 @@
+// Substeps that follow the State, and the limit of overstretch.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "pliant/error.h"
+#include "pliant/save.h"
+#include "world/world_support.h"
+
+namespace pliant {
+namespace {
+
+using namespace testing_support;
+
+/// A sheet that falls onto a ball from 0.5 m.
+Object falling_sheet(int n = 24) {
+  ClothOptions options;
+  options.stretch = Stiffness::compliance(0);
+  Object cloth = sheet_at("sheet", {0, 0.7f, 0}, n, 1, options);
+  cloth.thickness = 0.01f;
+  cloth.self_collision = true;
+  return cloth;
+}
+
+Scene impact(int n = 24) {
+  Scene scene;
+  scene.add(falling_sheet(n));
+  Collider ball;
+  ball.shape = Sphere{0.2f};
+  scene.add(ball);
+  return scene;
+}
+
+Scene hung(float apart = 0) {
+  Scene scene;
+  ClothOptions options;
+  options.stretch = Stiffness::compliance(0);
+  Object cloth = sheet_at("cloth", {}, 20, 1, options);
+  cloth.pins = {{0, {}}, {19, apart != 0 ? straight({apart, 0, 0}, 1) : Motion{}}};
+  scene.add(cloth);
+  return scene;
+}
+
+void run(World& world, int frames) {
+  for (int frame = 0; frame < frames; ++frame) ASSERT_TRUE(world.step(dt).ok());
+}
+
+TEST(SubstepLaw, IsUsedWhereChainsAreSolvedAndTheSceneNamesNoSubsteps) {
+  Scene scene = impact();
+  EXPECT_EQ(chosen_sweep(scene, 0), Sweep::chains);
+  EXPECT_EQ(chosen_substeps(scene), std::vector<int>{0});
+  EXPECT_EQ(chosen_settings(scene).substeps, 0);
+  EXPECT_EQ(World(scene).info({0}).substeps, 0);
+  scene.settings.substeps = 15;
+  EXPECT_EQ(chosen_substeps(scene), std::vector<int>{15});
+  World world(scene);
+  EXPECT_EQ(world.step(dt).substeps, 15);
+  EXPECT_TRUE(world.state().substeps.empty());
+}
+
+TEST(SubstepLaw, IsNotUsedForRubberAndForConvertedStiffness) {
+  Scene scene = impact();
+  for (ConstraintGroup& group : scene.objects[0].constraints)
+    if (group.type == "distance") group.stiffness = Stiffness::compliance(0.05f);
+  EXPECT_EQ(chosen_substeps(scene), std::vector<int>{20});
+  scene = impact();
+  scene.objects[0].constraints.push_back({"dihedral_bending", {0, 1, 24, 25}, {}, Stiffness::pbd(0.5f), {}});
+  EXPECT_EQ(chosen_substeps(scene), std::vector<int>{20});
+}
+
+/// At the impact the frame has several times the substeps of the fall and of rest.
+TEST(SubstepLaw, TakesMoreSubstepsAtAnImpact) {
+  World world(impact());
+  std::vector<int> substeps;
+  for (int frame = 0; frame < 150; ++frame) substeps.push_back(world.step(dt).substeps);
+  const int before = *std::min_element(substeps.begin(), substeps.begin() + 17);
+  const int at_impact = *std::max_element(substeps.begin() + 17, substeps.begin() + 40);
+  EXPECT_LE(before, 16);
+  EXPECT_GE(at_impact, 2 * before);
+  EXPECT_LE(at_impact, 100);
+  EXPECT_LT(substeps.back(), at_impact);
+}
+
+TEST(SubstepLaw, StaysWithinTheBoundsOfTheSettings) {
+  Scene scene = impact();
+  scene.settings.least_substeps = 17;
+  scene.settings.most_substeps = 30;
+  World world(scene);
+  int least = 1000, most = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    const int substeps = world.step(dt).substeps;
+    least = std::min(least, substeps);
+    most = std::max(most, substeps);
+  }
+  EXPECT_EQ(least, 20);  // whole numbers of substeps in a quarter
+  EXPECT_EQ(most, 28);
+}
+
+/// What the default promises of cloth that meets surfaces; with 20 fixed substeps both are exceeded.
+TEST(SubstepLaw, KeepsAnImpactWithinTwoPercent) {
+  World world(impact(40));
+  Overstretch worst;
+  for (int frame = 0; frame < 80; ++frame) {
+    world.step(dt);
+    const Overstretch now = world.overstretch();
+    worst.p99 = std::max(worst.p99, now.p99);
+    worst.largest = std::max(worst.largest, now.largest);
+  }
+  EXPECT_LE(worst.p99, 0.02);
+  EXPECT_LE(worst.largest, 0.1);
+}
+
+TEST(SubstepLaw, GoesOnInTheSameBitsFromAState) {
+  const Scene scene = impact();
+  World one(scene);
+  run(one, 20);
+  const State kept = one.state();
+  EXPECT_EQ(kept.substeps.size(), 1u);
+  run(one, 20);
+  World other(scene);
+  other.restore(kept);
+  run(other, 20);
+  EXPECT_EQ(one.state_hash(), other.state_hash());
+  State without = kept;
+  without.substeps.clear();
+  EXPECT_NE(hash(without), hash(kept));
+  other.restore(without);
+  run(other, 20);
+  EXPECT_NE(one.state_hash(), other.state_hash());  // it starts with the cautious number
+}
+
+TEST(SubstepLaw, RefusesAStateWithSubstepsOfOtherObjects) {
+  World world(impact());
+  State state = world.state();
+  state.substeps = {20, 20};
+  EXPECT_THROW(world.restore(state), Error);
+  state.substeps = {-1};
+  EXPECT_THROW(world.restore(state), Error);
+  state.substeps = {20000};
+  EXPECT_THROW(world.restore(state), Error);
+  state.substeps = {12};
+  EXPECT_NO_THROW(world.restore(state));
+}
+
+/// Two sheets that can meet nothing but themselves: each has the bits that it has alone, whatever the other demands.
+TEST(SubstepLaw, BelongsToASetOfObjects) {
+  Scene both = impact();
+  both.objects[0].collides = false;
+  Object calm = falling_sheet(20);
+  calm.name = "calm";
+  calm.collides = false;
+  for (Vec3f& p : calm.positions) p += Vec3f{5, 0, 0};
+  Scene alone;
+  alone.add(calm);
+  alone.add(both.colliders[0]);
+  both.add(calm);
+  World world(both), other(alone);
+  for (int frame = 0; frame < 40; ++frame) {
+    ASSERT_TRUE(world.step(dt).ok());
+    ASSERT_TRUE(other.step(dt).ok());
+  }
+  const std::vector<Vec3f> a = world.positions({1}), b = other.positions({0});
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3f)), 0);
+  EXPECT_NE(world.state().substeps[0], world.state().substeps[1]);
+}
+
+TEST(SubstepLaw, SurvivesAdditionsAndRemovals) {
+  Scene scene = impact();
+  scene.objects[0].collides = false;
+  World world(scene);
+  run(world, 5);
+  Object other = falling_sheet(20);
+  other.collides = false;
+  const ObjectId added = world.add(other);
+  run(world, 5);
+  EXPECT_EQ(world.state().substeps.size(), 2u);
+  World again(
+      scene =
+          [&] {
+            Scene with = scene;
+            with.add(other);
+            return with;
+          }(),
+      world.layout());
+  again.restore(world.state());
+  run(world, 5);
+  run(again, 5);
+  EXPECT_EQ(world.state_hash(), again.state_hash());
+  world.remove(added);
+  EXPECT_EQ(world.state().substeps[1], 0);
+  run(world, 5);
+}
+
+/// What an object needs that does not follow the State, the others of its set grant.
+TEST(SubstepLaw, GrantsWhatOtherSweepsOfTheSetNeed) {
+  Scene scene = impact();
+  Object other = falling_sheet(10);
+  other.name = "tiled";
+  other.sweep = Sweep::tiled;
+  for (Vec3f& p : other.positions) p += Vec3f{5, 0, 0};
+  scene.add(other);
+  World world(scene);
+  for (int frame = 0; frame < 15; ++frame) EXPECT_GE(world.step(dt).substeps, 20);  // free fall demands nothing
+}
+
+TEST(SubstepLaw, IsNotUsedForSmallObjects) {
+  Scene scene;
+  scene.add(falling_sheet(19));
+  EXPECT_EQ(chosen_substeps(scene), std::vector<int>{20});
+  scene.objects[0] = falling_sheet(20);
+  EXPECT_EQ(chosen_substeps(scene), std::vector<int>{0});
+}
+
+TEST(SubstepLaw, KeepsTheLeastNumberWhereTheLargestIsLess) {
+  Scene scene = impact();
+  scene.settings.least_substeps = 48;
+  scene.settings.most_substeps = 20;
+  World world(scene);
+  for (int frame = 0; frame < 25; ++frame) {
+    const int substeps = world.step(dt).substeps;
+    EXPECT_GE(substeps, 48);
+    EXPECT_LE(substeps, 100);
+  }
+}
+
+/// No number of substeps helps a constraint between two pins.
+TEST(SubstepLaw, IgnoresConstraintsBetweenPins) {
+  Scene scene;
+  Object cloth = falling_sheet(30);
+  cloth.pins.clear();
+  for (int i = 0; i < 30; ++i) cloth.pins.push_back({i, {}});
+  scene.add(cloth);
+  World world(scene);
+  std::vector<int> row;
+  std::vector<Vec3f> spread;
+  const std::vector<Vec3f> start = world.positions({0});
+  for (int i = 0; i < 30; ++i) {
+    row.push_back(i);
+    spread.push_back(
+        {start[static_cast<std::size_t>(i)].x, start[static_cast<std::size_t>(i)].y, start[static_cast<std::size_t>(i)].z});
+  }
+  spread[15].y += 0.02f;  // two links of the row are now far too long
+  world.set_targets({0}, row, spread);
+  run(world, 400);
+  EXPECT_LE(world.step(dt).substeps, 40);
+}
+
+TEST(SubstepLaw, ForgetsTheSubstepsOfWhatWasRemoved) {
+  Scene scene = impact();
+  scene.objects[0].collides = false;
+  World world(scene);
+  Object other = falling_sheet(20);
+  other.collides = false;
+  const ObjectId added = world.add(other);
+  run(world, 5);
+  EXPECT_GT(world.state().substeps.at(1), 0);
+  world.remove(added);
+  run(world, 5);
+  EXPECT_EQ(world.state().substeps.at(1), 0);
+}
+
+/// Multipliers that are stored only for a measurement must not change the motion.
+TEST(SubstepLaw, DoesNotDependOnWhatIsMeasured) {
+  for (const float compliance : {0.f, 1e-4f, 0.02f}) {
+    Scene scene = impact();
+    for (ConstraintGroup& group : scene.objects[0].constraints)
+      if (group.type == "distance") group.stiffness = Stiffness::compliance(compliance);
+    World plain(scene);
+    run(plain, 40);
+    for (bool Settings::*flag : {&Settings::measure, &Settings::record_multipliers}) {
+      scene.settings.*flag = true;
+      World other(scene);
+      run(other, 40);
+      EXPECT_EQ(plain.state_hash(), other.state_hash()) << compliance;
+    }
+  }
+}
+
+// ---------------------------------------------------------------- the limit of overstretch
+
+double largest_overstretch(const Scene& scene, int frames) {
+  World world(scene);
+  double largest = 0;
+  for (int frame = 0; frame < frames; ++frame) {
+    world.step(dt);
+    largest = std::max(largest, world.overstretch().largest);
+  }
+  return largest;
+}
+
+TEST(OverstretchLimit, HoldsAtAnImpactWhatChainsDoNot) {
+  Scene scene = impact();
+  scene.settings.sweep = Sweep::chains;
+  scene.settings.substeps = 10;
+  const double limited = largest_overstretch(scene, 50);
+  scene.settings.sweep_options.most_overstretch = 0;
+  EXPECT_GT(largest_overstretch(scene, 50), 1.5 * limited);
+  EXPECT_LT(limited, 0.2);
+}
+
+/// Rubber stretches as its force explains: the limit must not hold it.
+TEST(OverstretchLimit, LetsRubberStretch) {
+  const auto longest = [](float limit) {
+    Scene scene;
+    Object rope;
+    for (int i = 0; i < 40; ++i) rope.positions.push_back({0, -0.05f * static_cast<float>(i), 0});
+    rope.masses.assign(40, 0.01f);
+    ConstraintGroup group{"distance", {}, {}, Stiffness::compliance(0.01f), {}};
+    for (int i = 0; i + 1 < 40; ++i) group.particles.insert(group.particles.end(), {i, i + 1});
+    rope.constraints.push_back(group);
+    rope.pins = {{0, {}}};
+    rope.damping = 2;
+    scene.add(rope);
+    scene.settings = settings_of(20);
+    scene.settings.sweep = Sweep::chains;
+    scene.settings.sweep_options.most_overstretch = limit;
+    World world(scene);
+    for (int frame = 0; frame < 300; ++frame) world.step(dt);
+    return world.stretch().largest;
+  };
+  const double free = longest(0);
+  EXPECT_NEAR(free, 1 + 0.01 * 0.01 * 9.81 * 39 / 0.05, 0.02);  // 39 links hang from the first: 77 % longer
+  EXPECT_NEAR(longest(0.05f), free, 1e-3);
+}
+
+/// A damped spring that contracts is longer than its elastic force explains: its damping force explains the rest.
+TEST(OverstretchLimit, LeavesDampedDistancesAlone) {
+  const auto lowest = [](float limit) {
+    Scene scene;
+    Object rope;
+    for (int i = 0; i < 40; ++i) rope.positions.push_back({0.05f * static_cast<float>(i), 0, 0});
+    rope.masses.assign(40, 0.01f);
+    ConstraintGroup group{"distance", {}, {}, Stiffness::compliance(0.01f, 0.2f), {}};
+    for (int i = 0; i + 1 < 40; ++i) group.particles.insert(group.particles.end(), {i, i + 1});
+    rope.constraints.push_back(group);
+    rope.pins = {{0, {}}};
+    scene.add(rope);
+    scene.settings = settings_of(20);
+    scene.settings.sweep = Sweep::chains;
+    scene.settings.sweep_options.most_overstretch = limit;
+    scene.settings.record_multipliers = true;
+    World world(scene);
+    for (int frame = 0; frame < 120; ++frame) EXPECT_TRUE(world.step(dt).ok());
+    return world.positions({0}).back().y;
+  };
+  EXPECT_EQ(lowest(0.05f), lowest(0));
+}
+
+/// Pulled apart as a whole, cloth cannot be shortened edge by edge: that must not be tried for ever.
+TEST(OverstretchLimit, GivesUpWhereEverythingIsTooLong) {
+  Scene scene;
+  Object cloth = falling_sheet(40);
+  cloth.self_collision = false;
+  for (int i = 0; i < 40; ++i) {
+    cloth.pins.push_back({i, {}});
+    cloth.pins.push_back({1560 + i, straight({0, 0, 0.4f}, 1)});
+  }
+  scene.add(cloth);
+  World world(scene);
+  run(world, 60);
+  EXPECT_TRUE(is_finite(world.state()));
+  EXPECT_GT(world.stretch().mean, 1.1);
+}
+
+// ---------------------------------------------------------------- tethered chains
+
+TEST(TetheredChains, AreChosenForRegularClothThatHangs) {
+  EXPECT_EQ(chosen_sweep(hung(), 0), Sweep::tethered_chains);
+  EXPECT_EQ(chosen_sweep(hung(0.3f), 0), Sweep::chains);  // the pins move apart
+}
+
+TEST(TetheredChains, HangWithoutGainingEnergyWithFewSubsteps) {
+  World world(hung());
+  double least = 1e30, gain = 0, substeps = 0;
+  Overstretch worst;
+  for (int frame = 0; frame < 200; ++frame) {
+    substeps += world.step(dt).substeps;
+    const double energy = world.kinetic_energy() + world.potential_energy();
+    least = std::min(least, energy);
+    gain = std::max(gain, energy - least);
+    worst.p99 = std::max(worst.p99, world.overstretch().p99);
+  }
+  EXPECT_LT(gain / 0.15, 0.01);  // J/kg
+  EXPECT_LE(worst.p99, 0.02);
+  EXPECT_LT(substeps / 200, 14);
+}
+
+/// Pins that the user moves apart: tethers to both would pull a particle to and fro, so they are left out.
+TEST(TetheredChains, LeaveTethersOutWhilePinsMoveApart) {
+  World world(hung());
+  double largest = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    const Vec3f to = world.positions({0})[19] + Vec3f{-0.005f, 0, 0};
+    world.set_targets({0}, std::vector<int>{19}, std::vector<Vec3f>{to});
+    ASSERT_TRUE(world.step(dt).ok());
+    largest = std::max(largest, world.overstretch().largest);
+  }
+  EXPECT_LT(largest, 0.1);
+}
+
+}  // namespace
+}  // namespace pliant
