@@ -341,12 +341,14 @@ PLIANT_HD void add_bounds(const WideBounds& wide, PointBounds& bounds) {
   }
 }
 
-template <bool updates, bool predicts>
+template <bool updates, bool predicts, bool bounded>
 PLIANT_HD void advance_at(const AdvanceArguments& a, int i, const WideGravity& gravity, WideBounds& bounds) {
   FourParticles p = load_four(a, i);
   if constexpr (updates) update_four(p, gravity, a);
   if constexpr (predicts) {
     predict_four(p, gravity, a);
+  }
+  if constexpr (bounded) {
     const Wide end = p.position + p.displacement;
     bounds.low = min(bounds.low, min(p.position, end));
     bounds.high = max(bounds.high, max(p.position, end));
@@ -354,34 +356,51 @@ PLIANT_HD void advance_at(const AdvanceArguments& a, int i, const WideGravity& g
   store_four(a, i, p);
 }
 
-template <bool updates, bool predicts>
-PLIANT_HD void advance_all(const AdvanceArguments& a, PointBounds* bounds) {
+template <bool updates, bool predicts, bool bounded>
+PLIANT_HD void advance_all(const AdvanceArguments& a, WideBounds& bounds) {
   const WideGravity gravity(a);
-  WideBounds wide;
   int i = a.first;
-  for (; i + 4 <= a.last; i += 4) advance_at<updates, predicts>(a, i, gravity, wide);
+  for (; i + 4 <= a.last; i += 4) advance_at<updates, predicts, bounded>(a, i, gravity, bounds);
   if (i < a.last) {
     Tail tail(a, i);
-    advance_at<updates, predicts>(tail.arguments, 0, gravity, wide);
+    advance_at<updates, predicts, bounded>(tail.arguments, 0, gravity, bounds);
     tail.write_back(a);
   }
-  if (bounds != nullptr) add_bounds(wide, *bounds);
 }
 
-void update(const AdvanceArguments& a) { advance_all<true, false>(a, nullptr); }
-void predict(const AdvanceArguments& a, PointBounds* bounds) { advance_all<false, true>(a, bounds); }
-void advance(const AdvanceArguments& a, PointBounds* bounds) { advance_all<true, true>(a, bounds); }
+/// Predicts all particles, after their update if `updates`, and finds the bounds of their motion unless `bounds` is null.
+template <bool updates>
+PLIANT_HD void predict_all(const AdvanceArguments& a, PointBounds* bounds) {
+  WideBounds wide;
+  if (bounds == nullptr) return advance_all<updates, true, false>(a, wide);
+  advance_all<updates, true, true>(a, wide);
+  add_bounds(wide, *bounds);
+}
 
-/// Tests all numbers at once: x - x is zero for finite x and NaN otherwise, and a sum with NaN is NaN.
+void update(const AdvanceArguments& a) {
+  WideBounds none;
+  advance_all<true, false, false>(a, none);
+}
+void predict(const AdvanceArguments& a, PointBounds* bounds) { predict_all<false>(a, bounds); }
+void advance(const AdvanceArguments& a, PointBounds* bounds) { predict_all<true>(a, bounds); }
+
+/// Zero for finite numbers, NaN for all others.
+PLIANT_HD Wide zero_if_finite(const Record* four) {
+  const Wide x = load_wide(floats(four));
+  return x - x;  // NOLINT(misc-redundant-expression): see above
+}
+
+/// Tests all numbers at once: a sum with NaN is NaN. Four sums, because each addition waits for the one before.
 bool all_finite(const Record* records, int first, int last) {
-  Wide sum(0.f);
+  Wide sums[4] = {Wide(0.f), Wide(0.f), Wide(0.f), Wide(0.f)};
   int i = first;
-  for (; i + 4 <= last; i += 4) {
-    const Wide x = load_wide(floats(records + i));
-    sum = sum + (x - x);  // NOLINT(misc-redundant-expression): see above
+  for (; i + 16 <= last; i += 16) {
+    PLIANT_UNROLL
+    for (int k = 0; k < 4; ++k) sums[k] += zero_if_finite(records + i + 4 * k);
   }
+  for (; i + 4 <= last; i += 4) sums[0] += zero_if_finite(records + i);
   float lanes[wide_width], rest = 0;
-  store_wide(lanes, sum);
+  store_wide(lanes, (sums[0] + sums[1]) + (sums[2] + sums[3]));
   for (float lane : lanes) rest = rest + lane;
   for (; i < last; ++i) {
     const Record& p = records[i];

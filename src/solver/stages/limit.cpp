@@ -11,8 +11,8 @@ namespace pliant {
 namespace {
 
 constexpr int rounds = 2;  ///< of search, passes and contacts
-/// If more constraints of an object are too long than these, and than this share, the cloth is pulled as a whole. Shortening one constraint after another
-/// would take long and achieve nothing.
+/// If more constraints of an object are too long than these, and than this share, the cloth is pulled as a whole.
+/// Shortening one constraint after another would take long and achieve nothing.
 constexpr double largest_share = 0.05, most_at_once = 500;
 constexpr int passes = 6;  ///< over the list of a round, alternately forward and backward
 
