@@ -1,11 +1,14 @@
 #include "apps/bench/scene_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 
 #include "pliant/error.h"
+#include "pliant/queries.h"
 #include "pliant/world.h"
 
 namespace pliant::bench {
@@ -66,6 +69,41 @@ void apply(const std::string& text, Scene& scene) {
   settings.substeps = substeps;
 }
 
+/// The triangles of all objects and mesh colliders of a scene, objects first.
+class Surfaces {
+ public:
+  explicit Surfaces(const Scene& scene) : colliders_(scene.mesh_colliders.size()) {
+    for (const Object& object : scene.objects) add(object.triangles, object.positions.size());
+    dynamic_ = count_;
+    for (const MeshCollider& collider : scene.mesh_colliders) add(collider.mesh.triangles, collider.mesh.positions.size());
+    finder_.emplace(triangles_, count_);
+  }
+
+  /// The number of edges that pass through a triangle. Colliders may intersect themselves and one another.
+  int crossings(const World& world) {
+    std::vector<Vec3f> all;
+    const auto append = [&](const std::vector<Vec3f>& more) { all.insert(all.end(), more.begin(), more.end()); };
+    for (const ObjectId id : world.objects()) append(world.positions(id));
+    for (std::size_t c = 0; c < colliders_; ++c) append(world.mesh_collider_positions(static_cast<int>(c)));
+    const std::vector<Crossing>& found = finder_->find(all);
+    const auto is_dynamic = [&](const Crossing& crossing) {
+      return crossing.a < dynamic_ || triangles_[static_cast<std::size_t>(crossing.triangle)][0] < dynamic_;
+    };
+    return static_cast<int>(std::count_if(found.begin(), found.end(), is_dynamic));
+  }
+
+ private:
+  void add(const std::vector<std::array<int, 3>>& triangles, std::size_t vertices) {
+    for (const auto& [a, b, c] : triangles) triangles_.push_back({count_ + a, count_ + b, count_ + c});
+    count_ += static_cast<int>(vertices);
+  }
+
+  std::size_t colliders_;
+  std::vector<std::array<int, 3>> triangles_;
+  int count_ = 0, dynamic_ = 0;  ///< vertices of all surfaces, of objects
+  std::optional<CrossingFinder> finder_;
+};
+
 void add_overstretch(const World& world, int frame, SceneRow& row) {
   const Overstretch now = world.overstretch();
   if (now.p99 > row.p99) row.frame_of_p99 = frame;
@@ -80,6 +118,8 @@ SceneRow measure(const NamedScene& named, const std::string& settings, const Sce
   scene.settings.threads = options.threads;
   scene.settings.record_multipliers = true;
   World world(scene);
+  std::optional<Surfaces> surfaces;
+  if (options.counts_crossings) surfaces.emplace(scene);
   SceneRow row{named.name, settings};
   row.frames = options.frames > 0 ? options.frames : scene.frames;
   for (const ObjectId id : world.objects()) row.particles += world.info(id).particles;
@@ -92,6 +132,7 @@ SceneRow measure(const NamedScene& named, const std::string& settings, const Sce
     row.finite = report.ok();
     if (!row.finite) break;
     add_overstretch(world, frame, row);
+    if (surfaces) row.crossings = std::max(row.crossings, surfaces->crossings(world));
     const double energy = world.kinetic_energy() + world.potential_energy();
     least = std::min(least, energy);
     row.gain = std::max(row.gain, (energy - least) / mass);
@@ -134,6 +175,7 @@ std::string to_json(const std::vector<SceneRow>& rows) {
                     {"moved", row.moved},
                     {"ms_per_frame", row.milliseconds},
                     {"substeps", row.substeps},
+                    {"crossings", row.crossings},
                     {"finite", row.finite}});
   return list.dump(2) + "\n";
 }

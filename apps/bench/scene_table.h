@@ -26,6 +26,7 @@ struct SceneRow {
   double moved = 0;         ///< mean displacement of a particle in each of the last 30 frames [m]
   double milliseconds = 0;  ///< mean per frame
   double substeps = 0;      ///< mean per frame
+  int crossings = -1;       ///< most edges that pass through a triangle in any frame, by exact signs; -1: not counted
   bool finite = true;       ///< false: the run ended at a non-finite value
 };
 
@@ -34,6 +35,7 @@ struct SceneTableOptions {
   std::vector<std::string> against;
   int frames = 0;  ///< 0: those of the scene
   int threads = 1;
+  bool counts_crossings = false;  ///< true: fills SceneRow::crossings
   std::function<void(const SceneRow&)> on_row;
 };
 

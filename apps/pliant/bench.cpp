@@ -7,6 +7,7 @@
 
 #include "apps/bench/bench.h"
 #include "apps/bench/contact.h"
+#include "apps/bench/draped_meshes.h"
 #include "apps/bench/landing.h"
 #include "apps/bench/memory.h"
 #include "apps/bench/scene_table.h"
@@ -94,20 +95,25 @@ std::string bench_landings(const BenchOptions& options) {
 }
 
 std::string bench_default(const BenchOptions& options) {
-  if (options.scenes.empty()) throw Error({}, "'default' measures scene files", "name them: --scenes scenes/*.json");
+  if (options.scenes.empty() && options.meshes.empty())
+    throw Error({}, "'default' measures scene files", "name them: --scenes scenes/*.json, or --meshes FOLDER");
   std::vector<pliant::bench::NamedScene> scenes;
   for (const std::string& path : options.scenes) scenes.push_back({path, read_scene_with(path, {}, true)});
+  if (!options.meshes.empty())
+    for (pliant::bench::NamedScene& draped : pliant::bench::draped_meshes(options.meshes))
+      scenes.push_back(std::move(draped));
   pliant::bench::SceneTableOptions wanted;
   wanted.against = options.settings;
+  wanted.counts_crossings = !options.meshes.empty();
   print(
       "scene                          settings      substeps  ms/frame  p99, % (frame)  largest, % (frame)  gain, J/kg  "
-      "moved, mm\n");
+      "moved, mm  crossings\n");
   wanted.on_row = [](const pliant::bench::SceneRow& row) {
     throw_if_interrupted();
-    print(fmt::format("{:<30} {:<13} {:8.1f} {:9.2f} {:8.2f} {:<7} {:11.2f} {:<8} {:10.4f} {:10.4f}{}\n", row.scene,
+    print(fmt::format("{:<30} {:<13} {:8.1f} {:9.2f} {:8.2f} {:<7} {:11.2f} {:<8} {:10.4f} {:10.4f}  {:>9}{}\n", row.scene,
                       row.settings, row.substeps, row.milliseconds, 100 * row.p99, fmt::format("({})", row.frame_of_p99),
                       100 * row.largest, fmt::format("({})", row.frame_of_largest), row.gain, 1000 * row.moved,
-                      row.finite ? "" : "  not finite"));
+                      row.crossings < 0 ? "-" : std::to_string(row.crossings), row.finite ? "" : "  not finite"));
   };
   return to_json(pliant::bench::measure_scenes(scenes, wanted));
 }

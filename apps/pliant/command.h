@@ -78,6 +78,7 @@ struct BenchOptions {
   int threads = 0;         ///< threads of the second run; the first one uses one; 0: all hardware threads
   std::string json;        ///< file for the rows as JSON; empty: none
   std::vector<std::string> scenes, settings;  ///< of workload `default`: scene files, and settings beside the default
+  std::string meshes;  ///< of workload `default`: a folder of meshes, over each of which a sheet falls; empty: none
 };
 
 /// Measures workloads, and prints a table.

@@ -165,6 +165,8 @@ void add_bench(CLI::App& app, BenchOptions& options, Chosen& chosen) {
   bench_app->add_option("--settings", options.settings, "of 'default': also measure these, such as \"chains 40,multigrid\"")
       ->type_name("SETTINGS")
       ->delimiter(',');
+  bench_app->add_option("--meshes", options.meshes, "of 'default': let a cotton sheet fall over each mesh of this folder")
+      ->type_name("FOLDER");
   bench_app->add_option("--json", options.json, "write the rows to this JSON file")->type_name("FILE");
   bench_app->callback([&] { chosen = [&] { return bench(options); }; });
 }

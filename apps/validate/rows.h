@@ -26,6 +26,7 @@ void contact_rows(Result& result, bool slow);
 void collision_rows(Result& result, bool slow);
 void stiffness_rows(Result& result, bool slow);
 void balloon_rows(Result& result, bool slow);
+void drape_rows(Result& result, bool slow);
 void steadiness_rows(Result& result, bool slow);
 void heavy_chain_rows(Result& result, bool slow);
 void convergence_rows(Result& result, bool slow);

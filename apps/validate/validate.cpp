@@ -14,8 +14,9 @@ namespace {
 
 using AddRows = void (*)(Result&, bool);
 
-const AddRows adders[] = {spring_rows,    chain_rows,   momentum_rows,   pendulum_rows,    contact_rows,     collision_rows,
-                          stiffness_rows, balloon_rows, steadiness_rows, convergence_rows, heavy_chain_rows, sweep_rows};
+const AddRows adders[] = {spring_rows,      chain_rows,       momentum_rows, pendulum_rows, contact_rows,
+                          collision_rows,   stiffness_rows,   balloon_rows,  drape_rows,    steadiness_rows,
+                          convergence_rows, heavy_chain_rows, sweep_rows};
 
 const char* word(Comparison comparison) {
   switch (comparison) {
@@ -57,6 +58,7 @@ const std::vector<Group>& groups() {
       {"collision", "pairs, continuous tests, surfaces on surfaces, with the filter and without"},
       {"stiffness", "a rest shape that is independent of iterations, time step and mesh"},
       {"balloon", "volume against pressure"},
+      {"drape", "the drape coefficient of the fabrics by Cusick's test"},
       {"steadiness", "the inextensible cloth hung by two corners stays bounded"},
       {"convergence", "number of sweeps of each method on a free chain"},
       {"heavy_chain", "a load 100 000 times as heavy as a link, by exact chains"},

@@ -1,0 +1,76 @@
+// Tests the sheets that fall over meshes, and that the table of scenes counts what passes through what.
+#include "apps/bench/scene_table.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "apps/bench/draped_meshes.h"
+#include "pliant/error.h"
+
+namespace pliant::bench {
+namespace {
+
+TEST(DrapedMeshes, AMeshOfAnySizeStandsOnTheGroundUnderTheSheet) {
+  TriangleMesh mesh = sphere_mesh(2);
+  for (Vec3f& p : mesh.positions) p = {40 * p.x + 7, 20 * p.y - 3, 30 * p.z};
+  const Scene scene = draped_mesh(mesh);
+  ASSERT_EQ(scene.objects.size(), 1U);
+  ASSERT_EQ(scene.mesh_colliders.size(), 1U);
+  Vec3f low{9, 9, 9}, high{-9, -9, -9};
+  for (const Vec3f& p : scene.mesh_colliders[0].mesh.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  EXPECT_NEAR(high.x - low.x, 0.5, 1e-5) << "the longest extent is half a metre";
+  EXPECT_NEAR(high.x + low.x, 0, 1e-5);
+  EXPECT_NEAR(low.y, 0, 1e-5);
+  EXPECT_EQ(scene.objects[0].positions.size(), 10000U);
+  for (const Vec3f& p : scene.objects[0].positions) EXPECT_NEAR(p.y, high.y + 0.02f, 1e-5);
+  EXPECT_TRUE(scene.objects[0].self_collision);
+  EXPECT_EQ(scene.settings.sweep, Sweep::automatic);
+  EXPECT_EQ(scene.settings.substeps, 0);
+}
+
+TEST(DrapedMeshes, AFolderWithoutMeshesIsRefused) {
+  for (const char* folder : {PLIANT_SOURCE_DIR "/docs", PLIANT_SOURCE_DIR "/no_such_folder"}) {
+    try {
+      draped_meshes(folder);
+      FAIL() << folder;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("holds no mesh"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(DrapedMeshes, EachMeshOfAFolderBecomesASceneInOrderOfItsPath) {
+  const std::vector<NamedScene> scenes = draped_meshes(PLIANT_SOURCE_DIR "/scenes/contact");
+  ASSERT_GE(scenes.size(), 2U);
+  EXPECT_TRUE(std::is_sorted(scenes.begin(), scenes.end(),
+                             [](const NamedScene& a, const NamedScene& b) { return a.name < b.name; }));
+  EXPECT_TRUE(std::any_of(scenes.begin(), scenes.end(), [](const NamedScene& s) { return s.name == "ring.obj"; }));
+}
+
+/// A horizontal sheet that falls past a fixed vertical one, which it crosses from the start unless `apart`.
+NamedScene crossing(bool apart) {
+  Scene scene;
+  scene.frames = 1;
+  TriangleMesh upright = grid_mesh(5, 5, 1, 1);
+  for (Vec3f& p : upright.positions) p = {apart ? p.x + 3 : p.x, p.z, 0.03f};
+  scene.add_cloth(grid_mesh(5, 5, 1, 1));
+  ClothOptions options;
+  options.name = "upright";
+  scene.add_cloth(upright, options);
+  return {"crossing", scene};
+}
+
+TEST(SceneTable, CrossingsAreCountedOnRequest) {
+  SceneTableOptions options;
+  EXPECT_EQ(measure_scenes({crossing(false)}, options).front().crossings, -1);
+  options.counts_crossings = true;
+  EXPECT_GT(measure_scenes({crossing(false)}, options).front().crossings, 0);
+  EXPECT_EQ(measure_scenes({crossing(true)}, options).front().crossings, 0);
+}
+
+}  // namespace
+}  // namespace pliant::bench
