@@ -140,16 +140,17 @@ PLIANT_HD void move_sides(const Contact& c, const Vec3f& change, Records* of) {
   }
 }
 
-/// Collects the parameters of one contact.
-PLIANT_HD ContactValues<float> values_of(const Contact& c) {
-  return {c.normal, c.gap, c.carried, c.surface_motion, c.static_friction, c.kinetic_friction};
+/// Collects the parameters of one contact that may overlap by a share `yield` of its thickness.
+PLIANT_HD ContactValues<float> values_of(const Contact& c, float yield = 0) {
+  return {c.normal, c.gap + yield * c.thickness, c.carried, c.surface_motion, c.static_friction, c.kinetic_friction};
 }
 
-/// Projects a contact once. This is the scalar reference for solver/contact_lanes.cpp.
+/// Projects a contact once, as far as it overlaps by more than a share `yield` of its thickness. This is the scalar
+/// reference for solver/contact_lanes.cpp.
 template <class Records>
-PLIANT_HD void project_contact(Contact& c, Records* displacements) {
+PLIANT_HD void project_contact(Contact& c, Records* displacements, float yield = 0) {
   ContactSums<float> sums{c.friction, c.push};
-  const auto [along, across] = project_contact(values_of(c), relative(c, displacements), sums);
+  const auto [along, across] = project_contact(values_of(c, yield), relative(c, displacements), sums);
   if (!(sums.push > 0)) return;
   c.friction = sums.friction;
   c.push = sums.push;

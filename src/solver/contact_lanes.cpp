@@ -52,7 +52,7 @@ PLIANT_HD void store_masked(Record* base, const std::int32_t* index, const Regis
 }
 
 /// Projects the contacts number[0] to number[lanes - 1]. All sixteen entries of `number` must be valid indices.
-PLIANT_HD void project_batch(Contact* contacts, const std::int32_t* number, int lanes, Record* displacements) {
+PLIANT_HD void project_batch(Contact* contacts, const std::int32_t* number, int lanes, Record* displacements, float yield) {
   std::int32_t index[16];
   for (int lane = 0; lane < 16; ++lane) index[lane] = number[lane < lanes ? lane : 0] * quads;
   const Points points = load_points(contacts, index);
@@ -67,9 +67,10 @@ PLIANT_HD void project_batch(Contact* contacts, const std::int32_t* number, int 
                     sum = load_quad(contacts, friction_push, index), coefficients = load_quad(contacts, numbers, index),
                     motion = load_quad(contacts, motion_collider, index);
   ContactSums<Wide> sums{sum.position, sum.w};
-  const ContactCorrection<Wide> correction = project_contact(
-      {plane.position, plane.w, carried.position, motion.position, coefficients.position.x, coefficients.position.y}, moved,
-      sums);
+  const ContactCorrection<Wide> correction =
+      project_contact({plane.position, plane.w + Wide(yield) * coefficients.w, carried.position, motion.position,
+                       coefficients.position.x, coefficients.position.y},
+                      moved, sums);
   const WideMask touches = sums.push > Wide(0.f);
   if (!any(touches)) return;
   store_masked(quads_of(contacts, friction_push), index, to_registers({sums.friction, sums.push}), touches, lanes);
@@ -82,8 +83,9 @@ PLIANT_HD void project_batch(Contact* contacts, const std::int32_t* number, int 
   }
 }
 
-void project(Contact* contacts, const std::int32_t* order, int first, int last, Record* displacements) {
-  for (int i = first; i < last; i += 16) project_batch(contacts, order + i, last - i < 16 ? last - i : 16, displacements);
+void project(Contact* contacts, const std::int32_t* order, int first, int last, Record* displacements, float yield) {
+  for (int i = first; i < last; i += 16)
+    project_batch(contacts, order + i, last - i < 16 ? last - i : 16, displacements, yield);
 }
 
 // ---------------------------------------------------------------- points and primitive colliders

@@ -11,8 +11,9 @@ constexpr int tail_colour = 64;
 /// Contacts per task, in whole batches. A colour with fewer contacts is done before other threads wake up.
 constexpr int contacts_a_task = 512;
 
-void project_sequentially(Contact* contacts, const std::int32_t* order, int first, int last, Record* displacements) {
-  for (int i = first; i < last; ++i) project_contact(contacts[order[i]], displacements);
+void project_sequentially(Contact* contacts, const std::int32_t* order, int first, int last, Record* displacements,
+                          float yield) {
+  for (int i = first; i < last; ++i) project_contact(contacts[order[i]], displacements, yield);
 }
 
 }  // namespace
@@ -97,16 +98,16 @@ void ContactSolver::for_ranges(Executor& executor, const char* name, const Conta
   tail(start[tail_colour], start.back());
 }
 
-void ContactSolver::project(Executor& executor, const char* name, std::vector<Contact>& contacts,
-                            Record* displacements) const {
+void ContactSolver::project(Executor& executor, const char* name, std::vector<Contact>& contacts, Record* displacements,
+                            float yield) const {
   if (contacts.empty()) return;
   for (const ContactColours& colours : sections_) {
     if (colours.order().empty()) continue;
     const std::int32_t* order = colours.order().data();
     for_ranges(
         executor, name, colours,
-        [&](int first, int last) { kernels_->project(contacts.data(), order, first, last, displacements); },
-        [&](int first, int last) { project_sequentially(contacts.data(), order, first, last, displacements); });
+        [&](int first, int last) { kernels_->project(contacts.data(), order, first, last, displacements, yield); },
+        [&](int first, int last) { project_sequentially(contacts.data(), order, first, last, displacements, yield); });
   }
 }
 

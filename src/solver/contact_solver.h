@@ -46,8 +46,9 @@ class ContactSolver {
              const Record* positions, std::size_t points);
   /// A copy with only the contacts for which `is_kept` is true, in the same order.
   ContactSolver only(const std::vector<Contact>& contacts, FunctionRef<bool(const Contact&)> is_kept) const;
-  /// Projects each contact once.
-  void project(Executor& executor, const char* name, std::vector<Contact>& contacts, Record* displacements) const;
+  /// Projects each contact once, as far as it overlaps by more than a share `yield` of its thickness.
+  void project(Executor& executor, const char* name, std::vector<Contact>& contacts, Record* displacements,
+               float yield = 0) const;
   /// Calls answer(contact) once for each contact. Contacts visited at the same time share no dynamic point.
   void for_each(Executor& executor, const char* name, const std::vector<Contact>& contacts,
                 FunctionRef<void(const Contact&)> answer) const;

@@ -7,6 +7,7 @@
 //                   contacts of particles with colliders along the predicted path
 //     collide       contacts between surfaces are found
 //     solve         iterations x (constraints in the order of the sweep, acceleration, tethers, contacts)
+//     solve again   chains and contacts in turn, where surfaces press on one another; contacts yield a little
 //     limit         the few distances that are still far too long are shortened
 //     filter        steps that would make surfaces cross are truncated
 //     update        v from the corrections, x += displacement; restitution at colliders
@@ -54,6 +55,7 @@ void run(const StepContext& context, double dt, Report& report) {
     if (!predict(s)) return;
     collide(s);
     solve(s);
+    solve_again(s);
     limit(s);
     stops = stops || (context.stop != nullptr && *context.stop && all_end_together(groups, s));
     if (stops) s.substeps = s.number + 1;  // makes this substep the last of its group

@@ -53,6 +53,7 @@ Tangle random_tangle(int points, int contacts, int apart, unsigned seed) {
     const Vec3f n = random_vector(random, 1);
     c.normal = n * (1 / std::max(length(n), 1e-3f));
     c.gap = uniform(random, -0.01f, 0.01f);
+    c.thickness = uniform(random, 0.001f, 0.01f);
     c.static_friction = 0.5f;
     c.kinetic_friction = 0.3f;
     c.surface_motion = i % 4 == 0 ? random_vector(random, 0.001f) : Vec3f{};
@@ -98,7 +99,7 @@ std::vector<Record> projected(const Kernels& kernels, int threads, const Tangle&
   executor.enter([&] {
     ContactSolver solver;
     solver.begin(kernels.contacts, contacts, contacts.size() / 3, from.positions.data(), from.positions.size());
-    for (int i = 0; i < 3; ++i) solver.project(executor, "contacts", contacts, displacements.data());
+    for (const float yield : {0.f, 0.3f, 0.f}) solver.project(executor, "contacts", contacts, displacements.data(), yield);
   });
   return displacements;
 }
@@ -118,6 +119,27 @@ TEST(ContactSolver, ProjectsTheLeadingContactsFirst) {
   };
   EXPECT_EQ(order_of(2), (std::vector<std::ptrdiff_t>{0, 1, 2}));
   EXPECT_EQ(order_of(0), (std::vector<std::ptrdiff_t>{0, 2, 1}));
+}
+
+/// Two points at rest 2 mm apart whose contact has a thickness of 10 mm.
+TEST(ContactSolver, LeavesTheOverlapThatAContactMayYield) {
+  const std::vector<Record> positions{{0, 0.002f, 0, 1}, {0, 0, 0, 1}};
+  for (const float yield : {0.f, 0.3f, 1.f}) {
+    std::vector<Contact> contacts(1);
+    Contact& contact = contacts[0];
+    contact.point = {0, 1, 0, 0};
+    contact.weight = {1, -1, 0, 0};
+    contact.normal = {0, 1, 0};
+    contact.thickness = 0.01f;
+    contact.gap = -0.008f;
+    std::vector<Record> displacements(2);
+    complete_contact(contact, positions.data(), displacements.data());
+    Executor executor(1);
+    ContactSolver solver;
+    solver.begin(kernels_sequential().contacts, contacts, 0, positions.data(), positions.size());
+    solver.project(executor, "contacts", contacts, displacements.data(), yield);
+    EXPECT_NEAR(overlap_of(contact, displacements.data()), std::min(0.008f, yield * 0.01f), 1e-7f) << yield;
+  }
 }
 
 TEST(ContactSolver, GivesTheSameBitsOnAnyThreadsAndInstructionSet) {

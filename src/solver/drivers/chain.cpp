@@ -34,7 +34,7 @@ void project_chains(Substep& s, const Phase& phase, const Pass& pass) {
   for_tasks(s, "solve: chains", shares, [&](int share) {  // every n-th task, because neighbouring paths are alike
     for (int i = share; i < tasks; i += shares) {
       const Task& task = phase.tasks[i];
-      if (!is_swept(s, task.object)) continue;
+      if (!is_swept(s, task.object) || (pass.only != nullptr && (*pass.only)[task.object] == 0)) continue;
       solve_one(s.model, s.kernels.chains, task, arguments(s, task.object, pass.first), scratch[share].data());
     }
   });

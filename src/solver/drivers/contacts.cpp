@@ -96,6 +96,26 @@ void sweep_pairs(Substep& s) {
                                   s.work.displacements.data());
 }
 
+void project_contacts_of(Substep& s, const char* name, const std::vector<char>& has, float yield) {
+  const auto concerns = [&](const Contact& contact) {
+    for (std::size_t i = 0; i < contact.point.size(); ++i)
+      if (contact.weight[i] != 0 && has[s.model.object_of(contact.point[i])] != 0) return true;
+    return false;
+  };
+  Record* displacements = s.work.displacements.data();
+  if (s.has_pairs())
+    s.work.contact_solver.only(s.pairs->contacts(), concerns)
+        .project(s.context.executor, name, s.pairs->contacts(), displacements, yield);
+  if (s.work.colliders.empty()) return;
+  std::vector<Contact>& with_shapes = s.work.shape_contacts.contacts();
+  s.work.shape_contact_solver.only(with_shapes, concerns).project(s.context.executor, name, with_shapes, displacements);
+  for_tiles(s, name, [&](int task) {
+    const int object = s.model.tiles()[task].object;
+    std::vector<Contact>& contacts = s.work.tiles[task].contacts;
+    if (has[object] != 0 && !contacts.empty()) project_contacts(contacts, arguments(s, object, false));
+  });
+}
+
 void for_touching_points(const Substep& s, FunctionRef<void(int)> visit) {
   const auto visit_points = [&](const std::vector<Contact>& contacts) {
     for (const Contact& contact : contacts)

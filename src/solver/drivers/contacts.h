@@ -12,6 +12,10 @@ void sweep_contacts(Substep& s);
 /// Projects every contact between surfaces once.
 void sweep_pairs(Substep& s);
 
+/// Projects once more the contacts of the objects with has[object] != 0, for sweeps or passes over these alone: others
+/// keep the bits that they have alone. Contacts among surfaces may then overlap by a share `yield` of their thickness.
+void project_contacts_of(Substep& s, const char* name, const std::vector<char>& has, float yield);
+
 /// Calls visit(particle) for the points of active contacts with several points: of edges and triangles with colliders,
 /// and between surfaces. Particles are numbered over all objects; one particle may be visited several times.
 void for_touching_points(const Substep& s, FunctionRef<void(int particle)> visit);

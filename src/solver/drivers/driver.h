@@ -22,7 +22,8 @@ enum class Turn {
 struct Pass {
   bool first = false;  ///< the first pass of a substep: multipliers start at zero
   Order order = Order::forward;
-  int number = 0;  ///< index of this pass over the stencils within the iteration
+  int number = 0;                           ///< index of this pass over the stencils within the iteration
+  const std::vector<char>* only = nullptr;  ///< for each object, 1 if chains of it are solved; null: all
 };
 
 struct PhaseDriver {

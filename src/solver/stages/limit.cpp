@@ -4,6 +4,8 @@
 // They are few. Chains leave the rest within a few percent, so a sequential pass over those few is enough.
 #include <algorithm>
 
+#include "solver/drivers/contacts.h"
+#include "solver/stages/solve_again.h"
 #include "solver/stages/stages.h"
 
 namespace pliant {
@@ -94,29 +96,6 @@ void shorten_all(Substep& s, const std::vector<LimitedLength>& limited) {
   }
 }
 
-/// Projects once more the contacts of objects that were moved. Others keep the bits that they have alone.
-void project_contacts_again(Substep& s, const LimitScratch& scratch) {
-  const auto touches_moved = [&](const Contact& contact) {
-    for (std::size_t i = 0; i < contact.point.size(); ++i)
-      if (contact.weight[i] != 0 && scratch.is_moved[s.model.object_of(contact.point[i])] != 0) return true;
-    return false;
-  };
-  const char* name = "limit: contacts";
-  Record* displacements = s.work.displacements.data();
-  if (s.has_pairs())
-    s.work.contact_solver.only(s.pairs->contacts(), touches_moved)
-        .project(s.context.executor, name, s.pairs->contacts(), displacements);
-  if (s.work.colliders.empty()) return;
-  std::vector<Contact>& with_shapes = s.work.shape_contacts.contacts();
-  s.work.shape_contact_solver.only(with_shapes, touches_moved)
-      .project(s.context.executor, name, with_shapes, displacements);
-  for_tiles(s, name, [&](int task) {
-    const int object = s.model.tiles()[task].object;
-    std::vector<Contact>& contacts = s.work.tiles[task].contacts;
-    if (scratch.is_moved[object] != 0 && !contacts.empty()) project_contacts(contacts, arguments(s, object, false));
-  });
-}
-
 }  // namespace
 
 void limit(Substep& s) {
@@ -125,7 +104,7 @@ void limit(Substep& s) {
   for (int round = 0; round < rounds && find_all(s, scratch); ++round) {
     list_all(s, scratch);
     shorten_all(s, scratch.limited);
-    project_contacts_again(s, scratch);
+    project_contacts_of(s, "limit: contacts", scratch.is_moved, overlap_left);
   }
 }
 

@@ -24,6 +24,9 @@ void collide(Substep& s);
 /// Projects all constraints and contacts, iteration by iteration.
 void solve(Substep& s);
 
+/// Solves chains and contacts in turn once more where surfaces press on one another (stages/solve_again.cpp).
+void solve_again(Substep& s);
+
 /// Shortens the few distances that the iterations left far too long (stages/limit.cpp).
 void limit(Substep& s);
 
