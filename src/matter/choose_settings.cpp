@@ -145,6 +145,12 @@ bool can_touch(const Scene& scene, const Object& object) {
          std::any_of(scene.mesh_colliders.begin(), scene.mesh_colliders.end(), meets_mesh);
 }
 
+/// True if the object can meet a collider of any kind.
+bool can_meet_collider(const Scene& scene, const Object& object) {
+  const auto meets = [&](const MeshCollider& collider) { return may_meet(collider.groups, collider.mask, object); };
+  return !scene.colliders.empty() || std::any_of(scene.mesh_colliders.begin(), scene.mesh_colliders.end(), meets);
+}
+
 bool have_same_motion(const Motion& a, const Motion& b) {
   const auto same_place = [](const Vec3f& p, const Vec3f& q) { return p.x == q.x && p.y == q.y && p.z == q.z; };
   const auto same = [&](const Keyframe& k, const Keyframe& l) {
@@ -221,7 +227,9 @@ Choice choose(const Scene& scene, const Settings& settings, const Object& object
   if (is_regular(object) && hangs(object) && !is_meant_to_stretch(object, gravity))
     return {Sweep::tethered_chains, name + ", which hangs from pins and has its springs in straight rows"};
   if (is_regular(object)) return {Sweep::chains, name + ", whose springs lie in straight rows"};
-  return {Sweep::multigrid, "cloth or rope, the largest of " + std::to_string(particles) + " particles"};
+  // Multigrid would be faster at equal stretch, but cloth that should slide over a collider sticks with it.
+  if (can_meet_collider(scene, object)) return {Sweep::chains, name + ", which can meet a collider"};
+  return {Sweep::multigrid, "cloth or rope that meets nothing, the largest of " + std::to_string(particles) + " particles"};
 }
 
 /// The sweep of one object: its own, else that of the settings, else the one chosen for it.

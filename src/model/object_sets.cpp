@@ -41,6 +41,8 @@ float distance(const Object& object, int from, int to) {
 
 /// Smaller objects keep the fixed number: they are cheap, and many of them share one group.
 constexpr std::size_t fewest_particles_by_state = 400;
+/// Substeps of objects solved by `multigrid` whose surface cannot touch others and whose pins rest.
+constexpr int substeps_of_undisturbed_multigrid = 6;
 
 bool can_meet(const SetMember& a, const SetMember& b) {
   const bool by_masks = (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
@@ -104,7 +106,11 @@ std::optional<double> strain_by_weight(const Object& object, double gravity) {
 }
 
 int own_substeps(const Object& object, Sweep sweep) {
-  return sweep == Sweep::multigrid && !has_converted(object) ? substeps_of_multigrid : substeps_of_others;
+  if (sweep != Sweep::multigrid || has_converted(object)) return substeps_of_others;
+  const auto moves = [](const Pin& pin) { return pin.motion.keyframes.size() > 1; };
+  const bool is_disturbed =
+      object.collides || object.self_collision || std::any_of(object.pins.begin(), object.pins.end(), moves);
+  return is_disturbed ? substeps_of_multigrid : substeps_of_undisturbed_multigrid;
 }
 
 bool is_meant_to_stretch(const Object& object, double gravity) {

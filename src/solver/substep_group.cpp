@@ -27,13 +27,17 @@ Phase part_of(const Phase& phase, const std::vector<char>& has) {
   return part;
 }
 
+/// True if the limit of overstretch applies: other sweeps leave whole regions too long, which shortening one constraint after
+/// another does not mend.
+bool limits_lengths(Sweep sweep) { return solves_chains(sweep) || sweep == Sweep::multigrid; }
+
 void list_lengths(const Model& model, SubstepGroup& group) {
   group.hangs = group.by_state;
   for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) {
     const CompiledObject& object = model.objects[o];
     if (object.particles == 0 || !(group.has_all || group.has[o] != 0)) continue;
     group.hangs = group.hangs && (object.is_collider || object.sweep == Sweep::tethered_chains);
-    if (!solves_chains(object.sweep)) continue;
+    if (!limits_lengths(object.sweep)) continue;
     for (int i = 0; i < static_cast<int>(object.lengths.size()); ++i)
       group.lengths.push_back({o, i, object.lengths[i].batches});
   }

@@ -32,6 +32,7 @@ double demanded(Substep& s, int least) {
     const CompiledObject& object = s.model.objects[tasks[i].object];
     const int first = s.model.first[tasks[i].object];
     found[i].clear();
+    if (!solves_chains(object.sweep)) return;  // multigrid does not need shorter substeps where strain is large
     find_demanding(
         object, object.lengths[tasks[i].item], s.kernels.lengths,
         {s.state.positions.data() + first, s.state.velocities.data() + first,
@@ -43,7 +44,8 @@ double demanded(Substep& s, int least) {
   std::vector<float>& all = s.work.demands;
   all.clear();
   for (std::size_t i = 0; i < tasks.size(); ++i) {
-    constraints += static_cast<double>(s.model.objects[tasks[i].object].lengths[tasks[i].item].constraints);
+    const CompiledObject& object = s.model.objects[tasks[i].object];
+    if (solves_chains(object.sweep)) constraints += static_cast<double>(object.lengths[tasks[i].item].constraints);
     for (const FoundLength& one : found[i]) all.push_back(one.value);
   }
   const auto beyond = static_cast<std::size_t>(share_beyond * constraints);

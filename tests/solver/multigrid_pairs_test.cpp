@@ -21,6 +21,8 @@ std::vector<Object> two_sheets() {
   return sheets;
 }
 
+Vec3f at(const Record& r) { return {r.x, r.y, r.z}; }
+
 /// The dense matrices of both objects as one, with the springs of their contacts.
 System dense_system_of(const std::vector<Object>& objects, const Corrected& found) {
   System joint;
@@ -71,28 +73,48 @@ TEST(MultigridPairs, AreSolvedWithTheirObjectsAsOne) {
   EXPECT_LT(error_of(found.change(), eliminate(joint.a, joint.b)), 1e-3);
 }
 
-/// The force of a contact's springs is stored as its push and friction, from which projection continues: the force
-/// times w h^2.
-TEST(MultigridPairs, KeepTheirForcesAsPushes) {
-  const Corrected found(two_sheets(), 100);
-  const std::vector<Contact>& contacts = found.workspace.pairs->contacts();
-  double pushed = 0, expected = 0;
-  for (const PairSpring& s : found.springs()) {
-    const Contact& contact = contacts[std::size_t(s.contact)];
-    double apart = double(contact.gap), mobility = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const std::size_t v = std::size_t(contact.point[i]);
-      const Record& d = found.workspace.displacements[v];
-      apart +=
-          double(contact.weight[i]) * dot(convert<double>(contact.normal), Vec3d{double(d.x), double(d.y), double(d.z)});
-      mobility += double(found.state.positions[v].w) * double(contact.weight[i]) * double(contact.weight[i]);
-    }
-    pushed += double(contact.push);
-    expected += std::max(0., -apart * double(s.along) * mobility / double(inverse_h2));
-    EXPECT_LE(length(contact.friction), 1.001f * contact.kinetic_friction * -s.depth);
+/// After few cycles the springs still overlap, and seem to push with forces that no particle has felt. So the projection of
+/// contacts starts from zero.
+TEST(MultigridPairs, HandNoForcesToTheProjection) {
+  const Corrected found(two_sheets(), 2);
+  ASSERT_GT(found.springs().size(), 20u);
+  for (const Contact& contact : found.workspace.pairs->contacts()) {
+    EXPECT_EQ(contact.push, 0);
+    EXPECT_EQ(length(contact.friction), 0);
   }
-  EXPECT_GT(pushed, 0);
-  EXPECT_NEAR(pushed, expected, 1e-3 * expected);
+}
+
+/// The residual r acts like an outside force -r. Its work on the motion since the substep's start, less the mean motion of each
+/// sheet, must not be positive.
+TEST(MultigridPairs, LeaveAResidualThatFeedsNoEnergy) {
+  const std::vector<Object> sheets = two_sheets();
+  for (const int cycles : {1, 2, 3}) {
+    const Corrected found(sheets, cycles);
+    const System joint = dense_system_of(sheets, found);
+    const Vector change = found.change(), image = times(joint.a, change);
+    double work = 0, size = 0;
+    for (std::size_t o = 0; o < 2; ++o) {
+      Vec3d moment{};
+      double mass = 0;
+      const auto displacement = [&](std::size_t i) { return convert<double>(at(found.workspace.displacements[i])); };
+      const auto first = static_cast<std::size_t>(found.model.first[o]),
+                 last = static_cast<std::size_t>(found.model.end_of(static_cast<int>(o)));
+      for (std::size_t i = first; i < last; ++i) {
+        if (!(found.state.positions[i].w > 0)) continue;
+        moment += displacement(i) * (1 / double(found.state.positions[i].w));
+        mass += 1 / double(found.state.positions[i].w);
+      }
+      for (std::size_t i = first; i < last; ++i) {
+        if (!(found.state.positions[i].w > 0)) continue;
+        const Vec3d d = displacement(i) - moment * (1 / mass);
+        const Vec3d r{joint.b[3 * i] - image[3 * i], joint.b[3 * i + 1] - image[3 * i + 1],
+                      joint.b[3 * i + 2] - image[3 * i + 2]};
+        work -= dot(r, d);
+        size += std::fabs(dot(r, d));
+      }
+    }
+    EXPECT_LT(work, 1e-3 * size) << cycles;
+  }
 }
 
 /// By how much the sides of a contact overlap after the displacements [m].

@@ -48,8 +48,23 @@ void expect_chosen(const Scene& scene, Sweep sweep, int substeps, const std::str
 }
 
 TEST(ChosenSettings, AreMultigridForIrregularCloth) {
-  expect_chosen(irregular(40, 1), Sweep::multigrid, 10, "1600 particles");
-  expect_chosen(irregular(6, 1), Sweep::multigrid, 10, "36 particles");
+  expect_chosen(irregular(40, 1), Sweep::multigrid, 6, "1600 particles");
+  expect_chosen(irregular(6, 1), Sweep::multigrid, 6, "36 particles");
+}
+
+TEST(ChosenSettings, AreMoreSubstepsOfMultigridWherePinsMove) {
+  Scene scene = irregular(40, 1);
+  scene.pin(0, {0, 39});
+  expect_chosen(scene, Sweep::multigrid, 6, "meets nothing");
+  scene.objects[0].pins[0].motion = straight({1, 0, 0}, 1);
+  expect_chosen(scene, Sweep::multigrid, 10, "meets nothing");
+}
+
+/// With multigrid cloth sticks to a collider on which it should slide.
+TEST(ChosenSettings, AreChainsWhereCollidersAreMet) {
+  Scene scene = irregular(40, 1);
+  scene.add(Collider{});
+  expect_chosen(scene, Sweep::chains, 0, "which can meet a collider");
 }
 
 TEST(ChosenSettings, AreChainsForRegularCloth) {
@@ -89,7 +104,7 @@ TEST(ChosenSettings, AreEachObjectsOwn) {
   EXPECT_EQ(chosen_sweep(scene, 1), Sweep::multigrid) << "whatever is beside it";
   EXPECT_EQ(chosen_sweep(scene, 2), Sweep::chains);
   expect_chosen(scene, Sweep::automatic, 0, "'cloth' by 'multigrid'");
-  EXPECT_EQ(chosen_substeps(scene), (std::vector<int>{20, 10, 0}));
+  EXPECT_EQ(chosen_substeps(scene), (std::vector<int>{20, 6, 0}));
   scene.objects[2].sweep = Sweep::jacobi;
   EXPECT_EQ(chosen_sweep(scene, 2), Sweep::jacobi) << "what it names itself";
   scene.settings.sweep = Sweep::symmetric;
@@ -141,14 +156,15 @@ TEST(ChosenSettings, AreChainsWhereSurfacesMeet) {
   scene.add(other);
   expect_chosen(scene, Sweep::chains, 0, "'shirt', a surface");
   scene.objects[1].collides = false;
-  expect_chosen(scene, Sweep::multigrid, 10, "particles");
+  expect_chosen(scene, Sweep::multigrid, 0, "particles");
+  EXPECT_EQ(chosen_substeps(scene), (std::vector<int>{10, 6})) << "the shirt can touch what is added later";
   MeshCollider body;
   body.name = "body";
   body.mesh = sphere_mesh(2);
   for (Vec3f& p : body.mesh.positions) p.y -= 3;
   body.as = MeshCollider::As::distance_grid;
   scene.add(body);
-  expect_chosen(scene, Sweep::multigrid, 10, "particles");
+  expect_chosen(scene, Sweep::chains, 0, "'shirt', which can meet a collider");
   scene.mesh_colliders[0].as = MeshCollider::As::triangles;
   expect_chosen(scene, Sweep::chains, 0, "'shirt', a surface");
 }
@@ -159,7 +175,7 @@ TEST(ChosenSettings, LeaveWhatIsNamed) {
     scene.settings.sweep = one.sweep;
     std::string reason;
     EXPECT_EQ(chosen_settings(scene, &reason).sweep, one.sweep);
-    const int substeps = one.sweep == Sweep::multigrid ? 10 : solves_chains(one.sweep) ? 0 : 20;
+    const int substeps = one.sweep == Sweep::multigrid ? 6 : solves_chains(one.sweep) ? 0 : 20;
     EXPECT_EQ(chosen_settings(scene).substeps, substeps) << one.name;
     EXPECT_EQ(reason, "");
   }
@@ -197,7 +213,7 @@ TEST(ChosenSettings, AreFoundForScenesThatWillBeRefused) {
   scene.objects[0].constraints[1].particles[3] = 1 << 30;
   scene.objects[0].constraints[1].particles[4] = -1;
   scene.objects[0].triangles[0] = {-5, 1 << 30, 0};
-  EXPECT_EQ(chosen_settings(scene).substeps, 10);
+  EXPECT_EQ(chosen_settings(scene).substeps, 6);
   scene.objects[0].positions.clear();
   EXPECT_GT(chosen_settings(scene).substeps, 0);
 }

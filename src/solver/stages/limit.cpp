@@ -1,7 +1,7 @@
-// The limit of overstretch: what an iteration of chains leaves too long is shortened constraint by constraint.
+// The limit of overstretch: what an iteration of chains or multigrid leaves too long is shortened constraint by constraint.
 //
-// Contacts move particles after the chains were solved, so single edges end far too long where cloth meets an obstacle.
-// They are few. Chains leave the rest within a few percent, so a sequential pass over those few is enough.
+// Contacts move particles after the springs were solved, so single edges end far too long where cloth meets an obstacle.
+// They are few. These sweeps leave the rest within a few percent, so a sequential pass over those few is enough.
 #include <algorithm>
 
 #include "solver/drivers/contacts.h"

@@ -61,6 +61,7 @@ void correct_multigrid(Substep& s, bool first) {
     for (const int o : groups.all[g].objects)
       if (first) MultigridSolve(s, o).linearise(arguments(s, o, true));
     solve_multigrid_group(s, groups.all[g], s.context.options.multigrid_cycles);
+    if (first) shorten_fed_motion(s, groups.all[g]);
   }
   for_objects(s, [&](int o) {
     if (!s.model.objects[o].multigrid.levels.empty()) move(s, o, first);

@@ -24,9 +24,13 @@ struct MultigridObject {
   AlignedVector<float> extra;   ///< matrix terms of contacts: nine rows of sixteen per batch; empty before the first
   std::vector<char> has_extra;  ///< for each batch, 1 if one of its rows has contacts
   std::vector<double> sums;     ///< partial sums of reductions, one for each task
-  /// A connected component: its stiffness against pins and contacts (xx yy zz xy xz yz) [N/m], and its residual force [N].
+  /// A connected component: its stiffness against pins and contacts (xx yy zz xy xz yz) [N/m], its residual force [N], its
+  /// mass [kg], the sum of mass times displacement [kg m], and a displacement of the whole [m].
   struct Piece {
     double held[6], force[3];
+    double mass = 0;
+    Vec3d moment{};
+    Record shift{};
   };
   std::vector<Piece> pieces;
   /// The product A p of conjugate gradients; it uses scratch memory of the preconditioner.
@@ -43,7 +47,6 @@ struct ContactSpring {
 
 /// A contact between surfaces (constraints/contact.h) as springs between the closest points of its two sides.
 struct PairSpring : ContactSpring {
-  std::int32_t contact = 0;              ///< index of the contact
   std::array<std::int32_t, 4> object{};  ///< object of each particle; -1: not moved by this correction
   std::array<std::int32_t, 4> particle{};
   std::array<float, 4> weight{};
@@ -83,16 +86,18 @@ MultigridScratch& multigrid_of(const Substep& s);
 void correct_multigrid(Substep& s, bool first);
 
 // Parts of correct_multigrid, defined in multigrid_contacts.cpp: add contacts as springs to the rows of their
-// particles; then store the pushes and friction of these springs, from which the projection of contacts continues.
+// particles; then store the pushes and friction of the springs between particles and colliders, from which the projection
+// of these contacts continues.
 void add_multigrid_contacts(Substep& s);
 void keep_multigrid_pushes(Substep& s);
 /// Adds the off-diagonal terms of a surface contact's spring to A p: the matrix rows treat the other side as fixed, but
 /// p moves both sides. Returns their contribution to p . A p.
 double couple_pair(const PairSpring& spring, std::vector<MultigridObject>& objects);
 // Defined in multigrid_group.cpp: groups all objects with levels, ordered by their first object; solves one group by
-// conjugate gradients, after which its right-hand sides hold the residual.
+// conjugate gradients, after which its right-hand sides hold the residual; shortens the motion where the residual feeds energy.
 void make_multigrid_groups(Substep& s);
 void solve_multigrid_group(Substep& s, const MultigridGroup& group, int cycles);
+void shorten_fed_motion(Substep& s, const MultigridGroup& group);
 /// Returns false if an object's correction must be rejected: it is not finite, or it moves a particle by more than an
 /// edge without reducing the springs' energy.
 bool is_multigrid_change_sound(Substep& s, int object);

@@ -2,8 +2,10 @@
 // friction. Without them the correction would move objects into what they rest on, and the projection of contacts would
 // push them back out.
 //
-// Springs only approximate friction. So the projection of contacts starts from the pushes and the friction of the
-// springs, and corrects any excess.
+// Springs only approximate friction. At particles that meet colliders, projection starts from the pushes and the friction
+// of the springs and corrects any excess. Contacts with several points start from zero instead: after few cycles their
+// springs still overlap and seem to push though the particles have not felt it, and with the cone of such pushes friction
+// tore cloth apart (docs/internals/convergence.md).
 //
 // A contact with a primitive adds to one matrix row. A contact between surfaces couples objects, or distant parts of
 // one, which the coarse levels do not represent: each row treats the other side as fixed at its prediction. Conjugate
@@ -103,19 +105,6 @@ void add_point_contacts(Substep& s) {
   });
 }
 
-void keep_point_pushes(Substep& s) {
-  for_contacts(s, [&](Contact& contact, float stiffness, int o) {
-    const MultigridObject& work = multigrid_of(s).objects[o];
-    if (!work.is_made) return;
-    const SweepArguments a = arguments(s, o, false);
-    const int i = contact.point[0];
-    const Vec3f now = vector_of(a.displacements[i]), by = vector_of(work.change[i]);
-    const float w = a.positions[i].w;
-    const ContactSpring spring = spring_of(contact, now - by, w, a.inverse_h2, stiffness);
-    if (spring.along > 0) keep_push(spring, by, w, a.inverse_h2, contact);
-  });
-}
-
 // ---------------------------------------------------------------- with several points
 
 float inverse_h2_of(const PairParticles& all) { return (1 / all.h) * (1 / all.h); }
@@ -162,7 +151,6 @@ void add_pair_contacts(Substep& s) {
     static_cast<ContactSpring&>(spring) = spring_of(contact, relative(contact, all.displacements),
                                                     inverse_mass_of(contact, all.positions), inverse_h2_of(all), stiffness);
     if (!(spring.along > 0)) continue;
-    spring.contact = static_cast<std::int32_t>(i);
     spring.weight = contact.weight;
     spring.normal = contact.normal;
     const std::array<float, 6> block = block_of(spring);
@@ -171,22 +159,6 @@ void add_pair_contacts(Substep& s) {
       if (spring.object[k] >= 0)
         add_to_row(scratch.objects[spring.object[k]], spring.particle[k], spring.weight[k], block, force);
     scratch.springs.push_back(spring);
-  }
-}
-
-void keep_pair_pushes(Substep& s) {
-  MultigridScratch& scratch = multigrid_of(s);
-  if (scratch.springs.empty()) return;
-  const PairParticles all = all_particles(s);
-  const auto is_made = [&](int o) { return o < 0 || scratch.objects[o].is_made; };
-  for (const PairSpring& spring : scratch.springs) {
-    if (!std::all_of(spring.object.begin(), spring.object.end(), is_made)) continue;
-    Vec3f by{};
-    for (int i = 0; i < 4; ++i)
-      if (spring.object[i] >= 0)
-        by += vector_of(scratch.objects[spring.object[i]].change[spring.particle[i]]) * spring.weight[i];
-    Contact& contact = contact_at(s, static_cast<std::size_t>(spring.contact));
-    keep_push(spring, by, inverse_mass_of(contact, all.positions), inverse_h2_of(all), contact);
   }
 }
 
@@ -223,8 +195,16 @@ void add_multigrid_contacts(Substep& s) {
 }
 
 void keep_multigrid_pushes(Substep& s) {
-  keep_point_pushes(s);
-  keep_pair_pushes(s);
+  for_contacts(s, [&](Contact& contact, float stiffness, int o) {
+    const MultigridObject& work = multigrid_of(s).objects[o];
+    if (!work.is_made) return;
+    const SweepArguments a = arguments(s, o, false);
+    const int i = contact.point[0];
+    const Vec3f now = vector_of(a.displacements[i]), by = vector_of(work.change[i]);
+    const float w = a.positions[i].w;
+    const ContactSpring spring = spring_of(contact, now - by, w, a.inverse_h2, stiffness);
+    if (spring.along > 0) keep_push(spring, by, w, a.inverse_h2, contact);
+  });
 }
 
 }  // namespace pliant

@@ -109,4 +109,20 @@ void solve_multigrid_group(Substep& s, const MultigridGroup& group, int cycles) 
   if (group.objects.size() > 1) shift_together(s, group);
 }
 
+// The substep ends as if an outside force -r acted; its
+// work is -r . d, d being the displacement since the substep's start. One minimisation along d makes r . d zero, and the
+// energy then does not rise, however few the cycles. It only shortens: lengthened motion did not come to rest. Of d it
+// takes the part that is not common to a piece, or what falls would be held up.
+void shorten_fed_motion(Substep& s, const MultigridGroup& group) {
+  double along = 0;
+  for (const int o : group.objects) {
+    MultigridSolve solve(s, o);
+    solve.turn_to_motion(arguments(s, o, false).displacements);
+    along += solve.residual_along();
+  }
+  if (!(along < 0)) return;
+  const double curvature = apply(s, group);
+  if (curvature > 0) advance(s, group, static_cast<float>(std::max(along / curvature, -1.0)));
+}
+
 }  // namespace pliant

@@ -84,8 +84,39 @@ void MultigridSolve::turn_to_shifts(const std::vector<const PairSpring*>& spring
   clear_direction();
   if (!sum_pieces()) return;
   for (const PairSpring* s : springs) release(*s);
+  for (MultigridObject::Piece& piece : work_.pieces) piece.shift = shift_of(piece);
   for (std::size_t i = 0; i < model_.piece.size(); ++i)
-    if (model_.piece[i] >= 0) work_.direction[i] = shift_of(work_.pieces[model_.piece[i]]);
+    if (model_.piece[i] >= 0) work_.direction[i] = work_.pieces[model_.piece[i]].shift;
+}
+
+void MultigridSolve::turn_to_motion(const Record* displacements) {
+  clear_direction();
+  for (MultigridObject::Piece& piece : work_.pieces) piece.moment = {}, piece.mass = 0;
+  const Record* positions = arguments(s_, object_, false).positions;
+  for (std::size_t i = 0; i < model_.piece.size(); ++i) {
+    if (model_.piece[i] < 0) continue;
+    const Record &d = displacements[i], &c = work_.change[i];
+    const Record moved{d.x + c.x, d.y + c.y, d.z + c.z, 0};
+    MultigridObject::Piece& piece = work_.pieces[model_.piece[i]];
+    const double mass = static_cast<double>(1 / positions[i].w);
+    piece.moment += Vec3d{static_cast<double>(moved.x), static_cast<double>(moved.y), static_cast<double>(moved.z)} * mass;
+    piece.mass += mass;
+    work_.direction[i] = moved;
+  }
+  for (MultigridObject::Piece& piece : work_.pieces) {
+    const Vec3f mean = convert<float>(piece.moment * (1 / std::max(piece.mass, 1e-300)));
+    piece.shift = {mean.x, mean.y, mean.z, 0};
+  }
+  for (std::size_t i = 0; i < model_.piece.size(); ++i) {
+    if (model_.piece[i] < 0) continue;
+    const Record& mean = work_.pieces[model_.piece[i]].shift;
+    Record& p = work_.direction[i];
+    p = {p.x - mean.x, p.y - mean.y, p.z - mean.z, 0};
+  }
+}
+
+double MultigridSolve::residual_along() {
+  return sum(0, [&](int f, int t) { return kernels_.dot(values(0).right.data(), work_.direction.data(), f, t); });
 }
 
 void MultigridSolve::add_pieces(MultigridObject::Piece& sum) {
