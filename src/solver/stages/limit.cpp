@@ -13,6 +13,10 @@ namespace pliant {
 namespace {
 
 constexpr int rounds = 2;  ///< of search, passes and contacts
+/// An object has further rounds, up to these, while a constraint exceeds the limit by half. A point that bears much of a
+/// sheet, such as the corner of a box, needs them: its contact undoes much of each round.
+constexpr int most_rounds = 8;
+constexpr float tolerated = 1.5f;
 /// If more constraints of an object are too long than these, and than this share, the cloth is pulled as a whole.
 /// Shortening one constraint after another would take long and achieve nothing.
 constexpr double largest_share = 0.05, most_at_once = 500;
@@ -24,8 +28,8 @@ Vec3f across(const LimitedLength& pair, const Record* positions, const Record* d
   return {(q.x - p.x) + (e.x - d.x), (q.y - p.y) + (e.y - d.y), (q.z - p.z) + (e.z - d.z)};
 }
 
-/// Finds the constraints that are too long. False if there are none, or too many in each object.
-bool find_all(Substep& s, LimitScratch& scratch) {
+/// Finds the constraints that are too long. False if there are none, or if each object has too many or none above `worst`.
+bool find_all(Substep& s, LimitScratch& scratch, float worst) {
   const std::vector<Task>& tasks = s.lengths();
   if (scratch.found.size() < tasks.size()) scratch.found.resize(tasks.size());
   for_tasks(s, "limit: search", static_cast<int>(tasks.size()), [&](int i) {
@@ -40,11 +44,13 @@ bool find_all(Substep& s, LimitScratch& scratch) {
   bool any = false;
   for (std::size_t first = 0, last = 0; first < tasks.size(); first = last) {
     double constraints = 0, too_long = 0;
+    float largest = 0;
     for (; last < tasks.size() && tasks[last].object == tasks[first].object; ++last) {
       constraints += static_cast<double>(s.model.objects[tasks[last].object].lengths[tasks[last].item].constraints);
       too_long += static_cast<double>(scratch.found[last].size());
+      for (const FoundLength& found : scratch.found[last]) largest = std::max(largest, found.value);
     }
-    const bool is_limited = too_long > 0 && too_long <= std::max(most_at_once, largest_share * constraints);
+    const bool is_limited = largest > worst && too_long <= std::max(most_at_once, largest_share * constraints);
     scratch.is_moved[tasks[first].object] = is_limited ? 1 : 0;
     any = any || is_limited;
   }
@@ -100,8 +106,9 @@ void shorten_all(Substep& s, const std::vector<LimitedLength>& limited) {
 
 void limit(Substep& s) {
   LimitScratch& scratch = s.work.limit;
-  if (s.lengths().empty() || !(s.context.options.most_overstretch > 0)) return;
-  for (int round = 0; round < rounds && find_all(s, scratch); ++round) {
+  const float most = s.context.options.most_overstretch;
+  if (s.lengths().empty() || !(most > 0)) return;
+  for (int round = 0; round < most_rounds && find_all(s, scratch, round < rounds ? most : tolerated * most); ++round) {
     list_all(s, scratch);
     shorten_all(s, scratch.limited);
     project_contacts_of(s, "limit: contacts", scratch.is_moved, overlap_left);
