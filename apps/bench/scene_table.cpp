@@ -104,19 +104,17 @@ class Surfaces {
   std::optional<CrossingFinder> finder_;
 };
 
-void add_overstretch(const World& world, int frame, SceneRow& row) {
-  const Overstretch now = world.overstretch();
-  if (now.p99 > row.p99) row.frame_of_p99 = frame;
-  if (now.largest > row.largest) row.frame_of_largest = frame;
-  row.p99 = std::max(row.p99, now.p99);
-  row.largest = std::max(row.largest, now.largest);
+void set_overstretch(const WorstOverstretch& worst, SceneRow& row) {
+  row.p99 = worst.overstretch.p99;
+  row.largest = worst.overstretch.largest;
+  row.frame_of_p99 = static_cast<int>(worst.frame_of_p99);
+  row.frame_of_largest = static_cast<int>(worst.frame_of_largest);
 }
 
 SceneRow measure(const NamedScene& named, const std::string& settings, const SceneTableOptions& options) {
   Scene scene = named.scene;
   apply(settings, scene);
   scene.settings.threads = options.threads;
-  scene.settings.record_multipliers = true;
   World world(scene);
   std::optional<Surfaces> surfaces;
   if (options.counts_crossings) surfaces.emplace(scene);
@@ -131,7 +129,7 @@ SceneRow measure(const NamedScene& named, const std::string& settings, const Sce
     const Report report = world.step(scene.frame_time);
     row.finite = report.ok();
     if (!row.finite) break;
-    add_overstretch(world, frame, row);
+    set_overstretch(report.worst_overstretch, row);
     if (surfaces) row.crossings = std::max(row.crossings, surfaces->crossings(world));
     const double energy = world.kinetic_energy() + world.potential_energy();
     least = std::min(least, energy);

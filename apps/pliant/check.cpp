@@ -37,6 +37,26 @@ std::string extent(const std::vector<Vec3f>& positions) {
   return text;
 }
 
+constexpr std::size_t longest_line = 120;
+
+/// Breaks a long line after semicolons; further lines are indented.
+std::string broken(const std::string& line) {
+  std::string text;
+  std::size_t begin = 0, used = 0;
+  while (begin < line.size()) {
+    const std::size_t mark = line.find("; ", begin), end = mark == std::string::npos ? line.size() : mark + 2;
+    if (used > 0 && used + end - begin > longest_line) {
+      text.back() = '\n';  // was the space after the semicolon
+      text += "  ";
+      used = 2;
+    }
+    text += line.substr(begin, end - begin);
+    used += end - begin;
+    begin = end;
+  }
+  return text;
+}
+
 // Prints a line for each finding, grave ones first, others with the label `lesser`. Returns true if any is grave.
 bool print_findings(const std::vector<Finding>& findings, const std::string& lesser) {
   std::string text;
@@ -45,9 +65,8 @@ bool print_findings(const std::vector<Finding>& findings, const std::string& les
     for (const Finding& finding : findings) {
       if (finding.grave != wanted) continue;
       grave = grave || finding.grave;
-      text += (finding.grave ? "wrong: " : lesser + ": ") + one_line(finding.message);
-      if (!finding.advice.empty()) text += "; " + one_line(finding.advice);
-      text += "\n";
+      const std::string advice = finding.advice.empty() ? "" : "; " + one_line(finding.advice);
+      text += broken((finding.grave ? "wrong: " : lesser + ": ") + one_line(finding.message) + advice) + "\n";
     }
   }
   print(text.empty() ? "nothing wrong, nothing doubtful\n" : text);

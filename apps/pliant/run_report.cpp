@@ -56,6 +56,23 @@ void add_pairs(PairReport& sum, const PairReport& frame) {
   sum.rebuilds += frame.rebuilds;
 }
 
+Json overstretch_json(const Report& report) {
+  const Overstretch last = report.overstretch.value_or(Overstretch{});
+  const WorstOverstretch& worst = report.worst_overstretch;
+  return {{"p99", last.p99},
+          {"largest", last.largest},
+          {"worst_p99", worst.overstretch.p99},
+          {"frame_of_worst_p99", worst.frame_of_p99},
+          {"worst_largest", worst.overstretch.largest},
+          {"frame_of_worst_largest", worst.frame_of_largest}};
+}
+
+/// Advice for the worst frame.
+std::string advice_of(const World& world, const WorstOverstretch& worst) {
+  const std::string words = world.advice(worst.overstretch);
+  return words.empty() ? words : "in frame " + std::to_string(worst.frame_of_largest) + ", " + words;
+}
+
 std::string without_numbers(std::string text) {
   text.erase(std::remove_if(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0 || c == '.'; }),
              text.end());
@@ -140,9 +157,10 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["max_stretch"] = stretch.largest;
   json["mean_stretch"] = stretch.mean;
   json["p99_stretch"] = stretch.p99;
+  json["overstretch"] = overstretch_json(last_);
   json["nonfinite"] = nonfinite_json(last_);
   json["warnings"] = warnings_;
-  json["advice"] = world.advice(last_);
+  json["advice"] = advice_of(world, last_.worst_overstretch);
   json["threads"] = world.threads();
   json["isa"] = world.isa();
   if (hash_frames_) json["frame_hashes"] = hashes_;

@@ -34,21 +34,21 @@ struct Advice {
   Trial own;                  ///< trial with the scene's own settings
   int frames = 0;             ///< frames planned; if `own` completed fewer, the advice covers only those
   std::vector<Trial> others;  ///< further trials in the order in which they ran; none if `own` is good
-  /// Index in `others` of the advised settings: the cheapest good trial; if none is good, the best one whose largest
-  /// overstretch is clearly below that of `own` and whose p99 is not above it; -1: none.
+  /// Index in `others` of the advised settings: the default (Settings{}) if the scene names others and it is good; else the
+  /// cheapest good trial; if none is good, the best one that is clearly better than `own`; -1: none.
   int best = -1;
   bool cut_short = false;  ///< true if time ran out before all trials were done
   std::string words;       ///< what is wrong, in one sentence; empty if nothing was found in `own.frames` frames
   std::string what_to_do;  ///< what to do about the overstretch
 };
 
-/// True if the overstretch of a trial never exceeded tolerated_overstretch.
+/// True if a trial was complete and its overstretch never exceeded what is tolerable (is_tolerable).
 bool is_good(const Trial& trial);
 
-/// Runs the scene with its own settings. If the result is not good (is_good), runs it with more substeps,
-/// tethers, and sweeps that may do better. Each trial starts at the scene's start, because a stretched
-/// state would only show how other settings repair it. The bits of a trial depend on its settings alone;
-/// how many trials there are depends on the machine's speed. Throws an Error for scenes that a World
+/// Runs the scene with its own settings. If the result is not good (is_good), runs it with the default sweep and substeps;
+/// if the scene has these or they are not good either, with more substeps, tethers, and other sweeps. Each trial starts at
+/// the scene's start, because a stretched state would only show how other settings repair it. The bits of a trial depend on
+/// its settings alone; how many trials there are depends on the machine's speed. Throws an Error for scenes that a World
 /// rejects.
 Advice advise(const Scene& scene, const AdviseOptions& options = {});
 

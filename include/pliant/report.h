@@ -43,11 +43,28 @@ struct Stretch {
 /// By how much distance constraints are longer than their force explains, (C + alpha~ lambda) / L: the error that a
 /// step leaves. More substeps or iterations, or another sweep, reduce it. For a rigid constraint it is the stretch, for
 /// a compliant one the stretch beyond that of its tension. Constraints with PBD stiffness are left out, because they
-/// have no multiplier.
+/// have no multiplier, and those between two fixed particles, because no solve changes them.
 struct Overstretch {
-  double p99 = 0, largest = 0;             ///< 99th percentile, maximum; shares of the rest length; negative: too short [-]
-  int object = -1;                         ///< slot of the object that has the maximum; -1: there are no such constraints
+  double p99 = 0, largest = 0;  ///< 99th percentile and maximum, shares of the rest length; 0 if not too long [-]
+  int object = -1;              ///< slot of the object that has the maximum; -1: no constraint is too long
   std::array<int, 2> particles{{-1, -1}};  ///< particles of the constraint with the maximum, in the object's own order
+  std::int64_t constraints = 0;            ///< number of constraints that were measured
+};
+
+/// The overstretch that the default settings keep to in any frame: 99th percentile and maximum [-].
+inline constexpr double tolerated_p99 = 0.02, tolerated_overstretch = 0.1;
+
+/// True if both are within these limits.
+inline bool is_tolerable(const Overstretch& found) {
+  return found.p99 <= tolerated_p99 && found.largest <= tolerated_overstretch;
+}
+
+/// The worst overstretch of all complete frames since the World was made or a State was restored.
+struct WorstOverstretch {
+  /// The largest 99th percentile and the largest maximum of any frame, which may be different frames. The object is -1
+  /// after it was removed or edited.
+  Overstretch overstretch;
+  std::int64_t frame_of_p99 = 0, frame_of_largest = 0;  ///< Report::frame of each; 0: none was too long
 };
 
 /// Where the first value that is not finite arose.
@@ -114,7 +131,8 @@ struct Report {
   std::vector<Residual> residuals;             ///< filled if Settings::measure is set
   std::optional<Stretch> stretch;              ///< filled if Settings::measure is set
   IterationCount iterations;                   ///< iterations per substep
-  std::optional<Overstretch> overstretch;      ///< filled if Settings::measure is set; World::advice describes it
+  std::optional<Overstretch> overstretch;      ///< of this frame; empty if it was not completed; see World::advice
+  WorstOverstretch worst_overstretch;          ///< of this and earlier frames
   std::vector<IterationResidual> convergence;  ///< last substep by iteration, if Settings::record_residuals is set
   std::optional<NonFinite> nonfinite;
   bool stopped = false;  ///< true if World::stop_when ended the step before the frame was complete

@@ -23,9 +23,6 @@ struct ObjectInfo {
   int substeps = 0;  ///< substeps per frame; fast colliders may increase them (Report::substeps)
 };
 
-/// A solve is good if no distance exceeds the length that its force explains by more than this share [-].
-inline constexpr double tolerated_overstretch = 0.01;
-
 /// A pose of a collider: a point p of its local frame is at rotation p + position.
 struct RigidPose {
   Vec3f position{};  ///< position of the local frame's origin [m]
@@ -197,7 +194,8 @@ class World {
   std::vector<Vec3f> mesh_collider_positions(MeshColliderId collider) const;
 
   /// The multipliers of the last substep in the order of the object's constraint groups of that type, row by row; empty
-  /// if they were not stored. The force is lambda / h^2 along the gradient (XPBD, eq. 17).
+  /// if they were not stored: those of compliant distances always are, others if Settings::record_multipliers is set. The
+  /// force is lambda / h^2 along the gradient (XPBD, eq. 17).
   std::vector<float> multipliers(ObjectId object, const std::string& type) const;
 
   /// Kinetic and gravitational energy of all dynamic particles [J]. Heights are relative to the origin.
@@ -205,13 +203,15 @@ class World {
   double potential_energy() const;
   std::vector<Residual> residuals() const;
   Stretch stretch() const;
-  /// The present overstretch. Compliant constraints are measured correctly only if multipliers are stored
-  /// (Settings::measure).
+  /// The overstretch of the present State. Before the first step, after World::restore and after a frame that was not
+  /// completed, the forces in compliant constraints are unknown, so their whole stretch counts.
   Overstretch overstretch() const;
   /// Describes it: "object 'sheet': stretched 14 % too far at its pins (edge 12-13), 1 edge in 100 by 3 % or more".
   std::string describe(const Overstretch& found) const;
-  /// Says where the solve fell short in a step, by how much, and what to do; empty if overstretch is within
-  /// `tolerated_overstretch`. `report` must come from a step with Settings::measure. pliant::advise tries remedies.
+  /// Says where the solve fell short, by how much, and what to do; empty if is_tolerable(found). `found` is that of a
+  /// frame of this World, or the worst of all. pliant::advise tries remedies.
+  std::string advice(const Overstretch& found) const;
+  /// The same for the frame of a Report; empty if that was not completed.
   std::string advice(const Report& report) const;
   double enclosed_volume(ObjectId object) const;  ///< volume enclosed by the object's triangles [m^3]
 

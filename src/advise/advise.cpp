@@ -1,5 +1,8 @@
 // Trial runs: simulates a scene with more and more expensive settings until its overstretch is tolerable.
 //
+// If the scene names a sweep or substeps, the default is tried first, and advised if it is good. The search for other
+// settings follows if it is not.
+//
 // A family is a sweep with or without tethers. First come sweeps that may do better than the scene's own, the most
 // promising first, then the scene's own sweep. Each family doubles its substeps until it is good or too expensive; then
 // good settings are tried with fewer substeps. A trial ends as soon as it is worse than the best before it, so most are
@@ -25,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int most_doublings = 6;
 constexpr int most_substeps = 10000;
-/// Settings count as better if their overstretch is below this share of that with the scene's own settings.
+/// Settings count as better if their excess is below this share of that with the scene's own settings.
 constexpr double clearly_better = 0.8;
 /// Share of the time that the trial of the scene's own settings may take; the rest is for the others.
 constexpr double own_share = 0.3;
@@ -35,15 +38,15 @@ Clock::time_point after(double seconds) {
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(limited);
 }
 
-void keep_worse(const Report& report, Trial& trial) {
-  Overstretch now = report.overstretch.value_or(Overstretch{});
-  if (!report.ok()) now.largest = now.p99 = std::numeric_limits<double>::infinity();
-  const double p99 = trial.frames == 1 ? now.p99 : std::max(now.p99, trial.worst.p99);
-  if (trial.frames == 1 || now.largest > trial.worst.largest) {
-    trial.worst = now;
-    trial.frame = report.frame;
-  }
-  trial.worst.p99 = p99;
+/// Overstretch as a multiple of what is tolerable: of the 99th percentile or the maximum, whichever is more.
+double excess(const Overstretch& found) {
+  return std::max(found.p99 / tolerated_p99, found.largest / tolerated_overstretch);
+}
+
+void keep_worst(const Report& report, Trial& trial) {
+  trial.worst = report.worst_overstretch.overstretch;
+  trial.frame = report.worst_overstretch.frame_of_largest;
+  if (!report.ok()) trial.worst.largest = trial.worst.p99 = std::numeric_limits<double>::infinity();
 }
 
 /// Runs trials of a scene, with the data that they share.
@@ -63,7 +66,7 @@ class Trials {
     return trial;
   }
 
-  /// Tries other settings until all frames are done, or overstretch exceeds both `bound` and the tolerance.
+  /// Tries other settings until all frames are done, or the excess exceeds `bound` and 1.
   Trial run_other(const Settings& settings, double bound) const { return run(settings, bound, end_, nullptr); }
 
   bool out_of_time() const { return is_over(end_); }
@@ -77,7 +80,6 @@ class Trials {
   Trial run(Settings settings, double bound, Clock::time_point end, std::string* words) const {
     Trial trial;
     trial.settings = settings;
-    settings.measure = true;
     World world(scene_, settings);
     Report last;
     bool goes_on = true;
@@ -85,13 +87,13 @@ class Trials {
       last = world.step(scene_.frame_time);
       ++trial.frames;
       trial.milliseconds += (last.milliseconds - trial.milliseconds) / trial.frames;
-      keep_worse(last, trial);
-      const bool measurable = trial.worst.object >= 0;
-      trial.worse = trial.worst.largest > std::max(bound, tolerated_overstretch);
+      keep_worst(last, trial);
+      const bool measurable = trial.worst.constraints > 0;
+      trial.worse = excess(trial.worst) > std::max(bound, 1.);
       goes_on = measurable && last.ok() && !trial.worse && !is_over(end);
       trial.complete = last.ok() && (trial.frames == frames_ || !measurable);
     }
-    if (words != nullptr && trial.worst.largest > tolerated_overstretch) *words = in_words(world, trial, last);
+    if (words != nullptr && !is_tolerable(trial.worst)) *words = in_words(world, trial, last);
     return trial;
   }
 
@@ -137,6 +139,14 @@ class Search {
   Search(const Scene& scene, const Trials& trials, Advice& advice)
       : trials_(trials), advice_(advice), families_(families_of(scene)) {}
 
+  /// Tries the default settings. Returns true if they are good.
+  bool try_default() {
+    Family by_default{left_open(advice_.own.settings)};
+    if (!has_time() || !try_out(by_default)) return false;
+    advice_.best = by_default.good;
+    return true;
+  }
+
   void run() {
     for (int round = 0; round <= most_doublings; ++round)
       for (Family& family : families_) try_next(family);
@@ -146,9 +156,9 @@ class Search {
 
  private:
   double bound() const {
-    double bound = advice_.own.worst.largest;
+    double bound = excess(advice_.own.worst);
     for (const Trial& trial : advice_.others)
-      if (trial.complete) bound = std::min(bound, trial.worst.largest);
+      if (trial.complete) bound = std::min(bound, excess(trial.worst));
     return bound;
   }
 
@@ -206,9 +216,10 @@ class Search {
 
 int best_of(const Advice& advice) {
   int best = -1;
-  double least = clearly_better * advice.own.worst.largest;
+  const Overstretch& own = advice.own.worst;
+  double least = clearly_better * excess(own);
   const auto is_nearer = [&](const Trial& trial) {
-    return trial.worst.largest < least && trial.worst.p99 <= advice.own.worst.p99;
+    return excess(trial.worst) < least && trial.worst.p99 <= own.p99 && trial.worst.largest <= own.largest;
   };
   for (int i = 0; i < static_cast<int>(advice.others.size()); ++i) {
     const Trial &trial = advice.others[i], *before = best < 0 ? nullptr : &advice.others[best];
@@ -218,12 +229,12 @@ int best_of(const Advice& advice) {
         good && was_good ? trial.milliseconds < before->milliseconds : good || (!was_good && is_nearer(trial));
     if (!better) continue;
     best = i;
-    least = trial.worst.largest;
+    least = excess(trial.worst);
   }
   return best;
 }
 
-bool is_good(const Trial& trial) { return trial.complete && trial.worst.largest <= tolerated_overstretch; }
+bool is_good(const Trial& trial) { return trial.complete && is_tolerable(trial.worst); }
 
 Advice advise(const Scene& given, const AdviseOptions& options) {
   Scene scene = given;
@@ -234,7 +245,8 @@ Advice advise(const Scene& given, const AdviseOptions& options) {
   advice.own = trials.run_own(advice.words);
   advice.cut_short = !advice.own.complete && std::isfinite(advice.own.worst.largest);
   if (advice.words.empty()) return advice;
-  Search(scene, trials, advice).run();
+  Search search(scene, trials, advice);
+  if (!departs_from_default(scene, given.settings, scene.settings) || !search.try_default()) search.run();
   advice.what_to_do = remedy(advice);
   return advice;
 }

@@ -10,8 +10,12 @@ namespace pliant {
 
 namespace {
 
+/// True if the trial leaves sweep and substeps open.
+bool is_default(const Trial& trial) { return trial.settings.sweep == Sweep::automatic && trial.settings.substeps == 0; }
+
 /// Describes the settings of a trial: "40 substeps", or "20 substeps of the sweep 'chains' with tethers".
 std::string setting_in_words(const Trial& trial, const Settings& own) {
+  if (is_default(trial)) return "the default";
   std::string text = std::to_string(trial.settings.substeps) + (trial.settings.substeps == 1 ? " substep" : " substeps");
   if (trial.settings.sweep != own.sweep) text += " of the sweep '" + sweep_name(trial.settings.sweep) + "'";
   if (trial.settings.sweep_options.tethers && !own.sweep_options.tethers) text += " with tethers";
@@ -42,8 +46,16 @@ std::string setting_and_cost(const Advice& advice, int trial) {
 bool knows_all(const Advice& advice) { return advice.own.complete || !std::isfinite(advice.own.worst.largest); }
 
 std::string json_of_best(const Advice& advice) {
-  return std::string(knows_all(advice) ? "" : "to try it, ") +
-         "add to the scene's \"settings\": " + in_json(advice.others[advice.best].settings, advice.own.settings);
+  const Trial& best = advice.others[advice.best];
+  const std::string lead = knows_all(advice) ? "" : "to try it, ";
+  if (is_default(best)) return lead + "remove \"sweep\" and \"substeps\" from the scene's \"settings\"";
+  return lead + "add to the scene's \"settings\": " + in_json(best.settings, advice.own.settings);
+}
+
+/// What a good trial does, after "keep" or "keeps".
+std::string tolerance_in_words() {
+  return " all edges within " + percent(tolerated_overstretch) + " and 99 in 100 within " + percent(tolerated_p99) +
+         " of the length that their force explains";
 }
 
 /// The number of trials that time did not cut short, so that their result is known.
@@ -62,19 +74,19 @@ std::string of_the_nearest(const Advice& advice) {
     return "of " + tried +
            " none is clearly better: pins or colliders may force this stretch, or it needs even more substeps";
   const Trial& best = advice.others[advice.best];
-  return "of " + tried + " none reduces the excess stretch to less than " + percent(tolerated_overstretch) +
-         "; the best of them, " + setting_and_cost(advice, advice.best) + ", reduces it to " + percent(best.worst.largest) +
-         ", 1 edge in 100 to " + percent(best.worst.p99) + "; the present settings take " + cost_in_words(advice.own) +
-         "; " + json_of_best(advice);
+  return "of " + tried + " none keeps" + tolerance_in_words() + "; the best of them, " +
+         setting_and_cost(advice, advice.best) + ", leaves at most " + percent(best.worst.largest) +
+         ", and 1 edge in 100 " + percent(best.worst.p99) + " or more; the present settings take " +
+         cost_in_words(advice.own) + "; " + json_of_best(advice);
 }
 
 /// The advice if some settings are good: the cheapest, and the cheapest of another family.
 std::string of_the_good(const Advice& advice) {
   const int other = runner_up(advice);
   const bool one = other < 0 && advice.others[advice.best].settings.substeps == 1;
-  return setting_and_cost(advice, advice.best) + (other < 0 ? "" : " or " + setting_and_cost(advice, other)) +
-         (one ? " reduces" : " reduce") + " the excess stretch to less than " + percent(tolerated_overstretch) +
-         "; the present settings take " + cost_in_words(advice.own) +
+  const std::string keep = one || (other < 0 && is_default(advice.others[advice.best])) ? " keeps" : " keep";
+  return setting_and_cost(advice, advice.best) + (other < 0 ? "" : " or " + setting_and_cost(advice, other)) + keep +
+         tolerance_in_words() + "; the present settings take " + cost_in_words(advice.own) +
          (advice.cut_short ? "; there was no time to search for cheaper ones" : "") +
          (other < 0 ? "; " : "; for the first, ") + json_of_best(advice);
 }

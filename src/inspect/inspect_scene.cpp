@@ -66,8 +66,7 @@ void check_settings(Problems& problems, const Scene& scene) {
   require_range(problems, "frames", scene.frames, 0, std::numeric_limits<int>::max());
   if (!(scene.frame_time > 0) || std::isinf(scene.frame_time))
     problems.grave("frame_time", "is " + words(scene.frame_time) + " s", "give a positive, finite time, such as 1/60 s");
-  else if (settings.substeps >= 0 &&
-           scene.frame_time / static_cast<double>(most_substeps_of(chosen_settings(scene))) < shortest_substep)
+  else if (settings.substeps >= 0 && scene.frame_time / static_cast<double>(most_substeps_of(settings)) < shortest_substep)
     problems.grave("frame_time", "is " + words(scene.frame_time) + " s, which makes substeps too short for floats",
                    "give a longer time or fewer substeps, such as 1/60 s and 20");
   try {

@@ -35,10 +35,6 @@ bool has_pins(const Scene& scene) {
   return std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& o) { return !o.pins.empty(); });
 }
 
-bool has_volume(const Scene& scene) {
-  return std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& o) { return o.volume.has_value(); });
-}
-
 }  // namespace
 
 bool may_tether(const Scene& scene) {
@@ -48,26 +44,23 @@ bool may_tether(const Scene& scene) {
 
 std::vector<Sweep> better_sweeps(const Scene& scene) {
   std::vector<Sweep> better{Sweep::chains, Sweep::multigrid};
-  if (suggest(scene).sweep == Sweep::multigrid) std::swap(better[0], better[1]);
+  if (chosen_settings(scene, left_open(scene.settings)).sweep == Sweep::multigrid) std::swap(better[0], better[1]);
   better.erase(std::remove(better.begin(), better.end(), scene.settings.sweep), better.end());
   if (has_stiff_sheet(scene) || movers_may_touch(scene))
     better.erase(std::remove(better.begin(), better.end(), Sweep::multigrid), better.end());
   return better;
 }
 
-Settings suggest(const Scene& scene) { return suggest(scene, scene.settings); }
+Settings left_open(Settings settings) {
+  settings.sweep = Sweep::automatic;
+  settings.substeps = 0;
+  return settings;
+}
 
-Settings suggest(const Scene& scene, const Settings& settings) {
-  Settings wanted = settings;
-  if (wanted.sweep == Sweep::multigrid || has_volume(scene)) return wanted;
-  if (wanted.substeps == 0 && solves_chains(wanted.sweep)) return wanted;  // the substeps follow what is missing
-  if (!has_pins(scene) || movers_may_touch(scene)) {
-    if (!has_stiff_sheet(scene)) wanted.sweep = Sweep::multigrid;
-    return wanted;
-  }
-  wanted.sweep = Sweep::chains;
-  wanted.sweep_options.tethers = wanted.sweep_options.tethers || may_tether(scene);
-  return wanted;
+bool departs_from_default(const Scene& scene, const Settings& given, const Settings& chosen) {
+  if (given.sweep == Sweep::automatic && given.substeps == 0) return false;
+  const Settings by_default = chosen_settings(scene, left_open(given));
+  return chosen.sweep != by_default.sweep || chosen.substeps != by_default.substeps;
 }
 
 std::string in_json(const Settings& wanted, const Settings& own) {

@@ -12,15 +12,17 @@ namespace pliant {
 /// inextensible objects; they would hold back objects that are meant to stretch.
 bool may_tether(const Scene& scene);
 
-/// Other sweeps that may need less time for the same stretch. The one that measured best on such scenes (see suggest)
-/// comes first, because there may be time to try only one.
+/// Other sweeps that may need less time for the same stretch. The default for the scene comes first, because there may be
+/// time to try only one.
 std::vector<Sweep> better_sweeps(const Scene& scene);
 
-/// The scene's settings with the sweep and tethers that measured best on such scenes (docs/internals/convergence.md).
-/// Where these are the default, the scene's settings stay as they are.
-Settings suggest(const Scene& scene);
-/// Suggests settings for a scene as suggest(scene) does, with `settings` instead of the scene's own.
-Settings suggest(const Scene& scene, const Settings& settings);
+/// The settings with sweep and substeps left open, so that the default is used.
+Settings left_open(Settings settings);
+/// True if settings name a sweep or a number of substeps other than the default for the scene. `chosen` are those that
+/// chosen_settings returns for them.
+bool departs_from_default(const Scene& scene, const Settings& given, const Settings& chosen);
+/// Like chosen_settings in pliant/scene.h, with `settings` instead of the scene's own.
+Settings chosen_settings(const Scene& scene, Settings settings, std::string* reason = nullptr);
 /// Like chosen_sweep in pliant/scene.h, with `settings` instead of the scene's own.
 Sweep chosen_sweep(const Scene& scene, const Settings& settings, int object, std::string* reason = nullptr);
 /// The sweeps of all objects, as chosen_sweep returns them.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -161,40 +162,72 @@ bool have_same_motion(const Motion& a, const Motion& b) {
          std::equal(a.keyframes.begin(), a.keyframes.end(), b.keyframes.begin(), b.keyframes.end(), same);
 }
 
-/// Each particle's neighbours along springs that multigrid and chains correct.
-std::vector<std::vector<int>> neighbours_of(const Object& object) {
-  std::vector<std::vector<int>> neighbours(object.positions.size());
-  const auto exists = [&](int particle) { return particle >= 0 && static_cast<std::size_t>(particle) < neighbours.size(); };
+/// Each particle's neighbours along springs that multigrid and chains correct. Those of particle p are numbers first[p] to
+/// first[p + 1] of `all`.
+struct Neighbours {
+  std::vector<std::size_t> first;
+  std::vector<int> all;
+};
+
+/// Calls visit(a, b) for the two particles of each spring. Particles that do not exist are left out.
+template <class Visit>
+void for_springs(const Object& object, const Visit& visit) {
+  const auto exists = [&](int p) { return p >= 0 && static_cast<std::size_t>(p) < object.positions.size(); };
   for (const ConstraintGroup& group : object.constraints) {
     if (!is_length(group.type) || group.stiffness.kind != Stiffness::Kind::compliance) continue;
-    for (std::size_t i = 0; i + 1 < group.particles.size(); i += 2) {
-      const int a = group.particles[i], b = group.particles[i + 1];
-      if (!exists(a) || !exists(b)) continue;
-      neighbours[static_cast<std::size_t>(a)].push_back(b);
-      neighbours[static_cast<std::size_t>(b)].push_back(a);
-    }
+    for (std::size_t i = 0; i + 1 < group.particles.size(); i += 2)
+      if (exists(group.particles[i]) && exists(group.particles[i + 1])) visit(group.particles[i], group.particles[i + 1]);
   }
-  return neighbours;
 }
+
+Neighbours neighbours_of(const Object& object) {
+  Neighbours found;
+  found.first.assign(object.positions.size() + 2, 0);  // counts of particle p at p + 2, then starts at p + 1, then at p
+  for_springs(object, [&](int a, int b) {
+    ++found.first[static_cast<std::size_t>(a) + 2];
+    ++found.first[static_cast<std::size_t>(b) + 2];
+  });
+  std::partial_sum(found.first.begin(), found.first.end(), found.first.begin());
+  found.all.resize(found.first.back());
+  for_springs(object, [&](int a, int b) {
+    found.all[found.first[static_cast<std::size_t>(a) + 1]++] = b;
+    found.all[found.first[static_cast<std::size_t>(b) + 1]++] = a;
+  });
+  return found;
+}
+
+/// Directions of the springs at one particle.
+struct Ways {
+  std::array<Vec3d, most_neighbours> way;
+  std::size_t count = 0;
+
+  void add(const Vec3d& along) {
+    const double squared = length_squared(along);
+    if (squared > 0) way[count++] = along * (1 / std::sqrt(squared));
+  }
+  /// The number of springs that another one continues straight.
+  std::size_t straight() const {
+    const auto end = way.begin() + static_cast<std::ptrdiff_t>(count);
+    return static_cast<std::size_t>(std::count_if(way.begin(), end, [&](const Vec3d& one) {
+      return std::any_of(way.begin(), end, [&](const Vec3d& other) { return dot(one, other) < straight_cosine; });
+    }));
+  }
+};
 
 /// True if most springs continue straight at most of their ends, as on a grid and in a rope: chains are then long and carry
 /// a force across the object in one pass.
 bool is_regular(const Object& object) {
-  const std::vector<std::vector<int>> neighbours = neighbours_of(object);
+  const Neighbours neighbours = neighbours_of(object);
   std::size_t straight = 0, ends = 0;
-  for (std::size_t p = 0; p < neighbours.size(); ++p) {
-    if (neighbours[p].size() > most_neighbours) continue;
-    std::vector<Vec3d> ways;
-    for (const int other : neighbours[p]) {
-      const Vec3d way = position(object, other) - position(object, static_cast<int>(p));
-      const double length = std::sqrt(length_squared(way));
-      if (length > 0) ways.push_back(way * (1 / length));
-    }
-    const auto goes_on = [&](const Vec3d& way) {
-      return std::any_of(ways.begin(), ways.end(), [&](const Vec3d& other) { return dot(way, other) < straight_cosine; });
-    };
-    straight += static_cast<std::size_t>(std::count_if(ways.begin(), ways.end(), goes_on));
-    ends += ways.size();
+  Ways ways;
+  for (std::size_t p = 0; p < object.positions.size(); ++p) {
+    if (neighbours.first[p + 1] - neighbours.first[p] > most_neighbours) continue;
+    ways.count = 0;
+    const Vec3d here = convert<double>(object.positions[p]);
+    for (std::size_t i = neighbours.first[p]; i < neighbours.first[p + 1]; ++i)
+      ways.add(position(object, neighbours.all[i]) - here);
+    straight += ways.straight();
+    ends += ways.count;
   }
   return static_cast<double>(straight) > straight_share * static_cast<double>(ends);
 }
@@ -224,12 +257,15 @@ Choice choose(const Scene& scene, const Settings& settings, const Object& object
       springs == 0 ? 0 : std::min(object.positions.size(), springs + 1);  // a path has one particle more than springs
   if (particles < fewest_particles) return {Sweep::tiled, too_coarse};
   if (can_touch(scene, object)) return {Sweep::chains, name + ", a surface that can touch itself or others"};
-  if (is_regular(object) && hangs(object) && !is_meant_to_stretch(object, gravity))
+  if (!is_regular(object)) {
+    // Multigrid would be faster at equal stretch, but cloth that should slide over a collider sticks with it.
+    if (can_meet_collider(scene, object)) return {Sweep::chains, name + ", which can meet a collider"};
+    return {Sweep::multigrid,
+            "cloth or rope that meets nothing, the largest of " + std::to_string(particles) + " particles"};
+  }
+  if (hangs(object) && !is_meant_to_stretch(object, gravity))
     return {Sweep::tethered_chains, name + ", which hangs from pins and has its springs in straight rows"};
-  if (is_regular(object)) return {Sweep::chains, name + ", whose springs lie in straight rows"};
-  // Multigrid would be faster at equal stretch, but cloth that should slide over a collider sticks with it.
-  if (can_meet_collider(scene, object)) return {Sweep::chains, name + ", which can meet a collider"};
-  return {Sweep::multigrid, "cloth or rope that meets nothing, the largest of " + std::to_string(particles) + " particles"};
+  return {Sweep::chains, name + ", whose springs lie in straight rows"};
 }
 
 /// The sweep of one object: its own, else that of the settings, else the one chosen for it.
@@ -323,7 +359,7 @@ namespace {
 
 /// The substeps of each object's set, if the settings name none. With a tolerance or recorded residuals, all objects
 /// have the largest. 0 where they follow the State.
-std::vector<int> substeps_of_objects(const Scene& scene, const std::vector<Sweep>& sweeps) {
+std::vector<int> substeps_of_objects(const Scene& scene, const Settings& settings, const std::vector<Sweep>& sweeps) {
   std::vector<SetMember> members;
   const double gravity = gravity_of(scene);
   for (std::size_t o = 0; o < sweeps.size(); ++o)
@@ -332,7 +368,7 @@ std::vector<int> substeps_of_objects(const Scene& scene, const std::vector<Sweep
   for (const MeshCollider& collider : scene.mesh_colliders) members.push_back(member_of(collider));
   std::vector<SetSubsteps> sets = substeps_of_sets(members);
   sets.resize(scene.objects.size());
-  const bool is_one_set = scene.settings.tolerance > 0 || scene.settings.record_residuals;
+  const bool is_one_set = settings.tolerance > 0 || settings.record_residuals;
   int most = 0;
   for (const SetSubsteps& set : sets) most = std::max(most, set.substeps);
   std::vector<int> substeps;
@@ -345,11 +381,12 @@ std::vector<int> substeps_of_objects(const Scene& scene, const std::vector<Sweep
 
 std::vector<int> chosen_substeps(const Scene& scene) {
   if (scene.settings.substeps != 0) return std::vector<int>(scene.objects.size(), scene.settings.substeps);
-  return substeps_of_objects(scene, chosen_sweeps(scene, scene.settings));
+  return substeps_of_objects(scene, scene.settings, chosen_sweeps(scene, scene.settings));
 }
 
-Settings chosen_settings(const Scene& scene, std::string* reason) {
-  Settings settings = scene.settings;
+Settings chosen_settings(const Scene& scene, std::string* reason) { return chosen_settings(scene, scene.settings, reason); }
+
+Settings chosen_settings(const Scene& scene, Settings settings, std::string* reason) {
   const Choices choices = choices_of(scene, settings);
   const SweepsInUse& used = choices.used;
   const bool is_open = settings.sweep == Sweep::automatic;
@@ -357,7 +394,7 @@ Settings chosen_settings(const Scene& scene, std::string* reason) {
   if (is_open) settings.sweep = common;
   if (is_open && reason != nullptr) *reason = used.in_words();
   if (settings.substeps != 0) return settings;
-  const std::vector<int> substeps = substeps_of_objects(scene, choices.sweeps);
+  const std::vector<int> substeps = substeps_of_objects(scene, settings, choices.sweeps);
   if (substeps.empty())
     settings.substeps = common == Sweep::multigrid ? substeps_of_multigrid : substeps_of_others;
   else if (std::all_of(substeps.begin(), substeps.end(), [&](int other) { return other == substeps.front(); }))

@@ -13,7 +13,7 @@ namespace pliant {
 /// A constraint that a search found.
 struct FoundLength {
   std::int32_t segment = 0, batch = 0, lane = 0;  ///< index in the object's segments, batch within it, and lane
-  float value = 0;  ///< overstretch (C + alpha~ lambda) / rest length [-], or the substeps that it demands
+  float value = 0;  ///< overstretch (C + explained) / rest length [-], or the substeps that it demands
 };
 using FoundLengthCallback = void (*)(void* context, const FoundLength& found);
 
@@ -22,7 +22,8 @@ struct LengthQuery {
   const Record* displacements = nullptr;  ///< added to the positions; null: none
   float* const* multipliers = nullptr;    ///< one array per pool, or null if none are stored
   float inverse_h2 = 0;
-  float above = 0;  ///< constraints with a greater overstretch are reported [-]
+  float above = 0;                     ///< constraints with a greater overstretch are reported [-]
+  const Record* velocities = nullptr;  ///< of the object's first particle; null: damped constraints are left out
 };
 
 struct DemandQuery {

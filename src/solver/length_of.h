@@ -13,12 +13,30 @@ PLIANT_HD R overstretch(const Vec3<R>& across, const R& rest) {
   return (sqrt(length_squared(across)) - rest) / rest;
 }
 
-/// (C + alpha~ lambda) / L, with `compliance` alpha [m/N] and `multiplier` lambda [-].
+/// (C + explained) / L [-], with the sum of explained_by_force and explained_by_damping [m].
 template <class R>
-PLIANT_HD R overstretch(const Vec3<R>& across, const R& rest, const R& compliance, const R& multiplier,
-                        const R& inverse_h2) {
-  const R explained = min(compliance * inverse_h2, R(largest_compliance)) * multiplier;
+PLIANT_HD R overstretch(const Vec3<R>& across, const R& rest, const R& explained) {
   return (sqrt(length_squared(across)) - rest + explained) / rest;
+}
+
+/// alpha~ lambda, with `compliance` alpha [m/N]: minus the stretch that the elastic force explains [m].
+template <class R>
+PLIANT_HD R explained_by_force(const R& compliance, const R& multiplier, const R& inverse_h2) {
+  return min(compliance * inverse_h2, R(largest_compliance)) * multiplier;
+}
+
+/// The same for the damping force: alpha beta times the speed along the constraint [m], with `damping` beta [s].
+template <class R>
+PLIANT_HD R explained_by_damping(const Vec3<R>& across, const Vec3<R>& speed, const R& compliance, const R& damping) {
+  return compliance * damping * dot(across, speed) / max(sqrt(length_squared(across)), R(1e-20f));
+}
+
+/// The square of a length [m^2]: a shorter constraint has no overstretch above `above`, with whatever roundings.
+template <class R>
+PLIANT_HD R least_squared(const R& rest, const R& above, const R& explained) {
+  const R slack = R(4e-6f);  // sixty-four roundings
+  const R least = max(rest * (R(1.f) + above - slack * (R(1.f) + abs(above))) - explained - slack * abs(explained), R(0.f));
+  return least * least;
 }
 
 /// The substeps that a distance constraint demands: in proportion to its strain, or to the angle that it turns by, whichever

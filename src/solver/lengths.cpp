@@ -31,7 +31,8 @@ void find_long(const CompiledObject& object, const LengthRange& range, const Len
                const LengthQuery& query, std::vector<FoundLength>& found) {
   Found of{object, found};
   for_lengths(object, range, [&](const Pool& pool, int first, int last) {
-    if (pool.law == Law::compliant) kernels.find_long(pool, object.segments.data(), first, last, query, append, &of);
+    if (pool.law == Law::compliant || query.velocities != nullptr)
+      kernels.find_long(pool, object.segments.data(), first, last, query, append, &of);
   });
 }
 

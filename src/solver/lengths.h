@@ -14,7 +14,7 @@ namespace pliant {
 std::array<int, 2> ends_of(const CompiledObject& object, const FoundLength& found);
 
 /// Appends the distance constraints of a range with an overstretch above the query's, in the order of the schedule. Damped
-/// ones are left out: their damping force would have to be known, too.
+/// ones are left out unless the query has velocities, on which their damping force depends.
 void find_long(const CompiledObject& object, const LengthRange& range, const LengthKernels& kernels,
                const LengthQuery& query, std::vector<FoundLength>& found);
 

@@ -10,11 +10,13 @@ Vec3f between(const Record* base, int from, int to) {
   return {base[to].x - base[from].x, base[to].y - base[from].y, base[to].z - base[from].z};
 }
 
-float overstretch_in(const Pool& pool, std::int64_t batch, int lane, const Vec3f& across, const float* multipliers,
-                     const LengthQuery& q) {
-  const float rest = pool.row(0, batch)[lane];
-  if (multipliers == nullptr) return overstretch(across, rest);
-  return overstretch(across, rest, pool.row(1, batch)[lane], multipliers[batch * batch_width + lane], q.inverse_h2);
+/// The length that forces explain [m].
+float explained(const Pool& pool, std::int64_t batch, int lane, float multiplier, const Vec3f& across, const Vec3f& speed,
+                const LengthQuery& q) {
+  const float compliance = pool.row(1, batch)[lane];
+  const float elastic = explained_by_force(compliance, multiplier, q.inverse_h2);
+  if (pool.law != Law::damped || q.velocities == nullptr) return elastic;
+  return elastic + explained_by_damping(across, speed, compliance, pool.row(2, batch)[lane]);
 }
 
 void find_long(const Pool& pool, const Segment* segments, int first, int last, const LengthQuery& q,
@@ -29,7 +31,13 @@ void find_long(const Pool& pool, const Segment* segments, int first, int last, c
         const int from = particle_of(segments[s], index, 0, lane), to = particle_of(segments[s], index, 1, lane);
         Vec3f across = between(q.positions, from, to);
         if (q.displacements != nullptr) across += between(q.displacements, from, to);
-        const float by = overstretch_in(pool, batch, lane, across, multipliers, q);
+        const Vec3f speed = q.velocities != nullptr ? between(q.velocities, from, to) : Vec3f{};
+        const float rest = pool.row(0, batch)[lane];
+        const float by =
+            multipliers == nullptr
+                ? overstretch(across, rest)
+                : overstretch(across, rest,
+                              explained(pool, batch, lane, multipliers[batch * batch_width + lane], across, speed, q));
         if (by > q.above) found(context, {s, b, lane, by});
       }
     }

@@ -14,7 +14,7 @@ namespace {
 /// A view of an object's particles and of its multipliers of the last substep.
 struct View {
   const CompiledObject& object;
-  const Record *positions, *velocities, *orientations;
+  const Record *positions, *orientations;
   const std::vector<AlignedVector<float>>& multipliers;  ///< multipliers of each pool, empty if they are not stored
   double h;
 
@@ -26,12 +26,8 @@ struct View {
 
 View view_of(const Model& model, const State& state, const Workspace& workspace, std::size_t o, float h) {
   const int first = model.first[o];
-  return {model.objects[o],
-          state.positions.data() + first,
-          state.velocities.data() + first,
-          state.frames.orientations.data() + model.first_frame[o],
-          workspace.multipliers[o],
-          double(h)};
+  return {model.objects[o], state.positions.data() + first, state.frames.orientations.data() + model.first_frame[o],
+          workspace.multipliers[o], double(h)};
 }
 
 Vec3f place_of(const Record& p) { return {p.x, p.y, p.z}; }
@@ -73,35 +69,13 @@ ErrorSum volume_errors(const Model& model, const State& state, const Workspace& 
   return volumes;
 }
 
-/// The relative length of a distance constraint beyond what its force explains. Damping explains alpha beta times the
-/// speed along it.
-double excess_of(const View& view, const ConstraintPlace& at, const std::int32_t* particle, double length, double rest) {
-  const double compliance = at.value(at.pool.fields);
-  double explained = softness(at, 1 / (view.h * view.h)) * view.multiplier(at);
-  if (at.pool.law == Law::damped && length > 0) {
-    const Vec3f way = place_of(view.positions[particle[1]]) - place_of(view.positions[particle[0]]);
-    const Vec3f speed = place_of(view.velocities[particle[1]]) - place_of(view.velocities[particle[0]]);
-    explained += compliance * double(at.value(at.pool.fields + 1)) * double(dot(way, speed)) / length;
-  }
-  return (length - rest + explained) / rest;
-}
-
-void add_lengths(const View& view, int number, int type, Lengths& lengths, double& sum) {
-  for_constraints(view.object, type, [&](const ConstraintPlace& at, const std::int32_t* particle) {
+void add_ratios(const CompiledObject& object, const Record* positions, int type, std::vector<float>& ratios, double& sum) {
+  for_constraints(object, type, [&](const ConstraintPlace& at, const std::int32_t* particle) {
     const float rest = at.value(0);
     if (!(rest > 0)) return;
-    const Vec3f way = place_of(view.positions[particle[1]]) - place_of(view.positions[particle[0]]);
-    const float length = std::sqrt(dot(way, way));
-    lengths.ratios.push_back(length / rest);
-    sum += lengths.ratios.back();
-    if (at.pool.law == Law::pbd) return;
-    const double excess = excess_of(view, at, particle, length, rest);
-    lengths.excesses.push_back(static_cast<float>(excess));
-    Overstretch& worst = lengths.overstretch;
-    if (worst.object >= 0 && !(excess > worst.largest)) return;
-    worst.largest = excess;
-    worst.object = number;
-    worst.particles = {view.object.order[particle[0]], view.object.order[particle[1]]};
+    const Vec3f way = place_of(positions[particle[1]]) - place_of(positions[particle[0]]);
+    ratios.push_back(std::sqrt(dot(way, way)) / rest);
+    sum += static_cast<double>(ratios.back());
   });
 }
 
@@ -128,22 +102,19 @@ std::vector<Residual> measure_residuals(const Model& model, const State& state, 
   return residuals;
 }
 
-void measure_lengths(const Model& model, const State& state, const Workspace& workspace, FunctionRef<float(int)> h,
-                     Lengths& lengths) {
-  lengths.stretch = {};
-  lengths.overstretch = {};
-  lengths.ratios.clear();
-  lengths.excesses.clear();
+Stretch measure_stretch(const Model& model, const State& state, std::vector<float>& ratios) {
+  Stretch stretch;
+  ratios.clear();
   double sum = 0;
   for (int type = 0; type < constraint_type_count(); ++type) {
     for (std::size_t o = 0; is_length(type) && o < model.objects.size(); ++o)
-      add_lengths(view_of(model, state, workspace, o, h(static_cast<int>(o))), static_cast<int>(o), type, lengths, sum);
+      add_ratios(model.objects[o], state.positions.data() + model.first[o], type, ratios, sum);
   }
-  if (lengths.ratios.empty()) return;
-  lengths.stretch.mean = sum / static_cast<double>(lengths.ratios.size());
-  lengths.stretch.p99 = take_p99(lengths.ratios);
-  lengths.stretch.largest = *std::max_element(lengths.ratios.begin(), lengths.ratios.end());
-  if (!lengths.excesses.empty()) lengths.overstretch.p99 = take_p99(lengths.excesses);
+  if (ratios.empty()) return stretch;
+  stretch.mean = sum / static_cast<double>(ratios.size());
+  stretch.p99 = take_p99(ratios);
+  stretch.largest = *std::max_element(ratios.begin(), ratios.end());
+  return stretch;
 }
 
 double measure_volume(const CompiledObject& object, const Record* positions) {

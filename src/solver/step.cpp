@@ -12,6 +12,7 @@
 //     filter        steps that would make surfaces cross are truncated
 //     update        v from the corrections, x += displacement; restitution at colliders
 //     respond       restitution between surfaces (friction is part of a contact's projection)
+//   measure         overstretch of the frame
 //
 // Mueller et al. 2007, algorithm 1, with the small steps of Macklin et al. 2019.
 #include "solver/step.h"
@@ -69,6 +70,9 @@ void run(const StepContext& context, double dt, Report& report) {
     begin_quarter(s);
   }
   end_frame(groups);
+  if (context.meter != nullptr && !report.stopped)
+    report.overstretch = context.meter->measure({context.model, context.state, context.workspace, context.kernels.lengths},
+                                                &context.executor);
 }
 
 }  // namespace

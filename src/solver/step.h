@@ -8,6 +8,7 @@
 #include "parallel/executor.h"
 #include "pliant/report.h"
 #include "solver/kernels.h"
+#include "solver/overstretch_meter.h"
 #include "solver/substep_group.h"
 #include "solver/workspace.h"
 
@@ -28,6 +29,7 @@ struct StepContext {
   bool separate_phases = false;             ///< Settings::separate_phases
   double tolerance = 0;                     ///< Settings::tolerance; if > 0, call prepare_residual first, and use one group
   std::span<const GroupFrame> groups{};     ///< groups with different numbers of substeps
+  OverstretchMeter* meter = nullptr;        ///< fills Report::overstretch if the frame is completed; null: not measured
 };
 
 /// Advances the State by `dt` seconds. Never throws; the report describes all problems.

@@ -12,7 +12,8 @@ SweepArguments arguments(const Substep& s, int object, bool first_pass) {
   a.positions = s.state.positions.data() + first;
   a.displacements = s.work.displacements.data() + first;
   a.remainders = s.state.remainders.data() + first;
-  a.multipliers = s.work.multiplier_pointers[object].empty() ? nullptr : s.work.multiplier_pointers[object].data();
+  const bool is_stored = !s.work.multiplier_pointers[object].empty() && (s.is_last() || s.work.stores_in_last[object] == 0);
+  a.multipliers = is_stored ? s.work.multiplier_pointers[object].data() : nullptr;
   a.h = s.h;
   a.inverse_h = 1 / s.h;
   a.inverse_h2 = (1 / s.h) * (1 / s.h);

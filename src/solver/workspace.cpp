@@ -21,7 +21,7 @@ void prepare_multipliers(const CompiledObject& object, Multipliers kept, std::ve
   pointers.clear();
   if (kept == Multipliers::none) return;
   for (const Pool& pool : object.pools) {
-    const bool is_asked_for = kept != Multipliers::lengths || pool.is_length;
+    const bool is_asked_for = kept > Multipliers::lengths || pool.is_length;
     const bool keeps = pool.law != Law::pbd && is_asked_for && (kept == Multipliers::all || needs_multipliers(pool));
     multipliers.emplace_back(keeps ? static_cast<std::size_t>(pool.batches) * batch_width * pool.components : 0, 0.f);
   }
@@ -36,6 +36,7 @@ void resize(const Model& model, Workspace& workspace) {
   workspace.frames.corrections.resize(model.frames());
   workspace.multipliers.resize(objects);
   workspace.multiplier_pointers.resize(objects);
+  workspace.stores_in_last.resize(objects);
   workspace.volume_multipliers.resize(objects);
   workspace.triangle_forces.resize(objects);
   workspace.gravity.resize(objects);
@@ -65,6 +66,7 @@ void prepare(const Model& model, int object, Multipliers kept, Workspace& worksp
   resize(model, workspace);
   const CompiledObject& from = model.objects[object];
   prepare_multipliers(from, kept, workspace.multipliers[object], workspace.multiplier_pointers[object]);
+  workspace.stores_in_last[object] = kept == Multipliers::lengths_in_last ? 1 : 0;
   workspace.volume_multipliers[object] = 0;
   workspace.last_h[object] = 0;
   workspace.triangle_forces[object] = {};

@@ -50,6 +50,7 @@ struct Workspace {
   Records displacements;                                       ///< displacements since the substep's start [m]
   std::vector<std::vector<AlignedVector<float>>> multipliers;  ///< [object][pool], one float per lane; empty if not stored
   std::vector<std::vector<float*>> multiplier_pointers;
+  std::vector<char> stores_in_last;  ///< [object] 1: multipliers are stored in the last substep of a frame only
   FrameScratch frames;
   std::vector<double> volume_multipliers;           ///< multiplier of each object's volume constraint
   Records volume_gradients;                         ///< gradient at each particle, if any object has a volume constraint
@@ -73,8 +74,10 @@ struct Workspace {
   ResidualScratch residual;      ///< the residual for Settings::tolerance
 };
 
-/// Which multipliers are stored: none, those that a second iteration needs, or all.
-enum class Multipliers { none, lengths, needed, all };
+/// Which multipliers are stored: none; those of distances in the last substep of a frame, after which overstretch is
+/// measured, or in each substep; those that a second iteration needs; or all. Only `all` includes rigid constraints, whose
+/// multipliers no projection needs.
+enum class Multipliers { none, lengths_in_last, lengths, needed, all };
 
 /// Resizes everything for a model but its sweeps.
 void prepare(const Model& model, Multipliers kept, Workspace& workspace);

@@ -66,7 +66,7 @@ std::string words_of(const Overstretch& found, const CompiledObject& object) {
   std::string text = "object '" + object.name + "': stretched " + percent(found.largest) + " too far ";
   if (away >= 0) text += away == 0 ? "at its pins " : "near its pins ";
   text += "(edge " + std::to_string(a) + "-" + std::to_string(b) + ")";
-  if (found.p99 >= tolerated_overstretch / 10) text += ", 1 edge in 100 by " + percent(found.p99) + " or more";
+  if (found.p99 >= tolerated_p99 / 20) text += ", 1 edge in 100 by " + percent(found.p99) + " or more";
   return text;
 }
 

@@ -18,8 +18,8 @@ std::string percent(double share);
 /// For example: "object 'sheet': stretched 14 % too far at its pins (edge 12-13), 1 edge in 100 by 3 % or more".
 std::string words_of(const Overstretch& found, const CompiledObject& object);
 
-/// Returns the index in `others` of the cheapest good trial; if none is good, of the one with least overstretch, clearly
-/// below that of `own` and with no higher 99th percentile, because improving only the worst place is no advice. -1: none.
+/// Returns the index in `others` of the cheapest good trial; if none is good, of the one that exceeds what is tolerable by
+/// the smallest factor, clearly smaller than that of `own`, with neither figure above that of `own`. -1: none.
 int best_of(const Advice& advice);
 
 /// The remedy that the trials found: settings and their cost, an alternative if there is one, and the JSON to paste.

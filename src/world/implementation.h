@@ -14,6 +14,7 @@
 #include "solver/substep_group.h"
 #include "solver/workspace.h"
 #include "world/id_table.h"
+#include "world/overstretch_record.h"
 
 namespace pliant {
 
@@ -35,8 +36,9 @@ std::shared_ptr<const SolidField> field_of(const MeshCollider& collider);
 
 // Over thirty members: each file named below has functions of one concern, and all work on the Model, State and Workspace.
 struct World::Implementation {
-  /// If `given_away` is not null, it is `scene`; its objects are freed as soon as they are compiled.
-  Implementation(const Scene& scene, const Settings& with, Scene* given_away = nullptr);
+  /// `with` are the settings chosen where those given are open. If `given_away` is not null, it is `scene`; its objects are
+  /// freed as soon as they are compiled.
+  Implementation(const Scene& scene, const Settings& given, const Settings& with, Scene* given_away = nullptr);
   Implementation(const Scene& scene, const WorldLayout& layout);  ///< defined in layout.cpp
 
   // ---- objects.cpp
@@ -119,7 +121,7 @@ struct World::Implementation {
   const Record* positions_of(ObjectId id) const { return state.positions.data() + model.first[number(id)]; }
   /// Converts an array from storage order to the user's order, for an object or a mesh collider.
   std::vector<Vec3f> in_given_order(int number, const Records& records) const;
-  void measure(Lengths& measured) const;
+  Overstretch with_slot(Overstretch measured) const;
   /// Length of an object's substeps in the last step [s]; 1 if it took part in none, because then multipliers are zero.
   float h_of(int number) const { return workspace.last_h[number] > 0 ? workspace.last_h[number] : 1.f; }
 
@@ -128,7 +130,8 @@ struct World::Implementation {
   GroupFrame plan(const SubstepGroup& group, double dt, std::vector<std::string>& warnings) const;
   std::vector<GroupFrame> plan_frame(double dt, Report& report);
 
-  Settings settings, suggested;  ///< the World's settings; those that measured best on such scenes
+  Settings settings;
+  bool departs = false;  ///< departs_from_default() of the first objects
   Executor executor;
   const Kernels& kernels;
   Model model;
@@ -139,7 +142,8 @@ struct World::Implementation {
   State state;
   Workspace workspace;
   std::vector<SubstepGroup> groups;
-  Lengths lengths;
+  OverstretchRecord overstretch;
+  std::vector<float> ratios;                      ///< scratch data of measure_stretch
   std::vector<std::pair<Thing, Thing>> touching;  ///< pairs of bodies that were in contact in the last step, ascending
   std::vector<ContactEvent> events;
   bool stopped = false;

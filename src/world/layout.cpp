@@ -74,8 +74,8 @@ void require_place(const StateBlock& block, int first_frame, const CompiledObjec
 }  // namespace
 
 World::Implementation::Implementation(const Scene& scene, const WorldLayout& layout)
-    : Implementation(without_things(scene), scene.settings) {
-  suggested = suggest(scene);
+    : Implementation(without_things(scene), scene.settings, scene.settings) {
+  departs = departs_from_default(scene, scene.settings, scene.settings);
   const std::size_t count = layout.blocks.size();
   if (layout.first_frames.size() != count || layout.sweeps.size() != count) refuse("its columns differ in length");
   std::vector<char> taken(count, 0), taken_colliders(scene.colliders.size(), 0);

@@ -17,13 +17,14 @@ namespace pliant {
 
 namespace {
 
-/// Which multipliers to store: all if requested, else those that a second pass, the measurement of overstretch or its limit
-/// needs.
+/// Which multipliers to store: all if requested, else those that a second pass, residuals, or the limit of overstretch
+/// need.
 Multipliers kept_multipliers(const Settings& settings, Sweep sweep) {
   if (settings.record_multipliers || settings.record_residuals) return Multipliers::all;
   const bool more_passes = settings.iterations * sweep_method(sweep).passes > 1;
   if (more_passes || settings.measure) return Multipliers::needed;
-  return solves_chains(sweep) && settings.sweep_options.most_overstretch > 0 ? Multipliers::lengths : Multipliers::none;
+  const bool is_limited = solves_chains(sweep) && settings.sweep_options.most_overstretch > 0;
+  return is_limited ? Multipliers::lengths : Multipliers::lengths_in_last;
 }
 
 constexpr int most_particles = std::numeric_limits<int>::max() / 4;
@@ -386,12 +387,14 @@ std::vector<int> World::edit(ObjectId object, const Edit& edit) {
     if (edit.from[i] >= 0) news[edit.from[i]] = i;
   const Sweep sweep = edit.object.sweep == Sweep::automatic ? old.sweep : edit.object.sweep;
   self_->require_accelerable(sweep, edit.object.name);
+  self_->overstretch.forget_object(object.slot);
   self_->replace(number, compile(edit.object, self_->compile_options(sweep)), edit.from);
   return news;
 }
 
 void World::remove(ObjectId object) {
   self_->remove(self_->number(object));
+  self_->overstretch.forget_object(object.slot);
   self_->forget_touching(object);
   self_->object_ids.remove(object);
 }

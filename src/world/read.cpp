@@ -19,10 +19,10 @@ std::vector<Vec3f> World::Implementation::in_given_order(int number, const Recor
   return out;
 }
 
-void World::Implementation::measure(Lengths& measured) const {
-  measure_lengths(
-      model, state, workspace, [&](int object) { return h_of(object); }, measured);
-  if (measured.overstretch.object >= 0) measured.overstretch.object = object_ids.id_of(measured.overstretch.object).slot;
+/// The overstretch with the slot of its object instead of the number in the model.
+Overstretch World::Implementation::with_slot(Overstretch measured) const {
+  if (measured.object >= 0) measured.object = object_ids.id_of(measured.object).slot;
+  return measured;
 }
 
 ObjectInfo World::info(ObjectId object) const {
@@ -166,30 +166,31 @@ std::vector<Residual> World::residuals() const {
   return measure_residuals(self_->model, self_->state, self_->workspace, [&](int object) { return self_->h_of(object); });
 }
 Stretch World::stretch() const {
-  Lengths measured;
-  self_->measure(measured);
-  return measured.stretch;
+  std::vector<float> ratios;
+  return measure_stretch(self_->model, self_->state, ratios);
 }
 Overstretch World::overstretch() const {
-  Lengths measured;
-  self_->measure(measured);
-  return measured.overstretch;
+  OverstretchMeter meter;  // of its own and on this thread, because calls may be concurrent
+  return self_->with_slot(meter.measure({self_->model, self_->state, self_->workspace, self_->kernels.lengths}, nullptr));
 }
 
 std::string World::describe(const Overstretch& found) const {
   return found.object < 0 ? std::string() : words_of(found, self_->object(self_->object_ids.id_in(found.object)));
 }
 
-std::string World::advice(const Report& report) const {
-  if (!report.overstretch || !(report.overstretch->largest > tolerated_overstretch)) return {};
-  const int number = self_->object_ids.number(self_->object_ids.id_in(report.overstretch->object));
-  const std::string sweep = in_json(self_->suggested, self_->settings);
-  const int substeps = self_->substeps_of(number);
+std::string World::advice(const Overstretch& found) const {
+  if (is_tolerable(found)) return {};
+  if (found.object < 0) return "an object that was removed or edited stretched " + percent(found.largest) + " too far";
+  const int substeps = self_->substeps_of(self_->object_ids.number(self_->object_ids.id_in(found.object)));
   const std::string more = substeps > 0 ? "more than " + std::to_string(substeps) + " substeps"
                                         : "a larger \"least_substeps\" or \"most_substeps\"";
-  return describe(*report.overstretch) + "; " + more +
-         (sweep == "{}" ? "" : ", or \"settings\": " + sweep + " in the scene,") +
-         " may reduce it: 'pliant check' or advise() finds out how many are needed";
+  return describe(found) + "; " +
+         (self_->departs ? "the default, with no \"sweep\" and \"substeps\" in the scene's \"settings\"," : more) +
+         " may reduce it: 'pliant check' or advise() finds out";
+}
+
+std::string World::advice(const Report& report) const {
+  return report.overstretch ? advice(*report.overstretch) : std::string();
 }
 
 double World::enclosed_volume(ObjectId object) const {

@@ -136,6 +136,7 @@ void World::restore(const State& state) {
   self_->workspace.look_for_tangles = true;
   self_->stopped = false;
   self_->may_drift = true;
+  self_->overstretch.restart();
   self_->workspace.control = {};
   self_->touching.clear();
   self_->events.clear();

@@ -25,8 +25,11 @@ constexpr int default_division = 8;
 
 }  // namespace
 
-World::Implementation::Implementation(const Scene& scene, const Settings& with, Scene* given_away)
-    : settings(with), suggested(suggest(scene, with)), executor(with.threads), kernels(kernels_for(with)) {
+World::Implementation::Implementation(const Scene& scene, const Settings& given, const Settings& with, Scene* given_away)
+    : settings(with),
+      departs(departs_from_default(scene, given, with)),
+      executor(with.threads),
+      kernels(kernels_for(with)) {
   model.gravity = scene.gravity;
   model.wind = scene.wind;
   model.forces = scene.forces;
@@ -88,28 +91,27 @@ std::vector<GroupFrame> World::Implementation::plan_frame(double dt, Report& rep
 
 World::World(const Scene& scene) {
   refuse_grave(scene);
-  self_ = std::make_unique<Implementation>(scene, chosen_settings(scene));
+  self_ = std::make_unique<Implementation>(scene, scene.settings, chosen_settings(scene));
 }
 
 World::World(const Scene& scene, const Settings& settings) {
-  const auto checked_settings = [&] {
+  {
     Scene checked = scene;  // a copy, freed before objects are compiled
     checked.settings = settings;
     refuse_grave(checked);
-    return chosen_settings(checked);
-  };
-  self_ = std::make_unique<Implementation>(scene, checked_settings());
+  }
+  self_ = std::make_unique<Implementation>(scene, settings, chosen_settings(scene, settings));
 }
 
 World::World(Scene&& scene) {
   refuse_grave(scene);
-  self_ = std::make_unique<Implementation>(scene, chosen_settings(scene), &scene);
+  self_ = std::make_unique<Implementation>(scene, scene.settings, chosen_settings(scene), &scene);
 }
 
 World::World(Scene&& scene, const Settings& settings) {
   scene.settings = settings;
   refuse_grave(scene);
-  self_ = std::make_unique<Implementation>(scene, chosen_settings(scene), &scene);
+  self_ = std::make_unique<Implementation>(scene, settings, chosen_settings(scene), &scene);
 }
 
 World::~World() = default;
@@ -120,6 +122,7 @@ Report World::step(float dt) {
   Report report;
   report.frame = self_->state.frame;
   report.time = self_->state.time;
+  report.worst_overstretch = self_->overstretch.worst();
   self_->bring_up_to_date();
   if (!(dt > 0) || !std::isfinite(dt) || double(dt) / self_->groups.back().substeps < shortest_substep) {
     report.warnings.push_back("a time step must be finite and above zero, its substeps 1e-12 s or more; nothing moved");
@@ -138,16 +141,20 @@ Report World::step(float dt) {
   self_->stopped = true;  // if the step throws (a user's force field may), it stays true
   pliant::step({self_->model, self_->state, self_->workspace, self_->executor, self_->kernels, groups.back().substeps,
                 self_->settings.iterations, self_->settings.sweep_options, self_->settings.record_residuals, self_->stop,
-                self_->settings.separate_phases, static_cast<double>(self_->settings.tolerance), groups},
+                self_->settings.separate_phases, static_cast<double>(self_->settings.tolerance), groups,
+                &self_->overstretch.meter()},
                dt, report);
   self_->stopped = report.nonfinite.has_value();
   self_->end_control(report.stopped);
+  if (report.overstretch) {
+    report.overstretch = self_->with_slot(*report.overstretch);
+    self_->overstretch.add(*report.overstretch, report.frame);
+  }
+  report.worst_overstretch = self_->overstretch.worst();
   if (self_->workspace.contact_log != nullptr) self_->make_events();
   if (self_->settings.measure) {
     report.residuals = residuals();
-    self_->measure(self_->lengths);
-    report.stretch = self_->lengths.stretch;
-    report.overstretch = self_->lengths.overstretch;
+    report.stretch = measure_stretch(self_->model, self_->state, self_->ratios);
   }
   return report;
 }

@@ -124,34 +124,47 @@ TEST(Words, SayWhereAndHowMuch) {
 
 TEST(Words, OfAReportComeFromItsFigures) {
   Scene scene = weight_on(Stiffness::rigid());
-  scene.settings = measuring(7);
+  scene.settings = settings_of(7);
   World world(scene);
   Report report = world.step(dt);
   EXPECT_EQ(world.advice(report), "");
-  report.overstretch = Overstretch{0, 0.02, 0, {{0, 1}}};
-  const std::string words = world.advice(report);
-  EXPECT_EQ(words.rfind("object 'chain': stretched 2 % too far at its pins (edge 0-1); more than 7 substeps", 0), 0U)
-      << words;
-  EXPECT_NE(words.find(R"("settings": {"substeps": 7, "sweep": "chains", "sweep_options": {"tethers": true}})"),
-            std::string::npos)
-      << words;
-  report.overstretch->largest = tolerated_overstretch;
+  report.overstretch = Overstretch{0, 0.2, 0, {{0, 1}}};
+  EXPECT_EQ(
+      world.advice(report),
+      "object 'chain': stretched 20 % too far at its pins (edge 0-1); the default, with no \"sweep\" and \"substeps\" "
+      "in the scene's \"settings\", may reduce it: 'pliant check' or advise() finds out");
+  report.overstretch = Overstretch{tolerated_p99, tolerated_overstretch, 0, {{0, 1}}};
   EXPECT_EQ(world.advice(report), "");
+  report.overstretch->p99 = 0.021;
+  EXPECT_NE(world.advice(report).find("1 edge in 100 by 2.1 % or more"), std::string::npos) << world.advice(report);
   report.overstretch.reset();
   EXPECT_EQ(world.advice(report), "") << "nothing measured";
-  scene.settings.measure = false;
-  EXPECT_FALSE(World(scene).step(dt).overstretch.has_value());
 }
 
-/// The part of World::advice that names other settings than more substeps.
-std::string suggestion(Scene scene) {
-  scene.settings.measure = true;
-  World world(scene);
-  Report report = world.step(dt);
-  report.overstretch = Overstretch{0, 0.5, 0, {{0, 1}}};
-  const std::string words = world.advice(report);
-  const std::size_t first = words.find('{');
-  return first == std::string::npos ? "" : words.substr(first, words.rfind('}') + 1 - first);
+/// What World::advice recommends to a scene of which an edge is far too long.
+std::string recommended(const Scene& scene) {
+  const std::string words = World(scene).advice(Overstretch{0.5, 0.5, 0, {{0, 1}}}), after = " or more; ";
+  const std::size_t from = words.find(after) + after.size();
+  return words.substr(from, words.find(" may reduce it") - from);
+}
+
+TEST(Words, RecommendTheDefaultOnlyWhereTheSceneDepartsFromIt) {
+  const std::string by_default = "the default, with no \"sweep\" and \"substeps\" in the scene's \"settings\",";
+  Scene scene;
+  scene.add_cloth(grid_mesh(5, 5, 1, 1), {});
+  EXPECT_EQ(recommended(scene), "more than 20 substeps");
+  scene.settings = settings_of(20);
+  EXPECT_EQ(recommended(scene), "more than 20 substeps") << "named, but the same";
+  scene.settings.substeps = 10;
+  EXPECT_EQ(recommended(scene), by_default);
+  scene.settings = {};
+  scene.settings.sweep = Sweep::multigrid;
+  EXPECT_EQ(recommended(scene), by_default);
+  Scene large;
+  large.add_cloth(grid_mesh(24, 24, 1, 1), {});
+  EXPECT_EQ(recommended(large), "a larger \"least_substeps\" or \"most_substeps\"");
+  large.settings.substeps = 30;
+  EXPECT_EQ(recommended(large), by_default);
 }
 
 /// If the scene names no substeps, sets of objects can have different numbers; advice for all must name the largest.
@@ -162,74 +175,21 @@ TEST(Words, NameSubstepsThatTheSceneLeavesOpen) {
   EXPECT_EQ(in_json(wanted, own), R"({"substeps": 20, "sweep": "multigrid"})");
 }
 
-TEST(Words, NameTheSweepThatSuitsTheScene) {
-  const std::string tethered = R"({"substeps": 20, "sweep": "chains", "sweep_options": {"tethers": true}})";
+/// Multigrid ignores bending and makes a stiff sheet oscillate, and gains energy where surfaces touch, so it is not tried.
+TEST(BetterSweeps, BeginWithTheDefaultAndLeaveOutMultigridWhereItDoesHarm) {
   Scene scene;
-  scene.add_cloth(grid_mesh(5, 5, 1, 1), {});
-  scene.objects[0].constraints[0].stiffness = Stiffness::rigid();
-  scene.objects[0].constraints[0].compliances.clear();
-  EXPECT_EQ(suggestion(scene), R"({"substeps": 20, "sweep": "multigrid"})")
-      << "nothing holds it; as many substeps as it has, which another sweep would not";
-  scene.pin(0, {0});
-  EXPECT_EQ(suggestion(scene), tethered);
-  Scene chained = scene;
-  chained.settings.sweep = Sweep::chains;
-  EXPECT_EQ(suggestion(chained), R"({"sweep_options": {"tethers": true}})") << "what is there already is not named";
-  chained.settings.sweep_options.tethers = true;
-  EXPECT_EQ(suggestion(chained), "");
-  chained.settings.sweep = Sweep::multigrid;
-  EXPECT_EQ(suggestion(chained), "");
-  Scene elastic = scene;
-  elastic.objects[0].constraints[0].stiffness = Stiffness::compliance(1e-3f);
-  EXPECT_EQ(suggestion(elastic), R"({"substeps": 20, "sweep": "chains"})")
-      << "tethers would hold back what is meant to stretch";
-}
-
-/// Chains and tethers suit hanging objects. If dynamic objects touch, only multigrid takes the contacts into account.
-TEST(Words, NameMultigridWhereWhatMovesTouches) {
-  const std::string multigrid = R"({"substeps": 20, "sweep": "multigrid"})",
-                    chains = R"({"substeps": 20, "sweep": "chains"})";
-  Scene scene;
-  scene.add_cloth(grid_mesh(5, 5, 1, 1), {});
-  scene.objects[0].constraints[0].stiffness = Stiffness::compliance(1e-3f);
-  scene.pin(0, {0});
-  EXPECT_EQ(suggestion(scene), chains);
-  Scene itself = scene;
-  itself.objects[0].self_collision = true;
-  EXPECT_EQ(suggestion(itself), multigrid);
-  Scene two = scene;
-  two.add_cloth(grid_mesh(5, 5, 1, 1), {});
-  for (Object& object : two.objects) {
-    object.collides = true;
-    for (Vec3f& p : object.positions) p.y += &object == &two.objects[0] ? 0.f : 1.f;
-  }
-  EXPECT_EQ(suggestion(two), multigrid);
-  two.objects[1].mask = 2;
-  EXPECT_EQ(suggestion(two), chains) << "they never touch";
-  std::swap(two.objects[0].mask, two.objects[1].mask);
-  EXPECT_EQ(suggestion(two), chains) << "whichever of them wants it so";
-}
-
-/// Multigrid ignores bending and makes a stiff sheet oscillate, so it must neither be named nor tried.
-TEST(Words, NameNoMultigridForSheetsThatHoldThemselvesUp) {
+  scene.add_cloth(grid_mesh(20, 20, 1, 1), {});
+  scene.settings.sweep = Sweep::tiled;
+  EXPECT_EQ(better_sweeps(scene), (std::vector<Sweep>{Sweep::chains, Sweep::multigrid}));
+  Scene touching = scene;
+  touching.objects[0].self_collision = true;
+  EXPECT_EQ(better_sweeps(touching), std::vector<Sweep>{Sweep::chains});
   ClothOptions options;
   options.material.bending_stiffness = 5;
-  Scene scene;
-  scene.add_cloth(grid_mesh(20, 20, 1, 1), options);
-  EXPECT_EQ(suggestion(scene), "");
-  scene.settings.sweep = Sweep::tiled;
-  EXPECT_EQ(better_sweeps(scene), std::vector<Sweep>{Sweep::chains});
-}
-
-TEST(Words, NameNoSweepWhereNoneIsKnownToBeBetter) {
-  Scene scene;
-  scene.add_cloth(grid_mesh(5, 5, 1, 1), {});
-  EXPECT_NE(suggestion(scene), "") << "or this shows nothing";
-  Scene balloon;
-  ClothOptions options;
-  options.volume = Volume{};
-  balloon.add_cloth(sphere_mesh(2), options);
-  EXPECT_EQ(suggestion(balloon), "");
+  Scene stiff;
+  stiff.add_cloth(grid_mesh(20, 20, 1, 1), options);
+  stiff.settings.sweep = Sweep::tiled;
+  EXPECT_EQ(better_sweeps(stiff), std::vector<Sweep>{Sweep::chains});
 }
 
 // ---------------------------------------------------------------- trials
@@ -246,6 +206,15 @@ Scene hanging_sheet(int n, const Stiffness& stretch, int substeps) {
   return scene;
 }
 
+/// The same with the default, which several iterations make a poor one: 20 substeps of `tiled`.
+Scene poor_by_default(Scene scene) {
+  scene.settings = settings_of(0, 2);
+  scene.settings.sweep = Sweep::automatic;
+  return scene;
+}
+
+bool is_default(const Trial& trial) { return trial.settings.sweep == Sweep::automatic && trial.settings.substeps == 0; }
+
 /// The largest stretch of any frame, measured otherwise than in a trial.
 double largest_stretch(const Scene& scene, const Settings& settings) {
   World world(scene, settings);
@@ -257,8 +226,25 @@ double largest_stretch(const Scene& scene, const Settings& settings) {
   return largest;
 }
 
-TEST(Advise, NamesASettingThatReallyHelps) {
+TEST(Advise, NamesTheDefaultIfItHelps) {
   const Scene scene = hanging_sheet(12, Stiffness::rigid(), 2);
+  const Advice advice = advise(scene, unhurried);
+  EXPECT_FALSE(is_good(advice.own));
+  ASSERT_EQ(advice.others.size(), 1U);
+  ASSERT_EQ(advice.best, 0);
+  const Trial& best = advice.others[0];
+  EXPECT_TRUE(is_default(best));
+  EXPECT_TRUE(is_good(best));
+  EXPECT_LE(largest_stretch(scene, best.settings), 1 + tolerated_overstretch);
+  EXPECT_EQ(advice.what_to_do.rfind("the default (", 0), 0U) << advice.what_to_do;
+  EXPECT_NE(advice.what_to_do.find("keeps all edges within 10 % and 99 in 100 within 2 %"), std::string::npos)
+      << advice.what_to_do;
+  EXPECT_NE(advice.what_to_do.find("; remove \"sweep\" and \"substeps\" from the scene's \"settings\""), std::string::npos)
+      << advice.what_to_do;
+}
+
+TEST(Advise, NamesASettingThatReallyHelps) {
+  const Scene scene = poor_by_default(hanging_sheet(32, Stiffness::rigid(), 0));
   const Advice advice = advise(scene, unhurried);
   EXPECT_FALSE(advice.cut_short);
   EXPECT_FALSE(is_good(advice.own));
@@ -275,7 +261,7 @@ TEST(Advise, NamesASettingThatReallyHelps) {
   EXPECT_NE(advice.words.find("object 'sheet': stretched "), std::string::npos) << advice.words;
   EXPECT_NE(advice.words.find("its pins"), std::string::npos) << advice.words;
   EXPECT_NE(advice.what_to_do.find(std::to_string(best.settings.substeps) + " substep"), std::string::npos);
-  EXPECT_NE(advice.what_to_do.find("less than 1 %"), std::string::npos) << advice.what_to_do;
+  EXPECT_NE(advice.what_to_do.find("99 in 100 within 2 %"), std::string::npos) << advice.what_to_do;
   for (const char* sweep : {"chains", "multigrid", "tiled"}) {
     const auto is_of_it = [&](const Trial& trial) { return sweep_name(trial.settings.sweep) == sweep; };
     EXPECT_TRUE(std::any_of(advice.others.begin(), advice.others.end(), is_of_it)) << sweep << " was not tried";
@@ -284,10 +270,9 @@ TEST(Advise, NamesASettingThatReallyHelps) {
 
 /// Multigrid gains energy from contact between surfaces, so it is no advice there.
 TEST(Advise, TriesChainsAndNoMultigridWhereWhatMovesTouches) {
-  Scene scene = hanging_sheet(8, Stiffness::rigid(), 2);
-  scene.settings.sweep = Sweep::tiled;
+  Scene scene = poor_by_default(hanging_sheet(32, Stiffness::rigid(), 0));
   scene.objects[0].self_collision = true;
-  scene.frames = 10;
+  scene.frames = 12;
   const Advice advice = advise(scene, unhurried);
   const auto tries = [&](Sweep sweep) {
     return std::any_of(advice.others.begin(), advice.others.end(),
@@ -302,22 +287,25 @@ TEST(Advise, FindsTheLeastOfWhatHelps) {
   Scene scene;
   scene.add(chain(40, 0.02f));
   scene.pin(0, {0});
-  scene.settings = settings_of(24);
+  scene = poor_by_default(scene);
   scene.frames = 20;
   const Advice advice = advise(scene, unhurried);
   ASSERT_GE(advice.best, 0);
-  int least = 24;
+  int least = 20;
   for (const Trial& trial : advice.others)
     if (trial.settings.sweep == Sweep::chains && is_good(trial)) least = std::min(least, trial.settings.substeps);
-  EXPECT_LT(least, 24);
+  EXPECT_LT(least, 20);
   for (const Trial& trial : advice.others)
     EXPECT_TRUE(!is_good(trial) || trial.milliseconds >= advice.others[advice.best].milliseconds)
         << "the cheapest is named";
-  Settings fewer = scene.settings;
+  Settings fewer = chosen_settings(scene);
   fewer.sweep = Sweep::chains;
   fewer.sweep_options.tethers = true;
   fewer.substeps = std::max(1, least / 2);
-  EXPECT_GT(largest_stretch(scene, fewer), 1 + tolerated_overstretch) << least << " substeps were good";
+  World world(scene, fewer);
+  Report last;
+  for (int frame = 0; frame < scene.frames; ++frame) last = world.step(scene.frame_time);
+  EXPECT_FALSE(is_tolerable(last.worst_overstretch.overstretch)) << least << " substeps were good";
 }
 
 TEST(Advise, SaysNothingWhereNothingIsTheMatter) {
@@ -358,24 +346,26 @@ TEST(Advise, NamesTheBestOfWhatIsNotGoodAndSaysSo) {
   Scene scene;
   scene.add(chain(40, 0.02f));
   scene.pin(0, {0});
-  Object taut = chain(2, 1);
+  Object taut = chain(3, 0.5f);
   taut.name = "taut";
   for (Vec3f& p : taut.positions) p.z = 1;
   scene.add(taut);
   scene.pin(1, {0});
-  scene.pin(1, {1}, straight({0.1f, 0, 0}, 0.1f));  // no setting can reduce this below 110 %
+  scene.pin(1, {2}, straight({0.2f, 0, 0}, 0.1f));  // no setting can reduce this below 120 %
   scene.settings = settings_of(1);
   scene.frames = 20;
   const Advice advice = advise(scene, unhurried);
   ASSERT_GE(advice.best, 0);
   const Trial& best = advice.others[advice.best];
-  EXPECT_GT(advice.own.worst.largest, 0.2) << "or this shows nothing";
-  EXPECT_NEAR(best.worst.largest, 0.1, 1e-3);
-  for (const Trial& trial : advice.others) EXPECT_TRUE(!trial.complete || trial.worst.largest >= best.worst.largest);
+  EXPECT_GT(advice.own.worst.p99, 0.3) << "or this shows nothing";
+  EXPECT_FALSE(is_good(best));
+  EXPECT_GT(best.worst.largest, 0.19);
+  EXPECT_LT(best.worst.largest, 0.8 * advice.own.worst.largest);
+  for (const Trial& trial : advice.others) EXPECT_TRUE(!trial.complete || trial.worst.p99 >= best.worst.p99);
   const std::string words = "of " + std::to_string(advice.others.size()) +
-                            " other settings tried none reduces the excess stretch to less than 1 %; " +
-                            "the best of them, " + std::to_string(best.settings.substeps) + " substep";
+                            " other settings tried none keeps all edges within 10 % and 99 in 100 within 2 %";
   EXPECT_EQ(advice.what_to_do.rfind(words, 0), 0U) << advice.what_to_do;
+  EXPECT_NE(advice.what_to_do.find("; the best of them, "), std::string::npos) << advice.what_to_do;
 }
 
 TEST(Advise, HoldsForTheFramesThatItHadTimeForAndSaysSo) {
@@ -387,7 +377,7 @@ TEST(Advise, HoldsForTheFramesThatItHadTimeForAndSaysSo) {
   ASSERT_GE(advice.best, 0);
   EXPECT_EQ(advice.others[advice.best].frames, 5);
   EXPECT_EQ(advice.what_to_do.rfind("only the first 5 of 30 frames were run", 0), 0U) << advice.what_to_do;
-  EXPECT_NE(advice.what_to_do.find(" to try it, add to the scene's"), std::string::npos) << advice.what_to_do;
+  EXPECT_NE(advice.what_to_do.find(" to try it, remove "), std::string::npos) << advice.what_to_do;
 }
 
 /// A force field that makes anything infinite that hangs too low. Settings that keep lengths must do so to the end of
@@ -414,25 +404,24 @@ TEST(Advise, NeverNamesWhatMeasuredWorse) {
     return made;
   };
   Advice advice;
-  advice.own = trial(0.1, 0.02, 1);
+  advice.own = trial(1, 0.2, 1);
   EXPECT_EQ(best_of(advice), -1);
-  advice.others = {trial(0.05, 0.03, 1), trial(0.09, 0.01, 1), trial(0.04, 0.01, 1, false)};
+  advice.others = {trial(0.5, 0.3, 1), trial(0.9, 0.1, 1), trial(0.4, 0.1, 1, false)};
   EXPECT_EQ(best_of(advice), -1) << "more all over, hardly less, and not run to its end";
-  advice.others.push_back(trial(0.05, 0.02, 9));
-  advice.others.push_back(trial(0.06, 0.01, 1));
+  advice.others.push_back(trial(0.5, 0.1, 9));
+  advice.others.push_back(trial(0.6, 0.1, 1));
   EXPECT_EQ(best_of(advice), 3) << "the nearest";
-  advice.others.push_back(trial(0.01, 0.01, 9));
-  advice.others.push_back(trial(0.009, 0.001, 10));
+  advice.others.push_back(trial(0.1, 0.02, 9));
+  advice.others.push_back(trial(0.09, 0.001, 10));
   EXPECT_EQ(best_of(advice), 5) << "the cheapest that is good";
 }
 
-TEST(Advise, TriesFirstWhatSuitsTheScene) {
+TEST(Advise, TriesTheDefaultFirstWhereTheSceneDepartsFromIt) {
   Scene scene = hanging_sheet(8, Stiffness::rigid(), 1);
-  scene.frames = 5;
-  EXPECT_EQ(sweep_name(advise(scene, unhurried).others.at(0).settings.sweep), "chains");
-  scene.objects[0].self_collision = true;
-  scene.settings.sweep = Sweep::tiled;
-  EXPECT_EQ(sweep_name(advise(scene, unhurried).others.at(0).settings.sweep), "chains");
+  scene.frames = 10;
+  EXPECT_TRUE(is_default(advise(scene, unhurried).others.at(0)));
+  const Scene poor = poor_by_default(hanging_sheet(32, Stiffness::rigid(), 0));
+  for (const Trial& trial : advise(poor, unhurried).others) EXPECT_FALSE(is_default(trial)) << "that is its own";
 }
 
 TEST(Words, HaveNoPowersOfTen) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -16,6 +17,8 @@ namespace pliant {
 namespace {
 
 using namespace testing_support;
+
+const Stiffness damped = Stiffness::compliance(2e-4f, 0.5f);
 
 /// A compiled grid in a random deformation, with multipliers.
 struct Stretched {
@@ -30,6 +33,7 @@ struct Stretched {
     Object cloth = grid(23, 17, 1e-4f);
     cloth.pins = {{0, {}}, {1, {}}, {23, {}}};  // three constraints between fixed particles
     cloth.constraints.push_back({"distance", {0, 5, 7, 90}, {0, 0.1f}, Stiffness::pbd(0.5f), {}});
+    cloth.constraints.push_back({"distance", {3, 50, 8, 91, 9, 92}, {0.1f, 0.1f, 0.2f}, damped, {}});
     object = compile(cloth, options);
     std::mt19937 random(seed);
     const auto record = [&](double range) {
@@ -49,7 +53,9 @@ struct Stretched {
     for (AlignedVector<float>& values : multipliers) pointers.push_back(values.data());
   }
 
-  LengthQuery query(float above) const { return {positions.data(), displacements.data(), pointers.data(), 3600, above}; }
+  LengthQuery query(float above) const {
+    return {positions.data(), displacements.data(), pointers.data(), 3600, above, velocities.data()};
+  }
   DemandQuery demand(float above) const { return {positions.data(), velocities.data(), 5000, 0.3f, above}; }
 };
 
@@ -76,12 +82,16 @@ std::vector<double> overstretches(const Stretched& of) {
     for_segment(of.object, segment, [&](const ConstraintPlace& at, const std::int32_t* particle) {
       if (!(at.value(0) > 0)) return;
       if (of.object.positions[particle[0]].w == 0 && of.object.positions[particle[1]].w == 0) return;
-      double squared = 0;
+      double squared = 0, along = 0;
       for (const auto c : {&Record::x, &Record::y, &Record::z}) {
         const auto place = [&](int i) { return double(of.positions[i].*c) + double(of.displacements[i].*c); };
-        squared += std::pow(place(particle[1]) - place(particle[0]), 2);
+        const double way = place(particle[1]) - place(particle[0]);
+        squared += way * way;
+        along += way * (double(of.velocities[particle[1]].*c) - double(of.velocities[particle[0]].*c));
       }
-      const double explained = double(at.value(1)) * 3600 * double(of.multipliers[at.pool_number][at.multiplier_place(0)]);
+      const double compliance = double(at.value(1)), damping = pool.law == Law::damped ? double(at.value(2)) : 0;
+      const double explained = compliance * 3600 * double(of.multipliers[at.pool_number][at.multiplier_place(0)]) +
+                               compliance * damping * along / std::sqrt(squared);
       all.push_back((std::sqrt(squared) - double(at.value(0)) + explained) / double(at.value(0)));
     });
   }
@@ -110,7 +120,7 @@ TEST_P(Lengths, GivesTheSameBitsInLanes) {
     for (const bool with : {false, true}) {
       LengthQuery query = of.query(above);
       if (!with) query.multipliers = nullptr;
-      if (!with) query.displacements = nullptr;
+      if (!with) query.displacements = query.velocities = nullptr;
       const std::vector<FoundLength> lanes = long_by(of, pick_kernels("").lengths, query),
                                      one_by_one = long_by(of, length_kernels_sequential(), query);
       ASSERT_EQ(lanes.size(), one_by_one.size());
@@ -122,6 +132,29 @@ TEST_P(Lengths, GivesTheSameBitsInLanes) {
       }
     }
   }
+}
+
+/// Thresholds at, just below and just above each value: none is lost where squares are compared.
+TEST_P(Lengths, AreFoundToTheLastBit) {
+  const Stretched of(GetParam(), 5);
+  const LengthKernels& lanes = pick_kernels("").lengths;
+  std::vector<float> values;
+  for (const FoundLength& one : long_by(of, length_kernels_sequential(), of.query(-10))) values.push_back(one.value);
+  std::sort(values.begin(), values.end());
+  for (std::size_t i = 0; i < values.size(); i += 7)
+    for (const float above : {std::nextafter(values[i], -1e9f), values[i], std::nextafter(values[i], 1e9f)}) {
+      const auto greater = std::upper_bound(values.begin(), values.end(), above);
+      EXPECT_EQ(long_by(of, lanes, of.query(above)).size(), static_cast<std::size_t>(values.end() - greater)) << above;
+    }
+}
+
+TEST_P(Lengths, LeaveDampedOnesOutWithoutVelocities) {
+  const Stretched of(GetParam(), 6);
+  LengthQuery query = of.query(-10);
+  const std::size_t with = long_by(of, pick_kernels("").lengths, query).size();
+  query.velocities = nullptr;
+  EXPECT_EQ(long_by(of, pick_kernels("").lengths, query).size() + 3, with);
+  EXPECT_EQ(long_by(of, length_kernels_sequential(), query).size() + 3, with);
 }
 
 TEST_P(Lengths, DemandTheSameSubstepsInLanes) {

@@ -137,7 +137,8 @@ TEST(World, RefusesIndicesThatDoNotExist) {
     EXPECT_THROW(world.collider_rotation(index), Error);
   }
   EXPECT_TRUE(world.multipliers(0, "no such type").empty());
-  EXPECT_TRUE(world.multipliers(0, "distance").empty()) << "none are kept for one iteration unless asked for";
+  EXPECT_TRUE(world.multipliers(0, "dihedral_bending").empty()) << "none are kept for one iteration unless asked for";
+  EXPECT_FALSE(world.multipliers(0, "distance").empty()) << "overstretch is measured with them";
 }
 
 TEST(World, CountsWhatWasCompiled) {
