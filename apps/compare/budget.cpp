@@ -44,14 +44,16 @@ struct Trial {
 };
 
 /// Simulates the first `frames` frames, or until a value is not finite.
-Trial simulate(const Scene& scene, const Method& method, int substeps, int iterations, int frames, const Options& options) {
-  World world(scene, settings_of(scene, method, substeps, iterations));
-  Trial trial{{method.name, substeps, iterations, 0, {0, 0, 0}, {}}};
+Trial simulate(const Scene& scene, const Settings& settings, const std::string& name, int frames, const Options& options) {
+  World world(scene, settings);
+  Trial trial{{name, settings.substeps, settings.iterations, 0, {0, 0, 0}, {}}};
   std::vector<double> milliseconds;
+  double substeps = 0;
   for (int frame = 0; frame < frames && trial.finite; ++frame) {
     if (options.pause) options.pause();
     const Report report = world.step(scene.frame_time);
     milliseconds.push_back(report.milliseconds);
+    substeps += report.substeps;
     trial.finite = report.ok();
     if (!trial.finite) break;
     take_larger(trial.row.worst, *report.stretch);
@@ -60,7 +62,13 @@ Trial simulate(const Scene& scene, const Method& method, int substeps, int itera
   const auto middle = milliseconds.begin() + static_cast<std::ptrdiff_t>(milliseconds.size() / 2);
   std::nth_element(milliseconds.begin(), middle, milliseconds.end());
   trial.row.milliseconds = *middle;
+  if (settings.substeps == 0)
+    trial.row.substeps = static_cast<int>(std::lround(substeps / static_cast<double>(milliseconds.size())));
   return trial;
+}
+
+Trial simulate(const Scene& scene, const Method& method, int substeps, int iterations, int frames, const Options& options) {
+  return simulate(scene, settings_of(scene, method, substeps, iterations), method.name, frames, options);
 }
 
 /// Why numbers of substeps and iterations were not accepted.
@@ -115,6 +123,13 @@ std::optional<Budgeted> fit(const Scene& scene, const Method& method, int iterat
 }
 
 }  // namespace
+
+Budgeted run_default(const Scene& scene, const Options& options) {
+  Settings settings = settings_of(scene, {"", Sweep::automatic, scene.settings.sweep_options}, 0, 1);
+  Trial trial = simulate(scene, settings, default_name, scene.frames, options);
+  if (!trial.finite) throw Error({}, "the default diverges", "see 'pliant check'");
+  return trial.row;
+}
 
 Budgeted fit_budget(const Scene& scene, const Method& method, const Options& options) {
   std::optional<Budgeted> best;

@@ -30,6 +30,9 @@ std::vector<std::string> option_names();
 /// names.
 Method method_of(const std::string& name, const SweepOptions& base);
 
+/// The name of the sweep and substeps that a scene has if it leaves them open.
+inline constexpr const char* default_name = "default";
+
 /// The methods compared by default: all sweeps but `sequential`, which has the bits of `tiled`; the default sweep with
 /// Chebyshev; and with tethers if the scene has fixed points.
 std::vector<std::string> default_methods(const Scene& scene);
@@ -55,10 +58,11 @@ struct Curve {
 /// The best result that one method reaches within the time budget.
 struct Budgeted {
   std::string name;
-  int substeps = 0, iterations = 0;  ///< numbers within the budget for which `worst.p99` is smallest
-  double milliseconds = 0;           ///< median time of a frame [ms]
-  Stretch worst;                     ///< largest of each figure over all frames
-  Stretch last;                      ///< stretch after the last frame
+  int substeps = 0;         ///< within the budget those with the smallest `worst.p99`; of the default the mean
+  int iterations = 0;       ///< likewise
+  double milliseconds = 0;  ///< median time of a frame [ms]
+  Stretch worst;            ///< largest of each figure over all frames
+  Stretch last;             ///< stretch after the last frame
 };
 
 /// A method that could not be compared, and why.
@@ -67,7 +71,7 @@ struct Refusal {
 };
 
 struct Options {
-  std::vector<std::string> methods;  ///< names of methods; empty: default_methods()
+  std::vector<std::string> methods;  ///< names of methods; empty: the default and default_methods()
   int frame = -1;               ///< number of frames before the substep that is compared; -1: half of the scene's frames
   int substeps = 0;             ///< substeps per frame, which set the length of that substep; 0: the scene's own
   int iterations = 100;         ///< largest number of iterations of the curves, 1..10000
@@ -79,9 +83,10 @@ struct Result {
   int frame = 0, iterations = 0, frames = 0;
   double substep = 0;         ///< length of the substep that is compared [s]
   double budget = 0;          ///< time per frame [ms]
+  std::string by_default;     ///< sweep and substeps that the scene has if it leaves them open, in words
   std::string residual_type;  ///< constraint type of Sample::residual: "distance" if the scene has distance constraints
   std::vector<Curve> curves;
-  std::vector<Budgeted> budgeted;
+  std::vector<Budgeted> budgeted;  ///< first the default, which takes the time that its substeps need
   std::vector<Refusal> refused;
 };
 
@@ -124,6 +129,9 @@ void lower_to_longer_runs(std::vector<Sample>& samples);
 
 /// The time of the substep with a number of iterations, interpolated linearly between samples [ms].
 double milliseconds_at(const Curve& curve, int iterations);
+
+/// Runs all frames with the default sweep and substeps. Throws an Error if a value is not finite.
+Budgeted run_default(const Scene& scene, const Options& options);
 
 /// Finds for several numbers of iterations how many substeps fit into the budget, and returns the best. Throws an Error
 /// with the reason if none fits or stays finite.

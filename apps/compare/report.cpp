@@ -54,6 +54,7 @@ std::string table_head(const Result& result) {
   std::string head =
       format("after %d frames: the next substep, of %s ms, solved by each sweep from the same state\n", result.frame,
              figure(1000 * result.substep, 4).c_str()) +
+      "default of the scene: " + result.by_default + "\n" +
       format("residual: root mean square error of the %s constraints%s, %.3g before the first iteration\n",
              result.residual_type.c_str(), result.residual_type == "distance" ? " [m]" : "", first.residuals.front()) +
       "stretch: largest elongation beyond rest length [%]\n" +
@@ -146,6 +147,7 @@ std::string to_table(const Result& result) {
 
 std::string to_json(const Result& result) {
   Json json = {{"frame", result.frame},
+               {"default", result.by_default},
                {"substep", result.substep},
                {"iterations", result.iterations},
                {"residual_type", result.residual_type},

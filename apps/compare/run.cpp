@@ -25,12 +25,43 @@ World run_to(const Scene& scene, int frames, const Options& options) {
 
 std::vector<Method> methods_of(const Scene& scene, const Options& options) {
   std::vector<Method> methods;
-  for (const std::string& name : options.methods.empty() ? default_methods(scene) : options.methods) {
+  std::vector<std::string> names = options.methods;
+  std::erase(names, default_name);  // its curve would be that of its sweep
+  for (const std::string& name : names.empty() ? default_methods(scene) : names) {
     const bool again = std::any_of(methods.begin(), methods.end(), [&](const Method& m) { return m.name == name; });
     if (again) throw Error({}, "'" + name + "' is named twice", "name every sweep once");
     methods.push_back(method_of(name, scene.settings.sweep_options));
   }
   return methods;
+}
+
+/// Sweep, substeps and iterations left open.
+Scene left_open(Scene scene) {
+  scene.settings.sweep = Sweep::automatic;
+  scene.settings.substeps = 0;
+  scene.settings.iterations = 1;
+  return scene;
+}
+
+bool has_default(const Options& options) {
+  const std::vector<std::string>& names = options.methods;
+  return names.empty() || std::find(names.begin(), names.end(), default_name) != names.end();
+}
+
+std::string default_in_words(const Scene& scene) {
+  const Settings settings = chosen_settings(left_open(scene));
+  const bool has_one = settings.sweep != Sweep::automatic;
+  return (has_one ? "the sweep '" + sweep_name(settings.sweep) + "'" : "a sweep for each object") + ", " +
+         (settings.substeps > 0 ? std::to_string(settings.substeps) + " substeps" : "substeps that follow the State");
+}
+
+void add_default(const Scene& scene, const Options& options, Result& result) {
+  if (!(options.budget > 0) || scene.frames < 1 || !has_default(options)) return;
+  try {
+    result.budgeted.push_back(run_default(left_open(scene), options));
+  } catch (const Error& error) {
+    result.refused.push_back({default_name, error.what()});
+  }
 }
 
 std::string type_of(const std::vector<Curve>& curves) {
@@ -59,8 +90,10 @@ Result run(const Scene& given, const Options& options) {
   result.iterations = options.iterations;
   result.frames = scene.frames;
   result.budget = options.budget;
+  result.by_default = default_in_words(given);
   World start = run_to(scene, result.frame, options);
   result.substep = substep_of(scene, options);
+  add_default(given, options, result);
   std::vector<Method> measured;
   for (const Method& method : methods) {
     if (options.pause) options.pause();
