@@ -288,8 +288,8 @@ struct SweepOptions {
   /// For `chains`, 0..1000: regularisation of the solve of a straight path between two pins, as a share of the inverse
   /// of its mass. A link stretches by about this times g h^2 [-].
   float chain_softness = 0.1f;
-  /// For `chains`, 0..1000: no distance stays longer than its force explains by more than this share of its rest length,
-  /// unless contact or the filter demands it; 0: no limit. Does not apply to PBD stiffness [-].
+  /// For `chains` and `multigrid`, 0..1000: no distance stays longer than its force explains by more than this share of its
+  /// rest length, unless contact or the filter demands it; 0: no limit. Does not apply to PBD stiffness [-].
   float most_overstretch = 0.05f;
   int multigrid_cycles = 2;  ///< for `multigrid`: conjugate gradient steps per substep, each with a W-cycle, 1..100
 };
@@ -352,11 +352,11 @@ struct Scene {
 };
 
 /// Returns the sweep of one object: its own, else that of the settings, else the one that measured best on such
-/// objects. The latter is `chains` for cloth and rope of 32 particles or more whose surface can touch itself or others.
-/// For those that meet at most primitive colliders it is `multigrid` if their springs are irregular, `tethered_chains`
-/// if they hang from pins and are not meant to stretch, else `chains`. It is `tiled` where none of these helps: a
-/// volume, a bending length (B / rho g)^(1/3) above a quarter of the sheet's size, PBD stiffness of bending or all
-/// distances, or several iterations. Smaller objects use the sweep of all others. If the sweep was left open, `reason`
+/// objects. The latter is `chains` for cloth and rope of 32 particles or more whose surface can touch itself or others, or
+/// whose bending length (B / rho g)^(1/3) is above a quarter of its size (also with PBD stiffness of bending). Of others it
+/// is `tethered_chains` for regular ones that hang from pins and are not meant to stretch, `multigrid` for irregular ones
+/// that can meet no collider, and `chains` for the rest. It is `tiled` where none of these helps: a volume, PBD stiffness
+/// of all distances, or several iterations. Smaller objects use the sweep of all others. If the sweep was left open, `reason`
 /// receives the deciding fact.
 Sweep chosen_sweep(const Scene& scene, int object, std::string* reason = nullptr);
 
@@ -364,8 +364,8 @@ Sweep chosen_sweep(const Scene& scene, int object, std::string* reason = nullptr
 /// consists of objects and mesh colliders (as triangles) whose surfaces can touch, by groups, masks and `collides`,
 /// directly or through others. An object that touches nothing is a set of its own. 0 stands for substeps that follow
 /// the State: they are decided in each quarter of a frame by strain and motion. They do so if an object of the set is
-/// solved by chains and not meant to stretch, and none has PBD stiffness between 0 and 1. Any other set has 10 substeps
-/// if all its objects use `multigrid` and have no such stiffness, else 20 (docs/internals/convergence.md). With a
+/// solved by chains and not meant to stretch, and none has PBD stiffness between 0 and 1. Any other set has 6 substeps
+/// if all its objects use `multigrid` and have no such stiffness (10 if pins move or it can touch), else 20. With a
 /// tolerance or recorded residuals all objects form one set, whose substeps are fixed.
 std::vector<int> chosen_substeps(const Scene& scene);
 

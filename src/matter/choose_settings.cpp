@@ -251,12 +251,13 @@ Choice choose(const Scene& scene, const Settings& settings, const Object& object
   const std::size_t springs = springs_of(object);
   if (settings.iterations > 1) return {Sweep::tiled, "more than one iteration"};
   if (springs > 0 && object.volume) return {Sweep::tiled, name + ", which has a volume"};
-  if (springs > 0 && is_stiff_sheet(object, gravity))
-    return {Sweep::tiled, name + ", a sheet whose bending length is more than a quarter of its size"};
   const std::size_t particles =
       springs == 0 ? 0 : std::min(object.positions.size(), springs + 1);  // a path has one particle more than springs
   if (particles < fewest_particles) return {Sweep::tiled, too_coarse};
   if (can_touch(scene, object)) return {Sweep::chains, name + ", a surface that can touch itself or others"};
+  // Neither tethers nor multigrid know of bending, which demands more substeps than they need for stretch.
+  if (is_stiff_sheet(object, gravity))
+    return {Sweep::chains, name + ", a sheet whose bending length is more than a quarter of its size"};
   if (!is_regular(object)) {
     // Multigrid would be faster at equal stretch, but cloth that should slide over a collider sticks with it.
     if (can_meet_collider(scene, object)) return {Sweep::chains, name + ", which can meet a collider"};

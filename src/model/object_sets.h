@@ -13,7 +13,7 @@
 
 namespace pliant {
 
-/// Default substeps per frame of objects solved by `multigrid`, and of all others (docs/internals/convergence.md).
+/// Default substeps per frame of objects solved by `multigrid` that can touch or whose pins move, and of all others.
 inline constexpr int substeps_of_multigrid = 10, substeps_of_others = 20;
 
 /// The largest number of substeps of any object; chosen_settings(scene) has 0 substeps if objects differ.

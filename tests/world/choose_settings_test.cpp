@@ -114,11 +114,6 @@ TEST(ChosenSettings, AreEachObjectsOwn) {
 
 TEST(ChosenSettings, ArePlainWherePbdStiffnessOrIterationsSaySo) {
   ClothOptions options;
-  options.bending = Stiffness::pbd(0.1f);
-  expect_chosen(sheet(20, 1, options), Sweep::tiled, 20, "a quarter of its size");
-  options.bending = Stiffness::rigid();
-  expect_chosen(sheet(20, 1, options), Sweep::tiled, 20, "a quarter of its size");
-  options.bending.reset();
   options.stretch = Stiffness::pbd(0.9f);
   expect_chosen(sheet(20, 1, options), Sweep::tiled, 20, "fewer than 32");
   Scene scene = sheet(20, 1);
@@ -128,18 +123,33 @@ TEST(ChosenSettings, ArePlainWherePbdStiffnessOrIterationsSaySo) {
 
 // Peirce's bending length is c = (B / rho g)^(1/3). A sheet is stiff if c is more than a quarter of its size, whatever
 // the mesh and the type of bending.
-TEST(ChosenSettings, ArePlainForSheetsThatHoldThemselvesUp) {
+TEST(ChosenSettings, AreChainsWithoutTethersForSheetsThatHoldThemselvesUp) {
   for (const auto model : {ClothOptions::Bending::dihedral, ClothOptions::Bending::isometric}) {
     ClothOptions options;
     options.bending_model = model;
     options.material.bending_stiffness = 0.02f;
     options.material.area_density = 0.75f;
+    options.stretch = Stiffness::rigid();
     const double length = std::cbrt(0.02 / (0.75 * 9.81));
     for (const int n : {8, 30}) {
-      expect_chosen(sheet(n, static_cast<float>(3.9 * length), options), Sweep::tiled, 20, "a quarter of its size");
-      expect_chosen(sheet(n, static_cast<float>(4.1 * length), options), Sweep::chains, 20, "straight rows");
+      const int substeps = n == 8 ? 20 : 0;  // fewer than 400 particles keep a fixed number
+      const auto hung = [&](double size) {
+        Scene scene = sheet(n, static_cast<float>(size), options);
+        scene.pin(0, {0, n - 1});
+        return scene;
+      };
+      expect_chosen(hung(3.9 * length), Sweep::chains, substeps, "a quarter of its size");
+      expect_chosen(hung(4.1 * length), Sweep::tethered_chains, substeps, "straight rows");
     }
   }
+}
+
+TEST(ChosenSettings, AreChainsInFixedSubstepsForPbdBending) {
+  ClothOptions options;
+  options.bending = Stiffness::pbd(0.1f);
+  expect_chosen(sheet(20, 1, options), Sweep::chains, 20, "a quarter of its size");
+  options.bending = Stiffness::rigid();
+  expect_chosen(sheet(20, 1, options), Sweep::chains, 0, "a quarter of its size");
 }
 
 TEST(ChosenSettings, AreChainsWhereSurfacesMeet) {
@@ -189,7 +199,7 @@ TEST(ChosenSettings, AreNotDecidedByAHingeOfNoArea) {
   Scene scene = sheet(20, 1, options);
   const std::vector<int> hinge = scene.objects[0].constraints[1].particles;
   scene.objects[0].positions.at(std::size_t(hinge[1])) = scene.objects[0].positions.at(std::size_t(hinge[0]));
-  expect_chosen(scene, Sweep::tiled, 20, "a quarter of its size");
+  expect_chosen(scene, Sweep::chains, 0, "a quarter of its size");
 }
 
 TEST(ChosenSettings, AreNotDecidedByAFewStiffHingesOrLooseParticles) {
@@ -200,7 +210,7 @@ TEST(ChosenSettings, AreNotDecidedByAFewStiffHingesOrLooseParticles) {
   stiff.material.bending_stiffness = 5;
   scene = sheet(20, 1, stiff);
   scene.objects[0].triangles.clear();
-  expect_chosen(scene, Sweep::tiled, 20, "a quarter of its size");
+  expect_chosen(scene, Sweep::chains, 20, "a quarter of its size");
   scene = {};
   Object loose = chain(40, 0.1f);
   loose.constraints[0].particles.resize(2);
