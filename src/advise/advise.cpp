@@ -77,7 +77,7 @@ class Trials {
     return last.ok() ? "in frame " + std::to_string(trial.frame) + ", " + world.describe(trial.worst) : last.explain();
   }
 
-  Trial run(Settings settings, double bound, Clock::time_point end, std::string* words) const {
+  Trial run(const Settings& settings, double bound, Clock::time_point end, std::string* words) const {
     Trial trial;
     trial.settings = settings;
     World world(scene_, settings);

@@ -69,6 +69,7 @@ std::vector<float> demands_by(const Stretched& of, const LengthKernels& kernels,
   std::vector<FoundLength> found;
   for (const LengthRange& range : of.object.lengths) find_demanding(of.object, range, kernels, query, found);
   std::vector<float> demands;
+  demands.reserve(found.size());
   for (const FoundLength& one : found) demands.push_back(one.value);
   return demands;
 }

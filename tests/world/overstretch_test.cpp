@@ -153,6 +153,7 @@ TEST(OverstretchOfAFrame, HasTheSameBitsOnAnyThreadsAndInstructionSet) {
     scene.settings.isa = isa;
     World world(scene);
     std::vector<Overstretch> found;
+    found.reserve(20);
     for (int frame = 0; frame < 20; ++frame) found.push_back(*world.step(dt).overstretch);
     return found;
   };
