@@ -15,7 +15,7 @@ using namespace testing_support;
 constexpr double pi = 3.14159265358979, gravity = 9.81, friction = 0.3;
 constexpr double bar = 0.1, thickness = 0.004, radius = bar + thickness;
 constexpr double edge = 0.0125, seconds = 0.4;
-constexpr int across = 5;
+constexpr int across = 5, middle = 2;
 
 /// By how much tension at the right end exceeds what hangs there if the strip accelerates by `a` at speed `v` [N m / kg].
 /// T' = mu (T + g r sin t - v^2) + g r cos t + a r around the bar, per mass and length; T starts as the left end's pull.
@@ -56,7 +56,7 @@ Scene strip(double left, double right) {
                      : t < pi ? Vec3d{-radius * std::cos(t), radius * std::sin(t), 0}
                               : Vec3d{radius, left + pi * radius - s, 0};
     for (int k = 0; k < across; ++k)
-      mesh.positions.push_back({float(at.x), float(at.y), static_cast<float>((k - across / 2) * edge)});
+      mesh.positions.push_back({float(at.x), float(at.y), static_cast<float>((k - middle) * edge)});
   }
   for (int i = 0; i < rows; ++i) {
     for (int k = 0; k + 1 < across; ++k) {
