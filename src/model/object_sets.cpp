@@ -39,8 +39,29 @@ float distance(const Object& object, int from, int to) {
   return a < count && b < count ? length(object.positions[b] - object.positions[a]) : 0.f;
 }
 
+/// The sum of compliance over rest length of distance constraints [1/N], and their number.
+struct CompliancePerLength {
+  double sum = 0;
+  std::size_t count = 0;
+
+  double mean() const { return sum / static_cast<double>(count); }
+};
+
+CompliancePerLength compliance_per_length(const Object& object, const ConstraintGroup& group) {
+  CompliancePerLength of;
+  for (std::size_t i = 0; 2 * i + 1 < group.particles.size(); ++i) {
+    const float rest =
+        i < group.rest.size() ? group.rest[i] : distance(object, group.particles[2 * i], group.particles[2 * i + 1]);
+    const float compliance = i < group.compliances.size() ? group.compliances[i] : group.stiffness.value;
+    if (!(rest > 0)) continue;
+    of.sum += static_cast<double>(compliance) / static_cast<double>(rest);
+    ++of.count;
+  }
+  return of;
+}
+
 /// Smaller objects keep the fixed number: they are cheap, and many of them share one group.
-constexpr std::size_t fewest_particles_by_state = 400;
+constexpr std::size_t fewest_particles_by_state = 400, fewest_of_a_rope_by_state = 48;
 /// Substeps of objects solved by `multigrid` whose surface cannot touch others and whose pins rest.
 constexpr int substeps_of_undisturbed_multigrid = 6;
 
@@ -86,23 +107,22 @@ std::vector<std::vector<int>> classes_of(const std::vector<SetMember>& members) 
 }  // namespace
 
 std::optional<double> strain_by_weight(const Object& object, double gravity) {
-  double mass = 0, strain = 0;
-  std::size_t count = 0;
+  double mass = 0;
   for (const float m : object.masses) mass += std::isfinite(m) ? static_cast<double>(m) : 0;
+  const bool is_sheet = !object.triangles.empty();
+  CompliancePerLength all, stiffest;
   for (const ConstraintGroup& group : object.constraints) {
     if (!is_length(group.type) || group.stiffness.kind != Stiffness::Kind::compliance) continue;
-    for (std::size_t i = 0; 2 * i + 1 < group.particles.size(); ++i) {
-      const float rest =
-          i < group.rest.size() ? group.rest[i] : distance(object, group.particles[2 * i], group.particles[2 * i + 1]);
-      const float compliance = i < group.compliances.size() ? group.compliances[i] : group.stiffness.value;
-      if (!(rest > 0)) continue;
-      strain += static_cast<double>(compliance) / static_cast<double>(rest);
-      ++count;
-    }
+    const CompliancePerLength of = compliance_per_length(object, group);
+    if (of.count == 0) continue;
+    all = {all.sum + of.sum, all.count + of.count};
+    if (stiffest.count == 0 || of.mean() < stiffest.mean()) stiffest = of;
   }
-  const double row = object.triangles.empty() ? 1 : std::sqrt(static_cast<double>(object.positions.size()));
-  if (count == 0) return std::nullopt;
-  return strain / static_cast<double>(count) * mass * std::max(gravity, least_acceleration) / row;
+  if (all.count == 0) return std::nullopt;
+  // What bends a rope are distances across two links, which cannot stretch unless the links do.
+  const double compliance = is_sheet ? all.mean() : stiffest.mean();
+  const double row = is_sheet ? std::sqrt(static_cast<double>(object.positions.size())) : 1;
+  return compliance * mass * std::max(gravity, least_acceleration) / row;
 }
 
 int own_substeps(const Object& object, Sweep sweep) {
@@ -119,7 +139,8 @@ bool is_meant_to_stretch(const Object& object, double gravity) {
 
 SubstepRule substep_rule(const Object& object, Sweep sweep, double gravity) {
   if (has_converted(object)) return SubstepRule::fixed;
-  if (!solves_chains(sweep) || object.positions.size() < fewest_particles_by_state) return SubstepRule::any;
+  const std::size_t fewest = object.triangles.empty() ? fewest_of_a_rope_by_state : fewest_particles_by_state;
+  if (!solves_chains(sweep) || object.positions.size() < fewest) return SubstepRule::any;
   const std::optional<double> strain = strain_by_weight(object, gravity);
   return strain && *strain <= most_strain_by_weight ? SubstepRule::by_state : SubstepRule::any;
 }

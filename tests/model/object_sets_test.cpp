@@ -79,5 +79,34 @@ TEST(ObjectSets, FollowTheStateUnlessOneIsFixed) {
   EXPECT_FALSE(substeps_of_sets({any, by_state, fixed})[2].by_state);
 }
 
+/// A rope of `points` particles, a gram each and 0.1 m apart, whose bending is soft springs across two links.
+Object rope(int points, float link_compliance) {
+  Object out;
+  ConstraintGroup links, struts;
+  links.type = struts.type = "distance";
+  links.stiffness = Stiffness::compliance(link_compliance);
+  struts.stiffness = Stiffness::compliance(0.01f);
+  for (int i = 0; i < points; ++i) {
+    out.positions.push_back({0.1f * static_cast<float>(i), 0, 0});
+    out.masses.push_back(0.001f);
+    if (i > 0) links.particles.insert(links.particles.end(), {i - 1, i});
+    if (i > 1) struts.particles.insert(struts.particles.end(), {i - 2, i});
+  }
+  out.constraints = {struts, links};
+  return out;
+}
+
+/// 60 grams on links of compliance 1e-4 m/N: 0.1 * 1e-3 * 9.81 * 6 = 5.9e-4.
+TEST(ObjectSets, LeaveOutWhatBendsARope) {
+  constexpr double gravity = 9.81;
+  EXPECT_NEAR(*strain_by_weight(rope(60, 1e-4f), gravity), 5.9e-4, 1e-5);
+  EXPECT_FALSE(is_meant_to_stretch(rope(60, 1e-4f), gravity));
+  EXPECT_TRUE(is_meant_to_stretch(rope(60, 1e-3f), gravity));
+  EXPECT_EQ(substep_rule(rope(60, 0), Sweep::chains, gravity), SubstepRule::by_state);
+  EXPECT_EQ(substep_rule(rope(60, 1e-3f), Sweep::chains, gravity), SubstepRule::any);
+  EXPECT_EQ(substep_rule(rope(40, 0), Sweep::chains, gravity), SubstepRule::any) << "small";
+  EXPECT_EQ(substep_rule(rope(60, 0), Sweep::tiled, gravity), SubstepRule::any);
+}
+
 }  // namespace
 }  // namespace pliant
