@@ -13,7 +13,7 @@ namespace pliant {
 namespace {
 
 constexpr int rounds = 2;  ///< of search, passes and contacts
-/// An object has further rounds, up to these, while a constraint exceeds the limit by half. A point that bears much of a
+/// An object has further rounds, up to these, while a shortened constraint exceeds the limit by half. A point that bears much of a
 /// sheet, such as the corner of a box, needs them: its contact undoes much of each round.
 constexpr int most_rounds = 8;
 constexpr float tolerated = 1.5f;
@@ -28,14 +28,15 @@ Vec3f across(const LimitedLength& pair, const Record* positions, const Record* d
   return {(q.x - p.x) + (e.x - d.x), (q.y - p.y) + (e.y - d.y), (q.z - p.z) + (e.z - d.z)};
 }
 
-/// Finds the constraints that are too long. False if there are none, or if each object has too many or none above `worst`.
-bool find_all(Substep& s, LimitScratch& scratch, float worst) {
+/// Finds the constraints that are too long in the objects with is_searched. False if there are none, or too many in each.
+bool find_all(Substep& s, LimitScratch& scratch) {
   const std::vector<Task>& tasks = s.lengths();
   if (scratch.found.size() < tasks.size()) scratch.found.resize(tasks.size());
   for_tasks(s, "limit: search", static_cast<int>(tasks.size()), [&](int i) {
     const int object = tasks[i].object;
     const SweepArguments a = arguments(s, object, false);
     scratch.found[i].clear();
+    if (scratch.is_searched[object] == 0) return;
     find_long(s.model.objects[object], s.model.objects[object].lengths[tasks[i].item], s.kernels.lengths,
               {a.positions, a.displacements, a.multipliers, a.inverse_h2, s.context.options.most_overstretch},
               scratch.found[i]);
@@ -44,13 +45,11 @@ bool find_all(Substep& s, LimitScratch& scratch, float worst) {
   bool any = false;
   for (std::size_t first = 0, last = 0; first < tasks.size(); first = last) {
     double constraints = 0, too_long = 0;
-    float largest = 0;
     for (; last < tasks.size() && tasks[last].object == tasks[first].object; ++last) {
       constraints += static_cast<double>(s.model.objects[tasks[last].object].lengths[tasks[last].item].constraints);
       too_long += static_cast<double>(scratch.found[last].size());
-      for (const FoundLength& found : scratch.found[last]) largest = std::max(largest, found.value);
     }
-    const bool is_limited = largest > worst && too_long <= std::max(most_at_once, largest_share * constraints);
+    const bool is_limited = too_long > 0 && too_long <= std::max(most_at_once, largest_share * constraints);
     scratch.is_moved[tasks[first].object] = is_limited ? 1 : 0;
     any = any || is_limited;
   }
@@ -63,9 +62,11 @@ LimitedLength limited(const Substep& s, int number, const FoundLength& found) {
   const Segment& segment = object.segments[found.segment];
   const float rest = object.pools[segment.pool].row(0, std::int64_t{segment.first_batch} + found.batch)[found.lane];
   const auto [from, to] = ends_of(object, found);
-  LimitedLength pair{s.model.first[number] + from, s.model.first[number] + to, 0};
+  LimitedLength pair{s.model.first[number] + from, s.model.first[number] + to};
   const float now = length(across(pair, s.state.positions.data(), s.work.displacements.data()));
-  pair.longest = std::max(rest, now - (found.value - s.context.options.most_overstretch) * rest);
+  const float most = s.context.options.most_overstretch;
+  pair.longest = std::max(rest, now - (found.value - most) * rest);
+  pair.tolerated = pair.longest + (tolerated - 1) * most * rest;
   return pair;
 }
 
@@ -102,13 +103,26 @@ void shorten_all(Substep& s, const std::vector<LimitedLength>& limited) {
   }
 }
 
+/// Decides which objects a round searches: all in the first rounds, then those whose shortened pairs are still longer than
+/// tolerated. Others are not searched again, which would cost more than the passes. False if there are none.
+bool choose_searched(const Substep& s, int round, LimitScratch& scratch) {
+  scratch.is_searched.assign(s.model.objects.size(), round < rounds ? 1 : 0);
+  if (round < rounds) return true;
+  bool any = false;
+  for (const LimitedLength& pair : scratch.limited) {
+    if (!(length(across(pair, s.state.positions.data(), s.work.displacements.data())) > pair.tolerated)) continue;
+    scratch.is_searched[s.model.object_of(pair.from)] = 1;
+    any = true;
+  }
+  return any;
+}
+
 }  // namespace
 
 void limit(Substep& s) {
   LimitScratch& scratch = s.work.limit;
-  const float most = s.context.options.most_overstretch;
-  if (s.lengths().empty() || !(most > 0)) return;
-  for (int round = 0; round < most_rounds && find_all(s, scratch, round < rounds ? most : tolerated * most); ++round) {
+  if (s.lengths().empty() || !(s.context.options.most_overstretch > 0)) return;
+  for (int round = 0; round < most_rounds && choose_searched(s, round, scratch) && find_all(s, scratch); ++round) {
     list_all(s, scratch);
     shorten_all(s, scratch.limited);
     project_contacts_of(s, "limit: contacts", scratch.is_moved, overlap_left);
