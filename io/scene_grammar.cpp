@@ -243,10 +243,11 @@ const Record& settings_record() {
   static const Record result{
       "settings",
       "How constraints are solved. `threads`, `isa` and the measuring options do not change the result.",
-      {field("substeps", integer(0, 10000), Settings{}.substeps,
-             "Substeps per frame; 0: they follow strain and motion where chains solve an object of 400 particles or more; "
-             "6 for "
-             "objects that `multigrid` solves, 10 if their pins move or they can touch surfaces; 20 for all others."),
+      {field(
+           "substeps", integer(0, 10000), Settings{}.substeps,
+           "Substeps per frame; 0: they follow strain and motion where chains solve cloth of 400 particles or rope of 48; "
+           "6 for "
+           "objects that `multigrid` solves, 10 if their pins move or they can touch surfaces; 20 for all others."),
        field("iterations", integer(1, 10000), Settings{}.iterations, "Iterations per substep."),
        field("tolerance", number("m", 0, largest_place), Settings{}.tolerance,
              "A substep ends its iterations when the root mean square error of its distance constraints falls below this; "

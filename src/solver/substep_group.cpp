@@ -27,16 +27,22 @@ Phase part_of(const Phase& phase, const std::vector<char>& has) {
   return part;
 }
 
-/// True if the limit of overstretch applies: other sweeps leave whole regions too long, which shortening one constraint after
-/// another does not mend.
+/// True if the limit of overstretch applies: other sweeps leave whole regions too long, which shortening one constraint
+/// after another does not mend.
 bool limits_lengths(Sweep sweep) { return solves_chains(sweep) || sweep == Sweep::multigrid; }
+
+/// True if the object is cloth that hangs by tethers; without a fixed particle there are none. A rope is not counted: its
+/// free end swings fast, few substeps let it stretch and gain energy, and it is cheap.
+bool hangs(const CompiledObject& object) {
+  return object.sweep == Sweep::tethered_chains && !object.surface.triangles.empty() && !object.tethers.anchors.empty();
+}
 
 void list_lengths(const Model& model, SubstepGroup& group) {
   group.hangs = group.by_state;
   for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) {
     const CompiledObject& object = model.objects[o];
     if (object.particles == 0 || !(group.has_all || group.has[o] != 0)) continue;
-    group.hangs = group.hangs && (object.is_collider || object.sweep == Sweep::tethered_chains);
+    group.hangs = group.hangs && (object.is_collider || hangs(object));
     if (!limits_lengths(object.sweep)) continue;
     for (int i = 0; i < static_cast<int>(object.lengths.size()); ++i)
       group.lengths.push_back({o, i, object.lengths[i].batches});

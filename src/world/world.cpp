@@ -84,7 +84,8 @@ std::vector<GroupFrame> World::Implementation::plan_frame(double dt, Report& rep
   std::vector<GroupFrame> frames;
   for (const SubstepGroup& group : groups) {
     frames.push_back(plan(group, dt, report.warnings));
-    report.substeps = std::max(report.substeps, frames.back().substeps);
+    // Where substeps follow the State, only those made are known, and end_group() counts them.
+    if (frames.back().most_substeps == 0) report.substeps = std::max(report.substeps, frames.back().substeps);
   }
   return frames;
 }

@@ -277,6 +277,26 @@ TEST(SubstepLaw, DoesNotDependOnWhatIsMeasured) {
   }
 }
 
+/// The substeps of the last of five frames.
+int substeps_after(const Scene& scene) {
+  World world(scene);
+  run(world, 4);
+  return world.step(dt).substeps;
+}
+
+TEST(SubstepLaw, ReportsTheSubstepsMadeWhereClothHangs) {
+  const int made = substeps_after(hung());
+  EXPECT_GE(made, 6);
+  EXPECT_LT(made, 12);
+}
+
+TEST(SubstepLaw, NeedsAnAnchorToHang) {
+  Scene falls = hung();
+  falls.objects[0].pins.clear();
+  falls.settings.sweep = Sweep::tethered_chains;
+  EXPECT_GE(substeps_after(falls), 12);
+}
+
 // ---------------------------------------------------------------- the limit of overstretch
 
 double largest_overstretch(const Scene& scene, int frames) {

@@ -114,6 +114,7 @@ bool all_finite(Substep& s, int substep) {
   s.report.nonfinite = diagnose(s);
   s.report.nonfinite->frame = s.state.frame;
   s.report.nonfinite->substep = substep;
+  s.report.substeps = std::max(s.report.substeps, substep + 1);
   return false;
 }
 
