@@ -1,4 +1,4 @@
-// The worst overstretch of the frames of a World. It is no part of the State, so restoring one starts anew.
+// The worst overstretch of the frames of a World. It is no part of the State: restoring a State clears it.
 #pragma once
 
 #include "solver/overstretch_meter.h"
