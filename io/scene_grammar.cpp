@@ -211,7 +211,7 @@ const Record& wind_record() {
 const Record& sweep_options_record() {
   static const Record result{
       "sweep_options",
-      "Options of sweeps; docs/internals/convergence.md says when each helps.",
+      "Options of sweeps; docs/internals/sweeps.md says when each helps.",
       {field("relaxation", positive("-", 2), SweepOptions{}.relaxation,
              "Factor of every correction, below 2; above 1 is over-relaxation."),
        field("sharing", choice({"split", "average"}), "split",
@@ -255,7 +255,7 @@ const Record& settings_record() {
        field("threads", integer(0, 1024), Settings{}.threads, "Number of threads; 0: all hardware threads."),
        field(
            "sweep", choice(sweep_names()), "automatic",
-           "The method that projects constraints (docs/internals/convergence.md), unless an object has its own. "
+           "The method that projects constraints (docs/internals/sweeps.md), unless an object has its own. "
            "`automatic` chooses for each object: `chains` for cloth and rope of 32 particles or more that can touch others "
            "or itself, `tethered_chains` for regular ones that hang from pins, `multigrid` for irregular ones that can "
            "meet no "

@@ -1,5 +1,5 @@
 // Chooses the sweep and the substeps of a scene that leaves them open, by measurements at equal stretch
-// (docs/internals/convergence.md, "The default, and what wins").
+// (docs/internals/default_settings.md, "The sweep of an object").
 #include <algorithm>
 #include <array>
 #include <cmath>

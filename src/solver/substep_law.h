@@ -2,7 +2,7 @@
 //
 // They are decided at the start of each quarter of a frame from positions and velocities alone, so a restored State has
 // the same. An error in the lengths turns into velocity where the substeps change, so they must follow before it grows:
-// whole frames are too long for that (docs/internals/convergence.md).
+// whole frames are too long for that (docs/internals/default_settings.md).
 #pragma once
 
 #include <vector>

@@ -5,7 +5,7 @@
 // Springs only approximate friction. At particles that meet colliders, projection starts from the pushes and the friction
 // of the springs and corrects any excess. Contacts with several points start from zero instead: after few cycles their
 // springs still overlap and seem to push though the particles have not felt it, and with the cone of such pushes friction
-// tore cloth apart (docs/internals/convergence.md).
+// tore cloth apart (docs/internals/multigrid.md).
 //
 // A contact with a primitive adds to one matrix row. A contact between surfaces couples objects, or distant parts of
 // one, which the coarse levels do not represent: each row treats the other side as fixed at its prediction. Conjugate
