@@ -15,10 +15,11 @@ struct FoundLength {
   std::int32_t segment = 0, batch = 0, lane = 0;  ///< index in the object's segments, batch within it, and lane
   float value = 0;  ///< overstretch (C + explained) / rest length [-], or the substeps that it demands
 };
-using FoundLengthCallback = void (*)(void* context, const FoundLength& found);
+/// Receives constraints that were found, some at a time.
+using FoundLengthCallback = void (*)(void* context, const FoundLength* found, int count);
 
 struct LengthQuery {
-  const Record* positions = nullptr;      ///< of the object's first particle
+  const Record* positions = nullptr;      ///< of the object's first particle; w is the inverse mass
   const Record* displacements = nullptr;  ///< added to the positions; null: none
   float* const* multipliers = nullptr;    ///< one array per pool, or null if none are stored
   float inverse_h2 = 0;
@@ -27,7 +28,7 @@ struct LengthQuery {
 };
 
 struct DemandQuery {
-  const Record* positions = nullptr;  ///< of the object's first particle
+  const Record* positions = nullptr;  ///< of the object's first particle; w is the inverse mass
   const Record* velocities = nullptr;
   float by_stretch = 0,
         by_turn = 0;  ///< substeps per overstretch [-] and per speed across a constraint over its length [s]
@@ -35,8 +36,8 @@ struct DemandQuery {
 };
 
 struct LengthKernels {
-  /// Calls found(context, constraint) for the constraints of segments [first, last) with a positive rest length and an
-  /// overstretch above the query's, in order. The segments are of one pool of a length type (registry.h).
+  /// Calls found(context, some, count) for the constraints of segments [first, last) with a positive rest length, a free
+  /// particle and an overstretch above the query's, in order. The segments are of one pool of a length type (registry.h).
   void (*find_long)(const Pool& pool, const Segment* segments, int first, int last, const LengthQuery& query,
                     FoundLengthCallback found, void* context);
 

@@ -6,15 +6,9 @@ namespace pliant {
 
 namespace {
 
-struct Found {
-  const CompiledObject& object;
-  std::vector<FoundLength>& list;
-};
-
-void append(void* to, const FoundLength& found) {
-  const Found& of = *static_cast<const Found*>(to);
-  const auto [from, other] = ends_of(of.object, found);
-  if (of.object.positions[from].w > 0 || of.object.positions[other].w > 0) of.list.push_back(found);
+void append(void* to, const FoundLength* found, int count) {
+  std::vector<FoundLength>& list = *static_cast<std::vector<FoundLength>*>(to);
+  list.insert(list.end(), found, found + count);
 }
 
 }  // namespace
@@ -29,18 +23,16 @@ std::array<int, 2> ends_of(const CompiledObject& object, const FoundLength& foun
 
 void find_long(const CompiledObject& object, const LengthRange& range, const LengthKernels& kernels,
                const LengthQuery& query, std::vector<FoundLength>& found) {
-  Found of{object, found};
   for_lengths(object, range, [&](const Pool& pool, int first, int last) {
     if (pool.law == Law::compliant || query.velocities != nullptr)
-      kernels.find_long(pool, object.segments.data(), first, last, query, append, &of);
+      kernels.find_long(pool, object.segments.data(), first, last, query, append, &found);
   });
 }
 
 void find_demanding(const CompiledObject& object, const LengthRange& range, const LengthKernels& kernels,
                     const DemandQuery& query, std::vector<FoundLength>& found) {
-  Found of{object, found};
   for_lengths(object, range, [&](const Pool& pool, int first, int last) {
-    kernels.find_demanding(pool, object.segments.data(), first, last, query, append, &of);
+    kernels.find_demanding(pool, object.segments.data(), first, last, query, append, &found);
   });
 }
 

@@ -19,6 +19,12 @@ float explained(const Pool& pool, std::int64_t batch, int lane, float multiplier
   return elastic + explained_by_damping(across, speed, compliance, pool.row(2, batch)[lane]);
 }
 
+/// True if the constraint in a lane has a rest length above zero and a free particle.
+bool counts(const Pool& pool, const Segment& segment, const std::int32_t* index, int b, int lane, const Record* positions) {
+  if (!lane_is_valid(segment, b, lane) || !(pool.row(0, std::int64_t{segment.first_batch} + b)[lane] > 0)) return false;
+  return positions[particle_of(segment, index, 0, lane)].w > 0 || positions[particle_of(segment, index, 1, lane)].w > 0;
+}
+
 void find_long(const Pool& pool, const Segment* segments, int first, int last, const LengthQuery& q,
                FoundLengthCallback found, void* context) {
   const float* multipliers = q.multipliers != nullptr ? q.multipliers[segments[first].pool] : nullptr;
@@ -27,7 +33,7 @@ void find_long(const Pool& pool, const Segment* segments, int first, int last, c
     for (int b = 0; b < segments[s].batches; ++b, index += indices_per_batch(pool, segments[s])) {
       const std::int64_t batch = std::int64_t{segments[s].first_batch} + b;
       for (int lane = 0; lane < batch_width; ++lane) {
-        if (!lane_is_valid(segments[s], b, lane) || !(pool.row(0, batch)[lane] > 0)) continue;
+        if (!counts(pool, segments[s], index, b, lane, q.positions)) continue;
         const int from = particle_of(segments[s], index, 0, lane), to = particle_of(segments[s], index, 1, lane);
         Vec3f across = between(q.positions, from, to);
         if (q.displacements != nullptr) across += between(q.displacements, from, to);
@@ -38,7 +44,8 @@ void find_long(const Pool& pool, const Segment* segments, int first, int last, c
                 ? overstretch(across, rest)
                 : overstretch(across, rest,
                               explained(pool, batch, lane, multipliers[batch * batch_width + lane], across, speed, q));
-        if (by > q.above) found(context, {s, b, lane, by});
+        const FoundLength one{s, b, lane, by};
+        if (by > q.above) found(context, &one, 1);
       }
     }
   }
@@ -51,11 +58,12 @@ void find_demanding(const Pool& pool, const Segment* segments, int first, int la
     for (int b = 0; b < segments[s].batches; ++b, index += indices_per_batch(pool, segments[s])) {
       for (int lane = 0; lane < batch_width; ++lane) {
         const float rest = pool.row(0, std::int64_t{segments[s].first_batch} + b)[lane];
-        if (!lane_is_valid(segments[s], b, lane) || !(rest > 0)) continue;
+        if (!counts(pool, segments[s], index, b, lane, q.positions)) continue;
         const int from = particle_of(segments[s], index, 0, lane), to = particle_of(segments[s], index, 1, lane);
         const float substeps =
             demand(between(q.positions, from, to), between(q.velocities, from, to), rest, q.by_stretch, q.by_turn);
-        if (substeps > q.above) found(context, {s, b, lane, substeps});
+        const FoundLength one{s, b, lane, substeps};
+        if (substeps > q.above) found(context, &one, 1);
       }
     }
   }

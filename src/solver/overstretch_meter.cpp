@@ -1,6 +1,7 @@
 #include "solver/overstretch_meter.h"
 
 #include <algorithm>
+#include <bit>
 #include <functional>
 
 namespace pliant {
@@ -8,13 +9,25 @@ namespace pliant {
 namespace {
 
 /// The threshold of the next frame leaves up to this many times the constraints that the percentile needs. If it left fewer
-/// than one and a half times as many, it decreases.
-constexpr std::size_t listed = 3;
+/// than one and a quarter as many, it decreases.
+constexpr std::size_t listed = 2;
 constexpr float decrease = 0.8f;
+/// A threshold that is taken from a value is a little less, so that it finds that value again.
+constexpr float a_little_less = 0.999f;
 /// How often the threshold is halved before everything that is too long is listed.
 constexpr int halvings = 4;
-/// A threshold is a little less than the value that it was taken from, so that it finds that value again.
-constexpr float a_little_less = 0.999f;
+/// Bins begin at the threshold. Each is as wide as these bits of a float count: 64 bins from a value to its double.
+constexpr int bits_per_bin = 17;
+
+/// The bits of floats without sign have the same order as their values.
+int bin_of(float value, float above, int bins) {
+  const std::uint32_t beyond = std::bit_cast<std::uint32_t>(value) - std::bit_cast<std::uint32_t>(above);
+  return std::min(static_cast<int>(beyond >> bits_per_bin), bins - 1);
+}
+
+float start_of(int bin, float above) {
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(above) + (static_cast<std::uint32_t>(bin) << bits_per_bin));
+}
 
 /// The number of constraints from the 99th percentile up.
 std::size_t number_beyond(std::int64_t constraints) {
@@ -30,9 +43,14 @@ Overstretch OverstretchMeter::measure(const MeasuredFrame& frame, Executor* exec
   for (const Task& task : tasks_) measured.constraints += frame.model.objects[task.object].lengths[task.item].constraints;
   if (measured.constraints == 0) return measured;
   const std::size_t beyond = number_beyond(measured.constraints);
-  for (int halved = 0; find(frame, executor) < beyond && above_ > 0; ++halved) above_ = halved < halvings ? above_ / 2 : 0;
-  find_largest(frame, measured);
-  measured.p99 = take_p99(beyond);
+  std::size_t found = find(frame, executor);
+  for (int halved = 0; found < beyond && above_ > 0; ++halved) {
+    above_ = halved < halvings ? above_ / 2 : 0;
+    found = find(frame, executor);
+  }
+  count(frame, measured);
+  measured.p99 = found < beyond ? 0 : static_cast<double>(value_of_rank(beyond));
+  above_ = next_threshold(beyond, found);
   return measured;
 }
 
@@ -68,10 +86,12 @@ void OverstretchMeter::find_in(const MeasuredFrame& frame, int task) {
             found_[task]);
 }
 
-void OverstretchMeter::find_largest(const MeasuredFrame& frame, Overstretch& into) const {
+void OverstretchMeter::count(const MeasuredFrame& frame, Overstretch& into) {
+  counts_.fill(0);
   const FoundLength* largest = nullptr;
   for (std::size_t task = 0; task < tasks_.size(); ++task)
     for (const FoundLength& one : found_[task]) {
+      ++counts_[static_cast<std::size_t>(bin_of(one.value, above_, bins))];
       if (largest != nullptr && !(one.value > largest->value)) continue;
       largest = &one;
       into.object = tasks_[task].object;
@@ -83,20 +103,31 @@ void OverstretchMeter::find_largest(const MeasuredFrame& frame, Overstretch& int
   into.particles = {object.order[from], object.order[to]};
 }
 
-/// Also chooses the threshold of the next frame.
-double OverstretchMeter::take_p99(std::size_t beyond) {
-  values_.clear();
+int OverstretchMeter::bin_of_rank(std::size_t& rank) const {
+  int bin = bins - 1;
+  for (; bin > 0 && rank > static_cast<std::size_t>(counts_[static_cast<std::size_t>(bin)]); --bin)
+    rank -= static_cast<std::size_t>(counts_[static_cast<std::size_t>(bin)]);
+  return bin;
+}
+
+float OverstretchMeter::value_of_rank(std::size_t rank) const {
+  const int bin = bin_of_rank(rank);
+  std::vector<float> values;
   for (std::size_t task = 0; task < tasks_.size(); ++task)
-    for (const FoundLength& one : found_[task]) values_.push_back(one.value);
-  const auto take = [&](std::size_t rank) {  // 1: the largest
-    const auto at = values_.begin() + static_cast<std::ptrdiff_t>(rank - 1);
-    std::nth_element(values_.begin(), at, values_.end(), std::greater<>());
-    return *at;
-  };
-  const float p99 = values_.size() < beyond ? 0 : take(beyond);
-  const bool has_enough = 2 * values_.size() > 3 * beyond;
-  above_ = has_enough ? a_little_less * take(std::min(listed * beyond, values_.size())) : decrease * above_;
-  return static_cast<double>(p99);
+    for (const FoundLength& one : found_[task])
+      if (bin_of(one.value, above_, bins) == bin) values.push_back(one.value);
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank - 1);
+  std::nth_element(values.begin(), at, values.end(), std::greater<>());
+  return *at;
+}
+
+/// The last bin has no upper end: where the threshold is much too low, it begins far below the values in it.
+float OverstretchMeter::next_threshold(std::size_t beyond, std::size_t found) const {
+  if (4 * found <= 5 * beyond) return decrease * above_;
+  const std::size_t wanted = std::min(listed * beyond, found);
+  std::size_t rank = wanted;
+  const int bin = bin_of_rank(rank);
+  return bin < bins - 1 ? start_of(bin, above_) : a_little_less * value_of_rank(wanted);
 }
 
 }  // namespace pliant
