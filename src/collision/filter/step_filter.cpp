@@ -19,26 +19,19 @@ struct StepFilter::Round {
   const PairParticles& particles;
   const FunctionRef<bool(const PairStencil&)>& is_exempt;
 
-  void plan_list(NearList& list, Scratch& scratch) const;
+  void plan_list(const NearList& list, Scratch& scratch) const;
   void plan_group(const StaticGroup& group, Scratch& scratch) const;
+  void plan_block(const ClusterSides& sides, const PairStencils& stencils, int pairs, float margin, Scratch& scratch) const;
   void plan_pair(const ClusterSides& sides, const PairLanes& lanes, int lane, float margin, Scratch& scratch) const;
 };
 
-void StepFilter::Round::plan_list(NearList& list, Scratch& scratch) const {
+void StepFilter::Round::plan_list(const NearList& list, Scratch& scratch) const {
+  const Odometer& odometer = near.odometer(list);
   const float margin = filter_margin(near, list);
-  if (list.least.after(near.odometer(list)) > margin || is_too_far(near, list)) return;
-  collect_near(near, list, margin, scratch.near);
-  PairLanes lanes;
-  for (std::size_t i = 0; i < scratch.near.size(); i += 16) {
-    const std::size_t count = std::min<std::size_t>(16, scratch.near.size() - i);
-    for (std::size_t lane = 0; lane < 16; ++lane)
-      lanes.set(lane, list.pairs[scratch.near[i + (lane < count ? lane : 0)]].vertex);
-    find_paths(near, list, particles, lanes);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      list.least.value = min(list.least.value, list.value[scratch.near[i + lane]]);
-      plan_pair(list, lanes, static_cast<int>(lane), margin, scratch);
-    }
-  }
+  if (list.least.after(odometer) > margin || is_too_far(near, list)) return;
+  const float spent = list.least.spent(odometer) + odometer.next;
+  for (std::size_t b = 0; b < list.blocks.size(); ++b)
+    if (!(list.value[b] - spent > margin)) plan_block(list, list.blocks[b].stencils, list.pairs_in(b), margin, scratch);
 }
 
 void StepFilter::Round::plan_group(const StaticGroup& group, Scratch& scratch) const {
@@ -46,13 +39,21 @@ void StepFilter::Round::plan_group(const StaticGroup& group, Scratch& scratch) c
   const float margin = filter_margin(near, group);
   if (group.least.after(odometer) > margin || is_too_far(near, group)) return;
   const float spent = group.least.spent(odometer) + odometer.next;
+  for (std::size_t b = 0; b < group.blocks.size(); ++b)
+    if (!(group.value[b] - spent > margin)) plan_block(group, group.blocks[b], group.pairs_in(b), margin, scratch);
+}
+
+void StepFilter::Round::plan_block(const ClusterSides& sides, const PairStencils& stencils, int pairs, float margin,
+                                   Scratch& scratch) const {
+  alignas(64) float at_least[16];
+  near.kernels.lower_bounds(stencils, sides.of_vertices ? 1 : 2, particles.positions, at_least);
+  const float within = margin + near.odometer(sides).next;
+  if (std::none_of(at_least, at_least + pairs, [&](float bound) { return bound <= within; })) return;
   PairLanes lanes;
-  for (std::size_t b = 0; b < group.blocks.size(); ++b) {
-    if (group.value[b] - spent > margin) continue;
-    lanes.stencils = group.blocks[b];
-    find_paths(near, group, particles, lanes);
-    for (int lane = 0; lane < group.pairs_in(b); ++lane) plan_pair(group, lanes, lane, margin, scratch);
-  }
+  lanes.stencils = stencils;
+  find_paths(near, sides, particles, lanes);
+  for (int lane = 0; lane < pairs; ++lane)
+    if (at_least[lane] <= within) plan_pair(sides, lanes, lane, margin, scratch);
 }
 
 void StepFilter::Round::plan_pair(const ClusterSides& sides, const PairLanes& lanes, int lane, float margin,
@@ -152,7 +153,7 @@ void StepFilter::count() {
     for (const PairStencil& pair : scratch.unresolvable) {
       const int a = model_.vertex_body[pair.vertex[0]], b = model_.vertex_body[pair.vertex[3]];
       UnresolvablePairs& between = unresolvable_[std::minmax(a, b)];
-      if (between.count++ == 0) between.first = pair;
+      if (between.count++ == 0 || pair.vertex < between.first.vertex) between.first = pair;
       ++unresolvable_count_;
     }
   std::sort(truncated_in_.begin(), truncated_in_.end());

@@ -39,7 +39,6 @@ class StepFilter {
  private:
   /// Scratch memory of one thread.
   struct Scratch {
-    std::vector<std::int32_t> near;
     std::vector<SeparatingSlab> slabs;
     std::vector<std::pair<std::int32_t, float>> shares;
     std::vector<PairStencil> unresolvable;

@@ -65,43 +65,66 @@ void detect_pair(const Detection& d, const ClusterSides& sides, const PairLanes&
   add_contact(pair, lanes.at, lane, kept, d.particles, contacts);
 }
 
-void measure(const Detection& d, const ClusterSides& sides, PairLanes& lanes) {
-  d.near.kernels.distances(lanes.stencils, sides.of_vertices ? 1 : 2, d.particles.positions, lanes.at);
-  find_paths(d.near, sides, d.particles, lanes);
+/// True if any of sixteen pairs can come within the contact distance by what the odometer allows.
+bool any_in_reach(const PairBatch& at, const ClusterPair& clusters) {
+  const float within = clusters.material.thickness + clusters.odometer.next;
+  bool any = false;
+  for (int lane = 0; lane < 16; ++lane) any |= at.distance[lane] * (1 - 2e-5f) <= within;
+  return any;
 }
 
-void detect_list(const Detection& d, NearList& list, std::vector<std::int32_t>& near, std::vector<Contact>& contacts) {
-  const ClusterPair& clusters = d.near.pair_of(list);
-  const float within = cull_slack * clusters.material.thickness;
-  if (list.least.after(clusters.odometer) > within || is_too_far(d.near, list)) return;
-  collect_near(d.near, list, within, near);
-  const float spent = list.least.spent(clusters.odometer);
+/// Adds the contacts of the first `pairs` of sixteen pairs, and to `lane_of` the lane of each if it is given.
+void detect_block(const Detection& d, const ClusterSides& sides, const PairStencils& stencils, int pairs, float* at_rest,
+                  std::vector<Contact>& contacts, std::vector<int>* lane_of = nullptr) {
+  const ClusterPair& clusters = d.near.pair_of(sides);
   PairLanes lanes;
-  for (std::size_t i = 0; i < near.size(); i += 16) {
-    const std::size_t count = std::min<std::size_t>(16, near.size() - i);
-    for (std::size_t lane = 0; lane < 16; ++lane) lanes.set(lane, list.pairs[near[i + (lane < count ? lane : 0)]].vertex);
-    measure(d, list, lanes);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const std::int32_t number = near[i + lane];
-      const float value = (lanes.at.at_least[lane] + spent) * sum_slack;
-      list.value[number] = value;
-      list.least.value = min(list.least.value, value);
-    }
-    const unsigned valid = (1U << count) - 1;
-    for (unsigned left = find_candidates(lanes, clusters) & valid; left != 0; left &= left - 1) {
-      const int lane = __builtin_ctz(left);
-      detect_pair(d, list, lanes, lane, &list.pairs[near[i + static_cast<std::size_t>(lane)]].kept, contacts);
-    }
+  lanes.stencils = stencils;
+  d.near.kernels.distances(lanes.stencils, sides.of_vertices ? 1 : 2, d.particles.positions, lanes.at);
+  if (!any_in_reach(lanes.at, clusters)) return;
+  find_paths(d.near, sides, d.particles, lanes);
+  const unsigned valid = (1U << pairs) - 1;
+  for (unsigned left = find_candidates(lanes, clusters) & valid; left != 0; left &= left - 1) {
+    const int lane = __builtin_ctz(left);
+    detect_pair(d, sides, lanes, lane, at_rest != nullptr ? at_rest + lane : nullptr, contacts);
+    if (lane_of != nullptr) lane_of->resize(contacts.size(), lane);
   }
 }
 
-void detect_block(const Detection& d, const StaticGroup& group, std::size_t block, std::vector<Contact>& contacts) {
-  PairLanes lanes;
-  lanes.stencils = group.blocks[block];
-  measure(d, group, lanes);
-  const unsigned valid = (1U << group.pairs_in(block)) - 1;
-  for (unsigned left = find_candidates(lanes, d.near.pair_of(group)) & valid; left != 0; left &= left - 1)
-    detect_pair(d, group, lanes, __builtin_ctz(left), nullptr, contacts);
+/// Appends the contacts of a list in the order of their ranks, which does not depend on how blocks were made.
+void append_by_rank(std::vector<std::pair<std::int32_t, std::int32_t>>& ranks, const std::vector<Contact>& from,
+                    std::vector<Contact>& to) {
+  std::sort(ranks.begin(), ranks.end());
+  for (const auto& [rank, number] : ranks) to.push_back(from[static_cast<std::size_t>(number)]);
+}
+
+/// Loads the stencils of a block that is probably measured next: lists are sorted by distance, and exceed the caches.
+void prefetch(const PairStencils& stencils) {
+  for (const auto& vertex : stencils.vertex) __builtin_prefetch(vertex);
+}
+
+void detect_list(const Detection& d, NearList& list, ListContacts& found, std::vector<Contact>& contacts) {
+  const ClusterPair& clusters = d.near.pair_of(list);
+  const float within = cull_slack * clusters.material.thickness, next = clusters.odometer.next;
+  if (list.least.after(clusters.odometer) > within || is_too_far(d.near, list)) return;
+  const float spent = list.least.spent(clusters.odometer), gone = spent + next;
+  found.clear();
+  float least = out_of_reach;
+  for (std::size_t b = 0; b < list.blocks.size(); ++b) {
+    if (list.value[b] - gone <= within) {
+      NearBlock& block = list.blocks[b];
+      if (b + 1 < list.blocks.size()) prefetch(list.blocks[b + 1].stencils);
+      const float now = d.near.kernels.least_distance(block.stencils, list.of_vertices ? 1 : 2, d.particles.positions);
+      list.value[b] = (now + spent) * sum_slack;
+      if (now - next <= within) {
+        detect_block(d, list, block.stencils, list.pairs_in(b), block.kept.data(), found.contacts, &found.lane);
+        for (std::size_t i = found.rank.size(); i < found.contacts.size(); ++i)
+          found.rank.emplace_back(block.rank[static_cast<std::size_t>(found.lane[i])], static_cast<std::int32_t>(i));
+      }
+    }
+    least = min(least, list.value[b]);
+  }
+  list.least.value = least;
+  append_by_rank(found.rank, found.contacts, contacts);
 }
 
 /// Measures the static pairs of a group. If a block is due, blocks due within substeps_of_rest are measured with it.
@@ -116,13 +139,19 @@ void detect_group(const Detection& d, StaticGroup& group, std::vector<Contact>& 
     if (group.value[b] <= due) {
       const float least = d.near.kernels.least_distance(group.blocks[b], group.of_vertices ? 1 : 2, d.particles.positions);
       group.value[b] = least * sum_slack;
-      if (least - next <= within) detect_block(d, group, b, contacts);
+      if (least - next <= within) detect_block(d, group, group.blocks[b], group.pairs_in(b), nullptr, contacts);
     }
     group.least.value = min(group.least.value, group.value[b]);
   }
 }
 
 }  // namespace
+
+void ListContacts::clear() {
+  contacts.clear();
+  lane.clear();
+  rank.clear();
+}
 
 std::size_t ContactDetector::detect(Executor& executor, Neighbourhood& near, const PairParticles& particles,
                                     FunctionRef<bool(const PairStencil&)> is_exempt, std::vector<Contact>& contacts) {
@@ -136,7 +165,8 @@ std::size_t ContactDetector::detect(Executor& executor, Neighbourhood& near, con
     scratch.of_lists.clear();
     for (int g = task.first_group; g < task.last_group; ++g)
       detect_group(d, near.static_pairs.groups[g], scratch.of_groups);
-    for (int i = task.first; i < task.last; ++i) detect_list(d, near.lists[near.order[i]], scratch.near, scratch.of_lists);
+    for (int i = task.first; i < task.last; ++i)
+      detect_list(d, near.lists[near.order[i]], scratch.of_list, scratch.of_lists);
   });
   for (const Scratch& scratch : scratch_)
     contacts.insert(contacts.end(), scratch.of_groups.begin(), scratch.of_groups.end());

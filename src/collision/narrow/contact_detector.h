@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "collision/narrow/covered_pairs.h"
@@ -9,6 +10,15 @@
 #include "collision/near/neighbourhood.h"
 
 namespace pliant {
+
+/// The contacts of one near list in the order of its blocks; scratch memory.
+struct ListContacts {
+  std::vector<Contact> contacts;
+  std::vector<int> lane;                                    ///< of each contact in its block
+  std::vector<std::pair<std::int32_t, std::int32_t>> rank;  ///< of each contact, and its index
+
+  void clear();
+};
 
 class ContactDetector {
  public:
@@ -22,7 +32,7 @@ class ContactDetector {
  private:
   /// Scratch memory of one thread.
   struct Scratch {
-    std::vector<std::int32_t> near;
+    ListContacts of_list;
     std::vector<Contact> of_groups, of_lists;
   };
 

@@ -68,7 +68,7 @@ void BoxSearch::fit_cluster(int kind, int cluster, const Vec3f& drift, const Pai
 }
 
 void BoxSearch::find(const ClusterSides& sides, const BoxBounds& far, float reach, Scratch& scratch) {
-  scratch.found.clear();
+  scratch.found = 0;
   const int row = row_kind(sides.of_vertices), column = column_kind(sides.of_vertices);
   const ClusterElements &rows = layout_.elements[row], &columns = layout_.elements[column];
   Boxes &row_boxes = boxes_[row], &column_boxes = boxes_[column];
@@ -87,16 +87,25 @@ void BoxSearch::find(const ClusterSides& sides, const BoxBounds& far, float reac
         kernels_.find_overlaps({row_boxes.rows(), 16 * sixteen, reach, far_box, column_boxes.rows(), scratch.batches.data(),
                                 static_cast<int>(scratch.batches.size()), rows.left_out.data(), rows.left_out_start.data()},
                                scratch.hits.data());
-    add_pairs({rows, columns, sides.of_vertices, once}, scratch.hits.data(), count, scratch.found);
+    add_pairs({rows, columns, sides.of_vertices, once}, scratch.hits.data(), count, scratch);
   }
+  pad(scratch);
 }
 
 /// Appends hits without a common vertex. Keeping a hit is unpredictable, so all are written, and rejected ones
 /// overwritten.
-void BoxSearch::add_pairs(const Compared& of, const BoxHit* hits, int count, std::vector<NearPair>& found) {
-  std::size_t kept = found.size();
-  found.resize(kept + static_cast<std::size_t>(count));
-  NearPair* to = found.data();
+void BoxSearch::add_pairs(const Compared& of, const BoxHit* hits, int count, Scratch& scratch) {
+  std::size_t kept = static_cast<std::size_t>(scratch.found);
+  if (const std::size_t room = (kept + static_cast<std::size_t>(count)) / 16 + 1; scratch.blocks.size() < room)
+    scratch.blocks.resize(2 * room);
+  PairStencils* blocks = scratch.blocks.data();
+  const auto write = [&](std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
+    auto& vertex = blocks[kept / 16].vertex;
+    vertex[0][kept % 16] = a;
+    vertex[1][kept % 16] = b;
+    vertex[2][kept % 16] = c;
+    vertex[3][kept % 16] = d;
+  };
   const std::int32_t* row_item = of.rows.item.data();
   const std::array<const std::int32_t*, 3> corner{of.columns.corner[0].data(), of.columns.corner[1].data(),
                                                   of.columns.corner[2].data()};
@@ -105,18 +114,24 @@ void BoxSearch::add_pairs(const Compared& of, const BoxHit* hits, int count, std
     const std::int32_t f0 = corner[0][j], f1 = corner[1][j];
     if (of.of_vertices) {
       const std::int32_t vertex = row_item[i], f2 = corner[2][j];
-      to[kept] = {{vertex, f0, f1, f2}, -1};
+      write(vertex, f0, f1, f2);
       kept += static_cast<std::size_t>((f0 != vertex) & (f1 != vertex) & (f2 != vertex));
     } else {
       const std::int32_t e0 = of.rows.corner[0][i], e1 = of.rows.corner[1][i];
       // The edge whose vertices have the lower indices comes first. Indices of edges depend on which bodies were added
       // and removed.
       const bool swaps = (f0 < e0) | ((f0 == e0) & (f1 < e1));
-      to[kept] = {{swaps ? f0 : e0, swaps ? f1 : e1, swaps ? e0 : f0, swaps ? e1 : f1}, -1};
+      write(swaps ? f0 : e0, swaps ? f1 : e1, swaps ? e0 : f0, swaps ? e1 : f1);
       kept += static_cast<std::size_t>((!of.once | (j > i)) & (e0 != f0) & (e0 != f1) & (e1 != f0) & (e1 != f1));
     }
   }
-  found.resize(kept);
+  scratch.found = static_cast<int>(kept);
+}
+
+void BoxSearch::pad(Scratch& scratch) {
+  if (scratch.found % 16 == 0) return;
+  for (auto& vertex : scratch.blocks[static_cast<std::size_t>(scratch.found) / 16].vertex)
+    std::fill(std::begin(vertex) + scratch.found % 16, std::end(vertex), vertex[0]);
 }
 
 }  // namespace pliant

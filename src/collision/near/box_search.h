@@ -20,14 +20,21 @@ class BoxSearch {
   /// Computes all requested boxes.
   void fit(Executor& executor, const ClusterMotions& motions, const PairParticles& particles);
 
+  /// A pair that is kept in a near list.
+  struct Kept {
+    std::int32_t number;  ///< index of the pair found
+    std::int32_t interval;
+    float value;  ///< distance bound [m]
+  };
   /// Scratch memory of one thread.
   struct Scratch {
     std::vector<std::int32_t> batches;
     std::vector<BoxHit> hits;
-    std::vector<NearPair> found;
-    std::vector<float> value;  ///< distance bounds of the pairs kept [m]
+    AlignedVector<PairStencils> blocks;  ///< the pairs found, sixteen a block; unused lanes of the last one repeat a pair
+    int found = 0;                       ///< number of pairs found
+    std::vector<Kept> kept;
   };
-  /// Writes to scratch.found the pairs whose boxes come within `reach` [m], except static pairs and pairs with a common
+  /// Writes to scratch.blocks the pairs whose boxes come within `reach` [m], except static pairs and pairs with a common
   /// vertex. `far` encloses the second cluster.
   void find(const ClusterSides& sides, const BoxBounds& far, float reach, Scratch& scratch);
 
@@ -45,7 +52,8 @@ class BoxSearch {
     const ClusterElements &rows, &columns;
     bool of_vertices, once;
   };
-  static void add_pairs(const Compared& of, const BoxHit* hits, int count, std::vector<NearPair>& found);
+  static void add_pairs(const Compared& of, const BoxHit* hits, int count, Scratch& scratch);
+  static void pad(Scratch& scratch);
 
   const PairModel& model_;
   const PairKernels& kernels_;

@@ -36,7 +36,7 @@ void NearLists::remove(const std::vector<int>& bodies, const std::vector<Block>&
   std::erase_if(near_.order, [&](std::int32_t number) {
     NearList& list = near_.lists[number];
     if (is_removed[list.first] == 0 && is_removed[list.second] == 0) return false;
-    listed_ -= static_cast<std::int64_t>(list.pairs.size());
+    listed_ -= list.pairs;
     list = {};
     unused_lists_.push_back(number);
     return true;

@@ -1,6 +1,7 @@
 #include "collision/near/near_lists.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 
@@ -20,6 +21,27 @@ constexpr float most_skins = 1.25f, fewest_skins = 0.2f;
 float distance_between(const BoxBounds& a, const BoxBounds& b) {
   const Vec3f apart = max(a.low - b.high, b.low - a.high);
   return max(max(apart.x, apart.y), apart.z);
+}
+
+/// The intervals of distance by which the pairs of a list are sorted.
+constexpr int intervals = 32;
+
+/// Sets the number of pairs of an empty list. Sizes are exact where they grow: the growth capacity of vectors would nearly
+/// double the memory of contact.
+void make_blocks(NearList& list, std::size_t pairs) {
+  const std::size_t blocks = (pairs + 15) / 16;
+  list.pairs = static_cast<int>(pairs);
+  if (blocks > list.blocks.capacity() || 2 * blocks < list.blocks.capacity())
+    list.blocks = AlignedVector<NearBlock>(blocks);
+  else
+    list.blocks.resize(blocks);
+  list.value.assign(blocks, out_of_reach);
+}
+
+void copy(const PairStencils& from, std::size_t lane, std::int32_t rank, NearBlock& to, std::size_t at) {
+  for (std::size_t k = 0; k < 4; ++k) to.stencils.vertex[k][at] = from.vertex[k][lane];
+  to.kept[at] = -1;
+  to.rank[at] = rank;
 }
 
 }  // namespace
@@ -66,7 +88,7 @@ void NearLists::update(Executor& executor, const PairParticles& particles) {
     for (const std::int32_t list : scratch_[task].stale) refresh(near_.lists[list], scratch_[task].search, particles);
   });
   listed_ = 0;
-  for (const std::int32_t list : near_.order) listed_ += static_cast<std::int64_t>(near_.lists[list].pairs.size());
+  for (const std::int32_t list : near_.order) listed_ += near_.lists[list].pairs;
 }
 
 // ---------------------------------------------------------------- pairs of clusters
@@ -196,32 +218,38 @@ void NearLists::refresh(NearList& list, BoxSearch::Scratch& scratch, const PairP
   keep_near(list, activation + max(margin, 1.1f * odometer.next), scratch, particles);
 }
 
-/// Measures the pairs found and adds those nearer than `within` to the list. Which ones is unpredictable, so each is written,
-/// and the next one overwrites it if it is not kept.
+/// Measures the pairs found and makes the list's blocks of those nearer than `within`, nearest first: sorted by counting
+/// into intervals of distance. Which ones are kept is unpredictable, so each is written, and the next one overwrites it.
 void NearLists::keep_near(NearList& list, float within, BoxSearch::Scratch& scratch, const PairParticles& particles) const {
-  std::vector<NearPair>& found = scratch.found;
-  scratch.value.resize(found.size());
+  const auto found = static_cast<std::size_t>(scratch.found);
+  if (scratch.kept.size() <= found) scratch.kept.resize(2 * found + 1);
+  const float scale = intervals / within;
+  std::array<std::int32_t, intervals + 2> next{};
   std::size_t kept = 0;
-  PairLanes lanes;
-  const float spent = list.least.spent(near_.odometer(list));
-  float least = list.least.value;
-  for (std::size_t i = 0; i < found.size(); i += 16) {
-    const std::size_t count = std::min<std::size_t>(16, found.size() - i);
-    for (std::size_t lane = 0; lane < 16; ++lane) lanes.set(lane, found[i + (lane < count ? lane : 0)].vertex);
-    near_.kernels.distances(lanes.stencils, list.of_vertices ? 1 : 2, particles.positions, lanes.at);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const float value = (lanes.at.at_least[lane] + spent) * sum_slack;
-      found[kept] = found[i + lane];
-      scratch.value[kept] = value;
+  for (std::size_t i = 0; i < found; i += 16) {
+    alignas(64) float bounds[16];
+    near_.kernels.lower_bounds(scratch.blocks[i / 16], list.of_vertices ? 1 : 2, particles.positions, bounds);
+    for (std::size_t k = i; k < std::min(i + 16, found); ++k) {
+      const float value = bounds[k - i] * sum_slack;
       const bool is_kept = !(value > within);
-      least = min(least, is_kept ? value : least);
+      const int interval = static_cast<int>((value <= within ? value : 0.f) * scale);
+      scratch.kept[kept] = {static_cast<std::int32_t>(k), interval, value};
+      next[static_cast<std::size_t>(interval) + 1] += is_kept ? 1 : 0;
       kept += static_cast<std::size_t>(is_kept);
     }
   }
-  list.least.value = least;
-  // Exact-size copies: the growth capacity of vectors would nearly double the memory of contact.
-  list.pairs = std::vector<NearPair>(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept));
-  list.value = std::vector<float>(scratch.value.begin(), scratch.value.begin() + static_cast<std::ptrdiff_t>(kept));
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  make_blocks(list, kept);
+  for (std::size_t i = 0; i < kept; ++i) {
+    const BoxSearch::Kept& pair = scratch.kept[i];
+    const auto from = static_cast<std::size_t>(pair.number),
+               to = static_cast<std::size_t>(next[static_cast<std::size_t>(pair.interval)]++);
+    copy(scratch.blocks[from / 16], from % 16, pair.number, list.blocks[to / 16], to % 16);
+    list.value[to / 16] = min(list.value[to / 16], pair.value);
+    list.least.value = min(list.least.value, pair.value);
+  }
+  for (std::size_t to = kept; to % 16 != 0; ++to)
+    copy(list.blocks[to / 16].stencils, 0, list.blocks[to / 16].rank[0], list.blocks[to / 16], to % 16);
 }
 
 }  // namespace pliant

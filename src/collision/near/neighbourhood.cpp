@@ -3,7 +3,8 @@
 namespace pliant {
 
 void NearList::clear(const Odometer& odometer) {
-  pairs.clear();
+  pairs = 0;
+  blocks.clear();
   value.clear();
   least = {out_of_reach, odometer.total};
 }
@@ -23,18 +24,6 @@ void find_paths(const Neighbourhood& near, const ClusterSides& sides, const Pair
                      {&near.motions[sides.first], &near.motions[sides.second], swapped, near.motions.mean()}, lanes.paths);
   const float rigid = near.pair_of(sides).rigid;
   for (float& falls : lanes.paths.falls) falls += rigid;
-}
-
-void collect_near(const Neighbourhood& near, NearList& list, float within, std::vector<std::int32_t>& found) {
-  found.clear();
-  const Odometer& odometer = near.odometer(list);
-  if (list.least.after(odometer) > within) return;
-  list.least.value = out_of_reach;
-  found.resize(list.value.size());
-  const int count =
-      near.kernels.collect(list.value.data(), static_cast<int>(list.value.size()),
-                           list.least.spent(odometer) + odometer.next, within, found.data(), list.least.value);
-  found.resize(static_cast<std::size_t>(count));
 }
 
 }  // namespace pliant

@@ -3,6 +3,7 @@
 // It is plain data: NearLists updates it; contact detection and the filter read it, and update its distance bounds.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -11,23 +12,29 @@
 #include "collision/near/cluster_motions.h"
 #include "collision/near/cluster_pairs.h"
 #include "collision/near/static_pairs.h"
+#include "model/pool.h"
 
 namespace pliant {
 
-/// A pair of primitives in a near list.
-struct NearPair {
-  std::array<std::int32_t, 4> vertex{};  ///< indices: a vertex and a triangle, or two edges, the lower edge first
-  float kept = -1;                       ///< contact distance that the distance at rest permits [m]; < 0: not computed yet
+/// Sixteen pairs of a near list: vertices with triangles, or edges with edges, the lower edge first.
+struct NearBlock {
+  PairStencils stencils;
+  std::array<float, 16> kept;         ///< contact distance that the distance at rest permits [m]; < 0: not computed yet
+  std::array<std::int32_t, 16> rank;  ///< position in the order of contacts, ascending by row and column of the search
 };
 
-/// The near pairs of two clusters. The list contains all near pairs until motion exceeds the bound `complete`.
+/// The near pairs of two clusters. The list contains all near pairs until motion exceeds the bound `complete`. Blocks hold
+/// pairs of similar distance, so that far blocks are skipped whole.
 struct NearList : ClusterSides {
   Bound complete{-1, 0};
-  Bound least{0, 0};  ///< smallest distance bound of all pairs
-  std::vector<NearPair> pairs{};
-  std::vector<float> value{};  ///< distance bound of each pair at the odometer total least.since [m]
+  Bound least{0, 0};  ///< smallest distance bound of all blocks
+  int pairs = 0;
+  AlignedVector<NearBlock> blocks{};
+  std::vector<float> value{};  ///< smallest distance bound of each block at the odometer total least.since [m]
 
   void clear(const Odometer& odometer);
+  /// The number of pairs in a block; its remaining lanes repeat a pair.
+  int pairs_in(std::size_t block) const { return std::min(16, pairs - 16 * static_cast<int>(block)); }
 };
 
 /// A range of near lists and a range of static groups: a unit of work for threads.
@@ -63,9 +70,6 @@ struct PairLanes {
     const auto& v = stencils.vertex;
     return {{v[0][lane], v[1][lane], v[2][lane], v[3][lane]}, of_vertices ? 1 : 2};
   }
-  void set(std::size_t lane, const std::array<std::int32_t, 4>& vertex) {
-    for (std::size_t k = 0; k < 4; ++k) stencils.vertex[k][lane] = vertex[k];
-  }
 };
 
 /// Lower limit of the filter's margin, in roundings of the positions.
@@ -95,9 +99,5 @@ float activation_distance(const Neighbourhood& near, const ClusterSides& sides);
 
 /// Computes upper bounds of the decrease of sixteen distances in this substep, and separations of the swept boxes.
 void find_paths(const Neighbourhood& near, const ClusterSides& sides, const PairParticles& particles, PairLanes& lanes);
-
-/// Writes to `found` the ascending indices of pairs that can be nearer than `within` at the substep's end. Lowers
-/// `least` to the smallest bound of all other pairs.
-void collect_near(const Neighbourhood& near, NearList& list, float within, std::vector<std::int32_t>& found);
 
 }  // namespace pliant

@@ -109,9 +109,6 @@ struct PairKernels {
                     const BoxRows& out);
   /// Writes all pairs of overlapping rows and columns to `hits`, ascending; returns their number. Room: 256 a batch of rows.
   int (*find_overlaps)(const BoxComparison& boxes, BoxHit* hits);
-  /// Writes to `near` the ascending indices i with reach[i] - gone <= within; `near` has room for all. Lowers `least`
-  /// to the smallest reach of all other indices. Returns the number of indices written.
-  int (*collect)(const float* reach, int count, float gone, float within, std::int32_t* near, float& least);
   /// Gathers the positions of vertices number `first` to `last` - 1, both multiples of sixteen.
   void (*gather_places)(const std::int32_t* vertices, int first, int last, const Record* positions, const PlaceRows& out);
   /// Returns the largest squared length of lines `first` to `last` - 1, both multiples of sixteen [m^2].
@@ -120,6 +117,8 @@ struct PairKernels {
   float (*least_squared)(const VertexComparison& vertices, float beyond);
   /// Returns the least of sixteen lower bounds of distances (PairBatch::at_least), at most one rounding lower [m].
   float (*least_distance)(const PairStencils& pairs, int first_side, const Record* positions);
+  /// Lower bounds of sixteen distances, at most one rounding below PairBatch::at_least [m]; `out` holds sixteen.
+  void (*lower_bounds)(const PairStencils& pairs, int first_side, const Record* positions, float* out);
   void (*distances)(const PairStencils& pairs, int first_side, const Record* positions, PairBatch& out);
   void (*paths)(const PairStencils& pairs, int first_side, const PairParticles& particles, const PairMotion& motion,
                 PairPaths& out);

@@ -125,11 +125,19 @@ PLIANT_HD Wide least_squared_of_segments(const Vec3<Wide>& u, const Vec3<Wide>& 
   return select(squared_sine > uu * vv * Wide(least_angle * least_angle), lines, ends);
 }
 
-float least_distance(const PairStencils& pairs, int first_side, const Record* positions) {
+PLIANT_HD Wide bounds_of(const PairStencils& pairs, int first_side, const Record* positions) {
   const auto [x] = corners_of(pairs, positions);
   const Wide squared =
       first_side == 1 ? least_squared_to_triangle(x[1], x[2], x[3]) : least_squared_of_segments(x[1], x[2], x[3]);
-  return least_lane(at_least(sqrt(squared) * Wide(1 - 1e-6f), x));
+  return at_least(sqrt(squared) * Wide(1 - 1e-6f), x);
+}
+
+float least_distance(const PairStencils& pairs, int first_side, const Record* positions) {
+  return least_lane(bounds_of(pairs, first_side, positions));
+}
+
+void lower_bounds(const PairStencils& pairs, int first_side, const Record* positions, float* out) {
+  store_wide(out, bounds_of(pairs, first_side, positions));
 }
 
 // ---------------------------------------------------------------- moves
@@ -383,49 +391,6 @@ int find_overlaps(const BoxComparison& of, BoxHit* hits) {
   return found;
 }
 
-// ---------------------------------------------------------------- reaches
-
-/// Converts a mask to bits: bit i is set if lane i is true.
-PLIANT_HD unsigned bits_of(const WideMask& mask) {
-#if PLIANT_X86_BITS == 512
-  return _mm512_movepi32_mask((__m512i)mask.part[0]);
-#else
-  unsigned bits = 0;
-  for (int part = 0; part < wide_parts; ++part) {
-#if PLIANT_X86_BITS == 256
-    bits |= static_cast<unsigned>(_mm256_movemask_ps((__m256)mask.part[part])) << (part * part_width);
-#elif PLIANT_X86_BITS == 128
-    bits |= static_cast<unsigned>(_mm_movemask_ps((__m128)mask.part[part])) << (part * part_width);
-#else
-    for (int lane = 0; lane < part_width; ++lane)
-      bits |= static_cast<unsigned>(mask.part[part][lane] & 1) << (part * part_width + lane);
-#endif
-  }
-  return bits;
-#endif
-}
-
-int collect(const float* reach, int count, float gone, float within, std::int32_t* near, float& least) {
-  const Wide moved(gone), limit(within);
-  Wide others(least);
-  int found = 0;
-  for (int i = 0; i + 16 <= count; i += 16) {
-    const Wide at = load_wide(reach + i);
-    const WideMask is_near = at - moved <= limit;
-    others = min(select(is_near, others, at), others);
-    for (unsigned bits = bits_of(is_near); bits != 0; bits &= bits - 1) near[found++] = i + __builtin_ctz(bits);
-  }
-  least = least_lane(others);
-  for (int i = count - count % 16; i < count; ++i) {
-    if (reach[i] - gone <= within) {
-      near[found++] = i;
-    } else {
-      least = pliant::min(least, reach[i]);
-    }
-  }
-  return found;
-}
-
 // ---------------------------------------------------------------- vertices
 
 void gather_places(const std::int32_t* vertices, int first, int last, const Record* positions, const PlaceRows& out) {
@@ -473,8 +438,8 @@ float least_squared(const VertexComparison& of, float beyond) {
 }  // namespace PLIANT_ISA
 
 const PairKernels& PLIANT_OF_LEVEL(pair_kernels)() {
-  static constexpr PairKernels kernels{measure_cluster, fit_boxes,     find_overlaps,  collect,   gather_places,
-                                       longest_squared, least_squared, least_distance, distances, paths};
+  static constexpr PairKernels kernels{measure_cluster, fit_boxes,      find_overlaps, gather_places, longest_squared,
+                                       least_squared,   least_distance, lower_bounds,  distances,     paths};
   return kernels;
 }
 
