@@ -34,6 +34,8 @@ class Timings {
  public:
   void add(const char* name, double milliseconds);
   void clear();
+  /// Adds all times of another one, and sets those to zero.
+  void take(Timings& other);
   struct Entry {
     const char* name;
     double milliseconds;
@@ -74,13 +76,21 @@ class Executor {
   /// Calls body(i) once for each i in [0, n), timed under `name`. The calling thread does all if n or the threads are 1.
   void parallel_for(const char* name, int n, FunctionRef<void(int)> body);
 
-  Timings& timings() { return timings_; }
+  /// Calls body(i, thread) once for each i in [0, n), where bodies contain loops of their own. `thread` is in
+  /// [0, threads()), and no two bodies that run at the same time have the same, so it may choose their scratch memory.
+  /// Call it within enter(). Loops of different bodies that run at the same time are timed each on its own.
+  void side_by_side(int n, FunctionRef<void(int i, int thread)> body);
+
+  /// The timings of the calling thread; after side_by_side the sum over all threads.
+  Timings& timings() { return own_timings_ != nullptr ? *own_timings_ : timings_; }
 
  private:
   struct Arena;
   int threads_;
   std::unique_ptr<Arena> arena_;
   Timings timings_;
+  std::vector<Timings> timings_of_threads_;
+  static thread_local Timings* own_timings_;  ///< within side_by_side those of the thread; else null
 };
 
 }  // namespace pliant

@@ -19,4 +19,8 @@ void Executor::parallel_for(const char* name, int n, FunctionRef<void(int)> body
   for (int i = 0; i < n; ++i) body(i);
 }
 
+void Executor::side_by_side(int n, FunctionRef<void(int, int)> body) {
+  for (int i = 0; i < n; ++i) body(i, 0);
+}
+
 }  // namespace pliant

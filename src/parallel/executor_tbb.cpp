@@ -68,22 +68,51 @@ void Executor::enter(FunctionRef<void()> f) {
   }
 }
 
+namespace {
+
+/// Calls body(i) for each i in [0, n) on the threads of the arena.
+template <class Body>
+void run_on_all_threads(int n, const Body& body) {
+  hand_over_release(&handed_out);
+  tbb::parallel_for(
+      0, n, 1,
+      [&](int i) PLIANT_UNSEEN_BY_TSAN {
+        hand_over_acquire(&handed_out);
+        body(i);
+        hand_over_release(&handed_back);
+      },
+      tbb::simple_partitioner{});
+  hand_over_acquire(&handed_back);
+}
+
+}  // namespace
+
 void Executor::parallel_for(const char* name, int n, FunctionRef<void(int)> body) {
-  Stopwatch watch(timings_, name);
+  Stopwatch watch(timings(), name);
   if (n <= 1 || threads_ == 1) {
     for (int i = 0; i < n; ++i) body(i);
+  } else if (own_timings_ == nullptr) {
+    run_on_all_threads(n, body);
   } else {
-    hand_over_release(&handed_out);
-    tbb::parallel_for(
-        0, n, 1,
-        [&](int i) PLIANT_UNSEEN_BY_TSAN {
-          hand_over_acquire(&handed_out);
-          body(i);
-          hand_over_release(&handed_back);
-        },
-        tbb::simple_partitioner{});
-    hand_over_acquire(&handed_back);
+    // Isolated: a thread that waits for the end of this loop must not start another body of side_by_side meanwhile, which
+    // would use the same scratch memory.
+    tbb::this_task_arena::isolate([&] { run_on_all_threads(n, body); });
   }
+}
+
+void Executor::side_by_side(int n, FunctionRef<void(int, int)> body) {
+  if (n <= 1 || threads_ == 1) {
+    for (int i = 0; i < n; ++i) body(i, 0);
+    return;
+  }
+  timings_of_threads_.resize(static_cast<std::size_t>(threads_));
+  run_on_all_threads(n, [&](int i) {
+    const int thread = tbb::this_task_arena::current_thread_index();
+    own_timings_ = &timings_of_threads_[static_cast<std::size_t>(thread)];
+    body(i, thread);
+    own_timings_ = nullptr;
+  });
+  for (Timings& timings : timings_of_threads_) timings_.take(timings);
 }
 
 }  // namespace pliant

@@ -28,6 +28,13 @@ void Timings::clear() {
   for (Entry& entry : entries_) entry.milliseconds = 0;
 }
 
+void Timings::take(Timings& other) {
+  for (const Entry& entry : other.entries_) add(entry.name, entry.milliseconds);
+  other.clear();
+}
+
+thread_local Timings* Executor::own_timings_ = nullptr;
+
 Stopwatch::Stopwatch(Timings& timings, const char* name) : timings_(timings), name_(name), start_(nanoseconds()) {}
 Stopwatch::~Stopwatch() { timings_.add(name_, static_cast<double>(nanoseconds() - start_) * 1e-6); }
 

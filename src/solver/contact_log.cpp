@@ -76,7 +76,7 @@ void log_contacts(const Substep& s, ContactLog& log) {
     for (const Contact& contact : s.work.tiles[task].contacts) log_contact(s, contact, of, slow, log);
   });
   const PointReader all{s.state.positions.data(), s.work.displacements.data(), s.h, -1};
-  for (const Contact& contact : s.work.shape_contacts.contacts()) log_contact(s, contact, all, slow, log);
+  for (const Contact& contact : s.own->shape_contacts) log_contact(s, contact, all, slow, log);
   if (s.has_pairs())
     for (const Contact& contact : s.pairs->contacts()) log_contact(s, contact, all, slow, log);
   for (auto& [bodies, sum] : log) {

@@ -96,14 +96,14 @@ std::string first_bad_particle(const CompiledObject& object, const Tile& tile, c
   return "a particle";
 }
 
-/// The tasks of the tiles with non-finite values, for the first object that has any.
-std::vector<int> bad_tasks(const StepContext& context) {
-  const Model& model = context.model;
+/// The tasks of the tiles with non-finite values, for the first object of the group that has any.
+std::vector<int> bad_tasks(const Substep& s) {
+  const std::vector<Task>& tiles = s.model.tiles();
   std::vector<int> bad;
-  for (int task = 0; task < static_cast<int>(model.tiles().size()); ++task) {
-    if (context.workspace.tiles[task].finite) continue;
-    if (bad.empty() || model.tiles()[task].object == model.tiles()[bad.front()].object) bad.push_back(task);
-  }
+  for_each_tile(s, [&](int task) {
+    if (s.work.tiles[task].finite) return;
+    if (bad.empty() || tiles[task].object == tiles[bad.front()].object) bad.push_back(task);
+  });
   return bad;
 }
 
@@ -166,7 +166,7 @@ void make_finite(const StepContext& context) {
 NonFinite diagnose(const Substep& s) {
   const StepContext& context = s.context;
   NonFinite found;
-  const std::vector<int> bad = bad_tasks(context);
+  const std::vector<int> bad = bad_tasks(s);
   if (!bad.empty()) {
     const int number = context.model.tiles()[bad.front()].object;
     found.object = context.model.objects[number].name;

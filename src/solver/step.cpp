@@ -1,6 +1,6 @@
 // Advances all objects by one frame. Read this file first.
 //
-//   for each substep of length h = dt / substeps, of the group of objects whose substep ends first
+//   for each group of objects, side by side or in turn, and for each of its substeps of length h = dt / substeps
 //     control       kinematic colliders move to their pose at the substep's end
 //     forces        wind and force fields change velocities
 //     predict       v += h g, displacement = h v                            symplectic Euler
@@ -46,30 +46,67 @@ bool all_end_together(const std::vector<Substep>& groups, const Substep& s) {
   return std::none_of(groups.begin(), groups.end(), [&](const Substep& other) { return ends_before(s, other); });
 }
 
-void run(const StepContext& context, double dt, Report& report) {
-  std::vector<Substep> groups = begin_frame(context, dt, report);
+/// Makes the current substep of a group, the last one if stops() is true. False if a value is not finite.
+bool make_substep(Substep& s, FunctionRef<bool()> stops) {
+  control(s);
+  apply_forces(s);
+  if (!predict(s)) return false;
+  collide(s);
+  solve(s);
+  solve_again(s);
+  limit(s);
+  if (stops()) s.substeps = s.number + 1;
+  filter(s);
+  if (s.work.contact_log != nullptr) log_contacts(s, *s.work.contact_log);
+  if (!update(s)) return false;
+  respond(s);
+  count_contacts(s);
+  ++s.number;
+  ++s.made;
+  begin_quarter(s);
+  return true;
+}
+
+/// Makes the substeps of all groups in the order of their ends, so that the frame can be stopped between them.
+void run_in_turn(const StepContext& context, std::vector<Substep>& groups) {
   bool stops = false;
   while (Substep* next = first_to_end(groups)) {
-    Substep& s = *next;
-    control(s);
-    apply_forces(s);
-    if (!predict(s)) return;
-    collide(s);
-    solve(s);
-    solve_again(s);
-    limit(s);
-    stops = stops || (context.stop != nullptr && *context.stop && all_end_together(groups, s));
-    if (stops) s.substeps = s.number + 1;  // makes this substep the last of its group
-    filter(s);
-    if (s.work.contact_log != nullptr) log_contacts(s, *s.work.contact_log);
-    if (!update(s)) return;
-    respond(s);
-    if (s.is_last()) end_group(s);
-    ++s.number;
-    ++s.made;
-    begin_quarter(s);
+    const bool is_finite = make_substep(*next, [&] {
+      return stops = stops || (context.stop != nullptr && *context.stop && all_end_together(groups, *next));
+    });
+    if (!is_finite) return;
   }
-  end_frame(groups);
+}
+
+/// Makes the substeps of each group up to a share of the frame, of several groups at the same time.
+void run_side_by_side(const StepContext& context, std::vector<Substep>& groups, int quarter) {
+  context.executor.side_by_side(static_cast<int>(groups.size()), [&](int g, int thread) {
+    Substep& s = groups[static_cast<std::size_t>(g)];
+    s.own = &context.workspace.of_thread[static_cast<std::size_t>(thread)];
+    while (s.number < s.substeps && s.number * quarters < quarter * s.planned)
+      if (!make_substep(s, [] { return false; })) return;
+  });
+}
+
+/// The same for the whole frame, which a request to stop ends at a quarter, where all groups have reached one time.
+void run_by_quarters(const StepContext& context, std::vector<Substep>& groups) {
+  for (int quarter = context.stop == nullptr ? quarters : 1; quarter <= quarters; ++quarter) {
+    run_side_by_side(context, groups, quarter);
+    const bool failed = std::any_of(groups.begin(), groups.end(), [](const Substep& s) { return s.failed_in >= 0; });
+    if (failed) return;
+    if (context.stop == nullptr || !*context.stop || quarter == quarters) continue;
+    for (Substep& s : groups) s.substeps = s.number;
+    return;
+  }
+}
+
+void run(const StepContext& context, double dt, Report& report) {
+  std::vector<Substep> groups = begin_frame(context, dt);
+  if (may_run_side_by_side(groups))
+    run_by_quarters(context, groups);
+  else
+    run_in_turn(context, groups);
+  if (!end_frame(groups, report)) return;
   if (context.meter != nullptr && !report.stopped)
     report.overstretch = context.meter->measure({context.model, context.state, context.workspace, context.kernels.lengths},
                                                 &context.executor);

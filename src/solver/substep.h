@@ -13,7 +13,8 @@ struct Substep {
   State& state;
   Workspace& work;
   const Kernels& kernels;
-  Report& report;
+  SubstepScratch* own = nullptr;       ///< scratch data
+  Report report{};                     ///< what this group adds to the frame's report
   const SubstepGroup* part = nullptr;  ///< objects that take part; null: all
   SurfaceContact* pairs = nullptr;     ///< contact of their surfaces; null if no two can touch
   double frame_start = 0, dt = 0;      ///< start and length of the frame [s]
@@ -33,6 +34,7 @@ struct Substep {
   int least_hanging = 0;    ///< replaces `least` in quarters in which the group hangs
   bool hangs = false;       ///< true if it does in this quarter: SubstepGroup::hangs, and its tethers hold
   int made = 0;             ///< substeps made in this frame
+  int failed_in = -1;       ///< the substep of this frame in which a value was not finite; -1: none
   const std::vector<Task>* own_lengths = nullptr;  ///< SubstepGroup::lengths; null: none
 
   /// The distances that the limit and the law of substeps apply to.
@@ -40,6 +42,7 @@ struct Substep {
     static const std::vector<Task> none;
     return own_lengths == nullptr ? none : *own_lengths;
   }
+  bool follows_state() const { return most > 0; }
   bool is_last() const { return number + 1 == substeps; }
   bool has_pairs() const { return pairs != nullptr; }
   const std::vector<Phase>& phases() const { return part == nullptr ? model.phases : part->phases; }

@@ -1,8 +1,9 @@
 // A substep group: all sets of objects (model/object_sets.h) that have the same number of substeps in a frame, or one set
 // whose substeps follow its State (substep_law.h).
 //
-// Groups share nothing within a frame, so each gets the bits that it gets alone. The group whose substep ends first
-// always goes next, so that a frame can be stopped where all groups have reached the same time (solver/step.cpp).
+// Groups share nothing within a frame, so each gets the bits that it gets alone, also if they run side by side. Where
+// they take turns, the group whose substep ends first always goes next, so that a frame can be stopped where all groups
+// have reached the same time (solver/step.cpp).
 #pragma once
 
 #include <memory>

@@ -26,7 +26,7 @@ constexpr double share_beyond = 0.01;
 /// The substeps per frame that all but a share of the constraints are satisfied with; `least` if those are fewer.
 double demanded(Substep& s, int least) {
   const std::vector<Task>& tasks = s.lengths();
-  std::vector<std::vector<FoundLength>>& found = s.work.limit.found;
+  std::vector<std::vector<FoundLength>>& found = s.own->limit.found;
   if (found.size() < tasks.size()) found.resize(tasks.size());
   for_tasks(s, "choose substeps", static_cast<int>(tasks.size()), [&](int i) {
     const CompiledObject& object = s.model.objects[tasks[i].object];
@@ -41,7 +41,7 @@ double demanded(Substep& s, int least) {
         found[i]);
   });
   double constraints = 0;
-  std::vector<float>& all = s.work.demands;
+  std::vector<float>& all = s.own->demands;
   all.clear();
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const CompiledObject& object = s.model.objects[tasks[i].object];

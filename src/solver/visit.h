@@ -7,6 +7,7 @@
 #include <string>
 
 #include "model/compiled_object.h"
+#include "pliant/report.h"
 #include "solver/project.h"
 
 namespace pliant {

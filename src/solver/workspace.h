@@ -45,6 +45,18 @@ struct FrameScratch {
   Records predicted, corrections;  ///< rotation vectors of each frame in world axes [rad]
 };
 
+/// Scratch data of a substep of a group. Nothing lasts for the next one, so groups that take turns share it; groups that run
+/// side by side have one for each thread.
+struct SubstepScratch {
+  std::vector<MovingCollider> colliders;
+  ContactSolver contact_solver;         ///< projects contacts between surfaces
+  std::vector<Contact> shape_contacts;  ///< contacts of edges and triangles with primitive colliders
+  ContactSolver shape_contact_solver;
+  std::vector<AlignedVector<float>> chains;  ///< for each thread that solves chains, room for the longest
+  std::vector<float> demands;                ///< substeps that constraints demand (substep_law.h)
+  LimitScratch limit;                        ///< the limit of overstretch
+};
+
 /// Memory that a World reuses from step to step. Over fifteen members: each stage of a substep has buffers of its own.
 struct Workspace {
   Records displacements;                                       ///< displacements since the substep's start [m]
@@ -56,21 +68,17 @@ struct Workspace {
   Records volume_gradients;                         ///< gradient at each particle, if any object has a volume constraint
   std::vector<std::vector<Vec3f>> triangle_forces;  ///< [object][triangle], if there is air
   std::vector<TileScratch> tiles;                   ///< scratch data of each tile of the model
-  std::vector<MovingCollider> colliders;
-  std::unique_ptr<ContactLog> contact_log;  ///< null if contact events are not requested
-  Control control;                          ///< what the user set for the current frame
-  std::vector<FrameGravity> gravity;        ///< gravity in each object's velocities
-  std::vector<Records> anchors;             ///< [object], a position and a displacement for each tether anchor
-  SweepGroups sweeps;                       ///< the sweep groups in use
-  Records predicted;                        ///< predicted displacements, kept if residuals are recorded
-  std::unique_ptr<SurfaceContact> pairs;    ///< contact between surfaces; null if no dynamic surface can touch another
-  ContactSolver contact_solver;             ///< projects the contacts of `pairs`
-  ShapeContacts shape_contacts;             ///< contacts of edges and triangles with primitive colliders
-  ContactSolver shape_contact_solver;
+  std::vector<SubstepScratch> of_thread;            ///< [0] also for groups that take turns
+  std::unique_ptr<ContactLog> contact_log;          ///< null if contact events are not requested
+  Control control;                                  ///< what the user set for the current frame
+  std::vector<FrameGravity> gravity;                ///< gravity in each object's velocities
+  std::vector<Records> anchors;                     ///< [object], a position and a displacement for each tether anchor
+  SweepGroups sweeps;                               ///< the sweep groups in use
+  Records predicted;                                ///< predicted displacements, kept if residuals are recorded
+  std::unique_ptr<SurfaceContact> pairs;  ///< contact between surfaces; null if no dynamic surface can touch another
+  ShapeContacts shape_contacts;           ///< finds contacts of edges and triangles with primitive colliders
   bool look_for_tangles = true;  ///< true: the next frame searches all initial intersections (first frame, restored State)
-  std::vector<float> demands;    ///< substeps that constraints demand (substep_law.h)
   std::vector<float> last_h;     ///< length of each object's last substep [s]; 0: none yet
-  LimitScratch limit;            ///< the limit of overstretch
   ResidualScratch residual;      ///< the residual for Settings::tolerance
 };
 

@@ -45,6 +45,33 @@ TEST(Executor, SumsInSlotsAreTheSameOnAnyNumberOfThreads) {
   for (int threads : {2, 3, 4, 8}) EXPECT_EQ(sum_with(threads), sum_with(1));
 }
 
+/// Bodies that run at the same time have different scratch memory, though their inner loops share threads.
+TEST(Executor, RunsLoopsSideBySide) {
+  for (const int threads : {1, 2, 3, 8}) {
+    Executor executor(threads);
+    std::vector<std::atomic<int>> users(static_cast<std::size_t>(threads)), visits(50);
+    std::atomic<int> shared{0};
+    executor.enter([&] {
+      executor.side_by_side(50, [&](int i, int thread) {
+        ASSERT_GE(thread, 0);
+        ASSERT_LT(thread, threads);
+        std::atomic<int>& user = users[static_cast<std::size_t>(thread)];
+        if (++user > 1) ++shared;
+        for (int loop = 0; loop < 5; ++loop)
+          executor.parallel_for("inner", 20, [&](int) {
+            ++visits[static_cast<std::size_t>(i)];
+            std::this_thread::sleep_for(std::chrono::microseconds(20));  // so that others wait for the loop's end
+          });
+        --user;
+      });
+    });
+    EXPECT_EQ(shared, 0);
+    for (const auto& count : visits) EXPECT_EQ(count, 100);
+    ASSERT_EQ(executor.timings().entries().size(), 1U);
+    EXPECT_GT(executor.timings().entries()[0].milliseconds, 0);
+  }
+}
+
 TEST(Executor, CanBeMoved) {
   Executor first(3);
   Executor second(std::move(first));

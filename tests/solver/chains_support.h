@@ -7,7 +7,7 @@
 
 #include "model/model.h"
 #include "pliant/mesh.h"
-#include "solver/sweeps/chains.h"
+#include "solver/sweeps/chain_kernels.h"
 #include "topology/edges.h"
 
 namespace pliant::testing_support {

@@ -233,11 +233,10 @@ struct Corrected {
     pairs = make_pair_model(model);
     if (pairs) workspace.pairs = std::make_unique<SurfaceContact>(*pairs);
     Executor executor(1);
-    Report report;
     const StepContext context{model, state, workspace, executor, pick_kernels("generic"), 1, 1, run.settings.sweep_options,
                               false};
     executor.enter([&] {
-      Substep s = begin_frame(context, 1.0 / 360, report).front();
+      Substep s = begin_frame(context, 1.0 / 360).front();
       control(s);
       predict(s);
       predicted = workspace.displacements;

@@ -8,7 +8,7 @@
 #include "apps/validate/sweep_table.h"
 #include "solver/step.h"
 #include "solver/step_support.h"
-#include "solver/sweeps/chains.h"
+#include "solver/sweeps/chain_kernels.h"
 #include "solver/sweeps/sweep.h"
 #include "support/kernels.h"
 

@@ -199,6 +199,7 @@ void find_cluster_contacts(const Meeting& m, const ColliderFrames& frames, Shape
 
 void ShapeContacts::prepare(const Model& model, int object) {
   elements_.resize(model.objects.size());
+  scratch_.resize(model.tiles().size());
   ShapeElements& elements = elements_[static_cast<std::size_t>(object)];
   elements = {};
   const CompiledObject& of = model.objects[static_cast<std::size_t>(object)];
@@ -241,18 +242,17 @@ void ShapeContacts::detect_tile(const ShapeContactSearch& search, int task) {
   }
 }
 
-void ShapeContacts::detect(Executor& executor, const ShapeContactSearch& search) {
-  contacts_.clear();
+void ShapeContacts::detect(Executor& executor, const ShapeContactSearch& search, std::vector<Contact>& found) {
+  found.clear();
   const auto has_elements = [](const ShapeElements& elements) { return !elements.tiles.empty(); };
   if (std::none_of(elements_.begin(), elements_.end(), has_elements)) return;
-  scratch_.resize(search.model.tiles().size());
   const std::size_t tasks = search.tasks == nullptr ? scratch_.size() : search.tasks->size();
   const auto task_of = [&](std::size_t i) { return search.tasks == nullptr ? static_cast<int>(i) : (*search.tasks)[i]; };
   executor.parallel_for("detect contacts", static_cast<int>(tasks),
                         [&](int i) { detect_tile(search, task_of(static_cast<std::size_t>(i))); });
   for (std::size_t i = 0; i < tasks; ++i) {
-    const std::vector<Contact>& found = scratch_[static_cast<std::size_t>(task_of(i))].contacts;
-    contacts_.insert(contacts_.end(), found.begin(), found.end());
+    const std::vector<Contact>& of_tile = scratch_[static_cast<std::size_t>(task_of(i))].contacts;
+    found.insert(found.end(), of_tile.begin(), of_tile.end());
   }
 }
 

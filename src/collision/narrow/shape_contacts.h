@@ -41,18 +41,15 @@ class ShapeContacts {
   /// Prepares the elements of an object; call it after the object or the colliders were added or changed.
   void prepare(const Model& model, int object);
 
-  /// Finds the contacts of the substep, ordered by tile, then by collider.
-  void detect(Executor& executor, const ShapeContactSearch& search);
-
-  const std::vector<Contact>& contacts() const { return contacts_; }
-  std::vector<Contact>& contacts() { return contacts_; }
+  /// Finds the contacts of the substep, ordered by tile, then by collider. Searches of different tiles may run at the same
+  /// time.
+  void detect(Executor& executor, const ShapeContactSearch& search, std::vector<Contact>& found);
 
  private:
   void detect_tile(const ShapeContactSearch& search, int task);
 
   std::vector<ShapeElements> elements_;       ///< elements of each object
   std::vector<ShapeContactScratch> scratch_;  ///< scratch of each task of the model
-  std::vector<Contact> contacts_;
 };
 
 /// Applies restitution after the velocity update, as respond() of contact.h does. `missing` is the gravity that

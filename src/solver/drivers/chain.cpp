@@ -1,8 +1,12 @@
-// The driver of chains: direct solves along paths of distance constraints (solver/sweeps/chains.h).
+// The driver of chains: direct solves along paths of distance constraints.
+//
+// Gauss-Seidel propagates a force by one edge per pass, so finely meshed cloth that hangs from two corners needs
+// thousands of passes. Solving whole rows, columns and diagonals exactly propagates it from end to end in one pass.
 #include <algorithm>
 
 #include "solver/drivers/driver.h"
-#include "solver/sweeps/chains.h"
+#include "solver/sweeps/chain_kernels.h"
+#include "solver/sweeps/sweep.h"
 
 namespace pliant {
 
@@ -11,9 +15,12 @@ namespace {
 /// A colour with fewer steps (one link of sixteen paths) runs on one thread, because waking others would cost more.
 constexpr int fewest_steps_to_share = 96;
 
-void solve_one(const Model& model, const ChainKernels& kernels, const Task& task, const SweepArguments& a, float* scratch) {
+void solve_one(const Model& model, const ChainKernels& kernels, const Task& task, const SweepArguments& a,
+               AlignedVector<float>& scratch) {
   const CompiledObject& object = model.objects[task.object];
   const ChainBatch& batch = object.chains[task.item];
+  const std::size_t room = static_cast<std::size_t>(batch.steps) * chain_scratch_floats;
+  if (scratch.size() < room) scratch.resize(room);
   float* multipliers = a.multipliers != nullptr ? a.multipliers[batch.pool] : nullptr;
   // One or two paths, such as a rope, are solved faster one by
   // one than in mostly empty SIMD lanes. The bits are the same.
@@ -21,21 +28,21 @@ void solve_one(const Model& model, const ChainKernels& kernels, const Task& task
   const ChainKernels& by = few ? chain_kernels_sequential() : kernels;
   by.solve_chain(object.pools[batch.pool], object.segments.data() + batch.first_segment, batch.steps,
                  object.chain_softness.data() + static_cast<std::ptrdiff_t>(task.item) * batch_width, multipliers, a,
-                 scratch);
+                 scratch.data());
 }
 
 }  // namespace
 
 void project_chains(Substep& s, const Phase& phase, const Pass& pass) {
   if (!solves_chains(s.group->sweep)) return;
-  std::vector<AlignedVector<float>>& scratch = static_cast<ChainScratch&>(*s.group->scratch).of_thread;
+  std::vector<AlignedVector<float>>& scratch = s.own->chains;
   const int tasks = static_cast<int>(phase.tasks.size());
   const int shares = phase.work < fewest_steps_to_share ? 1 : std::min(tasks, static_cast<int>(scratch.size()));
   for_tasks(s, "solve: chains", shares, [&](int share) {  // every n-th task, because neighbouring paths are alike
     for (int i = share; i < tasks; i += shares) {
       const Task& task = phase.tasks[i];
       if (!is_swept(s, task.object) || (pass.only != nullptr && (*pass.only)[task.object] == 0)) continue;
-      solve_one(s.model, s.kernels.chains, task, arguments(s, task.object, pass.first), scratch[share].data());
+      solve_one(s.model, s.kernels.chains, task, arguments(s, task.object, pass.first), scratch[share]);
     }
   });
 }

@@ -28,11 +28,11 @@ void find_more_in_tile(Substep& s, int task) {
   const CompiledObject& object = object_of(s, task);
   grow_bounds(a, scratch.bounds);
   scratch.more_contacts.clear();
-  find_contacts({object, a, scratch.bounds, s.work.colliders, s.kernels.find_near, s.kernels.contacts.make_point_contacts},
+  find_contacts({object, a, scratch.bounds, s.own->colliders, s.kernels.find_near, s.kernels.contacts.make_point_contacts},
                 scratch.near, scratch.more_contacts);
   const auto is_shallow = [&](const Contact& c) {
     const Record& d = a.displacements[c.point[0]];
-    const float thickness = object.thickness + s.work.colliders[c.collider].thickness;
+    const float thickness = object.thickness + s.own->colliders[c.collider].thickness;
     return c.gap + dot(c.normal, Vec3f{d.x, d.y, d.z}) > -least_depth * thickness;
   };
   std::erase_if(scratch.more_contacts, is_shallow);
@@ -48,7 +48,7 @@ void hold_tile_at_surfaces(Substep& s, int task) {
   scratch.more_contacts.clear();
   const AdvanceArguments a = particles(s, task);
   const ContactSearch search{
-      object_of(s, task), a, scratch.bounds, s.work.colliders, s.kernels.find_near, s.kernels.contacts.make_point_contacts};
+      object_of(s, task), a, scratch.bounds, s.own->colliders, s.kernels.find_near, s.kernels.contacts.make_point_contacts};
   find_breaches(search, scratch.contacts, scratch.near, scratch.more_contacts);
   if (scratch.more_contacts.empty()) return;
   project_contacts(scratch.more_contacts, arguments(s, s.model.tiles()[task].object, false));
@@ -68,9 +68,9 @@ namespace {
 /// because no shape contact joins two objects.
 void sweep_shape_contacts(Substep& s) {
   constexpr const char* name = "solve: contacts";
-  std::vector<Contact>& contacts = s.work.shape_contacts.contacts();
+  std::vector<Contact>& contacts = s.own->shape_contacts;
   Record* displacements = s.work.displacements.data();
-  const ContactSolver& solver = s.work.shape_contact_solver;
+  const ContactSolver& solver = s.own->shape_contact_solver;
   if (s.group == nullptr || s.work.sweeps.size() == 1)
     return solver.project(s.context.executor, name, contacts, displacements);
   solver.for_each(s.context.executor, name, contacts, [&](const Contact& contact) {
@@ -82,7 +82,7 @@ void sweep_shape_contacts(Substep& s) {
 }  // namespace
 
 void sweep_contacts(Substep& s) {
-  if (s.work.colliders.empty()) return;
+  if (s.own->colliders.empty()) return;
   sweep_shape_contacts(s);
   for_swept_tiles(s, "solve: contacts", [&](int task) {
     std::vector<Contact>& contacts = s.work.tiles[task].contacts;
@@ -92,7 +92,7 @@ void sweep_contacts(Substep& s) {
 
 void sweep_pairs(Substep& s) {
   if (s.has_pairs())
-    s.work.contact_solver.project(s.context.executor, "solve: contacts among surfaces", s.pairs->contacts(),
+    s.own->contact_solver.project(s.context.executor, "solve: contacts among surfaces", s.pairs->contacts(),
                                   s.work.displacements.data());
 }
 
@@ -104,11 +104,11 @@ void project_contacts_of(Substep& s, const char* name, const std::vector<char>& 
   };
   Record* displacements = s.work.displacements.data();
   if (s.has_pairs())
-    s.work.contact_solver.only(s.pairs->contacts(), concerns)
+    s.own->contact_solver.only(s.pairs->contacts(), concerns)
         .project(s.context.executor, name, s.pairs->contacts(), displacements, yield);
-  if (s.work.colliders.empty()) return;
-  std::vector<Contact>& with_shapes = s.work.shape_contacts.contacts();
-  s.work.shape_contact_solver.only(with_shapes, concerns).project(s.context.executor, name, with_shapes, displacements);
+  if (s.own->colliders.empty()) return;
+  std::vector<Contact>& with_shapes = s.own->shape_contacts;
+  s.own->shape_contact_solver.only(with_shapes, concerns).project(s.context.executor, name, with_shapes, displacements);
   for_tiles(s, name, [&](int task) {
     const int object = s.model.tiles()[task].object;
     std::vector<Contact>& contacts = s.work.tiles[task].contacts;
@@ -122,17 +122,17 @@ void for_touching_points(const Substep& s, FunctionRef<void(int)> visit) {
       for (std::size_t i = 0; i < contact.point.size(); ++i)
         if (contact.push > 0 && contact.weight[i] != 0) visit(contact.point[i]);
   };
-  if (!s.work.colliders.empty()) visit_points(s.work.shape_contacts.contacts());
+  if (!s.own->colliders.empty()) visit_points(s.own->shape_contacts);
   if (s.has_pairs()) visit_points(s.pairs->contacts());
 }
 
 void find_more_contacts(Substep& s) {
-  if (s.work.colliders.empty()) return;
+  if (s.own->colliders.empty()) return;
   for_swept_tiles(s, "solve: contacts", [&](int task) { find_more_in_tile(s, task); });
 }
 
 void hold_at_surfaces(Substep& s) {
-  if (s.work.colliders.empty()) return;
+  if (s.own->colliders.empty()) return;
   for_swept_tiles(s, "solve: contacts", [&](int task) { hold_tile_at_surfaces(s, task); });
 }
 

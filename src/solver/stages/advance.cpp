@@ -8,7 +8,6 @@
 
 #include "math/motion.h"
 #include "solver/contact_kernels.h"
-#include "solver/diagnose.h"
 #include "solver/drivers/lanes.h"
 #include "solver/forces.h"
 #include "solver/rotation.h"
@@ -25,7 +24,7 @@ bool settles(const Substep& s) { return s.is_last() || ends_quarter(s); }
 /// True if a stage between update and predict reads velocities, or if phases are timed separately; then update is not
 /// deferred.
 bool velocities_are_read(const Substep& s) {
-  return settles(s) || s.has_pairs() || !s.work.shape_contacts.contacts().empty() || has_forces(s.model, s.work.control) ||
+  return settles(s) || s.has_pairs() || !s.own->shape_contacts.empty() || has_forces(s.model, s.work.control) ||
          s.context.separate_phases;
 }
 
@@ -86,11 +85,11 @@ void predict_tile(const Substep& s, int task, void (*move)(const AdvanceArgument
   TileScratch& scratch = s.work.tiles[task];
   scratch.contacts.clear();
   scratch.bounds = {};
-  PointBounds* bounds = s.work.colliders.empty() ? nullptr : &scratch.bounds;
+  PointBounds* bounds = s.own->colliders.empty() ? nullptr : &scratch.bounds;
   move(a, bounds);
   move_kinematics(s, task, a);
   if (bounds == nullptr) return;
-  find_contacts({object, a, *bounds, s.work.colliders, s.kernels.find_near, s.kernels.contacts.make_point_contacts},
+  find_contacts({object, a, *bounds, s.own->colliders, s.kernels.find_near, s.kernels.contacts.make_point_contacts},
                 scratch.near, scratch.contacts);
 }
 
@@ -105,17 +104,12 @@ bool advance_tile(const Substep& s, int task) {
   return true;
 }
 
-/// True if every tile and every frame is finite. Otherwise the report names the first non-finite value of substep
-/// `substep`.
+/// True if every tile and every frame is finite. Otherwise it notes that the group failed in substep `substep`.
 bool all_finite(Substep& s, int substep) {
   bool is_finite = s.frames_are_finite;
   for_each_tile(s, [&](int task) { is_finite = is_finite && s.work.tiles[task].finite; });
-  if (is_finite) return true;
-  s.report.nonfinite = diagnose(s);
-  s.report.nonfinite->frame = s.state.frame;
-  s.report.nonfinite->substep = substep;
-  s.report.substeps = std::max(s.report.substeps, substep + 1);
-  return false;
+  if (!is_finite) s.failed_in = substep;
+  return is_finite;
 }
 
 }  // namespace

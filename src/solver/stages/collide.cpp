@@ -6,15 +6,15 @@ namespace {
 
 /// Finds contacts of edges and triangles with primitive colliders.
 void collide_with_shapes(Substep& s) {
-  ShapeContacts& shapes = s.work.shape_contacts;
-  shapes.contacts().clear();
-  if (s.work.colliders.empty()) return;
+  std::vector<Contact>& found = s.own->shape_contacts;
+  found.clear();
+  if (s.own->colliders.empty()) return;
   const auto particles_of = [&](int task) { return particles(s, task); };
   const auto bounds_of = [&](int task) -> const PointBounds& { return s.work.tiles[task].bounds; };
-  shapes.detect(s.context.executor,
-                {s.model, s.work.colliders, particles_of, bounds_of, s.part == nullptr ? nullptr : &s.part->tiles});
-  s.work.shape_contact_solver.begin(s.kernels.contacts, shapes.contacts(), 0, s.state.positions.data(),
-                                    s.state.positions.size());
+  s.work.shape_contacts.detect(
+      s.context.executor,
+      {s.model, s.own->colliders, particles_of, bounds_of, s.part == nullptr ? nullptr : &s.part->tiles}, found);
+  s.own->shape_contact_solver.begin(s.kernels.contacts, found, 0, s.state.positions.data(), s.state.positions.size());
 }
 
 }  // namespace
@@ -23,7 +23,7 @@ void collide(Substep& s) {
   collide_with_shapes(s);
   if (!s.has_pairs()) return;
   s.pairs->detect(s.context.executor, all_particles(s));
-  s.work.contact_solver.begin(s.kernels.contacts, s.pairs->contacts(), s.pairs->static_contacts(), s.state.positions.data(),
+  s.own->contact_solver.begin(s.kernels.contacts, s.pairs->contacts(), s.pairs->static_contacts(), s.state.positions.data(),
                               s.state.positions.size());
 }
 

@@ -1,6 +1,8 @@
 // Starts and ends a frame.
 #include <algorithm>
+#include <iterator>
 
+#include "solver/diagnose.h"
 #include "solver/pair_words.h"
 #include "solver/stages/stages.h"
 #include "solver/substep_law.h"
@@ -15,8 +17,8 @@ bool may_sweep_on_entry(const Substep& s) {
   return !context.record_residuals && context.options.acceleration == SweepOptions::Acceleration::none && !untangles;
 }
 
-Substep begin_group(const StepContext& context, const GroupFrame& of, double dt, Report& report) {
-  Substep s{context, context.model, context.state, context.workspace, context.kernels, report};
+Substep begin_group(const StepContext& context, const GroupFrame& of, double dt) {
+  Substep s{context, context.model, context.state, context.workspace, context.kernels, context.workspace.of_thread.data()};
   const bool has_all = of.group == nullptr || of.group->has_all;
   s.part = has_all ? nullptr : of.group;
   s.pairs = has_all ? s.work.pairs.get() : of.group->pairs.get();
@@ -39,6 +41,64 @@ Substep begin_group(const StepContext& context, const GroupFrame& of, double dt,
   return s;
 }
 
+}  // namespace
+
+std::vector<Substep> begin_frame(const StepContext& context, double dt) {
+  Workspace& work = context.workspace;
+  const auto threads = static_cast<std::size_t>(context.executor.threads());
+  work.of_thread.resize(threads);
+  for (SubstepScratch& scratch : work.of_thread) scratch.chains.resize(threads);
+  for (TileScratch& tile : work.tiles) tile.finite = true;
+  std::vector<Substep> groups;
+  groups.reserve(std::max<std::size_t>(1, context.groups.size()));
+  for (const GroupFrame& group : context.groups) groups.push_back(begin_group(context, group, dt));
+  if (groups.empty()) groups.push_back(begin_group(context, {nullptr, context.substeps}, dt));
+  if (std::any_of(groups.begin(), groups.end(), [](const Substep& s) { return s.has_pairs(); }))
+    work.look_for_tangles = false;
+  if (work.contact_log != nullptr) work.contact_log->clear();
+  return groups;
+}
+
+bool may_run_side_by_side(const std::vector<Substep>& groups) {
+  const StepContext& context = groups.front().context;
+  const auto has_own_memory = [](const auto& sweep) {
+    return sweep.second.scratch == nullptr && !sweep.second.acceleration;
+  };
+  const bool are_sweeps_apart =
+      std::all_of(context.workspace.sweeps.begin(), context.workspace.sweeps.end(), has_own_memory);
+  const bool are_fields_apart = std::all_of(context.model.forces.begin(), context.model.forces.end(),
+                                            [](const ForceField& field) { return field.on_all_threads; });
+  const bool may_stop = context.stop == nullptr ||
+                        std::all_of(groups.begin(), groups.end(), [](const Substep& s) { return s.follows_state(); });
+  return groups.size() > 1 && are_sweeps_apart && are_fields_apart && may_stop && !context.record_residuals &&
+         !(context.tolerance > 0) && context.workspace.contact_log == nullptr;
+}
+
+void count_contacts(Substep& s) {
+  if (!s.is_last() && !ends_quarter(s)) return;
+  s.report.contacts = 0;
+  const auto count = [&](const std::vector<Contact>& contacts) {
+    s.report.contacts += std::count_if(contacts.begin(), contacts.end(), [](const Contact& c) { return c.push > 0; });
+  };
+  for_each_tile(s, [&](int task) { count(s.work.tiles[task].contacts); });
+  count(s.own->shape_contacts);
+}
+
+namespace {
+
+void add(const std::vector<Substep>& groups, IterationCount& sum) {
+  std::int64_t iterations = 0, substeps = 0;
+  for (const Substep& s : groups) {
+    if (s.made == 0) continue;
+    const IterationCount& count = s.report.iterations;
+    sum.smallest = substeps == 0 ? count.smallest : std::min(sum.smallest, count.smallest);
+    sum.largest = std::max(sum.largest, count.largest);
+    iterations += s.iterations_made;
+    substeps += s.made;
+  }
+  if (substeps > 0) sum.mean = static_cast<double>(iterations) / static_cast<double>(substeps);
+}
+
 void add(const PairCounts& c, PairReport& sum) {
   sum.candidates += c.candidates;
   sum.contacts += c.contacts;
@@ -50,37 +110,34 @@ void add(const PairCounts& c, PairReport& sum) {
   sum.deepest = std::max(sum.deepest, c.deepest);
 }
 
+void add(Substep& s, Report& sum) {
+  Report& own = s.report;
+  sum.substeps = std::max(sum.substeps, s.made);
+  sum.contacts += own.contacts;
+  std::move(own.convergence.begin(), own.convergence.end(), std::back_inserter(sum.convergence));
+  std::move(own.warnings.begin(), own.warnings.end(), std::back_inserter(sum.warnings));
+  if (!s.has_pairs()) return;
+  add(s.pairs->counts(), sum.pairs);
+  warn_of_pairs(s.model, *s.pairs, sum.warnings);
+}
+
 }  // namespace
 
-std::vector<Substep> begin_frame(const StepContext& context, double dt, Report& report) {
-  Workspace& work = context.workspace;
-  for (TileScratch& tile : work.tiles) tile.finite = true;
-  std::vector<Substep> groups;
-  groups.reserve(std::max<std::size_t>(1, context.groups.size()));
-  for (const GroupFrame& group : context.groups) groups.push_back(begin_group(context, group, dt, report));
-  if (groups.empty()) groups.push_back(begin_group(context, {nullptr, context.substeps}, dt, report));
-  if (std::any_of(groups.begin(), groups.end(), [](const Substep& s) { return s.has_pairs(); }))
-    work.look_for_tangles = false;
-  if (work.contact_log != nullptr) work.contact_log->clear();
-  return groups;
-}
-
-void end_group(Substep& s) {
-  s.report.substeps = std::max(s.report.substeps, s.made + 1);
-  const auto count = [&](const std::vector<Contact>& contacts) {
-    s.report.contacts += std::count_if(contacts.begin(), contacts.end(), [](const Contact& c) { return c.push > 0; });
-  };
-  for_each_tile(s, [&](int task) { count(s.work.tiles[task].contacts); });
-  count(s.work.shape_contacts.contacts());
-  if (!s.has_pairs()) return;
-  add(s.pairs->counts(), s.report.pairs);
-  warn_of_pairs(s.model, *s.pairs, s.report.warnings);
-}
-
-void end_frame(std::vector<Substep>& groups) {
-  const Substep& s = groups.front();  // at a frame's end all groups have reached the same time
-  s.report.stopped = s.substeps < s.planned;
-  s.state.time = s.report.stopped ? time_of(s, s.substeps) : s.frame_start + s.dt;
+bool end_frame(std::vector<Substep>& groups, Report& report) {
+  add(groups, report.iterations);
+  for (Substep& s : groups) add(s, report);
+  for (const Substep& s : groups) {
+    if (s.failed_in < 0) continue;
+    report.nonfinite = diagnose(s);
+    report.nonfinite->frame = s.state.frame;
+    report.nonfinite->substep = s.failed_in;
+    report.substeps = std::max(report.substeps, s.failed_in + 1);
+    return false;
+  }
+  const Substep& s = groups.front();  // all groups have reached the same time
+  report.stopped = s.substeps < s.planned;
+  s.state.time = report.stopped ? time_of(s, s.substeps) : s.frame_start + s.dt;
+  return true;
 }
 
 }  // namespace pliant

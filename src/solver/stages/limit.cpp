@@ -120,7 +120,7 @@ bool choose_searched(const Substep& s, int round, LimitScratch& scratch) {
 }  // namespace
 
 void limit(Substep& s) {
-  LimitScratch& scratch = s.work.limit;
+  LimitScratch& scratch = s.own->limit;
   if (s.lengths().empty() || !(s.context.options.most_overstretch > 0)) return;
   for (int round = 0; round < most_rounds && choose_searched(s, round, scratch) && find_all(s, scratch); ++round) {
     list_all(s, scratch);

@@ -20,7 +20,7 @@ void end_impacts(Substep& s, FunctionRef<Vec3f(int)> gravity, float slow) {
   SurfaceContact& pairs = *s.pairs;
   const Record* positions = s.state.positions.data();
   Record* velocities = s.state.velocities.data();
-  const ContactSolver impacts = s.work.contact_solver.only(pairs.contacts(), [](const Contact& c) { return is_impact(c); });
+  const ContactSolver impacts = s.own->contact_solver.only(pairs.contacts(), [](const Contact& c) { return is_impact(c); });
   const auto for_impacts = [&](FunctionRef<void(const Contact&)> answer) {
     impacts.for_each(s.context.executor, "respond", pairs.contacts(), answer);
   };
@@ -38,13 +38,12 @@ void end_impacts(Substep& s, FunctionRef<Vec3f(int)> gravity, float slow) {
 /// Applies restitution to contacts of edges and triangles with primitive colliders.
 void respond_to_shapes(Substep& s, float slow, FunctionRef<Vec3f(int object)> gravity) {
   const Record* positions = s.state.positions.data();
-  s.work.shape_contact_solver.for_each(
-      s.context.executor, "respond", s.work.shape_contacts.contacts(), [&](const Contact& contact) {
-        float free = 0;  // total weight of the contact's dynamic points
-        for (int i = 0; i < 4; ++i) free += positions[contact.point[i]].w > 0 ? contact.weight[i] : 0.f;
-        const Vec3f missing = gravity(s.model.object_of(contact.point[0])) * free;
-        respond_to_shape_contact(contact, s.state.velocities.data(), missing, slow, 1 / s.h);
-      });
+  s.own->shape_contact_solver.for_each(s.context.executor, "respond", s.own->shape_contacts, [&](const Contact& contact) {
+    float free = 0;  // total weight of the contact's dynamic points
+    for (int i = 0; i < 4; ++i) free += positions[contact.point[i]].w > 0 ? contact.weight[i] : 0.f;
+    const Vec3f missing = gravity(s.model.object_of(contact.point[0])) * free;
+    respond_to_shape_contact(contact, s.state.velocities.data(), missing, slow, 1 / s.h);
+  });
 }
 
 }  // namespace
@@ -58,7 +57,7 @@ void respond(Substep& s) {
   respond_to_shapes(s, slow, gravity);
   if (!s.has_pairs()) return;
   Record* velocities = s.state.velocities.data();
-  s.work.contact_solver.for_each(s.context.executor, "respond", s.pairs->contacts(), [&](const Contact& contact) {
+  s.own->contact_solver.for_each(s.context.executor, "respond", s.pairs->contacts(), [&](const Contact& contact) {
     s.pairs->respond(contact, s.state.positions.data(), velocities, slow, gravity);
   });
   if (s.pairs->has_impacts()) end_impacts(s, gravity, slow);

@@ -46,7 +46,7 @@ void solve_chains(Substep& s, const std::vector<char>& of) {
 
 void solve_again(Substep& s) {
   if (!s.has_pairs() || s.lengths().empty() || !(s.context.options.most_overstretch > 0)) return;
-  std::vector<char>& is_pressed = s.work.limit.is_moved;
+  std::vector<char>& is_pressed = s.own->limit.is_moved;
   if (!find_pressed(s, is_pressed)) return;
   for (int round = 0; round < rounds; ++round) {
     solve_chains(s, is_pressed);

@@ -6,7 +6,11 @@
 namespace pliant {
 
 /// Starts a frame of `dt` seconds. Returns the first substep of each group of objects.
-std::vector<Substep> begin_frame(const StepContext& context, double dt, Report& report);
+std::vector<Substep> begin_frame(const StepContext& context, double dt);
+
+/// True if each group can make its substeps without regard to the others: there are several, none uses memory that another
+/// one uses, and if the frame may be stopped, all reach the same time at each quarter.
+bool may_run_side_by_side(const std::vector<Substep>& groups);
 
 /// Moves colliders to their poses at the substep's end.
 void control(Substep& s);
@@ -40,10 +44,11 @@ bool update(Substep& s);
 /// Applies restitution between surfaces.
 void respond(Substep& s);
 
-/// Counts the contacts in the last substep of a group.
-void end_group(Substep& s);
+/// Counts the contacts of a substep after which the frame may end.
+void count_contacts(Substep& s);
 
-/// Sets the State's time, which all groups have reached.
-void end_frame(std::vector<Substep>& groups);
+/// Adds the reports of the groups to the frame's, and sets the State's time, which all have reached. If a value is not finite,
+/// finds its origin, makes the State finite, and returns false.
+bool end_frame(std::vector<Substep>& groups, Report& report);
 
 }  // namespace pliant

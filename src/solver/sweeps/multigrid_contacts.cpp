@@ -132,10 +132,10 @@ bool place(const Model& model, const Contact& contact, const Record* positions, 
 /// The number of contacts with several points. contact_at() numbers edges and triangles with primitives first, then
 /// surfaces.
 std::size_t count_contacts(const Substep& s) {
-  return s.work.shape_contacts.contacts().size() + (s.has_pairs() ? s.pairs->contacts().size() : 0);
+  return s.own->shape_contacts.size() + (s.has_pairs() ? s.pairs->contacts().size() : 0);
 }
 Contact& contact_at(Substep& s, std::size_t number) {
-  std::vector<Contact>& shapes = s.work.shape_contacts.contacts();
+  std::vector<Contact>& shapes = s.own->shape_contacts;
   return number < shapes.size() ? shapes[number] : s.pairs->contacts()[number - shapes.size()];
 }
 

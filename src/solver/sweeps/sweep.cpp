@@ -1,7 +1,6 @@
 #include "solver/sweeps/sweep.h"
 
 #include "model/model.h"
-#include "solver/sweeps/chains.h"
 #include "solver/sweeps/jacobi.h"
 #include "solver/sweeps/multigrid.h"
 
@@ -23,7 +22,7 @@ bool SweepSetup::has(int object) const {
 
 const SweepMethod& sweep_method(Sweep sweep) {
   static constexpr SweepMethod tiled{true, 1, nullptr, &iterate_tiled}, symmetric{true, 2, nullptr, &iterate_symmetric},
-      jacobi{false, 1, &make<JacobiScratch>, &iterate_jacobi}, chains{true, 1, &make<ChainScratch>, &iterate_tiled},
+      jacobi{false, 1, &make<JacobiScratch>, &iterate_jacobi}, chains{true, 1, nullptr, &iterate_tiled},
       multigrid{false, 2, &make<MultigridScratch>, &iterate_multigrid};
   switch (sweep) {
     case Sweep::symmetric:
