@@ -88,5 +88,65 @@ TEST(ObjectSweep, GivesThemAcceleratedToo) {
   expect_the_same_alone(objects, SweepOptions::Acceleration::chebyshev);
 }
 
+/// A sheet that falls on itself, in two layers.
+Object folded(const std::string& name, const Vec3f& at, Sweep sweep) {
+  Object cloth = sheet_at(name, {}, 14, 1);
+  for (Vec3f& p : cloth.positions) {
+    if (p.z > 0.2f) p = {p.x, p.y + 0.02f, 0.4f - p.z};
+    p += at;
+  }
+  cloth.pins = {{0, {}}};
+  cloth.thickness = 0.005f;
+  cloth.self_collision = true;
+  cloth.collides = false;
+  cloth.sweep = sweep;
+  return cloth;
+}
+
+TEST(ObjectSweep, GivesTheBitsOfTheObjectAloneWhereItsSurfaceTouchesItself) {
+  for (const Sweep sweep : {Sweep::chains, Sweep::tiled}) {
+    Scene alone;
+    alone.settings.substeps = 15;
+    alone.add(folded("folded", {}, sweep));
+    Scene together = alone;
+    together.add(folded("other", {5, 0, 0}, Sweep::multigrid));
+    World one(alone), both(together);
+    std::int64_t contacts = 0;
+    for (int frame = 0; frame < 30; ++frame) {
+      contacts += one.step(dt).pairs.contacts;
+      both.step(dt);
+    }
+    EXPECT_GT(contacts, 0) << "or this shows nothing";
+    EXPECT_TRUE(equal_bits(one.positions(0), both.positions(0))) << sweep_name(sweep);
+  }
+}
+
+/// The filter's further contacts, where a kinematic collider moves into cloth, are of that cloth alone.
+TEST(ObjectSweep, GivesTheBitsOfTheObjectAloneBesideAFastCollider) {
+  Scene alone;
+  alone.settings.substeps = alone.settings.most_substeps = 15;
+  alone.add(folded("folded", {}, Sweep::chains));
+  Scene together = alone;
+  Object hit = folded("hit", {20, 0, 0}, Sweep::chains);
+  hit.collides = true;
+  hit.groups = hit.mask = 2;
+  together.add(hit);
+  MeshCollider block;
+  block.name = "block";
+  block.mesh = sphere_mesh(2);
+  for (Vec3f& p : block.mesh.positions) p = p * 0.2f + Vec3f{20, -3, 0};
+  block.motion = straight({0, 30, 0}, 1);
+  block.groups = block.mask = 2;
+  block.thickness = 0.005f;
+  together.add(block);
+  World one(alone), both(together);
+  for (int frame = 0; frame < 30; ++frame) {
+    one.step(dt);
+    both.step(dt);
+    ASSERT_TRUE(equal_bits(one.positions(0), both.positions(0))) << frame;
+  }
+  EXPECT_GT(both.positions(1)[100].y, both.positions(0)[100].y + 0.2f) << "or the collider missed it, and this shows nothing";
+}
+
 }  // namespace
 }  // namespace pliant

@@ -20,6 +20,41 @@ bool is_driven(const Contact& contact, const PairParticles& particles) {
   return -way > (1 - least_share_kept) * contact.thickness;
 }
 
+/// Which dynamic bodies contacts connect, directly or through others.
+class ConnectedBodies {
+ public:
+  ConnectedBodies(const PairModel& model, const PairParticles& particles, const std::vector<Contact>& contacts)
+      : model_(model), positions_(particles.positions) {
+    for (int body = 0; body < model.rules.bodies(); ++body) parent_.push_back(body);
+    for (const Contact& contact : contacts) {
+      const int first = of(contact);
+      for (std::size_t i = 0; i < 4; ++i)
+        if (is_dynamic(contact, i)) parent_[root(model.vertex_body[contact.point[i]])] = root(first);
+    }
+  }
+
+  std::size_t count() const { return parent_.size(); }
+  int root(int body) const {
+    while (parent_[body] != body) body = parent_[body];
+    return body;
+  }
+  /// The root of a contact's dynamic bodies; -1 if it has none.
+  int of(const Contact& contact) const {
+    for (std::size_t i = 0; i < 4; ++i)
+      if (is_dynamic(contact, i)) return root(model_.vertex_body[contact.point[i]]);
+    return -1;
+  }
+
+ private:
+  bool is_dynamic(const Contact& contact, std::size_t i) const {
+    return contact.weight[i] != 0 && positions_[contact.point[i]].w > 0;
+  }
+
+  const PairModel& model_;
+  const Record* positions_;
+  std::vector<int> parent_;
+};
+
 }  // namespace
 
 SurfaceContact::SurfaceContact(const PairModel& model, const PairKernels& kernels)
@@ -90,14 +125,27 @@ void SurfaceContact::detect(Executor& executor, const PairParticles& particles) 
 }
 
 /// Contacts of other bodies count too: a vertex whose step the filter truncates for one of them cannot move out of the
-/// way.
-bool SurfaceContact::is_overrun(const PairParticles& particles) const {
+/// way. So bodies that contacts connect are judged together, as they are if the model has no others.
+bool SurfaceContact::find_overrun(const PairParticles& particles, std::vector<char>& is_overrun) const {
   const auto lacks = [&](const Contact& contact) {
     return overlap_of(contact, particles.displacements) > (1 - least_share_kept) * contact.thickness;
   };
   const auto is_driven_here = [&](const Contact& contact) { return is_driven(contact, particles); };
-  return std::any_of(contacts_.begin(), contacts_.end(), is_driven_here) &&
-         std::any_of(contacts_.begin(), contacts_.end(), lacks);
+  if (std::none_of(contacts_.begin(), contacts_.end(), is_driven_here) ||
+      std::none_of(contacts_.begin(), contacts_.end(), lacks))
+    return false;
+  ConnectedBodies connected(model_, particles, contacts_);
+  std::vector<char> driven(connected.count(), 0), lacking(connected.count(), 0);
+  for (const Contact& contact : contacts_) {
+    const int body = connected.of(contact);
+    if (body < 0) continue;
+    if (is_driven_here(contact)) driven[body] = 1;
+    if (lacks(contact)) lacking[body] = 1;
+  }
+  is_overrun.assign(connected.count(), 0);
+  for (int body = 0; body < static_cast<int>(is_overrun.size()); ++body)
+    is_overrun[body] = static_cast<char>(driven[connected.root(body)] & lacking[connected.root(body)]);
+  return std::any_of(is_overrun.begin(), is_overrun.end(), [](char is) { return is != 0; });
 }
 
 void SurfaceContact::measure_overlaps(const PairParticles& particles) {

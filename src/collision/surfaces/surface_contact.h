@@ -46,9 +46,10 @@ class SurfaceContact {
 
   /// Finds the contacts of the substep at the predicted displacements.
   void detect(Executor& executor, const PairParticles& particles);
-  /// True if a kinematic collider moves into vertices that contacts have not yet moved out of its way, so that the
-  /// filter may fail. Then project the contacts again, which propagates the push.
-  bool is_overrun(const PairParticles& particles) const;
+  /// Marks the bodies into which a kinematic collider moves and whose contacts have not yet moved them out of its way,
+  /// so that the filter may fail, and the dynamic bodies in contact with them. Then project their contacts again, which
+  /// propagates the push. Returns false if there are none.
+  bool find_overrun(const PairParticles& particles, std::vector<char>& is_overrun) const;
   /// Truncates displacements that would make surfaces cross.
   void filter(Executor& executor, const PairParticles& particles);
   /// Measures the remaining penetration of contacts; call it after a frame's last substep.

@@ -90,17 +90,34 @@ void sweep_contacts(Substep& s) {
   });
 }
 
+namespace {
+
+/// True if a point of the contact belongs to an object for which `has(object)` is true.
+template <class Has>
+bool concerns_any(const Substep& s, const Contact& contact, const Has& has) {
+  for (std::size_t i = 0; i < contact.point.size(); ++i)
+    if (contact.weight[i] != 0 && has(s.model.object_of(contact.point[i]))) return true;
+  return false;
+}
+
+}  // namespace
+
 void sweep_pairs(Substep& s) {
-  if (s.has_pairs())
-    s.own->contact_solver.project(s.context.executor, "solve: contacts among surfaces", s.pairs->contacts(),
-                                  s.work.displacements.data());
+  if (!s.has_pairs()) return;
+  constexpr const char* name = "solve: contacts among surfaces";
+  std::vector<Contact>& contacts = s.pairs->contacts();
+  Record* displacements = s.work.displacements.data();
+  if (s.group == nullptr || s.work.sweeps.size() == 1)
+    return s.own->contact_solver.project(s.context.executor, name, contacts, displacements);
+  // Objects of other sweeps keep the bits that they have alone.
+  const auto is_of_group = [&](int object) { return is_swept(s, object); };
+  s.own->contact_solver.only(contacts, [&](const Contact& contact) { return concerns_any(s, contact, is_of_group); })
+      .project(s.context.executor, name, contacts, displacements);
 }
 
 void project_contacts_of(Substep& s, const char* name, const std::vector<char>& has, float yield) {
   const auto concerns = [&](const Contact& contact) {
-    for (std::size_t i = 0; i < contact.point.size(); ++i)
-      if (contact.weight[i] != 0 && has[s.model.object_of(contact.point[i])] != 0) return true;
-    return false;
+    return concerns_any(s, contact, [&](int object) { return has[object] != 0; });
   };
   Record* displacements = s.work.displacements.data();
   if (s.has_pairs())

@@ -9,7 +9,7 @@ namespace pliant {
 /// Visits only objects of the current sweep group (is_swept in substep.h).
 void sweep_contacts(Substep& s);
 
-/// Projects every contact between surfaces once.
+/// Projects every contact between surfaces once. Within a sweep group, only contacts of its objects.
 void sweep_pairs(Substep& s);
 
 /// Projects once more the contacts of the objects with has[object] != 0, for sweeps or passes over these alone: others
