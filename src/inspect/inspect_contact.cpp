@@ -11,6 +11,8 @@
 #include "constraints/registry.h"
 #include "inspect/problems.h"
 #include "pliant/error.h"
+#include "topology/edges.h"
+#include "topology/folds.h"
 
 namespace pliant {
 
@@ -199,8 +201,29 @@ void check_solid(Problems& problems, const MeshCollider& collider) {
 
 }  // namespace
 
+/// Reports triangles that give contact no direction.
+void doubt_shapes(Problems& problems, const TriangleMesh& mesh) {
+  const auto at = [&](int vertex) { return convert<double>(mesh.positions[static_cast<std::size_t>(vertex)]); };
+  Tally flat;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& [a, b, c] = mesh.triangles[i];
+    if (!(length_squared(cross(at(b) - at(a), at(c) - at(a))) > 0)) flat.add(static_cast<std::int64_t>(i));
+  }
+  problems.doubtful(flat, "triangle", "has no area, so that it has no side", "remove it, as read_mesh does");
+  const std::vector<Edge> edges = find_edges(mesh.triangles, static_cast<int>(mesh.positions.size()));
+  const std::vector<int> folded = folded_edges(mesh.positions, edges);
+  if (folded.empty()) return;
+  const Edge& first = edges[static_cast<std::size_t>(folded.front())];
+  const std::string more = folded.size() > 1 ? " and " + std::to_string(folded.size() - 1) + " more" : "";
+  problems.doubtful("edge " + std::to_string(first.a) + "-" + std::to_string(first.b) + more,
+                    "folds the surface back on itself, so that contact has no side to push to",
+                    "open the fold, or remove one of its two triangles");
+}
+
 void check_mesh_collider(Problems& problems, const MeshCollider& collider) {
+  const int before = problems.grave_count();
   check_mesh(problems, collider.mesh);
+  if (problems.wants_doubts() && problems.grave_count() == before) doubt_shapes(problems, collider.mesh);
   check_frames(problems, collider);
   check_solid(problems, collider);
   check_motion(problems, "motion", collider.motion);

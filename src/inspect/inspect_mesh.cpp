@@ -15,6 +15,7 @@
 #include "pliant/mesh.h"
 #include "topology/boundary.h"
 #include "topology/edges.h"
+#include "topology/folds.h"
 #include "topology/self_intersection.h"
 
 namespace pliant {
@@ -62,6 +63,7 @@ class Inspector {
     check_isolated();
     check_edges();
     check_corners();
+    check_folds();
     check_whole();
     check_self_intersections();
     return std::move(findings_);
@@ -148,6 +150,16 @@ class Inspector {
       tell(counted(sliver.count, "sliver triangle", "sliver triangles") + ", the first " + std::to_string(sliver.first) +
                " (worst aspect 1:" + std::to_string(static_cast<long long>(std::min(worst, 1e15) + 0.5)) + ")",
            "they give their vertices little mass, which causes jitter; remesh there");
+  }
+
+  void check_folds() {
+    const std::vector<int> folded = folded_edges(mesh_.positions, edges_);
+    if (folded.empty()) return;
+    tell(counted(folded.size(), "edge folds", "edges fold") + " the surface back on itself, the first " +
+             name_of(edges_[index(folded.front())]),
+         "the two triangles there lie on one another, so that contact has no side to push to; open the fold, or remove one "
+         "of "
+         "them");
   }
 
   void check_places() {

@@ -1,11 +1,13 @@
 // Tests inspect() for meshes: each finding on the smallest mesh that has it, and none on a valid mesh.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <set>
 
 #include "pliant/mesh.h"
+#include "pliant/scene.h"
 #include "topology/edges.h"
 #include "topology/self_intersection.h"
 
@@ -85,6 +87,37 @@ TEST(Inspect, FindsFlatAndSliverTriangles) {
   EXPECT_TRUE(tells({{{0, 0, 0}, {1, 0, 0}, {0.5f, 0.0005f, 0}}, {{0, 1, 2}}},
                     "1 sliver triangle, the first 0 (worst aspect 1:2000)"));
   EXPECT_FALSE(tells({{{0, 0, 0}, {1, 0, 0}, {0.5f, 0.011f, 0}}, {{0, 1, 2}}}, "sliver"));
+}
+
+TEST(Inspect, FindsWhereTheSurfaceLiesOnItself) {
+  const auto folded = [](float height) {
+    return TriangleMesh{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0.7f, height, 0.5f}, {0, 0, 3}},
+                        {{0, 1, 2}, {1, 0, 3}, {1, 4, 2}}};
+  };
+  EXPECT_TRUE(tells(folded(0), "1 edge folds the surface back on itself, the first 0-1"));
+  EXPECT_TRUE(tells(folded(0.7f * 0.017f), "1 edge folds"));
+  EXPECT_FALSE(tells(folded(0.7f * 0.018f), "folds")) << "by more than a degree";
+  EXPECT_FALSE(tells(folded(-0.7f), "folds"));
+  EXPECT_FALSE(tells(grid_mesh(4, 4, 1, 1), "folds")) << "flat, but not on itself";
+}
+
+TEST(Inspect, FindsWhereAMeshColliderLiesOnItself) {
+  Scene scene;
+  MeshCollider collider;
+  collider.name = "body";
+  collider.mesh = {{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0.7f, 0, 0.5f}, {0, 0, 2}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}};
+  scene.add(collider);
+  const auto finds = [&](const std::string& part) {
+    const std::vector<Finding> found = inspect(scene);
+    return std::any_of(found.begin(), found.end(),
+                       [&](const Finding& one) { return one.message.find(part) != std::string::npos; });
+  };
+  EXPECT_TRUE(finds("triangle 2: has no area"));
+  scene.mesh_colliders[0].mesh.triangles.pop_back();
+  EXPECT_TRUE(finds("edge 0-1: folds the surface back on itself"));
+  EXPECT_FALSE(finds("no area"));
+  scene.mesh_colliders[0].mesh = sphere_mesh(2);
+  EXPECT_FALSE(finds("folds"));
 }
 
 TEST(Inspect, FindsWhatIsThereTwice) {
