@@ -73,10 +73,10 @@ Method method_of(const std::string& name, const SweepOptions& base) {
 
 std::vector<std::string> default_methods(const Scene& scene) {
   std::vector<std::string> names;
-  for (const NamedSweep& one : sweeps())
-    if (one.sweep != Sweep::sequential) names.push_back(one.name);
+  const bool tethers = has_fixed(scene) && !scene.settings.sweep_options.tethers;
+  for (const NamedSweep& one : sweeps())  // without tethers, `tethered_chains` is `chains`
+    if (one.sweep != Sweep::sequential && (one.sweep != Sweep::tethered_chains || tethers)) names.push_back(one.name);
   names.emplace_back("tiled+chebyshev");
-  if (has_fixed(scene)) names.emplace_back("chains+tethers");
   return names;
 }
 

@@ -22,6 +22,7 @@ namespace pliant::command {
 
 namespace {
 
+constexpr int usual_frames = 120;
 constexpr const char* head =
     "workload                 size engine      threads substeps x iter  ms/frame  ns/proj.   stretch mean     p99     max  "
     " ratio\n";
@@ -46,7 +47,7 @@ void print_row(const pliant::bench::Row& row) {
 std::string bench_contact(const BenchOptions& options) {
   pliant::bench::ContactOptions wanted;
   if (!options.sizes.empty()) wanted.sizes = options.sizes;
-  if (options.frames > 0) wanted.frames = options.frames;
+  wanted.frames = options.frames.value_or(usual_frames);
   print("size  particles  without, ms  with, ms  ratio  slowest, ms  us/particle  candidates/particle  lists/frame\n");
   wanted.on_row = [](const pliant::bench::ContactRow& row) {
     throw_if_interrupted();
@@ -76,7 +77,7 @@ std::string bench_landings(const BenchOptions& options) {
   pliant::bench::LandingOptions wanted;
   if (options.workload != "W3") wanted.on = {options.workload.substr(std::string("W3-").size())};
   if (!options.sizes.empty()) wanted.sizes = options.sizes;
-  if (options.frames > 0) wanted.frames = options.frames;
+  wanted.frames = options.frames.value_or(usual_frames);
   wanted.limit = options.limit;
   wanted.against_bullet = options.against == "bullet";
   print(
@@ -97,23 +98,34 @@ std::string bench_landings(const BenchOptions& options) {
 std::string bench_default(const BenchOptions& options) {
   if (options.scenes.empty() && options.meshes.empty())
     throw Error({}, "'default' measures scene files", "name them: --scenes scenes/*.json, or --meshes FOLDER");
+  if (!options.sizes.empty())
+    throw Error({}, "'default' takes no --sizes, because its scenes have their own", "leave out --sizes");
   std::vector<pliant::bench::NamedScene> scenes;
   for (const std::string& path : options.scenes) scenes.push_back({path, read_scene_with(path, {}, true)});
   if (!options.meshes.empty())
     for (pliant::bench::NamedScene& draped : pliant::bench::draped_meshes(options.meshes))
       scenes.push_back(std::move(draped));
   pliant::bench::SceneTableOptions wanted;
-  wanted.against = options.settings;
+  if (options.settings == std::vector<std::string>{"none"})
+    wanted.against.clear();
+  else if (!options.settings.empty())
+    wanted.against = options.settings;
+  wanted.frames = options.frames.value_or(0);
   wanted.counts_crossings = !options.meshes.empty();
   print(
-      "scene                          settings      substeps  ms/frame  p99, % (frame)  largest, % (frame)  gain, J/kg  "
-      "moved, mm  crossings\n");
-  wanted.on_row = [](const pliant::bench::SceneRow& row) {
+      "scene                          settings           substeps  ms/frame  p99, % (frame)  largest, % (frame)  gain, "
+      "J/kg  moved, mm  crossings  ratio to the cheapest that holds\n");
+  const bool compares = !wanted.against.empty();
+  wanted.on_row = [compares](const pliant::bench::SceneRow& row) {
     throw_if_interrupted();
-    print(fmt::format("{:<30} {:<13} {:8.1f} {:9.2f} {:8.2f} {:<7} {:11.2f} {:<8} {:10.4f} {:10.4f}  {:>9}{}\n", row.scene,
-                      row.settings, row.substeps, row.milliseconds, 100 * row.p99, fmt::format("({})", row.frame_of_p99),
-                      100 * row.largest, fmt::format("({})", row.frame_of_largest), row.gain, 1000 * row.moved,
-                      row.crossings < 0 ? "-" : std::to_string(row.crossings), row.finite ? "" : "  not finite"));
+    const std::string cost = row.settings != "default" || !compares ? ""
+                             : row.cheapest.empty()                 ? "  none holds"
+                                                    : fmt::format("  {:.2f} to '{}'", row.ratio, row.cheapest);
+    print(fmt::format("{:<30} {:<18} {:8.1f} {:9.2f} {:8.2f} {:<7} {:11.2f} {:<8} {:10.4f} {:10.4f}  {:>9}{}{}\n",
+                      row.scene, row.settings, row.substeps, row.milliseconds, 100 * row.p99,
+                      fmt::format("({})", row.frame_of_p99), 100 * row.largest, fmt::format("({})", row.frame_of_largest),
+                      row.gain, 1000 * row.moved, row.crossings < 0 ? "-" : std::to_string(row.crossings), cost,
+                      row.finite ? "" : "  not finite"));
   };
   return to_json(pliant::bench::measure_scenes(scenes, wanted));
 }
@@ -143,7 +155,7 @@ int bench(const BenchOptions& options) {
   pliant::bench::Options wanted;
   wanted.workload = options.workload;
   if (!options.sizes.empty()) wanted.sizes = options.sizes;
-  wanted.frames = options.frames;
+  wanted.frames = options.frames.value_or(usual_frames);
   wanted.threads = options.threads;
   wanted.against_bullet = options.against == "bullet";
   bool first = true;

@@ -39,7 +39,22 @@ std::string extent(const std::vector<Vec3f>& positions) {
 
 constexpr std::size_t longest_line = 120;
 
-/// Breaks a long line after semicolons; further lines are indented.
+/// Adds the words of a clause to text whose last line has `used` characters; lines that it begins are indented by four.
+void add_wrapped(const std::string& clause, std::string& text, std::size_t& used) {
+  for (std::size_t begin = 0; begin < clause.size();) {
+    const std::size_t space = clause.find(' ', begin), end = space == std::string::npos ? clause.size() : space + 1;
+    if (used > 4 && used + end - begin > longest_line) {
+      text.back() = '\n';  // was the space before the word
+      text += "    ";
+      used = 4;
+    }
+    text += clause.substr(begin, end - begin);
+    used += end - begin;
+    begin = end;
+  }
+}
+
+/// Breaks a long line after semicolons, and clauses that are too long between words; further lines are indented.
 std::string broken(const std::string& line) {
   std::string text;
   std::size_t begin = 0, used = 0;
@@ -50,8 +65,7 @@ std::string broken(const std::string& line) {
       text += "  ";
       used = 2;
     }
-    text += line.substr(begin, end - begin);
-    used += end - begin;
+    add_wrapped(line.substr(begin, end - begin), text, used);
     begin = end;
   }
   return text;
@@ -125,13 +139,14 @@ std::string substeps_in_words(const Scene& scene, const Settings& chosen) {
   return text;
 }
 
+/// One line; the caller breaks it.
 std::string how_it_is_solved(const Scene& scene) {
   std::string reason;
   const Settings settings = chosen_settings(scene, &reason);
   const std::string substeps = substeps_in_words(scene, settings);
-  if (settings.sweep == Sweep::automatic) return "solved with " + substeps + ": " + one_line(reason) + "\n";
+  if (settings.sweep == Sweep::automatic) return "solved with " + substeps + ": " + one_line(reason);
   return "solved by the sweep '" + sweep_name(settings.sweep) + "' with " + substeps +
-         (reason.empty() ? "" : ", since the scene leaves the sweep open and has " + one_line(reason)) + "\n";
+         (reason.empty() ? "" : "; the scene leaves the sweep open and has " + one_line(reason));
 }
 
 std::vector<Finding> check_scene(const std::string& path, double seconds) {
@@ -143,7 +158,7 @@ std::vector<Finding> check_scene(const std::string& path, double seconds) {
   print(one_line(path) + ": " + counted(scene.objects.size(), "object") + " of " + counted(particles.size(), "particle") +
         extent(particles) + ", " + counted(scene.colliders.size() + scene.mesh_colliders.size(), "collider") + ", " +
         counted(static_cast<std::size_t>(scene.frames), "frame") + "\n");
-  print(how_it_is_solved(scene));
+  print(broken(how_it_is_solved(scene)) + "\n");
   print_repairs(file.repairs);
   std::vector<Finding> findings = inspect(scene);
   try_out(scene, seconds, findings);

@@ -113,6 +113,7 @@ int run(const RunOptions& options) {
   }
   if (!options.quiet) {
     for (const std::string& warning : report.warnings()) print("warning: " + one_line(warning) + "\n");
+    if (const std::string advice = report.advice(world); !advice.empty()) print("warning: " + one_line(advice) + "\n");
     print(summary(options, world, report));
     for (const auto& writer : writers) print_written(writer->written());
     if (report_file) print_written({{report_file->path(), report_file->size()}});

@@ -67,12 +67,6 @@ Json overstretch_json(const Report& report) {
           {"frame_of_worst_largest", worst.frame_of_largest}};
 }
 
-/// Advice for the worst frame.
-std::string advice_of(const World& world, const WorstOverstretch& worst) {
-  const std::string words = world.advice(worst.overstretch);
-  return words.empty() ? words : "in frame " + std::to_string(worst.frame_of_largest) + ", " + words;
-}
-
 std::string without_numbers(std::string text) {
   text.erase(std::remove_if(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0 || c == '.'; }),
              text.end());
@@ -131,6 +125,12 @@ void RunReport::add(const Report& report, const World& world) {
       warnings_.push_back("frame " + std::to_string(report.frame) + ": " + warning);
 }
 
+std::string RunReport::advice(const World& world) const {
+  const WorstOverstretch& worst = last_.worst_overstretch;
+  const std::string words = world.advice(worst.overstretch);
+  return words.empty() ? words : "in frame " + std::to_string(worst.frame_of_largest) + ", " + words;
+}
+
 std::string RunReport::json(const std::string& scene_path, const Scene& scene, const World& world) const {
   const Stretch stretch = world.stretch();
   const double frames = static_cast<double>(std::max<std::size_t>(milliseconds_.size(), 1));
@@ -160,7 +160,7 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["overstretch"] = overstretch_json(last_);
   json["nonfinite"] = nonfinite_json(last_);
   json["warnings"] = warnings_;
-  json["advice"] = advice_of(world, last_.worst_overstretch);
+  json["advice"] = advice(world);
   json["threads"] = world.threads();
   json["isa"] = world.isa();
   if (hash_frames_) json["frame_hashes"] = hashes_;

@@ -24,6 +24,9 @@ class RunReport {
   /// The report as JSON. Figures are those of the last frame unless docs say otherwise; times are over all frames.
   std::string json(const std::string& scene_path, const Scene& scene, const World& world) const;
 
+  /// What to do about the worst frame's overstretch; empty if all frames are within the bounds.
+  std::string advice(const World& world) const;
+
   double median_milliseconds() const { return quantile(milliseconds_, 0.5); }
   double p95_milliseconds() const { return quantile(milliseconds_, 0.95); }
   std::size_t frames() const { return milliseconds_.size(); }  ///< number of frames simulated in this run

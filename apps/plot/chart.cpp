@@ -12,7 +12,10 @@ namespace {
 
 constexpr Colour paper{255, 255, 255}, ink{38, 42, 48}, faint{228, 231, 235}, frame{150, 156, 164};
 constexpr double title_size = 2, text_size = 2, font_height = 7;
-constexpr double left_margin = 104, right_margin = 26, title_height = 44, legend_line = 22, legend_stroke = 34;
+constexpr double least_left_margin = 104, right_margin = 26, title_height = 44, legend_line = 22, legend_stroke = 34;
+
+// The title of the y-axis lies between these distances from the edge of the chart; tick labels end before the axis.
+constexpr double title_left = 16, title_right = title_left + 12 * text_size, label_distance = 11;
 
 // Colours that can be told apart with any colour vision (Okabe and Ito 2008).
 constexpr Colour palette[] = {{0, 114, 178},  {213, 94, 0},    {0, 158, 115}, {204, 121, 167}, {230, 159, 0},
@@ -73,10 +76,11 @@ struct Layout {
 // as fit, so that they hide no curve.
 std::vector<Point> legend_places(const Chart& chart, int width) {
   std::vector<Point> places;
-  Point at{left_margin, title_height + legend_line / 2};
+  const double left = least_left_margin;
+  Point at{left, title_height + legend_line / 2};
   for (const Series& series : chart.series) {
     const double needed = series.name.empty() ? 0 : legend_stroke + 32 + Canvas::text_width(series.name, text_size);
-    if (at.x > left_margin && at.x + needed > width - right_margin) at = {left_margin, at.y + legend_line};
+    if (at.x > left && at.x + needed > width - right_margin) at = {left, at.y + legend_line};
     places.push_back(at);
     at.x += needed;
   }
@@ -91,6 +95,17 @@ double top_margin(const Chart& chart, int width) {
   return bottom;
 }
 
+Ticks ticks_of_y(const Chart& chart, const Range& y) {
+  return chart.logarithmic_y ? logarithmic_ticks(y.low, y.high, 6) : linear_ticks(y.low, y.high, 6);
+}
+
+/// The room for the axis title, and for tick labels beside it.
+double left_margin(const Ticks& ticks) {
+  double widest = 0;
+  for (const std::string& label : ticks.labels) widest = std::max(widest, Canvas::text_width(label, text_size));
+  return std::max(least_left_margin, title_right + 8 + widest + label_distance);
+}
+
 Layout lay_out(const Chart& chart, Point corner, int width, int height) {
   Range x, y;
   for (const Series& series : chart.series)
@@ -100,11 +115,13 @@ Layout lay_out(const Chart& chart, Point corner, int width, int height) {
       x.include(u);
       y.include(v);
     }
+  x = padded(x, 0.02);
+  y = padded(y, 0.08);
   return {chart,
-          {corner.x + left_margin, corner.y + top_margin(chart, width)},
+          {corner.x + left_margin(ticks_of_y(chart, y)), corner.y + top_margin(chart, width)},
           {corner.x + width - right_margin, corner.y + height - 66},
-          padded(x, 0.02),
-          padded(y, 0.08)};
+          x,
+          y};
 }
 
 void draw_grid(Canvas& canvas, const Layout& layout) {
@@ -112,8 +129,7 @@ void draw_grid(Canvas& canvas, const Layout& layout) {
   const Point a = layout.upper_left, b = layout.lower_right;
   const Ticks xs = chart.logarithmic_x ? logarithmic_ticks(layout.x.low, layout.x.high, 7)
                                        : linear_ticks(layout.x.low, layout.x.high, 7);
-  const Ticks ys = chart.logarithmic_y ? logarithmic_ticks(layout.y.low, layout.y.high, 6)
-                                       : linear_ticks(layout.y.low, layout.y.high, 6);
+  const Ticks ys = ticks_of_y(chart, layout.y);
   for (std::size_t i = 0; i < xs.places.size(); ++i) {
     const double x = layout.place(xs.places[i], 1).x;
     canvas.line({x, a.y}, {x, b.y}, 1, faint);
@@ -125,7 +141,7 @@ void draw_grid(Canvas& canvas, const Layout& layout) {
     canvas.line({a.x, y}, {b.x, y}, 1, faint);
     canvas.line({a.x - 5, y}, {a.x, y}, 1, frame);
     const double width = Canvas::text_width(ys.labels[i], text_size);
-    canvas.text({a.x - 11 - width, y - font_height * text_size / 2}, ys.labels[i], text_size, ink);
+    canvas.text({a.x - label_distance - width, y - font_height * text_size / 2}, ys.labels[i], text_size, ink);
   }
 }
 
@@ -138,7 +154,7 @@ void draw_frame(Canvas& canvas, const Layout& layout, Point corner, int height) 
   const double x_width = Canvas::text_width(chart.x_label, text_size);
   canvas.text({(a.x + b.x - x_width) / 2, corner.y + height - 28}, chart.x_label, text_size, ink);
   const double y_width = Canvas::text_width(chart.y_label, text_size);
-  canvas.text_upwards({corner.x + 16, (a.y + b.y + y_width) / 2}, chart.y_label, text_size, ink);
+  canvas.text_upwards({corner.x + title_left, (a.y + b.y + y_width) / 2}, chart.y_label, text_size, ink);
 }
 
 // Draws a segment of a dashed line from `offset` in the dash pattern. Returns the offset at its end.

@@ -272,11 +272,15 @@ TEST(Compare, EveryKindOfSweepIsComparedAndTethersWhereSomethingHoldsThem) {
   Scene scene = swinging();
   for (const NamedSweep& one : sweeps())
     EXPECT_EQ(has(default_methods(scene), one.name.c_str()), one.sweep != Sweep::sequential) << one.name;
-  EXPECT_TRUE(has(default_methods(scene), "chains+tethers"));
+  EXPECT_FALSE(has(default_methods(scene), "chains+tethers")) << "which is the same as tethered_chains";
+  scene.settings.sweep_options.tethers = true;
+  EXPECT_FALSE(has(default_methods(scene), "tethered_chains")) << "which is then the same as chains";
+  scene.settings.sweep_options.tethers = false;
   for (Object& object : scene.objects) object.pins.clear();
-  EXPECT_FALSE(has(default_methods(scene), "chains+tethers"));
+  EXPECT_FALSE(has(default_methods(scene), "tethered_chains"));
+  EXPECT_TRUE(has(default_methods(scene), "chains"));
   scene.objects[1].masses[0] = std::numeric_limits<float>::infinity();
-  EXPECT_TRUE(has(default_methods(scene), "chains+tethers"));
+  EXPECT_TRUE(has(default_methods(scene), "tethered_chains"));
 }
 
 TEST(Compare, ALongerRunBoundsWhatAShorterOneTakes) {

@@ -1,6 +1,7 @@
 // Tests charts: ticks where a reader expects them, pixels of a curve where it is, and no crash whatever the data.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -65,6 +66,32 @@ TEST(Plot, AnyDataMakesAPicture) {
   const Canvas canvas = paint(charts, 2, 320, 240);
   EXPECT_EQ(canvas.width(), 640);
   EXPECT_EQ(canvas.height(), 720);
+}
+
+/// The first columns of pixels, of which those with anything but paper are marked.
+std::vector<bool> inked_columns(const Canvas& canvas, int columns) {
+  std::vector<bool> inked;
+  for (int x = 0; x < columns; ++x) {
+    bool any = false;
+    for (int y = 0; y < canvas.height(); ++y) any = any || !is(canvas, x, y, {255, 255, 255});
+    inked.push_back(any);
+  }
+  return inked;
+}
+
+TEST(Plot, TheTitleOfAnAxisDoesNotTouchLongLabels) {
+  for (const double unit : {1.0, 1e-3, 1e-4}) {
+    Chart chart;
+    chart.y_label = "a title";
+    chart.series.push_back({});
+    chart.series[0].x = {1, 2};
+    chart.series[0].y = {0.0012 * unit, 0.0031 * unit};
+    const std::vector<bool> inked = inked_columns(paint({chart}, 1, 700, 400), 200);
+    const auto title = std::find(inked.begin(), inked.end(), true), gap = std::find(title, inked.end(), false),
+               labels = std::find(gap, inked.end(), true);
+    EXPECT_GE(gap - title, 10) << "the height of letters";
+    EXPECT_GE(labels - gap, 6) << unit;
+  }
 }
 
 TEST(Plot, APathThatCannotBeWrittenIsNamed) {

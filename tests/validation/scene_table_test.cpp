@@ -66,10 +66,51 @@ NamedScene crossing(bool apart) {
 
 TEST(SceneTable, CrossingsAreCountedOnRequest) {
   SceneTableOptions options;
+  options.against.clear();
   EXPECT_EQ(measure_scenes({crossing(false)}, options).front().crossings, -1);
   options.counts_crossings = true;
   EXPECT_GT(measure_scenes({crossing(false)}, options).front().crossings, 0);
   EXPECT_EQ(measure_scenes({crossing(true)}, options).front().crossings, 0);
+}
+
+SceneRow row(const std::string& settings, double milliseconds, double p99, double largest) {
+  SceneRow made{"scene", settings};
+  made.milliseconds = milliseconds;
+  made.p99 = p99;
+  made.largest = largest;
+  return made;
+}
+
+TEST(SceneTable, NamesTheCheapestSettingThatHoldsTheBounds) {
+  std::vector<SceneRow> rows{row("default", 6, 0.01, 0.05),   row("own", 1, 0, 0),       row("tiled 20", 2, 0.021, 0.05),
+                             row("chains 20", 3, 0.01, 0.11), row("chains 40", 5, 0, 0), row("chains 30", 4, 0.02, 0.1)};
+  compare_costs(rows);
+  EXPECT_EQ(rows[0].cheapest, "chains 30");
+  EXPECT_EQ(rows[0].ratio, 1.5);
+  EXPECT_EQ(rows[5].cheapest, "");
+  for (std::size_t i = 2; i < rows.size(); ++i) rows[i].crossings = 1;
+  rows[0].cheapest.clear();
+  compare_costs(rows);
+  EXPECT_EQ(rows[0].cheapest, "") << "none holds";
+  rows[4].crossings = 0;
+  rows[4].finite = false;
+  compare_costs(rows);
+  EXPECT_EQ(rows[0].cheapest, "");
+}
+
+TEST(SceneTable, LeavesTheBoundsOfTheFileToItsOwnSettings) {
+  NamedScene hung{"hung", {}};
+  hung.scene.add_cloth(grid_mesh(24, 24, 1, 1));
+  hung.scene.pin(0, {0});
+  hung.scene.objects[0].self_collision = true;
+  hung.scene.settings.least_substeps = hung.scene.settings.most_substeps = 60;
+  SceneTableOptions options;
+  options.against = {"own"};
+  options.frames = 2;
+  const std::vector<SceneRow> rows = measure_scenes({hung}, options);
+  EXPECT_EQ(rows[1].substeps, 60);
+  EXPECT_LT(rows[0].substeps, 59);
+  EXPECT_EQ(rows[0].frames, 2);
 }
 
 }  // namespace
