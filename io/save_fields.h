@@ -78,8 +78,8 @@ void fields(A& a, Is<WorldLayout::Slot> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<WorldLayout> auto& of) {
-  auto& [objects, colliders, mesh_colliders, blocks, first_frames, sweeps] = of;
-  a(objects, colliders, mesh_colliders, blocks, first_frames, sweeps);
+  auto& [objects, colliders, mesh_colliders, blocks, first_frames, sweeps, sweep_is_open, substeps_are_open] = of;
+  a(objects, colliders, mesh_colliders, blocks, first_frames, sweeps, sweep_is_open, substeps_are_open);
 }
 template <class A>
 void fields(A& a, Is<Object> auto& of) {

@@ -49,6 +49,7 @@ struct Overstretch {
   int object = -1;              ///< slot of the object that has the maximum; -1: no constraint is too long
   std::array<int, 2> particles{{-1, -1}};  ///< particles of the constraint with the maximum, in the object's own order
   std::int64_t constraints = 0;            ///< number of constraints that were measured
+  int generation = 0;                      ///< generation of that object's id
 };
 
 /// The overstretch that the default settings keep to in any frame: 99th percentile and maximum [-].

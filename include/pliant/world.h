@@ -65,6 +65,8 @@ struct WorldLayout {
   std::vector<StateBlock> blocks;                        ///< block of each object or mesh collider
   std::vector<int> first_frames;                         ///< first frame of each object in a State
   std::vector<Sweep> sweeps;                             ///< sweep of each object
+  /// True if the settings left them open: objects added later then get their own choice.
+  bool sweep_is_open = false, substeps_are_open = false;
 };
 
 /// A simulation to step, change and read. Over thirty members, because it is the only object that a user needs for this.
@@ -102,10 +104,11 @@ class World {
 
   // ---- Adding and removing, between steps. If a call throws an Error, the World is unchanged.
 
-  /// Adds an object at the current time. Its keyframes act from the next frame on. The cost is that of compiling it. A
-  /// sweep and substeps that the World chose for its first objects stay (settings()), even if contact would now need
-  /// others: set both in Settings if objects will be added. Throws an Error that names the element if the object cannot be
-  /// simulated, or if the settings refuse its initial intersections with present objects; that check tests all surfaces.
+  /// Adds an object at the current time. Its keyframes act from the next frame on. The cost is that of compiling it. If
+  /// the settings name no sweep, it gets the one that it would get in a scene of all present objects and colliders;
+  /// those keep theirs, even if the new one can touch them. If they name no substeps, sets of objects that can touch are
+  /// formed again. Throws an Error that names the element if the object cannot be simulated, or if the settings refuse
+  /// its initial intersections with present objects; that check tests all surfaces.
   ObjectId add(const Object& object);
   ColliderId add(const Collider& collider);
   MeshColliderId add(const MeshCollider& collider);
@@ -165,6 +168,8 @@ class World {
   /// The number of objects. If none was removed, their ids are 0, 1, ...
   int object_count() const;
   ObjectInfo info(ObjectId object) const;
+  /// The settings in use. A sweep or substeps that were left open are those chosen for the first objects; 0 substeps or
+  /// the sweep `automatic` if these differ.
   const Settings& settings() const;
   std::string isa() const;  ///< the code path in use: "x86-64-v2", "-v3", "-v4" or "generic"
   int threads() const;
@@ -206,7 +211,8 @@ class World {
   /// The overstretch of the present State. Before the first step, after World::restore and after a frame that was not
   /// completed, the forces in compliant constraints are unknown, so their whole stretch counts.
   Overstretch overstretch() const;
-  /// Describes it: "object 'sheet': stretched 14 % too far at its pins (edge 12-13), 1 edge in 100 by 3 % or more".
+  /// Describes it: "object 'sheet': stretched 14 % too far at its pins (edge 12-13), 1 edge in 100 by 3 % or more". Of an
+  /// object that was removed, or edited so that it lacks these particles, only the figures.
   std::string describe(const Overstretch& found) const;
   /// Says where the solve fell short, by how much, and what to do; empty if is_tolerable(found). `found` is that of a
   /// frame of this World, or the worst of all. pliant::advise tries remedies.

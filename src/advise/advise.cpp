@@ -1,6 +1,6 @@
 // Trial runs: simulates a scene with more and more expensive settings until its overstretch is tolerable.
 //
-// If the scene names a sweep or substeps, the default is tried first, and advised if it is good. The search for other
+// If the scene names a sweep, substeps or bounds of these, the default is tried first, and advised if it is good. The search for other
 // settings follows if it is not.
 //
 // A family is a sweep with or without tethers. First come sweeps that may do better than the scene's own, the most
@@ -18,6 +18,7 @@
 
 #include "matter/advice_settings.h"
 #include "model/object_sets.h"
+#include "solver/substep_law.h"
 #include "world/advice.h"
 
 namespace pliant {
@@ -59,15 +60,16 @@ class Trials {
         own_end_(after(own_share * options.seconds)),
         stops_(options.stops) {}
 
-  /// Tries the scene's own settings. If its time runs out, all later trials run only as many frames as this one.
+  /// Tries the scene's own settings. If its time runs out, all later trials run only as many frames as this one. Its share
+  /// of the time is limited only where something was found: else no other trial follows.
   Trial run_own(std::string& words) {
-    Trial trial = run(scene_.settings, std::numeric_limits<double>::infinity(), own_end_, &words);
+    Trial trial = run(scene_.settings, std::numeric_limits<double>::infinity(), &words);
     if (std::isfinite(trial.worst.largest)) frames_ = trial.frames;
     return trial;
   }
 
   /// Tries other settings until all frames are done, or the excess exceeds `bound` and 1.
-  Trial run_other(const Settings& settings, double bound) const { return run(settings, bound, end_, nullptr); }
+  Trial run_other(const Settings& settings, double bound) const { return run(settings, bound, nullptr); }
 
   bool out_of_time() const { return is_over(end_); }
   int frames() const { return frames_; }
@@ -77,7 +79,8 @@ class Trials {
     return last.ok() ? "in frame " + std::to_string(trial.frame) + ", " + world.describe(trial.worst) : last.explain();
   }
 
-  Trial run(const Settings& settings, double bound, Clock::time_point end, std::string* words) const {
+  /// `words` receives what was found in the trial of the scene's own settings; null for other trials.
+  Trial run(const Settings& settings, double bound, std::string* words) const {
     Trial trial;
     trial.settings = settings;
     World world(scene_, settings);
@@ -90,7 +93,8 @@ class Trials {
       keep_worst(last, trial);
       const bool measurable = trial.worst.constraints > 0;
       trial.worse = excess(trial.worst) > std::max(bound, 1.);
-      goes_on = measurable && last.ok() && !trial.worse && !is_over(end);
+      const bool is_own = words != nullptr && !is_tolerable(trial.worst);
+      goes_on = measurable && last.ok() && !trial.worse && !is_over(is_own ? own_end_ : end_);
       trial.complete = last.ok() && (trial.frames == frames_ || !measurable);
     }
     if (words != nullptr && !is_tolerable(trial.worst)) *words = in_words(world, trial, last);
@@ -110,6 +114,18 @@ struct Family {
   Settings settings;  ///< settings for the next trial
   bool open = true;   ///< true while it is not good, but may be with more substeps
   int good = -1;      ///< index of its last good trial; -1: none
+
+  /// True if substeps follow the State, so that their lower bound is what is doubled.
+  bool by_state() const { return settings.substeps == 0; }
+  int number() const { return by_state() ? settings.least_substeps : settings.substeps; }
+  void set(int number) {
+    if (!by_state()) {
+      settings.substeps = number;
+      return;
+    }
+    settings.least_substeps = number;
+    if (settings.most_substeps > 0) settings.most_substeps = std::max(settings.most_substeps, number);
+  }
 };
 
 std::vector<Family> families_of(const Scene& scene) {
@@ -125,6 +141,10 @@ std::vector<Family> families_of(const Scene& scene) {
   if (may && !own.sweep_options.tethers) {
     families.push_back({own});
     families.back().settings.sweep_options.tethers = true;
+  }
+  if (scene.settings.substeps == 0) {
+    families.push_back({scene.settings});
+    families.back().set(2 * std::max(least_by_state, scene.settings.least_substeps));
   }
   if (2 * own.substeps <= most_substeps) {
     families.push_back({own});
@@ -186,13 +206,13 @@ class Search {
     const int found = best_of(advice_);
     const bool dearer = found >= 0 && is_good(advice_.others[found]) &&
                         2 * advice_.others.back().milliseconds > advice_.others[found].milliseconds;
-    family.open = !good && !dearer && 2 * family.settings.substeps <= most_substeps;
-    if (family.open) family.settings.substeps *= 2;
+    family.open = !good && !dearer && 2 * family.number() <= most_substeps;
+    if (family.open) family.set(2 * family.number());
   }
 
   /// Tries half of the good substeps while that is good too, then three quarters of the least good number.
   void try_less(Family& family) {
-    if (family.good < 0) return;
+    if (family.good < 0 || family.by_state()) return;
     const bool was_doubled = family.settings.substeps > most_substeps_of(advice_.own.settings);
     while (!was_doubled && has_time() && halve(family)) {
     }
@@ -246,8 +266,9 @@ Advice advise(const Scene& given, const AdviseOptions& options) {
   advice.cut_short = !advice.own.complete && std::isfinite(advice.own.worst.largest);
   if (advice.words.empty()) return advice;
   Search search(scene, trials, advice);
-  if (!departs_from_default(scene, given.settings, scene.settings) || !search.try_default()) search.run();
-  advice.what_to_do = remedy(advice);
+  const std::string departs = departures(scene, given.settings, scene.settings);
+  if (departs.empty() || !search.try_default()) search.run();
+  advice.what_to_do = remedy(advice, departs);
   return advice;
 }
 

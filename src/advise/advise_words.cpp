@@ -10,13 +10,18 @@ namespace pliant {
 
 namespace {
 
-/// True if the trial leaves sweep and substeps open.
-bool is_default(const Trial& trial) { return trial.settings.sweep == Sweep::automatic && trial.settings.substeps == 0; }
+/// True if the trial leaves sweep, substeps and their bounds open.
+bool is_default(const Trial& trial) {
+  const Settings& of = trial.settings;
+  return of.sweep == Sweep::automatic && of.substeps == 0 && of.least_substeps == 0 && of.most_substeps == 0;
+}
 
 /// Describes the settings of a trial: "40 substeps", or "20 substeps of the sweep 'chains' with tethers".
 std::string setting_in_words(const Trial& trial, const Settings& own) {
   if (is_default(trial)) return "the default";
-  std::string text = std::to_string(trial.settings.substeps) + (trial.settings.substeps == 1 ? " substep" : " substeps");
+  const bool by_state = trial.settings.substeps == 0;
+  const int substeps = by_state ? trial.settings.least_substeps : trial.settings.substeps;
+  std::string text = (by_state ? "at least " : "") + std::to_string(substeps) + (substeps == 1 ? " substep" : " substeps");
   if (trial.settings.sweep != own.sweep) text += " of the sweep '" + sweep_name(trial.settings.sweep) + "'";
   if (trial.settings.sweep_options.tethers && !own.sweep_options.tethers) text += " with tethers";
   return text;
@@ -45,10 +50,10 @@ std::string setting_and_cost(const Advice& advice, int trial) {
 /// Otherwise its result says nothing about later frames.
 bool knows_all(const Advice& advice) { return advice.own.complete || !std::isfinite(advice.own.worst.largest); }
 
-std::string json_of_best(const Advice& advice) {
+std::string json_of_best(const Advice& advice, const std::string& departs) {
   const Trial& best = advice.others[advice.best];
   const std::string lead = knows_all(advice) ? "" : "to try it, ";
-  if (is_default(best)) return lead + "remove \"sweep\" and \"substeps\" from the scene's \"settings\"";
+  if (is_default(best)) return lead + "remove " + departs + " from the scene's \"settings\"";
   return lead + "add to the scene's \"settings\": " + in_json(best.settings, advice.own.settings);
 }
 
@@ -65,7 +70,7 @@ int judged(const Advice& advice) {
 }
 
 /// The advice if no settings are good: those that come nearest.
-std::string of_the_nearest(const Advice& advice) {
+std::string of_the_nearest(const Advice& advice, const std::string& departs) {
   const std::string in_time = advice.cut_short ? " within the time limit" : "";
   if (judged(advice) == 0) return "no other setting was tried" + in_time;
   const int count = judged(advice);
@@ -77,30 +82,30 @@ std::string of_the_nearest(const Advice& advice) {
   return "of " + tried + " none keeps" + tolerance_in_words() + "; the best of them, " +
          setting_and_cost(advice, advice.best) + ", leaves at most " + percent(best.worst.largest) +
          ", and 1 edge in 100 " + percent(best.worst.p99) + " or more; the present settings take " +
-         cost_in_words(advice.own) + "; " + json_of_best(advice);
+         cost_in_words(advice.own) + "; " + json_of_best(advice, departs);
 }
 
 /// The advice if some settings are good: the cheapest, and the cheapest of another family.
-std::string of_the_good(const Advice& advice) {
+std::string of_the_good(const Advice& advice, const std::string& departs) {
   const int other = runner_up(advice);
   const bool one = other < 0 && advice.others[advice.best].settings.substeps == 1;
   const std::string keep = one || (other < 0 && is_default(advice.others[advice.best])) ? " keeps" : " keep";
   return setting_and_cost(advice, advice.best) + (other < 0 ? "" : " or " + setting_and_cost(advice, other)) + keep +
          tolerance_in_words() + "; the present settings take " + cost_in_words(advice.own) +
          (advice.cut_short ? "; there was no time to search for cheaper ones" : "") +
-         (other < 0 ? "; " : "; for the first, ") + json_of_best(advice);
+         (other < 0 ? "; " : "; for the first, ") + json_of_best(advice, departs);
 }
 
 }  // namespace
 
-std::string remedy(const Advice& advice) {
+std::string remedy(const Advice& advice, const std::string& departs) {
   const int ran = advice.own.frames;
   const std::string first = ran == 1 ? "first" : "first " + std::to_string(ran);
   const std::string part = "only the " + first + " of " + std::to_string(advice.frames) +
                            " frames were run within the time limit: the following holds for " +
                            (ran == 1 ? "that one" : "those") + ", and later ones may be worse, with any settings; ";
   const bool good = advice.best >= 0 && is_good(advice.others[advice.best]);
-  return (knows_all(advice) ? "" : part) + (good ? of_the_good(advice) : of_the_nearest(advice));
+  return (knows_all(advice) ? "" : part) + (good ? of_the_good(advice, departs) : of_the_nearest(advice, departs));
 }
 
 }  // namespace pliant

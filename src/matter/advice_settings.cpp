@@ -31,6 +31,22 @@ bool movers_may_touch(const Scene& scene) {
   return false;
 }
 
+bool may_meet_collider(const Scene& scene) {
+  const auto meets = [&](const MeshCollider& collider) {
+    return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+      return (object.groups & collider.mask) != 0 && (collider.groups & object.mask) != 0;
+    });
+  };
+  return !scene.colliders.empty() || std::any_of(scene.mesh_colliders.begin(), scene.mesh_colliders.end(), meets);
+}
+
+/// "a", "a and b", or "a, b and c".
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
 bool has_pins(const Scene& scene) {
   return std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& o) { return !o.pins.empty(); });
 }
@@ -46,26 +62,42 @@ std::vector<Sweep> better_sweeps(const Scene& scene) {
   std::vector<Sweep> better{Sweep::chains, Sweep::multigrid};
   if (chosen_settings(scene, left_open(scene.settings)).sweep == Sweep::multigrid) std::swap(better[0], better[1]);
   better.erase(std::remove(better.begin(), better.end(), scene.settings.sweep), better.end());
-  if (has_stiff_sheet(scene) || movers_may_touch(scene))
+  if (has_stiff_sheet(scene) || movers_may_touch(scene) || may_meet_collider(scene))
     better.erase(std::remove(better.begin(), better.end(), Sweep::multigrid), better.end());
   return better;
 }
 
 Settings left_open(Settings settings) {
   settings.sweep = Sweep::automatic;
-  settings.substeps = 0;
+  settings.substeps = settings.least_substeps = settings.most_substeps = 0;
   return settings;
 }
 
-bool departs_from_default(const Scene& scene, const Settings& given, const Settings& chosen) {
-  if (given.sweep == Sweep::automatic && given.substeps == 0) return false;
+std::string departures(const Scene& scene, const Settings& given, const Settings& chosen) {
+  std::vector<std::string> named;
+  const auto add = [&](const char* name, bool is_named) {
+    if (is_named) named.push_back("\"" + std::string(name) + "\"");
+  };
+  add("sweep", given.sweep != Sweep::automatic);
+  add("substeps", given.substeps != 0);
+  const bool has_bounds = given.substeps == 0 && (given.least_substeps != 0 || given.most_substeps != 0);
+  if (named.empty() && !has_bounds) return {};
   const Settings by_default = chosen_settings(scene, left_open(given));
-  return chosen.sweep != by_default.sweep || chosen.substeps != by_default.substeps;
+  const bool departs = chosen.sweep != by_default.sweep || chosen.substeps != by_default.substeps;
+  add("least_substeps", has_bounds && given.least_substeps != 0);
+  add("most_substeps", has_bounds && given.most_substeps != 0);
+  // Bounds have no effect on a number that the default fixes.
+  return departs || (has_bounds && by_default.substeps == 0) ? listed(named) : std::string();
 }
 
 std::string in_json(const Settings& wanted, const Settings& own) {
   std::string members;
   const auto add = [&](const std::string& member) { members += (members.empty() ? "" : ", ") + member; };
+  const bool has_bounds = wanted.substeps == 0 && own.substeps == 0;
+  if (has_bounds && wanted.least_substeps != own.least_substeps)
+    add("\"least_substeps\": " + std::to_string(wanted.least_substeps));
+  if (has_bounds && wanted.most_substeps != own.most_substeps)
+    add("\"most_substeps\": " + std::to_string(wanted.most_substeps));
   // The sweep decides the defaults of what the scene leaves open, so such settings are written out.
   if (wanted.substeps != own.substeps || wanted.sweep != own.sweep)
     add("\"substeps\": " + std::to_string(most_substeps_of(wanted)));

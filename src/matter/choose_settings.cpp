@@ -19,7 +19,7 @@ namespace pliant {
 namespace {
 
 /// Objects with fewer particles do not need a special sweep: these are a few edges apart, and 20 substeps suffice.
-constexpr int fewest_particles = 32;
+constexpr std::size_t fewest_particles = 32;
 /// A sheet whose bending length exceeds this share of its size supports itself; sweeps that correct only stretch
 /// converge slowly.
 constexpr double stiff_share = 0.25;
@@ -45,6 +45,11 @@ std::size_t springs_of(const Object& object) {
   for (const ConstraintGroup& group : object.constraints)
     if (is_length(group.type) && group.stiffness.kind == Stiffness::Kind::compliance) count += group.particles.size() / 2;
   return count;
+}
+
+/// A path has one particle more than springs.
+std::size_t linked_particles(std::size_t particles, std::size_t springs) {
+  return springs == 0 ? 0 : std::min(particles, springs + 1);
 }
 
 double largest_extent(const Object& object) {
@@ -240,6 +245,16 @@ bool hangs(const Object& object) {
 
 double gravity_of(const Scene& scene) { return std::sqrt(static_cast<double>(length_squared(scene.gravity))); }
 
+/// True if tethers do not change how an object moves: it hangs, meets no surface, and is not meant to stretch.
+bool may_be_tethered(const Scene& scene, const Object& object) {
+  return !can_touch(scene, object) && hangs(object) && !is_meant_to_stretch(object, gravity_of(scene));
+}
+
+bool has_fixed(const Object& object) {
+  return !object.pins.empty() || !object.attachments.empty() ||
+         std::any_of(object.masses.begin(), object.masses.end(), [](float mass) { return std::isinf(mass); });
+}
+
 struct Choice {
   Sweep sweep = Sweep::tiled;
   std::string reason;
@@ -251,9 +266,8 @@ Choice choose(const Scene& scene, const Settings& settings, const Object& object
   const std::size_t springs = springs_of(object);
   if (settings.iterations > 1) return {Sweep::tiled, "more than one iteration"};
   if (springs > 0 && object.volume) return {Sweep::tiled, name + ", which has a volume"};
-  const std::size_t particles =
-      springs == 0 ? 0 : std::min(object.positions.size(), springs + 1);  // a path has one particle more than springs
-  if (particles < fewest_particles) return {Sweep::tiled, too_coarse};
+  const std::size_t particles = linked_particles(object.positions.size(), springs);
+  if (is_coarse(particles)) return {Sweep::tiled, too_coarse};
   if (can_touch(scene, object)) return {Sweep::chains, name + ", a surface that can touch itself or others"};
   // Neither tethers nor multigrid know of bending, which demands more substeps than they need for stretch.
   if (is_stiff_sheet(object, gravity))
@@ -264,7 +278,7 @@ Choice choose(const Scene& scene, const Settings& settings, const Object& object
     return {Sweep::multigrid,
             "cloth or rope that meets nothing, the largest of " + std::to_string(particles) + " particles"};
   }
-  if (hangs(object) && !is_meant_to_stretch(object, gravity))
+  if (may_be_tethered(scene, object))
     return {Sweep::tethered_chains, name + ", which hangs from pins and has its springs in straight rows"};
   return {Sweep::chains, name + ", whose springs lie in straight rows"};
 }
@@ -311,6 +325,13 @@ struct SweepsInUse {
   }
 };
 
+/// The sweep of an object that is too small for sweeps to differ: that of the others if it needs no more substeps. But
+/// tethers would hold back an object that is meant to stretch, or whose pins move apart.
+Sweep sweep_of_coarse(const Scene& scene, const Object& object, Sweep common) {
+  if (common == Sweep::tethered_chains && has_fixed(object) && !may_be_tethered(scene, object)) return Sweep::chains;
+  return common == Sweep::multigrid || solves_chains(common) ? common : Sweep::tiled;
+}
+
 struct Choices {
   std::vector<Sweep> sweeps;  ///< sweep of each object
   SweepsInUse used;
@@ -328,12 +349,17 @@ Choices choices_of(const Scene& scene, const Settings& settings) {
     out.sweeps.push_back(choice.sweep);
   }
   const Sweep common = out.used.common(Sweep::tiled);
-  const bool may_follow = common == Sweep::multigrid || solves_chains(common);
-  for (const std::size_t o : coarse) out.sweeps[o] = may_follow ? common : Sweep::tiled;
+  for (const std::size_t o : coarse) {
+    out.sweeps[o] = sweep_of_coarse(scene, scene.objects[o], common);
+    if (common == Sweep::tethered_chains && out.sweeps[o] != common)
+      out.used.add(scene.objects[o], {out.sweeps[o], too_coarse});
+  }
   return out;
 }
 
 }  // namespace
+
+bool is_coarse(std::size_t particles) { return particles < fewest_particles; }
 
 bool has_stiff_sheet(const Scene& scene) {
   const double gravity = gravity_of(scene);

@@ -23,6 +23,7 @@ std::string words_of(const Overstretch& found, const CompiledObject& object);
 int best_of(const Advice& advice);
 
 /// The remedy that the trials found: settings and their cost, an alternative if there is one, and the JSON to paste.
-std::string remedy(const Advice& advice);
+/// `departs` are the departures() of the scene's settings.
+std::string remedy(const Advice& advice, const std::string& departs);
 
 }  // namespace pliant

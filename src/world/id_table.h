@@ -70,9 +70,6 @@ class IdTable {
                           " now; use the id that add returned for that one");
   }
 
-  /// The id that a slot has at present; an invalid id if the slot is free.
-  Id<Kind> id_in(int slot) const { return Id<Kind>(slot, slots_.at(static_cast<std::size_t>(slot)).generation); }
-
   /// The id of an internal number.
   Id<Kind> id_of(int number) const {
     for (int slot = 0; slot < static_cast<int>(slots_.size()); ++slot)

@@ -42,6 +42,8 @@ struct World::Implementation {
   Implementation(const Scene& scene, const WorldLayout& layout);  ///< defined in layout.cpp
 
   // ---- objects.cpp
+  /// The substeps that the user named; 0: none, so that each set of objects has its own.
+  int named_substeps() const { return substeps_are_open ? 0 : settings.substeps; }
   /// Data apart from the object on which the schedule of an object that is added now depends.
   CompileOptions compile_options(Sweep sweep) const;
   /// The sweep that an object gets if it is added now.
@@ -100,6 +102,9 @@ struct World::Implementation {
   /// Throws an Error if a State's blocks of particles differ from those of this World.
   void require_blocks(const State& given) const;
   void require_held_poses(const State& given) const;
+  /// Sets multipliers to zero, so that the whole stretch counts; if `only_of_last`, those that are stored in the last
+  /// substep of a frame only.
+  void forget_multipliers(bool only_of_last);
 
   // ---- control.cpp
   const HeldPose* held(bool is_mesh, int slot) const;
@@ -130,8 +135,10 @@ struct World::Implementation {
   GroupFrame plan(const SubstepGroup& group, double dt, std::vector<std::string>& warnings) const;
   std::vector<GroupFrame> plan_frame(double dt, Report& report);
 
-  Settings settings;
-  bool departs = false;  ///< departs_from_default() of the first objects
+  Settings settings;    ///< as World::settings() returns them
+  std::string departs;  ///< departures() of the first objects: by which settings they depart from the default
+  /// True if the user named none; `settings` then has what was chosen for the first objects.
+  bool sweep_is_open = true, substeps_are_open = true;
   Executor executor;
   const Kernels& kernels;
   Model model;

@@ -75,7 +75,12 @@ void require_place(const StateBlock& block, int first_frame, const CompiledObjec
 
 World::Implementation::Implementation(const Scene& scene, const WorldLayout& layout)
     : Implementation(without_things(scene), scene.settings, scene.settings) {
-  departs = departs_from_default(scene, scene.settings, scene.settings);
+  sweep_is_open = sweep_is_open || layout.sweep_is_open;
+  substeps_are_open = substeps_are_open || layout.substeps_are_open;
+  Settings given = scene.settings;
+  if (sweep_is_open) given.sweep = Sweep::automatic;
+  if (substeps_are_open) given.substeps = 0;
+  departs = departures(scene, given, scene.settings);
   const std::size_t count = layout.blocks.size();
   if (layout.first_frames.size() != count || layout.sweeps.size() != count) refuse("its columns differ in length");
   std::vector<char> taken(count, 0), taken_colliders(scene.colliders.size(), 0);
@@ -119,7 +124,8 @@ World::World(const Scene& scene, const WorldLayout& layout) {
 
 WorldLayout World::layout() const {
   WorldLayout layout{self_->object_ids.layout(), self_->collider_ids.layout(), self_->mesh_collider_ids.layout(),
-                     self_->state.blocks,        self_->model.first_frame,     {}};
+                     self_->state.blocks,        self_->model.first_frame,     {},
+                     self_->sweep_is_open,       self_->substeps_are_open};
   for (const CompiledObject& object : self_->model.objects) layout.sweeps.push_back(object.sweep);
   return layout;
 }

@@ -8,6 +8,7 @@
 #include "collision/fields/solid_fields.h"
 #include "inspect/inspect_scene.h"
 #include "math/motion.h"
+#include "matter/advice_settings.h"
 #include "model/object_sets.h"
 #include "pliant/error.h"
 #include "solver/sweeps/sweep.h"
@@ -28,6 +29,14 @@ Multipliers kept_multipliers(const Settings& settings, Sweep sweep) {
 }
 
 constexpr int most_particles = std::numeric_limits<int>::max() / 4;
+
+/// The sweep that objects too small for sweeps to differ follow; `automatic` if the object is such a one.
+Sweep sweep_to_follow(const CompiledObject& object) {
+  std::int64_t springs = 0;
+  for (const LengthRange& range : object.lengths) springs += range.constraints;
+  const auto particles = std::min(std::int64_t{object.particles}, springs + 1);
+  return is_coarse(static_cast<std::size_t>(particles)) ? Sweep::automatic : object.sweep;
+}
 
 void require_room(const Model& model, std::size_t particles, const std::string& name) {
   if (particles > static_cast<std::size_t>(most_particles - model.particles()))
@@ -58,7 +67,7 @@ CompileOptions World::Implementation::compile_options(Sweep sweep) const {
   CompileOptions options;
   options.sweep = sweep;
   const int substeps =
-      settings.substeps > 0 ? settings.substeps : substeps_of_others;  // own_substeps() of objects with PBD stiffness
+      named_substeps() > 0 ? named_substeps() : substeps_of_others;  // own_substeps() of objects with PBD stiffness
   options.passes = substeps * settings.iterations * sweep_method(sweep).passes;
   options.chain_softness = settings.sweep_options.chain_softness;
   options.tethers = settings.sweep_options.tethers;
@@ -70,17 +79,24 @@ CompileOptions World::Implementation::compile_options(Sweep sweep) const {
 
 Sweep World::Implementation::sweep_of(const Object& object) const {
   if (object.sweep != Sweep::automatic) return object.sweep;
-  if (settings.sweep != Sweep::automatic) return settings.sweep;
-  Scene scene;  // has of other objects only what decides whether the new one can touch them
-  scene.settings = settings;
+  if (!sweep_is_open) return settings.sweep;
+  Scene scene;  // has of colliders and other objects only what decides whether the new one can meet them
+  scene.settings.iterations = settings.iterations;
   scene.gravity = model.gravity;
+  scene.colliders = model.colliders;
+  const auto add_mesh = [&](MeshCollider::As as, const Masks& masks) {
+    MeshCollider& mesh = scene.mesh_colliders.emplace_back();
+    mesh.as = as;
+    mesh.groups = masks.groups;
+    mesh.mask = masks.mask;
+  };
+  for (const FieldCollider& field : model.fields) add_mesh(MeshCollider::As::distance_grid, {field.groups, field.mask});
   for (const CompiledObject& other : model.objects) {
     if (other.is_collider) {
-      MeshCollider& mesh = scene.mesh_colliders.emplace_back();
-      mesh.groups = other.groups;
-      mesh.mask = other.mask;
+      add_mesh(MeshCollider::As::triangles, {other.groups, other.mask});
     } else if (other.particles > 0) {
       Object& one = scene.objects.emplace_back();
+      one.sweep = sweep_to_follow(other);
       one.collides = other.collides;
       one.groups = other.groups;
       one.mask = other.mask;
@@ -290,11 +306,11 @@ void World::Implementation::take_over_pairs(SubstepGroup& group, SubstepGroup& b
 
 std::vector<SubstepGroup> World::Implementation::find_groups() const {
   std::vector<SubstepGroup> found;
-  if (settings.substeps > 0)
-    found.push_back(group_of_all(model, settings.substeps));
+  if (named_substeps() > 0)
+    found.push_back(group_of_all(model, named_substeps()));
   else
     found = make_substep_groups(model);
-  if (settings.substeps > 0 || (settings.tolerance <= 0 && !settings.record_residuals)) return found;
+  if (named_substeps() > 0 || (settings.tolerance <= 0 && !settings.record_residuals)) return found;
   int most = 0;  // because the tolerance is for all objects together
   for (const SubstepGroup& group : found) most = std::max(most, group.substeps);
   found.clear();

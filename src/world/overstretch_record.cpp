@@ -13,6 +13,7 @@ void OverstretchRecord::add(const Overstretch& measured, std::int64_t frame) {
   worst.largest = measured.largest;
   worst.object = measured.object;
   worst.particles = measured.particles;
+  worst.generation = measured.generation;
   worst_.frame_of_largest = frame;
 }
 

@@ -21,7 +21,10 @@ std::vector<Vec3f> World::Implementation::in_given_order(int number, const Recor
 
 /// The overstretch with the slot of its object instead of the number in the model.
 Overstretch World::Implementation::with_slot(Overstretch measured) const {
-  if (measured.object >= 0) measured.object = object_ids.id_of(measured.object).slot;
+  if (measured.object < 0) return measured;
+  const ObjectId id = object_ids.id_of(measured.object);
+  measured.object = id.slot;
+  measured.generation = id.generation;
   return measured;
 }
 
@@ -174,18 +177,36 @@ Overstretch World::overstretch() const {
   return self_->with_slot(meter.measure({self_->model, self_->state, self_->workspace, self_->kernels.lengths}, nullptr));
 }
 
+namespace {
+
+/// True if a figure is of an object's constraint that exists.
+bool is_present(const Overstretch& found, const CompiledObject& object) {
+  return std::all_of(found.particles.begin(), found.particles.end(),
+                     [&](int particle) { return particle >= 0 && particle < object.particles; });
+}
+
+std::string of_unknown(const Overstretch& found) {
+  return "an object that was removed or edited stretched " + percent(found.largest) + " too far";
+}
+
+}  // namespace
+
 std::string World::describe(const Overstretch& found) const {
-  return found.object < 0 ? std::string() : words_of(found, self_->object(self_->object_ids.id_in(found.object)));
+  if (found.object < 0) return {};
+  const ObjectId id(found.object, found.generation);
+  if (!has(id) || !is_present(found, self_->object(id))) return of_unknown(found);
+  return words_of(found, self_->object(id));
 }
 
 std::string World::advice(const Overstretch& found) const {
   if (is_tolerable(found)) return {};
-  if (found.object < 0) return "an object that was removed or edited stretched " + percent(found.largest) + " too far";
-  const int substeps = self_->substeps_of(self_->object_ids.number(self_->object_ids.id_in(found.object)));
+  const ObjectId id(found.object, found.generation);
+  if (!has(id)) return of_unknown(found);
+  const int substeps = self_->substeps_of(self_->number(id));
   const std::string more = substeps > 0 ? "more than " + std::to_string(substeps) + " substeps"
                                         : "a larger \"least_substeps\" or \"most_substeps\"";
   return describe(found) + "; " +
-         (self_->departs ? "the default, with no \"sweep\" and \"substeps\" in the scene's \"settings\"," : more) +
+         (self_->departs.empty() ? more : "the default, with no " + self_->departs + " in the scene's \"settings\",") +
          " may reduce it: 'pliant check' or advise() finds out";
 }
 

@@ -14,12 +14,6 @@ namespace {
 constexpr std::int64_t largest_frame = std::int64_t{1} << 60;
 
 /// Sets multipliers to zero: they are those of the last substep, and no part of a State.
-void forget_multipliers(Workspace& workspace) {
-  for (auto& object : workspace.multipliers)
-    for (auto& values : object) std::fill(values.begin(), values.end(), 0.f);
-  std::fill(workspace.volume_multipliers.begin(), workspace.volume_multipliers.end(), 0.);
-}
-
 void add_records(Sha256& sha, const Records& records) { sha.add(records.data(), records.size() * sizeof(Record)); }
 
 /// Throws an Error unless `given` has as many frames as the States of this World.
@@ -90,6 +84,14 @@ void World::Implementation::require_held_poses(const State& given) const {
   }
 }
 
+void World::Implementation::forget_multipliers(bool only_of_last) {
+  for (std::size_t o = 0; o < workspace.multipliers.size(); ++o) {
+    if (only_of_last && workspace.stores_in_last[o] == 0) continue;
+    for (auto& values : workspace.multipliers[o]) std::fill(values.begin(), values.end(), 0.f);
+  }
+  if (!only_of_last) std::fill(workspace.volume_multipliers.begin(), workspace.volume_multipliers.end(), 0.);
+}
+
 void World::Implementation::require_blocks(const State& given) const {
   const std::vector<StateBlock>& own = state.blocks;
   if (given.blocks == own) return;
@@ -132,7 +134,7 @@ void World::restore(const State& state) {
   if (state.frame < 0 || state.frame > largest_frame)
     throw Error({}, "the state's frame is " + std::to_string(state.frame), "restore a state of this world");
   self_->state = state;
-  forget_multipliers(self_->workspace);
+  self_->forget_multipliers(false);
   self_->workspace.look_for_tangles = true;
   self_->stopped = false;
   self_->may_drift = true;

@@ -27,7 +27,9 @@ constexpr int default_division = 8;
 
 World::Implementation::Implementation(const Scene& scene, const Settings& given, const Settings& with, Scene* given_away)
     : settings(with),
-      departs(departs_from_default(scene, given, with)),
+      departs(departures(scene, given, with)),
+      sweep_is_open(given.sweep == Sweep::automatic),
+      substeps_are_open(given.substeps == 0),
       executor(with.threads),
       kernels(kernels_for(with)) {
   model.gravity = scene.gravity;
@@ -50,7 +52,7 @@ World::Implementation::Implementation(const Scene& scene, const Settings& given,
 }
 
 int World::Implementation::substeps_of(int number) const {
-  if (settings.substeps > 0) return settings.substeps;
+  if (named_substeps() > 0) return named_substeps();
   const auto find = [&](const std::vector<SubstepGroup>& all) {
     const auto has = [&](const SubstepGroup& group) { return group.has_all || group.has[number] != 0; };
     const SubstepGroup& group = *std::find_if(all.begin(), all.end(), has);
@@ -146,6 +148,7 @@ Report World::step(float dt) {
                 &self_->overstretch.meter()},
                dt, report);
   self_->stopped = report.nonfinite.has_value();
+  if (self_->stopped || report.stopped) self_->forget_multipliers(!self_->stopped);
   self_->end_control(report.stopped);
   if (report.overstretch) {
     report.overstretch = self_->with_slot(*report.overstretch);

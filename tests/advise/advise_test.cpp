@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <thread>
 #include <utility>
 
 #include "matter/advice_settings.h"
@@ -159,12 +161,19 @@ TEST(Words, RecommendTheDefaultOnlyWhereTheSceneDepartsFromIt) {
   EXPECT_EQ(recommended(scene), by_default);
   scene.settings = {};
   scene.settings.sweep = Sweep::multigrid;
-  EXPECT_EQ(recommended(scene), by_default);
+  EXPECT_EQ(recommended(scene), "the default, with no \"sweep\" in the scene's \"settings\",");
   Scene large;
   large.add_cloth(grid_mesh(24, 24, 1, 1), {});
   EXPECT_EQ(recommended(large), "a larger \"least_substeps\" or \"most_substeps\"");
   large.settings.substeps = 30;
-  EXPECT_EQ(recommended(large), by_default);
+  EXPECT_EQ(recommended(large), "the default, with no \"substeps\" in the scene's \"settings\",");
+  large.settings.substeps = 0;
+  large.settings.most_substeps = 15;
+  EXPECT_EQ(recommended(large), "the default, with no \"most_substeps\" in the scene's \"settings\",");
+  large.settings.sweep = Sweep::chains;
+  large.settings.least_substeps = 5;
+  EXPECT_EQ(recommended(large),
+            "the default, with no \"sweep\", \"least_substeps\" and \"most_substeps\" in the scene's \"settings\",");
 }
 
 /// If the scene names no substeps, sets of objects can have different numbers; advice for all must name the largest.
@@ -173,6 +182,12 @@ TEST(Words, NameSubstepsThatTheSceneLeavesOpen) {
   wanted.sweep = Sweep::multigrid;
   own.sweep = Sweep::tiled;
   EXPECT_EQ(in_json(wanted, own), R"({"substeps": 20, "sweep": "multigrid"})");
+  wanted = own;
+  wanted.least_substeps = 48;
+  EXPECT_EQ(in_json(wanted, own), R"({"least_substeps": 48})");
+  own.most_substeps = 15;
+  wanted.most_substeps = 48;
+  EXPECT_EQ(in_json(wanted, own), R"({"least_substeps": 48, "most_substeps": 48})");
 }
 
 /// Multigrid ignores bending and makes a stiff sheet oscillate, and gains energy where surfaces touch, so it is not tried.
@@ -184,6 +199,9 @@ TEST(BetterSweeps, BeginWithTheDefaultAndLeaveOutMultigridWhereItDoesHarm) {
   Scene touching = scene;
   touching.objects[0].self_collision = true;
   EXPECT_EQ(better_sweeps(touching), std::vector<Sweep>{Sweep::chains});
+  Scene meeting = scene;
+  meeting.add(Collider{});
+  EXPECT_EQ(better_sweeps(meeting), std::vector<Sweep>{Sweep::chains}) << "cloth sticks to colliders by multigrid";
   ClothOptions options;
   options.material.bending_stiffness = 5;
   Scene stiff;
@@ -425,6 +443,51 @@ TEST(Advise, TriesTheDefaultFirstWhereTheSceneDepartsFromIt) {
   EXPECT_TRUE(is_default(advise(scene, unhurried).others.at(0)));
   const Scene poor = poor_by_default(hanging_sheet(32, Stiffness::rigid(), 0));
   for (const Trial& trial : advise(poor, unhurried).others) EXPECT_FALSE(is_default(trial)) << "that is its own";
+}
+
+/// Cloth that stretches because its substeps are bounded: the advice is to remove the bound that is there.
+TEST(Advise, RemovesTheBoundsOfSubsteps) {
+  Scene scene = hanging_sheet(24, Stiffness::rigid(), 0);
+  scene.settings = {};
+  scene.settings.sweep = Sweep::chains;
+  scene.settings.least_substeps = scene.settings.most_substeps = 1;
+  const Advice advice = advise(scene, unhurried);
+  ASSERT_FALSE(is_good(advice.own)) << "or this shows nothing";
+  ASSERT_EQ(advice.best, 0);
+  EXPECT_EQ(advice.others[0].settings.most_substeps, 0);
+  EXPECT_NE(advice.what_to_do.find(R"(; remove "sweep", "least_substeps" and "most_substeps" from the scene's "settings")"),
+            std::string::npos)
+      << advice.what_to_do;
+}
+
+/// Where the default follows the State and is not good, a larger lower bound is tried.
+TEST(Advise, TriesLargerBoundsOfSubsteps) {
+  Scene scene = hanging_sheet(24, Stiffness::rigid(), 0);
+  scene.settings = {};
+  scene.objects[0].self_collision = true;
+  scene.gravity = {0, -3000, 0};
+  scene.frames = 2;
+  const Advice advice = advise(scene, unhurried);
+  ASSERT_FALSE(is_good(advice.own)) << "or this shows nothing";
+  std::vector<int> least;
+  for (const Trial& trial : advice.others)
+    if (trial.settings.substeps == 0) least.push_back(trial.settings.least_substeps);
+  ASSERT_GE(least.size(), 2U);
+  EXPECT_EQ(least[0], 24);
+  EXPECT_EQ(least[1], 48);
+}
+
+/// Time is kept for other trials only where the first one found something.
+TEST(Advise, UsesAllOfItsTimeForASceneThatIsFine) {
+  Scene scene = hanging_sheet(8, Stiffness::rigid(), 150);
+  scene.frames = 5;
+  int frames = 0;
+  const Advice advice = advise(scene, {4, 120, [&] {
+                                         if (++frames == 1) std::this_thread::sleep_for(std::chrono::milliseconds(1300));
+                                         return false;
+                                       }});
+  EXPECT_EQ(advice.own.frames, 5);
+  EXPECT_FALSE(advice.cut_short);
 }
 
 TEST(Words, HaveNoPowersOfTen) {

@@ -304,5 +304,57 @@ TEST(OverstretchOfAFrame, IsNothingWithoutDistances) {
   EXPECT_TRUE(is_tolerable(*report.overstretch));
 }
 
+/// The multipliers of an earlier frame do not explain the stretch of the present one.
+TEST(OverstretchOfAFrame, CountsTheWholeStretchAfterAFrameThatWasStopped) {
+  Scene scene;
+  Object rope = chain(40, 0.1f, Stiffness::compliance(2e-4f));
+  rope.pins = {{0, {}}};
+  scene.add(rope);
+  scene.settings = settings_of(40);
+  std::atomic<bool> flag{false};
+  float last = 1e9f;
+  scene.forces.push_back([&](const Vec3f&, const Vec3f&, float, float time) {
+    if (time > last) flag = true;
+    return Vec3f{};
+  });
+  World world(scene);
+  for (int frame = 0; frame < 40; ++frame) world.step(dt);
+  last = static_cast<float>(world.state().time) + 0.5f * dt;
+  world.stop_when(&flag);
+  ASSERT_TRUE(world.step(dt).stopped);
+  const Overstretch found = world.overstretch();
+  World other(scene);
+  other.restore(world.state());
+  expect_same(found, other.overstretch(), "where no multiplier is known");
+  EXPECT_GT(found.largest, 0.01);
+}
+
+TEST(OverstretchInWords, OfAnObjectThatIsGoneReadsNothingOfAnother) {
+  Scene scene;
+  scene.add(sheet("first", Stiffness::rigid(), 0));
+  scene.settings = settings_of(2);
+  World world(scene);
+  Report report;
+  for (int frame = 0; frame < 30; ++frame) report = world.step(dt);
+  const std::string before = world.advice(report), gone = "an object that was removed or edited stretched";
+  EXPECT_NE(before.find("object 'first': stretched"), std::string::npos) << before;
+  world.remove(ObjectId(0));
+  EXPECT_NE(world.advice(report).find(gone), std::string::npos) << world.advice(report);
+  EXPECT_NE(world.describe(*report.overstretch).find(gone), std::string::npos);
+  Object small = chain(3, 0.1f);
+  const ObjectId id = world.add(small);  // in the same slot
+  ASSERT_EQ(id.slot, report.overstretch->object);
+  EXPECT_NE(world.advice(report).find(gone), std::string::npos) << world.advice(report);
+  EXPECT_NE(world.advice(report.worst_overstretch.overstretch).find(gone), std::string::npos);
+  Overstretch of_small = *report.overstretch;
+  of_small.generation = id.generation;  // particles that the object lacks, as after an edit
+  EXPECT_NE(world.describe(of_small).find(gone), std::string::npos);
+  of_small.object = 99;
+  EXPECT_NE(world.describe(of_small).find(gone), std::string::npos);
+  of_small.object = id.slot;
+  of_small.particles = {0, 1};
+  EXPECT_NE(world.describe(of_small).find("object 'chain': stretched"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace pliant
