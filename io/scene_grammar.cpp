@@ -259,7 +259,7 @@ const Record& settings_record() {
            "`automatic` chooses for each object: `chains` for cloth and rope of 32 particles or more that can touch others "
            "or itself, `tethered_chains` for regular ones that hang from pins, `multigrid` for irregular ones that can "
            "meet no "
-           "collider, and `tiled` for volumes, PBD stiffness, or several iterations. "
+           "collider, and `tiled` for inflated volumes, PBD stiffness, or several iterations. "
            "`sequential` is the slow scalar reference with the bits of `tiled`."),
        field("sweep_options", record(sweep_options_record()), "the defaults", "Options of sweeps."),
        field("contact_filter", boolean(), Settings{}.contact_filter,

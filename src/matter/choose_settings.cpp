@@ -265,9 +265,10 @@ Choice choose(const Scene& scene, const Settings& settings, const Object& object
   const double gravity = gravity_of(scene);
   const std::size_t springs = springs_of(object);
   if (settings.iterations > 1) return {Sweep::tiled, "more than one iteration"};
-  if (springs > 0 && object.volume) return {Sweep::tiled, name + ", which has a volume"};
   const std::size_t particles = linked_particles(object.positions.size(), springs);
   if (is_coarse(particles)) return {Sweep::tiled, too_coarse};
+  if (object.volume && object.volume->pressure > 1) return {Sweep::tiled, name + ", which is inflated"};
+  if (object.volume) return {Sweep::chains, name + ", which has a volume"};
   if (can_touch(scene, object)) return {Sweep::chains, name + ", a surface that can touch itself or others"};
   // Neither tethers nor multigrid know of bending, which demands more substeps than they need for stretch.
   if (is_stiff_sheet(object, gravity))

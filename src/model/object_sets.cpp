@@ -64,6 +64,9 @@ CompliancePerLength compliance_per_length(const Object& object, const Constraint
 constexpr std::size_t fewest_particles_by_state = 400, fewest_of_a_rope_by_state = 48;
 /// Substeps of objects solved by `multigrid` whose surface cannot touch others and whose pins rest.
 constexpr int substeps_of_undisturbed_multigrid = 6;
+/// Substeps of chains where there is a volume, which is corrected after the lengths and pushes them out again: with 20 an edge in
+/// a hundred of a balloon is 5 % too long, with 80 0.6 %.
+constexpr int substeps_of_volumes = 80;
 
 bool can_meet(const SetMember& a, const SetMember& b) {
   const bool by_masks = (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
@@ -126,6 +129,7 @@ std::optional<double> strain_by_weight(const Object& object, double gravity) {
 }
 
 int own_substeps(const Object& object, Sweep sweep) {
+  if (object.volume && solves_chains(sweep) && !has_converted(object)) return substeps_of_volumes;
   if (sweep != Sweep::multigrid || has_converted(object)) return substeps_of_others;
   const auto moves = [](const Pin& pin) { return pin.motion.keyframes.size() > 1; };
   const bool is_disturbed =
@@ -139,6 +143,7 @@ bool is_meant_to_stretch(const Object& object, double gravity) {
 
 SubstepRule substep_rule(const Object& object, Sweep sweep, double gravity) {
   if (has_converted(object)) return SubstepRule::fixed;
+  if (object.volume) return SubstepRule::any;  // chosen by measurements of volumes, not of strain
   const std::size_t fewest = object.triangles.empty() ? fewest_of_a_rope_by_state : fewest_particles_by_state;
   if (!solves_chains(sweep) || object.positions.size() < fewest) return SubstepRule::any;
   const std::optional<double> strain = strain_by_weight(object, gravity);
@@ -184,7 +189,10 @@ std::vector<SetSubsteps> substeps_of_sets(const std::vector<SetMember>& members)
   }
   std::vector<SetSubsteps> out;
   out.reserve(sets.size());
-  for (const int set : sets) out.push_back({set, most[set], rule[set] == SubstepRule::by_state, least[set]});
+  for (const int set : sets) {
+    const int substeps = rule[set] == SubstepRule::fixed ? substeps_of_others : most[set];
+    out.push_back({set, substeps, rule[set] == SubstepRule::by_state, least[set]});
+  }
   return out;
 }
 

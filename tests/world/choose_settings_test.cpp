@@ -84,11 +84,25 @@ TEST(ChosenSettings, ArePlainForWhatIsCoarse) {
   expect_chosen(Scene{}, Sweep::tiled, 20, "fewer than 32");
 }
 
-TEST(ChosenSettings, ArePlainForVolumes) {
+TEST(ChosenSettings, AreChainsInManySubstepsForVolumes) {
   ClothOptions options;
   options.volume = Volume{1, Stiffness::rigid()};
   options.name = "ball";
-  expect_chosen(with(sphere_mesh(2), options), Sweep::tiled, 20, "'ball', which has a volume");
+  expect_chosen(with(sphere_mesh(2), options), Sweep::chains, 80, "'ball', which has a volume");
+  options.stretch = Stiffness::rigid();
+  expect_chosen(with(sphere_mesh(3), options), Sweep::chains, 80, "'ball', which has a volume");  // not by the State
+  options.volume->pressure = 1.01f;  // its edges cannot follow, and chains would gain energy without bound
+  expect_chosen(with(sphere_mesh(2), options), Sweep::tiled, 20, "'ball', which is inflated");
+  options.volume->pressure = 0.8f;
+  Scene beside_pbd = with(sphere_mesh(2), options);
+  Object rope = chain(40, 0.1f);
+  rope.constraints.push_back({"distance", {0, 2}, {}, Stiffness::pbd(0.5f), {}});
+  for (Vec3f& p : rope.positions) p.x += 3;
+  rope.collides = beside_pbd.objects[0].collides = true;
+  beside_pbd.add(rope);
+  EXPECT_EQ(chosen_substeps(beside_pbd), (std::vector<int>{20, 20})) << "for which PBD stiffness is converted";
+  Scene small = with(sphere_mesh(0), options);
+  expect_chosen(small, Sweep::tiled, 20, "fewer than 32");
 }
 
 TEST(ChosenSettings, AreEachObjectsOwn) {
@@ -100,11 +114,11 @@ TEST(ChosenSettings, AreEachObjectsOwn) {
   scene.add_cloth(irregular_mesh(20, 1));
   scene.add_cloth(grid_mesh(20, 20, 1, 1), sock);
   scene.objects[2].self_collision = true;
-  EXPECT_EQ(chosen_sweep(scene, 0), Sweep::tiled);
+  EXPECT_EQ(chosen_sweep(scene, 0), Sweep::chains);
   EXPECT_EQ(chosen_sweep(scene, 1), Sweep::multigrid) << "whatever is beside it";
   EXPECT_EQ(chosen_sweep(scene, 2), Sweep::chains);
   expect_chosen(scene, Sweep::automatic, 0, "'cloth' by 'multigrid'");
-  EXPECT_EQ(chosen_substeps(scene), (std::vector<int>{20, 6, 0}));
+  EXPECT_EQ(chosen_substeps(scene), (std::vector<int>{80, 6, 0}));
   scene.objects[2].sweep = Sweep::jacobi;
   EXPECT_EQ(chosen_sweep(scene, 2), Sweep::jacobi) << "what it names itself";
   scene.settings.sweep = Sweep::symmetric;
