@@ -1,9 +1,11 @@
 #include "solver/drivers/contacts.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "solver/contact_kernels.h"
 #include "solver/drivers/driver.h"
+#include "solver/object_lookup.h"
 
 namespace pliant {
 
@@ -94,9 +96,9 @@ namespace {
 
 /// True if a point of the contact belongs to an object for which `has(object)` is true.
 template <class Has>
-bool concerns_any(const Substep& s, const Contact& contact, const Has& has) {
+bool concerns_any(ObjectLookup& objects, const Contact& contact, const Has& has) {
   for (std::size_t i = 0; i < contact.point.size(); ++i)
-    if (contact.weight[i] != 0 && has(s.model.object_of(contact.point[i]))) return true;
+    if (contact.weight[i] != 0 && has(objects.of(contact.point[i]))) return true;
   return false;
 }
 
@@ -110,22 +112,26 @@ void sweep_pairs(Substep& s) {
   if (s.group == nullptr || s.work.sweeps.size() == 1)
     return s.own->contact_solver.project(s.context.executor, name, contacts, displacements);
   // Objects of other sweeps keep the bits that they have alone.
+  ObjectLookup objects(s.model);
   const auto is_of_group = [&](int object) { return is_swept(s, object); };
-  s.own->contact_solver.only(contacts, [&](const Contact& contact) { return concerns_any(s, contact, is_of_group); })
+  s.own->contact_solver.only(contacts, [&](const Contact& contact) { return concerns_any(objects, contact, is_of_group); })
       .project(s.context.executor, name, contacts, displacements);
 }
 
 void project_contacts_of(Substep& s, const char* name, const std::vector<char>& has, float yield) {
+  ObjectLookup objects(s.model);
   const auto concerns = [&](const Contact& contact) {
-    return concerns_any(s, contact, [&](int object) { return has[object] != 0; });
+    return concerns_any(objects, contact, [&](int object) { return has[object] != 0; });
   };
-  Record* displacements = s.work.displacements.data();
-  if (s.has_pairs())
-    s.own->contact_solver.only(s.pairs->contacts(), concerns)
-        .project(s.context.executor, name, s.pairs->contacts(), displacements, yield);
+  const bool all = std::all_of(has.begin(), has.end(), [](char is_set) { return is_set != 0; });
+  const auto project = [&](const ContactSolver& solver, std::vector<Contact>& contacts, float left) {
+    Record* displacements = s.work.displacements.data();
+    if (all) return solver.project(s.context.executor, name, contacts, displacements, left);
+    solver.only(contacts, concerns).project(s.context.executor, name, contacts, displacements, left);
+  };
+  if (s.has_pairs()) project(s.own->contact_solver, s.pairs->contacts(), yield);
   if (s.own->colliders.empty()) return;
-  std::vector<Contact>& with_shapes = s.own->shape_contacts;
-  s.own->shape_contact_solver.only(with_shapes, concerns).project(s.context.executor, name, with_shapes, displacements);
+  project(s.own->shape_contact_solver, s.own->shape_contacts, 0);
   for_tiles(s, name, [&](int task) {
     const int object = s.model.tiles()[task].object;
     std::vector<Contact>& contacts = s.work.tiles[task].contacts;

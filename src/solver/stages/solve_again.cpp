@@ -8,6 +8,7 @@
 
 #include "solver/drivers/contacts.h"
 #include "solver/drivers/driver.h"
+#include "solver/object_lookup.h"
 #include "solver/stages/stages.h"
 
 namespace pliant {
@@ -20,11 +21,12 @@ constexpr int rounds = 2;  ///< of chains and contacts
 bool find_pressed(const Substep& s, std::vector<char>& is_pressed) {
   is_pressed.assign(s.model.objects.size(), 0);
   bool any = false;
+  ObjectLookup objects(s.model);
   for (const Contact& contact : s.pairs->contacts()) {
     if (!(contact.push > 0)) continue;
     for (std::size_t i = 0; i < contact.point.size(); ++i) {
       if (contact.weight[i] == 0) continue;
-      const int object = s.model.object_of(contact.point[i]);
+      const int object = objects.of(contact.point[i]);
       if (!solves_chains(s.model.objects[object].sweep)) continue;
       is_pressed[object] = 1;
       any = true;
