@@ -144,10 +144,13 @@ PLIANT_HD void find_among(const Pool& pool, const Segment* segments, int first, 
   reports.hand_over();
 }
 
+/// True if the compliance is zero throughout: then force explains no length, and the multipliers need not be read.
+PLIANT_HD bool is_rigid(const Pool& pool) { return pool.row_step(1) == 0 && pool.row(1, 0)[0] == 0; }
+
 void find_long(const Pool& pool, const Segment* segments, int first, int last, const LengthQuery& q,
                FoundLengthCallback found, void* context) {
   const bool moves = q.displacements != nullptr;
-  if (q.multipliers != nullptr && q.multipliers[segments[first].pool] != nullptr)
+  if (q.multipliers != nullptr && q.multipliers[segments[first].pool] != nullptr && !is_rigid(pool))
     return moves ? find_among<true, true>(pool, segments, first, last, q, found, context)
                  : find_among<false, true>(pool, segments, first, last, q, found, context);
   moves ? find_among<true, false>(pool, segments, first, last, q, found, context)
