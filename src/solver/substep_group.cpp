@@ -1,14 +1,22 @@
 #include "solver/substep_group.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
+#include "model/length_ranges.h"
 #include "model/object_sets.h"
 
 namespace pliant {
 
 namespace {
+
+/// The substeps for tethers of `edges` edges: edges^1.5 over this. Hung by two corners, cloth of 64, 128, 256 and 512 rows
+/// needs some 4, 10, 27 and 77 (docs/internals/convergence.md).
+constexpr double edges_to_hang = 150;
+constexpr int most_to_hang = 100;
 
 SetMember member_of(const CompiledObject& object) {
   if (object.particles == 0) return {};  // the object was removed
@@ -37,12 +45,47 @@ bool hangs(const CompiledObject& object) {
   return object.sweep == Sweep::tethered_chains && !object.surface.triangles.empty() && !object.tethers.anchors.empty();
 }
 
+double mean_length(const CompiledObject& object) {
+  double sum = 0, count = 0;
+  for (const LengthRange& range : object.lengths)
+    for_lengths(object, range, [&](const Pool& pool, int first, int last) {
+      for (int s = first; s < last; ++s)
+        for (int b = 0; b < object.segments[s].batches; ++b) {
+          const float* rest = pool.row(0, std::int64_t{object.segments[s].first_batch} + b);
+          sum = std::accumulate(rest, rest + batch_width, sum);  // lanes of padding repeat one of the batch
+          count += batch_width;
+        }
+    });
+  return sum / std::max(count, 1.);
+}
+
+/// The longest of the shortest tethers of each particle [m].
+double longest_tether(const Tethers& tethers) {
+  const std::size_t slots = std::max(tethers.slots, 1), batches = tethers.rows.size() / slots;
+  double longest = 0;
+  for (std::size_t batch = 0; batch < batches; ++batch)
+    for (std::size_t lane = 0; lane < batch_width; ++lane) {
+      float shortest = no_tether;
+      for (std::size_t slot = 0; slot < slots; ++slot)
+        shortest = std::min(shortest, tethers.lengths[(batch * slots + slot) * batch_width + lane]);
+      if (shortest < no_tether) longest = std::max(longest, static_cast<double>(shortest));
+    }
+  return longest;
+}
+
+/// The substeps that cloth needs to hang by tethers: the finer it is, the more.
+int substeps_to_hang(const CompiledObject& object) {
+  const double edges = longest_tether(object.tethers) / std::max(mean_length(object), 1e-30);
+  return static_cast<int>(std::min(edges * std::sqrt(edges) / edges_to_hang, double(most_to_hang)));
+}
+
 void list_lengths(const Model& model, SubstepGroup& group) {
   group.hangs = group.by_state;
   for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) {
     const CompiledObject& object = model.objects[o];
     if (object.particles == 0 || !(group.has_all || group.has[o] != 0)) continue;
     group.hangs = group.hangs && (object.is_collider || hangs(object));
+    if (group.hangs && !object.is_collider) group.least_hanging = std::max(group.least_hanging, substeps_to_hang(object));
     if (!limits_lengths(object.sweep)) continue;
     for (int i = 0; i < static_cast<int>(object.lengths.size()); ++i)
       group.lengths.push_back({o, i, object.lengths[i].batches});

@@ -20,6 +20,7 @@ struct SubstepGroup {
   bool by_state = false;                ///< true: `substeps` is a first guess, decided again in each quarter of a frame
   int least = 0;                        ///< where they follow the State: what objects need that do not
   bool hangs = false;                   ///< true: all of its objects hang by tethers
+  int least_hanging = 0;                ///< where they do: what the finest object needs by its resolution
   bool has_all = true;                  ///< true: all objects; stages then use the model's lists, and all below is empty
   std::vector<char> has{};              ///< for each object of the model, 1 if the group has it
   std::vector<int> objects{}, tiles{};  ///< ascending; indices of Model::objects and Model::tiles()

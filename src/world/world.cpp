@@ -69,7 +69,8 @@ GroupFrame World::Implementation::plan(const SubstepGroup& group, double dt, std
   if (group.by_state) {
     const bool is_named = settings.least_substeps > 0;
     frame.substeps = limited(is_named ? settings.least_substeps : std::max(group.least, least_by_state));
-    if (group.hangs) frame.least_hanging = is_named ? frame.substeps : limited(least_of_hanging);
+    if (group.hangs)
+      frame.least_hanging = is_named ? frame.substeps : limited(std::max(least_of_hanging, group.least_hanging));
     // A limit below the least number only switches the division for fast colliders off.
     const bool has_most = settings.most_substeps >= frame.substeps;
     frame.most_substeps = limited(std::max(frame.substeps, has_most ? settings.most_substeps : most_by_state));

@@ -290,6 +290,22 @@ TEST(SubstepLaw, ReportsTheSubstepsMadeWhereClothHangs) {
   EXPECT_LT(made, 12);
 }
 
+/// A strip that is 200 edges long needs 200^1.5 / 150 substeps, or an error at its end would not decay.
+TEST(SubstepLaw, GrantsFineClothThatHangsMoreSubsteps) {
+  EXPECT_LE(World(hung()).step(dt).substeps, 12);
+  Scene scene;
+  ClothOptions options;
+  options.stretch = Stiffness::compliance(0);
+  scene.add_cloth(grid_mesh(4, 201, 0.015f, 1), options);
+  for (int i = 0; i < 4; ++i) scene.pin(0, {i});
+  EXPECT_EQ(chosen_sweep(scene, 0), Sweep::tethered_chains);
+  World world(scene);
+  EXPECT_GE(world.step(dt).substeps, 16);
+  scene.settings.least_substeps = 8;
+  scene.settings.most_substeps = 12;
+  EXPECT_LE(World(scene).step(dt).substeps, 12) << "named bounds hold";
+}
+
 TEST(SubstepLaw, NeedsAnAnchorToHang) {
   Scene falls = hung();
   falls.objects[0].pins.clear();
