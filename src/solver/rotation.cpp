@@ -73,7 +73,7 @@ void update_frames(Substep& s) {
     for (int i = s.model.first_frame[o]; i < s.model.end_of_frames(o); ++i)
       corrections[i].w = 1 / (1 + s.h * s.model.objects[o].damping);
   });
-  const float inverse_h = 1 / s.h;
+  const float inverse_h = s.velocity_share / s.h;
   for_frames(s, "update: frames", [&](int i) {
     const Record& q = frames.orientations[i];
     const Vec3f local = rotate(conjugate(Quatf{q.x, q.y, q.z, q.w}), xyz(corrections[i]));

@@ -10,6 +10,7 @@
 //     solve again   chains and contacts in turn, where surfaces press on one another; contacts yield a little
 //     limit         the few distances that are still far too long are shortened
 //     filter        steps that would make surfaces cross are truncated
+//     guard         where the substep has become shorter, corrections may not increase energy
 //     update        v from the corrections, x += displacement; restitution at colliders
 //     respond       restitution between surfaces (friction is part of a contact's projection)
 //   measure         overstretch of the frame
@@ -58,6 +59,7 @@ bool make_substep(Substep& s, FunctionRef<bool()> stops) {
   if (stops()) s.substeps = s.number + 1;
   filter(s);
   if (s.work.contact_log != nullptr) log_contacts(s, *s.work.contact_log);
+  guard_energy(s);
   if (!update(s)) return false;
   respond(s);
   count_contacts(s);

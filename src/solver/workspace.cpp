@@ -32,6 +32,7 @@ void prepare_multipliers(const CompiledObject& object, Multipliers kept, std::ve
 void resize(const Model& model, Workspace& workspace) {
   const std::size_t objects = model.objects.size();
   workspace.displacements.resize(model.particles());
+  workspace.expected_velocities.resize(model.particles());
   workspace.frames.predicted.resize(model.frames());
   workspace.frames.corrections.resize(model.frames());
   workspace.multipliers.resize(objects);

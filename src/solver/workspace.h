@@ -19,12 +19,22 @@
 
 namespace pliant {
 
+/// Sums over the particles of a tile for the guard of energy (stages/guard_energy.cpp) [J].
+struct CorrectionEnergy {
+  double predicted = 0;           ///< change of energy in a substep without its corrections
+  double linear = 0;              ///< energy that corrections add, the part that is linear in their velocities
+  double quadratic = 0;           ///< the quadratic part
+  bool has_outside_work = false;  ///< true if a kinematic particle moves
+};
+
 /// The scratch data and results of one tile.
 struct alignas(64) TileScratch {
   std::vector<Contact> contacts, more_contacts, all_contacts;  ///< contacts with colliders; the other two are scratch
   std::vector<std::int32_t> near;                              ///< particles that a collider could touch
   PointBounds bounds;
   bool finite = true;
+  int impacts = 0;  ///< on colliders, within the next quarter of a frame (impacts.h)
+  CorrectionEnergy energy;
   double gradient_squared = 0, position_along = 0, motion_along = 0;  ///< sums of the volume constraint
 };
 
@@ -78,6 +88,7 @@ struct Workspace {
   std::unique_ptr<SurfaceContact> pairs;  ///< contact between surfaces; null if no dynamic surface can touch another
   ShapeContacts shape_contacts;           ///< finds contacts of edges and triangles with primitive colliders
   bool look_for_tangles = true;  ///< true: the next frame searches all initial intersections (first frame, restored State)
+  Records expected_velocities;   ///< velocities after the impacts of the next quarter (impacts.h) [m/s]
   std::vector<float> last_h;     ///< length of each object's last substep [s]; 0: none yet
   ResidualScratch residual;      ///< the residual for Settings::tolerance
 };

@@ -22,10 +22,10 @@ namespace {
 bool settles(const Substep& s) { return s.is_last() || ends_quarter(s); }
 
 /// True if a stage between update and predict reads velocities, or if phases are timed separately; then update is not
-/// deferred.
+/// deferred. Nor is it where a share of the corrections becomes velocity, because the pass of both knows one h.
 bool velocities_are_read(const Substep& s) {
-  return settles(s) || s.has_pairs() || !s.own->shape_contacts.empty() || has_forces(s.model, s.work.control) ||
-         s.context.separate_phases;
+  return settles(s) || s.is_guarded || s.has_pairs() || !s.own->shape_contacts.empty() ||
+         has_forces(s.model, s.work.control) || s.context.separate_phases;
 }
 
 /// Moves a kinematic particle to its position at the substep's end.
@@ -73,7 +73,10 @@ void update_tile(const Substep& s, int task, bool ends_frame) {
   AdvanceArguments a = particles(s, task);
   const Vec3f settled = gravity_for(s, s.work.gravity[s.model.tiles()[task].object].settled);
   if (ends_frame) a.gravity_settled = settled;
+  const float inverse_h = a.inverse_h;
+  a.inverse_h *= s.velocity_share;  // of the corrections alone: the kernel predicts with h
   s.kernels.update(a);
+  a.inverse_h = inverse_h;
   const std::vector<Contact>& contacts = s.work.tiles[task].contacts;
   if (!contacts.empty()) respond(contacts, ends_frame ? Vec3f{} : settled, a);
 }

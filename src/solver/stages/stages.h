@@ -37,6 +37,10 @@ void limit(Substep& s);
 /// Truncates displacements that would make surfaces cross.
 void filter(Substep& s);
 
+/// Where a quarter of a frame has more substeps than the last one, limits the share of corrections that becomes velocity so
+/// that the substep does not increase energy (stages/guard_energy.cpp).
+void guard_energy(Substep& s);
+
 /// Updates velocities by the corrections, x += displacement, and applies restitution at colliders. Returns false if a
 /// displacement is not finite; then the report names it, and the State has been made finite.
 bool update(Substep& s);

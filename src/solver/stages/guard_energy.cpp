@@ -1,0 +1,77 @@
+// Keeps substeps that become shorter from increasing energy.
+//
+// An unfinished solve acts like a spring: strain that it leaves is corrected in the next substep, with a velocity of
+// strain / h, so the energy stored in it goes with the square of strain / h. If the State demands more substeps in the middle of an impact,
+// h decreases while the strain stays, and that energy multiplies (docs/internals/convergence.md). So in a quarter that has more
+// substeps than the last one only a share of the corrections becomes velocity. Positions are corrected wholly.
+//
+// The share is the same for all particles of a group, so corrections still conserve momentum. Without corrections a
+// substep conserves energy but for -m g^2 h^2 / 2, so a share exists unless corrections lift particles by more.
+#include <algorithm>
+#include <cmath>
+
+#include "math/vector.h"
+#include "solver/stages/stages.h"
+
+namespace pliant {
+
+namespace {
+
+Vec3d as_double(const Record& r) { return {r.x, r.y, r.z}; }
+
+/// The energies of a tile's particles at the substep's end, as a polynomial of the share.
+CorrectionEnergy energy_of(const Substep& s, int task) {
+  const FrameGravity& of = s.work.gravity[s.model.tiles()[task].object];
+  const Vec3d gravity = convert<double>(s.model.gravity), settled = gravity * of.settled, begun = gravity * of.begun;
+  const AdvanceArguments a = particles(s, task);
+  const double inverse_h = 1 / static_cast<double>(s.h);
+  CorrectionEnergy sum;
+  for (int i = a.first; i < a.last; ++i) {
+    const Vec3d moved = as_double(a.displacements[i]), carried = as_double(a.remainders[i]);
+    const double w = static_cast<double>(a.positions[i].w);
+    if (!(w > 0)) {
+      sum.has_outside_work = sum.has_outside_work || length(moved - carried) > 0;
+      continue;
+    }
+    const Vec3d velocity = as_double(a.velocities[i]), before = velocity + settled, predicted = velocity + begun;
+    const Vec3d correction = (moved - carried) * inverse_h - predicted;
+    sum.predicted += (0.5 * (dot(predicted, predicted) - dot(before, before)) - dot(gravity, moved)) / w;
+    sum.linear += dot(predicted, correction) / w;
+    sum.quadratic += 0.5 * dot(correction, correction) / w;
+  }
+  return sum;
+}
+
+CorrectionEnergy energy_of_group(Substep& s) {
+  for_tiles(s, "guard energy", [&](int task) { s.work.tiles[task].energy = energy_of(s, task); });
+  CorrectionEnergy sum;
+  for_each_tile(s, [&](int task) {
+    const CorrectionEnergy& tile = s.work.tiles[task].energy;
+    sum.predicted += tile.predicted;
+    sum.linear += tile.linear;
+    sum.quadratic += tile.quadratic;
+    sum.has_outside_work = sum.has_outside_work || tile.has_outside_work;
+  });
+  return sum;
+}
+
+/// The largest share in [0, 1] with which energy does not increase; if there is none, the share with which it increases least.
+double largest_share(const CorrectionEnergy& e) {
+  if (!(e.predicted + e.linear + e.quadratic > 0) || !(e.quadratic > 0)) return 1;
+  const double discriminant = e.linear * e.linear - 4 * e.quadratic * e.predicted;
+  const double root = discriminant > 0 ? std::sqrt(discriminant) : 0;
+  return std::clamp((root - e.linear) / (2 * e.quadratic), 0., 1.);
+}
+
+}  // namespace
+
+void guard_energy(Substep& s) {
+  s.velocity_share = 1;
+  if (!s.is_guarded) return;
+  const auto moves = [](const MovingCollider& collider) { return collider.moves; };
+  if (std::any_of(s.own->colliders.begin(), s.own->colliders.end(), moves)) return;
+  const CorrectionEnergy energy = energy_of_group(s);
+  if (!energy.has_outside_work) s.velocity_share = static_cast<float>(largest_share(energy));
+}
+
+}  // namespace pliant
