@@ -265,10 +265,11 @@ const Record& settings_record() {
        field("contact_filter", boolean(), Settings{}.contact_filter,
              "Truncate steps so that colliding surfaces never cross (docs/guide/contact.md). Without it only contacts keep "
              "them apart."),
-       field("most_substeps", integer(0, 10000), "eight times `substeps`",
-             "Maximum number of substeps of a frame in which a mesh collider moves fast (docs/guide/contact.md)."),
-       field("least_substeps", integer(0, 10000), "12",
-             "Where substeps follow the State: at least this many per frame, and up to `most_substeps`, or 100."),
+       field("most_substeps", integer(0, 10000), "100 where substeps follow the State, else eight times `substeps`",
+             "Maximum number of substeps of a frame: where they follow the State (in multiples of four), and where a mesh "
+             "collider moves fast (docs/guide/contact.md)."),
+       field("least_substeps", integer(0, 10000), "12; 6 for cloth that only hangs by `tethered_chains`",
+             "Minimum number of substeps of a frame where they follow the State, rounded up to a multiple of four."),
        field("initial_intersections", choice({"leave", "untangle", "refuse"}), "leave",
              "Treatment of surfaces that intersect at the start: leave them, move them apart, or refuse the scene."),
        field("untangling_speed", positive("m/s", 1000), Settings{}.untangling_speed, "Speed limit of depenetration."),

@@ -305,12 +305,12 @@ struct Settings {
   Sweep sweep = Sweep::automatic;
   SweepOptions sweep_options{};
   bool contact_filter = true;  ///< truncate steps that would make colliding surfaces cross
-  /// When a mesh collider comes near an object, the frame gets up to this many substeps, so that the collider moves at
-  /// most half the pair's thickness in each: the filter cannot limit kinematic colliders. The Report warns of the cost.
-  /// 1..10000; 0: eight times `substeps`; a value up to `substeps` switches it off.
+  /// The largest number of substeps of a frame, 1..10000. Where they follow the State, 0 means 100, and below four it is their
+  /// fixed number. Elsewhere a frame gets more, so that no mesh collider near an object moves more than half the thickness
+  /// in each, as the filter cannot limit it; the Report warns. 0: eight times `substeps`; up to `substeps`: never more.
   int most_substeps = 0;
-  /// Where substeps follow the State (chosen_substeps), a frame has at least this many, and up to most_substeps. 0: at least
-  /// 12 and up to 100.
+  /// The least number of substeps of a frame where they follow the State, rounded up to a multiple of four; up to
+  /// most_substeps. 0: 12, or 8 for cloth that only hangs by tethers. No effect elsewhere.
   int least_substeps = 0;
   /// What happens to surfaces that intersect initially.
   enum class Intersections {

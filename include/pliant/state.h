@@ -97,8 +97,8 @@ struct State {
   FrameRecords frames;             ///< orientations, object after object; usually none
   std::vector<Channel> channels;   ///< channels of all objects; usually none
   std::vector<HeldPose> held_poses;
-  /// For each block, the substeps per frame that its object had last, if they follow the State (chosen_substeps), else 0.
-  /// Empty if none do.
+  /// For each block, the substeps per frame that its object demanded for the last quarter of a frame, if they follow the
+  /// State (chosen_substeps), else 0, as before the first frame. Empty if all are 0.
   std::vector<float> substeps;
 };
 

@@ -20,7 +20,7 @@ struct ObjectInfo {
   std::string name;
   int particles = 0;
   std::vector<std::pair<std::string, std::int64_t>> constraints;  ///< number of constraints of each type, "volume" included
-  int substeps = 0;  ///< substeps per frame; fast colliders may increase them (Report::substeps)
+  int substeps = 0;  ///< substeps per frame; 0: they follow the State. Fast colliders may increase them (Report::substeps)
 };
 
 /// A pose of a collider: a point p of its local frame is at rotation p + position.

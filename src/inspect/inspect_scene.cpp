@@ -51,14 +51,31 @@ void check_sweep(Problems& problems, const Settings& settings, bool uses_natural
                    "use it with the tiled, the symmetric or the Jacobi sweep");
 }
 
+/// Substeps that follow the State are multiples of four, as many in each quarter of a frame.
+void check_bounds(Problems& problems, const Settings& settings) {
+  require_range(problems, "settings, most_substeps", settings.most_substeps, 0, 10000);
+  require_range(problems, "settings, least_substeps", settings.least_substeps, 0, 10000);
+  const int least = settings.least_substeps, most = settings.most_substeps;
+  if (least <= 0 || most <= 0) return;
+  if (least > most)
+    problems.grave("settings, least_substeps",
+                   "is " + std::to_string(least) + ", more than most_substeps, " + std::to_string(most),
+                   "increase most_substeps, or name a fixed number of substeps");
+  else if (most >= 4 && (least + 3) / 4 * 4 > most)
+    problems.grave(
+        "settings, least_substeps",
+        "is " + std::to_string(least) + " and most_substeps " + std::to_string(most) +
+            ", but substeps that follow the State are multiples of four, and none lies between",
+        "increase most_substeps to " + std::to_string((least + 3) / 4 * 4) + ", or name a fixed number of substeps");
+}
+
 void check_settings(Problems& problems, const Scene& scene) {
   const Settings& settings = scene.settings;
   require_range(problems, "settings, substeps", settings.substeps, 0, 10000);
   require_range(problems, "settings, iterations", settings.iterations, 1, 10000);
   require_range(problems, "settings, threads", settings.threads, 0, 1024);
   require_range(problems, "settings, tolerance", settings.tolerance, 0, largest_place);
-  require_range(problems, "settings, most_substeps", settings.most_substeps, 0, 10000);
-  require_range(problems, "settings, least_substeps", settings.least_substeps, 0, 10000);
+  check_bounds(problems, settings);
   if (!(settings.untangling_speed > 0 && settings.untangling_speed <= 1000))
     problems.grave("settings, untangling_speed", "is " + words(settings.untangling_speed) + " m/s",
                    "give a speed above 0 and up to 1000 m/s");
@@ -149,6 +166,22 @@ void doubt_settings(Problems& problems, const Scene& scene) {
                       "more substeps with fewer iterations converge far better at the same cost");
 }
 
+/// Names bounds that no object uses.
+void doubt_bounds(Problems& problems, const Scene& scene) {
+  const Settings& settings = scene.settings;
+  if (scene.objects.empty() || (settings.least_substeps == 0 && settings.most_substeps == 0)) return;
+  const std::vector<int> substeps = chosen_substeps(scene);
+  if (std::find(substeps.begin(), substeps.end(), 0) != substeps.end()) return;
+  const std::string why = settings.substeps > 0
+                              ? "the scene names substeps"
+                              : "no object has substeps that follow its State (docs/guide/choosing_settings.md)";
+  if (settings.least_substeps > 0)
+    problems.doubtful("settings, least_substeps", "has no effect, because " + why, "remove it, or name substeps instead");
+  if (settings.most_substeps > 0 && scene.mesh_colliders.empty())
+    problems.doubtful("settings, most_substeps", "has no effect, because " + why + " and there is no mesh collider",
+                      "remove it, or name substeps instead");
+}
+
 bool has_distances(const Scene& scene) {
   return std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& object) {
     return !object.attachments.empty() ||
@@ -213,6 +246,7 @@ void look_through(Problems& problems, const Scene& scene) {
   if (problems.grave_count() == 0) refuse_tangles(problems, scene);
   if (!problems.wants_doubts() || !surroundings_are_sound) return;
   doubt_settings(problems, scene);
+  doubt_bounds(problems, scene);
   doubt_tolerance(problems, scene);
   doubt_names(problems, scene);
   if (problems.grave_count() == 0) doubt_contact(problems, scene);

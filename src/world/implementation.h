@@ -22,6 +22,7 @@ namespace pliant {
 struct ObjectState {
   Records positions, remainders, velocities, orientations, angular_velocities;
   std::vector<std::vector<float>> channels;
+  float substeps = 0;  ///< State::substeps
 };
 
 /// Bit sets of collision groups: those that a body belongs to, and those that it meets.

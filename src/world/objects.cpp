@@ -145,6 +145,8 @@ void World::Implementation::remove(int number) {
   std::erase_if(model.fields, [&](const FieldCollider& field) { return field.object == number; });
   state.blocks[number] = {0, 0, model.generation[number]};
   if (!state.substeps.empty()) state.substeps[number] = 0;
+  const auto is_zero = [](float substeps) { return substeps == 0; };
+  if (std::all_of(state.substeps.begin(), state.substeps.end(), is_zero)) state.substeps.clear();
   fit_state();
   prepare(number);
   drop_unused_sweeps(model, workspace);
@@ -221,7 +223,8 @@ ObjectState World::Implementation::take(int number) {
                   slice(state.velocities, first, particles),
                   slice(state.frames.orientations, first_frame, frames),
                   slice(state.frames.angular_velocities, first_frame, frames),
-                  {}};
+                  {},
+                  state.substeps.empty() ? 0 : state.substeps[static_cast<std::size_t>(number)]};
   for (Records* records : {&state.positions, &state.remainders, &state.velocities, &workspace.displacements})
     std::fill_n(records->begin() + first, particles, Record{});
   clear_frames(first_frame, frames, state.frames);
@@ -248,6 +251,7 @@ void World::Implementation::give_back(int number, const ObjectState& kept, const
         state.channels[c].values[at * components + k] = kept.channels[c][from * components + k];
     }
   }
+  if (!state.substeps.empty()) state.substeps[static_cast<std::size_t>(number)] = kept.substeps;
   const auto first_frame = static_cast<std::size_t>(model.first_frame[number]);
   const std::size_t frames = std::min(kept.orientations.size(), model.objects[number].frames.size());
   for (std::size_t i = 0; i < frames; ++i) {

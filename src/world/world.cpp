@@ -20,6 +20,25 @@ const Kernels& kernels_for(const Settings& settings) {
   return settings.sweep == Sweep::sequential ? kernels_sequential() : pick_kernels(settings.isa);
 }
 
+/// Sets the bounds of substeps that follow the State, whole numbers in each quarter of a frame. False if the largest is less than a
+/// substep for each quarter: it is then the fixed number of the frame.
+template <class Limited>
+bool set_bounds(const Settings& settings, const SubstepGroup& group, const Limited& limited, GroupFrame& frame) {
+  const auto up = [](int substeps) { return (substeps + quarters - 1) / quarters * quarters; };
+  const auto down = [](int substeps) { return substeps / quarters * quarters; };
+  const int named = up(settings.least_substeps);
+  const int most = limited(settings.most_substeps > 0 ? settings.most_substeps : std::max(named, most_by_state));
+  frame.substeps = most;
+  if (most < quarters) return false;
+  frame.most_substeps = down(most);
+  const auto within = [&](int least) { return std::min(up(least), frame.most_substeps); };
+  frame.substeps = within(named > 0 ? named : std::max(group.least, least_by_state));
+  if (group.hangs)
+    frame.least_hanging =
+        named > 0 ? frame.substeps : std::min(std::max(least_of_hanging, group.least_hanging), frame.most_substeps);
+  return true;
+}
+
 /// By what factor fast colliders may increase the substeps of a frame, unless Settings::most_substeps permits more.
 constexpr int default_division = 8;
 
@@ -66,15 +85,7 @@ GroupFrame World::Implementation::plan(const SubstepGroup& group, double dt, std
   const auto limited = [&](int substeps) { return shortest < substeps ? static_cast<int>(shortest) : substeps; };
   GroupFrame frame{&group, group.substeps};
   int most = settings.most_substeps > 0 ? settings.most_substeps : default_division * group.substeps;
-  if (group.by_state) {
-    const bool is_named = settings.least_substeps > 0;
-    frame.substeps = limited(is_named ? settings.least_substeps : std::max(group.least, least_by_state));
-    if (group.hangs)
-      frame.least_hanging = is_named ? frame.substeps : limited(std::max(least_of_hanging, group.least_hanging));
-    // A limit below the least number only switches the division for fast colliders off.
-    const bool has_most = settings.most_substeps >= frame.substeps;
-    frame.most_substeps = limited(std::max(frame.substeps, has_most ? settings.most_substeps : most_by_state));
-  }
+  if (group.by_state && !set_bounds(settings, group, limited, frame)) return frame;
   const PairModel* pairs = group.has_all ? pair_model.get() : group.pair_model.get();
   if (pairs == nullptr) return frame;
   frame.substeps = divided_substeps(model, workspace.control, *pairs, state,

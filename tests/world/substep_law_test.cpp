@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 #include "pliant/error.h"
 #include "pliant/save.h"
@@ -212,16 +214,56 @@ TEST(SubstepLaw, IsNotUsedForSmallObjects) {
   EXPECT_EQ(chosen_substeps(scene), std::vector<int>{0});
 }
 
-TEST(SubstepLaw, KeepsTheLeastNumberWhereTheLargestIsLess) {
-  Scene scene = impact();
-  scene.settings.least_substeps = 48;
-  scene.settings.most_substeps = 20;
+/// The numbers of substeps of the frames of an impact.
+std::pair<int, int> range_of_substeps(const Scene& scene) {
   World world(scene);
-  for (int frame = 0; frame < 25; ++frame) {
+  int least = 10000, most = 0;
+  for (int frame = 0; frame < 30; ++frame) {
     const int substeps = world.step(dt).substeps;
-    EXPECT_GE(substeps, 48);
-    EXPECT_LE(substeps, 100);
+    least = std::min(least, substeps);
+    most = std::max(most, substeps);
   }
+  return {least, most};
+}
+
+TEST(SubstepLaw, ObeysALargestNumberBelowTheUsualLeast) {
+  Scene scene = impact();
+  for (const int most : {1, 3, 4, 8, 11}) {
+    scene.settings.most_substeps = most;
+    const int expected = most < 4 ? most : most / 4 * 4;
+    EXPECT_EQ(range_of_substeps(scene), std::pair(expected, expected)) << most;
+  }
+}
+
+TEST(SubstepLaw, RoundsBoundsInwards) {
+  Scene scene = impact();
+  scene.settings.least_substeps = 13;
+  scene.settings.most_substeps = 16;
+  EXPECT_EQ(range_of_substeps(scene), std::pair(16, 16));
+  scene.settings.least_substeps = 5;
+  scene.settings.most_substeps = 8;
+  EXPECT_EQ(range_of_substeps(scene), std::pair(8, 8));
+  scene.settings.least_substeps = 201;
+  scene.settings.most_substeps = 0;
+  EXPECT_EQ(range_of_substeps(scene), std::pair(204, 204));
+}
+
+TEST(SubstepLaw, RefusesBoundsWithoutAMultipleOfFour) {
+  Scene scene = impact();
+  for (const auto& [least, most] : {std::pair(48, 20), std::pair(13, 14), std::pair(5, 7)}) {
+    scene.settings.least_substeps = least;
+    scene.settings.most_substeps = most;
+    EXPECT_THROW(World{scene}, Error) << least;
+  }
+}
+
+TEST(SubstepLaw, KeepsItsNumberThroughAnEdit) {
+  const Scene scene = impact();
+  World world(scene);
+  run(world, 17);
+  const std::vector<float> before = world.state().substeps;
+  world.edit({0}, unchanged(scene.objects[0]));
+  EXPECT_EQ(world.state().substeps, before);
 }
 
 /// No number of substeps helps a constraint between two pins.
@@ -258,6 +300,8 @@ TEST(SubstepLaw, ForgetsTheSubstepsOfWhatWasRemoved) {
   world.remove(added);
   run(world, 5);
   EXPECT_EQ(world.state().substeps.at(1), 0);
+  world.remove(ObjectId{0});
+  EXPECT_TRUE(world.state().substeps.empty());
 }
 
 /// Multipliers that are stored only for a measurement must not change the motion.
