@@ -27,9 +27,8 @@ struct Stiffness {
 
 /// What a conversion between k and compliance depends on.
 struct ConversionContext {
-  float
-      inverse_mass;  ///< generalised: sum over all particles of w_i |grad_i C|^2; 2/m for a distance of equal masses m [1/kg]
-  float dt;          ///< time step of a frame [s]
+  float inverse_mass;  ///< generalised: sum of w_i |grad_i C|^2 over all particles; 2/m for a distance of masses m [1/kg]
+  float dt;            ///< time step of a frame [s]
   int substeps = 1;
   int iterations = 1;
 };

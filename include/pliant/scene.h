@@ -355,9 +355,9 @@ struct Scene {
 /// objects. The latter is `chains` for cloth and rope of 32 particles or more whose surface can touch itself or others, or
 /// whose bending length (B / rho g)^(1/3) is above a quarter of its size (also with PBD stiffness of bending). Of others it
 /// is `tethered_chains` for regular ones that hang from pins and are not meant to stretch, `multigrid` for irregular ones
-/// that can meet no collider, and `chains` for the rest. It is `tiled` where none of these helps: a volume, PBD stiffness
-/// of all distances, or several iterations. Smaller objects use the sweep of all others. If the sweep was left open, `reason`
-/// receives the deciding fact.
+/// that can meet no collider, and `chains` for the rest. It is `tiled` where none of these helps: an inflated volume,
+/// PBD stiffness of all distances, or several iterations. Smaller objects use the sweep of all others. If the sweep was left
+/// open, `reason` receives the deciding fact.
 Sweep chosen_sweep(const Scene& scene, int object, std::string* reason = nullptr);
 
 /// Returns the substeps per frame of each object: those of the settings, or, if they are 0, those of its set. A set

@@ -1,7 +1,7 @@
 // Trial runs: simulates a scene with more and more expensive settings until its overstretch is tolerable.
 //
-// If the scene names a sweep, substeps or bounds of these, the default is tried first, and advised if it is good. The search for other
-// settings follows if it is not.
+// If the scene names a sweep, substeps or bounds of these, the default is tried first, and advised if it is good. If it is
+// not, the search for other settings follows.
 //
 // A family is a sweep with or without tethers. First come sweeps that may do better than the scene's own, the most
 // promising first, then the scene's own sweep. Each family doubles its substeps until it is good or too expensive; then

@@ -6,8 +6,8 @@
 // is the IEEE operation per lane, so lanes give the bits of plain floats; tests verify that.
 //
 // Everything lives in an inline namespace named after the instruction set that this unit is compiled for: the sweeps are
-// built once for each level (math/levels.h) into one program, and nothing of one build may be linked into another. The generic
-// level has parts of 16 bytes in the compiler's own vector types and no instruction by name; it compiles on any CPU.
+// built once for each level (math/levels.h) into one program, and nothing of one build may be linked into another. The
+// generic level has parts of 16 bytes in the compiler's own vector types and names no instruction; it compiles on any CPU.
 #pragma once
 
 #include <cstdint>

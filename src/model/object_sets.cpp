@@ -64,8 +64,8 @@ CompliancePerLength compliance_per_length(const Object& object, const Constraint
 constexpr std::size_t fewest_particles_by_state = 400, fewest_of_a_rope_by_state = 48;
 /// Substeps of objects solved by `multigrid` whose surface cannot touch others and whose pins rest.
 constexpr int substeps_of_undisturbed_multigrid = 6;
-/// Substeps of chains where there is a volume, which is corrected after the lengths and pushes them out again: with 20 an edge in
-/// a hundred of a balloon is 5 % too long, with 80 0.6 %.
+/// Substeps of chains where there is a volume, which is corrected after the lengths and pushes them out again: an edge in a
+/// hundred of a balloon is 5 % too long with 20, 0.6 % with 80.
 constexpr int substeps_of_volumes = 80;
 
 bool can_meet(const SetMember& a, const SetMember& b) {

@@ -27,8 +27,8 @@ struct MeasuredFrame {
 
 class OverstretchMeter {
  public:
-  /// Measures all objects on the executor's threads, or, if it is null, on the calling one. Overstretch::object is the number
-  /// in the model.
+  /// Measures all objects on the executor's threads, or, if it is null, on the calling one. Overstretch::object is the
+  /// number in the model.
   Overstretch measure(const MeasuredFrame& frame, Executor* executor);
 
  private:

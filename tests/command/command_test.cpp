@@ -339,7 +339,8 @@ TEST_F(Command, AMeshForNobodyNamesThoseWhoHaveOne) {
 TEST_F(Command, KeepsDistanceGridsWhereItIsTold) {
   std::ofstream(folder_ / "grid.json") << R"({"frames": 2, "objects": [{"name": "sheet",
       "cloth": {"mesh": {"grid": {"columns": 4, "rows": 4, "width": 1, "depth": 1}}}}],
-      "colliders": [{"name": "ball", "mesh": {"sphere": {"radius": 0.3, "subdivisions": 1}}, "as": "distance_grid", "grid_spacing": 0.1}]})";
+      "colliders": [{"name": "ball", "mesh": {"sphere": {"radius": 0.3, "subdivisions": 1}},
+                     "as": "distance_grid", "grid_spacing": 0.1}]})";
   const Result first = pliant("run grid.json --cache kept"), again = pliant("run grid.json --cache kept");
   ASSERT_EQ(first.status, 0) << first.err;
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "kept"), fs::directory_iterator{}), 1);

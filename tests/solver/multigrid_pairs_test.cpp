@@ -84,8 +84,8 @@ TEST(MultigridPairs, HandNoForcesToTheProjection) {
   }
 }
 
-/// The residual r acts like an outside force -r. Its work on the motion since the substep's start, less the mean motion of each
-/// sheet, must not be positive.
+/// The residual r acts like an outside force -r. Its work on the motion since the substep's start, less the mean motion of
+/// each sheet, must not be positive.
 TEST(MultigridPairs, LeaveAResidualThatFeedsNoEnergy) {
   const std::vector<Object> sheets = two_sheets();
   for (const int cycles : {1, 2, 3}) {

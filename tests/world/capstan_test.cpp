@@ -1,5 +1,5 @@
-// Tests friction under tension: a strip over a round bar holds, or slides, as the capstan equation with the strip's own weight
-// says. Friction must follow the force with which the strip presses on the bar, which is mostly its tension.
+// Tests friction under tension: a strip over a round bar holds, or slides, as the capstan equation with the strip's own
+// weight says. Friction must follow the force with which the strip presses on the bar, which is mostly its tension.
 #include <gtest/gtest.h>
 
 #include <cmath>

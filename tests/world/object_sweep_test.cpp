@@ -145,7 +145,7 @@ TEST(ObjectSweep, GivesTheBitsOfTheObjectAloneBesideAFastCollider) {
     both.step(dt);
     ASSERT_TRUE(equal_bits(one.positions(0), both.positions(0))) << frame;
   }
-  EXPECT_GT(both.positions(1)[100].y, both.positions(0)[100].y + 0.2f) << "or the collider missed it, and this shows nothing";
+  EXPECT_GT(both.positions(1)[100].y, both.positions(0)[100].y + 0.2f) << "or the collider missed it";
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // Covered pairs: another pair of the same two surfaces has the same closest points, or closer ones.
 //
-// Where the closest point lies on a triangle's border, the neighbouring triangle may be closer. Where it is the end of an edge, the
-// pair of that vertex and a triangle is as close. The normal of a covered pair is oblique to both surfaces. A contact made of
-// it before the surfaces touch pushes them sideways.
+// Where the closest point lies on a triangle's border, the neighbouring triangle may be closer. Where it is the end of an
+// edge, the pair of that vertex and a triangle is as close. The normal of a covered pair is oblique to both surfaces. A
+// contact made of it before the surfaces touch pushes them sideways.
 #pragma once
 
 #include "collision/narrow/pair_contact.h"

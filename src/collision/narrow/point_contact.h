@@ -35,7 +35,7 @@ PLIANT_HD auto stays_beyond(const R& margin, const SurfaceDistance<R>& end, cons
   return end.distance - max(dot(end.normal, path), R(0.f)) > margin + rounded;
 }
 
-/// The distance to maintain for a path that starts at distance `start`: `thickness`, or less to limit the depenetration speed.
+/// The distance to maintain for a path that starts at `start`: `thickness`, or less to limit the depenetration speed.
 template <class R>
 PLIANT_HD R height_after(const R& start, const R& thickness, float h) {
   return min(thickness, start + R(largest_separation_speed * h));

@@ -18,7 +18,7 @@ Quad least(const Quad& a, const Quad& b) { return a < b ? a : b; }
 Quad most(const Quad& a, const Quad& b) { return a > b ? a : b; }
 Quad quad(const Vec3f& v) { return Quad{v.x, v.y, v.z, 0}; }
 
-/// A particle's position and its displacement predicted from velocities, because constraints may have changed displacements already.
+/// A particle's position and predicted displacement, from velocities: constraints may have changed displacements already.
 struct Prediction {
   Quad position, displacement;
   Prediction(const AdvanceArguments& a, const Quad& gravity, int i) : position(load_quad(&a.positions[i])) {

@@ -34,7 +34,7 @@ class Untangler {
   void begin_frame(const Record* positions, const std::vector<Intersection>& found);
 
   bool is_busy() const { return !pushes_.empty(); }
-  /// True while untangling limits speeds: a cut-off part of a surface moves back, or a closed body still intersects a surface.
+  /// True while untangling limits speeds: a cut-off part moves back, or a closed body still intersects a surface.
   bool limits_speeds() const { return !speeds_.empty(); }
   /// The number of vertices inside closed bodies.
   std::int64_t inside() const { return inside_; }

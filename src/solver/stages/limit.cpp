@@ -13,8 +13,8 @@ namespace pliant {
 namespace {
 
 constexpr int rounds = 2;  ///< of search, passes and contacts
-/// An object has further rounds, up to these, while a shortened constraint exceeds the limit by half. A point that bears much of a
-/// sheet, such as the corner of a box, needs them: its contact undoes much of each round.
+/// An object has further rounds, up to these, while a shortened constraint exceeds the limit by half. A point that bears
+/// much of a sheet, such as the corner of a box, needs them: its contact undoes much of each round.
 constexpr int most_rounds = 8;
 constexpr float tolerated = 1.5f;
 /// If more constraints of an object are too long than these, and than this share, the cloth is pulled as a whole.

@@ -51,8 +51,8 @@ void respond(Substep& s);
 /// Counts the contacts of a substep after which the frame may end.
 void count_contacts(Substep& s);
 
-/// Adds the reports of the groups to the frame's, and sets the State's time, which all have reached. If a value is not finite,
-/// finds its origin, makes the State finite, and returns false.
+/// Adds the reports of the groups to the frame's, and sets the State's time, which all have reached. If a value is not
+/// finite, finds its origin, makes the State finite, and returns false.
 bool end_frame(std::vector<Substep>& groups, Report& report);
 
 }  // namespace pliant

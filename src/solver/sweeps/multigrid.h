@@ -94,7 +94,7 @@ void keep_multigrid_pushes(Substep& s);
 /// p moves both sides. Returns their contribution to p . A p.
 double couple_pair(const PairSpring& spring, std::vector<MultigridObject>& objects);
 // Defined in multigrid_group.cpp: groups all objects with levels, ordered by their first object; solves one group by
-// conjugate gradients, after which its right-hand sides hold the residual; shortens the motion where the residual feeds energy.
+// conjugate gradients, after which its right-hand sides hold the residual; shortens motion that the residual feeds.
 void make_multigrid_groups(Substep& s);
 void solve_multigrid_group(Substep& s, const MultigridGroup& group, int cycles);
 void shorten_fed_motion(Substep& s, const MultigridGroup& group);
