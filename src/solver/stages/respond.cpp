@@ -50,10 +50,8 @@ void respond_to_shapes(Substep& s, float slow, FunctionRef<Vec3f(int object)> gr
 
 void respond(Substep& s) {
   const float slow = 2 * length(s.model.gravity) * s.h;
-  std::vector<Vec3f> missing(s.work.gravity.size());
-  if (!s.is_last() && !ends_quarter(s))
-    for (std::size_t o = 0; o < missing.size(); ++o) missing[o] = gravity_for(s, s.work.gravity[o].settled);
-  const auto gravity = [&](int object) { return missing[static_cast<std::size_t>(object)]; };
+  const bool is_settled = s.is_last() || ends_quarter(s);
+  const auto gravity = [&](int object) { return is_settled ? Vec3f{} : gravity_for(s, s.work.gravity[object].settled); };
   respond_to_shapes(s, slow, gravity);
   if (!s.has_pairs()) return;
   Record* velocities = s.state.velocities.data();
