@@ -93,8 +93,9 @@ class World {
 
   /// Reads the flag after each substep. If it is true, the step ends with Report::stopped: State and `time` are those
   /// at the end of the substep, and the frame does not count. If objects have different substeps, it ends at the next
-  /// time at which substeps of all end. If it is true before a step, nothing moves. Other threads and signal handlers
-  /// may set it. It must live as long as the World, or until it is replaced by nullptr.
+  /// time at which substeps of all end, or, if all follow the State, at the next quarter of the frame. If it is true
+  /// before a step, nothing moves. Other threads and signal handlers may set it. It must live as long as the World, or
+  /// until it is replaced by nullptr.
   void stop_when(const std::atomic<bool>* flag);
 
   const State& state() const;
