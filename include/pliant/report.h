@@ -127,7 +127,7 @@ struct Report {
   double milliseconds = 0;
   int substeps = 0;  ///< substeps of this frame, with those that Settings::most_substeps permits; the most of any object
   std::vector<PhaseTime> phases;  ///< of sets that ran side by side the sum, which can exceed `milliseconds`
-  std::int64_t contacts = 0;  ///< contacts with colliders that were active in the last substep
+  std::int64_t contacts = 0;      ///< contacts with colliders that were active in the last substep
   PairReport pairs;
   std::vector<Residual> residuals;             ///< filled if Settings::measure is set
   std::optional<Stretch> stretch;              ///< filled if Settings::measure is set

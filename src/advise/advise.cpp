@@ -123,6 +123,7 @@ struct Family {
       settings.substeps = number;
       return;
     }
+    number = (number + quarters - 1) / quarters * quarters;  // so that the bounds have a multiple of four between them
     settings.least_substeps = number;
     if (settings.most_substeps > 0) settings.most_substeps = std::max(settings.most_substeps, number);
   }

@@ -477,6 +477,23 @@ TEST(Advise, TriesLargerBoundsOfSubsteps) {
   EXPECT_EQ(least[1], 48);
 }
 
+/// Twice a bound may be no multiple of four, and bounds with none between them are refused.
+TEST(Advise, TriesBoundsOfSubstepsThatAreAccepted) {
+  Scene scene = hanging_sheet(24, Stiffness::rigid(), 0);
+  scene.settings = {};
+  scene.settings.least_substeps = 15;
+  scene.settings.most_substeps = 20;
+  scene.objects[0].self_collision = true;
+  scene.gravity = {0, -3000, 0};
+  scene.frames = 2;
+  const Advice advice = advise(scene, unhurried);
+  ASSERT_FALSE(is_good(advice.own)) << "or this shows nothing";
+  const auto has_larger = [](const Trial& trial) {
+    return trial.settings.least_substeps == 32 && trial.settings.most_substeps == 32;
+  };
+  EXPECT_TRUE(std::any_of(advice.others.begin(), advice.others.end(), has_larger));
+}
+
 /// Time is kept for other trials only where the first one found something.
 TEST(Advise, UsesAllOfItsTimeForASceneThatIsFine) {
   Scene scene = hanging_sheet(8, Stiffness::rigid(), 150);
