@@ -143,9 +143,10 @@ std::vector<Family> families_of(const Scene& scene) {
     families.push_back({own});
     families.back().settings.sweep_options.tethers = true;
   }
-  if (scene.settings.substeps == 0) {
+  const int least = 2 * std::max(least_by_state, scene.settings.least_substeps);
+  if (scene.settings.substeps == 0 && least <= most_substeps) {
     families.push_back({scene.settings});
-    families.back().set(2 * std::max(least_by_state, scene.settings.least_substeps));
+    families.back().set(least);
   }
   if (2 * own.substeps <= most_substeps) {
     families.push_back({own});

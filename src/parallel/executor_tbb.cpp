@@ -70,9 +70,23 @@ void Executor::enter(FunctionRef<void()> f) {
 
 namespace {
 
+/// Gives a variable a value until the end of the scope, also if that is left by an exception.
+template <class T>
+class Restored {
+ public:
+  Restored(T& variable, T value) : variable_(variable), before_(variable) { variable_ = value; }
+  ~Restored() { variable_ = before_; }
+  Restored(const Restored&) = delete;
+  Restored& operator=(const Restored&) = delete;
+
+ private:
+  T& variable_;
+  T before_;
+};
+
 /// Calls body(i) for each i in [0, n) on the threads of the arena.
 template <class Body>
-void run_on_all_threads(int n, const Body& body) {
+void run_on_all_threads(int n, const Body& body, tbb::task_group_context& context) {
   hand_over_release(&handed_out);
   tbb::parallel_for(
       0, n, 1,
@@ -81,7 +95,7 @@ void run_on_all_threads(int n, const Body& body) {
         body(i);
         hand_over_release(&handed_back);
       },
-      tbb::simple_partitioner{});
+      tbb::simple_partitioner{}, context);
   hand_over_acquire(&handed_back);
 }
 
@@ -92,11 +106,13 @@ void Executor::parallel_for(const char* name, int n, FunctionRef<void(int)> body
   if (n <= 1 || threads_ == 1) {
     for (int i = 0; i < n; ++i) body(i);
   } else if (own_timings_ == nullptr) {
-    run_on_all_threads(n, body);
+    tbb::task_group_context context;
+    run_on_all_threads(n, body, context);
   } else {
     // Isolated: a thread that waits for the end of this loop must not start another body of side_by_side meanwhile, which
-    // would use the same scratch memory.
-    tbb::this_task_arena::isolate([&] { run_on_all_threads(n, body); });
+    // would use the same scratch memory. An exception in another body must not end this loop either.
+    tbb::task_group_context context(tbb::task_group_context::isolated);
+    tbb::this_task_arena::isolate([&] { run_on_all_threads(n, body, context); });
   }
 }
 
@@ -106,12 +122,13 @@ void Executor::side_by_side(int n, FunctionRef<void(int, int)> body) {
     return;
   }
   timings_of_threads_.resize(static_cast<std::size_t>(threads_));
-  run_on_all_threads(n, [&](int i) {
+  tbb::task_group_context context;
+  const auto run = [&](int i) {
     const int thread = tbb::this_task_arena::current_thread_index();
-    own_timings_ = &timings_of_threads_[static_cast<std::size_t>(thread)];
+    const Restored<Timings*> own(own_timings_, &timings_of_threads_[static_cast<std::size_t>(thread)]);
     body(i, thread);
-    own_timings_ = nullptr;
-  });
+  };
+  run_on_all_threads(n, run, context);
   for (Timings& timings : timings_of_threads_) timings_.take(timings);
 }
 

@@ -129,7 +129,9 @@ int divided_substeps(const Model& model, const Control& control, const PairModel
       const double margin = thickness + sweep.largest * frame.substeps * 0.1;
       if (!come_near(sweep.box, foreseen(model, state, o, frame.dt), margin)) continue;
       const double wanted = std::ceil(frame.substeps * (sweep.largest / allowed));
-      substeps = std::max(substeps, wanted < most ? static_cast<int>(wanted) : most);
+      const int rounded =
+          wanted < most ? (static_cast<int>(wanted) + frame.multiple - 1) / frame.multiple * frame.multiple : most;
+      substeps = std::max(substeps, std::min(rounded, most));
       if (wanted > demand.substeps) demand = {wanted, c, o};
       if (wanted > most)
         warnings.push_back(too_fast(collider, model.objects[o], sweep.largest * frame.substeps / most, thickness, most));

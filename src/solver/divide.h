@@ -19,6 +19,7 @@ struct PlannedFrame {
   double start = 0, dt = 0;  ///< start and length of the frame [s]
   int substeps = 1, most_substeps = 1;
   int usual_substeps = 0;  ///< a warning is given only if the frame gets more than these
+  int multiple = 1;        ///< the number is a multiple of this, unless it is `most_substeps`
 };
 
 /// Returns the number of substeps: at least `substeps`, and up to `most_substeps` so that no mesh collider near an

@@ -65,7 +65,6 @@ bool make_substep(Substep& s, FunctionRef<bool()> stops) {
   count_contacts(s);
   ++s.number;
   ++s.made;
-  begin_quarter(s);
   return true;
 }
 
@@ -77,6 +76,7 @@ void run_in_turn(const StepContext& context, std::vector<Substep>& groups) {
       return stops = stops || (context.stop != nullptr && *context.stop && all_end_together(groups, *next));
     });
     if (!is_finite) return;
+    begin_quarter(*next);
   }
 }
 
@@ -85,8 +85,10 @@ void run_side_by_side(const StepContext& context, std::vector<Substep>& groups, 
   context.executor.side_by_side(static_cast<int>(groups.size()), [&](int g, int thread) {
     Substep& s = groups[static_cast<std::size_t>(g)];
     s.own = &context.workspace.of_thread[static_cast<std::size_t>(thread)];
-    while (s.number < s.substeps && s.number * quarters < quarter * s.planned)
+    while (s.number < s.substeps && s.number * quarters < quarter * s.planned) {
+      if (s.made > 0) begin_quarter(s);  // not at a quarter's end, where the frame may stop
       if (!make_substep(s, [] { return false; })) return;
+    }
   });
 }
 

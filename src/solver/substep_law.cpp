@@ -98,6 +98,7 @@ void begin_quarter_with(Substep& s, double substeps, double before) {
   const int quarter = s.number * quarters / s.planned;
   const int number = in_quarter(s, substeps);
   s.is_guarded = before > 0 && number > in_quarter(s, before);
+  s.substeps_before = before;
   s.planned = s.substeps = quarters * number;
   s.number = quarter * number;
   s.h = static_cast<float>(s.dt / s.planned);
@@ -127,6 +128,11 @@ void begin_quarter(Substep& s) {
   const double before = substeps_before(s), guess = s.hangs ? first_of_hanging : first_substeps;
   const double wanted = std::max(demanded(s, least), (before > 0 ? before : guess) * slowest_decrease);
   begin_quarter_with(s, std::clamp(wanted, double(least), double(s.most)), before);
+}
+
+void leave_quarter(Substep& s) {
+  if (!s.is_guarded || s.number * quarters % s.planned == 0) return;
+  for_present(s, [&](int o) { s.state.substeps[o] = static_cast<float>(s.substeps_before); });
 }
 
 void forget_substeps(Substep& s) {

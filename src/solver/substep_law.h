@@ -21,7 +21,11 @@ inline bool ends_quarter(const Substep& s) { return s.most > 0 && (s.number + 1)
 /// Call at the start of a frame: where substeps are fixed, the State keeps no number of them.
 void forget_substeps(Substep& s);
 
-/// Call at the start of a frame and after each substep: at the start of a quarter, decides the length of its substeps.
+/// Call before each substep: at the start of a quarter, decides the length of its substeps.
 void begin_quarter(Substep& s);
+
+/// Call where a frame is stopped: within a guarded quarter the State gets the number of the quarter before, so that the
+/// next frame is guarded too.
+void leave_quarter(Substep& s);
 
 }  // namespace pliant

@@ -88,8 +88,14 @@ GroupFrame World::Implementation::plan(const SubstepGroup& group, double dt, std
   if (group.by_state && !set_bounds(settings, group, limited, frame)) return frame;
   const PairModel* pairs = group.has_all ? pair_model.get() : group.pair_model.get();
   if (pairs == nullptr) return frame;
-  frame.substeps = divided_substeps(model, workspace.control, *pairs, state,
-                                    {state.time, dt, frame.substeps, limited(most), group.substeps}, warnings);
+  PlannedFrame planned{state.time, dt, frame.substeps, limited(most), group.substeps};
+  if (group.by_state) {
+    const int usual = frame.most_substeps;
+    planned = {state.time,     dt,
+               frame.substeps, settings.most_substeps > 0 ? usual : limited(most) / quarters * quarters,
+               usual,          quarters};
+  }
+  frame.substeps = divided_substeps(model, workspace.control, *pairs, state, planned, warnings);
   if (group.by_state) frame.most_substeps = std::max(frame.substeps, frame.most_substeps);
   return frame;
 }

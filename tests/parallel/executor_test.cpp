@@ -6,6 +6,8 @@
 #include <atomic>
 #include <chrono>
 #include <cstring>
+#include <memory>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 
@@ -69,6 +71,25 @@ TEST(Executor, RunsLoopsSideBySide) {
     for (const auto& count : visits) EXPECT_EQ(count, 100);
     ASSERT_EQ(executor.timings().entries().size(), 1U);
     EXPECT_GT(executor.timings().entries()[0].milliseconds, 0);
+  }
+}
+
+TEST(Executor, ForgetsLoopsSideBySideThatAnExceptionEnds) {
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    auto executor = std::make_unique<Executor>(3);
+    const auto fail = [&] {
+      executor->enter([&] {
+        executor->side_by_side(8, [&](int i, int) {
+          executor->parallel_for("inner", 20, [](int) {});
+          if (i == 3) throw std::runtime_error("of the user");
+        });
+      });
+    };
+    EXPECT_THROW(fail(), std::runtime_error);
+    executor.reset();
+    Executor next(3);  // times its loops on threads that ended with the exception
+    next.enter([&] { next.parallel_for("next", 50, [](int) {}); });
+    ASSERT_EQ(next.timings().entries().size(), 1U);
   }
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "world/run_time_support.h"
@@ -59,6 +60,62 @@ TEST(SubstepEnergy, IsNotGainedAtImpacts) {
 TEST(SubstepEnergy, IsNotGainedAtImpactsOfCoarseCloth) {
   for (int i = 0; i < 60; i += drops_apart)
     EXPECT_LT(energy_gain(drop(24, 0.0007f * static_cast<float>(i), 5, 0.15f), 6), 0.01) << i;
+}
+
+/// A collider that moves elsewhere does no work.
+TEST(SubstepEnergy, IsNotGainedWhereAnotherColliderMoves) {
+  for (int i = 0; i < 60; i += 6) {
+    Scene scene = drop(32, 0.0007f * static_cast<float>(i), 5, 0.15f);
+    Collider far;
+    far.shape = Sphere{1};
+    far.position = {50, 0, 0};
+    far.motion = straight({1, 0, 0}, 1);
+    scene.add(far);
+    EXPECT_LT(energy_gain(scene, 6), 0.01) << i;
+  }
+}
+
+/// Frames of one set, and of two that run side by side, are stopped at `share` of each; the energy gained [J/kg].
+double energy_gain_where_stopped(int sets, float height, float share) {
+  Scene scene;
+  for (int i = 0; i < sets; ++i) {
+    const Scene one = drop(32, height, 5, 0.15f);
+    scene.add(one.objects[0]);
+    scene.add(one.colliders[0]);
+    const Vec3f aside{5 * static_cast<float>(i), 0, 0};
+    for (Vec3f& p : scene.objects.back().positions) p += aside;
+    scene.colliders.back().position += aside;
+  }
+  std::atomic<bool> flag{false};
+  std::atomic<float> at{0};
+  const auto ask = [&](const Vec3f&, const Vec3f&, float, float time) {
+    if (time >= at) flag = true;
+    return Vec3f{};
+  };
+  scene.forces.emplace_back(ask, true);
+  scene.settings.sweep = Sweep::chains;
+  World world(scene);
+  State falls = world.state();
+  falls.substeps.assign(static_cast<std::size_t>(sets), 12);
+  world.restore(falls);
+  world.stop_when(&flag);
+  double mass = 0, gain = 0, least = energy(world);
+  for (const Object& object : scene.objects)
+    for (const float m : object.masses) mass += static_cast<double>(m);
+  for (int step = 0; step < 1000 && world.state().time < 6 * double(dt); ++step) {
+    flag = false;
+    at = static_cast<float>(world.state().time + double(share) * double(dt));
+    world.step(dt);
+    gain = std::max(gain, (energy(world) - least) / mass);
+    least = std::min(least, energy(world));
+  }
+  return gain;
+}
+
+TEST(SubstepEnergy, IsNotGainedWhereFramesAreStopped) {
+  for (const int sets : {1, 2})
+    for (int i = 0; i < 60; i += 20)
+      EXPECT_LT(energy_gain_where_stopped(sets, 0.0007f * static_cast<float>(i), 0.3f), 0.01) << sets << " sets, " << i;
 }
 
 /// A small ball moves few constraints, so most of the impact happens before they demand substeps.

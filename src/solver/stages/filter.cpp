@@ -1,5 +1,6 @@
 #include "solver/drivers/contacts.h"
 #include "solver/stages/stages.h"
+#include "solver/substep_law.h"
 
 namespace pliant {
 
@@ -20,7 +21,7 @@ void filter(Substep& s) {
   for (int round = 0; round < most_rounds_of_contacts && pairs.find_overrun(all_particles(s), is_overrun); ++round)
     project_contacts_of(s, "solve: contacts among surfaces", is_overrun, 0);
   pairs.filter(s.context.executor, all_particles(s));
-  if (s.is_last()) pairs.measure_overlaps(all_particles(s));
+  if (s.is_last() || ends_quarter(s)) pairs.measure_overlaps(all_particles(s));
 }
 
 }  // namespace pliant

@@ -136,6 +136,8 @@ bool end_frame(std::vector<Substep>& groups, Report& report) {
   }
   const Substep& s = groups.front();  // all groups have reached the same time
   report.stopped = s.substeps < s.planned;
+  if (report.stopped)
+    for (Substep& group : groups) leave_quarter(group);
   s.state.time = report.stopped ? time_of(s, s.substeps) : s.frame_start + s.dt;
   return true;
 }

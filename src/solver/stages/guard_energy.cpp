@@ -26,6 +26,7 @@ CorrectionEnergy energy_of(const Substep& s, int task) {
   const AdvanceArguments a = particles(s, task);
   const double inverse_h = 1 / static_cast<double>(s.h);
   CorrectionEnergy sum;
+  if (object_of(s, task).is_collider) return sum;  // it does work where it pushes: is_pushed_by_what_moves
   for (int i = a.first; i < a.last; ++i) {
     const Vec3d moved = as_double(a.displacements[i]), carried = as_double(a.remainders[i]);
     const double w = static_cast<double>(a.positions[i].w);
@@ -60,7 +61,32 @@ double largest_share(const CorrectionEnergy& e) {
   if (!(e.predicted + e.linear + e.quadratic > 0) || !(e.quadratic > 0)) return 1;
   const double discriminant = e.linear * e.linear - 4 * e.quadratic * e.predicted;
   const double root = discriminant > 0 ? std::sqrt(discriminant) : 0;
-  return std::clamp((root - e.linear) / (2 * e.quadratic), 0., 1.);
+  const double share = (root - e.linear) / (2 * e.quadratic);
+  return std::isfinite(share) ? std::clamp(share, 0., 1.) : 1;
+}
+
+/// True if the point of a contact is kinematic and moves.
+bool is_carried(const Substep& s, int point) {
+  const Vec3d moved = as_double(s.work.displacements[point]) - as_double(s.state.remainders[point]);
+  return !(s.state.positions[point].w > 0) && length(moved) > 0;
+}
+
+/// True if a collider that moves pushes a particle of the group, and so may do work.
+bool is_pushed_by_what_moves(const Substep& s) {
+  const auto pushes = [&](const Contact& c) { return c.push > 0 && s.own->colliders[c.collider].moves; };
+  const auto any_pushes = [&](const std::vector<Contact>& contacts) {
+    return std::any_of(contacts.begin(), contacts.end(), pushes);
+  };
+  bool found = any_pushes(s.own->shape_contacts);
+  for_each_tile(s, [&](int task) { found = found || any_pushes(s.work.tiles[task].contacts); });
+  if (found || !s.has_pairs()) return found;
+  const auto is_pushed = [&](const Contact& c) {
+    bool carried = false;
+    for (std::size_t i = 0; c.push > 0 && i < c.point.size(); ++i)
+      carried = carried || (c.weight[i] != 0 && is_carried(s, c.point[i]));
+    return carried;
+  };
+  return std::any_of(s.pairs->contacts().begin(), s.pairs->contacts().end(), is_pushed);
 }
 
 }  // namespace
@@ -68,8 +94,7 @@ double largest_share(const CorrectionEnergy& e) {
 void guard_energy(Substep& s) {
   s.velocity_share = 1;
   if (!s.is_guarded) return;
-  const auto moves = [](const MovingCollider& collider) { return collider.moves; };
-  if (std::any_of(s.own->colliders.begin(), s.own->colliders.end(), moves)) return;
+  if (is_pushed_by_what_moves(s)) return;
   const CorrectionEnergy energy = energy_of_group(s);
   if (!energy.has_outside_work) s.velocity_share = static_cast<float>(largest_share(energy));
 }
