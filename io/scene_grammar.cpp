@@ -246,8 +246,8 @@ const Record& settings_record() {
       {field(
            "substeps", integer(0, 10000), Settings{}.substeps,
            "Substeps per frame; 0: they follow strain and motion where chains solve cloth of 400 particles or rope of 48; "
-           "6 for "
-           "objects that `multigrid` solves, 10 if their pins move or they can touch surfaces; 20 for all others."),
+           "5 for objects that `multigrid` solves, 10 if they can touch surfaces, are in wind or a force field, or have pins "
+           "that move or lie together; 20 for all others."),
        field("iterations", integer(1, 10000), Settings{}.iterations, "Iterations per substep."),
        field("tolerance", number("m", 0, largest_place), Settings{}.tolerance,
              "A substep ends its iterations when the root mean square error of its distance constraints falls below this; "
@@ -256,10 +256,9 @@ const Record& settings_record() {
        field(
            "sweep", choice(sweep_names()), "automatic",
            "The method that projects constraints (docs/internals/sweeps.md), unless an object has its own. "
-           "`automatic` chooses for each object: `chains` for cloth and rope of 32 particles or more that can touch others "
-           "or itself, `tethered_chains` for regular ones that hang from pins, `multigrid` for irregular ones that can "
-           "meet no "
-           "collider, and `tiled` for inflated volumes, PBD stiffness, or several iterations. "
+           "`automatic` chooses for each object of 32 particles or more: `tethered_chains` for regular cloth and rope that "
+           "hang from pins, `chains` for others that can touch others or themselves, `multigrid` for irregular ones that "
+           "can meet no collider, and `tiled` for inflated volumes, PBD stiffness, or several iterations. "
            "`sequential` is the slow scalar reference with the bits of `tiled`."),
        field("sweep_options", record(sweep_options_record()), "the defaults", "Options of sweeps."),
        field("contact_filter", boolean(), Settings{}.contact_filter,
@@ -268,7 +267,7 @@ const Record& settings_record() {
        field("most_substeps", integer(0, 10000), "100 where substeps follow the State, else eight times `substeps`",
              "Maximum number of substeps of a frame: where they follow the State (in multiples of four), and where a mesh "
              "collider moves fast (docs/guide/contact.md)."),
-       field("least_substeps", integer(0, 10000), "12; 6 for cloth that only hangs by `tethered_chains`",
+       field("least_substeps", integer(0, 10000), "12; 8 for cloth that only hangs by `tethered_chains`",
              "Minimum number of substeps of a frame where they follow the State, rounded up to a multiple of four."),
        field("initial_intersections", choice({"leave", "untangle", "refuse"}), "leave",
              "Treatment of surfaces that intersect at the start: leave them, move them apart, or refuse the scene."),

@@ -364,9 +364,9 @@ Sweep chosen_sweep(const Scene& scene, int object, std::string* reason = nullptr
 /// consists of objects and mesh colliders (as triangles) whose surfaces can touch, by groups, masks and `collides`,
 /// directly or through others. An object that touches nothing is a set of its own. 0 stands for substeps that follow
 /// the State: they are decided in each quarter of a frame by strain and motion. They do so if an object of the set is
-/// solved by chains and not meant to stretch, and none has PBD stiffness between 0 and 1. Any other set has 6 substeps
-/// if all its objects use `multigrid` and have no such stiffness (10 if pins move or it can touch), else 20. With a
-/// tolerance or recorded residuals all objects form one set, whose substeps are fixed.
+/// solved by chains and not meant to stretch, and none has PBD stiffness between 0 and 1. Any other set has 5 substeps
+/// if all its objects use `multigrid` and have no such stiffness, else 20; 10 of `multigrid` if an object can touch, is in
+/// wind or a force field, or has pins that move or that lie together. With a tolerance or recorded residuals all objects form one set, whose substeps are fixed.
 std::vector<int> chosen_substeps(const Scene& scene);
 
 /// Returns the settings of a World of this scene; what the scene leaves open is chosen by its content.

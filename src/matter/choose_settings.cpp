@@ -245,9 +245,9 @@ bool hangs(const Object& object) {
 
 double gravity_of(const Scene& scene) { return std::sqrt(static_cast<double>(length_squared(scene.gravity))); }
 
-/// True if tethers do not change how an object moves: it hangs, meets no surface, and is not meant to stretch.
+/// True if tethers do not change how an object moves: it hangs from pins whose distances stay, and is not meant to stretch.
 bool may_be_tethered(const Scene& scene, const Object& object) {
-  return !can_touch(scene, object) && hangs(object) && !is_meant_to_stretch(object, gravity_of(scene));
+  return hangs(object) && !is_meant_to_stretch(object, gravity_of(scene));
 }
 
 bool has_fixed(const Object& object) {
@@ -269,19 +269,17 @@ Choice choose(const Scene& scene, const Settings& settings, const Object& object
   if (is_coarse(particles)) return {Sweep::tiled, too_coarse};
   if (object.volume && object.volume->pressure > 1) return {Sweep::tiled, name + ", which is inflated"};
   if (object.volume) return {Sweep::chains, name + ", which has a volume"};
-  if (can_touch(scene, object)) return {Sweep::chains, name + ", a surface that can touch itself or others"};
   // Neither tethers nor multigrid know of bending, which demands more substeps than they need for stretch.
-  if (is_stiff_sheet(object, gravity))
-    return {Sweep::chains, name + ", a sheet whose bending length is more than a quarter of its size"};
-  if (!is_regular(object)) {
-    // Multigrid would be faster at equal stretch, but cloth that should slide over a collider sticks with it.
-    if (can_meet_collider(scene, object)) return {Sweep::chains, name + ", which can meet a collider"};
-    return {Sweep::multigrid,
-            "cloth or rope that meets nothing, the largest of " + std::to_string(particles) + " particles"};
-  }
-  if (may_be_tethered(scene, object))
+  const bool is_stiff = is_stiff_sheet(object, gravity), is_in_rows = is_regular(object);
+  if (!is_stiff && is_in_rows && may_be_tethered(scene, object))
     return {Sweep::tethered_chains, name + ", which hangs from pins and has its springs in straight rows"};
-  return {Sweep::chains, name + ", whose springs lie in straight rows"};
+  if (can_touch(scene, object)) return {Sweep::chains, name + ", a surface that can touch itself or others"};
+  if (is_stiff) return {Sweep::chains, name + ", a sheet whose bending length is more than a quarter of its size"};
+  if (is_in_rows) return {Sweep::chains, name + ", whose springs lie in straight rows"};
+  // Multigrid would be faster at equal stretch, but cloth that should slide over a collider sticks with it.
+  if (can_meet_collider(scene, object)) return {Sweep::chains, name + ", which can meet a collider"};
+  return {Sweep::multigrid,
+          "irregular cloth or rope that meets nothing, the largest of " + std::to_string(particles) + " particles"};
 }
 
 /// The sweep of one object: its own, else that of the settings, else the one chosen for it.
@@ -390,8 +388,9 @@ namespace {
 std::vector<int> substeps_of_objects(const Scene& scene, const Settings& settings, const std::vector<Sweep>& sweeps) {
   std::vector<SetMember> members;
   const double gravity = gravity_of(scene);
+  const bool is_blown = blows(scene.wind, scene.forces);
   for (std::size_t o = 0; o < sweeps.size(); ++o)
-    members.push_back(member_of(scene.objects[o], own_substeps(scene.objects[o], sweeps[o]),
+    members.push_back(member_of(scene.objects[o], own_substeps(scene.objects[o], sweeps[o], is_blown),
                                 substep_rule(scene.objects[o], sweeps[o], gravity)));
   for (const MeshCollider& collider : scene.mesh_colliders) members.push_back(member_of(collider));
   std::vector<SetSubsteps> sets = substeps_of_sets(members);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -62,8 +63,35 @@ CompliancePerLength compliance_per_length(const Object& object, const Constraint
 
 /// Smaller objects keep the fixed number: they are cheap, and many of them share one group.
 constexpr std::size_t fewest_particles_by_state = 400, fewest_of_a_rope_by_state = 48;
-/// Substeps of objects solved by `multigrid` whose surface cannot touch others and whose pins rest.
-constexpr int substeps_of_undisturbed_multigrid = 6;
+/// Substeps of objects solved by `multigrid` that nothing disturbs.
+constexpr int substeps_of_undisturbed_multigrid = 5;
+/// Pins within this share of an object's extent lie together: it swings about them.
+constexpr double swinging_share = 0.25;
+
+/// The largest side of the box around the given particles [m].
+template <class Particles, class Position>
+double extent(const Particles& particles, const Position& position_of) {
+  constexpr float far = std::numeric_limits<float>::max();
+  Vec3f low{far, far, far}, high{-far, -far, -far};
+  for (const auto& particle : particles) {
+    const Vec3f p = position_of(particle);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const Vec3f sides = high - low;
+  return static_cast<double>(std::max({sides.x, sides.y, sides.z, 0.f}));
+}
+
+/// True if it has pins, and all of them lie together.
+bool swings(const Object& object) {
+  if (object.pins.empty()) return false;
+  const auto of_pin = [&](const Pin& pin) {
+    const auto p = static_cast<std::size_t>(pin.particle);
+    return p < object.positions.size() ? object.positions[p] : Vec3f{};
+  };
+  const double whole = extent(object.positions, [](const Vec3f& p) { return p; });
+  return extent(object.pins, of_pin) < swinging_share * whole;
+}
 /// Substeps of chains where there is a volume, which is corrected after the lengths and pushes them out again: an edge in a
 /// hundred of a balloon is 5 % too long with 20, 0.6 % with 80.
 constexpr int substeps_of_volumes = 80;
@@ -128,12 +156,16 @@ std::optional<double> strain_by_weight(const Object& object, double gravity) {
   return compliance * mass * std::max(gravity, least_acceleration) / row;
 }
 
-int own_substeps(const Object& object, Sweep sweep) {
+bool blows(const Wind& wind, const std::vector<ForceField>& forces) {
+  return !forces.empty() || (wind.air_density > 0 && length(wind.velocity) > 0);
+}
+
+int own_substeps(const Object& object, Sweep sweep, bool is_blown) {
   if (object.volume && solves_chains(sweep) && !has_converted(object)) return substeps_of_volumes;
   if (sweep != Sweep::multigrid || has_converted(object)) return substeps_of_others;
   const auto moves = [](const Pin& pin) { return pin.motion.keyframes.size() > 1; };
-  const bool is_disturbed =
-      object.collides || object.self_collision || std::any_of(object.pins.begin(), object.pins.end(), moves);
+  const bool is_disturbed = is_blown || object.collides || object.self_collision || swings(object) ||
+                            std::any_of(object.pins.begin(), object.pins.end(), moves);
   return is_disturbed ? substeps_of_multigrid : substeps_of_undisturbed_multigrid;
 }
 

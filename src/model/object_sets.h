@@ -13,15 +13,20 @@
 
 namespace pliant {
 
-/// Default substeps per frame of objects solved by `multigrid` that can touch or whose pins move, and of all others.
+/// Default substeps per frame of objects solved by `multigrid` that are disturbed (own_substeps), and of all others.
 inline constexpr int substeps_of_multigrid = 10, substeps_of_others = 20;
 
 /// The largest number of substeps of any object; chosen_settings(scene) has 0 substeps if objects differ.
 inline int most_substeps_of(const Settings& chosen) { return chosen.substeps > 0 ? chosen.substeps : substeps_of_others; }
 
 /// The substeps that an object needs by itself. An object with PBD stiffness between 0 and 1 gets substeps_of_others,
-/// the largest default: its stiffness is converted for a fixed number of projections, which no set may change.
-int own_substeps(const Object& object, Sweep sweep);
+/// the largest default: its stiffness is converted for a fixed number of projections, which no set may change. With
+/// `multigrid`, objects are disturbed that can touch, that are blown about by wind or force fields, whose pins move, or
+/// that swing about pins which lie together; others need half as many.
+int own_substeps(const Object& object, Sweep sweep, bool is_blown);
+
+/// True if wind or a force field acts on objects.
+bool blows(const Wind& wind, const std::vector<ForceField>& forces);
 
 /// How the number of substeps of an object's set may be decided.
 enum class SubstepRule {

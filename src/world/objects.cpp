@@ -74,6 +74,7 @@ CompileOptions World::Implementation::compile_options(Sweep sweep) const {
   options.tether_slack = settings.sweep_options.tether_slack;
   options.air = model.wind.air_density > 0;
   options.gravity = length(model.gravity);
+  options.is_blown = blows(model.wind, model.forces);
   return options;
 }
 

@@ -22,7 +22,7 @@ inline Object sheet(const std::string& name, const Vec3f& at, int n = 12) {
   return cloth;
 }
 
-/// A sheet solved by `multigrid` in 6 substeps, or in 10 if its surface can touch others.
+/// A sheet solved by `multigrid`: in wind in 10 substeps.
 inline Object flag() {
   Object object = sheet("flag", {0, 0.5f, 0});
   object.sweep = Sweep::multigrid;

@@ -17,7 +17,7 @@ using namespace testing_support;
 TEST(SubstepGroups, AFlagBesideASockIsAsAlone) {
   World world(scene_of({flag(), sock()}));
   EXPECT_EQ(world.settings().substeps, 0) << "there is no one number";
-  EXPECT_EQ(world.info(0).substeps, 6);
+  EXPECT_EQ(world.info(0).substeps, 10);
   EXPECT_EQ(world.info(1).substeps, 20);
   EXPECT_EQ(world.step(dt).substeps, 20);
   expect_each_set_as_alone({{flag()}, {sock()}});
@@ -100,13 +100,13 @@ TEST(SubstepGroups, MeshCollidersJoinWhatTheyTouchOnlyAsTriangles) {
   for (Vec3f& p : body.mesh.positions) p = 0.1f * p + Vec3f{0, -3, 0};
   body.as = MeshCollider::As::distance_grid;
   scene.add(body);
-  EXPECT_EQ(chosen_substeps(scene), (std::vector<int>{6, 20}));
+  EXPECT_EQ(chosen_substeps(scene), (std::vector<int>{10, 20}));
   World world(scene);
   run(world, 2);
   scene.mesh_colliders[0].as = MeshCollider::As::triangles;
   EXPECT_EQ(chosen_substeps(scene), (std::vector<int>{20, 20}));
   scene.mesh_colliders[0].mask = 2;
-  EXPECT_EQ(chosen_substeps(scene), (std::vector<int>{6, 20}));
+  EXPECT_EQ(chosen_substeps(scene), (std::vector<int>{10, 20}));
 }
 
 TEST(SubstepGroups, AreOneWhereANumberOrAToleranceIsGiven) {
@@ -126,12 +126,12 @@ TEST(SubstepGroups, AreOneWhereANumberOrAToleranceIsGiven) {
 TEST(SubstepGroups, KeepObjectsOfConvertedStiffnessAtTheirNumber) {
   Object pbd = flag();
   pbd.sweep = Sweep::multigrid;
-  EXPECT_EQ(chosen_substeps(scene_of({pbd})), std::vector<int>{6});
+  EXPECT_EQ(chosen_substeps(scene_of({pbd})), std::vector<int>{10});
   pbd.constraints[1].stiffness = Stiffness::pbd(0.5f);
   pbd.constraints[1].compliances.clear();
   EXPECT_EQ(chosen_substeps(scene_of({pbd})), std::vector<int>{20});
   pbd.constraints[1].stiffness = Stiffness::pbd(1);
-  EXPECT_EQ(chosen_substeps(scene_of({pbd})), std::vector<int>{6}) << "it is rigid whatever the number";
+  EXPECT_EQ(chosen_substeps(scene_of({pbd})), std::vector<int>{10}) << "it is rigid whatever the number";
   pbd.attachments.push_back({5, pbd.positions[5], {}, Stiffness::pbd(0.5f)});
   EXPECT_EQ(chosen_substeps(scene_of({pbd})), std::vector<int>{20});
 }
@@ -160,7 +160,7 @@ TEST(SubstepGroups, GiveTheSameBitsUnfused) {
   stiff.sweep = Sweep::tiled;
   Scene scene = scene_of({flag(), stiff});
   scene.wind = {};  // wind needs velocities between substeps, so that substeps would not be fused
-  EXPECT_EQ(chosen_substeps(scene), (std::vector<int>{6, 20}));
+  EXPECT_EQ(chosen_substeps(scene), (std::vector<int>{5, 20}));
   World world(scene);
   scene.settings.separate_phases = true;
   World apart(scene);
@@ -186,7 +186,7 @@ TEST(SubstepGroups, AreFoundAgainWhenObjectsComeAndGo) {
   run(world, 10);
   world.remove(ObjectId(1));
   run(world, 10);  // one group from now on
-  EXPECT_EQ(world.step(dt).substeps, 6);
+  EXPECT_EQ(world.step(dt).substeps, 10);
   const ObjectId next = world.add(sock());
   EXPECT_EQ(world.info(next).substeps, 20) << "before the next step, too";
   EXPECT_EQ(world.step(dt).substeps, 20);
