@@ -246,7 +246,8 @@ const Record& settings_record() {
       {field(
            "substeps", integer(0, 10000), Settings{}.substeps,
            "Substeps per frame; 0: they follow strain and motion where chains solve cloth of 400 particles or rope of 48; "
-           "5 for objects that `multigrid` solves, 10 if they can touch surfaces, are in wind or a force field, or have pins "
+           "5 for objects that `multigrid` solves, 10 if they can touch surfaces, are in wind or a force field, or have "
+           "pins "
            "that move or lie together; 20 for all others."),
        field("iterations", integer(1, 10000), Settings{}.iterations, "Iterations per substep."),
        field("tolerance", number("m", 0, largest_place), Settings{}.tolerance,

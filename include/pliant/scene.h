@@ -352,11 +352,11 @@ struct Scene {
 };
 
 /// Returns the sweep of one object: its own, else that of the settings, else the one that measured best on such
-/// objects. The latter is `chains` for cloth and rope of 32 particles or more whose surface can touch itself or others, or
-/// whose bending length (B / rho g)^(1/3) is above a quarter of its size (also with PBD stiffness of bending). Of others it
-/// is `tethered_chains` for regular ones that hang from pins and are not meant to stretch, `multigrid` for irregular ones
-/// that can meet no collider, and `chains` for the rest. It is `tiled` where none of these helps: an inflated volume,
-/// PBD stiffness of all distances, or several iterations. Smaller objects use the sweep of all others. If the sweep was left
+/// objects. Cloth and rope of 32 particles or more is solved by `tethered_chains` if it is regular, hangs from pins that
+/// rest or move as one, is not meant to stretch, and has a bending length (B / rho g)^(1/3) up to a quarter of its size
+/// (no PBD stiffness of bending). Irregular cloth that can touch no surface and no collider, and bends as easily, is solved
+/// by `multigrid`, and the rest by `chains`. It is `tiled` where none of these helps: an inflated volume, PBD stiffness of
+/// all distances, or several iterations. Smaller objects use the sweep of all others. If the sweep was left
 /// open, `reason` receives the deciding fact.
 Sweep chosen_sweep(const Scene& scene, int object, std::string* reason = nullptr);
 
