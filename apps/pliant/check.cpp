@@ -145,7 +145,13 @@ std::string how_it_is_solved(const Scene& scene) {
   const Settings settings = chosen_settings(scene, &reason);
   const std::string substeps = substeps_in_words(scene, settings);
   if (settings.sweep == Sweep::automatic) return "solved with " + substeps + ": " + one_line(reason);
-  return "solved by the sweep '" + sweep_name(settings.sweep) + "' with " + substeps +
+  std::string sweeps;  // an object's own sweep replaces that of the settings
+  for (int o = 0; o < static_cast<int>(scene.objects.size()); ++o) {
+    const std::string name = "'" + sweep_name(chosen_sweep(scene, o)) + "'";
+    if (sweeps.find(name) == std::string::npos) sweeps += (sweeps.empty() ? "" : ", ") + name;
+  }
+  if (sweeps.empty()) sweeps = "'" + sweep_name(settings.sweep) + "'";
+  return "solved by the sweep " + sweeps + " with " + substeps +
          (reason.empty() ? "" : "; the scene leaves the sweep open and has " + one_line(reason));
 }
 

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace pliant::command {
 
@@ -131,6 +132,19 @@ std::string RunReport::advice(const World& world) const {
   return words.empty() ? words : "in frame " + std::to_string(worst.frame_of_largest) + ", " + words;
 }
 
+namespace {
+
+/// The sweep of all objects; `automatic` if they differ.
+Sweep sweep_of(const World& world) {
+  const WorldLayout layout = world.layout();
+  std::set<Sweep> sweeps;
+  for (const WorldLayout::Slot& object : layout.objects)
+    if (object.number >= 0) sweeps.insert(layout.sweeps[static_cast<std::size_t>(object.number)]);
+  return sweeps.empty() ? world.settings().sweep : sweeps.size() == 1 ? *sweeps.begin() : Sweep::automatic;
+}
+
+}  // namespace
+
 std::string RunReport::json(const std::string& scene_path, const Scene& scene, const World& world) const {
   const Stretch stretch = world.stretch();
   const double frames = static_cast<double>(std::max<std::size_t>(milliseconds_.size(), 1));
@@ -140,7 +154,7 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["state_hash"] = world.state_hash();
   json["frames"] = world.state().frame;
   json["frame_time"] = scene.frame_time;
-  json["sweep"] = sweep_name(world.settings().sweep);
+  json["sweep"] = sweep_name(sweep_of(world));
   add_substeps(world, most_substeps_, json);
   json["mean_substeps"] = static_cast<double>(sum_of_substeps_) / frames;
   json["iterations"] = world.settings().iterations;

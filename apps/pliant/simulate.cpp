@@ -14,8 +14,11 @@ namespace pliant::command {
 
 namespace {
 
-/// Sets the sweep by a name such as "chains+tethers". Options that the name does not mention stay as the scene has them.
-void set_sweep(const std::string& name, Settings& settings) {
+/// Sets the sweep of all objects by a name such as "chains+tethers". Options that the name does not mention stay as the scene
+/// has them.
+void set_sweep(const std::string& name, Scene& scene) {
+  for (Object& object : scene.objects) object.sweep = Sweep::automatic;
+  Settings& settings = scene.settings;
   if (name == "automatic") {
     settings.sweep = Sweep::automatic;
     return;
@@ -55,7 +58,7 @@ Scene read_scene_with(const std::string& path, const Overrides& overrides, bool 
   Scene scene = std::move(file.scene);
   if (overrides.frames) scene.frames = *overrides.frames;
   Settings& settings = scene.settings;
-  if (!overrides.sweep.empty()) set_sweep(overrides.sweep, settings);
+  if (!overrides.sweep.empty()) set_sweep(overrides.sweep, scene);
   if (overrides.threads) settings.threads = *overrides.threads;
   if (overrides.substeps) settings.substeps = *overrides.substeps;
   if (overrides.iterations) settings.iterations = *overrides.iterations;

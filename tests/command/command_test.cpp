@@ -225,6 +225,16 @@ TEST_F(Command, ASweepMayBeNamedAndTheReportIsThatOfASceneThatNamesIt) {
   EXPECT_EQ(hash(R"("substeps": 4, "sweep_options": {"tethers": true})", "--sweep chains --substeps 3 --iterations 2"),
             named)
       << "what the name does not say is the scene's";
+  // An object's own sweep replaces that of the settings, and the command's replaces both; the report has what is used.
+  const auto of_object = [&](const std::string& arguments) {
+    std::string with = scene;
+    with.replace(with.find(hanging), hanging.size(), R"("sweep": "jacobi", )" + hanging);
+    std::ofstream(folder_ / "small.json") << with;
+    return report(arguments);
+  };
+  EXPECT_EQ(of_object("").at("sweep"), "jacobi");
+  EXPECT_EQ(of_object("--sweep tiled").at("sweep"), "tiled");
+  EXPECT_EQ(of_object("--sweep tiled").at("state_hash"), plain);
   expect_refused("run small.json --sweep tilde", 1, "tiled, sequential, symmetric");
   expect_refused("run small.json --sweep tiled+lasers", 1, "tethers, chebyshev, average");
   expect_refused("run small.json --sweep chains --sequential", 2, "sequential");
