@@ -53,8 +53,10 @@ void keep_worst(const Report& report, Trial& trial) {
 /// Runs trials of a scene, with the data that they share.
 class Trials {
  public:
-  Trials(const Scene& scene, const AdviseOptions& options)
+  /// `open` is the scene with no sweeps of objects, for the trials of other settings.
+  Trials(const Scene& scene, const Scene& open, const AdviseOptions& options)
       : scene_(scene),
+        open_(open),
         frames_(std::max(1, std::min(options.frames, scene.frames))),
         end_(after(options.seconds)),
         own_end_(after(own_share * options.seconds)),
@@ -83,7 +85,7 @@ class Trials {
   Trial run(const Settings& settings, double bound, std::string* words) const {
     Trial trial;
     trial.settings = settings;
-    World world(scene_, settings);
+    World world(words != nullptr ? scene_ : open_, settings);
     Report last;
     bool goes_on = true;
     while (goes_on && trial.frames < frames_) {
@@ -103,7 +105,7 @@ class Trials {
 
   bool is_over(Clock::time_point end) const { return Clock::now() >= end || (stops_ && stops_()); }
 
-  const Scene& scene_;
+  const Scene &scene_, &open_;
   int frames_;
   Clock::time_point end_, own_end_;
   std::function<bool()> stops_;
@@ -258,18 +260,34 @@ int best_of(const Advice& advice) {
 
 bool is_good(const Trial& trial) { return trial.complete && is_tolerable(trial.worst); }
 
+namespace {
+
+/// Objects that name a sweep, such as "object 'flag' and 2 more".
+std::string with_own_sweep(const Scene& scene) {
+  const auto has_own = [](const Object& object) { return object.sweep != Sweep::automatic; };
+  const auto first = std::find_if(scene.objects.begin(), scene.objects.end(), has_own);
+  if (first == scene.objects.end()) return "";
+  const auto more = std::count_if(first + 1, scene.objects.end(), has_own);
+  return "object '" + first->name + "'" + (more > 0 ? " and " + std::to_string(more) + " more" : "");
+}
+
+}  // namespace
+
 Advice advise(const Scene& given, const AdviseOptions& options) {
   Scene scene = given;
   scene.settings = chosen_settings(given);
+  Scene open = scene;
+  for (Object& object : open.objects) object.sweep = Sweep::automatic;
   Advice advice;
-  Trials trials(scene, options);
+  Trials trials(scene, open, options);
   advice.frames = trials.frames();
   advice.own = trials.run_own(advice.words);
   advice.cut_short = !advice.own.complete && std::isfinite(advice.own.worst.largest);
   if (advice.words.empty()) return advice;
-  Search search(scene, trials, advice);
-  const std::string departs = departures(scene, given.settings, scene.settings);
-  if (departs.empty() || !search.try_default()) search.run();
+  Search search(open, trials, advice);
+  const Departures departs{departures(scene, given.settings, scene.settings), with_own_sweep(scene)};
+  const bool is_default = departs.settings.empty() && departs.objects.empty();
+  if (is_default || !search.try_default()) search.run();
   advice.what_to_do = remedy(advice, departs);
   return advice;
 }

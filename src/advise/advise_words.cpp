@@ -50,11 +50,14 @@ std::string setting_and_cost(const Advice& advice, int trial) {
 /// Otherwise its result says nothing about later frames.
 bool knows_all(const Advice& advice) { return advice.own.complete || !std::isfinite(advice.own.worst.largest); }
 
-std::string json_of_best(const Advice& advice, const std::string& departs) {
+std::string json_of_best(const Advice& advice, const Departures& departs) {
   const Trial& best = advice.others[advice.best];
   const std::string lead = knows_all(advice) ? "" : "to try it, ";
-  if (is_default(best)) return lead + "remove " + departs + " from the scene's \"settings\"";
-  return lead + "add to the scene's \"settings\": " + in_json(best.settings, advice.own.settings);
+  const std::string of_objects = departs.objects.empty() ? "" : "remove \"sweep\" from " + departs.objects;
+  const std::string both = of_objects.empty() ? "" : " and " + of_objects;
+  if (is_default(best) && departs.settings.empty()) return lead + of_objects;
+  if (is_default(best)) return lead + "remove " + departs.settings + " from the scene's \"settings\"" + both;
+  return lead + "add to the scene's \"settings\": " + in_json(best.settings, advice.own.settings) + both;
 }
 
 /// What a good trial does, after "keep" or "keeps".
@@ -70,7 +73,7 @@ int judged(const Advice& advice) {
 }
 
 /// The advice if no settings are good: those that come nearest.
-std::string of_the_nearest(const Advice& advice, const std::string& departs) {
+std::string of_the_nearest(const Advice& advice, const Departures& departs) {
   const std::string in_time = advice.cut_short ? " within the time limit" : "";
   if (judged(advice) == 0) return "no other setting was tried" + in_time;
   const int count = judged(advice);
@@ -86,7 +89,7 @@ std::string of_the_nearest(const Advice& advice, const std::string& departs) {
 }
 
 /// The advice if some settings are good: the cheapest, and the cheapest of another family.
-std::string of_the_good(const Advice& advice, const std::string& departs) {
+std::string of_the_good(const Advice& advice, const Departures& departs) {
   const int other = runner_up(advice);
   const bool one = other < 0 && advice.others[advice.best].settings.substeps == 1;
   const std::string keep = one || (other < 0 && is_default(advice.others[advice.best])) ? " keeps" : " keep";
@@ -98,7 +101,7 @@ std::string of_the_good(const Advice& advice, const std::string& departs) {
 
 }  // namespace
 
-std::string remedy(const Advice& advice, const std::string& departs) {
+std::string remedy(const Advice& advice, const Departures& departs) {
   const int ran = advice.own.frames;
   const std::string first = ran == 1 ? "first" : "first " + std::to_string(ran);
   const std::string part = "only the " + first + " of " + std::to_string(advice.frames) +

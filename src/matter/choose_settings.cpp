@@ -250,6 +250,11 @@ bool may_be_tethered(const Scene& scene, const Object& object) {
   return hangs(object) && !is_meant_to_stretch(object, gravity_of(scene));
 }
 
+/// True if more than a tenth of the particles are pinned, as in Cusick's test of drape. What overhangs is short, and bends by the
+/// substeps that its strain demands; with tethers there is less strain, so fewer substeps, and cloth that can touch itself drapes
+/// too softly.
+bool lies_on_pins(const Object& object) { return 10 * object.pins.size() > object.positions.size(); }
+
 bool has_fixed(const Object& object) {
   return !object.pins.empty() || !object.attachments.empty() ||
          std::any_of(object.masses.begin(), object.masses.end(), [](float mass) { return std::isinf(mass); });
@@ -271,9 +276,10 @@ Choice choose(const Scene& scene, const Settings& settings, const Object& object
   if (object.volume) return {Sweep::chains, name + ", which has a volume"};
   // Neither tethers nor multigrid know of bending, which demands more substeps than they need for stretch.
   const bool is_stiff = is_stiff_sheet(object, gravity), is_in_rows = is_regular(object);
-  if (!is_stiff && is_in_rows && may_be_tethered(scene, object))
+  const bool touches = can_touch(scene, object);
+  if (!is_stiff && is_in_rows && may_be_tethered(scene, object) && (!touches || !lies_on_pins(object)))
     return {Sweep::tethered_chains, name + ", which hangs from pins and has its springs in straight rows"};
-  if (can_touch(scene, object)) return {Sweep::chains, name + ", a surface that can touch itself or others"};
+  if (touches) return {Sweep::chains, name + ", a surface that can touch itself or others"};
   if (is_stiff) return {Sweep::chains, name + ", a sheet whose bending length is more than a quarter of its size"};
   if (is_in_rows) return {Sweep::chains, name + ", whose springs lie in straight rows"};
   // Multigrid would be faster at equal stretch, but cloth that should slide over a collider sticks with it.

@@ -97,7 +97,8 @@ int in_quarter(const Substep& s, double substeps) {
 void begin_quarter_with(Substep& s, double substeps, double before) {
   const int quarter = s.number * quarters / s.planned;
   const int number = in_quarter(s, substeps);
-  s.is_guarded = before > 0 && number > in_quarter(s, before);
+  // Not where the number only fluctuates, as at rest: the guard would hold back what bending energy lifts.
+  s.is_guarded = before > 0 && 4 * number > 5 * in_quarter(s, before);
   s.substeps_before = before;
   s.planned = s.substeps = quarters * number;
   s.number = quarter * number;

@@ -22,8 +22,13 @@ std::string words_of(const Overstretch& found, const CompiledObject& object);
 /// the smallest factor, clearly smaller than that of `own`, with neither figure above that of `own`. -1: none.
 int best_of(const Advice& advice);
 
+/// By what a scene departs from the default.
+struct Departures {
+  std::string settings;  ///< departures() of its settings
+  std::string objects;   ///< the objects that name a sweep of their own, in words; empty: none
+};
+
 /// The remedy that the trials found: settings and their cost, an alternative if there is one, and the JSON to paste.
-/// `departs` are the departures() of the scene's settings.
-std::string remedy(const Advice& advice, const std::string& departs);
+std::string remedy(const Advice& advice, const Departures& departs);
 
 }  // namespace pliant

@@ -464,6 +464,7 @@ TEST(Advise, RemovesTheBoundsOfSubsteps) {
 TEST(Advise, TriesLargerBoundsOfSubsteps) {
   Scene scene = hanging_sheet(24, Stiffness::rigid(), 0);
   scene.settings = {};
+  scene.objects[0].pins[1].motion = straight({1e-3f, 0, 0}, 1);  // pins that move apart: no tethers
   scene.objects[0].self_collision = true;
   scene.gravity = {0, -3000, 0};
   scene.frames = 2;
@@ -477,12 +478,30 @@ TEST(Advise, TriesLargerBoundsOfSubsteps) {
   EXPECT_EQ(least[1], 48);
 }
 
+/// Other settings are tried without an object's own sweep, which would replace them, and the advice is to remove it.
+TEST(Advise, RemovesTheSweepOfAnObject) {
+  Scene scene = hanging_sheet(24, Stiffness::rigid(), 0);
+  scene.settings = {};
+  scene.objects[0].sweep = Sweep::jacobi;
+  const Advice advice = advise(scene, unhurried);
+  ASSERT_FALSE(is_good(advice.own)) << "or this shows nothing";
+  ASSERT_EQ(advice.best, 0);
+  EXPECT_TRUE(is_good(advice.others[0]));
+  EXPECT_NE(advice.what_to_do.find("; remove \"sweep\" from object '" + scene.objects[0].name + "'"), std::string::npos)
+      << advice.what_to_do;
+  scene.settings.sweep = Sweep::chains;
+  scene.settings.substeps = 2;
+  EXPECT_NE(advise(scene, unhurried).what_to_do.find(" from the scene's \"settings\" and remove \"sweep\" from object"),
+            std::string::npos);
+}
+
 /// Twice a bound may be no multiple of four, and bounds with none between them are refused.
 TEST(Advise, TriesBoundsOfSubstepsThatAreAccepted) {
   Scene scene = hanging_sheet(24, Stiffness::rigid(), 0);
   scene.settings = {};
   scene.settings.least_substeps = 15;
   scene.settings.most_substeps = 20;
+  scene.objects[0].pins[1].motion = straight({1e-3f, 0, 0}, 1);  // pins that move apart: no tethers
   scene.objects[0].self_collision = true;
   scene.gravity = {0, -3000, 0};
   scene.frames = 2;

@@ -85,6 +85,11 @@ TEST(ChosenSettings, AreChainsForRegularCloth) {
   Scene hung = sheet(40, 1);
   hung.pin(0, {0, 39});
   expect_chosen(hung, Sweep::tethered_chains, 0, "hangs from pins");
+  Scene lying = hung;
+  lying.objects[0].self_collision = true;
+  expect_chosen(lying, Sweep::tethered_chains, 0, "hangs from pins");
+  for (int p = 2; p < 400; ++p) lying.pin(0, {p});
+  expect_chosen(lying, Sweep::chains, 0, "can touch itself");
   for (ConstraintGroup& group : hung.objects[0].constraints)
     if (group.type == "distance") group.compliances.assign(group.particles.size() / 2, 0.1f);
   expect_chosen(hung, Sweep::chains, 20, "springs lie in straight rows");  // it is meant to stretch
