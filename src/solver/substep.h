@@ -35,7 +35,7 @@ struct Substep {
   bool hangs = false;          ///< true if it does in this quarter: SubstepGroup::hangs, and its tethers hold
   int made = 0;                ///< substeps made in this frame
   int failed_in = -1;          ///< the substep of this frame in which a value was not finite; -1: none
-  bool is_guarded = false;     ///< true in quarters with more substeps than the last one: guard_energy
+  bool is_guarded = false;     ///< true in quarters with over 1.25 times the substeps of the last one
   double substeps_before = 0;  ///< per frame in the last quarter; 0: none
   float velocity_share = 1;    ///< share of the corrections that the update turns into velocity
   const std::vector<Task>* own_lengths = nullptr;  ///< SubstepGroup::lengths; null: none
