@@ -161,7 +161,7 @@ TEST(SubstepEnergy, ChangesOfSubstepsConserveMomentum) {
   EXPECT_LT(norm(angular_momentum(world, {0}) - turning_before), 4e-3 * size);
 }
 
-/// The number of substeps is set anew before each frame: the fall must not show it.
+/// Each frame starts with another number of substeps than the one before it ended with. The fall must not depend on it.
 TEST(SubstepEnergy, FreeFallDoesNotSeeChangesOfSubsteps) {
   Scene scene = drop(24, 0, 0, 0.15f);
   scene.colliders.clear();
