@@ -1,8 +1,8 @@
 // pliant render: a scene as a picture or a movie, drawn without a display.
 //
-// A movie has one fixed camera, which must show the whole motion. So the scene is simulated twice, first to find its
-// extent: simulation takes little time compared with drawing, and both runs give the same bits. A strip of pictures has
-// one camera too, so that only the objects differ.
+// A movie has one fixed camera and extent, which must show the whole motion. So the scene is simulated twice, first to
+// find them: simulation takes little time compared with drawing, and both runs give the same bits. A strip of pictures
+// has one camera and extent too, so that only the objects differ.
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
@@ -19,6 +19,7 @@ namespace pliant::command {
 namespace {
 
 using pliant::render::Camera;
+using pliant::render::Extent;
 using pliant::render::make_render_scene;
 using pliant::render::MovieWriter;
 using pliant::render::Renderer;
@@ -27,6 +28,22 @@ using pliant::render::RenderScene;
 struct Size {
   int width, height;
 };
+
+/// What all pictures of a movie or strip share.
+struct View {
+  Camera camera;
+  Extent extent;
+
+  void apply(RenderScene& scene) const {
+    scene.camera = camera;
+    scene.extent = extent;
+  }
+};
+
+View view_of(const std::vector<RenderScene>& moments, const RenderOptions& options, int width, int height) {
+  return {pliant::render::frame_camera(moments, width, height, options.azimuth, options.elevation),
+          pliant::render::extent_of(moments)};
+}
 
 Size parse_size(const std::string& text) {
   Size size{};
@@ -44,7 +61,7 @@ void draw_picture(const RenderOptions& options, const Scene& scene, Size size) {
   World world = make_world(scene, options.scene);
   simulate_finite(world, scene, options.scene, options.quiet, [] {});
   RenderScene picture = make_render_scene(scene, world);
-  picture.camera = pliant::render::frame_camera({picture}, size.width, size.height, options.azimuth, options.elevation);
+  view_of({picture}, options, size.width, size.height).apply(picture);
   pliant::render::write_png(options.out, size.width, size.height, renderer.draw(picture));
 }
 
@@ -69,11 +86,11 @@ void draw_strip(const RenderOptions& options, const Scene& scene, Size size) {
   const int panel = (size.width - gap * (count - 1)) / count;
   Renderer renderer(panel, size.height);
   std::vector<RenderScene> moments = moments_of(options, scene);
-  const Camera camera = pliant::render::frame_camera(moments, panel, size.height, options.azimuth, options.elevation);
+  const View view = view_of(moments, options, panel, size.height);
   const std::size_t row = std::size_t{3} * static_cast<std::size_t>(size.width);
   std::vector<std::uint8_t> strip(row * static_cast<std::size_t>(size.height), 255);
   for (std::size_t i = 0; i < moments.size(); ++i) {
-    moments[i].camera = camera;
+    view.apply(moments[i]);
     const std::vector<std::uint8_t> pixels = renderer.draw(moments[i]);
     const std::size_t panel_row = std::size_t{3} * static_cast<std::size_t>(panel);
     const std::size_t left = i * (panel_row + std::size_t{3} * gap);
@@ -84,8 +101,8 @@ void draw_strip(const RenderOptions& options, const Scene& scene, Size size) {
   pliant::render::write_png(options.out, size.width, size.height, strip);
 }
 
-// A camera that shows the scene at the start, at the end and at some times between.
-Camera camera_for(const RenderOptions& options, const Scene& scene, World& world, Size size) {
+// A view that shows the scene at the start, at the end and at some times between.
+View view_of_movie(const RenderOptions& options, const Scene& scene, World& world, Size size) {
   const int every = std::max(1, scene.frames / 24);
   const State start = world.state();
   std::vector<RenderScene> moments{make_render_scene(scene, world)};
@@ -95,7 +112,7 @@ Camera camera_for(const RenderOptions& options, const Scene& scene, World& world
     if (frame % every == 0 || frame == scene.frames) moments.push_back(make_render_scene(scene, world));
   });
   world.restore(start);
-  return pliant::render::frame_camera(moments, size.width, size.height, options.azimuth, options.elevation);
+  return view_of(moments, options, size.width, size.height);
 }
 
 void draw_movie(const RenderOptions& options, const Scene& scene, Size size) {
@@ -103,10 +120,10 @@ void draw_movie(const RenderOptions& options, const Scene& scene, Size size) {
   const double rate = std::clamp(1.0 / static_cast<double>(scene.frame_time), 1.0, 240.0);
   MovieWriter movie(options.out, size.width, size.height, rate);
   World world = make_world(scene, options.scene);
-  const Camera camera = camera_for(options, scene, world, size);
+  const View view = view_of_movie(options, scene, world, size);
   const auto draw = [&] {
     RenderScene picture = make_render_scene(scene, world);
-    picture.camera = camera;
+    view.apply(picture);
     movie.add(renderer.draw(picture));
   };
   draw();

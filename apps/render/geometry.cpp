@@ -223,6 +223,14 @@ std::vector<Vec3f> points_of_interest(const RenderScene& scene) {
   return points;
 }
 
+Extent extent_of(const std::vector<RenderScene>& scenes) {
+  Bounds all;
+  for (const RenderScene& scene : scenes) all.include(bounds(points_of_interest(scene)));
+  if (all.empty()) all.include({0, 0.5f, 0}, 0.5f);
+  if (all.radius() < 1e-6f) all.include(all.centre(), 0.5f);
+  return {all.centre(), all.radius()};
+}
+
 std::vector<Geometry> build_geometry(const RenderScene& scene, const Vec3f& around, float radius, float least_radius) {
   std::vector<Geometry> result;
   for (const RenderMesh& mesh : scene.meshes) result.push_back(build_mesh(mesh));

@@ -48,6 +48,13 @@ struct Camera {
   float field_of_view = 30;  ///< vertical angle of view [degrees], 5..120
 };
 
+/// The size of what pictures show. It determines the size and grid of the ground, the depth range and the width of
+/// shadows, so it must be the same in all frames of a movie.
+struct Extent {
+  Vec3f centre{};
+  float radius = 1;  ///< radius of the sphere around the bounding box [m]
+};
+
 /// All that a picture shows.
 struct RenderScene {
   std::vector<RenderMesh> meshes;
@@ -55,6 +62,7 @@ struct RenderScene {
   std::vector<RenderCollider> colliders;
   std::optional<float> ground = 0.f;  ///< height of the ground [m]; none: no ground
   std::optional<Camera> camera;       ///< none: a camera that shows the whole scene
+  std::optional<Extent> extent;       ///< none: the extent of this scene
 };
 
 /// Makes what to draw of a World at present: objects with triangles as surfaces, ropes as tubes, free particles as balls.
@@ -65,6 +73,9 @@ RenderScene make_render_scene(const Scene& scene, const World& world);
 /// `azimuth` turns it about the vertical from the front to the right, `elevation` raises it [degrees].
 Camera frame_camera(const std::vector<RenderScene>& scenes, int width, int height, float azimuth = 28,
                     float elevation = 18);
+
+/// The extent of all scenes together. For a movie, give the same scenes as to frame_camera, and keep the extent.
+Extent extent_of(const std::vector<RenderScene>& scenes);
 
 /// Draws pictures of one size. Use it from one thread at a time.
 class Renderer {

@@ -36,12 +36,12 @@ struct Eye {
   Matrix view_projection;
 };
 
-Eye make_eye(const Camera& camera, int width, int height, const Bounds& content) {
+Eye make_eye(const Camera& camera, int width, int height, const Extent& extent) {
   Eye eye{.camera = camera, .frame = view_frame(camera.target - camera.eye), .view_projection = {}};
   eye.half_height = std::tan(std::clamp(camera.field_of_view, 5.f, 120.f) * degree / 2);
   eye.half_width = eye.half_height * static_cast<float>(width) / static_cast<float>(height);
-  const float size = std::max(content.radius(), 1e-4f);
-  const float distance = dot(eye.frame.back, camera.eye - content.centre());
+  const float size = std::max(extent.radius, 1e-4f);
+  const float distance = dot(eye.frame.back, camera.eye - extent.centre);
   eye.near = 0.05f * size;  // less than the distance of objects, because the ground comes nearer
   eye.far = std::max(distance, 0.f) + 40 * size;
   eye.view_projection =
@@ -139,7 +139,7 @@ struct Renderer::Implementation {
   void draw_depth(const Eye& eye) const;
   void draw_occlusion(const Eye& eye, float reach) const;
   void draw_sky(const Eye& eye) const;
-  void draw_surfaces(const Eye& eye, const Sun& sun, const Bounds& content, float pixel) const;
+  void draw_surfaces(const Eye& eye, const Sun& sun, const Extent& extent, float pixel) const;
   void draw_both_sides(const Range& range) const;
   std::vector<std::uint8_t> read_back() const;
 
@@ -274,7 +274,7 @@ void Renderer::Implementation::draw_sky(const Eye& eye) const {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, const Bounds& content, float pixel) const {
+void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, const Extent& extent, float pixel) const {
   glBindVertexArray(array.get());
   glEnable(GL_DEPTH_TEST);
   glActiveTexture(GL_TEXTURE0);
@@ -285,7 +285,7 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   glBindTexture(GL_TEXTURE_2D, shadow.texture.get());
   glBindSampler(2, plain_sampler.get());
   const Program& program = programs.surface;
-  const float size = content.radius();
+  const float size = extent.radius;
   program.use();
   program.set("shadow", 0);
   program.set("shadow_depth", 2);
@@ -294,7 +294,7 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   program.set("light", to_texture(sun.clip));
   program.set("eye", eye.camera.eye);
   program.set("sun", sun.direction);
-  program.set("centre", content.centre());
+  program.set("centre", extent.centre);
   program.set("radius", size);
   program.set("spacing", grid_spacing(size));
   program.set("picture", static_cast<float>(width), static_cast<float>(height));
@@ -346,32 +346,30 @@ std::vector<std::uint8_t> Renderer::Implementation::read_back() const {
 std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scene) {
   check(scene);
   context.make_current();
-  Bounds content = bounds(points_of_interest(scene));
-  if (content.empty()) content.include({0, 0.5f, 0}, 0.5f);
-  if (content.radius() < 1e-6f) content.include(content.centre(), 0.5f);
+  const Extent extent = scene.extent ? *scene.extent : extent_of({scene});
   const Camera camera = scene.camera ? *scene.camera : frame_camera({scene}, width, height);
-  const Eye eye = make_eye(camera, width, height, content);
-  const float pixel = 2 * eye.half_height * length(camera.eye - content.centre()) / static_cast<float>(height);
-  std::vector<Geometry> geometries = build_geometry(scene, content.centre(), content.radius(), 0.9f * pixel);
+  const Eye eye = make_eye(camera, width, height, extent);
+  const float pixel = 2 * eye.half_height * length(camera.eye - extent.centre) / static_cast<float>(height);
+  std::vector<Geometry> geometries = build_geometry(scene, extent.centre, extent.radius, 0.9f * pixel);
   const Sun sun = make_sun(eye.frame, geometries);
   if (scene.ground) {
     Vec3f colour{0.60f, 0.60f, 0.59f};
     for (const RenderCollider& c : scene.colliders)
       if (is_level_plane(c) && std::abs(c.position.y - *scene.ground) < 1e-6f) colour = c.colour;
-    const Vec3f centre = content.centre();
-    const float sink = 0.002f * content.radius();  // keeps objects that lie on the ground visible
-    geometries.push_back(build_ground({centre.x, *scene.ground - sink, centre.z}, 30 * content.radius(), colour));
+    const Vec3f centre = extent.centre;
+    const float sink = 0.002f * extent.radius;  // keeps objects that lie on the ground visible
+    geometries.push_back(build_ground({centre.x, *scene.ground - sink, centre.z}, 30 * extent.radius, colour));
   }
   upload(geometries);
   glEnable(GL_DEPTH_TEST);
   draw_shadows(sun.clip);
   draw_depth(eye);
-  draw_occlusion(eye, 0.08f * content.radius());
+  draw_occlusion(eye, 0.08f * extent.radius);
   glBindFramebuffer(GL_FRAMEBUFFER, sampled.framebuffer.get());
   glViewport(0, 0, width, height);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   draw_sky(eye);
-  draw_surfaces(eye, sun, content, pixel);
+  draw_surfaces(eye, sun, extent, pixel);
   return read_back();
 }
 

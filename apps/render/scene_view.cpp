@@ -47,7 +47,7 @@ float ground_height(const Scene& scene, const std::vector<RenderCollider>& at_re
     for (const Vec3f& position : object.positions) all.include(position);
   }
   for (const Vec3f& point :
-       points_of_interest({.meshes = {}, .tubes = {}, .colliders = at_rest, .ground = {}, .camera = {}}))
+       points_of_interest({.meshes = {}, .tubes = {}, .colliders = at_rest, .ground = {}, .camera = {}, .extent = {}}))
     low = std::min(low, point.y);
   for (const MeshCollider& collider : scene.mesh_colliders)
     for (const Vec3f& position : collider.mesh.positions) low = std::min(low, position.y);

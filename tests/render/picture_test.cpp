@@ -232,6 +232,20 @@ TEST_F(Picture, OfAnEmptySceneIsSkyAndGround) {
   EXPECT_GT(at(picture, width / 2, 2).b, at(picture, width / 2, height - 2).b);
 }
 
+/// A skirt that opens makes the body below it a point of interest, and the picture's extent jumps. Only what is out of
+/// sight differs here, so the ground with its grid, haze and shadows must not.
+TEST_F(Picture, KeepsTheGroundInAMovieWhateverItsExtent) {
+  std::vector<RenderScene> frames(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    frames[i].camera = Camera{{0, 1, 3}, {}, 40};
+    frames[i].meshes.push_back(square(i == 0 ? 0.1f : 1.f, {0, 50, 0}, {}));
+  }
+  ASSERT_GT(different(renderer->draw(frames[0]), renderer->draw(frames[1])), 1000) << "extents of their own";
+  const Extent extent = extent_of(frames);
+  for (RenderScene& frame : frames) frame.extent = extent;
+  EXPECT_EQ(different(renderer->draw(frames[0]), renderer->draw(frames[1])), 0);
+}
+
 TEST_F(Picture, RefusesWhatItCannotDraw) {
   RenderScene scene;
   scene.meshes.push_back(square(1, {}, {}));
@@ -279,6 +293,15 @@ TEST(FrameCamera, StaysNearForOneAndMovesBackForTwo) {
   const auto distance = [](const Camera& c) { return std::sqrt(length_squared(c.eye - c.target)); };
   EXPECT_GT(distance(frame_camera({one, two}, 100, 100)), 2 * distance(frame_camera({one}, 100, 100)));
   EXPECT_TRUE(std::isfinite(distance(frame_camera({}, 100, 100))));
+}
+
+TEST(Extent, ContainsTheScenesTogether) {
+  RenderScene one = with_sphere(0.5f), two = with_sphere(0.5f);
+  two.colliders[0].position = {4, 0, 0};
+  const Extent extent = extent_of({one, two});
+  EXPECT_NEAR(length_squared(extent.centre - Vec3f{2, 0, 0}), 0, 1e-9f);
+  EXPECT_NEAR(extent.radius, std::sqrt(2.5f * 2.5f + 2 * 0.5f * 0.5f), 1e-4f);
+  EXPECT_GT(extent_of({}).radius, 0);
 }
 
 }  // namespace
