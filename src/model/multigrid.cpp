@@ -162,6 +162,23 @@ void bucket(int keys, const std::vector<std::array<std::int32_t, 2>>& items, std
   for (const auto& item : items) out[next[item[0]]++] = item[1];
 }
 
+/// Lists the sources of each slot by rounds, one for each lane.
+void fill_rounds(const std::vector<std::int32_t>& begin, const std::vector<std::int32_t>& blocks, std::int32_t no_block,
+                 MultigridLevel& coarse) {
+  coarse.first_round.assign(1, 0);
+  for (std::size_t key = 0; key + 1 < begin.size(); key += batch_width) {
+    int most = 0;
+    for (std::size_t lane = key; lane < key + batch_width; ++lane) most = std::max(most, begin[lane + 1] - begin[lane]);
+    for (int round = 0; round < most; ++round)
+      for (std::size_t lane = key; lane < key + batch_width; ++lane) {
+        const bool has = round < begin[lane + 1] - begin[lane];
+        const std::int32_t block = has ? blocks[begin[lane] + round] : 0;
+        coarse.sources.push_back(has ? row_of(block / batch_width, block % batch_width) : no_block);
+      }
+    coarse.first_round.push_back(coarse.first_round.back() + most);
+  }
+}
+
 void fill_families(const std::vector<int>& group, MultigridLevel& fine, MultigridLevel& coarse) {
   coarse.children.assign(static_cast<std::size_t>(coarse.batches()) * largest_group * batch_width, fine.nothing());
   fine.parent.assign(static_cast<std::size_t>(fine.batches()) * batch_width, coarse.nothing());
@@ -177,7 +194,8 @@ void fill_families(const std::vector<int>& group, MultigridLevel& fine, Multigri
 
 /// Finds which blocks of the finer level sum to each block of the coarser one.
 void fill_sources(const Graph& fine_graph, const std::vector<std::int32_t>& fine_place, const std::vector<int>& group,
-                  const Graph& graph, const std::vector<std::int32_t>& place, MultigridLevel& coarse) {
+                  const Graph& graph, const std::vector<std::int32_t>& place, std::int32_t no_block,
+                  MultigridLevel& coarse) {
   std::vector<std::array<std::int32_t, 2>> sources, anchors;
   sources.reserve(fine_place.size());
   for (int i = 0; i < fine_graph.size(); ++i) {
@@ -191,7 +209,9 @@ void fill_sources(const Graph& fine_graph, const std::vector<std::int32_t>& fine
       sources.push_back({place[std::lower_bound(first, last, to) - graph.to.begin()], fine_place[k]});
     }
   }
-  bucket(coarse.slots() * batch_width, sources, coarse.source_begin, coarse.sources);
+  std::vector<std::int32_t> begin, blocks;
+  bucket(coarse.slots() * batch_width, sources, begin, blocks);
+  fill_rounds(begin, blocks, no_block, coarse);
   bucket(coarse.batches() * batch_width, anchors, coarse.anchor_begin, coarse.anchors);
 }
 
@@ -208,7 +228,7 @@ void add_coarser(Graph graph, std::vector<std::int32_t> place, std::vector<char>
     MultigridLevel coarse;
     std::vector<std::int32_t> coarse_place = lay_out(coarse_graph, coarse);
     fill_families(group, levels.back(), coarse);
-    fill_sources(graph, place, group, coarse_graph, coarse_place, coarse);
+    fill_sources(graph, place, group, coarse_graph, coarse_place, levels.back().no_block(), coarse);
     levels.push_back(std::move(coarse));
     graph = std::move(coarse_graph);
     place = std::move(coarse_place);
@@ -237,6 +257,19 @@ void find_pieces(const Graph& graph, const std::vector<char>& fixed, Multigrid& 
       }
     }
     ++out.pieces;
+  }
+}
+
+/// Finds the batches of the finest level in which a row has a neighbour of another component.
+void find_borders(Multigrid& out) {
+  const MultigridLevel& level = out.levels[0];
+  for (int batch = 0; batch < level.batches(); ++batch) {
+    bool is_border = false;
+    for (int at = level.first_slot[batch] * batch_width; at < level.first_slot[batch + 1] * batch_width; ++at) {
+      const int row = std::min(row_of(batch, at % batch_width), level.rows - 1);
+      is_border = is_border || out.piece[row] != out.piece[level.column[at]];
+    }
+    if (is_border) out.border_batches.push_back(batch);
   }
 }
 
@@ -366,6 +399,7 @@ Multigrid build_multigrid(const std::vector<ConstraintList>& lists, const std::v
   links = {};
   graph.weight.assign(graph.to.size(), 1);
   find_pieces(graph, fixed, out);
+  find_borders(out);
   add_coarser(std::move(graph), std::move(place), std::move(fixed), out.levels);
   find_coarsest_pieces(out);
   return out;

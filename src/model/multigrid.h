@@ -28,9 +28,10 @@ struct MultigridLevel {
   // Finest level only: springs. Their stiffness is zero in lanes without a neighbour.
   AlignedVector<float> stiffness, rest_length;  ///< for each slot, sixteen values [N/m] and [m]
 
-  // Coarser levels only: each block is a sum of blocks of the finer level, listed as 16 x slot + lane. The list for
-  // lane l of slot s starts at sources[source_begin[16 s + l]]. Anchors are blocks between a row and a fixed particle.
-  std::vector<std::int32_t> source_begin, sources;
+  // Coarser levels only: each block is a sum of blocks of the finer level. Slot s adds rounds first_round[s] to
+  // first_round[s + 1]; a round has for each lane the finer block's row_of(slot, lane), or the finer level's no_block().
+  // Anchors are blocks between a row and a fixed particle.
+  std::vector<std::int32_t> first_round, sources;
   std::vector<std::int32_t> anchor_begin, anchors;  ///< blocks to fixed particles: list starts by 16 x batch + lane; lists
   std::vector<std::int32_t> children;  ///< largest_group x 16 per batch: rows of the finer level, or its nothing()
 
@@ -40,6 +41,8 @@ struct MultigridLevel {
   int slots() const { return first_slot.empty() ? 0 : first_slot.back(); }
   /// The index of a record that is always zero; it follows the last batch.
   PLIANT_HD int nothing() const { return batches() * batch_width; }
+  /// The place of a block that is always zero; it follows the last slot.
+  int no_block() const { return slots() * batch_width; }
 };
 
 /// The levels of one object. There are none if it has no distance constraint with a positive rest length.
@@ -48,6 +51,8 @@ struct Multigrid {
   std::vector<std::int32_t> piece;           ///< for each particle, index of its connected component of springs; -1: none
   std::vector<std::int32_t> coarsest_piece;  ///< connected component of each row of the last level; -1: none
   int pieces = 0;
+  /// Batches of the finest level in which a row has a neighbour of another component, such as a fixed particle.
+  std::vector<std::int32_t> border_batches;
   float edge_length = 0;               ///< mean rest length of all springs [m]
   std::vector<float> stiffness_limit;  ///< for each particle; an edge has the larger limit of its ends [N/m]
 };

@@ -46,7 +46,7 @@ class Timings {
   std::vector<Entry> entries_;
 };
 
-/// Measures the time between its construction and its destruction, and adds it to a Timings.
+/// Measures the time from its construction to its destruction, and adds it to a Timings; nothing if the name is null.
 class Stopwatch {
  public:
   Stopwatch(Timings& timings, const char* name);
@@ -73,7 +73,7 @@ class Executor {
   /// Runs f in the thread pool, so that loops within f start without waking threads. Wrap a whole step in it.
   void enter(FunctionRef<void()> f);
 
-  /// Calls body(i) once for each i in [0, n), timed under `name`. The calling thread does all if n or the threads are 1.
+  /// Calls body(i) for each i in [0, n), timed under `name` unless it is null. n = 1 or one thread: the caller does all.
   void parallel_for(const char* name, int n, FunctionRef<void(int)> body);
 
   /// Calls body(i, thread) once for each i in [0, n), where bodies contain loops of their own. `thread` is in

@@ -35,7 +35,9 @@ void Timings::take(Timings& other) {
 
 thread_local Timings* Executor::own_timings_ = nullptr;
 
-Stopwatch::Stopwatch(Timings& timings, const char* name) : timings_(timings), name_(name), start_(nanoseconds()) {}
-Stopwatch::~Stopwatch() { timings_.add(name_, static_cast<double>(nanoseconds() - start_) * 1e-6); }
+Stopwatch::Stopwatch(Timings& timings, const char* name) : timings_(timings), name_(name), start_(name == nullptr ? 0 : nanoseconds()) {}
+Stopwatch::~Stopwatch() {
+  if (name_ != nullptr) timings_.add(name_, static_cast<double>(nanoseconds() - start_) * 1e-6);
+}
 
 }  // namespace pliant

@@ -114,15 +114,24 @@ Built build(const Object& object, float gravity = 9.81f) {
   return built;
 }
 
+/// The blocks of the finer level that a slot's lane of a coarser level sums, as 16 x slot + lane.
+std::vector<int> sources_of(const MultigridLevel& fine, const MultigridLevel& coarse, int at) {
+  std::vector<int> sources;
+  for (int round = coarse.first_round[at / batch_width]; round < coarse.first_round[at / batch_width + 1]; ++round) {
+    const int block = coarse.sources[round * batch_width + at % batch_width];
+    if (block != fine.no_block()) sources.push_back(lane_place(block));
+  }
+  return sources;
+}
+
 /// The slots of a row that have a neighbour: 16 x slot + lane, and the neighbour. On the finest level these have a
-/// stiffness; on coarser levels they have sources.
+/// stiffness; on coarser levels expect_sums checks that they have sources and others none.
 std::vector<std::array<int, 2>> links_of(const MultigridLevel& level, int row) {
   std::vector<std::array<int, 2>> links;
   const int place = lane_place(row), batch = place / batch_width, lane = place % batch_width;
   for (int slot = level.first_slot[batch]; slot < level.first_slot[batch + 1]; ++slot) {
     const int at = slot * batch_width + lane;
-    const bool is_link =
-        level.source_begin.empty() ? level.stiffness[at] > 0 : level.source_begin[at] < level.source_begin[at + 1];
+    const bool is_link = level.first_round.empty() ? level.stiffness[at] > 0 : level.column[at] != row;
     if (is_link)
       links.push_back({at, level.column[at]});
     else
@@ -200,8 +209,7 @@ void expect_sums(const MultigridLevel& fine, const MultigridLevel& coarse) {
     for (const auto& link : links_of(coarse, row)) {
       std::vector<int>& sum = found_blocks[{row, link[1]}];
       EXPECT_TRUE(sum.empty()) << "two blocks for one pair of rows";
-      for (int i = coarse.source_begin[link[0]]; i < coarse.source_begin[link[0] + 1]; ++i)
-        sum.push_back(coarse.sources[i]);
+      sum = sources_of(fine, coarse, link[0]);
     }
     const int key = lane_place(row);
     for (int i = coarse.anchor_begin[key]; i < coarse.anchor_begin[key + 1]; ++i)
@@ -212,6 +220,10 @@ void expect_sums(const MultigridLevel& fine, const MultigridLevel& coarse) {
   for (auto* sums : {&anchors, &found_anchors})
     for (auto& [row, sum] : *sums) std::sort(sum.begin(), sum.end());
   EXPECT_EQ(found_blocks, blocks);
+  std::size_t summed = 0;
+  for (const auto& [pair, sum] : found_blocks) summed += sum.size();
+  const auto no_block = std::count(coarse.sources.begin(), coarse.sources.end(), fine.no_block());
+  EXPECT_EQ(coarse.sources.size() - static_cast<std::size_t>(no_block), summed) << "slots without a neighbour sum nothing";
   EXPECT_EQ(found_anchors, anchors);
 }
 
@@ -253,6 +265,17 @@ TEST_P(Hierarchy, EndsSoon) {
   const Built built = build(GetParam().object);
   EXPECT_LE(static_cast<int>(built.multigrid.levels.size()), GetParam().most_levels);
   EXPECT_LE(built.multigrid.levels.back().rows, GetParam().coarsest);
+}
+
+TEST_P(Hierarchy, ListsTheBatchesWhereComponentsEnd) {
+  const Built built = build(GetParam().object);
+  const std::vector<std::int32_t>& piece = built.multigrid.piece;
+  std::set<std::int32_t> expected;
+  for (const auto& [from, to] : built.springs)
+    if (piece[from] != piece[to]) expected.insert({from / batch_width, to / batch_width});
+  const std::vector<std::int32_t>& found = built.multigrid.border_batches;
+  EXPECT_EQ(std::set<std::int32_t>(found.begin(), found.end()), expected);
+  EXPECT_EQ(found.size(), expected.size());
 }
 
 TEST(HierarchyOf, PiecesThatAreNotJoinedNeverMeet) {

@@ -40,6 +40,8 @@ void MultigridScratch::prepare(const SweepSetup& setup, int o) {
     MultigridValues& values = to.levels.emplace_back();
     const auto batches = static_cast<std::size_t>(model.levels[l].batches());
     values.blocks.resize(static_cast<std::size_t>(model.levels[l].slots()) * (l == 0 ? spring_floats : block_floats));
+    if (l + 1 < model.levels.size())
+      values.terms.resize((static_cast<std::size_t>(model.levels[l].no_block()) + batch_width) * (l == 0 ? 1 : 2));
     values.diagonal.resize(batches * block_floats);
     values.inverse.resize(batches * block_floats);
     for (Records* records : {&values.right, &values.x, &values.y}) records->resize(batches * batch_width + 1);
@@ -51,6 +53,7 @@ void MultigridScratch::prepare(const SweepSetup& setup, int o) {
 }
 
 void correct_multigrid(Substep& s, bool first) {
+  const Stopwatch watch(s.context.executor.timings(), "solve: multigrid");
   if (first) {
     clear_multigrid_multipliers(s);
     add_multigrid_contacts(s);

@@ -16,6 +16,12 @@ double apply(Substep& s, const MultigridGroup& group) {
   return curvature;
 }
 
+/// The same for directions that displace each piece as a whole.
+void apply_to_shifts(Substep& s, const MultigridGroup& group) {
+  for (const int o : group.objects) MultigridSolve(s, o).apply_to_shifts();
+  for (const PairSpring* spring : group.springs) couple_pair(*spring, multigrid_of(s).objects);
+}
+
 void advance(Substep& s, const MultigridGroup& group, float alpha) {
   for (const int o : group.objects) MultigridSolve(s, o).advance(alpha);
 }
@@ -50,7 +56,7 @@ void shift_together(Substep& s, const MultigridGroup& group) {
   for (const PairSpring* spring : group.springs) release(*spring, sum);
   const Record shift = shift_of(sum);
   for (const int o : group.objects) MultigridSolve(s, o).turn_to({shift.x, shift.y, shift.z});
-  apply(s, group);
+  apply_to_shifts(s, group);
   advance(s, group, 1);
 }
 
@@ -104,7 +110,7 @@ void solve_multigrid_group(Substep& s, const MultigridGroup& group, int cycles) 
   for (int i = 0; i < cycles && step(s, group, before); ++i) {
   }
   for (const int o : group.objects) MultigridSolve(s, o).turn_to_shifts(group.springs);
-  apply(s, group);
+  apply_to_shifts(s, group);
   advance(s, group, 1);
   if (group.objects.size() > 1) shift_together(s, group);
 }

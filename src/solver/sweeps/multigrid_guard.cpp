@@ -48,7 +48,7 @@ double stretching(Substep& s, int o, float scale) {
   MultigridObject& work = multigrid_of(s).objects[o];
   const SweepArguments a = arguments(s, o, false);
   const int batches = level.batches(), tasks = (batches + batches_per_task - 1) / batches_per_task;
-  for_tasks(s, "solve: multigrid", tasks, [&](int task) {
+  for_tasks(s, nullptr, tasks, [&](int task) {
     const int first = task * batches_per_task, last = std::min(first + batches_per_task, batches);
     work.sums[task] = stretching(level, a, work.change, scale, first, last);
   });

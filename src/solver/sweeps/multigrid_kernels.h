@@ -19,6 +19,9 @@ struct MultigridValues {
   AlignedVector<float> diagonal;  ///< diagonal blocks of each batch without neighbours' part: inertia, contacts, anchors
   AlignedVector<float> inverse;   ///< damped inverses of each batch's diagonal blocks, zero for fixed rows
   Records right, x, y;            ///< right-hand side, solution, scratch
+  /// The blocks again, as records by row_of(slot, lane), for sums of the next level: g and k of springs; xx yy zz xy of
+  /// blocks, and xz yz in the second half. A zero record follows the last slot. Empty on the coarsest level.
+  Records terms;
 };
 
 /// The positions at which springs are linearised.
@@ -47,6 +50,8 @@ struct MultigridKernels {
   /// out = A x; returns the dot product x . out.
   float (*apply)(const MultigridLevel& level, const MultigridValues& values, bool springs, const Record* x, Record* out,
                  int first, int last);
+  /// out = diagonal blocks times x: A x in rows whose neighbours have the same x.
+  void (*apply_diagonal)(const MultigridValues& values, const Record* x, Record* out, int first, int last);
   /// Sums the finer level's residual to this level's right-hand side; sets x to the damped inverse times that.
   void (*restrict_to)(const MultigridLevel& level, MultigridValues& values, const Record* residual, int first, int last);
   /// Prolongation: adds to each row of x the value of its parent row in `coarse`.

@@ -70,10 +70,11 @@ PLIANT_HD Registers load_rows(const Record* from, int batch) {
   const std::int32_t runs[4] = {16 * batch, 16 * batch + 4, 16 * batch + 8, 16 * batch + 12};
   return load_runs(from, runs);
 }
-PLIANT_HD void store_rows(Record* to, int batch, const Vec3<Wide>& v) {
+PLIANT_HD void store_records(Record* to, int batch, const WideRecords& v) {
   const std::int32_t runs[4] = {16 * batch, 16 * batch + 4, 16 * batch + 8, 16 * batch + 12};
-  store_runs(to, runs, to_registers({v, Wide(0.f)}), 4);
+  store_runs(to, runs, to_registers(v), 4);
 }
+PLIANT_HD void store_rows(Record* to, int batch, const Vec3<Wide>& v) { store_records(to, batch, {v, Wide(0.f)}); }
 PLIANT_HD Vec3<Wide> load_vectors(const Record* from, int batch) { return from_registers(load_rows(from, batch)).position; }
 
 // ---------------------------------------------------------------- the matrix
@@ -157,6 +158,14 @@ float apply(const MultigridLevel& level, const MultigridValues& values, bool spr
   return springs ? applies<true>(level, values, x, out, first, last) : applies<false>(level, values, x, out, first, last);
 }
 
+void apply_diagonal(const MultigridValues& values, const Record* x, Record* out, int first, int last) {
+  const Wide zero(0.f);
+  for (int b = first; b < last; ++b) {
+    const Block diagonal = load_block(values.diagonal.data() + static_cast<std::ptrdiff_t>(b) * block_floats);
+    store_rows(out, b, Vec3<Wide>{zero, zero, zero} + diagonal * load_vectors(x, b));
+  }
+}
+
 // ---------------------------------------------------------------- assembly
 
 struct Linearised {
@@ -182,9 +191,10 @@ PLIANT_HD Linearised begin_rows(const WideRecords& position, int batch, const Li
   return row;
 }
 
-/// Adds a spring of energy K C^2 / 2: its stiffness matrix is (K - k) n n^T + k I, with k = K C / length if stretched,
+/// Adds a spring of energy K C^2 / 2, and returns its g and k: its stiffness matrix is (K - k) n n^T + k I, with k = K C / length if stretched,
 /// else 0. k is the geometric stiffness, without which a taut sheet has no resistance normal to its plane.
-PLIANT_HD void add_spring(const Vec3<Wide>& u, const Wide& stiffness, const Wide& rest, float* block, Linearised& row) {
+PLIANT_HD WideRecords add_spring(const Vec3<Wide>& u, const Wide& stiffness, const Wide& rest, float* block,
+                                 Linearised& row) {
   const Wide zero(0.f), length = sqrt(dot(u, u)), inverse = Wide(1.f) / max(length, Wide(1e-20f));
   const Wide tension = stiffness * (length - rest);
   const Vec3<Wide> n = u * inverse;
@@ -196,6 +206,7 @@ PLIANT_HD void add_spring(const Vec3<Wide>& u, const Wide& stiffness, const Wide
   store_wide(block + 48, across);
   row.whole = row.whole + block_of(g, across);
   row.force -= n * tension;
+  return {g, across};
 }
 
 void linearise(const MultigridLevel& level, const LinearisedAt& at, MultigridValues& values, int first, int last) {
@@ -212,8 +223,10 @@ void linearise(const MultigridLevel& level, const LinearisedAt& at, MultigridVal
       const std::int32_t* column = level.column.data() + s * batch_width;
       const Registers across =
           without_w(own - load_indexed(at.positions, column)) + (moved - load_indexed(at.displacements, column));
-      add_spring(from_registers(across).position, load_wide(level.stiffness.data() + s * batch_width),
-                 load_wide(level.rest_length.data() + s * batch_width), values.blocks.data() + s * spring_floats, row);
+      const WideRecords spring =
+          add_spring(from_registers(across).position, load_wide(level.stiffness.data() + s * batch_width),
+                     load_wide(level.rest_length.data() + s * batch_width), values.blocks.data() + s * spring_floats, row);
+      if (!values.terms.empty()) store_records(values.terms.data(), static_cast<int>(s), spring);
     }
     // Lanes beyond the last row repeat its position and have no springs, so their force is zero.
     const Wide zero(0.f);
@@ -261,6 +274,36 @@ PLIANT_HD void add_members(const MultigridLevel& fine, const MultigridValues& fr
   for (int c = 0; c < 6; ++c) diagonal[c * wide_width + lane] = sum[c];
 }
 
+/// Sums the blocks of a finer level that form the blocks of a slot.
+template <bool springs>
+PLIANT_HD Block sum_slot(const MultigridValues& from, const MultigridLevel& level, std::ptrdiff_t slot) {
+  const Wide zero(0.f);
+  const Record* terms = from.terms.data();
+  const std::ptrdiff_t half = static_cast<std::ptrdiff_t>(from.terms.size()) / 2;
+  Block sum{zero, zero, zero, zero, zero, zero};
+  for (std::ptrdiff_t r = level.first_round.data()[slot]; r < level.first_round.data()[slot + 1]; ++r) {
+    const std::int32_t* at = level.sources.data() + r * batch_width;
+    const WideRecords first = from_registers(load_indexed(terms, at));
+    if constexpr (springs) {
+      sum = sum + block_of(first.position, first.w);
+    } else {
+      const Vec3<Wide> second = from_registers(load_indexed(terms + half, at)).position;
+      sum = sum + Block{first.position.x, first.position.y, first.position.z, first.w, second.x, second.y};
+    }
+  }
+  return sum;
+}
+
+/// Stores the block of a slot, for products and for sums of the next level.
+PLIANT_HD void store_slot(const Block& block, std::ptrdiff_t slot, MultigridValues& values) {
+  store_block(values.blocks.data() + slot * block_floats, block);
+  if (values.terms.empty()) return;
+  const Wide zero(0.f);
+  const int at = static_cast<int>(slot);
+  store_records(values.terms.data(), at, {{block.xx, block.yy, block.zz}, block.xy});
+  store_rows(values.terms.data() + values.terms.size() / 2, at, Vec3<Wide>{block.xz, block.yz, zero});
+}
+
 void coarsen(const MultigridLevel& fine, const MultigridValues& from, bool from_springs, const MultigridLevel& level,
              MultigridValues& values, int first, int last) {
   for (std::ptrdiff_t b = first; b < last; ++b) {
@@ -268,15 +311,10 @@ void coarsen(const MultigridLevel& fine, const MultigridValues& from, bool from_
     for (int lane = 0; lane < wide_width; ++lane) add_members(fine, from, from_springs, level, b, lane, diagonal);
     Block whole = load_block(diagonal);
     for (std::ptrdiff_t s = level.first_slot.data()[b]; s < level.first_slot.data()[b + 1]; ++s) {
-      float* block = values.blocks.data() + s * block_floats;
-      for (int lane = 0; lane < wide_width; ++lane) {
-        float sum[6] = {};
-        const std::ptrdiff_t key = s * wide_width + lane;
-        for (std::int32_t i = level.source_begin.data()[key]; i < level.source_begin.data()[key + 1]; ++i)
-          add_source(from, from_springs, level.sources.data()[i], sum);
-        for (int c = 0; c < 6; ++c) block[c * wide_width + lane] = coarse_stiffness * sum[c];
-      }
-      whole = whole + load_block(block);
+      const Block block =
+          (from_springs ? sum_slot<true>(from, level, s) : sum_slot<false>(from, level, s)) * Wide(coarse_stiffness);
+      store_slot(block, s, values);
+      whole = whole + block;
     }
     store_block(values.inverse.data() + b * block_floats, damped_inverse(whole, whole.xx > Wide(0.f)));
   }
@@ -343,8 +381,8 @@ void advance(float alpha, const Record* direction, const Record* image, Record* 
 }  // namespace PLIANT_ISA
 
 const MultigridKernels& PLIANT_OF_LEVEL(multigrid_kernels)() {
-  static constexpr MultigridKernels table{&linearise,   &coarsen, &precondition, &residual, &smooth, &apply,
-                                          &restrict_to, &prolong, &dot_records,  &turn,     &advance};
+  static constexpr MultigridKernels table{&linearise,      &coarsen,     &precondition, &residual,    &smooth, &apply,
+                                          &apply_diagonal, &restrict_to, &prolong,      &dot_records, &turn,   &advance};
   return table;
 }
 

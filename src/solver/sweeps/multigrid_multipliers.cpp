@@ -47,7 +47,7 @@ void keep_multigrid_multipliers(Substep& s, int o, bool first) {
   const SweepArguments a = arguments(s, o, first);
   if (!keeps_distance_multipliers(object, a)) return;
   const Record* change = multigrid_of(s).objects[o].change.data();
-  for_tasks(s, "solve: multigrid", static_cast<int>(object.segments.size()),
+  for_tasks(s, nullptr, static_cast<int>(object.segments.size()),
             [&](int i) { add_multipliers(object, object.segments[i], a, change); });
 }
 

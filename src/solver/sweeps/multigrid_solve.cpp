@@ -27,7 +27,7 @@ Record shift_of(const MultigridObject::Piece& piece) {
 template <class Body>
 void MultigridSolve::for_batches(int l, Body body) {
   const int batches = level(l).batches(), tasks = (batches + batches_per_task - 1) / batches_per_task;
-  for_tasks(s_, "solve: multigrid", tasks,
+  for_tasks(s_, nullptr, tasks,
             [&](int task) { body(task * batches_per_task, std::min((task + 1) * batches_per_task, batches)); });
 }
 
@@ -68,6 +68,13 @@ double MultigridSolve::apply() {
   });
 }
 
+void MultigridSolve::apply_to_shifts() {
+  const Record* direction = work_.direction.data();
+  Record* image = work_.image().data();
+  for_batches(0, [&](int f, int t) { kernels_.apply_diagonal(values(0), direction, image, f, t); });
+  for (const int b : model_.border_batches) kernels_.apply(level(0), values(0), true, direction, image, b, b + 1);
+}
+
 void MultigridSolve::advance(float alpha) {
   for_batches(0, [&](int f, int t) {
     kernels_.advance(alpha, work_.direction.data(), work_.image().data(), work_.change.data(), values(0).right.data(), f,
@@ -93,15 +100,26 @@ void MultigridSolve::turn_to_motion(const Record* displacements) {
   clear_direction();
   for (MultigridObject::Piece& piece : work_.pieces) piece.moment = {}, piece.mass = 0;
   const Record* positions = arguments(s_, object_, false).positions;
-  for (std::size_t i = 0; i < model_.piece.size(); ++i) {
-    if (model_.piece[i] < 0) continue;
-    const Record &d = displacements[i], &c = work_.change[i];
-    const Record moved{d.x + c.x, d.y + c.y, d.z + c.z, 0};
-    MultigridObject::Piece& piece = work_.pieces[model_.piece[i]];
-    const double mass = static_cast<double>(1 / positions[i].w);
-    piece.moment += Vec3d{static_cast<double>(moved.x), static_cast<double>(moved.y), static_cast<double>(moved.z)} * mass;
-    piece.mass += mass;
-    work_.direction[i] = moved;
+  const std::vector<std::int32_t>& pieces = model_.piece;
+  for (std::size_t i = 0; i < pieces.size();) {
+    const std::int32_t number = pieces[i];
+    if (number < 0) {
+      ++i;
+      continue;
+    }
+    // Sums in registers: neighbouring particles mostly belong to one piece.
+    MultigridObject::Piece& piece = work_.pieces[number];
+    Vec3d moment = piece.moment;
+    double sum = piece.mass;
+    for (; i < pieces.size() && pieces[i] == number; ++i) {
+      const Record &d = displacements[i], &c = work_.change[i];
+      const Record moved{d.x + c.x, d.y + c.y, d.z + c.z, 0};
+      const double mass = static_cast<double>(1 / positions[i].w);
+      moment += Vec3d{static_cast<double>(moved.x), static_cast<double>(moved.y), static_cast<double>(moved.z)} * mass;
+      sum += mass;
+      work_.direction[i] = moved;
+    }
+    piece.moment = moment, piece.mass = sum;
   }
   for (MultigridObject::Piece& piece : work_.pieces) {
     const Vec3f mean = convert<float>(piece.moment * (1 / std::max(piece.mass, 1e-300)));

@@ -31,6 +31,8 @@ class MultigridSolve {
   void turn(float beta);
   /// Computes A p; returns p . A p.
   double apply();
+  /// Computes A p where p is the same within each piece: only pieces' borders feel springs.
+  void apply_to_shifts();
   /// Adds alpha p to the solution, and updates the residual in the right-hand side.
   void advance(float alpha);
   /// Sets p to the displacement `by` for all dynamic particles.
