@@ -43,8 +43,8 @@ std::optional<double> strain_by_weight(const Object& object, double gravity);
 /// True if an object's weight strains its distances so much that its stretch counts as intended.
 bool is_meant_to_stretch(const Object& object, double gravity);
 
-/// Objects of 400 particles or more, 48 without triangles, solved by chains follow the State, unless they are meant to
-/// stretch: the law sees strain, not what force explains.
+/// Objects solved by chains follow the State, unless they are meant to stretch: the law sees strain, not what force
+/// explains.
 SubstepRule substep_rule(const Object& object, Sweep sweep, double gravity);
 
 /// The data that determine the set of an object or mesh collider.

@@ -153,6 +153,7 @@ TEST(ChainSweep, gives_multipliers_and_counts_as_any_other) {
   scene.settings.sweep = Sweep::chains;
   scene.settings.sweep_options.chain_softness = 0;
   scene.settings.record_multipliers = true;
+  scene.settings.substeps = 20;
   World world(scene);
   for (int frame = 0; frame < 30; ++frame) world.step(1.f / 60);
   const float h = 1.f / 60 / 20;

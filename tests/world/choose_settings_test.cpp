@@ -81,7 +81,6 @@ TEST(ChosenSettings, AreChainsWhereCollidersAreMet) {
 
 TEST(ChosenSettings, AreChainsForRegularCloth) {
   expect_chosen(sheet(40, 1), Sweep::chains, 0, "springs lie in straight rows");
-  expect_chosen(sheet(19, 1), Sweep::chains, 20, "springs lie in straight rows");  // fewer than 400 particles
   Scene hung = sheet(40, 1);
   hung.pin(0, {0, 39});
   expect_chosen(hung, Sweep::tethered_chains, 0, "hangs from pins");
@@ -97,7 +96,7 @@ TEST(ChosenSettings, AreChainsForRegularCloth) {
 
 TEST(ChosenSettings, ArePlainForWhatIsCoarse) {
   expect_chosen(sheet(5, 1), Sweep::tiled, 20, "fewer than 32");
-  expect_chosen(sheet(6, 1), Sweep::chains, 20, "straight rows");
+  expect_chosen(sheet(6, 1), Sweep::chains, 0, "straight rows");
   expect_chosen(Scene{}, Sweep::tiled, 20, "fewer than 32");
 }
 
@@ -163,14 +162,13 @@ TEST(ChosenSettings, AreChainsWithoutTethersForSheetsThatHoldThemselvesUp) {
     options.stretch = Stiffness::rigid();
     const double length = std::cbrt(0.02 / (0.75 * 9.81));
     for (const int n : {8, 30}) {
-      const int substeps = n == 8 ? 20 : 0;  // fewer than 400 particles keep a fixed number
       const auto hung = [&](double size) {
         Scene scene = sheet(n, static_cast<float>(size), options);
         scene.pin(0, {0, n - 1});
         return scene;
       };
-      expect_chosen(hung(3.9 * length), Sweep::chains, substeps, "a quarter of its size");
-      expect_chosen(hung(4.1 * length), Sweep::tethered_chains, substeps, "straight rows");
+      expect_chosen(hung(3.9 * length), Sweep::chains, 0, "a quarter of its size");
+      expect_chosen(hung(4.1 * length), Sweep::tethered_chains, 0, "straight rows");
     }
   }
 }

@@ -203,6 +203,7 @@ TEST(SubstepGroups, JoinWhenAnObjectBetweenThemComes) {
   run(world, 2);
   EXPECT_EQ(world.info(0).substeps, 10);
   Object between = sheet("coat", {5, 0.5f, 0});
+  between.sweep = Sweep::tiled;
   between.collides = true;
   between.groups = 2;
   const ObjectId id = world.add(between);
