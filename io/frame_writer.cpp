@@ -38,8 +38,8 @@ class WorldWriter final : public FrameWriter {
   void add(const World& world) override {
     output::Frame frame{.time = world.state().time, .positions = {}, .velocities = {}, .number = world.state().frame};
     for (const ObjectId object : objects_) {
-      frame.positions.push_back(world.positions(object));
-      frame.velocities.push_back(world.velocities(object));
+      frame.positions.push_back(world.object(object).positions());
+      frame.velocities.push_back(world.object(object).velocities());
     }
     format_->add(frame);
   }
@@ -58,7 +58,7 @@ std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Sc
   if (world.object_count() != static_cast<int>(scene.objects.size()))
     refuse(path, "", "", "the scene has another number of objects than the World");
   for (int o = 0; o < world.object_count(); ++o)
-    require_fitting(path, scene.objects[static_cast<std::size_t>(o)], world.info(o).particles);
+    require_fitting(path, scene.objects[static_cast<std::size_t>(o)], world.object(o).info().particles);
   const output::Objects objects = output::describe(scene);
   return std::make_unique<WorldWriter>(output::make_format_writer(path, objects, scene.frame_time), world.objects());
 }

@@ -164,7 +164,7 @@ void refuse_other_scene(const World& world, const Scene& scene) {
   require(world.mesh_colliders().size(), scene.mesh_colliders.size(), "mesh colliders");
   for (std::size_t o = 0; o < objects.size(); ++o) {
     const Object& object = scene.objects[o];
-    const ObjectInfo info = world.info(objects[o]);
+    const ObjectInfo info = world.object(objects[o]).info();
     Location where;
     where.object = object.name;
     if (info.name != object.name)

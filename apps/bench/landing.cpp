@@ -39,7 +39,7 @@ class PliantLanding final : public LandingEngine {
  public:
   PliantLanding(const Landing& landing, Steps steps) : world_(scene_of(landing, steps)) {}
   void step(float dt) override { world_.step(dt); }
-  std::vector<Vec3f> positions(int cloth) const override { return world_.positions(cloth); }
+  std::vector<Vec3f> positions(int cloth) const override { return world_.object(cloth).positions(); }
 
  private:
   static Scene scene_of(const Landing& landing, Steps steps) {

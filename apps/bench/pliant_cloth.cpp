@@ -21,7 +21,7 @@ class PliantCloth final : public Engine {
  public:
   PliantCloth(const Cloth& cloth, Steps steps, int threads) : scene_(scene_of(cloth, steps, threads)), world_(scene_) {}
   void step(float dt) override { world_.step(dt); }
-  std::vector<Vec3f> positions() const override { return world_.positions(0); }
+  std::vector<Vec3f> positions() const override { return world_.object(0).positions(); }
   int threads() const override { return world_.threads(); }
 
   /// Simulates a second World from this one's State, with phases timed separately.

@@ -67,15 +67,15 @@ Row run_once(const QualityWorkload& workload, int size, const Contender& contend
   row.substeps = substeps;
   row.iterations = 1;
   std::vector<double> times;
-  const double energy = world.kinetic_energy() + world.potential_energy();
+  const double energy = world.measure().kinetic_energy() + world.measure().potential_energy();
   for (int frame = 1; frame <= frames; ++frame) {
     times.push_back(world.step(1.f / 60).milliseconds);
-    const Stretch stretch = world.stretch();
+    const Stretch stretch = world.measure().stretch();
     row.stretch_mean = std::max(row.stretch_mean, stretch.mean);
     row.stretch_p99 = std::max(row.stretch_p99, stretch.p99);
     row.stretch_max = std::max(row.stretch_max, stretch.largest);
     if (frame == std::min(frames, frame_of_energy))
-      row.energy_lost = energy - world.kinetic_energy() - world.potential_energy();
+      row.energy_lost = energy - world.measure().kinetic_energy() - world.measure().potential_energy();
   }
   row.met = row.stretch_p99 <= workload.p99 && row.stretch_max <= workload.largest;
   row.ms_per_frame = median(times);

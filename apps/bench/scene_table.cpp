@@ -29,7 +29,7 @@ double mean_motion(const World& world, const std::vector<std::vector<Vec3f>>& be
   double sum = 0;
   std::size_t count = 0, o = 0;
   for (const ObjectId id : world.objects()) {
-    const std::vector<Vec3f> now = world.positions(id);
+    const std::vector<Vec3f> now = world.object(id).positions();
     for (std::size_t i = 0; i < now.size(); ++i) sum += std::sqrt(double(length_squared(now[i] - before[o][i])));
     count += now.size();
     ++o;
@@ -39,7 +39,7 @@ double mean_motion(const World& world, const std::vector<std::vector<Vec3f>>& be
 
 std::vector<std::vector<Vec3f>> positions_of(const World& world) {
   std::vector<std::vector<Vec3f>> all;
-  for (const ObjectId id : world.objects()) all.push_back(world.positions(id));
+  for (const ObjectId id : world.objects()) all.push_back(world.object(id).positions());
   return all;
 }
 
@@ -83,8 +83,8 @@ class Surfaces {
   int crossings(const World& world) {
     std::vector<Vec3f> all;
     const auto append = [&](const std::vector<Vec3f>& more) { all.insert(all.end(), more.begin(), more.end()); };
-    for (const ObjectId id : world.objects()) append(world.positions(id));
-    for (std::size_t c = 0; c < colliders_; ++c) append(world.mesh_collider_positions(static_cast<int>(c)));
+    for (const ObjectId id : world.objects()) append(world.object(id).positions());
+    for (std::size_t c = 0; c < colliders_; ++c) append(world.mesh_collider(static_cast<int>(c)).positions());
     const std::vector<Crossing>& found = finder_->find(all);
     const auto is_dynamic = [&](const Crossing& crossing) {
       return crossing.a < dynamic_ || triangles_[static_cast<std::size_t>(crossing.triangle)][0] < dynamic_;
@@ -120,9 +120,9 @@ SceneRow measure(const NamedScene& named, const std::string& settings, const Sce
   if (options.counts_crossings) surfaces.emplace(scene);
   SceneRow row{named.name, settings};
   row.frames = options.frames > 0 ? options.frames : scene.frames;
-  for (const ObjectId id : world.objects()) row.particles += world.info(id).particles;
+  for (const ObjectId id : world.objects()) row.particles += world.object(id).info().particles;
   const double mass = std::max(mass_of(scene), 1e-30);
-  double least = world.kinetic_energy() + world.potential_energy();
+  double least = world.measure().kinetic_energy() + world.measure().potential_energy();
   std::vector<double> motions;
   for (int frame = 1; frame <= row.frames; ++frame) {
     const auto before = positions_of(world);
@@ -131,7 +131,7 @@ SceneRow measure(const NamedScene& named, const std::string& settings, const Sce
     if (!row.finite) break;
     set_overstretch(report.worst_overstretch, row);
     if (surfaces) row.crossings = std::max(row.crossings, surfaces->crossings(world));
-    const double energy = world.kinetic_energy() + world.potential_energy();
+    const double energy = world.measure().kinetic_energy() + world.measure().potential_energy();
     least = std::min(least, energy);
     row.gain = std::max(row.gain, (energy - least) / mass);
     row.milliseconds += report.milliseconds / row.frames;

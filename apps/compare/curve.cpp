@@ -94,7 +94,7 @@ double solve_again(Run& run, const Scene& scene, const Options& options) {
     if (options.pause) options.pause();
     run.world.restore(run.start);
     const Report report = step_once(run.world, scene, options);
-    run.sample.stretch = run.world.stretch();
+    run.sample.stretch = run.world.measure().stretch();
     const double milliseconds = milliseconds_of(report, run, scene, options);
     run.sample.milliseconds = std::min(run.sample.milliseconds, milliseconds);
     spent += run.sample.of_next ? report.milliseconds + milliseconds : milliseconds;

@@ -26,7 +26,7 @@ std::vector<std::size_t> places_in(World& world) {
   world.restore(numbered);
   std::vector<std::size_t> places;
   for (int object = 0; object < world.object_count(); ++object) {
-    for (const Vec3f& p : world.positions(object))
+    for (const Vec3f& p : world.object(object).positions())
       places.push_back(static_cast<std::size_t>(p.x) + digit * static_cast<std::size_t>(p.y));
   }
   world.restore(kept);

@@ -15,20 +15,20 @@ using Json = nlohmann::ordered_json;
 Json constraints_by_type(const World& world) {
   std::map<std::string, std::int64_t> sums;
   for (int object = 0; object < world.object_count(); ++object) {
-    for (const auto& [type, count] : world.info(object).constraints) sums[type] += count;
+    for (const auto& [type, count] : world.object(object).info().constraints) sums[type] += count;
   }
   return sums;
 }
 
 std::int64_t particle_count(const World& world) {
   std::int64_t count = 0;
-  for (int object = 0; object < world.object_count(); ++object) count += world.info(object).particles;
+  for (int object = 0; object < world.object_count(); ++object) count += world.object(object).info().particles;
   return count;
 }
 
 Json residuals_json(const World& world) {
   Json json = Json::object();
-  for (const Residual& residual : world.residuals()) {
+  for (const Residual& residual : world.measure().residuals()) {
     json[residual.type] = {{"constraints", residual.constraints}, {"rms", residual.rms}, {"largest", residual.largest}};
   }
   return json;
@@ -90,7 +90,7 @@ void add_substeps(const World& world, int most_of_frames, Json& json) {
   int most = world.settings().substeps;
   Json by_object = Json::object();
   for (const ObjectId id : world.objects()) {
-    const ObjectInfo info = world.info(id);
+    const ObjectInfo info = world.object(id).info();
     by_object[info.name] = info.substeps;
     most = std::max(most, info.substeps > 0 ? info.substeps : most_of_frames);
   }
@@ -128,7 +128,7 @@ void RunReport::add(const Report& report, const World& world) {
 
 std::string RunReport::advice(const World& world) const {
   const WorstOverstretch& worst = last_.worst_overstretch;
-  const std::string words = world.advice(worst.overstretch);
+  const std::string words = world.measure().advice(worst.overstretch);
   return words.empty() ? words : "in frame " + std::to_string(worst.frame_of_largest) + ", " + words;
 }
 
@@ -146,7 +146,7 @@ Sweep sweep_of(const World& world) {
 }  // namespace
 
 std::string RunReport::json(const std::string& scene_path, const Scene& scene, const World& world) const {
-  const Stretch stretch = world.stretch();
+  const Stretch stretch = world.measure().stretch();
   const double frames = static_cast<double>(std::max<std::size_t>(milliseconds_.size(), 1));
   Json json;
   json["pliant"] = PLIANT_VERSION;

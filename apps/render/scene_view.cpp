@@ -100,15 +100,15 @@ RenderScene make_render_scene(const Scene& scene, const World& world) {
     const int index = static_cast<int>(i);
     at_rest.push_back({collider.shape, collider.position, collider.rotation, collider.colour});
     result.colliders.push_back(
-        {collider.shape, world.collider_position(index), world.collider_rotation(index), collider.colour});
+        {collider.shape, world.collider(index).pose().position, world.collider(index).pose().rotation, collider.colour});
   }
   result.ground = ground_height(scene, at_rest);
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    add_object(result, scene.objects[i], world.positions(static_cast<int>(i)));
+    add_object(result, scene.objects[i], world.object(static_cast<int>(i)).positions());
   for (std::size_t i = 0; i < scene.mesh_colliders.size(); ++i) {
     const MeshCollider& collider = scene.mesh_colliders[i];
     result.meshes.push_back(
-        {world.mesh_collider_positions(static_cast<int>(i)), collider.mesh.triangles, collider.colour, true});
+        {world.mesh_collider(static_cast<int>(i)).positions(), collider.mesh.triangles, collider.colour, true});
   }
   return result;
 }

@@ -110,8 +110,8 @@ const TriangleMesh& Surfaces::at(const World& world) {
   const auto add = [&](const std::vector<Vec3f>& more) {
     mesh_.positions.insert(mesh_.positions.end(), more.begin(), more.end());
   };
-  for (int o = 0; o < world.object_count(); ++o) add(world.positions(o));
-  for (int c = 0; c < colliders_; ++c) add(world.mesh_collider_positions(c));
+  for (int o = 0; o < world.object_count(); ++o) add(world.object(o).positions());
+  for (int c = 0; c < colliders_; ++c) add(world.mesh_collider(c).positions());
   return mesh_;
 }
 
@@ -143,7 +143,7 @@ Audit audit_rope(const Scene& scene, int frames) {
   const int substeps = settings.substeps;
   settings.substeps = 1;
   World world(scene, settings);
-  Links links(world.positions(0));
+  Links links(world.object(0).positions());
   Audit audit;
   audit.vertices = static_cast<int>(scene.objects[0].positions.size());
   audit.least_distance = std::numeric_limits<double>::infinity();
@@ -154,7 +154,7 @@ Audit audit_rope(const Scene& scene, int frames) {
       const Report report = stopwatch.step(world, scene.frame_time / static_cast<float>(substeps));
       audit.ok = audit.ok && report.ok();
       audit.unresolvable += report.pairs.unresolvable;
-      met += links.advance(world.positions(0));
+      met += links.advance(world.object(0).positions());
       audit.least_distance = std::min(audit.least_distance, links.least());
     }
     stopwatch.lap(audit);

@@ -23,14 +23,14 @@ Balloon blow_up(double pressure, plot::Series& curve) {
   Object object = make_cloth(sphere_mesh(3), options);
   object.damping = 4;
   World world(scene_with(std::move(object), 0, 20, 2));
-  const double rest = world.enclosed_volume(0);
+  const double rest = world.object(0).enclosed_volume();
   for (int i = 0; i < 180; ++i) {
     world.step(1.f / 60);
     curve.x.push_back((i + 1) / 60.0);
-    curve.y.push_back(world.enclosed_volume(0) / rest);
+    curve.y.push_back(world.object(0).enclosed_volume() / rest);
   }
   double smallest = 1e30, largest = 0;
-  for (const Vec3f& x : world.positions(0)) {
+  for (const Vec3f& x : world.object(0).positions()) {
     const double radius = std::sqrt(static_cast<double>(length_squared(x)));
     smallest = std::min(smallest, radius);
     largest = std::max(largest, radius);
@@ -42,7 +42,7 @@ Balloon blow_up(double pressure, plot::Series& curve) {
 
 void balloon_rows(Result& result, bool) {
   plot::Chart chart{"Balloons fill to their pressure", "time [s]", "V / V0", false, false, {}};
-  const double rest = World(scene_with(make_cloth(sphere_mesh(3)), 0, 1, 1)).enclosed_volume(0);
+  const double rest = World(scene_with(make_cloth(sphere_mesh(3)), 0, 1, 1)).object(0).enclosed_volume();
   result.rows.push_back(
       relative("balloon: engine, volume of the rest shape", 4 * pi / 3, rest, 0.02, "m^3", "a sphere of 1280 triangles"));
   for (double pressure : {0.5, 1.0, 1.5, 3.0}) {

@@ -46,7 +46,7 @@ double engine_force(int iterations) {
   for (int i = 0; i < 900; ++i) {
     world.step(static_cast<float>(frame));
     if (i < 600) continue;
-    const std::vector<float> multipliers = world.multipliers(0, "distance");
+    const std::vector<float> multipliers = world.object(0).multipliers("distance");
     forces.push_back(multipliers.empty() ? infinity : -static_cast<double>(multipliers[0]) / (frame * frame));
   }
   return farthest(10 * links, forces);
@@ -102,7 +102,7 @@ Stretching heavy_engine(int substeps, int iterations) {
   Stretching result;
   for (int i = 0; i < heavy_frames; ++i) {
     world.step(static_cast<float>(heavy_dt));
-    note_length(result, i, -static_cast<double>(world.positions(0).back().y));
+    note_length(result, i, -static_cast<double>(world.object(0).positions().back().y));
   }
   return result;
 }
@@ -213,7 +213,7 @@ std::vector<Vec3f> nails_engine() {
   connect(object, pairs, std::vector<float>(nail_links, static_cast<float>(nail_length / nail_links)), Stiffness::rigid());
   World world(scene_with(object, nail_g, 100, 1));
   for (int i = 0; i < 600; ++i) world.step(1.f / 60);
-  return world.positions(0);
+  return world.object(0).positions();
 }
 
 // The difference tan(theta_{i+1}) - tan(theta_i) that is farthest from `expected`, over inner particles.

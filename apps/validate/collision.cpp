@@ -82,7 +82,7 @@ std::string with(bool filter) { return filter ? "" : ", without filter"; }
 std::size_t crossings(const World& world) {
   TriangleMesh all;
   for (int o = 0; o < world.object_count(); ++o) {
-    const TriangleMesh mesh = world.mesh(o);
+    const TriangleMesh mesh = world.object(o).mesh();
     const int first = static_cast<int>(all.positions.size());
     for (const auto& [a, b, c] : mesh.triangles) all.triangles.push_back({first + a, first + b, first + c});
     all.positions.insert(all.positions.end(), mesh.positions.begin(), mesh.positions.end());
@@ -106,7 +106,7 @@ void layer_rows(Result& result, bool filter) {
   }
   double apart = 0;
   for (std::size_t i = 0; i < 100; ++i)
-    apart += static_cast<double>(world.positions(2)[i].y - world.positions(1)[i].y) / 100;
+    apart += static_cast<double>(world.object(2).positions()[i].y - world.object(1).positions()[i].y) / 100;
   result.rows.push_back(at_most("collision: engine, three layers, edges through triangles" + with(filter), 0,
                                 static_cast<double>(most), "", "exact signs, 90 frames"));
   result.rows.push_back(relative("collision: engine, distance of resting layers" + with(filter), 0.004, apart, 0.02, "m",
@@ -133,7 +133,7 @@ double slide(double degrees, bool filter) {
   scene.add(object);
   World world(scene);
   for (int frame = 0; frame < 60; ++frame) world.step(1.f / 60);
-  return std::sqrt(static_cast<double>(length_squared(world.positions(0)[0] - start)));
+  return std::sqrt(static_cast<double>(length_squared(world.object(0).positions()[0] - start)));
 }
 
 void slope_rows(Result& result, bool filter) {
@@ -156,7 +156,7 @@ double apex(float restitution, bool filter) {
   World world(scene);
   for (int frame = 0; frame < 60; ++frame) {
     world.step(1.f / 60);
-    const double y = double(world.positions(0)[4].y) - 0.002, v = double(world.velocities(0)[4].y);
+    const double y = double(world.object(0).positions()[4].y) - 0.002, v = double(world.object(0).velocities()[4].y);
     if (v > 0.1) return y + v * v / (2 * g);
   }
   return 0;
@@ -176,14 +176,14 @@ void ball_rows(Result& result) {
     scene.add(ball);
     World world(scene);
     std::vector<std::array<int, 3>> triangles;
-    for (const auto& [a, b, c] : world.mesh(0).triangles) triangles.push_back({a, b, c});
+    for (const auto& [a, b, c] : world.object(0).mesh().triangles) triangles.push_back({a, b, c});
     for (const auto& [a, b, c] : ball.mesh.triangles) triangles.push_back({196 + a, 196 + b, 196 + c});
     CrossingFinder finder(triangles, 196 + static_cast<int>(ball.mesh.positions.size()));
     std::size_t most = 0;
     for (int frame = 0; frame < 10; ++frame) {
       world.step(1.f / 60);
-      std::vector<Vec3f> places = world.positions(0);
-      const std::vector<Vec3f> more = world.mesh_collider_positions(0);
+      std::vector<Vec3f> places = world.object(0).positions();
+      const std::vector<Vec3f> more = world.mesh_collider(0).positions();
       places.insert(places.end(), more.begin(), more.end());
       most = std::max(most, finder.find(places).size());
     }

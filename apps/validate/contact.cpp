@@ -31,9 +31,9 @@ Scene on_plane(double degrees, double friction, const Vec3f& velocity) {
 // How far a particle slides along the plane in a second, from rest [m].
 double slide(double degrees, double friction) {
   World world(on_plane(degrees, friction, {}));
-  const Vec3f start = world.positions(0)[0];
+  const Vec3f start = world.object(0).positions()[0];
   for (int i = 0; i < 60; ++i) world.step(1.f / 60);
-  const Vec3f moved = world.positions(0)[0] - start;
+  const Vec3f moved = world.object(0).positions()[0] - start;
   return std::sqrt(static_cast<double>(length_squared(moved)));
 }
 
@@ -50,7 +50,7 @@ double stopping_distance(double friction, double speed) {
   World world(on_plane(0, friction, {static_cast<float>(speed), 0, 0}));
   const double time = 1.5 * speed / (friction * g) + 0.2;
   for (int i = 0; i * (1.0 / 60) < time; ++i) world.step(1.f / 60);
-  return static_cast<double>(world.positions(0)[0].x);
+  return static_cast<double>(world.object(0).positions()[0].x);
 }
 
 void friction_rows(Result& result) {
@@ -82,8 +82,8 @@ Bounce drop(double restitution) {
   bool counted = false;
   for (int i = 0; i < 180; ++i) {
     world.step(1.f / 60);
-    const double y = static_cast<double>(world.positions(0)[0].y - thickness),
-                 v = static_cast<double>(world.velocities(0)[0].y);
+    const double y = static_cast<double>(world.object(0).positions()[0].y - thickness),
+                 v = static_cast<double>(world.object(0).velocities()[0].y);
     if (v > 0.1 && !counted) bounce.apex = y + v * v / (2 * g);
     if (v > 0.1) counted = true;
     bounce.curve.x.push_back((i + 1) / 60.0);

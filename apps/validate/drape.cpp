@@ -126,7 +126,7 @@ Drape drape(const Fabric& fabric, int rings, bool irregular) {
   scene.pin(0, held);
   World world(scene);
   for (int frame = 0; frame < frames; ++frame) world.step(scene.frame_time);
-  const std::vector<Vec3f> positions = world.positions(0);
+  const std::vector<Vec3f> positions = world.object(0).positions();
   return {coefficient_of(positions, mesh), folds_of(positions, rings)};
 }
 

@@ -35,7 +35,7 @@ double error_of(const Case& of, Sweep sweep) {
   double worst = 0;
   for (int frame = 0; frame < frames; ++frame) {
     if (!world.step(1.f / 60).ok()) return std::numeric_limits<double>::infinity();
-    const Vec3f end = world.positions(0).back();
+    const Vec3f end = world.object(0).positions().back();
     worst = std::max(worst, std::fabs(std::sqrt(static_cast<double>(length_squared(end))) - length) / length);
   }
   return worst;

@@ -169,7 +169,7 @@ Momentum momentum_of(const Solver& solver) {
 
 Momentum momentum_of(const World& world, const Object& object) {
   Momentum sum;
-  const std::vector<Vec3f> v = world.velocities(0);
+  const std::vector<Vec3f> v = world.object(0).velocities();
   for (std::size_t i = 0; i < v.size(); ++i) {
     const double m = static_cast<double>(object.masses[i]);
     const Vec3d velocity{v[i].x, v[i].y, v[i].z};
@@ -230,7 +230,7 @@ double engine_spin(int frames, int substeps) {
   connect(object, {0, 1}, {1}, Stiffness::rigid());
   World world(scene_with(object, 0, substeps, 1));
   for (int i = 0; i < frames; ++i) world.step(1.f / static_cast<float>(frames));
-  const Vec3f x = world.positions(0)[0], v = world.velocities(0)[0];
+  const Vec3f x = world.object(0).positions()[0], v = world.object(0).velocities()[0];
   return spin_of({x.x, x.y, x.z}, {v.x, v.y, v.z});
 }
 

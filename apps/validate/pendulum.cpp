@@ -59,7 +59,7 @@ class EnginePendulum {
   EnginePendulum(double angle, int substeps) : world_(pendulum_scene(angle, substeps)) {}
   void step(double dt) { world_.step(static_cast<float>(dt)); }
   Bob bob() const {
-    const Vec3f x = world_.positions(0)[1], v = world_.velocities(0)[1];
+    const Vec3f x = world_.object(0).positions()[1], v = world_.object(0).velocities()[1];
     return {{x.x, x.y, x.z}, {v.x, v.y, v.z}};
   }
 

@@ -57,7 +57,7 @@ std::vector<double> by_engine(const Spring& s, int iterations) {
   std::vector<double> path{s.start};
   for (int i = 0; i < s.steps; ++i) {
     world.step(static_cast<float>(s.h));
-    path.push_back(static_cast<double>(world.positions(0)[1].x));
+    path.push_back(static_cast<double>(world.object(0).positions()[1].x));
   }
   return path;
 }
@@ -159,7 +159,7 @@ double engine_stretch(const Hanging& s) {
   const float mass = static_cast<float>(s.mass);
   World world(scene_with(hanging_line(2, 1, mass, mass, spring), s.g, s.substeps, s.iterations));
   for (int i = 0; i < s.steps(); ++i) world.step(static_cast<float>(s.dt));
-  return -1 - static_cast<double>(world.positions(0)[1].y);
+  return -1 - static_cast<double>(world.object(0).positions()[1].y);
 }
 
 void static_rows(Result& result) {
@@ -187,7 +187,7 @@ double engine_fall(int substeps, double dt, int frames) {
   Scene scene = scene_with(particles({{0.5f, 2, -0.25f}}, {0.3f}), 9.81, substeps, 1);
   World world(scene);
   for (int i = 0; i < frames; ++i) world.step(static_cast<float>(dt));
-  return 2 - static_cast<double>(world.positions(0)[0].y);
+  return 2 - static_cast<double>(world.object(0).positions()[0].y);
 }
 
 void float_rows(Result& result) {

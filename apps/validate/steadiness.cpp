@@ -42,19 +42,20 @@ double fastest_of(const std::vector<Vec3f>& velocities) {
 
 Swing swing(int side, int frames) {
   World world(w1(side));
-  const double start = world.kinetic_energy() + world.potential_energy();
+  const double start = world.measure().kinetic_energy() + world.measure().potential_energy();
   Swing result;
   result.energy.name = brief(side) + " x " + brief(side);
   for (int i = 0; i < frames && result.finite; ++i) {
     const Report report = world.step(1.f / 60);
-    const double speed = fastest_of(world.velocities(0)), energy = world.kinetic_energy() + world.potential_energy();
+    const double speed = fastest_of(world.object(0).velocities()),
+                 energy = world.measure().kinetic_energy() + world.measure().potential_energy();
     result.finite = report.ok() && std::isfinite(speed) && std::isfinite(energy);
     if (i >= first_swing) result.fastest = std::max(result.fastest, speed);
     result.energy_gain = std::max(result.energy_gain, energy - start);
     result.energy.x.push_back((i + 1) / 60.0);
     result.energy.y.push_back(energy);
   }
-  const Stretch stretch = world.stretch();
+  const Stretch stretch = world.measure().stretch();
   result.mean_stretch = stretch.mean;
   result.largest_stretch = stretch.largest;
   return result;

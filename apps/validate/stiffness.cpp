@@ -40,7 +40,7 @@ double sinking(const Run& run) {
   const std::vector<Vec3f> start = object.positions;
   World world(scene_with(std::move(object), g, run.substeps, run.iterations));
   for (int i = 0; i * run.dt < 4; ++i) world.step(static_cast<float>(run.dt));
-  const std::vector<Vec3f> end = world.positions(0);
+  const std::vector<Vec3f> end = world.object(0).positions();
   double sum = 0;
   int count = 0;
   for (std::size_t i = 0; i < start.size(); ++i)

@@ -35,7 +35,7 @@ double static_stretch(const SweepWay& way) {
   object.damping = 6;
   World world = world_of(way, std::move(object), 10, 20);
   step(world, 240);
-  return -1 - static_cast<double>(world.positions(0)[1].y);
+  return -1 - static_cast<double>(world.object(0).positions()[1].y);
 }
 
 // The force lambda / h^2 of the topmost constraint of twenty particles of 1 kg. The first one is fixed, so it carries
@@ -45,7 +45,7 @@ double top_force(const SweepWay& way) {
   std::vector<double> forces;
   for (int i = 0; i < 400; ++i) {
     world.step(1.f / 60);
-    if (i >= 300) forces.push_back(-static_cast<double>(world.multipliers(0, "distance")[0]) * 3600);
+    if (i >= 300) forces.push_back(-static_cast<double>(world.object(0).multipliers("distance")[0]) * 3600);
   }
   return farthest(190, forces);
 }
@@ -63,7 +63,7 @@ double sinking(const SweepWay& way, int substeps, int iterations) {
   for (int i = 0; i < 9; ++i) object.pins.push_back({i, {}});
   World world = world_of(way, std::move(object), substeps, iterations);
   step(world, 120);
-  return -0.5 - static_cast<double>(world.positions(0)[76].y);  // middle of the lower edge
+  return -0.5 - static_cast<double>(world.object(0).positions()[76].y);  // middle of the lower edge
 }
 double sinking_share(const SweepWay& way) {
   static const double converged = sinking(sweep_ways()[0], 50, 50);
@@ -78,9 +78,9 @@ double inflation(const SweepWay& way) {
   Object object = make_cloth(sphere_mesh(2), options);
   object.damping = 4;
   World world = world_of(way, std::move(object), 10, 4, 0);
-  const double rest = world.enclosed_volume(0);
+  const double rest = world.object(0).enclosed_volume();
   step(world, 120);
-  return world.enclosed_volume(0) / rest;
+  return world.object(0).enclosed_volume() / rest;
 }
 
 // T / T0 of a pendulum of 1 m released at 90 degrees. The time to the lowest point is a quarter of the period.
@@ -91,7 +91,7 @@ double period(const SweepWay& way) {
   double before = 1;
   for (int i = 1; i < 120; ++i) {
     world.step(1.f / 120);
-    const double x = static_cast<double>(world.positions(0)[1].x);
+    const double x = static_cast<double>(world.object(0).positions()[1].x);
     if (x < 0) return 4 * (i - x / (x - before)) / 120 / (2 * pi * std::sqrt(1 / g));
     before = x;
   }
@@ -120,7 +120,7 @@ struct Momenta {
 
 Momenta momenta_of(const World& world, const std::vector<float>& masses) {
   Momenta sum;
-  const std::vector<Vec3f> places = world.positions(0), velocities = world.velocities(0);
+  const std::vector<Vec3f> places = world.object(0).positions(), velocities = world.object(0).velocities();
   for (std::size_t i = 0; i < masses.size(); ++i) {
     const Vec3d x{places[i].x, places[i].y, places[i].z}, v{velocities[i].x, velocities[i].y, velocities[i].z};
     const double m = static_cast<double>(masses[i]);
@@ -159,9 +159,9 @@ double stopping_distance(const SweepWay& way) {
   scene.settings.sweep = way.sweep;
   scene.settings.sweep_options = way.options;
   World world(scene);
-  const double start = static_cast<double>(world.positions(0)[24].x);
+  const double start = static_cast<double>(world.object(0).positions()[24].x);
   step(world, 60);
-  return static_cast<double>(world.positions(0)[24].x) - start;
+  return static_cast<double>(world.object(0).positions()[24].x) - start;
 }
 
 // A square of inextensible cloth, hung by two corners.
@@ -178,11 +178,11 @@ Object hanging_cloth() {
 // The largest energy above the initial one [J].
 double energy_gain(const SweepWay& way) {
   World world = world_of(way, hanging_cloth(), 10, 4);
-  const double start = world.kinetic_energy() + world.potential_energy();
+  const double start = world.measure().kinetic_energy() + world.measure().potential_energy();
   double highest = start;
   for (int i = 0; i < 90; ++i) {
     if (!world.step(1.f / 60).ok()) return std::numeric_limits<double>::infinity();
-    highest = std::max(highest, world.kinetic_energy() + world.potential_energy());
+    highest = std::max(highest, world.measure().kinetic_energy() + world.measure().potential_energy());
   }
   return highest - start;
 }
@@ -193,7 +193,7 @@ double overstretch(const SweepWay& way) {
   double largest = 0;
   for (int i = 0; i < 60; ++i) {
     if (!world.step(1.f / 60).ok()) return std::numeric_limits<double>::infinity();
-    largest = std::max(largest, world.overstretch().largest);
+    largest = std::max(largest, world.measure().overstretch().largest);
   }
   return largest;
 }

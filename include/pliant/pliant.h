@@ -3,9 +3,12 @@
 
 #include "pliant/advise.h"
 #include "pliant/constraint.h"
+#include "pliant/edit.h"
 #include "pliant/error.h"
+#include "pliant/handles.h"
 #include "pliant/io.h"
 #include "pliant/material.h"
+#include "pliant/measurements.h"
 #include "pliant/mesh.h"
 #include "pliant/motion.h"
 #include "pliant/queries.h"

@@ -132,7 +132,7 @@ struct Report {
   std::vector<Residual> residuals;             ///< filled if Settings::measure is set
   std::optional<Stretch> stretch;              ///< filled if Settings::measure is set
   IterationCount iterations;                   ///< iterations per substep
-  std::optional<Overstretch> overstretch;      ///< of this frame; empty if it was not completed; see World::advice
+  std::optional<Overstretch> overstretch;      ///< of this frame; empty if it was not completed; see Measurements::advice
   WorstOverstretch worst_overstretch;          ///< of this and earlier frames
   std::vector<IterationResidual> convergence;  ///< last substep by iteration, if Settings::record_residuals is set
   std::optional<NonFinite> nonfinite;

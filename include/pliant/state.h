@@ -59,7 +59,7 @@ struct StateBlock {
   friend bool operator==(const StateBlock&, const StateBlock&) = default;
 };
 
-/// The pose that World::set_poses gave to a collider that has no keyframes.
+/// The pose that ColliderHandle::set_pose gave to a collider that has no keyframes.
 struct HeldPose {
   bool is_mesh = false;  ///< true for a mesh collider, false for a primitive
   int slot = 0, generation = 0;
@@ -85,7 +85,7 @@ struct Channel {
 };
 
 /// All data of a World that change with time, as a plain value: copy, hash or restore it, and the next step gives the
-/// same bits. Each object has a block of particles in storage order, which World::storage_order relates to the user's
+/// same bits. Each object has a block of particles in storage order, which ObjectView::storage_order relates to the user's
 /// order. Blocks of removed objects are filled with zeros.
 struct State {
   double time = 0;                 ///< simulated time [s]

@@ -78,7 +78,8 @@ class Trials {
 
  private:
   static std::string in_words(const World& world, const Trial& trial, const Report& last) {
-    return last.ok() ? "in frame " + std::to_string(trial.frame) + ", " + world.describe(trial.worst) : last.explain();
+    return last.ok() ? "in frame " + std::to_string(trial.frame) + ", " + world.measure().describe(trial.worst)
+                     : last.explain();
   }
 
   /// `words` receives what was found in the trial of the scene's own settings; null for other trials.

@@ -10,8 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "pliant/edit.h"
 #include "pliant/error.h"
-#include "pliant/world.h"
 
 namespace pliant {
 

@@ -35,7 +35,8 @@ void Timings::take(Timings& other) {
 
 thread_local Timings* Executor::own_timings_ = nullptr;
 
-Stopwatch::Stopwatch(Timings& timings, const char* name) : timings_(timings), name_(name), start_(name == nullptr ? 0 : nanoseconds()) {}
+Stopwatch::Stopwatch(Timings& timings, const char* name)
+    : timings_(timings), name_(name), start_(name == nullptr ? 0 : nanoseconds()) {}
 Stopwatch::~Stopwatch() {
   if (name_ != nullptr) timings_.add(name_, static_cast<double>(nanoseconds() - start_) * 1e-6);
 }

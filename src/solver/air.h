@@ -2,7 +2,7 @@
 #pragma once
 
 #include "math/vector.h"
-#include "pliant/world.h"
+#include "pliant/state.h"
 
 namespace pliant {
 

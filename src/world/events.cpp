@@ -1,8 +1,9 @@
 // Contact events: compares the contacts between bodies in this step with those of the previous step.
+#include "world/events.h"
+
 #include <algorithm>
 
 #include "math/vector.h"
-#include "world/implementation.h"
 
 namespace pliant {
 
@@ -13,19 +14,20 @@ Vec3f direction_of(const Vec3d& push, double impulse) {
   return size > 1e-6 * impulse ? convert<float>(push * (1 / size)) : Vec3f{};
 }
 
-}  // namespace
-
-Thing World::Implementation::thing_of(int body) const {
-  if (body < 0) return collider_ids.id_of(-1 - body);
-  return model.objects[body].is_collider ? Thing(mesh_collider_ids.id_of(body)) : Thing(object_ids.id_of(body));
+Thing thing_of(const WorldData& world, int body) {
+  if (body < 0) return world.ids.colliders.id_of(-1 - body);
+  return world.model.objects[body].is_collider ? Thing(world.ids.mesh_colliders.id_of(body))
+                                               : Thing(world.ids.objects.id_of(body));
 }
 
-void World::Implementation::make_events() {
+}  // namespace
+
+void make_events(WorldData& world) {
   std::vector<ContactEvent> now;
-  for (const auto& [bodies, sum] : *workspace.contact_log) {
+  for (const auto& [bodies, sum] : *world.workspace.contact_log) {
     ContactEvent event;
-    event.first = thing_of(bodies.first);
-    event.second = thing_of(bodies.second);
+    event.first = thing_of(world, bodies.first);
+    event.second = thing_of(world, bodies.second);
     event.contacts = sum.contacts;
     event.impulse = sum.impulse;
     event.position = convert<float>(sum.moment * (1 / std::max(sum.impulse, 1e-300)));
@@ -40,36 +42,35 @@ void World::Implementation::make_events() {
   const auto before = [&](const ContactEvent& a, const ContactEvent& b) { return pair(a) < pair(b); };
   std::sort(now.begin(), now.end(), before);
   std::vector<ContactEvent> all;
-  auto old = touching.begin();
+  auto old = world.events.touching.begin();
   const auto end_old = [&] {
     all.push_back({ContactEvent::Change::end, old->first, old->second});
     ++old;
   };
   for (ContactEvent& event : now) {
-    while (old != touching.end() && *old < pair(event)) end_old();
-    if (old != touching.end() && *old == pair(event)) {
+    while (old != world.events.touching.end() && *old < pair(event)) end_old();
+    if (old != world.events.touching.end() && *old == pair(event)) {
       event.change = ContactEvent::Change::persist;
       ++old;
     }
     all.push_back(event);
   }
-  while (old != touching.end()) end_old();
-  touching.clear();
-  for (const ContactEvent& event : now) touching.push_back(pair(event));
-  events = std::move(all);
+  while (old != world.events.touching.end()) end_old();
+  world.events.touching.clear();
+  for (const ContactEvent& event : now) world.events.touching.push_back(pair(event));
+  world.events.of_last_step = std::move(all);
 }
 
-/// Removes the contacts of a thing that is removed. It gets no end event, because its id is no longer valid.
-void World::Implementation::forget_touching(const Thing& thing) {
-  std::erase_if(touching, [&](const auto& pair) { return pair.first == thing || pair.second == thing; });
+void forget_touching(WorldData& world, const Thing& thing) {
+  std::erase_if(world.events.touching, [&](const auto& pair) { return pair.first == thing || pair.second == thing; });
 }
 
 void World::record_contact_events(bool on) {
-  self_->events.clear();
-  self_->touching.clear();
-  self_->workspace.contact_log = on ? std::make_unique<ContactLog>() : nullptr;
+  data_->events.of_last_step.clear();
+  data_->events.touching.clear();
+  data_->workspace.contact_log = on ? std::make_unique<ContactLog>() : nullptr;
 }
 
-const std::vector<ContactEvent>& World::contact_events() const { return self_->events; }
+const std::vector<ContactEvent>& World::contact_events() const { return data_->events.of_last_step; }
 
 }  // namespace pliant

@@ -1,8 +1,10 @@
 // Tests an object that is to be added for intersections with the World's surfaces, if the settings refuse them.
+#include "world/intersections.h"
+
 #include <utility>
 
 #include "inspect/inspect_scene.h"
-#include "world/implementation.h"
+#include "world/object_store.h"
 
 namespace pliant {
 
@@ -51,27 +53,27 @@ void add_part(Part part, bool self_collision, MeshCollider::As as, Scene& scene)
 
 }  // namespace
 
-void World::Implementation::refuse_intersections(const CompiledObject& added, const Masks& masks, bool is_grid) const {
-  if (settings.initial_intersections != Settings::Intersections::refuse) return;
+void refuse_intersections(const WorldData& world, const CompiledObject& added, const Masks& masks, bool is_grid) {
+  if (world.settings.initial_intersections != Settings::Intersections::refuse) return;
   Records now(added.positions.begin(), added.positions.end());
-  move_to_present(added, state.time, now.data());
+  move_to_present(added, world.state.time, now.data());
   Scene scene;
   scene.settings.initial_intersections = Settings::Intersections::refuse;
   const auto as = [](bool grid) { return grid ? MeshCollider::As::distance_grid : MeshCollider::As::triangles; };
   add_part({added, mesh_of(added, now.data()), of_new, of_present}, added.self_collision, as(is_grid), scene);
-  for (int number = 0; number < static_cast<int>(model.objects.size()); ++number) {
-    const CompiledObject& other = model.objects[number];
+  for (int number = 0; number < static_cast<int>(world.model.objects.size()); ++number) {
+    const CompiledObject& other = world.model.objects[number];
     Masks of_other{other.groups, other.mask};
     bool other_is_grid = false;
-    for (const FieldCollider& field : model.fields) {
+    for (const FieldCollider& field : world.model.fields) {
       if (field.object != number) continue;
       of_other = {field.groups, field.mask};
       other_is_grid = !field.field->is_ground();
       if (!other_is_grid) of_other = {0, 0};  // heightfields have no inside
     }
     if ((of_other.groups & masks.mask) == 0 || (masks.groups & of_other.mask) == 0) continue;
-    add_part({other, mesh_of(other, &state.positions[model.first[number]]), of_present, of_new}, false, as(other_is_grid),
-             scene);
+    add_part({other, mesh_of(other, &world.state.positions[world.model.first[number]]), of_present, of_new}, false,
+             as(other_is_grid), scene);
   }
   pliant::refuse_initial_intersections(scene);
 }

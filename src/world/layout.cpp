@@ -7,7 +7,8 @@
 #include "matter/advice_settings.h"
 #include "model/layout.h"
 #include "pliant/error.h"
-#include "world/implementation.h"
+#include "world/groups.h"
+#include "world/object_store.h"
 
 namespace pliant {
 
@@ -73,14 +74,14 @@ void require_place(const StateBlock& block, int first_frame, const CompiledObjec
 
 }  // namespace
 
-World::Implementation::Implementation(const Scene& scene, const WorldLayout& layout)
-    : Implementation(without_things(scene), scene.settings, scene.settings) {
-  sweep_is_open = sweep_is_open || layout.sweep_is_open;
-  substeps_are_open = substeps_are_open || layout.substeps_are_open;
+WorldData::WorldData(const Scene& scene, const WorldLayout& layout)
+    : WorldData(without_things(scene), scene.settings, scene.settings) {
+  open.sweep = open.sweep || layout.sweep_is_open;
+  open.substeps = open.substeps || layout.substeps_are_open;
   Settings given = scene.settings;
-  if (sweep_is_open) given.sweep = Sweep::automatic;
-  if (substeps_are_open) given.substeps = 0;
-  departs = departures(scene, given, scene.settings);
+  if (open.sweep) given.sweep = Sweep::automatic;
+  if (open.substeps) given.substeps = 0;
+  open.departs = departures(scene, given, scene.settings);
   const std::size_t count = layout.blocks.size();
   if (layout.first_frames.size() != count || layout.sweeps.size() != count) refuse("its columns differ in length");
   std::vector<char> taken(count, 0), taken_colliders(scene.colliders.size(), 0);
@@ -92,11 +93,11 @@ World::Implementation::Implementation(const Scene& scene, const WorldLayout& lay
   std::vector<CompiledObject> objects(count);
   for (std::size_t i = 0; i < of_objects.size(); ++i) {
     if (layout.sweeps[of_objects[i]] == Sweep::automatic) refuse("an object has no sweep");
-    objects[of_objects[i]] = compile(scene.objects[i], compile_options(layout.sweeps[of_objects[i]]));
+    objects[of_objects[i]] = compile(scene.objects[i], compile_options(*this, layout.sweeps[of_objects[i]]));
   }
   for (std::size_t i = 0; i < of_meshes.size(); ++i) {
     objects[of_meshes[i]] = compile(scene.mesh_colliders[i]);
-    add_field(scene.mesh_colliders[i], field_of(scene.mesh_colliders[i]), of_meshes[i]);
+    add_field(*this, scene.mesh_colliders[i], field_of(scene.mesh_colliders[i]), of_meshes[i]);
   }
   std::vector<ObjectPlace> places;
   for (std::size_t number = 0; number < count; ++number) {
@@ -105,28 +106,28 @@ World::Implementation::Implementation(const Scene& scene, const WorldLayout& lay
     places.push_back({block.first, layout.first_frames[number], block.generation, taken[number] == 0});
   }
   lay_out(std::move(objects), places, model);
-  object_ids.restore(layout.objects);
-  collider_ids.restore(layout.colliders);
-  mesh_collider_ids.restore(layout.mesh_colliders);
+  ids.objects.restore(layout.objects);
+  ids.colliders.restore(layout.colliders);
+  ids.mesh_colliders.restore(layout.mesh_colliders);
   state = initial_state(model);
   for (std::size_t number = 0; number < count; ++number) {
     if (taken[number] == 0) state.blocks[number] = {0, 0, model.generation[number]};
-    prepare(static_cast<int>(number));
+    prepare_object(*this, static_cast<int>(number));
   }
-  groups.clear();  // groups of the World without objects
-  bring_up_to_date();
+  groups.all.clear();  // groups of the World without objects
+  bring_up_to_date(*this);
 }
 
 World::World(const Scene& scene, const WorldLayout& layout) {
   refuse_grave_but_places(without_pairs_of_others(scene));
-  self_ = std::make_unique<Implementation>(scene, layout);
+  data_ = std::make_unique<WorldData>(scene, layout);
 }
 
 WorldLayout World::layout() const {
-  WorldLayout layout{self_->object_ids.layout(), self_->collider_ids.layout(), self_->mesh_collider_ids.layout(),
-                     self_->state.blocks,        self_->model.first_frame,     {},
-                     self_->sweep_is_open,       self_->substeps_are_open};
-  for (const CompiledObject& object : self_->model.objects) layout.sweeps.push_back(object.sweep);
+  WorldLayout layout{data_->ids.objects.layout(), data_->ids.colliders.layout(), data_->ids.mesh_colliders.layout(),
+                     data_->state.blocks,         data_->model.first_frame,      {},
+                     data_->open.sweep,           data_->open.substeps};
+  for (const CompiledObject& object : data_->model.objects) layout.sweeps.push_back(object.sweep);
   return layout;
 }
 

@@ -4,7 +4,7 @@
 
 #include "core/sha256.h"
 #include "pliant/error.h"
-#include "world/implementation.h"
+#include "world/world_data.h"
 
 namespace pliant {
 
@@ -13,7 +13,6 @@ namespace {
 /// Upper limit of the frame number. It is far below the largest integer, so that counting on cannot overflow.
 constexpr std::int64_t largest_frame = std::int64_t{1} << 60;
 
-/// Sets multipliers to zero: they are those of the last substep, and no part of a State.
 void add_records(Sha256& sha, const Records& records) { sha.add(records.data(), records.size() * sizeof(Record)); }
 
 /// Throws an Error unless `given` has as many frames as the States of this World.
@@ -67,45 +66,39 @@ bool follow_one_another(const std::vector<StateBlock>& blocks) {
   return true;
 }
 
-}  // namespace
-
-void World::Implementation::require_held_poses(const State& given) const {
+void require_held_poses(const WorldData& world, const State& given) {
   for (const HeldPose& pose : given.held_poses) {
-    const bool exists =
-        pose.is_mesh ? mesh_collider_ids.has({pose.slot, pose.generation}) : collider_ids.has({pose.slot, pose.generation});
+    const bool exists = pose.is_mesh ? world.ids.mesh_colliders.has({pose.slot, pose.generation})
+                                     : world.ids.colliders.has({pose.slot, pose.generation});
     if (!exists)
-      throw Error({}, "the state holds a pose of a collider that this World does not have",
-                  "restore a state of this world");
+      throw Error({}, "the world.state holds a pose of a collider that this World does not have",
+                  "restore a world.state of this world");
     const Quatf& q = pose.rotation;
     const Vec3f& x = pose.position;
     bool is_finite = true;
     for (const float value : {x.x, x.y, x.z, q.x, q.y, q.z, q.w}) is_finite = is_finite && std::isfinite(value);
-    if (!is_finite) throw Error({}, "the state holds a pose that is not finite", "restore an earlier state");
+    if (!is_finite) throw Error({}, "the world.state holds a pose that is not finite", "restore an earlier world.state");
   }
 }
 
-void World::Implementation::forget_multipliers(bool only_of_last) {
-  for (std::size_t o = 0; o < workspace.multipliers.size(); ++o) {
-    if (only_of_last && workspace.stores_in_last[o] == 0) continue;
-    for (auto& values : workspace.multipliers[o]) std::fill(values.begin(), values.end(), 0.f);
-  }
-  if (!only_of_last) std::fill(workspace.volume_multipliers.begin(), workspace.volume_multipliers.end(), 0.);
-}
-
-void World::Implementation::require_blocks(const State& given) const {
-  const std::vector<StateBlock>& own = state.blocks;
+/// Throws an Error if the blocks of particles of a State differ from those of this World.
+void require_blocks(const WorldData& world, const State& given) {
+  const std::vector<StateBlock>& own = world.state.blocks;
   if (given.blocks == own) return;
   const auto other = std::mismatch(given.blocks.begin(), given.blocks.end(), own.begin(), own.end()).second;
-  const std::string name = other != own.end() ? model.objects[static_cast<std::size_t>(other - own.begin())].name : "";
+  const std::string name =
+      other != own.end() ? world.model.objects[static_cast<std::size_t>(other - own.begin())].name : "";
   throw Error({.object = name},
-              "the state is of a World with other objects, or from before one was added, removed or edited",
-              "restore a state that was taken since the last such change");
+              "the world.state is of a World with other objects, or from before one was added, removed or edited",
+              "restore a world.state that was taken since the last such change");
 }
 
+}  // namespace
+
 void World::restore(const State& state) {
-  self_->require_blocks(state);
-  self_->require_held_poses(state);
-  const std::size_t particles = self_->state.positions.size();
+  require_blocks(*data_, state);
+  require_held_poses(*data_, state);
+  const std::size_t particles = data_->state.positions.size();
   if (state.positions.size() != particles || state.velocities.size() != particles || state.remainders.size() != particles) {
     throw Error(
         {},
@@ -114,7 +107,7 @@ void World::restore(const State& state) {
   }
   const auto is_finite = [](const Record& r) { return std::isfinite(r.x) && std::isfinite(r.y) && std::isfinite(r.z); };
   for (std::size_t i = 0; i < particles; ++i) {
-    if (state.positions[i].w != self_->state.positions[i].w) {
+    if (state.positions[i].w != data_->state.positions[i].w) {
       throw Error({.element = "particle " + std::to_string(i)}, "its mass is not this world's",
                   "restore a state of this world");
     }
@@ -127,21 +120,21 @@ void World::restore(const State& state) {
                   "restore an earlier state");
     }
   }
-  require_frames_of(self_->state.frames, state.frames);
+  require_frames_of(data_->state.frames, state.frames);
   require_channels(state);
   require_substeps(state);
   if (!std::isfinite(state.time)) throw Error({}, "the state's time is not finite", "restore an earlier state");
   if (state.frame < 0 || state.frame > largest_frame)
     throw Error({}, "the state's frame is " + std::to_string(state.frame), "restore a state of this world");
-  self_->state = state;
-  self_->forget_multipliers(false);
-  self_->workspace.look_for_tangles = true;
-  self_->stopped = false;
-  self_->may_drift = true;
-  self_->overstretch.restart();
-  self_->workspace.control = {};
-  self_->touching.clear();
-  self_->events.clear();
+  data_->state = state;
+  forget_multipliers(*data_, false);
+  data_->workspace.look_for_tangles = true;
+  data_->stopped = false;
+  data_->may_drift = true;
+  data_->overstretch.restart();
+  data_->workspace.control = {};
+  data_->events.touching.clear();
+  data_->events.of_last_step.clear();
 }
 
 std::string hash(const State& state) {

@@ -53,7 +53,7 @@ inline double largest_stretch(const Scene& scene, const Settings& settings) {
   double largest = 1;
   for (int frame = 0; frame < scene.frames; ++frame) {
     world.step(scene.frame_time);
-    largest = std::max(largest, world.stretch().largest);
+    largest = std::max(largest, world.measure().stretch().largest);
   }
   return largest;
 }

@@ -22,7 +22,7 @@ TEST(Overstretch, OfRigidLinksIsTheirStretch) {
   Object object = chain(5, 0.1f);
   object.constraints[0].rest = {0.1f, 0.1f, 0.08f, 0.1f};
   scene.add(object);
-  const Overstretch found = World(scene).overstretch();
+  const Overstretch found = World(scene).measure().overstretch();
   EXPECT_NEAR(found.largest, 0.25, 1e-6);
   EXPECT_EQ(found.object, 0);
   EXPECT_EQ(found.particles[0] + found.particles[1], 5);
@@ -38,7 +38,7 @@ TEST(Overstretch, OfWhatIsMeantToStretchIsNothing) {
       const Report report = world.step(dt);
       longest = std::max(longest, report.stretch->largest);
       EXPECT_NEAR(report.overstretch->largest, 0, 2e-4) << "frame " << frame << ", damping " << damping;
-      EXPECT_EQ(world.advice(report), "");
+      EXPECT_EQ(world.measure().advice(report), "");
     }
     EXPECT_GT(longest, 1.4) << "or this shows nothing";
   }
@@ -66,8 +66,8 @@ TEST(Overstretch, LeavesOutPbdAndWhatHasNoLength) {
   const Report report = world.step(dt);
   EXPECT_GT(report.stretch->largest, 1.5);
   EXPECT_EQ(report.overstretch->object, -1);
-  EXPECT_EQ(world.advice(report), "");
-  EXPECT_EQ(world.describe(*report.overstretch), "");
+  EXPECT_EQ(world.measure().advice(report), "");
+  EXPECT_EQ(world.measure().describe(*report.overstretch), "");
 }
 
 TEST(Overstretch, LeavesOneInAHundredAbove) {
@@ -77,7 +77,7 @@ TEST(Overstretch, LeavesOneInAHundredAbove) {
   for (int i : {7, 100, 222}) object.constraints[0].rest[i] = 0.05f;
   for (int i : {20, 21}) object.constraints[0].rest[i] = 0.099f;
   scene.add(object);
-  const Overstretch found = World(scene).overstretch();
+  const Overstretch found = World(scene).measure().overstretch();
   EXPECT_NEAR(found.largest, 1, 1e-3);
   EXPECT_NEAR(found.p99, 0.0101, 1e-3);
 }

@@ -21,12 +21,14 @@ TEST(Words, SayWhereAndHowMuch) {
   object.attachments.push_back({19, {3, 0, 0}, {}, Stiffness::rigid()});
   scene.add(object);
   const World world(scene);
-  EXPECT_EQ(world.describe({0.031, 0.144, 0, {0, 1}}),
+  EXPECT_EQ(world.measure().describe({0.031, 0.144, 0, {0, 1}}),
             "object 'leash': stretched 14 % too far at its pins (edge 0-1), 1 edge in 100 by 3.1 % or more");
-  EXPECT_EQ(world.describe({0, 0.144, 0, {2, 1}}), "object 'leash': stretched 14 % too far near its pins (edge 2-1)");
-  EXPECT_EQ(world.describe({0, 2, 0, {3, 4}}), "object 'leash': stretched 200 % too far near its pins (edge 3-4)");
-  EXPECT_EQ(world.describe({0, 0.02, 0, {4, 5}}), "object 'leash': stretched 2 % too far (edge 4-5)");
-  EXPECT_EQ(world.describe({0, 0.02, 0, {18, 19}}), "object 'leash': stretched 2 % too far (edge 18-19)")
+  EXPECT_EQ(world.measure().describe({0, 0.144, 0, {2, 1}}),
+            "object 'leash': stretched 14 % too far near its pins (edge 2-1)");
+  EXPECT_EQ(world.measure().describe({0, 2, 0, {3, 4}}),
+            "object 'leash': stretched 200 % too far near its pins (edge 3-4)");
+  EXPECT_EQ(world.measure().describe({0, 0.02, 0, {4, 5}}), "object 'leash': stretched 2 % too far (edge 4-5)");
+  EXPECT_EQ(world.measure().describe({0, 0.02, 0, {18, 19}}), "object 'leash': stretched 2 % too far (edge 18-19)")
       << "a target is no pin";
 }
 
@@ -35,23 +37,24 @@ TEST(Words, OfAReportComeFromItsFigures) {
   scene.settings = settings_of(7);
   World world(scene);
   Report report = world.step(dt);
-  EXPECT_EQ(world.advice(report), "");
+  EXPECT_EQ(world.measure().advice(report), "");
   report.overstretch = Overstretch{0, 0.2, 0, {{0, 1}}};
   EXPECT_EQ(
-      world.advice(report),
+      world.measure().advice(report),
       "object 'chain': stretched 20 % too far at its pins (edge 0-1); the default, with no \"sweep\" and \"substeps\" "
       "in the scene's \"settings\", may reduce it: 'pliant check' or advise() finds out");
   report.overstretch = Overstretch{tolerated_p99, tolerated_overstretch, 0, {{0, 1}}};
-  EXPECT_EQ(world.advice(report), "");
+  EXPECT_EQ(world.measure().advice(report), "");
   report.overstretch->p99 = 0.021;
-  EXPECT_NE(world.advice(report).find("1 edge in 100 by 2.1 % or more"), std::string::npos) << world.advice(report);
+  EXPECT_NE(world.measure().advice(report).find("1 edge in 100 by 2.1 % or more"), std::string::npos)
+      << world.measure().advice(report);
   report.overstretch.reset();
-  EXPECT_EQ(world.advice(report), "") << "nothing measured";
+  EXPECT_EQ(world.measure().advice(report), "") << "nothing measured";
 }
 
 /// What World::advice recommends to a scene of which an edge is far too long.
 std::string recommended(const Scene& scene) {
-  const std::string words = World(scene).advice(Overstretch{0.5, 0.5, 0, {{0, 1}}}), after = " or more; ";
+  const std::string words = World(scene).measure().advice(Overstretch{0.5, 0.5, 0, {{0, 1}}}), after = " or more; ";
   const std::size_t from = words.find(after) + after.size();
   return words.substr(from, words.find(" may reduce it") - from);
 }

@@ -56,7 +56,7 @@ TEST_P(GoldenSweep, MeetsContactsAndMoves) {
   std::int64_t contacts = 0;
   for (int frame = 0; frame < sweep_frames; ++frame) contacts += world.step(scene.frame_time).contacts;
   EXPECT_GT(contacts, 0);
-  EXPECT_GT(world.kinetic_energy(), 0);
+  EXPECT_GT(world.measure().kinetic_energy(), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, GoldenSweep, testing::ValuesIn(sweep_ways()),

@@ -109,16 +109,16 @@ TEST(Save, OrientationsGoOnInTheSameBits) {
   scene.objects[2].frames = {{{}, {1, 2, 3}, {1, 2, 4}}, {{half, 0, 0, half}, {0, -5, 0.1f}, {3, 1, 2}}};
   World world(scene);
   for (int frame = 0; frame < 3; ++frame) world.step(dt);
-  const std::vector<Quatf> before = world.orientations(2);
+  const std::vector<Quatf> before = world.object(2).orientations();
   save(folder / "world", world, scene);
   LoadedWorld loaded = load_world(folder / "world");
-  ASSERT_EQ(loaded.world.orientations(2).size(), 2U);
+  ASSERT_EQ(loaded.world.object(2).orientations().size(), 2U);
   for (int frame = 0; frame < 3; ++frame) {
     world.step(dt);
     loaded.world.step(dt);
   }
   EXPECT_EQ(loaded.world.state_hash(), world.state_hash());
-  EXPECT_NE(world.orientations(2)[0].x, before[0].x) << "they turn";
+  EXPECT_NE(world.object(2).orientations()[0].x, before[0].x) << "they turn";
 }
 
 TEST(Save, ChannelsAreKept) {
@@ -213,13 +213,13 @@ TEST(Save, AWorldOfWhichThingsCameAndWentGoesOnWithTheSameIds) {
   world.remove(ColliderId(0));
   world.remove(MeshColliderId(0));
   const RigidPose low{{0, -0.4f, 0}, {}};
-  world.set_poses({&ground, 1}, {&low, 1});
+  world.collider(ground).set_pose(low);
   world.step(dt);
   // The present contents by slot: the second bell took the slot of the first, which had been the balloon's.
   Scene now = scene;
   now.objects = {};
   for (const ObjectId id : world.objects()) {
-    const std::string name = world.info(id).name;
+    const std::string name = world.object(id).info().name;
     now.objects.push_back(name == "bell" ? bell : name == "fringe" ? fringe : scene.objects[name == "sheet" ? 0 : 2]);
   }
   now.colliders = {extra};
@@ -229,13 +229,13 @@ TEST(Save, AWorldOfWhichThingsCameAndWentGoesOnWithTheSameIds) {
   ASSERT_EQ(loaded.world.state_hash(), world.state_hash());
   EXPECT_EQ(loaded.world.objects(), world.objects());
   EXPECT_FALSE(loaded.world.has(gone));
-  EXPECT_EQ(loaded.world.angular_velocities(second), world.angular_velocities(second));
+  EXPECT_EQ(loaded.world.object(second).angular_velocities(), world.object(second).angular_velocities());
   for (int frame = 0; frame < 6; ++frame) {
     world.step(dt);
     loaded.world.step(dt);
     ASSERT_EQ(loaded.world.state_hash(), world.state_hash()) << frame;
     if (world.has(first)) {
-      EXPECT_EQ(loaded.world.positions(first), world.positions(first));
+      EXPECT_EQ(loaded.world.object(first).positions(), world.object(first).positions());
     }
     if (frame == 2)  // the next object takes the same slot
       for (World* each : {&world, &loaded.world}) each->add(scene.objects[1]);

@@ -32,7 +32,7 @@ TEST(FrameWriter, WritesWhatTheWorldHolds) {
     }
     writer->add(world);
     for (int object = 0; object < 2; ++object)
-      for (const Vec3f& position : world.positions(object)) expected.push_back(position);
+      for (const Vec3f& position : world.object(object).positions()) expected.push_back(position);
   }
   writer->finish();
   const std::string bytes = test::read(folder / "run.pc2");
@@ -53,8 +53,8 @@ TEST(FrameWriter, ReadsBackAsTheMeshOfTheWorld) {
     writer->add(world);
     writer->finish();
     const TriangleMesh mesh = read_mesh(folder / ("run_0000." + suffix));
-    EXPECT_EQ(mesh.positions, world.mesh(0).positions) << suffix;
-    EXPECT_EQ(mesh.triangles, world.mesh(0).triangles) << suffix;
+    EXPECT_EQ(mesh.positions, world.object(0).mesh().positions) << suffix;
+    EXPECT_EQ(mesh.triangles, world.object(0).mesh().triangles) << suffix;
   }
 }
 

@@ -71,15 +71,15 @@ void expect_sensible(const Scene& scene) {
     const Report report = world.step(scene.frame_time);
     ASSERT_TRUE(report.ok()) << report.explain();
   }
-  for (const Vec3f& p : world.positions(0)) {
+  for (const Vec3f& p : world.object(0).positions()) {
     ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
     ASSERT_LT(std::max(std::fabs(p.x), std::fabs(p.z)), 2);
     ASSERT_GT(p.y, thickness / 2);
     ASSERT_LT(p.y, 2);
   }
   if (!scene.objects.front().volume) return;
-  const double rest = World(scene).enclosed_volume(0);
-  EXPECT_NEAR(world.enclosed_volume(0) / rest, 1.1, 0.05);
+  const double rest = World(scene).object(0).enclosed_volume();
+  EXPECT_NEAR(world.object(0).enclosed_volume() / rest, 1.1, 0.05);
 }
 
 bool is_closed(const TriangleMesh& mesh) {

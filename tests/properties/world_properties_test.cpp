@@ -69,7 +69,7 @@ RC_GTEST_PROP(Worlds, WithoutGravityKeepTheirMomentum, ()) {
   const auto momentum = [&](int o) {
     Vec3d sum{};
     for (std::size_t i = 0; i < scene.objects[o].masses.size(); ++i) {
-      const Vec3f v = world.velocities(o)[i];
+      const Vec3f v = world.object(o).velocities()[i];
       const double m = double(scene.objects[o].masses[i]);
       sum = sum + Vec3d{m * double(v.x), m * double(v.y), m * double(v.z)};
     }
@@ -104,9 +104,9 @@ RC_GTEST_PROP(Worlds, ThatAreMirroredMoveMirrored, ()) {
     there.step(dt);
   }
   for (int o = 0; o < here.object_count(); ++o)
-    for (std::size_t i = 0; i < here.positions(o).size(); ++i) {
-      RC_ASSERT(here.positions(o)[i].x == -there.positions(o)[i].x);
-      RC_ASSERT(here.positions(o)[i].y == there.positions(o)[i].y);
+    for (std::size_t i = 0; i < here.object(o).positions().size(); ++i) {
+      RC_ASSERT(here.object(o).positions()[i].x == -there.object(o).positions()[i].x);
+      RC_ASSERT(here.object(o).positions()[i].y == there.object(o).positions()[i].y);
     }
 }
 

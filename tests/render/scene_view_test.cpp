@@ -19,11 +19,11 @@ TEST(SceneView, TakesSurfacesRopesAndColliders) {
   world.step(1.f / 60);
   const RenderScene picture = make_render_scene(scene, world);
   ASSERT_EQ(picture.meshes.size(), 1u);
-  EXPECT_EQ(picture.meshes[0].positions, world.positions(0));
+  EXPECT_EQ(picture.meshes[0].positions, world.object(0).positions());
   EXPECT_EQ(picture.meshes[0].triangles, scene.objects[0].triangles);
   EXPECT_EQ(picture.meshes[0].colour, (Vec3f{0.1f, 0.2f, 0.3f}));
   ASSERT_EQ(picture.tubes.size(), 1u);
-  EXPECT_EQ(picture.tubes[0].points, world.positions(rope));
+  EXPECT_EQ(picture.tubes[0].points, world.object(rope).positions());
   EXPECT_FLOAT_EQ(picture.tubes[0].radius, scene.objects[1].thickness);
   ASSERT_EQ(picture.colliders.size(), 1u);
   EXPECT_EQ(picture.colliders[0].position, (Vec3f{2, 0.3f, 0}));

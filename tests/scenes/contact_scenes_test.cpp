@@ -58,9 +58,9 @@ class Surfaces {
     const auto append = [&](const std::vector<Vec3f>& more) {
       mesh.positions.insert(mesh.positions.end(), more.begin(), more.end());
     };
-    for (int o = 0; o < world.object_count(); ++o) append(world.positions(o));
+    for (int o = 0; o < world.object_count(); ++o) append(world.object(o).positions());
     for (std::size_t c = 0; c < as_triangles_.size(); ++c)
-      if (as_triangles_[c]) append(world.mesh_collider_positions(static_cast<int>(c)));
+      if (as_triangles_[c]) append(world.mesh_collider(static_cast<int>(c)).positions());
     return mesh;
   }
 

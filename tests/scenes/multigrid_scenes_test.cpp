@@ -16,14 +16,15 @@ TEST(MultigridScenes, PullClothOverAnEdgeWithoutTearingIt) {
   scene.settings.substeps = 10;
   scene.settings.record_multipliers = true;
   World world(scene);
-  double mass = 0, p99 = 0, largest = 0, gain = 0, least = world.kinetic_energy() + world.potential_energy();
+  double mass = 0, p99 = 0, largest = 0, gain = 0,
+         least = world.measure().kinetic_energy() + world.measure().potential_energy();
   for (const float m : scene.objects[0].masses) mass += static_cast<double>(m);
   for (int frame = 0; frame < scene.frames; ++frame) {
     const Report report = world.step(scene.frame_time);
     ASSERT_TRUE(report.ok()) << report.explain();
-    p99 = std::max(p99, world.overstretch().p99);
-    largest = std::max(largest, world.overstretch().largest);
-    const double energy = world.kinetic_energy() + world.potential_energy();
+    p99 = std::max(p99, world.measure().overstretch().p99);
+    largest = std::max(largest, world.measure().overstretch().largest);
+    const double energy = world.measure().kinetic_energy() + world.measure().potential_energy();
     least = std::min(least, energy);
     gain = std::max(gain, energy - least);
   }

@@ -63,10 +63,10 @@ TEST_F(UserTypes, ARodSwingsWithThePeriodOfAPhysicalPendulum) {
   double before = 1, anchor = 0;
   for (int frame = 0; frame < 600; ++frame) {
     ASSERT_TRUE(world.step(frame_time).ok());
-    const double now = world.positions(0)[1].x;
+    const double now = world.object(0).positions()[1].x;
     if (before > 0 && now <= 0) crossings.push_back((frame + before / (before - now)) * frame_time);
     before = now;
-    anchor = std::max(anchor, world.residuals()[0].largest);
+    anchor = std::max(anchor, world.measure().residuals()[0].largest);
   }
   ASSERT_GE(crossings.size(), 5u);
   const double period = (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
@@ -104,8 +104,8 @@ struct Momenta {
 
 Momenta momenta_of(const World& world, const Scene& scene) {
   Momenta sum;
-  const auto x = world.positions(0), v = world.velocities(0), w = world.angular_velocities(0);
-  const auto q = world.orientations(0);
+  const auto x = world.object(0).positions(), v = world.object(0).velocities(), w = world.object(0).angular_velocities();
+  const auto q = world.object(0).orientations();
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double m = static_cast<double>(scene.objects[0].masses[i]);
     const Vec3d place{x[i].x, x[i].y, x[i].z}, impulse{m * v[i].x, m * v[i].y, m * v[i].z};
@@ -138,17 +138,17 @@ TEST_F(UserTypes, AFreeBodyTumblesAsEulersEquationsSay) {
   object.frames = {{{}, {0.01f, 1, 0}, {1, 2, 3}}};
   scene.add(object);
   World world(scene, settings(10));
-  const double energy = world.kinetic_energy();
+  const double energy = world.measure().kinetic_energy();
   const Vec3d momentum = momenta_of(world, scene).angular;
   // Rotation about the middle axis is unstable: w_y goes from 1 to -1 within half a period of 20.7546 s.
   double half_period = 0;
   for (int frame = 0; frame < 1500; ++frame) {
     ASSERT_TRUE(world.step(frame_time).ok());
-    const Vec3f local = rotate(conjugate(world.orientations(0)[0]), world.angular_velocities(0)[0]);
+    const Vec3f local = rotate(conjugate(world.object(0).orientations()[0]), world.object(0).angular_velocities()[0]);
     if (half_period == 0 && local.y < 0) half_period = 2 * (frame + 0.5) * frame_time;
   }
   EXPECT_NEAR(half_period, 20.75461, 0.05);
-  EXPECT_NEAR(world.kinetic_energy() / energy, 1, 1e-4);
+  EXPECT_NEAR(world.measure().kinetic_energy() / energy, 1, 1e-4);
   EXPECT_LT(std::sqrt(length_squared(momenta_of(world, scene).angular - momentum)), 2e-3);
 }
 
@@ -169,11 +169,11 @@ TEST_F(UserTypes, TwoBarsHangAWeightWhereTwoDistancesDo) {
     ASSERT_TRUE(truss.step(frame_time).ok());
     ASSERT_TRUE(bars.step(frame_time).ok());
   }
-  const Vec3f a = truss.positions(0)[2], b = bars.positions(0)[2];
+  const Vec3f a = truss.object(0).positions()[2], b = bars.object(0).positions()[2];
   EXPECT_NEAR(a.x, b.x, 2e-5f);
   EXPECT_NEAR(a.y, b.y, 2e-5f);
   EXPECT_LT(a.y, -1.001f) << "the weight stretches the bars";
-  EXPECT_EQ(truss.info(0).constraints[0].first, "two_bars");
+  EXPECT_EQ(truss.object(0).info().constraints[0].first, "two_bars");
 }
 
 TEST_F(UserTypes, RigidBarsAreMetAtOnceAndTheirMultipliersAreTheForces) {
@@ -188,8 +188,8 @@ TEST_F(UserTypes, RigidBarsAreMetAtOnceAndTheirMultipliersAreTheForces) {
   chosen.record_multipliers = true;
   World world(scene, chosen);
   for (int frame = 0; frame < 120; ++frame) ASSERT_TRUE(world.step(frame_time).ok());
-  EXPECT_LT(world.residuals()[0].largest, 1e-6);
-  const std::vector<float> multipliers = world.multipliers(0, "two_bars");
+  EXPECT_LT(world.measure().residuals()[0].largest, 1e-6);
+  const std::vector<float> multipliers = world.object(0).multipliers("two_bars");
   ASSERT_EQ(multipliers.size(), 2u);
   const double h = frame_time / 2.0, tension = 3 * 9.81 / std::sqrt(2.0);  // half the weight on each, at 45 degrees
   for (float multiplier : multipliers) EXPECT_NEAR(-multiplier / (h * h) / tension, 1, 0.01);
@@ -209,7 +209,7 @@ TEST_F(UserTypes, EightPointsKeepTheirSpread) {
   scene.add(object);
   World world(scene, settings(20));
   for (int frame = 0; frame < 60; ++frame) ASSERT_TRUE(world.step(frame_time).ok());
-  const auto x = world.positions(0);
+  const auto x = world.object(0).positions();
   Vec3d mean{};
   for (const Vec3f& p : x) mean += Vec3d{p.x, p.y, p.z} * 0.125;
   double squares = 0;
@@ -243,9 +243,10 @@ TEST_F(UserTypes, OneAtATimeGivesTheBitsOfLanes) {
       ASSERT_TRUE(one.step(frame_time).ok());
       ASSERT_TRUE(library.step(frame_time).ok());
     }
-    EXPECT_EQ(one.positions(0), library.positions(0));  // compared in the user's order, because a State has its own
-    EXPECT_EQ(one.velocities(0), library.velocities(0));
-    EXPECT_LT(one.positions(0)[2].y, 5.2f) << "it has moved";
+    EXPECT_EQ(one.object(0).positions(),
+              library.object(0).positions());  // compared in the user's order, because a State has its own
+    EXPECT_EQ(one.object(0).velocities(), library.object(0).velocities());
+    EXPECT_LT(one.object(0).positions()[2].y, 5.2f) << "it has moved";
   }
 }
 

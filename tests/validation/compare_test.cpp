@@ -57,8 +57,8 @@ TEST(TakeState, IsThatOfTheOtherWorldHoweverParticlesAreNumbered) {
     EXPECT_EQ(world.state().time, start.state().time);
     EXPECT_EQ(world.state().frame, 5);
     for (int object = 0; object < 2; ++object) {
-      EXPECT_TRUE(equal_bits(world.positions(object), start.positions(object))) << one.name;
-      EXPECT_TRUE(equal_bits(world.velocities(object), start.velocities(object))) << one.name;
+      EXPECT_TRUE(equal_bits(world.object(object).positions(), start.object(object).positions())) << one.name;
+      EXPECT_TRUE(equal_bits(world.object(object).velocities(), start.object(object).velocities())) << one.name;
     }
     if (world.state_hash() != before) ++otherwise;
   }
@@ -72,7 +72,8 @@ TEST(TakeState, GoesOnWithTheSameBits) {
   take_state(taken, start);
   start.step(scene.frame_time);
   taken.step(scene.frame_time);
-  EXPECT_TRUE(equal_bits(start.positions(0), taken.positions(0))) << "remainders and the attachment's target too";
+  EXPECT_TRUE(equal_bits(start.object(0).positions(), taken.object(0).positions()))
+      << "remainders and the attachment's target too";
 }
 
 Options quick(const std::vector<std::string>& methods = {}) {
@@ -113,8 +114,8 @@ TEST(Compare, ASampleIsWhatARunGives) {
     scene.settings.iterations = sample.iterations;
     World world(scene);
     world.step(scene.frame_time / 6);
-    EXPECT_EQ(world.stretch().largest, sample.stretch.largest) << sample.iterations;
-    EXPECT_EQ(world.stretch().p99, sample.stretch.p99) << sample.iterations;
+    EXPECT_EQ(world.measure().stretch().largest, sample.stretch.largest) << sample.iterations;
+    EXPECT_EQ(world.measure().stretch().p99, sample.stretch.p99) << sample.iterations;
   }
 }
 
@@ -153,7 +154,8 @@ TEST(Compare, TimesTheSubstepAfterWhereARestoredOneListsPairs) {
     scene.settings.iterations = sample.iterations;
     World world(scene);
     ASSERT_GT(world.step(scene.frame_time / 3).pairs.rebuilds, 0) << "or this shows nothing";
-    EXPECT_EQ(world.stretch().largest, sample.stretch.largest) << "of the substep itself, with " << sample.iterations;
+    EXPECT_EQ(world.measure().stretch().largest, sample.stretch.largest)
+        << "of the substep itself, with " << sample.iterations;
   }
 
   const Result apart = run(swinging(), quick({"tiled"}));

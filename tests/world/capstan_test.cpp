@@ -86,10 +86,10 @@ Scene strip(double left, double right) {
 
 double found_way(double left, double right) {
   World world(strip(left, right));
-  const std::vector<Vec3f> before = world.positions(0);
+  const std::vector<Vec3f> before = world.object(0).positions();
   const int frames = static_cast<int>(std::lround(seconds * 60));
   for (int frame = 0; frame < frames; ++frame) EXPECT_TRUE(world.step(1.f / 60).ok());
-  return static_cast<double>(world.positions(0)[2].y - before[2].y);
+  return static_cast<double>(world.object(0).positions()[2].y - before[2].y);
 }
 
 TEST(Capstan, HoldsAStripThatItsFrictionCarries) {

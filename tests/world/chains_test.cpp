@@ -78,8 +78,8 @@ TEST(ChainSweep, holds_a_rope_in_one_iteration) {
     scene.settings.sweep_options.chain_softness = softness;
     World world(scene);
     for (int frame = 0; frame < 90; ++frame) ASSERT_TRUE(world.step(1.f / 60).ok());
-    EXPECT_LT(world.stretch().largest, 1.0005);
-    EXPECT_GT(world.stretch().mean, 0.9995);
+    EXPECT_LT(world.measure().stretch().largest, 1.0005);
+    EXPECT_GT(world.measure().stretch().mean, 0.9995);
   }
 }
 
@@ -95,11 +95,11 @@ TEST(ChainSweep, bears_a_straight_row_between_two_pins) {
   double largest = 0;
   for (int frame = 0; frame < 120; ++frame) {
     ASSERT_TRUE(world.step(1.f / 60).ok());
-    largest = std::max(largest, world.stretch().largest);
+    largest = std::max(largest, world.measure().stretch().largest);
   }
   EXPECT_LT(largest, 1.07) << "the row swings; without the limit a link is 9.8 % too long at its first turn";
-  EXPECT_LT(world.stretch().mean, 1.005);
-  for (const Vec3f& p : world.positions(rope)) EXPECT_LT(std::fabs(p.y), 0.1f);
+  EXPECT_LT(world.measure().stretch().mean, 1.005);
+  for (const Vec3f& p : world.object(rope).positions()) EXPECT_LT(std::fabs(p.y), 0.1f);
 }
 
 TEST(ChainSweep, keeps_cloth_from_stretching_at_few_substeps) {
@@ -110,7 +110,7 @@ TEST(ChainSweep, keeps_cloth_from_stretching_at_few_substeps) {
   double largest = 0;
   for (int frame = 0; frame < 60; ++frame) {
     ASSERT_TRUE(world.step(1.f / 60).ok());
-    largest = std::max(largest, world.stretch().largest);
+    largest = std::max(largest, world.measure().stretch().largest);
   }
   EXPECT_LT(largest, 1.1);
   Settings plain = scene.settings;
@@ -120,7 +120,7 @@ TEST(ChainSweep, keeps_cloth_from_stretching_at_few_substeps) {
   double others = 0;
   for (int frame = 0; frame < 60; ++frame) {
     other.step(1.f / 60);
-    others = std::max(others, other.stretch().largest);
+    others = std::max(others, other.measure().stretch().largest);
   }
   EXPECT_GT(others, 1.5) << "or this test shows nothing";
 }
@@ -136,7 +136,7 @@ TEST(Tethers, reach_from_where_their_pins_are_now) {
   World world(scene);
   for (int frame = 0; frame < 20; ++frame) {
     world.step(1.f / 60);
-    const std::vector<Vec3f> x = world.positions(rope);
+    const std::vector<Vec3f> x = world.object(rope).positions();
     for (std::size_t i = 0; i < x.size(); ++i)
       EXPECT_LT(std::sqrt(length_squared(x[i] - x[0])), 0.05 * static_cast<double>(i) + 1e-5) << "frame " << frame;
   }
@@ -157,11 +157,11 @@ TEST(ChainSweep, gives_multipliers_and_counts_as_any_other) {
   World world(scene);
   for (int frame = 0; frame < 30; ++frame) world.step(1.f / 60);
   const float h = 1.f / 60 / 20;
-  const std::vector<float> multipliers = world.multipliers(rope, "distance");
+  const std::vector<float> multipliers = world.object(rope).multipliers("distance");
   ASSERT_EQ(multipliers.size(), 10u);
   for (int k = 0; k < 10; ++k)  // each link carries the weight of all links below it
     EXPECT_NEAR(-multipliers[k] / (h * h), 9.81f * (9.5f - static_cast<float>(k)), 0.05f);
-  EXPECT_EQ(world.info(rope).constraints[0].second, 10);
+  EXPECT_EQ(world.object(rope).info().constraints[0].second, 10);
 }
 
 }  // namespace

@@ -332,13 +332,13 @@ TEST(MeshColliders, SayWhereTheyAre) {
   Scene scene = with_mesh(sphere_mesh(1));
   scene.mesh_colliders[0].motion.keyframes = {{0, {}, {}}, {1, {0, 0, -1}, {}}};
   World world(scene);
-  EXPECT_EQ(world.mesh_collider_positions(0), scene.mesh_colliders[0].mesh.positions);
+  EXPECT_EQ(world.mesh_collider(0).positions(), scene.mesh_colliders[0].mesh.positions);
   for (int frame = 0; frame < 30; ++frame) (void)world.step(1.f / 60);
-  const std::vector<Vec3f> moved = world.mesh_collider_positions(0);
+  const std::vector<Vec3f> moved = world.mesh_collider(0).positions();
   for (std::size_t i = 0; i < moved.size(); ++i)
     EXPECT_LE(length_squared(moved[i] - scene.mesh_colliders[0].mesh.positions[i] - Vec3f{0, 0, -0.5f}), 1e-10f) << i;
-  EXPECT_THROW((void)world.mesh_collider_positions(1), Error);
-  EXPECT_THROW((void)world.mesh_collider_positions(-1), Error);
+  EXPECT_THROW((void)world.mesh_collider(1).positions(), Error);
+  EXPECT_THROW((void)world.mesh_collider(-1).positions(), Error);
   EXPECT_EQ(world.object_count(), 1);
 }
 

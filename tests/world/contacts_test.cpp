@@ -60,11 +60,12 @@ TEST_P(OnEachShape, AParticleRestsAtTheThickness) {
     World world(scene, settings_of(substeps));
     for (int frame = 0; frame < 90; ++frame) {
       const Report report = world.step(dt);
-      EXPECT_GT(distance_to(collider, world.state().time, world.positions(0)[0]), 0.005 - 2e-6) << "frame " << frame;
+      EXPECT_GT(distance_to(collider, world.state().time, world.object(0).positions()[0]), 0.005 - 2e-6)
+          << "frame " << frame;
       EXPECT_TRUE(frame < 60 || report.contacts == 1) << "frame " << frame;
     }
-    EXPECT_NEAR(distance_to(collider, 0, world.positions(0)[0]), 0.005, 2e-6) << substeps << " substeps";
-    const Vec3f v = world.velocities(0)[0];
+    EXPECT_NEAR(distance_to(collider, 0, world.object(0).positions()[0]), 0.005, 2e-6) << substeps << " substeps";
+    const Vec3f v = world.object(0).velocities()[0];
     EXPECT_LT(length(v), 1e-4f);
   }
 }
@@ -84,9 +85,9 @@ TEST_P(OnEachShape, AnOverlapSeparatesNoFasterThanTheCap) {
   World world(scene, settings_of(10));
   for (int frame = 0; frame < 60; ++frame) {
     ASSERT_TRUE(world.step(dt).ok());
-    for (const Vec3f& v : world.velocities(0)) EXPECT_LE(length(v), 2.01f) << "frame " << frame;
+    for (const Vec3f& v : world.object(0).velocities()) EXPECT_LE(length(v), 2.01f) << "frame " << frame;
   }
-  for (const Vec3f& p : world.positions(0)) EXPECT_GT(distance_to(collider, 0, p), 0.001 - 2e-6);
+  for (const Vec3f& p : world.object(0).positions()) EXPECT_GT(distance_to(collider, 0, p), 0.001 - 2e-6);
 }
 
 // ------------------------------------------------------------------------------------------------ shots
@@ -130,13 +131,13 @@ int passed_through(const Collider& collider, const Vec3f& carried, float spread,
   std::vector<char> bad(shots.from.size(), 0);
   for (int frame = 0; frame < 45; ++frame) {  // the slowest shots need 0.65 s
     EXPECT_TRUE(world.step(dt).ok());
-    const std::vector<Vec3f> now = world.positions(0);
+    const std::vector<Vec3f> now = world.object(0).positions();
     for (std::size_t i = 0; i < now.size(); ++i) {
       // At 20 m from the origin, a float has an error of 2e-6 m.
       if (distance_to(collider, world.state().time, now[i]) < -1e-5) bad[i] = 1;
     }
   }
-  const std::vector<Vec3f> after = world.velocities(0);
+  const std::vector<Vec3f> after = world.object(0).velocities();
   for (std::size_t i = 0; i < after.size(); ++i) {
     // The normal velocity of a stopped shot vanishes, so along its own direction it keeps at most sin^2 of its angle to
     // the normal: under 0.8.
@@ -203,7 +204,7 @@ TEST(Shots, NoneGoesThroughFromWithinTheThickness) {
     World world(scene, settings_of(2));
     for (int frame = 0; frame < 5; ++frame) {
       world.step(dt);
-      EXPECT_GT(world.positions(0)[0].y, 0.004f) << above << " m above, frame " << frame;
+      EXPECT_GT(world.object(0).positions()[0].y, 0.004f) << above << " m above, frame " << frame;
     }
   }
 }
@@ -226,7 +227,7 @@ TEST(Landing, OfABalloonNeverDipsBelowTheGround) {
   float lowest = 1;
   for (int substep = 0; substep < 4 * 120; ++substep) {  // four substeps per frame
     world.step(dt / 4);
-    for (const Vec3f& p : world.positions(0)) lowest = std::min(lowest, p.y);
+    for (const Vec3f& p : world.object(0).positions()) lowest = std::min(lowest, p.y);
   }
   EXPECT_GT(lowest, -1e-6f);
 }
@@ -258,8 +259,8 @@ TEST(Friction, SticksBelowItsAngleAndSlipsAbove) {
       below.step(dt);
       above.step(dt);
     }
-    EXPECT_LT(length(below.positions(0)[0]), 0.002f) << substeps;
-    EXPECT_GT(length(above.positions(0)[0]), 0.05f) << substeps;
+    EXPECT_LT(length(below.object(0).positions()[0]), 0.002f) << substeps;
+    EXPECT_GT(length(above.object(0).positions()[0]), 0.05f) << substeps;
   }
 }
 
@@ -267,8 +268,8 @@ TEST(Friction, SlidesWithWhatGravityLeaves) {
   World world(ramp(40, 0.4f, 0.3f), settings_of(20));
   for (int frame = 0; frame < 60; ++frame) world.step(dt);
   const double angle = 40 * 3.14159265358979 / 180, acceleration = gravity * (std::sin(angle) - 0.3 * std::cos(angle));
-  EXPECT_NEAR(length(world.velocities(0)[0]), acceleration * 1.0, 0.01 * acceleration);
-  EXPECT_NEAR(length(world.positions(0)[0]), 0.5 * acceleration, 0.01 * acceleration);
+  EXPECT_NEAR(length(world.object(0).velocities()[0]), acceleration * 1.0, 0.01 * acceleration);
+  EXPECT_NEAR(length(world.object(0).positions()[0]), 0.5 * acceleration, 0.01 * acceleration);
 }
 
 TEST(Friction, StopsAfterItsDistance) {
@@ -279,8 +280,8 @@ TEST(Friction, StopsAfterItsDistance) {
       World world(scene, settings_of(substeps));
       for (int frame = 0; frame < 180; ++frame) world.step(dt);
       const float expected = 9 / (2 * mu * gravity);
-      EXPECT_NEAR(world.positions(0)[0].x, expected, 0.01f * expected) << mu << ", " << substeps << " substeps";
-      EXPECT_LT(length(world.velocities(0)[0]), 1e-4f);
+      EXPECT_NEAR(world.object(0).positions()[0].x, expected, 0.01f * expected) << mu << ", " << substeps << " substeps";
+      EXPECT_LT(length(world.object(0).velocities()[0]), 1e-4f);
     }
   }
 }
@@ -292,7 +293,7 @@ TEST(Friction, IsTheGeometricMeanOfBothSides) {
   World world(scene, settings_of(20));
   for (int frame = 0; frame < 180; ++frame) world.step(dt);
   const float expected = 9 / (2 * 0.3f * gravity);
-  EXPECT_NEAR(world.positions(0)[0].x, expected, 0.01f * expected);
+  EXPECT_NEAR(world.object(0).positions()[0].x, expected, 0.01f * expected);
 }
 
 TEST(Restitution, ReturnsTheSquareOfTheHeight) {
@@ -307,7 +308,7 @@ TEST(Restitution, ReturnsTheSquareOfTheHeight) {
     bool bounced = false;
     for (int frame = 0; frame < 70; ++frame) {
       world.step(dt);
-      const double v = world.velocities(0)[0].y, h = world.positions(0)[0].y - 0.001;
+      const double v = world.object(0).velocities()[0].y, h = world.object(0).positions()[0].y - 0.001;
       bounced = bounced || v > 0;
       if (bounced && v > 0) apex = std::max(apex, h + v * v / (2 * gravity));
     }
@@ -325,7 +326,7 @@ TEST(Restitution, IsTheLargerOfBothSides) {
   double fastest = 0;
   for (int frame = 0; frame < 40; ++frame) {
     world.step(dt);
-    fastest = std::max(fastest, static_cast<double>(world.velocities(0)[0].y));
+    fastest = std::max(fastest, static_cast<double>(world.object(0).velocities()[0].y));
   }
   EXPECT_NEAR(fastest, 0.8 * std::sqrt(2 * gravity * 0.499), 0.2);
 }
@@ -341,11 +342,11 @@ TEST(MovingCollider, LiftsWhatLiesOnIt) {
   scene.add(loose_particles({{0.2f, 0.101f, 0.1f}}));
   World world(scene, settings_of(10));
   for (int frame = 0; frame < 60; ++frame) world.step(dt);
-  EXPECT_NEAR(world.collider_position(0).y, 1, 1e-5);
-  EXPECT_NEAR(world.positions(0)[0].y, 1.101, 1e-5);
-  EXPECT_NEAR(world.velocities(0)[0].y, 1, 1e-3);
+  EXPECT_NEAR(world.collider(0).pose().position.y, 1, 1e-5);
+  EXPECT_NEAR(world.object(0).positions()[0].y, 1.101, 1e-5);
+  EXPECT_NEAR(world.object(0).velocities()[0].y, 1, 1e-3);
   for (int frame = 0; frame < 90; ++frame) world.step(dt);
-  EXPECT_NEAR(world.positions(0)[0].y, 2.101, 1e-5) << "and stays when it stops";
+  EXPECT_NEAR(world.object(0).positions()[0].y, 2.101, 1e-5) << "and stays when it stops";
 }
 
 TEST(MovingCollider, PushesWhatIsInItsWay) {
@@ -357,8 +358,8 @@ TEST(MovingCollider, PushesWhatIsInItsWay) {
   scene.add(loose_particles({{0.5f, 0.3f, 0.2f}}));
   World world(scene, settings_of(10));
   for (int frame = 0; frame < 60; ++frame) world.step(dt);
-  EXPECT_NEAR(world.positions(0)[0].x, 3.101, 1e-4);
-  EXPECT_NEAR(world.velocities(0)[0].x, 3, 1e-3);
+  EXPECT_NEAR(world.object(0).positions()[0].x, 3.101, 1e-4);
+  EXPECT_NEAR(world.object(0).velocities()[0].x, 3, 1e-3);
 }
 
 TEST(MovingCollider, CarriesByFrictionLikeAConveyor) {
@@ -373,9 +374,9 @@ TEST(MovingCollider, CarriesByFrictionLikeAConveyor) {
   scene.add(object);
   World world(scene, settings_of(20));
   for (int frame = 0; frame < 30; ++frame) world.step(dt);
-  EXPECT_NEAR(world.velocities(0)[0].x, 0.1 * gravity * 0.5, 0.01) << "speeding up at mu g";
+  EXPECT_NEAR(world.object(0).velocities()[0].x, 0.1 * gravity * 0.5, 0.01) << "speeding up at mu g";
   for (int frame = 0; frame < 60; ++frame) world.step(dt);
-  EXPECT_NEAR(world.velocities(0)[0].x, 1, 1e-3) << "and then as fast as the belt";
+  EXPECT_NEAR(world.object(0).velocities()[0].x, 1, 1e-3) << "and then as fast as the belt";
 }
 
 TEST(MovingCollider, TurnsWhatLiesOnIt) {
@@ -392,7 +393,7 @@ TEST(MovingCollider, TurnsWhatLiesOnIt) {
   scene.add(object);
   World world(scene, settings_of(20));
   for (int frame = 0; frame < 60; ++frame) world.step(dt);  // rotates by a right angle
-  const Vec3f p = world.positions(0)[0];
+  const Vec3f p = world.object(0).positions()[0];
   EXPECT_NEAR(std::hypot(p.x, p.z), 0.5, 0.01);
   EXPECT_NEAR(p.x, 0, 0.02);
   EXPECT_NEAR(p.z, -0.5, 0.02);

@@ -36,21 +36,21 @@ TEST(DeformingMesh, LiftsWhatLiesOnIt) {
   scene.add(cloth(sheet(12, 0.5f, 0.003f)));
   World world(scene);
   std::vector<Triangle> triangles;
-  for (const auto& t : world.mesh(0).triangles) triangles.push_back({t[0], t[1], t[2]});
+  for (const auto& t : world.object(0).mesh().triangles) triangles.push_back({t[0], t[1], t[2]});
   for (const auto& t : ground.mesh.triangles) triangles.push_back({144 + t[0], 144 + t[1], 144 + t[2]});
   IntersectionFinder finder(triangles, 144 + 81);
   for (int frame = 0; frame < 60; ++frame) {
     const Report report = world.step(dt);
     ASSERT_EQ(report.pairs.unresolvable, 0) << "frame " << frame;
-    std::vector<Vec3f> places = world.positions(0);
-    const std::vector<Vec3f> deformed = world.mesh_collider_positions(0);
+    std::vector<Vec3f> places = world.object(0).positions();
+    const std::vector<Vec3f> deformed = world.mesh_collider(0).positions();
     places.insert(places.end(), deformed.begin(), deformed.end());
     ASSERT_EQ(finder.find(places).size(), 0u) << "frame " << frame;
     const double rise = 0.2 * std::clamp((world.state().time - 0.2) / 0.5, 0., 1.);
     EXPECT_NEAR(deformed[40].y, rise, 1e-6) << "frame " << frame;
   }
   float highest = 0;
-  for (const Vec3f& p : world.positions(0)) highest = std::max(highest, p.y);
+  for (const Vec3f& p : world.object(0).positions()) highest = std::max(highest, p.y);
   EXPECT_GT(highest, 0.15f);
   EXPECT_LT(highest, 0.25f);
 }
@@ -65,9 +65,9 @@ TEST(DeformingMesh, IsCarriedByItsMotionToo) {
   one.motion.pivot = {7, 7, 7};
   scene.add(one);
   World world(scene);
-  EXPECT_EQ(world.mesh_collider_positions(0)[1], (Vec3f{1, 0, 0}));
+  EXPECT_EQ(world.mesh_collider(0).positions()[1], (Vec3f{1, 0, 0}));
   for (int frame = 0; frame < 90; ++frame) world.step(dt);
-  const Vec3f at = world.mesh_collider_positions(0)[1];  // after 1.5 s: half of the second period
+  const Vec3f at = world.mesh_collider(0).positions()[1];  // after 1.5 s: half of the second period
   EXPECT_NEAR(at.x, 1 + 4.5f, 1e-5f);
   EXPECT_NEAR(at.z, 1.f, 1e-5f);
 }
@@ -79,9 +79,9 @@ TEST(MeshCollider, BeginsWhereItsKeyframesHaveIt) {
   one.motion.keyframes = {{0, {0, 5, 0}, {}}, {1, {0, 6, 0}, {}}};
   scene.add(one);
   World world(scene);
-  EXPECT_EQ(world.mesh_collider_positions(0)[0], (Vec3f{0, 5, 0}));
+  EXPECT_EQ(world.mesh_collider(0).positions()[0], (Vec3f{0, 5, 0}));
   world.step(dt);
-  EXPECT_NEAR(world.mesh_collider_positions(0)[0].y, 5 + double(dt), 1e-6);
+  EXPECT_NEAR(world.mesh_collider(0).positions()[0].y, 5 + double(dt), 1e-6);
 }
 
 // ------------------------------------------------------------------------------------------------ single particles
@@ -109,7 +109,7 @@ int grains_inside(float thickness) {
   int inside = 0;
   for (int frame = 0; frame < 60; ++frame) {
     EXPECT_TRUE(world.step(dt).ok());
-    for (const Vec3f& p : world.positions(0))
+    for (const Vec3f& p : world.object(0).positions())
       inside += length(p) < 0.98f ? 1 : 0;  // the mesh is inscribed in the ball, so it is a little smaller
   }
   return inside;
@@ -125,9 +125,9 @@ TEST(SingleParticles, ComeToRestOnAMesh) {
   scene.add(grains);
   World world(scene);
   for (int frame = 0; frame < 120; ++frame) world.step(dt);
-  EXPECT_NEAR(world.positions(0)[0].y, 0.01f, 1e-4f);
-  EXPECT_NEAR(world.positions(0)[1].y, 0.01f, 1e-4f);
-  EXPECT_LT(world.positions(0)[2].y, -10.f);  // it falls beside the mesh
+  EXPECT_NEAR(world.object(0).positions()[0].y, 0.01f, 1e-4f);
+  EXPECT_NEAR(world.object(0).positions()[1].y, 0.01f, 1e-4f);
+  EXPECT_LT(world.object(0).positions()[2].y, -10.f);  // it falls beside the mesh
 }
 
 TEST(SingleParticles, MeetClothThatCollides) {
@@ -141,7 +141,7 @@ TEST(SingleParticles, MeetClothThatCollides) {
   scene.add(grains);
   World world(scene);
   for (int frame = 0; frame < 60; ++frame) world.step(dt);
-  EXPECT_NEAR(world.positions(1)[0].y, 0.005f, 1e-4f);
+  EXPECT_NEAR(world.object(1).positions()[0].y, 0.005f, 1e-4f);
 }
 
 // ------------------------------------------------------------------------------------------------ what two are to one another
@@ -161,7 +161,7 @@ float bounce(float object, float collider, std::optional<float> pair) {
   float highest = 0, last = 1;
   for (int frame = 0; frame < 55; ++frame) {
     world.step(dt);
-    const float height = world.positions(0)[4].y;
+    const float height = world.object(0).positions()[4].y;
     rises = rises || height >= last;
     last = height;
     if (rises) highest = std::max(highest, height);
@@ -194,7 +194,7 @@ TEST(Restitution, OfTwoPatchesKeepsMomentumAndTheShareOfSpeed) {
   for (int frame = 0; frame < 12; ++frame) world.step(dt);
   double speed[2]{};
   for (int o = 0; o < 2; ++o)
-    for (const Vec3f& v : world.velocities(o)) speed[o] += double(v.y) / 9;
+    for (const Vec3f& v : world.object(o).velocities()) speed[o] += double(v.y) / 9;
   EXPECT_NEAR(speed[1] - speed[0], 0.5 * 2, 0.05);
   EXPECT_NEAR((speed[0] + 3 * speed[1]) / 4, -0.5, 1e-3);
 }
@@ -212,7 +212,7 @@ TEST(Pairs, HaveAThicknessAndFrictionOfTheirOwn) {
     World world(scene);
     for (int frame = 0; frame < 60; ++frame) world.step(dt);
     Vec3f mean{};
-    for (const Vec3f& p : world.positions(0)) mean += p * (1.f / 16);
+    for (const Vec3f& p : world.object(0).positions()) mean += p * (1.f / 16);
     return mean;
   };
   EXPECT_NEAR(run({}).y, 0.002f, 1e-4f);

@@ -91,8 +91,8 @@ Worst worst_of(Scene scene, Sweep sweep, int substeps, int frames = 70) {
   Worst worst;
   for (int frame = 0; frame < frames; ++frame) {
     EXPECT_TRUE(world.step(1.f / 60).ok());
-    worst.p99 = std::max(worst.p99, world.stretch().p99);
-    worst.largest = std::max(worst.largest, world.stretch().largest);
+    worst.p99 = std::max(worst.p99, world.measure().stretch().p99);
+    worst.largest = std::max(worst.largest, world.measure().stretch().largest);
   }
   return worst;
 }
@@ -144,7 +144,7 @@ TEST(Multigrid, LeavesWhatHangsOnSpringsWhereTheirStiffnessSays) {
     World world(scene);
     for (int frame = 0; frame < 300; ++frame) world.step(1.f / 60);
     double expected = 0, load = 5;
-    const std::vector<Vec3f> places = world.positions(0);
+    const std::vector<Vec3f> places = world.object(0).positions();
     for (std::size_t i = 1; i < 6; ++i, --load) {
       expected += 0.1 + load * 9.81 * double(compliance);
       EXPECT_NEAR(-double(places[i].y), expected, 2e-3 * (expected - 0.1 * double(i)) + 2e-6) << compliance << ", " << i;
@@ -166,9 +166,9 @@ TEST(Multigrid, LetsWhatSlidesSlide) {
   scene.settings = settings_of(6);
   scene.settings.sweep = Sweep::multigrid;
   World world(scene);
-  const Vec3f before = world.positions(0)[60];
+  const Vec3f before = world.object(0).positions()[60];
   for (int frame = 0; frame < 40; ++frame) world.step(1.f / 60);
-  const double way = double(world.positions(0)[60].x) - double(before.x);
+  const double way = double(world.object(0).positions()[60].x) - double(before.x);
   EXPECT_NEAR(way, 1 / (2 * 0.4 * 9.81), 0.03 * way);
 }
 
@@ -216,8 +216,8 @@ TEST(Multigrid, TakesObjectsWithNothingToCorrect) {
   scene.settings.sweep = Sweep::multigrid;
   World world(scene);
   for (int frame = 0; frame < 60; ++frame) ASSERT_TRUE(world.step(1.f / 60).ok());
-  for (int object : {0, 2}) EXPECT_NEAR(double(world.positions(object)[1].y), -0.5 * 9.81, 0.03);
-  EXPECT_EQ(world.positions(1)[1].y, 0);
+  for (int object : {0, 2}) EXPECT_NEAR(double(world.object(object).positions()[1].y), -0.5 * 9.81, 0.03);
+  EXPECT_EQ(world.object(1).positions()[1].y, 0);
 }
 
 }  // namespace

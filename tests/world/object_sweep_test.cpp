@@ -66,9 +66,9 @@ void expect_the_same_alone(const std::vector<Object>& objects, SweepOptions::Acc
     scene.add(object);
     World alone(scene);
     for (int frame = 0; frame < 20; ++frame) alone.step(dt);
-    EXPECT_TRUE(equal_bits(together.positions(static_cast<int>(o)), alone.positions(0)));
-    EXPECT_TRUE(equal_bits(together.velocities(static_cast<int>(o)), alone.velocities(0)));
-    EXPECT_EQ(together.multipliers(static_cast<int>(o), "distance"), alone.multipliers(0, "distance"));
+    EXPECT_TRUE(equal_bits(together.object(static_cast<int>(o)).positions(), alone.object(0).positions()));
+    EXPECT_TRUE(equal_bits(together.object(static_cast<int>(o)).velocities(), alone.object(0).velocities()));
+    EXPECT_EQ(together.object(static_cast<int>(o)).multipliers("distance"), alone.object(0).multipliers("distance"));
   }
 }
 
@@ -117,7 +117,7 @@ TEST(ObjectSweep, GivesTheBitsOfTheObjectAloneWhereItsSurfaceTouchesItself) {
       both.step(dt);
     }
     EXPECT_GT(contacts, 0) << "or this shows nothing";
-    EXPECT_TRUE(equal_bits(one.positions(0), both.positions(0))) << sweep_name(sweep);
+    EXPECT_TRUE(equal_bits(one.object(0).positions(), both.object(0).positions())) << sweep_name(sweep);
   }
 }
 
@@ -143,9 +143,9 @@ TEST(ObjectSweep, GivesTheBitsOfTheObjectAloneBesideAFastCollider) {
   for (int frame = 0; frame < 30; ++frame) {
     one.step(dt);
     both.step(dt);
-    ASSERT_TRUE(equal_bits(one.positions(0), both.positions(0))) << frame;
+    ASSERT_TRUE(equal_bits(one.object(0).positions(), both.object(0).positions())) << frame;
   }
-  EXPECT_GT(both.positions(1)[100].y, both.positions(0)[100].y + 0.2f) << "or the collider missed it";
+  EXPECT_GT(both.object(1).positions()[100].y, both.object(0).positions()[100].y + 0.2f) << "or the collider missed it";
 }
 
 }  // namespace

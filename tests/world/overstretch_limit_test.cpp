@@ -16,7 +16,7 @@ double largest_overstretch(const Scene& scene, int frames) {
   double largest = 0;
   for (int frame = 0; frame < frames; ++frame) {
     world.step(dt);
-    largest = std::max(largest, world.overstretch().largest);
+    largest = std::max(largest, world.measure().overstretch().largest);
   }
   return largest;
 }
@@ -70,7 +70,7 @@ TEST(OverstretchLimit, LetsRubberStretch) {
     scene.settings.sweep_options.most_overstretch = limit;
     World world(scene);
     for (int frame = 0; frame < 300; ++frame) world.step(dt);
-    return world.stretch().largest;
+    return world.measure().stretch().largest;
   };
   const double free = longest(0);
   EXPECT_NEAR(free, 1 + 0.01 * 0.01 * 9.81 * 39 / 0.05, 0.02);  // 39 links hang from the first: 77 % longer
@@ -95,7 +95,7 @@ TEST(OverstretchLimit, LeavesDampedDistancesAlone) {
     scene.settings.record_multipliers = true;
     World world(scene);
     for (int frame = 0; frame < 120; ++frame) EXPECT_TRUE(world.step(dt).ok());
-    return world.positions({0}).back().y;
+    return world.object({0}).positions().back().y;
   };
   EXPECT_EQ(lowest(0.05f), lowest(0));
 }
@@ -113,7 +113,7 @@ TEST(OverstretchLimit, GivesUpWhereEverythingIsTooLong) {
   World world(scene);
   run(world, 60);
   EXPECT_TRUE(is_finite(world.state()));
-  EXPECT_GT(world.stretch().mean, 1.1);
+  EXPECT_GT(world.measure().stretch().mean, 1.1);
 }
 
 // ---------------------------------------------------------------- tethered chains
@@ -129,10 +129,10 @@ TEST(TetheredChains, HangWithoutGainingEnergyWithFewSubsteps) {
   Overstretch worst;
   for (int frame = 0; frame < 200; ++frame) {
     substeps += world.step(dt).substeps;
-    const double energy = world.kinetic_energy() + world.potential_energy();
+    const double energy = world.measure().kinetic_energy() + world.measure().potential_energy();
     least = std::min(least, energy);
     gain = std::max(gain, energy - least);
-    worst.p99 = std::max(worst.p99, world.overstretch().p99);
+    worst.p99 = std::max(worst.p99, world.measure().overstretch().p99);
   }
   EXPECT_LT(gain / 0.15, 0.01);  // J/kg
   EXPECT_LE(worst.p99, 0.02);
@@ -144,10 +144,10 @@ TEST(TetheredChains, LeaveTethersOutWhilePinsMoveApart) {
   World world(hung());
   double largest = 0;
   for (int frame = 0; frame < 60; ++frame) {
-    const Vec3f to = world.positions({0})[19] + Vec3f{-0.005f, 0, 0};
-    world.set_targets({0}, std::vector<int>{19}, std::vector<Vec3f>{to});
+    const Vec3f to = world.object({0}).positions()[19] + Vec3f{-0.005f, 0, 0};
+    world.object({0}).set_targets(std::vector<int>{19}, std::vector<Vec3f>{to});
     ASSERT_TRUE(world.step(dt).ok());
-    largest = std::max(largest, world.overstretch().largest);
+    largest = std::max(largest, world.measure().overstretch().largest);
   }
   EXPECT_LT(largest, 0.1);
 }

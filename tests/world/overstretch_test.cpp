@@ -56,8 +56,8 @@ double value_of(const ConstraintGroup& group, std::size_t i) {
 
 /// (C + alpha~ lambda + alpha beta d|x|/dt) / L of each distance of an object that has a multiplier and a free end.
 void add_overstretches(const World& world, ObjectId id, const Object& object, std::vector<double>& all) {
-  const std::vector<Vec3f> x = world.positions(id), v = world.velocities(id);
-  const std::vector<float> multipliers = world.multipliers(id, "distance");
+  const std::vector<Vec3f> x = world.object(id).positions(), v = world.object(id).velocities();
+  const std::vector<float> multipliers = world.object(id).multipliers("distance");
   const auto is_fixed = [&](int particle) {
     return std::any_of(object.pins.begin(), object.pins.end(), [&](const Pin& pin) { return pin.particle == particle; });
   };
@@ -121,7 +121,7 @@ TEST(OverstretchOfAFrame, IsThatOfAFreshMeasurement) {
   World world(scene);
   for (int frame = 0; frame < 60; ++frame) {
     const Report report = world.step(dt);
-    expect_same(*report.overstretch, world.overstretch(), "frame " + std::to_string(frame));
+    expect_same(*report.overstretch, world.measure().overstretch(), "frame " + std::to_string(frame));
   }
 }
 
@@ -138,7 +138,7 @@ TEST(OverstretchOfAFrame, FollowsAnImpactFromNothing) {
   for (int frame = 0; frame < 60; ++frame) {
     const Report report = world.step(dt);
     if (frame == 0) first = *report.overstretch;
-    expect_same(*report.overstretch, world.overstretch(), "frame " + std::to_string(frame));
+    expect_same(*report.overstretch, world.measure().overstretch(), "frame " + std::to_string(frame));
     worst.p99 = std::max(worst.p99, report.overstretch->p99);
   }
   EXPECT_LT(first.p99, 1e-6);
@@ -246,10 +246,10 @@ TEST(WorstOverstretch, IsThatOfAllFramesWhileObjectsComeAndGo) {
     const Report report = world.step(dt);
     collected.add(report);
     collected.expect(report.worst_overstretch);
-    expect_same(*report.overstretch, world.overstretch(), "frame " + std::to_string(frame));
+    expect_same(*report.overstretch, world.measure().overstretch(), "frame " + std::to_string(frame));
   }
   EXPECT_GT(collected.frame_of_largest, 1);
-  EXPECT_EQ(world.info(added).name, "second");
+  EXPECT_EQ(world.object(added).info().name, "second");
 }
 
 TEST(WorstOverstretch, NamesNoObjectThatWasRemovedOrEdited) {
@@ -271,7 +271,7 @@ TEST(WorstOverstretch, NamesNoObjectThatWasRemovedOrEdited) {
     EXPECT_EQ(report.worst_overstretch.overstretch.object, -1);
     EXPECT_EQ(report.worst_overstretch.overstretch.particles[0], -1);
     EXPECT_EQ(report.worst_overstretch.overstretch.largest, largest);
-    EXPECT_NE(world.advice(report.worst_overstretch.overstretch), "");
+    EXPECT_NE(world.measure().advice(report.worst_overstretch.overstretch), "");
   }
 }
 
@@ -322,10 +322,10 @@ TEST(OverstretchOfAFrame, CountsTheWholeStretchAfterAFrameThatWasStopped) {
   last = static_cast<float>(world.state().time) + 0.5f * dt;
   world.stop_when(&flag);
   ASSERT_TRUE(world.step(dt).stopped);
-  const Overstretch found = world.overstretch();
+  const Overstretch found = world.measure().overstretch();
   World other(scene);
   other.restore(world.state());
-  expect_same(found, other.overstretch(), "where no multiplier is known");
+  expect_same(found, other.measure().overstretch(), "where no multiplier is known");
   EXPECT_GT(found.largest, 0.01);
 }
 
@@ -336,24 +336,24 @@ TEST(OverstretchInWords, OfAnObjectThatIsGoneReadsNothingOfAnother) {
   World world(scene);
   Report report;
   for (int frame = 0; frame < 30; ++frame) report = world.step(dt);
-  const std::string before = world.advice(report), gone = "an object that was removed or edited stretched";
+  const std::string before = world.measure().advice(report), gone = "an object that was removed or edited stretched";
   EXPECT_NE(before.find("object 'first': stretched"), std::string::npos) << before;
   world.remove(ObjectId(0));
-  EXPECT_NE(world.advice(report).find(gone), std::string::npos) << world.advice(report);
-  EXPECT_NE(world.describe(*report.overstretch).find(gone), std::string::npos);
+  EXPECT_NE(world.measure().advice(report).find(gone), std::string::npos) << world.measure().advice(report);
+  EXPECT_NE(world.measure().describe(*report.overstretch).find(gone), std::string::npos);
   Object small = chain(3, 0.1f);
   const ObjectId id = world.add(small);  // in the same slot
   ASSERT_EQ(id.slot, report.overstretch->object);
-  EXPECT_NE(world.advice(report).find(gone), std::string::npos) << world.advice(report);
-  EXPECT_NE(world.advice(report.worst_overstretch.overstretch).find(gone), std::string::npos);
+  EXPECT_NE(world.measure().advice(report).find(gone), std::string::npos) << world.measure().advice(report);
+  EXPECT_NE(world.measure().advice(report.worst_overstretch.overstretch).find(gone), std::string::npos);
   Overstretch of_small = *report.overstretch;
   of_small.generation = id.generation;  // particles that the object lacks, as after an edit
-  EXPECT_NE(world.describe(of_small).find(gone), std::string::npos);
+  EXPECT_NE(world.measure().describe(of_small).find(gone), std::string::npos);
   of_small.object = 99;
-  EXPECT_NE(world.describe(of_small).find(gone), std::string::npos);
+  EXPECT_NE(world.measure().describe(of_small).find(gone), std::string::npos);
   of_small.object = id.slot;
   of_small.particles = {0, 1};
-  EXPECT_NE(world.describe(of_small).find("object 'chain': stretched"), std::string::npos);
+  EXPECT_NE(world.measure().describe(of_small).find("object 'chain': stretched"), std::string::npos);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ TEST(ParticleContact, KeepsMomentumAndTheShareOfSpeed) {
     scene.add(two);
     World world(scene);
     for (int frame = 0; frame < 20; ++frame) world.step(1.f / 60);
-    const std::vector<Vec3f> v = world.velocities(0), x = world.positions(0);
+    const std::vector<Vec3f> v = world.object(0).velocities(), x = world.object(0).positions();
     EXPECT_NEAR(v[0].x + 3 * v[1].x, -1, 1e-4) << restitution;
     EXPECT_NEAR(v[1].x - v[0].x, 3 * restitution, 0.02) << restitution;
     EXPECT_GE(x[1].x - x[0].x, 0.1f - 1e-4f);
@@ -46,8 +46,8 @@ TEST(ParticleContact, LetsPassWhatPassesBy) {
   scene.add(two);
   World world(scene);
   for (int frame = 0; frame < 3; ++frame) world.step(1.f / 60);
-  EXPECT_EQ(world.velocities(0)[0], (Vec3f{30, 0, 0}));
-  EXPECT_EQ(world.velocities(0)[1], Vec3f{});
+  EXPECT_EQ(world.object(0).velocities()[0], (Vec3f{30, 0, 0}));
+  EXPECT_EQ(world.object(0).velocities()[1], Vec3f{});
 }
 
 TEST(ParticleContact, AColumnRestsOnTheGroundInOrder) {
@@ -61,7 +61,7 @@ TEST(ParticleContact, AColumnRestsOnTheGroundInOrder) {
   scene.add(Collider{});
   World world(scene);
   for (int frame = 0; frame < 180; ++frame) world.step(1.f / 60);
-  const std::vector<Vec3f> x = world.positions(0), v = world.velocities(0);
+  const std::vector<Vec3f> x = world.object(0).positions(), v = world.object(0).velocities();
   for (int i = 0; i < 8; ++i) {
     const float wanted = 0.05f + 0.1f * static_cast<float>(i);
     EXPECT_NEAR(x[static_cast<std::size_t>(i)].y, wanted, 0.01f) << i;
@@ -78,7 +78,7 @@ TEST(ParticleContact, NothingPassesAHeadOnGrainAtModerateSpeed) {
     scene.add(two);
     World world(scene);
     for (int frame = 0; frame < 60; ++frame) world.step(1.f / 60);
-    EXPECT_LT(world.positions(0)[0].x, world.positions(0)[1].x) << speed;
+    EXPECT_LT(world.object(0).positions()[0].x, world.object(0).positions()[1].x) << speed;
   }
 }
 

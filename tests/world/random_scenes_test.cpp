@@ -182,7 +182,7 @@ void expect_finite_or_said(Sweep sweep, unsigned first, int scenes) {
         EXPECT_FALSE(world.step(step).ok());
         break;
       }
-      EXPECT_TRUE(std::isfinite(world.kinetic_energy()));
+      EXPECT_TRUE(std::isfinite(world.measure().kinetic_energy()));
     } catch (const Error& error) {
       ++refused;
       EXPECT_FALSE(error.where().object.empty() && error.where().element.empty()) << error.what();

@@ -62,7 +62,7 @@ double difference(const Object& object, int substeps, int iterations, int frames
     EXPECT_TRUE(world.step(dt).ok());
     solver.step(static_cast<double>(dt));
   }
-  const std::vector<Vec3f> positions = world.positions(0);
+  const std::vector<Vec3f> positions = world.object(0).positions();
   double most = 0;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     most = std::max(most, length(convert<double>(positions[i]) - solver.particles[i].position));

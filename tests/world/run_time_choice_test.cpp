@@ -62,7 +62,7 @@ void expect_the_same(const Scene& scene, const Object& added, const std::string&
   const World from_the_start(all);
   const Sweep expected = chosen_sweep(all, static_cast<int>(scene.objects.size()));
   EXPECT_EQ(sweep_name(world.layout().sweeps.back()), sweep_name(expected));
-  EXPECT_EQ(world.info(id).substeps, from_the_start.info(from_the_start.objects().back()).substeps);
+  EXPECT_EQ(world.object(id).info().substeps, from_the_start.object(from_the_start.objects().back()).info().substeps);
 }
 
 TEST(AddedObject, GetsTheSweepThatItHasInAScene) {
@@ -97,7 +97,7 @@ TEST(AddedObject, GetsTheSweepThatTheSettingsName) {
   World world(scene);
   const ObjectId id = world.add(hung({}));
   EXPECT_EQ(world.layout().sweeps.back(), Sweep::symmetric);
-  EXPECT_EQ(world.info(id).substeps, 7);
+  EXPECT_EQ(world.object(id).info().substeps, 7);
 }
 
 TEST(AddedObject, GetsTheSameInAWorldMadeFromALayout) {
@@ -124,7 +124,7 @@ TEST(CoarseObject, IsNotTetheredBesideClothThatHangs) {
     double most = 0;
     for (int frame = 0; frame < 60; ++frame) {
       world.step(dt);
-      const std::vector<Vec3f> x = world.positions(0);
+      const std::vector<Vec3f> x = world.object(0).positions();
       most = std::max(most, std::sqrt(double(length_squared(x.back() - x.front()))));
     }
     return most;

@@ -37,7 +37,7 @@ TEST(Control, AnImpulseChangesMomentumByItself) {
   std::vector<Vec3f> impulses(81);
   impulses[3] = {0.01f, 0, 0};
   impulses[40] = {0, 0.02f, -0.01f};
-  world.add_impulses(0, impulses);
+  world.object(0).add_impulses(impulses);
   expect_near(momentum(world, 0), {0.01, 0.02, -0.01}, 1e-8);
   world.step(dt);
   expect_near(momentum(world, 0), {0.01, 0.02, -0.01}, 1e-6);  // internal forces do not change it
@@ -47,7 +47,7 @@ TEST(Control, AForceForAFrameGivesForceTimesTimeAndIsGone) {
   World world(free_sheet());
   std::vector<Vec3f> forces(81);
   for (Vec3f& force : forces) force = {0, 0.05f, 0};
-  world.set_forces(0, forces);
+  world.object(0).set_forces(forces);
   world.step(dt);
   expect_near(momentum(world, 0), {0, 81 * 0.05 * static_cast<double>(dt), 0}, 1e-6);
   world.step(dt);
@@ -59,9 +59,9 @@ TEST(Control, VelocitiesAreTakenAsTheyAre) {
   scene.pin(0, {7});
   World world(scene);
   std::vector<Vec3f> velocities(81, Vec3f{1, 2, 3});
-  world.set_velocities(0, velocities);
+  world.object(0).set_velocities(velocities);
   velocities[7] = {};
-  EXPECT_EQ(world.velocities(0), velocities) << "a pin has none";
+  EXPECT_EQ(world.object(0).velocities(), velocities) << "a pin has none";
 }
 
 TEST(Control, ATargetIsReachedAndEqualsTheSameMotionByKeyframes) {
@@ -74,22 +74,23 @@ TEST(Control, ATargetIsReachedAndEqualsTheSameMotionByKeyframes) {
   by_targets.pin(0, {0});
   by_keyframes.pin(0, {0}, straight({0.5f, 0.2f, 0}, 1));
   World world(by_targets), expected(by_keyframes);
-  const Vec3f start = world.positions(0)[0];
+  const Vec3f start = world.object(0).positions()[0];
   const float frame_time = 1.f / 64;
   for (int frame = 1; frame <= 32; ++frame) {
     const int pin = 0;
     const Vec3f target = start + path(static_cast<float>(frame) * frame_time);
-    world.set_targets(0, {&pin, 1}, {&target, 1});
+    world.object(0).set_targets({&pin, 1}, {&target, 1});
     world.step(frame_time);
     expected.step(frame_time);
-    EXPECT_EQ(world.positions(0)[0], target);
-    for (int i = 0; i < 10; ++i) EXPECT_LT(distance(world.positions(0)[i], expected.positions(0)[i]), 2e-5) << frame;
-    EXPECT_LT(distance(world.velocities(0)[0], expected.velocities(0)[0]), 1e-4);
+    EXPECT_EQ(world.object(0).positions()[0], target);
+    for (int i = 0; i < 10; ++i)
+      EXPECT_LT(distance(world.object(0).positions()[i], expected.object(0).positions()[i]), 2e-5) << frame;
+    EXPECT_LT(distance(world.object(0).velocities()[0], expected.object(0).velocities()[0]), 1e-4);
   }
-  const Vec3f last = world.positions(0)[0];
+  const Vec3f last = world.object(0).positions()[0];
   for (int frame = 0; frame < 5; ++frame) world.step(frame_time);
-  EXPECT_EQ(world.positions(0)[0], last) << "it stays where it was brought";
-  EXPECT_EQ(world.velocities(0)[0], (Vec3f{}));
+  EXPECT_EQ(world.object(0).positions()[0], last) << "it stays where it was brought";
+  EXPECT_EQ(world.object(0).velocities()[0], (Vec3f{}));
 }
 
 TEST(Control, AttachmentsFollowTheirTargets) {
@@ -102,9 +103,9 @@ TEST(Control, AttachmentsFollowTheirTargets) {
   World world(scene, settings_of(20));
   const int first = 0;
   const Vec3f target{0.3f, 0.1f, -0.2f};
-  world.set_attachment_targets(0, {&first, 1}, {&target, 1});
+  world.object(0).set_attachment_targets({&first, 1}, {&target, 1});
   for (int frame = 0; frame < 240; ++frame) world.step(dt);
-  EXPECT_LT(distance(world.positions(0)[0], target), 2e-3);
+  EXPECT_LT(distance(world.object(0).positions()[0], target), 2e-3);
 }
 
 TEST(Control, CollidersGoWhereTheyAreSetAndCarryWhatLiesOnThem) {
@@ -129,15 +130,12 @@ TEST(Control, CollidersGoWhereTheyAreSetAndCarryWhatLiesOnThem) {
     }
     World world(scene);
     for (int frame = 0; frame < 20; ++frame) world.step(dt);
-    const float before = world.positions(0)[40].y;
+    const float before = world.object(0).positions()[40].y;
     State middle;
     std::vector<std::string> hashes;
     const auto drive = [&](int frame) {
       const RigidPose pose{{0, 0.004f * static_cast<float>(frame), 0}, {}};
-      const ColliderId solid = 0;
-      const MeshColliderId mesh = 0;
-      if (kind == 0) world.set_poses(std::span<const ColliderId>(&solid, 1), {&pose, 1});
-      if (kind != 0) world.set_poses(std::span<const MeshColliderId>(&mesh, 1), {&pose, 1});
+      kind == 0 ? world.collider(0).set_pose(pose) : world.mesh_collider(0).set_pose(pose);
       EXPECT_TRUE(world.step(dt).ok());
     };
     for (int frame = 1; frame <= 40; ++frame) {
@@ -145,13 +143,13 @@ TEST(Control, CollidersGoWhereTheyAreSetAndCarryWhatLiesOnThem) {
       if (frame == 30) middle = world.state();
       if (frame > 30) hashes.push_back(world.state_hash());
     }
-    EXPECT_NEAR(world.positions(0)[40].y, before + 0.16f, 0.01f) << kind;
+    EXPECT_NEAR(world.object(0).positions()[40].y, before + 0.16f, 0.01f) << kind;
     for (int frame = 0; frame < 20; ++frame) world.step(dt);
-    EXPECT_NEAR(world.positions(0)[40].y, before + 0.16f, 0.01f) << kind << ": it stays where it was brought";
+    EXPECT_NEAR(world.object(0).positions()[40].y, before + 0.16f, 0.01f) << kind << ": it stays where it was brought";
     if (kind == 0) {
-      EXPECT_EQ(world.collider_position(0), (Vec3f{0, 0.004f * 40.f, 0}));
+      EXPECT_EQ(world.collider(0).pose().position, (Vec3f{0, 0.004f * 40.f, 0}));
     } else if (kind == 1) {
-      EXPECT_NEAR(world.mesh_collider_positions(0)[0].y, scene.mesh_colliders[0].mesh.positions[0].y + 0.16f, 1e-6f);
+      EXPECT_NEAR(world.mesh_collider(0).positions()[0].y, scene.mesh_colliders[0].mesh.positions[0].y + 0.16f, 1e-6f);
     }
     world.restore(middle);
     for (int frame = 31; frame <= 40; ++frame) {
@@ -168,14 +166,13 @@ TEST(Control, ADrivenPoseEqualsTheSameMotionByKeyframes) {
   World world(by_hand), expected(by_keyframes);
   for (int frame = 1; frame <= 40; ++frame) {
     const RigidPose pose{by_hand.colliders[0].position + Vec3f{0.25f * static_cast<float>(frame) / 64, 0, 0}, {}};
-    const ColliderId ball = 0;
-    world.set_poses(std::span<const ColliderId>(&ball, 1), {&pose, 1});
+    world.collider(0).set_pose(pose);
     world.step(1.f / 64);
     expected.step(1.f / 64);
   }
   // Every pose, of frames and of their eight substeps, is exact in float, so contact sees the same ball.
-  EXPECT_EQ(world.positions(0), expected.positions(0));
-  EXPECT_LT(distance(world.collider_position(0), expected.collider_position(0)), 1e-6);
+  EXPECT_EQ(world.object(0).positions(), expected.object(0).positions());
+  EXPECT_LT(distance(world.collider(0).pose().position, expected.collider(0).pose().position), 1e-6);
 }
 
 TEST(Control, VerticesOfAMeshColliderGoWhereTheyAreSet) {
@@ -187,11 +184,11 @@ TEST(Control, VerticesOfAMeshColliderGoWhereTheyAreSet) {
   World world(scene);
   std::vector<Vec3f> places = box.mesh.positions;
   for (Vec3f& p : places) p = {2 * p.x, p.y + 0.1f, p.z};
-  world.set_positions(0, places);
+  world.mesh_collider(0).set_positions(places);
   world.step(dt);
-  EXPECT_EQ(world.mesh_collider_positions(0), places);
+  EXPECT_EQ(world.mesh_collider(0).positions(), places);
   world.step(dt);
-  EXPECT_EQ(world.mesh_collider_positions(0), places);
+  EXPECT_EQ(world.mesh_collider(0).positions(), places);
 }
 
 TEST(Control, WrongSizesAndNumbersAreNamedAndChangeNothing) {
@@ -211,23 +208,22 @@ TEST(Control, WrongSizesAndNumbersAreNamedAndChangeNothing) {
   values[12].y = nan;
   const std::vector<Vec3f> few(3);
   for (const auto& bad : {values, few}) {
-    EXPECT_NE(message([&] { world.set_velocities(0, bad); }).find("cloth"), std::string::npos);
-    EXPECT_NE(message([&] { world.add_impulses(0, bad); }).find("cloth"), std::string::npos);
-    EXPECT_NE(message([&] { world.set_forces(0, bad); }).find("cloth"), std::string::npos);
+    EXPECT_NE(message([&] { world.object(0).set_velocities(bad); }).find("cloth"), std::string::npos);
+    EXPECT_NE(message([&] { world.object(0).add_impulses(bad); }).find("cloth"), std::string::npos);
+    EXPECT_NE(message([&] { world.object(0).set_forces(bad); }).find("cloth"), std::string::npos);
   }
-  EXPECT_NE(message([&] { world.add_impulses(0, values); }).find("particle 12"), std::string::npos);
+  EXPECT_NE(message([&] { world.object(0).add_impulses(values); }).find("particle 12"), std::string::npos);
   const std::vector<int> free = {40}, missing = {144}, pin = {0};
   const std::vector<Vec3f> place(1), off = {{0, nan, 0}};
-  EXPECT_NE(message([&] { world.set_targets(0, free, place); }).find("particle 40"), std::string::npos);
-  EXPECT_NE(message([&] { world.set_targets(0, missing, place); }).find("particle 144"), std::string::npos);
-  EXPECT_NE(message([&] { world.set_targets(0, pin, off); }).find("not finite"), std::string::npos);
-  EXPECT_NE(message([&] { world.set_targets(0, pin, few); }).find("3 positions"), std::string::npos);
-  const std::vector<ColliderId> ball = {0}, none = {7};
-  const std::vector<RigidPose> pose(1), zero = {{{}, {0, 0, 0, 0}}};
-  EXPECT_THROW(world.set_poses(none, pose), Error);
-  EXPECT_THROW(world.set_poses(ball, zero), Error);
+  EXPECT_NE(message([&] { world.object(0).set_targets(free, place); }).find("particle 40"), std::string::npos);
+  EXPECT_NE(message([&] { world.object(0).set_targets(missing, place); }).find("particle 144"), std::string::npos);
+  EXPECT_NE(message([&] { world.object(0).set_targets(pin, off); }).find("not finite"), std::string::npos);
+  EXPECT_NE(message([&] { world.object(0).set_targets(pin, few); }).find("3 positions"), std::string::npos);
+  EXPECT_THROW(world.collider(7).set_pose({}), Error);
+  EXPECT_THROW(world.collider(0).set_pose({{}, {0, 0, 0, 0}}), Error);
+  EXPECT_THROW(world.collider(0).set_pose({{nan, 0, 0}, {}}), Error);
   std::vector<Vec3f> small(3);
-  EXPECT_THROW(world.read_positions(0, small), Error);
+  EXPECT_THROW(world.object(0).read_positions(small), Error);
   EXPECT_EQ(world.state_hash(), before);
   World same(scene);
   same.step(dt);
@@ -241,15 +237,15 @@ TEST(Reading, SpansAndCopiesSayTheSame) {
   scene.objects[0].attachments.push_back({5, {0, 1, 0}, {}, Stiffness::compliance(1e-3f)});
   World world(scene);
   for (int frame = 0; frame < 5; ++frame) world.step(dt);
-  const std::vector<Vec3f> positions = world.positions(0), velocities = world.velocities(0);
+  const std::vector<Vec3f> positions = world.object(0).positions(), velocities = world.object(0).velocities();
   std::vector<Vec3f> read(144), moving(144);
-  world.read_positions(0, read);
-  world.read_velocities(0, moving);
+  world.object(0).read_positions(read);
+  world.object(0).read_velocities(moving);
   EXPECT_EQ(read, positions);
   EXPECT_EQ(moving, velocities);
-  const auto stored = world.positions_in_storage_order(0);
-  const auto fast = world.velocities_in_storage_order(0);
-  const auto order = world.storage_order(0);
+  const auto stored = world.object(0).positions_in_storage_order();
+  const auto fast = world.object(0).velocities_in_storage_order();
+  const auto order = world.object(0).storage_order();
   ASSERT_EQ(stored.size(), 145u) << "and the target";
   ASSERT_EQ(order.size(), 145u);
   for (std::size_t i = 0; i < 145; ++i) {

@@ -120,13 +120,13 @@ TEST(Edit, ACutKeepsMomentumAndEnergyAndTheHalvesFallApart) {
   World world(scene);
   for (int frame = 0; frame < 30; ++frame) world.step(dt);
   const Vec3<double> before = momentum(world, 0);
-  const double kinetic = world.kinetic_energy(), potential = world.potential_energy();
-  const std::vector<Vec3f> places = world.positions(0), speeds = world.velocities(0);
+  const double kinetic = world.measure().kinetic_energy(), potential = world.measure().potential_energy();
+  const std::vector<Vec3f> places = world.object(0).positions(), speeds = world.object(0).velocities();
   const Edit edit = cut(scene.objects[0], middle_column());
   const std::vector<int> news = world.edit(0, edit);
   ASSERT_EQ(news.size(), 81u);
   for (int i = 0; i < 81; ++i) EXPECT_EQ(news[static_cast<std::size_t>(i)], i);
-  const std::vector<Vec3f> now = world.positions(0), speeds_now = world.velocities(0);
+  const std::vector<Vec3f> now = world.object(0).positions(), speeds_now = world.object(0).velocities();
   ASSERT_EQ(now.size(), 90u);
   for (std::size_t i = 0; i < 90; ++i) {
     EXPECT_EQ(now[i], places[static_cast<std::size_t>(edit.from[i])]) << i;
@@ -134,8 +134,8 @@ TEST(Edit, ACutKeepsMomentumAndEnergyAndTheHalvesFallApart) {
   }
   const Vec3<double> after = momentum(world, 0);
   EXPECT_NEAR(after.y, before.y, 1e-6 * std::abs(before.y));
-  EXPECT_NEAR(world.kinetic_energy(), kinetic, 1e-6 * kinetic);
-  EXPECT_NEAR(world.potential_energy(), potential, 1e-6 * std::abs(potential));
+  EXPECT_NEAR(world.measure().kinetic_energy(), kinetic, 1e-6 * kinetic);
+  EXPECT_NEAR(world.measure().potential_energy(), potential, 1e-6 * std::abs(potential));
   // The half without the pin falls freely.
   double fallen = 0, mass = 0, speed = 0;
   const std::vector<int> pieces = pieces_of(edit.object);
@@ -148,7 +148,7 @@ TEST(Edit, ACutKeepsMomentumAndEnergyAndTheHalvesFallApart) {
     speed += double(edit.object.masses[i]) * double(speeds_now[i].y);
   }
   for (int frame = 0; frame < 30; ++frame) ASSERT_TRUE(world.step(dt).ok());
-  const std::vector<Vec3f> then = world.positions(0);
+  const std::vector<Vec3f> then = world.object(0).positions();
   for (std::size_t i = 0; i < 90; ++i)
     if (pieces[i] == loose) fallen += double(edit.object.masses[i]) * double(then[i].y);
   const double t = 30 * double(dt), h = double(dt) / 8;
@@ -164,12 +164,12 @@ TEST(Edit, ANinthOfTheTrianglesGoWithWhatTheyHeld) {
   for (int t = 0; t < 128; t += 9) gone.push_back(t);
   const Edit edit = remove_triangles(scene.objects[0], gone);
   EXPECT_EQ(edit.object.triangles.size(), 128 - gone.size());
-  const auto before = world.info(0).constraints;
+  const auto before = world.object(0).info().constraints;
   world.edit(0, edit);
-  const auto after = world.info(0).constraints;
+  const auto after = world.object(0).info().constraints;
   EXPECT_LT(after[1].second, before[1].second) << "hinges of what is gone";
   EXPECT_LE(after[0].second, before[0].second);
-  EXPECT_EQ(world.mesh(0).triangles.size(), edit.object.triangles.size());
+  EXPECT_EQ(world.object(0).mesh().triangles.size(), edit.object.triangles.size());
   EXPECT_TRUE(world.step(dt).ok());
 }
 
@@ -181,8 +181,8 @@ TEST(Edit, NothingChangedGivesTheBitsOfAWorldThatWasNotEdited) {
     world.step(dt);
     same.step(dt);
   }
-  EXPECT_EQ(world.positions(0), same.positions(0));
-  EXPECT_EQ(world.velocities(0), same.velocities(0));
+  EXPECT_EQ(world.object(0).positions(), same.object(0).positions());
+  EXPECT_EQ(world.object(0).velocities(), same.object(0).velocities());
 }
 
 TEST(Edit, PinsAndMassesChangeInPlace) {
@@ -193,11 +193,11 @@ TEST(Edit, PinsAndMassesChangeInPlace) {
   Edit edit = unchanged(scene.objects[0]);
   edit.object.pins = {{80, {}}};
   for (float& mass : edit.object.masses) mass *= 2;
-  const Vec3f place = world.positions(0)[80], other = world.positions(0)[8];
+  const Vec3f place = world.object(0).positions()[80], other = world.object(0).positions()[8];
   world.edit(0, edit);
   for (int frame = 0; frame < 20; ++frame) ASSERT_TRUE(world.step(dt).ok());
-  EXPECT_EQ(world.positions(0)[80], place);
-  EXPECT_LT(world.positions(0)[8].y, other.y - 0.1f);
+  EXPECT_EQ(world.object(0).positions()[80], place);
+  EXPECT_LT(world.object(0).positions()[8].y, other.y - 0.1f);
 }
 
 TEST(Edit, OthersKeepTheirBitsAndSurfacesMeetAsBefore) {
@@ -211,7 +211,7 @@ TEST(Edit, OthersKeepTheirBitsAndSurfacesMeetAsBefore) {
     world.step(dt);
     same.step(dt);
   }
-  EXPECT_EQ(world.positions(1), same.positions(1));
+  EXPECT_EQ(world.object(1).positions(), same.object(1).positions());
   Scene landing = sheet();
   landing.objects[0].collides = true;
   MeshCollider floor;
@@ -222,7 +222,7 @@ TEST(Edit, OthersKeepTheirBitsAndSurfacesMeetAsBefore) {
   for (int frame = 0; frame < 15; ++frame) lands.step(dt);
   lands.edit(0, cut(landing.objects[0], middle_column()));
   for (int frame = 0; frame < 40; ++frame) ASSERT_TRUE(lands.step(dt).ok());
-  for (const Vec3f& p : lands.positions(0)) EXPECT_NEAR(p.y, -0.4f, 0.01f);
+  for (const Vec3f& p : lands.object(0).positions()) EXPECT_NEAR(p.y, -0.4f, 0.01f);
 }
 
 TEST(Edit, WhatDoesNotFitIsRefusedAndChangesNothing) {

@@ -117,9 +117,7 @@ TEST(RunTimeLimits, APoseFarAwayComesBackWithItsState) {
   scene.add(sheet({}));
   const ColliderId ball = scene.add(Collider{.name = "ball", .shape = Sphere{0.1f}});
   World world(scene);
-  const std::vector<ColliderId> ids{ball};
-  const std::vector<RigidPose> far{{{1e20f, 0, 0}, {}}};
-  world.set_poses(ids, far);
+  world.collider(ball).set_pose({{1e20f, 0, 0}, {}});
   world.step(dt);
   const State state = world.state();
   EXPECT_NO_THROW(world.restore(state));
@@ -130,9 +128,9 @@ TEST(RunTimeLimits, AnImpulseThatNoVelocityHoldsIsRefused) {
   scene.settings = settings_of(4);
   const ObjectId object = scene.add(sheet({}));
   World world(scene);
-  std::vector<Vec3f> impulses(world.positions(object).size());
+  std::vector<Vec3f> impulses(world.object(object).positions().size());
   impulses[3] = {1e38f, 0, 0};
-  expect_refused(world, [&] { world.add_impulses(object, impulses); });
+  expect_refused(world, [&] { world.object(object).add_impulses(impulses); });
   EXPECT_TRUE(is_finite(world.state()));
 }
 

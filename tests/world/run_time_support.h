@@ -19,7 +19,8 @@ inline TriangleMesh box_mesh(const Vec3f& size) {
 /// The linear momentum of an object's dynamic particles [kg m/s].
 inline Vec3<double> momentum(const World& world, ObjectId object) {
   Vec3<double> sum{};
-  const auto positions = world.positions_in_storage_order(object), velocities = world.velocities_in_storage_order(object);
+  const auto positions = world.object(object).positions_in_storage_order(),
+             velocities = world.object(object).velocities_in_storage_order();
   for (std::size_t i = 0; i < positions.size(); ++i)
     if (positions[i].w > 0)
       sum += Vec3<double>{double(velocities[i].x), double(velocities[i].y), double(velocities[i].z)} *

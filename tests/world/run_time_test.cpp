@@ -101,9 +101,9 @@ TEST(RunTime, WhatIsRemovedLeavesTheOthersTheirBits) {
     ASSERT_TRUE(world.step(dt).ok());
     alone.step(dt);
   }
-  EXPECT_EQ(world.positions(1), alone.positions(0));
-  EXPECT_EQ(world.velocities(1), alone.velocities(0));
-  EXPECT_EQ(world.kinetic_energy(), alone.kinetic_energy());
+  EXPECT_EQ(world.object(1).positions(), alone.object(0).positions());
+  EXPECT_EQ(world.object(1).velocities(), alone.object(0).velocities());
+  EXPECT_EQ(world.measure().kinetic_energy(), alone.measure().kinetic_energy());
   EXPECT_EQ(world.object_count(), 1);
   EXPECT_EQ(world.objects(), (std::vector<ObjectId>{1}));
 }
@@ -120,25 +120,25 @@ TEST(RunTime, AStaleIdIsRefusedAndNeverAnotherObject) {
   EXPECT_EQ(second.slot, first.slot) << "slots are used again";
   EXPECT_NE(second, first);
   EXPECT_TRUE(world.has(second));
-  EXPECT_EQ(world.info(second).name, "second");
-  EXPECT_THROW(world.info(first), Error);
-  EXPECT_THROW(world.positions(first), Error);
+  EXPECT_EQ(world.object(second).info().name, "second");
+  EXPECT_THROW(world.object(first).info(), Error);
+  EXPECT_THROW(world.object(first).positions(), Error);
   EXPECT_THROW(world.remove(first), Error);
-  EXPECT_THROW(world.info(ObjectId(second.slot, second.generation + 1)), Error);
+  EXPECT_THROW(world.object(ObjectId(second.slot, second.generation + 1)).info(), Error);
   try {
-    world.mesh(first);
+    world.object(first).mesh();
     FAIL();
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("any more"), std::string::npos) << error.what();
   }
   const ColliderId there = world.add(ball());
   world.remove(there);
-  EXPECT_THROW(world.collider_position(there), Error);
+  EXPECT_THROW(world.collider(there).pose().position, Error);
   EXPECT_THROW(world.remove(there), Error);
   const MeshColliderId mesh = world.add(table());
-  EXPECT_EQ(world.mesh_collider_positions(mesh).size(), table().mesh.positions.size());
+  EXPECT_EQ(world.mesh_collider(mesh).positions().size(), table().mesh.positions.size());
   world.remove(mesh);
-  EXPECT_THROW(world.mesh_collider_positions(mesh), Error);
+  EXPECT_THROW(world.mesh_collider(mesh).positions(), Error);
   EXPECT_TRUE(world.step(dt).ok());
 }
 
@@ -152,13 +152,13 @@ TEST(RunTime, AnAddedThingTakesPartAndARemovedOneNoLonger) {
   floor.position = {0, -1, 0};
   const ColliderId ground = world.add(floor);
   for (int frame = 0; frame < 60; ++frame) world.step(dt);
-  for (const Vec3f& p : world.positions(0)) EXPECT_NEAR(p.y, -1, 0.01f);
+  for (const Vec3f& p : world.object(0).positions()) EXPECT_NEAR(p.y, -1, 0.01f);
   const Collider second = ball();
   const ColliderId other = world.add(second);
   world.remove(ground);
-  EXPECT_EQ(world.collider_position(other).y, second.position.y) << "the id still names it";
+  EXPECT_EQ(world.collider(other).pose().position.y, second.position.y) << "the id still names it";
   for (int frame = 0; frame < 30; ++frame) world.step(dt);
-  for (const Vec3f& p : world.positions(0)) EXPECT_LT(p.y, -1.5f);
+  for (const Vec3f& p : world.object(0).positions()) EXPECT_LT(p.y, -1.5f);
 }
 
 TEST(RunTime, AddedSurfacesMeetOthers) {
@@ -171,10 +171,10 @@ TEST(RunTime, AddedSurfacesMeetOthers) {
     const MeshColliderId under = world.add(collider);
     const ObjectId cloth = world.add(sheet("lands", {0, -0.6f, 0}));
     for (int frame = 0; frame < 40; ++frame) world.step(dt);
-    for (const Vec3f& p : world.positions(cloth)) EXPECT_NEAR(p.y, -0.7f, 0.01f);
+    for (const Vec3f& p : world.object(cloth).positions()) EXPECT_NEAR(p.y, -0.7f, 0.01f);
     world.remove(under);
     for (int frame = 0; frame < 40; ++frame) world.step(dt);
-    for (const Vec3f& p : world.positions(cloth)) EXPECT_LT(p.y, -1.5f);
+    for (const Vec3f& p : world.object(cloth).positions()) EXPECT_LT(p.y, -1.5f);
   }
 }
 
@@ -186,9 +186,9 @@ TEST(RunTime, KeyframesOfWhatIsAddedAreAtTheWorldsTime) {
   Object object = chain(3, 0.1f);
   object.pins.push_back({0, straight({1, 0, 0}, 1)});
   const ObjectId id = world.add(object);
-  EXPECT_NEAR(world.positions(id)[0].x, object.positions[0].x + 0.5f, 1e-6f);
+  EXPECT_NEAR(world.object(id).positions()[0].x, object.positions[0].x + 0.5f, 1e-6f);
   world.step(1.f / 60);
-  EXPECT_NEAR(world.velocities(id)[0].x, 1, 1e-3f);
+  EXPECT_NEAR(world.object(id).velocities()[0].x, 1, 1e-3f);
 }
 
 TEST(RunTime, StatesBelongToTheObjectsOfTheirTime) {

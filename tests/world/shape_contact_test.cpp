@@ -122,11 +122,12 @@ TEST_P(ElementsAtRest, AreHeldAtTheirThickness) {
     for (int frame = 0; frame < 20; ++frame) {
       const Report report = world.step(dt);
       ASSERT_TRUE(report.ok());
-      EXPECT_GT(nearest(collider, 0, world.positions(0)), thickness - 2e-4) << substeps << " substeps, frame " << frame;
+      EXPECT_GT(nearest(collider, 0, world.object(0).positions()), thickness - 2e-4)
+          << substeps << " substeps, frame " << frame;
       EXPECT_TRUE(frame < 10 || report.contacts > 0) << "frame " << frame;
     }
     // By now it is sliding off a corner, but its distance is still that at which it was placed.
-    EXPECT_NEAR(nearest(collider, 0, world.positions(0)), thickness, 1e-3) << substeps << " substeps";
+    EXPECT_NEAR(nearest(collider, 0, world.object(0).positions()), thickness, 1e-3) << substeps << " substeps";
   }
 }
 
@@ -137,7 +138,7 @@ TEST(ShapeContacts, KeepWhatIsSymmetricSymmetric) {
   scene.add(rigid({{-0.5f, 0.06f, 0}, {0.5f, 0.06f, 0}}));
   World world(scene, settings_of(20));
   for (int frame = 0; frame < 60; ++frame) world.step(dt);
-  const std::vector<Vec3f> p = world.positions(0);
+  const std::vector<Vec3f> p = world.object(0).positions();
   EXPECT_NEAR(p[0].x, -p[1].x, 1e-5f);
   EXPECT_NEAR(p[0].y, p[1].y, 1e-5f);
   EXPECT_NEAR(p[0].y, 0.03f, 1e-4f);
@@ -156,7 +157,7 @@ TEST(ShapeContacts, ThrowBackByTheirRestitution) {
   scene.add(link);
   World world(scene, settings_of(20));
   for (int frame = 0; frame < 12; ++frame) world.step(dt);
-  for (const Vec3f& v : world.velocities(0)) EXPECT_NEAR(v.y, 1, 0.01f);
+  for (const Vec3f& v : world.object(0).velocities()) EXPECT_NEAR(v.y, 1, 0.01f);
 }
 
 TEST(ShapeContacts, AreCarriedByWhatMoves) {
@@ -169,9 +170,9 @@ TEST(ShapeContacts, AreCarriedByWhatMoves) {
   World world(scene, settings_of(10));
   for (int frame = 0; frame < 30; ++frame) {
     world.step(dt);
-    EXPECT_GT(nearest(box, world.state().time, world.positions(0)), thickness - 1e-4) << "frame " << frame;
+    EXPECT_GT(nearest(box, world.state().time, world.object(0).positions()), thickness - 1e-4) << "frame " << frame;
   }
-  for (const Vec3f& v : world.velocities(0)) EXPECT_NEAR(v.y, 1, 0.05f);
+  for (const Vec3f& v : world.object(0).velocities()) EXPECT_NEAR(v.y, 1, 0.05f);
 }
 
 /// A link across an edge of a box that moves along that edge: friction must take it along; without friction it must stay.
@@ -187,7 +188,7 @@ TEST(ShapeContacts, HaveFriction) {
     scene.add(link);
     World world(scene, settings_of(20));
     for (int frame = 0; frame < 12; ++frame) world.step(dt);
-    const float moved = 0.5f * (world.positions(0)[0].z + world.positions(0)[1].z);
+    const float moved = 0.5f * (world.object(0).positions()[0].z + world.object(0).positions()[1].z);
     EXPECT_NEAR(moved, friction > 0 ? 0.0096f : 0.f, friction > 0 ? 4e-4f : 1e-6f);
   }
 }
@@ -202,7 +203,7 @@ TEST(ShapeContacts, AreMadeWithAColliderThatCameLater) {
   world.step(dt);
   world.add(smooth(Sphere{0.05f}));
   for (int frame = 0; frame < 30; ++frame) world.step(dt);
-  EXPECT_NEAR(world.positions(0)[0].y, 0.06f, 1e-4f);
+  EXPECT_NEAR(world.object(0).positions()[0].y, 0.06f, 1e-4f);
   EXPECT_EQ(world.step(dt).contacts, 0);  // it was stopped, and no force presses it down
 }
 
@@ -232,7 +233,7 @@ TEST(ShapeContacts, StopShots) {
     scene.add(element);
     World world(scene, settings_of(20));
     for (int frame = 0; frame < 40; ++frame) world.step(1.f / 240);
-    through += nearest(collider, 0, world.positions(0)) < 0.5 * thickness ? 1 : 0;
+    through += nearest(collider, 0, world.object(0).positions()) < 0.5 * thickness ? 1 : 0;
     ++shots;
   }
   EXPECT_EQ(through, 0) << "of " << shots;
@@ -257,7 +258,7 @@ TEST(ShapeContacts, HoldCoarseClothOnASmallSphere) {
     World world(scene, settings_of(20));
     for (int frame = 0; frame < 30; ++frame) {
       ASSERT_TRUE(world.step(dt).ok());
-      const std::vector<Vec3f> x = world.positions(0);
+      const std::vector<Vec3f> x = world.object(0).positions();
       for (const auto& t : mesh.triangles)
         ASSERT_GT(nearest(sphere, 0,
                           {x[static_cast<std::size_t>(t[0])], x[static_cast<std::size_t>(t[1])],

@@ -131,15 +131,15 @@ TEST(SideBySide, NameTheFirstThatFails) {
     World world(crowd(all, threads));
     for (int frame = 0; frame < 5; ++frame) world.step(dt);
     for (const int i : {4, 2}) {
-      std::vector<Vec3f> velocities = world.velocities(i);
+      std::vector<Vec3f> velocities = world.object(i).velocities();
       velocities[7] = {3e38f, 3e38f, 0};
-      world.set_velocities(i, velocities);
+      world.object(i).set_velocities(velocities);
     }
     const Report report = world.step(dt);
     ASSERT_FALSE(report.ok());
     EXPECT_EQ(report.nonfinite->object, "cloth 2");
     for (const int i : all)
-      for (const Vec3f& p : world.positions(i)) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z)) << i;
+      for (const Vec3f& p : world.object(i).positions()) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z)) << i;
   }
 }
 

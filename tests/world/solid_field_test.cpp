@@ -115,7 +115,7 @@ std::vector<Vec3f> rained_on(const MeshCollider& collider, float speed, float fr
   scene.add(grains);
   World world(scene);
   for (int frame = 0; frame < 60; ++frame) EXPECT_TRUE(world.step(dt).ok());
-  return world.positions(0);
+  return world.object(0).positions();
 }
 
 TEST(SolidField, HoldsWhatFallsOnIt) {
@@ -149,7 +149,7 @@ std::vector<Vec3f> way_near_the_ramp(const Vec3f& place, const Vec3f& velocity, 
   std::vector<Vec3f> way{place};
   for (int frame = 0; frame < 40; ++frame) {
     EXPECT_TRUE(world.step(dt).ok());
-    way.push_back(world.positions(0)[0]);
+    way.push_back(world.object(0).positions()[0]);
   }
   return way;
 }
@@ -181,14 +181,14 @@ TEST(SolidField, BringsOutWhatBeginsInside) {
   scene.add(measured_ball(0.5f));
   scene.add(loose_particles({{0.1f, 0.2f, 0.05f}, {-0.3f, 0, 0.1f}}));
   World world(scene);
-  float before = length(world.positions(0)[1]);
+  float before = length(world.object(0).positions()[1]);
   for (int frame = 0; frame < 30; ++frame) {
     world.step(dt);
-    const float now = length(world.positions(0)[1]);
+    const float now = length(world.object(0).positions()[1]);
     EXPECT_LT((now - before) / dt, 2.1f) << "no faster than 2 m/s";
     before = now;
   }
-  for (const Vec3f& p : world.positions(0)) EXPECT_GT(length(p), 0.49f);
+  for (const Vec3f& p : world.object(0).positions()) EXPECT_GT(length(p), 0.49f);
 }
 
 TEST(SolidField, MovesAndIsMaskedAsTrianglesAre) {
@@ -206,8 +206,8 @@ TEST(SolidField, MovesAndIsMaskedAsTrianglesAre) {
   }
   World world(scene);
   for (int frame = 0; frame < 30; ++frame) world.step(dt);
-  EXPECT_GE(world.positions(0)[0].y, 1.99f);  // it stays in front of the solid
-  EXPECT_EQ(world.positions(1)[0].y, 1.f);
+  EXPECT_GE(world.object(0).positions()[0].y, 1.99f);  // it stays in front of the solid
+  EXPECT_EQ(world.object(1).positions()[0].y, 1.f);
 }
 
 std::string refusal(const MeshCollider& collider) {

@@ -82,11 +82,11 @@ TEST(Snapshot, ReadsTheSameInAnyWorld) {
   for (int frame = 0; frame < 10; ++frame) world.step(dt);
   const State state = world.state();
   for (World* each : {&world, &fresh}) each->restore(state);
-  const std::vector<Residual> expected = world.residuals(), found = fresh.residuals();
+  const std::vector<Residual> expected = world.measure().residuals(), found = fresh.measure().residuals();
   ASSERT_EQ(expected.size(), found.size());
   for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].rms, expected[i].rms) << found[i].type;
-  EXPECT_EQ(world.multipliers(0, "distance"), fresh.multipliers(0, "distance"));
-  EXPECT_EQ(world.multipliers(1, "volume"), fresh.multipliers(1, "volume"));
+  EXPECT_EQ(world.object(0).multipliers("distance"), fresh.object(0).multipliers("distance"));
+  EXPECT_EQ(world.object(1).multipliers("volume"), fresh.object(1).multipliers("volume"));
 }
 
 TEST(Hash, SeesEveryMemberAndEveryBit) {

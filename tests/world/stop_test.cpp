@@ -36,8 +36,8 @@ TEST(Stop, EndsWithTheSubstepUnderWay) {
   EXPECT_EQ(world.state().frame, 0) << "the frame is not complete";
   EXPECT_NEAR(world.state().time, 0.03, 1e-9);
   EXPECT_EQ(report.time, world.state().time);
-  EXPECT_NEAR(world.velocities(0)[0].y, -9.81f * 0.03f, 1e-6f) << "the velocity of that moment";
-  EXPECT_NEAR(world.positions(0)[0].y, -9.81f * 0.01f * 0.01f * (1 + 2 + 3), 1e-6f);
+  EXPECT_NEAR(world.object(0).velocities()[0].y, -9.81f * 0.03f, 1e-6f) << "the velocity of that moment";
+  EXPECT_NEAR(world.object(0).positions()[0].y, -9.81f * 0.01f * 0.01f * (1 + 2 + 3), 1e-6f);
 }
 
 TEST(Stop, LetsNothingMoveBeforeAStepAndGoesOnAfterIt) {

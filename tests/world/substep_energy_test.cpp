@@ -34,7 +34,7 @@ Scene drop(int n, float height, float speed, float radius) {
   return scene;
 }
 
-double energy(const World& world) { return world.kinetic_energy() + world.potential_energy(); }
+double energy(const World& world) { return world.measure().kinetic_energy() + world.measure().potential_energy(); }
 
 /// The most by which kinetic and gravitational energy rise above an earlier minimum [J/kg].
 double energy_gain(const Scene& scene, int frames) {
@@ -127,7 +127,8 @@ TEST(SubstepEnergy, IsNotGainedAtImpactsOnASmallBall) {
 /// The angular momentum of an object's particles about the origin [kg m^2/s].
 Vec3<double> angular_momentum(const World& world, ObjectId object) {
   Vec3<double> sum{};
-  const auto positions = world.positions_in_storage_order(object), velocities = world.velocities_in_storage_order(object);
+  const auto positions = world.object(object).positions_in_storage_order(),
+             velocities = world.object(object).velocities_in_storage_order();
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Record &p = positions[i], &u = velocities[i];
     const Vec3<double> x{double(p.x), double(p.y), double(p.z)}, v{double(u.x), double(u.y), double(u.z)};
@@ -166,7 +167,7 @@ TEST(SubstepEnergy, FreeFallDoesNotSeeChangesOfSubsteps) {
   Scene scene = drop(24, 0, 0, 0.15f);
   scene.colliders.clear();
   World world(scene);
-  const std::vector<Vec3f> start = world.positions({0});
+  const std::vector<Vec3f> start = world.object({0}).positions();
   constexpr int frames = 30;
   for (int frame = 0; frame < frames; ++frame) {
     State state = world.state();
@@ -175,7 +176,7 @@ TEST(SubstepEnergy, FreeFallDoesNotSeeChangesOfSubsteps) {
     ASSERT_TRUE(world.step(dt).ok());
   }
   const double time = frames * static_cast<double>(dt), fall = 0.5 * 9.81 * time * time;
-  const std::vector<Vec3f> at = world.positions({0}), v = world.velocities({0});
+  const std::vector<Vec3f> at = world.object({0}).positions(), v = world.object({0}).velocities();
   for (std::size_t i = 0; i < at.size(); ++i) {
     EXPECT_NEAR(v[i].y, -9.81 * time, 1e-5 * 9.81 * time);
     EXPECT_NEAR(std::hypot(v[i].x, v[i].z), 0, 1e-4);

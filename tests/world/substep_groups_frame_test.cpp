@@ -36,7 +36,8 @@ TEST(SubstepGroups, AddUpInTheReport) {
 TEST(SubstepGroups, AreMeasuredWithTheirOwnSubsteps) {
   World world(scene_of({flag(), sock()})), one(scene_of({flag()})), other(scene_of({sock()}));
   for (World* each : {&world, &one, &other}) run(*each, 20);
-  const std::vector<Residual> sum = world.residuals(), a = one.residuals(), b = other.residuals();
+  const std::vector<Residual> sum = world.measure().residuals(), a = one.measure().residuals(),
+                              b = other.measure().residuals();
   ASSERT_EQ(sum.size(), a.size());
   for (std::size_t i = 0; i < sum.size(); ++i) {
     SCOPED_TRACE(sum[i].type);
@@ -101,7 +102,7 @@ TEST(SubstepGroups, HaveAllMovedAsFarWhereTheyStop) {
   const double time = world.state().time;
   EXPECT_GT(time, 0);
   for (const int o : {0, 1})
-    for (const Vec3f& v : world.velocities(o)) ASSERT_NEAR(v.y, -9.81 * time, 1e-5) << o;
+    for (const Vec3f& v : world.object(o).velocities()) ASSERT_NEAR(v.y, -9.81 * time, 1e-5) << o;
 }
 
 TEST(SubstepGroups, AreDividedEachForTheFastCollidersThatItMeets) {
@@ -128,9 +129,9 @@ TEST(SubstepGroups, AreDividedEachForTheFastCollidersThatItMeets) {
 TEST(SubstepGroups, NameWhatIsNotFiniteAndLeaveAFiniteState) {
   Scene scene = scene_of({flag(), sock()});
   World world(scene);
-  std::vector<Vec3f> velocities = world.velocities(1);
+  std::vector<Vec3f> velocities = world.object(1).velocities();
   velocities[20] = {3e38f, 0, 0};
-  world.set_velocities(ObjectId(1), velocities);
+  world.object(ObjectId(1)).set_velocities(velocities);
   const Report report = world.step(dt);
   ASSERT_FALSE(report.ok());
   EXPECT_EQ(report.nonfinite->object, "sock");
@@ -162,9 +163,9 @@ TEST(SubstepGroups, TellTheirContactsAsEvents) {
 TEST(SubstepGroups, MoveTargetsAndGivenForcesInTheirOwnTime) {
   const auto push = [](World& world, ObjectId object) {
     const std::vector<int> pins{0};
-    const std::vector<Vec3f> to{world.positions(object)[0] + Vec3f{0.01f, 0, 0}};
-    world.set_targets(object, pins, to);
-    world.set_forces(object, std::vector<Vec3f>(world.positions(object).size(), {0, 0.001f, 0}));
+    const std::vector<Vec3f> to{world.object(object).positions()[0] + Vec3f{0.01f, 0, 0}};
+    world.object(object).set_targets(pins, to);
+    world.object(object).set_forces(std::vector<Vec3f>(world.object(object).positions().size(), {0, 0.001f, 0}));
   };
   World world(scene_of({flag(), sock()})), one(scene_of({flag()})), other(scene_of({sock()}));
   for (int frame = 0; frame < 10; ++frame) {
@@ -185,7 +186,7 @@ TEST(SubstepGroups, AreOneForALayoutWithATolerance) {
   scene.settings.iterations = 4;
   World world(scene);
   World again(scene, world.layout());
-  EXPECT_EQ(again.info(0).substeps, world.info(0).substeps);
+  EXPECT_EQ(again.object(0).info().substeps, world.object(0).info().substeps);
   run(world, 5);
   run(again, 5);
   EXPECT_EQ(again.state_hash(), world.state_hash());

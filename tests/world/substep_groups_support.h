@@ -74,9 +74,9 @@ inline constexpr int frames = 40;
 
 /// Expects that object `o` of one World has the positions and velocities of object `other` of another World.
 inline void expect_the_same(const World& world, ObjectId o, const World& alone, ObjectId other) {
-  expect_equal_bits(world.positions(o), alone.positions(other));
-  expect_equal_bits(world.velocities(o), alone.velocities(other));
-  expect_equal_bits(world.orientations(o), alone.orientations(other));
+  expect_equal_bits(world.object(o).positions(), alone.object(other).positions());
+  expect_equal_bits(world.object(o).velocities(), alone.object(other).velocities());
+  expect_equal_bits(world.object(o).orientations(), alone.object(other).orientations());
 }
 
 inline void run(World& world, int count = frames) {
@@ -96,7 +96,7 @@ inline void expect_each_set_as_alone(const std::vector<std::vector<Object>>& set
     run(alone);
     for (int i = 0; i < static_cast<int>(set.size()); ++i, ++o) {
       SCOPED_TRACE(set[static_cast<std::size_t>(i)].name);
-      EXPECT_EQ(together.info(o).substeps, alone.info(i).substeps);
+      EXPECT_EQ(together.object(o).info().substeps, alone.object(i).info().substeps);
       expect_the_same(together, o, alone, i);
     }
   }

@@ -17,8 +17,8 @@ using namespace testing_support;
 TEST(SubstepGroups, AFlagBesideASockIsAsAlone) {
   World world(scene_of({flag(), sock()}));
   EXPECT_EQ(world.settings().substeps, 0) << "there is no one number";
-  EXPECT_EQ(world.info(0).substeps, 10);
-  EXPECT_EQ(world.info(1).substeps, 20);
+  EXPECT_EQ(world.object(0).info().substeps, 10);
+  EXPECT_EQ(world.object(1).info().substeps, 20);
   EXPECT_EQ(world.step(dt).substeps, 20);
   expect_each_set_as_alone({{flag()}, {sock()}});
   expect_each_set_as_alone({{sock()}, {flag()}});
@@ -188,7 +188,7 @@ TEST(SubstepGroups, AreFoundAgainWhenObjectsComeAndGo) {
   run(world, 10);  // one group from now on
   EXPECT_EQ(world.step(dt).substeps, 10);
   const ObjectId next = world.add(sock());
-  EXPECT_EQ(world.info(next).substeps, 20) << "before the next step, too";
+  EXPECT_EQ(world.object(next).info().substeps, 20) << "before the next step, too";
   EXPECT_EQ(world.step(dt).substeps, 20);
   run(world, frames - 22);
   expect_the_same(world, 0, alone, 0);
@@ -201,16 +201,16 @@ TEST(SubstepGroups, JoinWhenAnObjectBetweenThemComes) {
   a.mask = 2;
   World world(scene_of({a, sock()}));
   run(world, 2);
-  EXPECT_EQ(world.info(0).substeps, 10);
+  EXPECT_EQ(world.object(0).info().substeps, 10);
   Object between = sheet("coat", {5, 0.5f, 0});
   between.sweep = Sweep::tiled;
   between.collides = true;
   between.groups = 2;
   const ObjectId id = world.add(between);
-  EXPECT_EQ(world.info(0).substeps, 20);
+  EXPECT_EQ(world.object(0).info().substeps, 20);
   run(world, 2);
   world.remove(id);
-  EXPECT_EQ(world.info(0).substeps, 10);
+  EXPECT_EQ(world.object(0).info().substeps, 10);
   run(world, 2);
 }
 
@@ -229,8 +229,8 @@ TEST(SubstepGroups, AreThoseOfAWorldMadeFromALayout) {
   run(world, 5);
   run(resumed, 5);
   const ObjectId one = world.add(sock()), other = resumed.add(sock());
-  EXPECT_EQ(world.info(one).substeps, 20);
-  EXPECT_EQ(resumed.info(other).substeps, 20);
+  EXPECT_EQ(world.object(one).info().substeps, 20);
+  EXPECT_EQ(resumed.object(other).info().substeps, 20);
   run(world, 5);
   run(resumed, 5);
   EXPECT_EQ(resumed.state_hash(), world.state_hash());

@@ -19,7 +19,7 @@ TEST(SubstepLaw, IsUsedWhereChainsAreSolvedAndTheSceneNamesNoSubsteps) {
   EXPECT_EQ(chosen_sweep(scene, 0), Sweep::chains);
   EXPECT_EQ(chosen_substeps(scene), std::vector<int>{0});
   EXPECT_EQ(chosen_settings(scene).substeps, 0);
-  EXPECT_EQ(World(scene).info({0}).substeps, 0);
+  EXPECT_EQ(World(scene).object({0}).info().substeps, 0);
   scene.settings.substeps = 15;
   EXPECT_EQ(chosen_substeps(scene), std::vector<int>{15});
   World world(scene);
@@ -71,7 +71,7 @@ TEST(SubstepLaw, KeepsAnImpactWithinTwoPercent) {
   Overstretch worst;
   for (int frame = 0; frame < 80; ++frame) {
     world.step(dt);
-    const Overstretch now = world.overstretch();
+    const Overstretch now = world.measure().overstretch();
     worst.p99 = std::max(worst.p99, now.p99);
     worst.largest = std::max(worst.largest, now.largest);
   }
@@ -128,7 +128,7 @@ TEST(SubstepLaw, BelongsToASetOfObjects) {
     ASSERT_TRUE(world.step(dt).ok());
     ASSERT_TRUE(other.step(dt).ok());
   }
-  const std::vector<Vec3f> a = world.positions({1}), b = other.positions({0});
+  const std::vector<Vec3f> a = world.object({1}).positions(), b = other.object({0}).positions();
   EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3f)), 0);
   EXPECT_NE(world.state().substeps[0], world.state().substeps[1]);
 }
@@ -267,14 +267,14 @@ TEST(SubstepLaw, IgnoresConstraintsBetweenPins) {
   World world(scene);
   std::vector<int> row;
   std::vector<Vec3f> spread;
-  const std::vector<Vec3f> start = world.positions({0});
+  const std::vector<Vec3f> start = world.object({0}).positions();
   for (int i = 0; i < 30; ++i) {
     row.push_back(i);
     spread.push_back(
         {start[static_cast<std::size_t>(i)].x, start[static_cast<std::size_t>(i)].y, start[static_cast<std::size_t>(i)].z});
   }
   spread[15].y += 0.02f;  // two links of the row are now far too long
-  world.set_targets({0}, row, spread);
+  world.object({0}).set_targets(row, spread);
   run(world, 400);
   EXPECT_LE(world.step(dt).substeps, 40);
 }

@@ -28,7 +28,7 @@ float sinks(const std::function<void(Object& held, Object& falling)>& change) {
   World world(scene);
   for (int frame = 0; frame < 30; ++frame) world.step(dt);
   float lowest = 1;
-  for (const Vec3f& p : world.positions(1)) lowest = std::min(lowest, p.y);
+  for (const Vec3f& p : world.object(1).positions()) lowest = std::min(lowest, p.y);
   return -lowest;
 }
 
@@ -60,9 +60,9 @@ TEST(Thickness, OfMoreThanTheEdgesMovesNothing) {
   scene.gravity = {};
   scene.add(cloth(sheet(8, 0.35f, 0), 0.05f));
   World world(scene);
-  const std::vector<Vec3f> start = world.positions(0);
+  const std::vector<Vec3f> start = world.object(0).positions();
   for (int frame = 0; frame < 5; ++frame) world.step(dt);
-  const std::vector<Vec3f> end = world.positions(0);
+  const std::vector<Vec3f> end = world.object(0).positions();
   for (std::size_t i = 0; i < start.size(); ++i) EXPECT_LT(length_squared(end[i] - start[i]), 1e-10f) << i;
 }
 
@@ -76,11 +76,11 @@ TEST(Layers, ComeToRestAtTheirThickness) {
     const Report report = world.step(dt);
     if (frame < 60) continue;
     truncated += report.pairs.truncated;
-    ASSERT_LT(world.kinetic_energy(), 1e-6) << "frame " << frame;
+    ASSERT_LT(world.measure().kinetic_energy(), 1e-6) << "frame " << frame;
   }
   EXPECT_LT(truncated, 60 * 10 * 192 / 100) << "steps at rest are not truncated";
   for (int i = 0; i < 3; ++i)
-    for (const Vec3f& p : world.positions(i))
+    for (const Vec3f& p : world.object(i).positions())
       EXPECT_NEAR(p.y, 0.002f + 0.004f * static_cast<float>(i), 2e-4f) << "layer " << i;
 }
 
@@ -105,7 +105,7 @@ float slid(float degrees, float friction) {
   scene.add(object);
   World world(scene);
   for (int frame = 0; frame < 60; ++frame) world.step(dt);
-  return length(world.positions(0)[12] - start);
+  return length(world.object(0).positions()[12] - start);
 }
 
 TEST(Slope, HoldsClothBelowTheAngleOfFriction) {
@@ -138,7 +138,7 @@ TEST(Tangle, IsCountedDoesNotExplodeAndIsForgottenOnceApart) {
     report = world.step(dt);
     ASSERT_TRUE(report.ok()) << report.explain();
     for (int o = 0; o < 2; ++o)
-      for (const Vec3f& v : world.velocities(o)) ASSERT_LT(length(v), 3.f) << "frame " << frame;
+      for (const Vec3f& v : world.object(o).velocities()) ASSERT_LT(length(v), 3.f) << "frame " << frame;
   }
   EXPECT_EQ(watch.crossings(world), 0u);
   EXPECT_EQ(report.pairs.initially_intersecting, 0);

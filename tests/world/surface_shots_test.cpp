@@ -52,12 +52,13 @@ int shot_through(bool filter, std::size_t& crossings) {
     crossings += watch.crossings(world);
   }
   float lowest = 0;
-  for (const Vec3f& p : world.positions(target)) lowest = std::min(lowest, p.y);
+  for (const Vec3f& p : world.object(target).positions()) lowest = std::min(lowest, p.y);
   int through = 0;
   for (int k = 0; k < 16; ++k) {
     // A pebble that slid over the border is below the cloth too. Its free flight back to the level of the cloth shows
     // where it passed.
-    const Vec3f at = world.positions(1 + k)[0], v = world.velocities(1 + k)[0], passed = at - v * (at.y / v.y);
+    const Vec3f at = world.object(1 + k).positions()[0], v = world.object(1 + k).velocities()[0],
+                passed = at - v * (at.y / v.y);
     if (at.y < lowest - 0.02f && std::abs(passed.x) < 0.2f && std::abs(passed.z) < 0.2f) ++through;
   }
   return through;
@@ -91,7 +92,7 @@ float drift_of_a_thrown_sheet(float speed, float friction, int vertices_across, 
   for (int frame = 0; frame < frames; ++frame) {
     world.step(dt);
     Vec3f sum{};
-    for (const Vec3f& p : world.positions(number)) sum += p;
+    for (const Vec3f& p : world.object(number).positions()) sum += p;
     most = std::max(most, std::hypot(sum.x, sum.z) / 256);
   }
   return most;

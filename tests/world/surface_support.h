@@ -49,7 +49,7 @@ class Watch {
       for (const auto& t : mesh.triangles) triangles_.push_back({first + t[0], first + t[1], first + t[2]});
       object_of_.insert(object_of_.end(), mesh.positions.size(), object);
     };
-    for (int o = 0; o < objects_; ++o) add(world.mesh(o), o);
+    for (int o = 0; o < objects_; ++o) add(world.object(o).mesh(), o);
     for (const MeshCollider& collider : scene.mesh_colliders) add(collider.mesh, objects_);
     finder_ = std::make_unique<IntersectionFinder>(triangles_, static_cast<int>(object_of_.size()));
   }
@@ -58,7 +58,7 @@ class Watch {
   std::size_t crossings(const World& world, const Vec3f& carried = {}) {
     std::vector<Vec3f> places;
     for (int o = 0; o < objects_; ++o) {
-      const std::vector<Vec3f> more = world.positions(o);
+      const std::vector<Vec3f> more = world.object(o).positions();
       places.insert(places.end(), more.begin(), more.end());
     }
     for (const MeshCollider& collider : scene_.mesh_colliders)

@@ -51,7 +51,7 @@ TEST(Tumbling, StiffTubesComeToRest) {
   World world(scene);
   for (int frame = 0; frame < 300; ++frame) ASSERT_TRUE(world.step(scene.frame_time).ok());
   for (int i = 0; i < throws; ++i) {
-    for (const Vec3f& v : world.velocities(i)) EXPECT_LT(std::sqrt(length_squared(v)), 0.1f) << "tube " << i;
+    for (const Vec3f& v : world.object(i).velocities()) EXPECT_LT(std::sqrt(length_squared(v)), 0.1f) << "tube " << i;
   }
 }
 

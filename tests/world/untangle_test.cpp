@@ -65,9 +65,9 @@ std::size_t crossings(const World& world, const Scene& scene) {
     for (const auto& t : of) triangles.push_back({first + t[0], first + t[1], first + t[2]});
     places.insert(places.end(), at.begin(), at.end());
   };
-  for (int o = 0; o < world.object_count(); ++o) add(world.mesh(o).triangles, world.positions(o));
+  for (int o = 0; o < world.object_count(); ++o) add(world.object(o).mesh().triangles, world.object(o).positions());
   for (std::size_t i = 0; i < scene.mesh_colliders.size(); ++i)
-    add(scene.mesh_colliders[i].mesh.triangles, world.mesh_collider_positions(static_cast<int>(i)));
+    add(scene.mesh_colliders[i].mesh.triangles, world.mesh_collider(static_cast<int>(i)).positions());
   return IntersectionFinder(triangles, static_cast<int>(places.size())).find(places).size();
 }
 
@@ -78,11 +78,11 @@ std::size_t left_after(const Scene& scene, int frames, float& fastest) {
   fastest = 0;
   for (int frame = 0; frame < frames; ++frame) {
     std::vector<std::vector<Vec3f>> before;
-    for (int o = 0; o < world.object_count(); ++o) before.push_back(world.positions(o));
+    for (int o = 0; o < world.object_count(); ++o) before.push_back(world.object(o).positions());
     const Report report = world.step(dt);
     EXPECT_TRUE(report.ok()) << report.explain();
     for (int o = 0; o < world.object_count(); ++o) {
-      const std::vector<Vec3f> after = world.positions(o);
+      const std::vector<Vec3f> after = world.object(o).positions();
       for (std::size_t i = 0; i < after.size(); ++i)
         fastest = std::max(fastest, length(after[i] - before[static_cast<std::size_t>(o)][i]) / dt);
     }
@@ -106,7 +106,7 @@ TEST(Untangle, BringsOutWhatIsInsideABody) {
   EXPECT_GT(world.step(dt).pairs.inside, 20);
   for (int frame = 0; frame < 60; ++frame) world.step(dt);
   EXPECT_EQ(world.step(dt).pairs.inside, 0);
-  for (const Vec3f& p : world.positions(0)) EXPECT_GT(length(p - Vec3f{0, -0.02f, 0}), 0.09f);
+  for (const Vec3f& p : world.object(0).positions()) EXPECT_GT(length(p - Vec3f{0, -0.02f, 0}), 0.09f);
   EXPECT_GT(left_after(pierced(Intersections::leave), 60, fastest), 5U);
 }
 
@@ -114,9 +114,9 @@ TEST(Untangle, KeepsToItsSpeed) {
   Scene scene = pierced(Intersections::untangle);
   scene.settings.untangling_speed = 0.05f;
   World world(scene);
-  std::vector<Vec3f> before = world.positions(0);
+  std::vector<Vec3f> before = world.object(0).positions();
   world.step(dt);
-  const std::vector<Vec3f> after = world.positions(0);
+  const std::vector<Vec3f> after = world.object(0).positions();
   float most = 0;
   for (std::size_t i = 0; i < after.size(); ++i) most = std::max(most, length(after[i] - before[i]));
   EXPECT_GT(most, 0.5f * 0.05f * dt);
@@ -141,7 +141,7 @@ Fastest watch_speeds(World& world, int frames) {
   for (int frame = 0; frame < frames; ++frame) {
     const PairReport pairs = world.step(dt).pairs;
     for (int o = 0; o < world.object_count(); ++o)
-      for (const Vec3f& v : world.velocities(o)) fastest.ever = std::max(fastest.ever, length(v));
+      for (const Vec3f& v : world.object(o).velocities()) fastest.ever = std::max(fastest.ever, length(v));
     if (pairs.inside > 0 || pairs.initially_intersecting > 0) fastest.while_tangled = fastest.ever;
   }
   return fastest;

@@ -52,9 +52,9 @@ TEST(World, OfNothingSteps) {
   World world{Scene{}};
   for (int frame = 0; frame < 3; ++frame) EXPECT_TRUE(world.step(dt).ok());
   EXPECT_EQ(world.object_count(), 0);
-  EXPECT_EQ(world.kinetic_energy(), 0);
-  EXPECT_EQ(world.potential_energy(), 0);
-  EXPECT_TRUE(world.residuals().empty());
+  EXPECT_EQ(world.measure().kinetic_energy(), 0);
+  EXPECT_EQ(world.measure().potential_energy(), 0);
+  EXPECT_TRUE(world.measure().residuals().empty());
   EXPECT_EQ(world.state().frame, 3);
   EXPECT_NEAR(world.state().time, 3 * dt, 1e-6);
 }
@@ -67,7 +67,7 @@ TEST(World, OfCollidersAloneMovesThem) {
   scene.add(ball);
   World world(scene);
   for (int frame = 0; frame < 30; ++frame) EXPECT_TRUE(world.step(dt).ok());
-  EXPECT_NEAR(world.collider_position(0).x, 0.5, 1e-6);
+  EXPECT_NEAR(world.collider(0).pose().position.x, 0.5, 1e-6);
 }
 
 TEST(World, OfOneParticleFalls) {
@@ -75,10 +75,10 @@ TEST(World, OfOneParticleFalls) {
   scene.add(loose_particles({{1, 2, 3}}));
   World world(scene, settings_of(1));
   world.step(0.5f);
-  EXPECT_NEAR(world.positions(0)[0].y, 2 - 9.81f * 0.25f, 1e-5);
-  EXPECT_NEAR(world.kinetic_energy(), 0.5 * 4.905 * 4.905, 1e-4);
-  EXPECT_EQ(world.enclosed_volume(0), 0);
-  EXPECT_TRUE(world.mesh(0).triangles.empty());
+  EXPECT_NEAR(world.object(0).positions()[0].y, 2 - 9.81f * 0.25f, 1e-5);
+  EXPECT_NEAR(world.measure().kinetic_energy(), 0.5 * 4.905 * 4.905, 1e-4);
+  EXPECT_EQ(world.object(0).enclosed_volume(), 0);
+  EXPECT_TRUE(world.object(0).mesh().triangles.empty());
 }
 
 TEST(World, OfFixedParticlesAloneStaysWhereItIs) {
@@ -87,9 +87,9 @@ TEST(World, OfFixedParticlesAloneStaysWhereItIs) {
   object.masses.assign(3, infinity);
   scene.add(object);
   World world(scene);
-  const std::vector<Vec3f> before = world.positions(0);
+  const std::vector<Vec3f> before = world.object(0).positions();
   for (int frame = 0; frame < 5; ++frame) EXPECT_TRUE(world.step(dt).ok());
-  EXPECT_EQ(world.positions(0), before);
+  EXPECT_EQ(world.object(0).positions(), before);
 }
 
 TEST(World, OfASceneGivenAwayIsTheSame) {
@@ -127,32 +127,33 @@ TEST(World, CanBeMovedFromAndToAnother) {
 TEST(World, RefusesIndicesThatDoNotExist) {
   World world(hanging_cloth());
   for (int index : {-1, 1, 1000000, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()}) {
-    EXPECT_THROW(world.info(index), Error);
-    EXPECT_THROW(world.positions(index), Error);
-    EXPECT_THROW(world.velocities(index), Error);
-    EXPECT_THROW(world.mesh(index), Error);
-    EXPECT_THROW(world.multipliers(index, "distance"), Error);
-    EXPECT_THROW(world.enclosed_volume(index), Error);
-    EXPECT_THROW(world.collider_position(index), Error);
-    EXPECT_THROW(world.collider_rotation(index), Error);
+    EXPECT_THROW(world.object(index).info(), Error);
+    EXPECT_THROW(world.object(index).positions(), Error);
+    EXPECT_THROW(world.object(index).velocities(), Error);
+    EXPECT_THROW(world.object(index).mesh(), Error);
+    EXPECT_THROW(world.object(index).multipliers("distance"), Error);
+    EXPECT_THROW(world.object(index).enclosed_volume(), Error);
+    EXPECT_THROW(world.collider(index).pose().position, Error);
+    EXPECT_THROW(world.collider(index).pose().rotation, Error);
   }
-  EXPECT_TRUE(world.multipliers(0, "no such type").empty());
-  EXPECT_TRUE(world.multipliers(0, "dihedral_bending").empty()) << "none are kept for one iteration unless asked for";
-  EXPECT_FALSE(world.multipliers(0, "distance").empty()) << "overstretch is measured with them";
+  EXPECT_TRUE(world.object(0).multipliers("no such type").empty());
+  EXPECT_TRUE(world.object(0).multipliers("dihedral_bending").empty())
+      << "none are kept for one iteration unless asked for";
+  EXPECT_FALSE(world.object(0).multipliers("distance").empty()) << "overstretch is measured with them";
 }
 
 TEST(World, CountsWhatWasCompiled) {
   Scene scene = hanging_cloth();
   scene.objects[0].attachments.push_back({40, {1, 1, 1}, {}, {}});
   World world(scene);
-  const ObjectInfo info = world.info(0);
+  const ObjectInfo info = world.object(0).info();
   EXPECT_EQ(info.name, "cloth");
   EXPECT_EQ(info.particles, 144);
   ASSERT_EQ(info.constraints.size(), 2u);
   EXPECT_EQ(info.constraints[0], std::make_pair(std::string("distance"), std::int64_t{2 * 12 * 11 + 11 * 11 + 1}));
   EXPECT_EQ(info.constraints[1], std::make_pair(std::string("dihedral_bending"), std::int64_t{2 * 11 * 10 + 11 * 11}));
-  EXPECT_EQ(world.positions(0).size(), 144u) << "the attachment's target is no particle of the user's";
-  EXPECT_EQ(world.mesh(0).triangles.size(), 2u * 11 * 11);
+  EXPECT_EQ(world.object(0).positions().size(), 144u) << "the attachment's target is no particle of the user's";
+  EXPECT_EQ(world.object(0).mesh().triangles.size(), 2u * 11 * 11);
   EXPECT_EQ(world.threads(), 1);
 }
 

@@ -20,6 +20,6 @@ int main() {
     pliant::Report report = world.step(1.f / 60);
     if (!report.ok()) return std::cerr << report.explain() << "\n", 1;
   }
-  pliant::write_mesh("draped.ply", world.mesh(cloth));
+  pliant::write_mesh("draped.ply", world.object(cloth).mesh());
   std::cout << "wrote draped.ply\n";
 }

@@ -49,8 +49,8 @@ int main() {
     pliant::Report report = world.step(1.f / 60);
     if (!report.ok()) return std::cerr << report.explain() << "\n", 1;
   }
-  const pliant::Vec3f end = world.positions(0)[1];
+  const pliant::Vec3f end = world.object(0).positions()[1];
   if (std::abs(end.y - 1) > 0.001f) return std::cerr << "the weight hangs at " << end.y << " m, not at 1 m\n", 1;
-  if (world.info(0).constraints.front().first != "leash") return std::cerr << "the type is not counted\n", 1;
+  if (world.object(0).info().constraints.front().first != "leash") return std::cerr << "the type is not counted\n", 1;
   std::cout << "the weight hangs at " << end.y << " m\n";
 }

@@ -93,7 +93,7 @@ int main() {
   world.remove(other);
   expect(!world.has(other), "a removed object is gone");
   try {
-    world.positions(other);
+    world.object(other).positions();
     expect(false, "a stale id is refused");
   } catch (const pliant::Error&) {
   }
@@ -101,7 +101,7 @@ int main() {
   const pliant::ObjectId hanging = world.add(weight);
 
   std::vector<pliant::Vec3f> impulses(81, pliant::Vec3f{0, 0.0001f, 0});
-  world.add_impulses(cloth, impulses);
+  world.object(cloth).add_impulses(impulses);
   int begun = 0;
   for (int frame = 0; frame < 60; ++frame) {
     if (!world.step(dt).ok()) return 1;
@@ -113,22 +113,23 @@ int main() {
   const std::vector<int> path{4, 13, 22, 31, 40, 49, 58, 67, 76};
   const pliant::Edit edit = pliant::cut(sheet, path);
   world.edit(cloth, edit);
-  expect(world.info(cloth).particles == 90, "a cut splits nine particles");
+  expect(world.object(cloth).info().particles == 90, "a cut splits nine particles");
 
   const pliant::RigidPose lifted{{0, 0.2f, 0}, {}};
-  world.set_poses(std::span<const pliant::ColliderId>(&floor, 1), {&lifted, 1});
+  world.collider(floor).set_pose(lifted);
   for (int frame = 0; frame < 30; ++frame) world.step(dt);
   std::vector<pliant::Vec3f> positions(90);
-  world.read_positions(cloth, positions);
+  world.object(cloth).read_positions(positions);
   for (const pliant::Vec3f& p : positions) expect(p.y > 0.19f, "the ground carries the cloth");
-  expect(world.storage_order(cloth).size() == world.positions_in_storage_order(cloth).size(), "one number a record");
+  expect(world.object(cloth).storage_order().size() == world.object(cloth).positions_in_storage_order().size(),
+         "one number a record");
 
   pliant::Scene now = scene;
   for (const pliant::ObjectId id : world.objects()) now.objects.push_back(id == cloth ? edit.object : weight);
   now.colliders = {ground};
   expect_to_go_on_from_a_file(world, now);
   for (int frame = 0; frame < 300; ++frame) world.step(dt);
-  const pliant::Vec3f end = world.positions(hanging)[1];
+  const pliant::Vec3f end = world.object(hanging).positions()[1];
   expect(end.y > 0.999f && end.y < 1.001f, "the program's own constraint holds the weight");
   return failures == 0 ? 0 : 1;
 }

@@ -1,0 +1,36 @@
+// Changes of an object of a World: cutting, removing triangles, and changes of your own. World::edit makes them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "pliant/scene.h"
+
+namespace pliant {
+
+/// A change of an object: its new description, and where its particles come from. remove_triangles and cut make one. To
+/// change masses, stiffness, pins and the like, change `object` yourself.
+struct Edit {
+  Object object;
+  /// For each particle of `object`: the old particle whose position and velocity it takes, or -1 for a new one, which
+  /// starts at its position in `object`. Several particles may have the same origin.
+  std::vector<int> from;
+  // Frames are matched by index: those that exist before and after keep orientation and angular velocity.
+};
+
+/// An Edit that changes nothing, as a start for changes of your own.
+Edit unchanged(const Object& object);
+
+/// Removes triangles, and the constraints that only they supported: pairs of particles that no triangle contains any
+/// more, and larger stencils with a missing triangle. Particles keep their indices. Throws an Error if a triangle does
+/// not exist.
+Edit remove_triangles(const Object& object, std::span<const int> triangles);
+
+/// Cuts a surface along a path of particles, each joined to the next by a triangle's edge. A particle is split where
+/// the cut separates its triangles: inside the path, and at an end on the border. Copies follow all other particles;
+/// masses are divided by triangle area, so mass and momentum are conserved. Constraints across the cut are removed. An
+/// edge on the cut stays on both sides, its stiffness divided by area. Throws an Error if two neighbours of the path
+/// share no edge.
+Edit cut(const Object& object, std::span<const int> path);
+
+}  // namespace pliant

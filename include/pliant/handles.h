@@ -1,0 +1,147 @@
+// Handles of what is in a World, to read and control it between steps: World::object(id).positions().
+//
+// A view reads, a handle reads and controls. Both are small values: an id and a pointer to the World. They are valid while
+// the World lives, also if it is moved. All functions throw an Error if the thing was removed.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pliant/mesh.h"
+#include "pliant/state.h"
+
+namespace pliant {
+
+struct WorldData;
+
+/// Facts about an object of a World.
+struct ObjectInfo {
+  std::string name;
+  int particles = 0;
+  std::vector<std::pair<std::string, std::int64_t>> constraints;  ///< number of constraints of each type, "volume" included
+  int substeps = 0;  ///< substeps per frame; 0: they follow the State. Fast colliders may increase them (Report::substeps)
+};
+
+/// Reads an object.
+class ObjectView {
+ public:
+  ObjectView(const WorldData& world, ObjectId id) : read_(&world), id_(id) {}
+  ObjectId id() const { return id_; }
+  ObjectInfo info() const;
+
+  /// The positions of the particles in the user's order [m].
+  std::vector<Vec3f> positions() const;
+  std::vector<Vec3f> velocities() const;  ///< in the user's order [m/s]
+  /// The orientations of the frames, in the order of Object::frames.
+  std::vector<Quatf> orientations() const;
+  std::vector<Vec3f> angular_velocities() const;  ///< in world axes, in the order of Object::frames [rad/s]
+  TriangleMesh mesh() const;                      ///< the surface at its present positions
+  double enclosed_volume() const;                 ///< volume enclosed by the triangles [m^3]
+
+  /// Copies positions into the caller's memory, one for each particle. Throws an Error if the size differs.
+  void read_positions(std::span<Vec3f> into) const;
+  void read_velocities(std::span<Vec3f> into) const;
+
+  /// Spans of the particles in storage order: positions with the inverse mass as w, and velocities with w zero. They are
+  /// valid until the next step or change. Record i is particle storage_order()[i]; indices beyond the object's own
+  /// particles are targets of attachments.
+  std::span<const Record> positions_in_storage_order() const;
+  std::span<const Record> velocities_in_storage_order() const;
+  std::span<const int> storage_order() const;
+
+  /// The multipliers of the last substep in the order of the object's constraint groups of that type, row by row; empty
+  /// if they were not stored: those of compliant distances always are, others if Settings::record_multipliers is set.
+  /// The force is lambda / h^2 along the gradient (XPBD, eq. 17).
+  std::vector<float> multipliers(const std::string& type) const;
+
+ private:
+  const WorldData* read_;
+  ObjectId id_;
+};
+
+/// Reads and controls an object, between steps. Calls with wrong sizes or values that are not finite throw an Error that
+/// names object and element, and change nothing.
+class ObjectHandle : public ObjectView {
+ public:
+  ObjectHandle(WorldData& world, ObjectId id) : ObjectView(world, id), world_(&world) {}
+
+  /// Moves kinematic particles (pins, infinite mass) at constant velocity to `positions` [m], which they reach at the
+  /// end of the next step. After that they stay, or follow their keyframes, if any.
+  void set_targets(std::span<const int> particles, std::span<const Vec3f> positions);
+  /// Moves the targets of attachments in the same way. `attachments` are indices in the Object.
+  void set_attachment_targets(std::span<const int> attachments, std::span<const Vec3f> positions);
+  /// Sets the velocity of each particle [m/s]; those of infinite mass are skipped.
+  void set_velocities(std::span<const Vec3f> velocities);
+  /// Adds an impulse to each particle [N s]: velocity += impulse / mass.
+  void add_impulses(std::span<const Vec3f> impulses);
+  /// Applies a constant force to each particle during the next step [N]. Replaces the forces of an earlier call.
+  void set_forces(std::span<const Vec3f> forces);
+
+ private:
+  WorldData* world_;
+};
+
+/// A pose of a collider: a point p of its local frame is at rotation p + position.
+struct RigidPose {
+  Vec3f position{};  ///< position of the local frame's origin [m]
+  Quatf rotation{};  ///< quaternion of any non-zero length
+};
+
+/// Reads a primitive collider.
+class ColliderView {
+ public:
+  ColliderView(const WorldData& world, ColliderId id) : read_(&world), id_(id) {}
+  ColliderId id() const { return id_; }
+  RigidPose pose() const;  ///< the current pose; its rotation is a unit quaternion
+
+ private:
+  const WorldData* read_;
+  ColliderId id_;
+};
+
+/// Reads and controls a primitive collider, between steps.
+class ColliderHandle : public ColliderView {
+ public:
+  ColliderHandle(WorldData& world, ColliderId id) : ColliderView(world, id), world_(&world) {}
+  /// Moves the collider to a pose that it reaches at the end of the next step: position at constant velocity, rotation
+  /// along the shorter arc. After that it stays, or follows its keyframes, if any. Throws an Error if the pose is not
+  /// finite or its rotation is zero.
+  void set_pose(const RigidPose& pose);
+
+ private:
+  WorldData* world_;
+};
+
+/// Reads a mesh collider.
+class MeshColliderView {
+ public:
+  MeshColliderView(const WorldData& world, MeshColliderId id) : read_(&world), id_(id) {}
+  MeshColliderId id() const { return id_; }
+  /// The current positions of the vertices in the mesh's own order [m].
+  std::vector<Vec3f> positions() const;
+  /// Copies them into the caller's memory. Throws an Error if the size differs.
+  void read_positions(std::span<Vec3f> into) const;
+
+ private:
+  const WorldData* read_;
+  MeshColliderId id_;
+};
+
+/// Reads and controls a mesh collider, between steps.
+class MeshColliderHandle : public MeshColliderView {
+ public:
+  MeshColliderHandle(WorldData& world, MeshColliderId id) : MeshColliderView(world, id), world_(&world) {}
+  /// Moves it like a primitive collider. The pose applies to the mesh as deformed by its frames.
+  void set_pose(const RigidPose& pose);
+  /// Moves the vertices of a mesh that collides as triangles to positions that they reach at the end of the next step
+  /// [m]. Throws an Error if it is a distance grid or a heightfield, or if size or values are wrong.
+  void set_positions(std::span<const Vec3f> positions);
+
+ private:
+  WorldData* world_;
+};
+
+}  // namespace pliant

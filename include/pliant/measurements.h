@@ -1,0 +1,40 @@
+// Measurements of the State of a World, and what to do where the solve falls short.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pliant/report.h"
+
+namespace pliant {
+
+struct WorldData;
+
+/// Measures a World between steps. A small value that is valid while the World lives.
+class Measurements {
+ public:
+  explicit Measurements(const WorldData& world) : world_(&world) {}
+
+  /// Kinetic and gravitational energy of all dynamic particles [J]. Heights are relative to the origin.
+  double kinetic_energy() const;
+  double potential_energy() const;
+  std::vector<Residual> residuals() const;
+  Stretch stretch() const;
+  /// The overstretch of the present State. Before the first step, after World::restore and after a frame that was not
+  /// completed, the forces in compliant constraints are unknown, so their whole stretch counts.
+  Overstretch overstretch() const;
+
+  /// Describes it: "object 'sheet': stretched 14 % too far at its pins (edge 12-13), 1 edge in 100 by 3 % or more". Of an
+  /// object that was removed, or edited so that it lacks these particles, only the figures.
+  std::string describe(const Overstretch& found) const;
+  /// Says where the solve fell short, by how much, and what to do; empty if is_tolerable(found). `found` is that of a
+  /// frame of this World, or the worst of all. pliant::advise tries remedies.
+  std::string advice(const Overstretch& found) const;
+  /// The same for the frame of a Report; empty if that was not completed.
+  std::string advice(const Report& report) const;
+
+ private:
+  const WorldData* world_;
+};
+
+}  // namespace pliant

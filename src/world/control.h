@@ -1,0 +1,21 @@
+// What the user set between steps: motions, poses and forces of the next frame.
+#pragma once
+
+#include "math/motion.h"
+#include "world/world_data.h"
+
+namespace pliant {
+
+/// The present pose of a collider, as set by the user or by its keyframes.
+Posed pose_now(const WorldData& world, ColliderId id);
+Posed pose_now(const WorldData& world, MeshColliderId id);
+
+/// Sets the times of user motions, before a step of `dt` seconds.
+void begin_control(WorldData& world, double dt);
+/// Stores poses that stay, and discards the rest, after a step. `was_stopped`: it ended before the frame was complete.
+void end_control(WorldData& world, bool was_stopped);
+
+/// Discards the pose that the user set for a collider that is removed.
+void forget_pose(WorldData& world, bool is_mesh, int slot);
+
+}  // namespace pliant

@@ -1,0 +1,189 @@
+// Makes the substep groups of a World, keeps their contact between surfaces up to date, and plans their frames.
+#include "world/groups.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "inspect/inspect_scene.h"
+#include "solver/divide.h"
+#include "solver/substep_law.h"
+
+namespace pliant {
+
+namespace {
+
+/// Makes the contact between surfaces for all objects of a group.
+void make_pairs(WorldData& world, SubstepGroup& group) {
+  std::unique_ptr<PairModel>& pairs = group.has_all ? world.groups.pairs_of_all : group.pair_model;
+  std::unique_ptr<SurfaceContact>& contact = group.has_all ? world.workspace.pairs : group.pairs;
+  contact = nullptr;
+  pairs = make_pair_model(world.model, group.has);  // `has` is empty if the group has all objects
+  if (pairs == nullptr) return;
+  pairs->filter = world.settings.contact_filter;
+  if (world.settings.initial_intersections == Settings::Intersections::untangle)
+    pairs->untangling_speed = world.settings.untangling_speed;
+  contact = std::make_unique<SurfaceContact>(*pairs, world.kernels.pairs);
+  world.workspace.look_for_tangles = true;
+}
+
+/// Updates the contact between surfaces of a group for the objects whose numbers are in `changed`.
+void update_pairs(WorldData& world, SubstepGroup& group, const std::vector<int>& changed) {
+  PairModel* pairs = group.has_all ? world.groups.pairs_of_all.get() : group.pair_model.get();
+  if (pairs == nullptr || pairs->untangling_speed > 0) return make_pairs(world, group);
+  const std::optional<PairChanges> changes = update_pair_model(world.model, changed, *pairs);
+  if (!changes) return make_pairs(world, group);
+  (group.has_all ? world.workspace.pairs : group.pairs)->change(*changes);
+}
+
+/// Moves to a group the contact of the earlier group with equal substeps, and updates it for objects that changed group.
+void take_over_pairs(WorldData& world, SubstepGroup& group, SubstepGroup& before) {
+  if (before.pair_model == nullptr) return make_pairs(world, group);
+  std::vector<int> changed = world.groups.changed_surfaces;
+  for (int o = 0; o < static_cast<int>(group.has.size()); ++o) {
+    const bool had = o < static_cast<int>(before.has.size()) && before.has[o] != 0;
+    if (had != (group.has[o] != 0)) changed.push_back(o);
+  }
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  group.pair_model = std::move(before.pair_model);
+  group.pairs = std::move(before.pairs);
+  group.pair_model->has = group.has;
+  if (!changed.empty()) update_pairs(world, group, changed);
+}
+
+/// Finds the groups of objects with the same substeps. Their contact between surfaces is not made yet.
+std::vector<SubstepGroup> find_groups(const WorldData& world) {
+  std::vector<SubstepGroup> found;
+  if (named_substeps(world) > 0)
+    found.push_back(group_of_all(world.model, named_substeps(world)));
+  else
+    found = make_substep_groups(world.model);
+  if (named_substeps(world) > 0 || (world.settings.tolerance <= 0 && !world.settings.record_residuals)) return found;
+  int most = 0;  // because the tolerance is for all objects together
+  for (const SubstepGroup& group : found) most = std::max(most, group.substeps);
+  found.clear();
+  found.push_back(group_of_all(world.model, most));
+  return found;
+}
+
+bool have_common_object(const SubstepGroup& a, const SubstepGroup& b) {
+  const std::size_t count = std::min(a.has.size(), b.has.size());
+  for (std::size_t o = 0; o < count; ++o)
+    if (a.has[o] != 0 && b.has[o] != 0) return true;
+  return false;
+}
+
+/// Finds the groups, and makes their contact between surfaces or takes it over from the groups before.
+void prepare_groups(WorldData& world) {
+  std::vector<SubstepGroup> before = std::exchange(world.groups.all, find_groups(world));
+  if (before.size() == 1 && world.groups.all.size() == 1) return;  // still one group of all objects, whose contact stays
+  world.workspace.pairs = nullptr;
+  world.groups.pairs_of_all = nullptr;
+  for (SubstepGroup& group : world.groups.all) {
+    const auto same = std::find_if(before.begin(), before.end(), [&](const SubstepGroup& one) {
+      if (one.has_all || group.has_all || one.by_state != group.by_state) return false;
+      return group.by_state ? have_common_object(one, group) : one.substeps == group.substeps;
+    });
+    same != before.end() ? take_over_pairs(world, group, *same) : make_pairs(world, group);
+  }
+  world.groups.changed_surfaces.clear();
+}
+
+/// Updates the contact between surfaces, if all objects are in one group.
+void update_surfaces(WorldData& world) {
+  if (world.groups.changed_surfaces.empty()) return;
+  update_pairs(world, world.groups.all.front(), world.groups.changed_surfaces);
+  world.groups.changed_surfaces.clear();
+}
+
+/// Sets the bounds of substeps that follow the State, whole numbers in each quarter of a frame. False if the largest is less than a
+/// substep for each quarter: it is then the fixed number of the frame.
+template <class Limited>
+bool set_bounds(const Settings& settings, const SubstepGroup& group, const Limited& limited, GroupFrame& frame) {
+  const auto up = [](int substeps) { return (substeps + quarters - 1) / quarters * quarters; };
+  const auto down = [](int substeps) { return substeps / quarters * quarters; };
+  const int named = up(settings.least_substeps);
+  const int most = limited(settings.most_substeps > 0 ? settings.most_substeps : std::max(named, most_by_state));
+  frame.substeps = most;
+  if (most < quarters) return false;
+  frame.most_substeps = down(most);
+  const auto within = [&](int least) { return std::min(up(least), frame.most_substeps); };
+  frame.substeps = within(named > 0 ? named : std::max(group.least, least_by_state));
+  if (group.hangs)
+    frame.least_hanging =
+        named > 0 ? frame.substeps : std::min(std::max(least_of_hanging, group.least_hanging), frame.most_substeps);
+  return true;
+}
+
+/// By what factor fast colliders may increase the substeps of a frame, unless Settings::most_substeps permits more.
+constexpr int default_division = 8;
+
+GroupFrame plan(const WorldData& world, const SubstepGroup& group, double dt, std::vector<std::string>& warnings) {
+  const double shortest = dt / shortest_substep;
+  const auto limited = [&](int substeps) { return shortest < substeps ? static_cast<int>(shortest) : substeps; };
+  GroupFrame frame{&group, group.substeps};
+  int most = world.settings.most_substeps > 0 ? world.settings.most_substeps : default_division * group.substeps;
+  if (group.by_state && !set_bounds(world.settings, group, limited, frame)) return frame;
+  const PairModel* pairs = group.has_all ? world.groups.pairs_of_all.get() : group.pair_model.get();
+  if (pairs == nullptr) return frame;
+  PlannedFrame planned{world.state.time, dt, frame.substeps, limited(most), group.substeps};
+  if (group.by_state) {
+    const int usual = frame.most_substeps;
+    planned = {world.state.time,
+               dt,
+               frame.substeps,
+               world.settings.most_substeps > 0 ? usual : limited(most) / quarters * quarters,
+               usual,
+               quarters};
+  }
+  frame.substeps = divided_substeps(world.model, world.workspace.control, *pairs, world.state, planned, warnings);
+  if (group.by_state) frame.most_substeps = std::max(frame.substeps, frame.most_substeps);
+  return frame;
+}
+
+}  // namespace
+
+void note_surfaces(WorldData& world, int number) {
+  const CompiledObject& object = world.model.objects[number];
+  const auto is_mesh = [](const CompiledObject& one) { return one.is_collider && one.groups != 0; };
+  const auto has_pairs = [&](const SubstepGroup& group) {
+    return world.groups.pairs_of_all != nullptr || group.pairs != nullptr;
+  };
+  if (std::any_of(world.groups.all.begin(), world.groups.all.end(), has_pairs) || object.self_collision ||
+      (object.collides && object.groups != 0) ||
+      std::any_of(world.model.objects.begin(), world.model.objects.end(), is_mesh))
+    world.groups.changed_surfaces.push_back(number);
+}
+
+void bring_up_to_date(WorldData& world) {
+  if (world.groups.objects_changed || world.groups.all.empty()) prepare_groups(world);
+  update_surfaces(world);
+  if (!world.groups.objects_changed) return;
+  for (TileScratch& tile : world.workspace.tiles)
+    tile.contacts.clear();  // contacts have collider indices, which may have changed
+  if (world.settings.tolerance > 0) prepare_residual(world.model, world.workspace.residual);
+  world.groups.objects_changed = false;
+}
+
+int substeps_of(const WorldData& world, int number) {
+  if (named_substeps(world) > 0) return named_substeps(world);
+  const auto find = [&](const std::vector<SubstepGroup>& all) {
+    const auto has = [&](const SubstepGroup& group) { return group.has_all || group.has[number] != 0; };
+    const SubstepGroup& group = *std::find_if(all.begin(), all.end(), has);
+    return group.by_state ? 0 : group.substeps;
+  };
+  return world.groups.objects_changed ? find(find_groups(world)) : find(world.groups.all);
+}
+
+std::vector<GroupFrame> plan_frame(const WorldData& world, double dt, Report& report) {
+  std::vector<GroupFrame> frames;
+  for (const SubstepGroup& group : world.groups.all) {
+    frames.push_back(plan(world, group, dt, report.warnings));
+    // Where substeps follow the State, only those made are known, and end_group() counts them.
+    if (frames.back().most_substeps == 0) report.substeps = std::max(report.substeps, frames.back().substeps);
+  }
+  return frames;
+}
+
+}  // namespace pliant

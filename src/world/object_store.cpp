@@ -1,0 +1,186 @@
+// Gives objects their part of the State and the workspace when they are added, removed or edited, and takes it away.
+#include "world/object_store.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "collision/fields/solid_fields.h"
+#include "math/motion.h"
+#include "solver/sweeps/sweep.h"
+#include "world/groups.h"
+
+namespace pliant {
+
+namespace {
+
+/// Which multipliers to store: all if requested, else those that a second pass, residuals, or the limit of overstretch
+/// need.
+Multipliers kept_multipliers(const Settings& settings, Sweep sweep) {
+  if (settings.record_multipliers || settings.record_residuals) return Multipliers::all;
+  const bool more_passes = settings.iterations * sweep_method(sweep).passes > 1;
+  if (more_passes || settings.measure) return Multipliers::needed;
+  const bool is_limited = solves_chains(sweep) && settings.sweep_options.most_overstretch > 0;
+  return is_limited ? Multipliers::lengths : Multipliers::lengths_in_last;
+}
+
+/// The part of the State that belongs to one object, in storage order.
+struct ObjectState {
+  Records positions, remainders, velocities, orientations, angular_velocities;
+  std::vector<std::vector<float>> channels;
+  float substeps = 0;  ///< State::substeps
+};
+
+/// Resizes the State to the model's particles and frames.
+void fit_state(WorldData& world) {
+  const auto particles = static_cast<std::size_t>(world.model.particles());
+  for (Records* records : {&world.state.positions, &world.state.remainders, &world.state.velocities})
+    records->resize(particles);
+  resize_frames(world.model, world.state.frames);
+  if (!world.state.substeps.empty()) world.state.substeps.resize(world.model.objects.size());
+  for (Channel& channel : world.state.channels)
+    channel.values.resize(particles * static_cast<std::size_t>(channel.components));
+}
+
+/// Returns the State of an object, and sets that part of the State to zero.
+ObjectState take_state(WorldData& world, int number) {
+  const int first = world.model.first[number], particles = world.model.objects[number].particles;
+  const int first_frame = world.model.first_frame[number], frames = world.model.end_of_frames(number) - first_frame;
+  const auto slice = [](const auto& all, std::ptrdiff_t begin, std::ptrdiff_t count) {
+    return std::decay_t<decltype(all)>(all.begin() + begin, all.begin() + begin + count);
+  };
+  ObjectState out{slice(world.state.positions, first, particles),
+                  slice(world.state.remainders, first, particles),
+                  slice(world.state.velocities, first, particles),
+                  slice(world.state.frames.orientations, first_frame, frames),
+                  slice(world.state.frames.angular_velocities, first_frame, frames),
+                  {},
+                  world.state.substeps.empty() ? 0 : world.state.substeps[static_cast<std::size_t>(number)]};
+  for (Records* records :
+       {&world.state.positions, &world.state.remainders, &world.state.velocities, &world.workspace.displacements})
+    std::fill_n(records->begin() + first, particles, Record{});
+  clear_frames(first_frame, frames, world.state.frames);
+  for (Channel& channel : world.state.channels) {
+    const std::ptrdiff_t begin = std::ptrdiff_t{first} * channel.components,
+                         count = std::ptrdiff_t{particles} * channel.components;
+    out.channels.push_back(slice(channel.values, begin, count));
+    std::fill_n(channel.values.begin() + begin, count, 0.f);
+  }
+  return out;
+}
+
+/// Gives particle i of an object the kept state of particle origins[i], unless that is -1. All are in storage order.
+void give_back_state(WorldData& world, int number, const ObjectState& kept, const std::vector<int>& origins) {
+  for (std::size_t i = 0; i < origins.size(); ++i) {
+    if (origins[i] < 0) continue;
+    const auto from = static_cast<std::size_t>(origins[i]), at = static_cast<std::size_t>(world.model.first[number]) + i;
+    Record& x = world.state.positions[at];
+    x = {kept.positions[from].x, kept.positions[from].y, kept.positions[from].z, x.w};
+    world.state.remainders[at] = kept.remainders[from];
+    world.state.velocities[at] = x.w > 0 ? kept.velocities[from] : Record{};
+    for (std::size_t c = 0; c < world.state.channels.size(); ++c) {
+      const auto components = static_cast<std::size_t>(world.state.channels[c].components);
+      for (std::size_t k = 0; k < components; ++k)
+        world.state.channels[c].values[at * components + k] = kept.channels[c][from * components + k];
+    }
+  }
+  if (!world.state.substeps.empty()) world.state.substeps[static_cast<std::size_t>(number)] = kept.substeps;
+  const auto first_frame = static_cast<std::size_t>(world.model.first_frame[number]);
+  const std::size_t frames = std::min(kept.orientations.size(), world.model.objects[number].frames.size());
+  for (std::size_t i = 0; i < frames; ++i) {
+    world.state.frames.orientations[first_frame + i] = kept.orientations[i];
+    world.state.frames.angular_velocities[first_frame + i] = kept.angular_velocities[i];
+  }
+}
+
+/// Discards what the user set for an object or mesh collider that is removed or edited.
+void forget_control(WorldData& world, int number) {
+  world.workspace.control.objects.erase(number);
+  world.workspace.control.meshes.erase(number);
+}
+
+}  // namespace
+
+void move_to_present(const CompiledObject& object, double time, Record* positions) {
+  const auto put = [&](int particle, const Vec3d& place) {
+    const Vec3f at = convert<float>(place);
+    positions[particle] = {at.x, at.y, at.z, positions[particle].w};
+  };
+  if (object.carrier.moves()) {
+    const CarrierPose pose(object.carrier, time);
+    for (int i = 0; i < object.particles; ++i) put(i, pose.place(i));
+  }
+  for (const Kinematic& kinematic : object.kinematics)
+    put(kinematic.particle, to_world(pose_at(kinematic.motion, time), convert<double>(kinematic.rest)));
+}
+
+std::shared_ptr<const SolidField> field_of(const MeshCollider& collider) {
+  return collider.as == MeshCollider::As::triangles ? nullptr : solid_field_of(collider);
+}
+
+int add_to_model(WorldData& world, const MeshCollider& collider, CompiledObject compiled) {
+  std::shared_ptr<const SolidField> field = field_of(collider);  // first, because it may throw
+  const int number = world.model.add(std::move(compiled));
+  add_field(world, collider, std::move(field), number);
+  return number;
+}
+
+void add_field(WorldData& world, const MeshCollider& collider, std::shared_ptr<const SolidField> field, int number) {
+  if (field == nullptr) return;
+  const auto after = std::find_if(world.model.fields.begin(), world.model.fields.end(),
+                                  [&](const FieldCollider& one) { return one.object > number; });
+  world.model.fields.insert(after, {number, std::move(field), collider.motion, collider.thickness, collider.static_friction,
+                                    collider.kinetic_friction, collider.restitution, collider.groups, collider.mask});
+}
+
+void prepare_object(WorldData& world, int number) {
+  pliant::prepare(world.model, number, kept_multipliers(world.settings, world.model.objects[number].sweep),
+                  world.workspace);
+  prepare_sweep(world.model, number, world.settings, world.executor.threads(), world.workspace);
+  world.groups.objects_changed = true;
+}
+
+void place_object(WorldData& world, int number) {
+  put_at_start(world.model, number, world.state);
+  if (number < static_cast<int>(world.state.substeps.size())) world.state.substeps[number] = 0;  // of an earlier object
+  fit_state(world);
+  if (world.state.time != 0)
+    move_to_present(world.model.objects[number], world.state.time, &world.state.positions[world.model.first[number]]);
+  prepare_object(world, number);
+  note_surfaces(world, number);
+}
+
+void remove_object(WorldData& world, int number) {
+  note_surfaces(world, number);
+  (void)take_state(world, number);
+  world.model.remove(number);
+  forget_control(world, number);
+  std::erase_if(world.model.fields, [&](const FieldCollider& field) { return field.object == number; });
+  world.state.blocks[number] = {0, 0, world.model.generation[number]};
+  if (!world.state.substeps.empty()) world.state.substeps[number] = 0;
+  const auto is_zero = [](float substeps) { return substeps == 0; };
+  if (std::all_of(world.state.substeps.begin(), world.state.substeps.end(), is_zero)) world.state.substeps.clear();
+  fit_state(world);
+  prepare_object(world, number);
+  drop_unused_sweeps(world.model, world.workspace);
+}
+
+void replace_object(WorldData& world, int number, CompiledObject by, const std::vector<int>& from) {
+  note_surfaces(world, number);
+  const CompiledObject& old = world.model.objects[number];
+  const int particles = old.particles;
+  // Targets of attachments follow the particles in the user's order; an edit does not reorder them.
+  const auto origin = [&](int user) {
+    const int at = user < by.user_particles ? from[user] : user - by.user_particles + old.user_particles;
+    return at < 0 || at >= particles ? -1 : old.place[at];
+  };
+  std::vector<int> origins;
+  for (const int user : by.order) origins.push_back(origin(user));
+  const ObjectState kept = take_state(world, number);
+  forget_control(world, number);
+  world.model.replace(number, std::move(by));
+  place_object(world, number);
+  drop_unused_sweeps(world.model, world.workspace);
+  give_back_state(world, number, kept, origins);
+}
+
+}  // namespace pliant
