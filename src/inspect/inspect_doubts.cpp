@@ -8,6 +8,7 @@
 #include "constraints/registry.h"
 #include "geometry/shapes.h"
 #include "inspect/problems.h"
+#include "model/object_sets.h"
 #include "topology/boundary.h"
 #include "topology/edges.h"
 
@@ -187,6 +188,13 @@ void doubt_volume(const Doubts& d) {
   if (six_volumes < 0)
     d.problems.doubtful("volume", "is inside out: its triangles face inward",
                         "flip all triangles; make_cloth does so itself");
+  const bool is_rigid = d.object.volume->stiffness.kind == Stiffness::Kind::pbd || d.object.volume->stiffness.value == 0;
+  if (is_rigid && !can_follow_volume(d.object))
+    d.problems.doubtful("volume",
+                        "has a pressure of " + words(d.object.volume->pressure) + ", for which edges must become " +
+                            words(std::round(1000 * strain_of_inflated(d.object)) / 10) +
+                            " % longer, but they are too stiff for that",
+                        "lower the pressure, or give the distances more compliance");
 }
 
 // ------------------------------------------------------------------------------------------------ surroundings

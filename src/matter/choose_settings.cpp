@@ -272,7 +272,8 @@ Choice choose(const Scene& scene, const Settings& settings, const Object& object
   if (settings.iterations > 1) return {Sweep::tiled, "more than one iteration"};
   const std::size_t particles = linked_particles(object.positions.size(), springs);
   if (is_coarse(particles)) return {Sweep::tiled, too_coarse};
-  if (object.volume && object.volume->pressure > 1) return {Sweep::tiled, name + ", which is inflated"};
+  if (object.volume && !can_follow_volume(object))
+    return {Sweep::tiled, name + ", which is inflated, though its edges resist that"};
   if (object.volume) return {Sweep::chains, name + ", which has a volume"};
   // Neither tethers nor multigrid know of bending, which demands more substeps than they need for stretch.
   const bool is_stiff = is_stiff_sheet(object, gravity), is_in_rows = is_regular(object);

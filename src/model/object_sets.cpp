@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "constraints/registry.h"
+#include "math/functions.h"
 #include "math/vector.h"
 
 namespace pliant {
@@ -90,9 +91,40 @@ bool swings(const Object& object) {
   const double whole = extent(object.positions, [](const Vec3f& p) { return p; });
   return extent(object.pins, of_pin) < swinging_share * whole;
 }
+
 /// Substeps of chains where there is a volume, which is corrected after the lengths and pushes them out again: an edge in a
 /// hundred of a balloon is 5 % too long with 20, 0.6 % with 80.
 constexpr int substeps_of_volumes = 80;
+/// An inflated object may have up to twice as many, with which its overstretch stays below 2 %.
+constexpr int most_substeps_of_volumes = 160;
+constexpr double wanted_overstretch = 0.018;
+/// Beyond this overstretch an inflated object would jitter: its edges gain energy from the volume that pushes them.
+constexpr double most_overstretch_of_volumes = 0.08;
+
+/// The mean of 1 / compliance of an object's distances [N/m]; infinite if one of them is rigid or has PBD stiffness.
+double mean_stiffness(const Object& object) {
+  double sum = 0, count = 0;
+  for (const ConstraintGroup& group : object.constraints) {
+    if (!is_length(group.type)) continue;
+    const bool is_pbd = group.stiffness.kind != Stiffness::Kind::compliance;
+    for (std::size_t i = 0; 2 * i + 1 < group.particles.size(); ++i) {
+      const float compliance = is_pbd ? 0 : i < group.compliances.size() ? group.compliances[i] : group.stiffness.value;
+      sum += 1 / std::max(static_cast<double>(compliance), 1e-30);
+      ++count;
+    }
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+double mean_mass(const Object& object) {
+  double sum = 0, count = 0;
+  for (const float m : object.masses) {
+    if (!std::isfinite(m)) continue;
+    sum += static_cast<double>(m);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
 
 bool can_meet(const SetMember& a, const SetMember& b) {
   const bool by_masks = (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
@@ -158,8 +190,24 @@ bool blows(const Wind& wind, const std::vector<ForceField>& forces) {
   return !forces.empty() || (wind.air_density > 0 && length(wind.velocity) > 0);
 }
 
+double strain_of_inflated(const Object& object) {
+  if (!object.volume || !(object.volume->pressure > 1)) return 0;
+  return pow(static_cast<double>(object.volume->pressure), 1.0 / 3) - 1;
+}
+
+double overstretch_of_inflated(const Object& object) {
+  const double mass = mean_mass(object), h = 1.0 / 60 / substeps_of_volumes;
+  return mass > 0 ? 1.8 * strain_of_inflated(object) * h * h * mean_stiffness(object) / mass : 0;
+}
+
+bool can_follow_volume(const Object& object) { return overstretch_of_inflated(object) <= most_overstretch_of_volumes; }
+
 int own_substeps(const Object& object, Sweep sweep, bool is_blown) {
-  if (object.volume && solves_chains(sweep) && !has_converted(object)) return substeps_of_volumes;
+  if (object.volume && solves_chains(sweep) && !has_converted(object)) {
+    const double too_long = can_follow_volume(object) ? overstretch_of_inflated(object) / wanted_overstretch : 0;
+    const int needed = static_cast<int>(std::ceil(substeps_of_volumes * std::sqrt(too_long)));
+    return std::clamp(needed, substeps_of_volumes, most_substeps_of_volumes);
+  }
   if (sweep != Sweep::multigrid || has_converted(object)) return substeps_of_others;
   const auto moves = [](const Pin& pin) { return pin.motion.keyframes.size() > 1; };
   const bool is_disturbed = is_blown || object.collides || object.self_collision || swings(object) ||

@@ -288,6 +288,11 @@ TEST(InspectScene, DoubtfulConstraintsAndSurfaces) {
     for (auto& t : s.objects[0].triangles) std::swap(t[0], t[1]);
   };
   expect_doubt("inside out", inside_out, balloon_scene());
+  const auto inflate = [](Scene& s) {
+    s.objects[0].volume->pressure = 1.4f;
+    stretch(s).compliances.assign(stretch(s).compliances.size(), 0);
+  };
+  expect_doubt("edges must become 11.9 % longer", inflate, balloon_scene());
 }
 
 TEST(InspectScene, DoubtfulOverlaps) {
