@@ -36,7 +36,7 @@ SweepOptions sweep_options_of(const JsonValue& at) {
   return options;
 }
 
-Settings settings_of(const JsonValue& at) {
+Settings settings_of(const JsonDocument& document, const JsonValue& at) {
   Settings settings;
   set(at, "substeps", settings.substeps);
   set(at, "iterations", settings.iterations);
@@ -58,6 +58,8 @@ Settings settings_of(const JsonValue& at) {
   set(at, "sweep", sweep);
   settings.sweep = sweep_of(sweep);
   if (const JsonValue* options = at.find("sweep_options")) settings.sweep_options = sweep_options_of(*options);
+  if (const auto error = error_of_bounds(settings))
+    document.fail(*at.find("least_substeps"), error->problem(), error->advice());
   return settings;
 }
 
@@ -323,7 +325,7 @@ SceneFile build(const JsonDocument& document, const MeshFolder& folder) {
   set(root, "frame_time", scene.frame_time);
   set(root, "frames", scene.frames);
   if (const JsonValue* wind = root.find("wind")) scene.wind = wind_of(*wind);
-  if (const JsonValue* settings = root.find("settings")) scene.settings = settings_of(*settings);
+  if (const JsonValue* settings = root.find("settings")) scene.settings = settings_of(document, *settings);
   Names objects, colliders;
   std::size_t particles = 0;
   for (const JsonValue& item : elements(root, "objects")) {

@@ -10,17 +10,27 @@ namespace {
 
 constexpr int turns = 3;  // number of rounds in which all curves are timed
 
+/// A World at the frame from which curves start, and the substeps of the frame before it; of the first frame if it is at
+/// the start.
+struct Start {
+  World world;
+  int substeps = 0;
+};
+
 /// Simulates the scene with its own settings up to the frame from which curves start.
-World run_to(const Scene& scene, int frames, const Options& options) {
+Start run_to(const Scene& scene, int frames, const Options& options) {
   Settings settings = scene.settings;
   settings.measure = settings.record_residuals = settings.record_multipliers = false;
-  World world(scene, settings);
-  for (int frame = 0; frame < frames; ++frame) {
+  Start start{World(scene, settings)};
+  const State at_start = start.world.state();
+  for (int frame = 0; frame < std::max(frames, 1); ++frame) {
     if (options.pause) options.pause();
-    const Report report = world.step(scene.frame_time);
+    const Report report = start.world.step(scene.frame_time);
     if (!report.ok()) throw Error({}, report.explain());
+    start.substeps = report.substeps;
   }
-  return world;
+  if (frames == 0) start.world.restore(at_start);
+  return start;
 }
 
 std::vector<Method> methods_of(const Scene& scene, const Options& options) {
@@ -71,19 +81,21 @@ std::string type_of(const std::vector<Curve>& curves) {
   return primal.empty() ? "none" : primal.front().type;
 }
 
-/// The substeps of curves and runs where those of the scene follow the State.
-constexpr int substeps_where_they_follow_the_state = 30;
+/// The substeps of the curves, where all objects have the same substep: the most of any object. Where they follow the
+/// State, those that the scene had in the frame before.
+int substeps_of_curves(const Scene& given, const Start& start) {
+  const int named = chosen_settings(given).substeps;
+  if (named > 0) return named;
+  const std::vector<int> substeps = chosen_substeps(given);
+  const bool follow = std::find(substeps.begin(), substeps.end(), 0) != substeps.end();
+  return follow ? start.substeps : *std::max_element(substeps.begin(), substeps.end());
+}
 
 }  // namespace
 
 Result run(const Scene& given, const Options& options) {
   Scene scene = given;
   scene.settings = chosen_settings(given);
-  if (scene.settings.substeps == 0) {  // all objects need the same substep
-    const std::vector<int> substeps = chosen_substeps(given);
-    const int most = *std::max_element(substeps.begin(), substeps.end());
-    scene.settings.substeps = most > 0 ? most : substeps_where_they_follow_the_state;
-  }
   const std::vector<Method> methods = methods_of(scene, options);
   Result result;
   result.frame = options.frame < 0 ? scene.frames / 2 : options.frame;
@@ -91,14 +103,15 @@ Result run(const Scene& given, const Options& options) {
   result.frames = scene.frames;
   result.budget = options.budget;
   result.by_default = default_in_words(given);
-  World start = run_to(scene, result.frame, options);
+  Start start = run_to(scene, result.frame, options);
+  scene.settings.substeps = substeps_of_curves(given, start);
   result.substep = substep_of(scene, options);
   add_default(given, options, result);
   std::vector<Method> measured;
   for (const Method& method : methods) {
     if (options.pause) options.pause();
     try {
-      result.curves.push_back(measure_curve(scene, start, method, options));
+      result.curves.push_back(measure_curve(scene, start.world, method, options));
       measured.push_back(method);
       if (options.budget > 0 && scene.frames > 0) result.budgeted.push_back(fit_budget(scene, method, options));
     } catch (const Error& error) {
@@ -106,7 +119,8 @@ Result run(const Scene& given, const Options& options) {
     }
   }
   for (int turn = 1; turn < turns; ++turn)
-    for (std::size_t i = 0; i < measured.size(); ++i) time_again(scene, start, measured[i], options, result.curves[i]);
+    for (std::size_t i = 0; i < measured.size(); ++i)
+      time_again(scene, start.world, measured[i], options, result.curves[i]);
   if (result.curves.empty())
     throw Error(
         {}, "every sweep was rejected, the first, " + result.refused.front().name + ": " + result.refused.front().reason);

@@ -1,6 +1,7 @@
 // pliant bench: measures the workloads of apps/bench, and prints each row of a table when it is measured.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "give_back.h"
 #include "interrupt.h"
 #include "output.h"
+#include "scene_hints.h"
 #include "simulate.h"
 
 namespace pliant::command {
@@ -130,6 +132,19 @@ std::string bench_default(const BenchOptions& options) {
   return to_json(pliant::bench::measure_scenes(scenes, wanted));
 }
 
+/// Throws an Error with a similar name if there is no such workload.
+void refuse_unknown(const std::string& workload) {
+  std::vector<std::string> names;
+  for (const pliant::bench::Workload& frames : pliant::bench::workloads()) names.push_back(frames.name);
+  for (const char* other : {"contact", "default", "memory", "W3", "W3-ball", "W3-cloth"}) names.emplace_back(other);
+  if (workload.empty() || std::find(names.begin(), names.end(), workload) != names.end()) return;
+  const std::string near = scene_file::nearest_name(workload, names);
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  throw Error({}, "there is no workload '" + workload + "'",
+              (near.empty() ? "" : "did you mean '" + near + "'? ") + "the workloads are " + list);
+}
+
 /// Measures a workload that has rows of its own, and returns them as JSON; nullopt for other workloads.
 std::optional<std::string> bench_by_name(const BenchOptions& options) {
   if (options.workload == "contact") return bench_contact(options);
@@ -143,6 +158,7 @@ std::optional<std::string> bench_by_name(const BenchOptions& options) {
 }  // namespace
 
 int bench(const BenchOptions& options) {
+  refuse_unknown(options.workload);
   std::unique_ptr<AtomicFile> file;
   if (!options.json.empty()) file = std::make_unique<AtomicFile>(options.json);
   if (const auto json = bench_by_name(options)) {

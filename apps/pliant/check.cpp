@@ -113,8 +113,9 @@ void try_out(const Scene& scene, double seconds, std::vector<Finding>& findings)
   const Advice advice = advise(scene, {seconds, 120, stops});
   const std::string more_time =
       advice.cut_short ? "; --seconds " + compare::figure(more_seconds(advice, seconds), 3) + " tries more" : "";
+  for (const std::string& warning : advice.warnings) findings.push_back({false, "in a trial run, " + warning, ""});
   if (!advice.words.empty()) findings.push_back({false, advice.words, advice.what_to_do + more_time});
-  const bool is_fine = advice.words.empty() && advice.cut_short;
+  const bool is_fine = advice.words.empty() && advice.warnings.empty() && advice.cut_short;
   if (is_fine)
     print("tried " + std::to_string(advice.own.frames) + " of " +
           counted(static_cast<std::size_t>(advice.frames), "frame") + " within the time limit; --seconds " +

@@ -2,6 +2,7 @@
 //
 // Exit status: 0 done, 1 an error or a grave finding, 2 a command line error, 128 + N ended by signal N.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <functional>
 #include <limits>
@@ -11,6 +12,7 @@
 #include "interrupt.h"
 #include "output.h"
 #include "pliant/error.h"
+#include "scene_hints.h"
 
 namespace {
 
@@ -206,14 +208,30 @@ void add_compare(CLI::App& app, CompareOptions& options, Chosen& chosen) {
   compare_app->callback([&] { chosen = [&] { return compare(options); }; });
 }
 
+/// "did you mean '--frames'? see " if the subcommand has an option like the first unknown one; else "see ".
+std::string nearest_option(const CLI::App& subcommand) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : subcommand.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  const std::vector<std::string> unknown = subcommand.remaining();
+  const auto first =
+      std::find_if(unknown.begin(), unknown.end(), [](const std::string& word) { return word.rfind("--", 0) == 0; });
+  const std::string near = first == unknown.end() ? "" : pliant::scene_file::nearest_name(*first, names);
+  return near.empty() ? "see " : "did you mean '" + near + "'? see ";
+}
+
 /// Advice for a wrong command line: the list of subcommands if one is unknown, otherwise how to get help.
-std::string usage_advice(const CLI::App& app) {
+std::string usage_advice(const CLI::App& app, const std::string& wanted) {
   const std::vector<CLI::App*> given = app.get_subcommands();
-  if (!given.empty()) return "see pliant " + given.front()->get_name() + " --help";
-  std::string names;
-  for (const CLI::App* subcommand : app.get_subcommands(nullptr))
-    names += (names.empty() ? "" : ", ") + subcommand->get_name();
-  return "the subcommands are " + names + "; see pliant --help";
+  if (!given.empty()) return nearest_option(*given.front()) + "pliant " + given.front()->get_name() + " --help";
+  std::vector<std::string> names;
+  std::string list;
+  for (const CLI::App* subcommand : app.get_subcommands(nullptr)) {
+    names.push_back(subcommand->get_name());
+    list += (list.empty() ? "" : ", ") + subcommand->get_name();
+  }
+  const std::string near = wanted.empty() ? "" : pliant::scene_file::nearest_name(wanted, names);
+  return (near.empty() ? "" : "did you mean '" + near + "'? ") + "the subcommands are " + list + "; see pliant --help";
 }
 
 int run_guarded(const Chosen& chosen) {
@@ -260,11 +278,11 @@ int main(int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     const bool unknown = app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-';
     const std::string problem = unknown ? "there is no subcommand '" + std::string(argv[1]) + "'" : error.what();
-    complain(problem + "; " + usage_advice(app));
+    complain(problem + "; " + usage_advice(app, unknown ? argv[1] : ""));
     return 2;
   }
   if (!chosen) {
-    complain("no subcommand is given; " + usage_advice(app));
+    complain("no subcommand is given; " + usage_advice(app, ""));
     return 2;
   }
   return run_guarded(chosen);

@@ -1,7 +1,6 @@
 #include "run_report.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -68,12 +67,6 @@ Json overstretch_json(const Report& report) {
           {"frame_of_worst_largest", worst.frame_of_largest}};
 }
 
-std::string without_numbers(std::string text) {
-  text.erase(std::remove_if(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0 || c == '.'; }),
-             text.end());
-  return text;
-}
-
 Json nonfinite_json(const Report& report) {
   if (!report.nonfinite) return nullptr;
   const NonFinite& found = *report.nonfinite;
@@ -121,9 +114,7 @@ void RunReport::add(const Report& report, const World& world) {
   sum_of_substeps_ += report.substeps;
   for (const PhaseTime& phase : report.phases) phase_sums_[phase.name] += phase.milliseconds;
   if (hash_frames_) hashes_.push_back(world.state_hash());
-  for (const std::string& warning : report.warnings)
-    if (warned_of_.insert(without_numbers(warning)).second)
-      warnings_.push_back("frame " + std::to_string(report.frame) + ": " + warning);
+  warnings_.add(report);
 }
 
 std::string RunReport::advice(const World& world) const {
@@ -173,7 +164,7 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["p99_stretch"] = stretch.p99;
   json["overstretch"] = overstretch_json(last_);
   json["nonfinite"] = nonfinite_json(last_);
-  json["warnings"] = warnings_;
+  json["warnings"] = warnings_.lines();
   json["advice"] = advice(world);
   json["threads"] = world.threads();
   json["isa"] = world.isa();

@@ -32,7 +32,7 @@ class RunReport {
   std::size_t frames() const { return milliseconds_.size(); }  ///< number of frames simulated in this run
   const Report& last() const { return last_; }
   /// For each kind of warning the first one, with its frame. Warnings that differ only in numbers are of one kind.
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const std::vector<std::string>& warnings() const { return warnings_.lines(); }
 
  private:
   bool hash_frames_;
@@ -43,8 +43,8 @@ class RunReport {
   PairReport pairs_;  ///< candidates, contacts and intersections of the last frame; other counts summed
   std::vector<double> milliseconds_;
   std::map<std::string, double> phase_sums_;
-  std::vector<std::string> hashes_, warnings_;
-  std::set<std::string> warned_of_;  ///< texts of warnings that have occurred, without numbers
+  std::vector<std::string> hashes_;
+  WarningLog warnings_;
 };
 
 }  // namespace pliant::command

@@ -38,6 +38,9 @@ struct Advice {
   /// cheapest good trial; if none is good, the best one that is clearly better than `own`; -1: none.
   int best = -1;
   bool cut_short = false;  ///< true if time ran out before all trials were done
+  /// Warnings of the frames of `own`, of each kind the first (WarningLog). One more for each object without self-collision
+  /// whose triangles pass through one another at the end of `own`, and did not at the start.
+  std::vector<std::string> warnings;
   std::string words;       ///< what is wrong, in one sentence; empty if nothing was found in `own.frames` frames
   std::string what_to_do;  ///< what to do about the overstretch
 };

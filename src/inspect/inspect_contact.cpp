@@ -1,6 +1,7 @@
 // Findings about contact: invalid mesh colliders, and a thickness that is too large for the mesh or too costly.
 // inspect_tangles.cpp has those about initial intersections.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -201,6 +202,22 @@ void check_solid(Problems& problems, const MeshCollider& collider) {
 
 }  // namespace
 
+namespace {
+
+/// Warns of edges whose two triangles lie on one another, in the words of the inspection of a mesh.
+void doubt_folds(Problems& problems, const std::vector<Vec3f>& positions,
+                 const std::vector<std::array<int, 3>>& triangles) {
+  const std::vector<Edge> edges = find_edges(triangles, static_cast<int>(positions.size()));
+  const std::vector<int> folded = folded_edges(positions, edges);
+  if (folded.empty()) return;
+  const Edge& first = edges[static_cast<std::size_t>(folded.front())];
+  const std::string more = folded.size() > 1 ? " and " + std::to_string(folded.size() - 1) + " more" : "";
+  problems.doubtful("edge " + std::to_string(first.a) + "-" + std::to_string(first.b) + more,
+                    "folds the surface back on itself",
+                    "the two triangles there lie on one another, so that contact has no side to push to; open the fold, or "
+                    "remove one of them");
+}
+
 /// Reports triangles that give contact no direction.
 void doubt_shapes(Problems& problems, const TriangleMesh& mesh) {
   const auto at = [&](int vertex) { return convert<double>(mesh.positions[static_cast<std::size_t>(vertex)]); };
@@ -210,15 +227,10 @@ void doubt_shapes(Problems& problems, const TriangleMesh& mesh) {
     if (!(length_squared(cross(at(b) - at(a), at(c) - at(a))) > 0)) flat.add(static_cast<std::int64_t>(i));
   }
   problems.doubtful(flat, "triangle", "has no area, so that it has no side", "remove it, as read_mesh does");
-  const std::vector<Edge> edges = find_edges(mesh.triangles, static_cast<int>(mesh.positions.size()));
-  const std::vector<int> folded = folded_edges(mesh.positions, edges);
-  if (folded.empty()) return;
-  const Edge& first = edges[static_cast<std::size_t>(folded.front())];
-  const std::string more = folded.size() > 1 ? " and " + std::to_string(folded.size() - 1) + " more" : "";
-  problems.doubtful("edge " + std::to_string(first.a) + "-" + std::to_string(first.b) + more,
-                    "folds the surface back on itself, so that contact has no side to push to",
-                    "open the fold, or remove one of its two triangles");
+  doubt_folds(problems, mesh.positions, mesh.triangles);
 }
+
+}  // namespace
 
 void check_mesh_collider(Problems& problems, const MeshCollider& collider) {
   const int before = problems.grave_count();
@@ -261,6 +273,7 @@ void doubt_contact(Problems& problems, const Scene& scene) {
     doubt_thickness(problems, object);
     doubt_cost(problems, object);
     doubt_company(problems, object, scene);
+    if (object.self_collision) doubt_folds(problems, object.positions, object.triangles);
   }
   doubt_tangles(problems, scene);
   problems.at("");

@@ -158,8 +158,7 @@ class Inspector {
     tell(counted(folded.size(), "edge folds", "edges fold") + " the surface back on itself, the first " +
              name_of(edges_[index(folded.front())]),
          "the two triangles there lie on one another, so that contact has no side to push to; open the fold, or remove one "
-         "of "
-         "them");
+         "of them");
   }
 
   void check_places() {

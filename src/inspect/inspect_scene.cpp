@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -51,22 +52,11 @@ void check_sweep(Problems& problems, const Settings& settings, bool uses_natural
                    "use it with the tiled, the symmetric or the Jacobi sweep");
 }
 
-/// Substeps that follow the State are multiples of four, as many in each quarter of a frame.
 void check_bounds(Problems& problems, const Settings& settings) {
   require_range(problems, "settings, most_substeps", settings.most_substeps, 0, 10000);
   require_range(problems, "settings, least_substeps", settings.least_substeps, 0, 10000);
-  const int least = settings.least_substeps, most = settings.most_substeps;
-  if (least <= 0 || most <= 0) return;
-  if (least > most)
-    problems.grave("settings, least_substeps",
-                   "is " + std::to_string(least) + ", more than most_substeps, " + std::to_string(most),
-                   "increase most_substeps, or name a fixed number of substeps");
-  else if (most >= 4 && (least + 3) / 4 * 4 > most)
-    problems.grave(
-        "settings, least_substeps",
-        "is " + std::to_string(least) + " and most_substeps " + std::to_string(most) +
-            ", but substeps that follow the State are multiples of four, and none lies between",
-        "increase most_substeps to " + std::to_string((least + 3) / 4 * 4) + ", or name a fixed number of substeps");
+  if (const auto error = error_of_bounds(settings))
+    problems.grave(error->where().element, error->problem(), error->advice());
 }
 
 void check_settings(Problems& problems, const Scene& scene) {
@@ -172,14 +162,15 @@ void doubt_bounds(Problems& problems, const Scene& scene) {
   if (scene.objects.empty() || (settings.least_substeps == 0 && settings.most_substeps == 0)) return;
   const std::vector<int> substeps = chosen_substeps(scene);
   if (std::find(substeps.begin(), substeps.end(), 0) != substeps.end()) return;
+  const std::string what_to_do = settings.substeps > 0 ? "remove it" : "remove it, or name substeps instead";
   const std::string why = settings.substeps > 0
                               ? "the scene names substeps"
                               : "no object has substeps that follow its State (docs/guide/choosing_settings.md)";
   if (settings.least_substeps > 0)
-    problems.doubtful("settings, least_substeps", "has no effect, because " + why, "remove it, or name substeps instead");
+    problems.doubtful("settings, least_substeps", "has no effect, because " + why, what_to_do);
   if (settings.most_substeps > 0 && scene.mesh_colliders.empty())
     problems.doubtful("settings, most_substeps", "has no effect, because " + why + " and there is no mesh collider",
-                      "remove it, or name substeps instead");
+                      what_to_do);
 }
 
 bool has_distances(const Scene& scene) {
@@ -253,6 +244,23 @@ void look_through(Problems& problems, const Scene& scene) {
 }
 
 }  // namespace
+
+std::optional<Error> error_of_bounds(const Settings& settings) {
+  const int least = settings.least_substeps, most = settings.most_substeps, rounded_up = (least + 3) / 4 * 4;
+  if (least <= 0 || most <= 0) return {};
+  const Location where{{}, 0, {}, "settings, least_substeps"};
+  const std::string fixed =
+      settings.substeps > 0 ? ", or remove both bounds: the scene names substeps" : ", or name a fixed number of substeps";
+  if (least > most)
+    return Error(where, "is " + std::to_string(least) + ", more than most_substeps, " + std::to_string(most),
+                 "increase most_substeps" + fixed);
+  if (most >= 4 && rounded_up > most)
+    return Error(where,
+                 "is " + std::to_string(least) + " and most_substeps " + std::to_string(most) +
+                     ", but substeps that follow the State are multiples of four, and none lies between",
+                 "increase most_substeps to " + std::to_string(rounded_up) + fixed);
+  return {};
+}
 
 std::vector<Finding> inspect(const Scene& scene) {
   Problems problems(Problems::Mode::collect);

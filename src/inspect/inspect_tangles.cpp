@@ -215,7 +215,10 @@ void doubt_touching(Problems& problems, const Scene& scene, const Surfaces& all,
       problems.doubtful(near, "particle",
                         "starts nearer to " + all.name(b) + " than the " + words(kept) +
                             " m that the two keep, the nearest " + words(least) + " m from it",
-                        "contact pushes it away in the first frames: start farther apart, or reduce the thickness");
+                        least > 0
+                            ? "contact pushes it away in the first frames: start farther apart, or reduce the thickness"
+                            : "at a distance of 0 contact cannot tell on which side to keep it, so it may pass "
+                              "through: move one of the two by their thickness");
     }
   }
 }

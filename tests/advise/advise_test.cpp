@@ -77,6 +77,20 @@ TEST(Advise, FindsTheLeastOfWhatHelps) {
   EXPECT_FALSE(is_tolerable(last.worst_overstretch.overstretch)) << least << " substeps were good";
 }
 
+/// Multigrid keeps lengths with a single substep, which damps all motion.
+TEST(Advise, TriesNoFewerThanFourSubstepsOfMultigrid) {
+  for (const int substeps : {0, 1}) {
+    Scene scene = poor_by_default(hanging_sheet(32, Stiffness::rigid(), 0));
+    scene.settings.substeps = substeps;
+    scene.frames = 10;
+    int least = 1000;
+    for (const Trial& trial : advise(scene, unhurried).others)
+      if (trial.settings.sweep == Sweep::multigrid) least = std::min(least, trial.settings.substeps);
+    EXPECT_GE(least, 4);
+    EXPECT_LT(least, 10) << "fewer were tried, or this shows nothing";
+  }
+}
+
 TEST(Advise, SaysNothingWhereNothingIsTheMatter) {
   const Advice fine = advise(hanging_sheet(8, Stiffness::rigid(), 150), unhurried);
   EXPECT_TRUE(is_good(fine.own));

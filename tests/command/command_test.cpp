@@ -120,7 +120,11 @@ TEST_F(Command, NamesTheFileOfASceneThatNoWorldIsMadeOf) {
 TEST_F(Command, UsageErrorsGiveTwo) {
   expect_refused("", 2, "no subcommand");
   expect_refused("fly", 2, "fly");
-  expect_refused("rnu small.json", 2, "run, render, check, validate, bench, compare, schema, version");
+  expect_refused("rnu small.json", 2, "did you mean 'run'? the subcommands are run, render, check, validate, bench, ");
+  expect_refused("run small.json --frame 3", 2, "did you mean '--frames'? see pliant run --help");
+  expect_refused("run small.json --zzz 3", 2, "--zzz; see pliant run --help");
+  expect_refused("bench W1-bendin", 1, "did you mean 'W1-bending'? the workloads are ");
+  expect_refused("bench defaul", 1, "did you mean 'default'? ");
   expect_refused("render small.json", 2, "see pliant render --help");
   expect_refused("run", 2, "SCENE");
   expect_refused("run small.json --frames -1", 2, "frames");

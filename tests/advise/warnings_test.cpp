@@ -1,0 +1,76 @@
+// Tests the warnings that a trial of the scene's own settings gives.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "advise/advise_support.h"
+
+namespace pliant {
+namespace {
+
+using namespace testing_support;
+
+/// A sheet of 0.6 m that drops over a thin bar, so that its halves meet below.
+Scene over_a_bar(bool self_collision) {
+  Scene scene;
+  ClothOptions options;
+  options.name = "towel";
+  TriangleMesh mesh = grid_mesh(24, 24, 0.6f, 0.6f);
+  for (Vec3f& p : mesh.positions) p.y = 0.1f;
+  scene.add_cloth(mesh, options);
+  scene.objects[0].self_collision = self_collision;
+  scene.objects[0].thickness = 0.004f;
+  Collider bar;
+  bar.shape = Capsule{0.01f, 0.5f};
+  bar.rotation = rotation({1, 0, 0}, 90);
+  scene.add(bar);
+  scene.frames = 60;
+  return scene;
+}
+
+TEST(Warnings, OfATrialNameClothThatPassesThroughItself) {
+  const Advice advice = advise(over_a_bar(false), unhurried);
+  ASSERT_EQ(advice.warnings.size(), 1U);
+  const std::string& words = advice.warnings[0];
+  EXPECT_EQ(words.rfind("frame 60: object 'towel': edge ", 0), 0U) << words;
+  EXPECT_NE(words.find("set its \"self_collision\" to true"), std::string::npos) << words;
+  EXPECT_EQ(advise(over_a_bar(true), unhurried).warnings, std::vector<std::string>{});
+}
+
+/// A mesh that crosses itself at the start is named by inspect(); the run adds nothing.
+TEST(Warnings, DoNotRepeatWhatCrossesAtTheStart) {
+  Scene scene = over_a_bar(false);
+  scene.objects[0].positions[0] = scene.objects[0].positions[100] - Vec3f{0, 0.05f, 0};
+  scene.objects[0].positions[1] = scene.objects[0].positions[100] + Vec3f{0.01f, 0.05f, 0};
+  EXPECT_EQ(advise(scene, unhurried).warnings, std::vector<std::string>{});
+}
+
+/// Layers at distance 0 have no side; the run's own warnings say so.
+TEST(Warnings, OfTheFramesAreKeptOncePerKind) {
+  Scene scene = over_a_bar(true);
+  Object copy = scene.objects[0];
+  scene.objects[0].name = "one";
+  copy.name = "two";
+  scene.objects[0].collides = copy.collides = true;
+  scene.objects.push_back(copy);
+  scene.frames = 3;
+  const Advice advice = advise(scene, unhurried);
+  ASSERT_FALSE(advice.warnings.empty());
+  EXPECT_EQ(advice.warnings[0].rfind("frame 1: object 'one' and object 'two': ", 0), 0U) << advice.warnings[0];
+  EXPECT_NE(advice.warnings[0].find("unresolvable"), std::string::npos) << advice.warnings[0];
+}
+
+TEST(Warnings, ThatDifferOnlyInNumbersAreOfOneKind) {
+  WarningLog log;
+  Report report;
+  report.warnings = {"vertex 3 is at 1.5 m", "other"};
+  report.frame = 1;
+  log.add(report);
+  report.warnings = {"vertex 41 is at 2 m", "another"};
+  report.frame = 2;
+  log.add(report);
+  EXPECT_EQ(log.lines(), (std::vector<std::string>{"frame 1: vertex 3 is at 1.5 m", "frame 1: other", "frame 2: another"}));
+}
+
+}  // namespace
+}  // namespace pliant

@@ -1,0 +1,75 @@
+// Tests warnings about a scene: folded surfaces, layers at distance 0, bounds of substeps without effect.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "pliant/mesh.h"
+#include "pliant/scene.h"
+
+namespace pliant {
+namespace {
+
+/// A sheet of 1 m x 1 m, 11 x 11 vertices, at a height.
+TriangleMesh sheet(float height) {
+  TriangleMesh mesh = grid_mesh(11, 11, 1, 1);
+  for (Vec3f& p : mesh.positions) p.y = height;
+  return mesh;
+}
+
+/// The text of all findings of which message or advice contains `words`.
+std::string finding(const Scene& scene, const std::string& words) {
+  std::string text;
+  for (const Finding& found : inspect(scene)) {
+    const std::string whole = found.message + "; " + found.advice;
+    if (whole.find(words) != std::string::npos) text += whole + "\n";
+  }
+  return text;
+}
+
+/// The check of a mesh names a fold, so that of a scene must too.
+TEST(InspectScene, NamesFoldsOfWhatCollidesWithItself) {
+  TriangleMesh mesh = sheet(0);
+  for (Vec3f& p : mesh.positions) p.x = -std::abs(p.x);
+  Scene scene;
+  scene.add_cloth(mesh, {});
+  EXPECT_EQ(finding(scene, "folds the surface back"), "") << "it has no contact with itself";
+  scene.objects[0].self_collision = true;
+  scene.objects[0].thickness = 0.01f;
+  const std::string text = finding(scene, "folds the surface back");
+  EXPECT_NE(text.find(" and 9 more"), std::string::npos) << text;
+  const std::vector<Finding> of_mesh = inspect(mesh);
+  EXPECT_TRUE(std::any_of(of_mesh.begin(), of_mesh.end(), [](const Finding& found) {
+    return found.message.find("10 edges fold the surface back") != std::string::npos;
+  }));
+}
+
+TEST(InspectScene, SaysThatContactHasNoSideAtDistanceZero) {
+  Scene scene;
+  scene.add_cloth(sheet(0), {});
+  scene.objects[0].collides = true;
+  scene.objects[0].thickness = 0.01f;
+  MeshCollider floor;
+  floor.name = "floor";
+  floor.mesh = sheet(0);
+  scene.add(floor);
+  EXPECT_NE(finding(scene, "cannot tell on which side"), "");
+  EXPECT_EQ(finding(scene, "pushes it away"), "");
+  scene.mesh_colliders[0].mesh = sheet(-0.005f);
+  EXPECT_EQ(finding(scene, "cannot tell on which side"), "");
+  EXPECT_NE(finding(scene, "pushes it away"), "");
+}
+
+TEST(InspectScene, OffersSubstepsInsteadOfBoundsOnlyWhereNoneAreNamed) {
+  Scene scene;
+  scene.add_cloth(sheet(0), {});
+  scene.settings.least_substeps = 8;
+  EXPECT_NE(finding(scene, "has no effect").find("name substeps instead"), std::string::npos);
+  scene.settings.substeps = 20;
+  EXPECT_NE(finding(scene, "has no effect").find("because the scene names substeps; remove it\n"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pliant
