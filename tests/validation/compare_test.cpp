@@ -103,6 +103,30 @@ TEST(Compare, EverySweepSolvesTheSameSubstep) {
 }
 
 /// The stretch of a sample must be that of a World stepped by hand.
+/// Where substeps follow the State, the substep is one of the frame before the State that curves start from.
+TEST(Compare, MeasuresASubstepOfTheLengthThatTheSceneHad) {
+  Scene scene;
+  scene.frames = 6;
+  scene.add_cloth(grid_mesh(24, 24, 1, 1));
+  scene.objects[0].self_collision = true;
+  Options options;
+  options.methods = {"chains"};
+  options.iterations = 1;
+  World world(scene);
+  int substeps = 0;
+  for (const int frame : {0, 3}) {
+    options.frame = frame;
+    const Result result = run(scene, options);
+    for (; world.state().frame < std::max(frame, 1);) substeps = world.step(scene.frame_time).substeps;
+    EXPECT_DOUBLE_EQ(result.substep, static_cast<double>(scene.frame_time) / substeps) << frame;
+    EXPECT_LT(substeps, 20) << "free fall";
+  }
+  scene.settings.least_substeps = 48;
+  EXPECT_DOUBLE_EQ(run(scene, options).substep, static_cast<double>(scene.frame_time) / 48);
+  options.substeps = 7;
+  EXPECT_DOUBLE_EQ(run(scene, options).substep, static_cast<double>(scene.frame_time) / 7);
+}
+
 TEST(Compare, ASampleIsWhatARunGives) {
   Scene scene = swinging();
   Options options = quick({"tiled"});

@@ -51,7 +51,7 @@ void BoxSearch::want(const ClusterSides& sides) {
 void BoxSearch::fit(Executor& executor, const ClusterMotions& motions, const PairParticles& particles) {
   executor.parallel_for("fit boxes", model_.clusters, [&](int c) {
     for (int kind = 0; kind < 3; ++kind)
-      if (boxes_[kind].wanted[c] != 0) fit_cluster(kind, c, motions.mean(), particles);
+      if (boxes_[kind].wanted[c] != 0) fit_cluster(kind, c, motions.mean(c), particles);
   });
   for (Boxes& boxes : boxes_) std::fill(boxes.wanted.begin(), boxes.wanted.end(), 0);
 }

@@ -31,17 +31,23 @@ bool ClusterMotions::measure(Executor& executor, const ClusterLayout& layout, co
       if (const int count = layout.vertex_count[c]; count > 0)
         kernels_.measure_cluster(layout.vertices.data() + layout.vertex_start[c], count, particles, motions_[c]);
   });
-  Vec3d sum{};
-  double count = 0;
-  bool is_bounded = true;
+  find_means(order);
+  return std::all_of(order.begin(), order.end(), [&](int c) { return motions_[static_cast<std::size_t>(c)].is_bounded; });
+}
+
+void ClusterMotions::find_means(const std::vector<int>& order) {
+  sums_.assign(model_.body_set.size(), {});
   for (const int c : order) {
     const ClusterMotion& motion = motions_[static_cast<std::size_t>(c)];
-    sum += convert<double>(motion.sum);
-    count += double(motion.movable);
-    is_bounded = is_bounded && motion.is_bounded;
+    Sum& sum = sums_[static_cast<std::size_t>(model_.set_of_cluster(c))];
+    sum.of_displacements += convert<double>(motion.sum);
+    sum.count += double(motion.movable);
   }
-  mean_ = count > 0 ? convert<float>(sum * (1. / count)) : Vec3f{};
-  return is_bounded;
+  means_.resize(sums_.size());
+  for (std::size_t set = 0; set < sums_.size(); ++set) {
+    const Sum& sum = sums_[set];
+    means_[set] = sum.count > 0 ? convert<float>(sum.of_displacements * (1. / sum.count)) : Vec3f{};
+  }
 }
 
 void ClusterMotions::advance(const std::vector<int>& order) {
@@ -53,20 +59,19 @@ void ClusterMotions::advance(const std::vector<int>& order) {
 
 BoxBounds ClusterMotions::path_box(int cluster) const {
   const ClusterMotion& m = motions_[static_cast<std::size_t>(cluster)];
-  return {min(m.low[0], m.low[1] - mean_), max(m.high[0], m.high[1] - mean_)};
+  return {min(m.low[0], m.low[1] - mean(cluster)), max(m.high[0], m.high[1] - mean(cluster))};
 }
 
-/// Upper bound of the displacement in this substep of any vertex of the cluster, relative to the mean of all vertices [m].
+/// Upper bound of the displacement in this substep of any vertex of the cluster, relative to mean() [m].
 float ClusterMotions::travel_next(int cluster) const {
   const ClusterMotion& motion = motions_[static_cast<std::size_t>(cluster)];
-  return (length(motion.mean - mean_) + length(motion.spin) * motion.radius) * bound_slack + motion.largest;
+  return (length(motion.mean - mean(cluster)) + length(motion.spin) * motion.radius) * bound_slack + motion.largest;
 }
 
 bool ClusterMotions::stay_within(float room, const std::vector<int>& order) const {
-  const float drifted = largest(mean_);
   return std::all_of(order.begin(), order.end(), [&](int cluster) {
     const auto c = static_cast<std::size_t>(cluster);
-    const float rounded = place_roundings * one_rounding * (motions_[c].extent + drifted);
+    const float rounded = place_roundings * one_rounding * (motions_[c].extent + largest(mean(cluster)));
     return travel_[c] + travel_next(cluster) <= room - rounded;
   });
 }

@@ -12,7 +12,7 @@ namespace pliant {
 
 class ClusterMotions {
  public:
-  explicit ClusterMotions(const PairKernels& kernels) : kernels_(kernels) {}
+  ClusterMotions(const PairModel& model, const PairKernels& kernels) : model_(model), kernels_(kernels) {}
 
   void resize(std::size_t clusters);
   /// Discards the motion of a cluster that was removed or is new.
@@ -26,14 +26,15 @@ class ClusterMotions {
   void advance(const std::vector<int>& order);
 
   const ClusterMotion& operator[](int cluster) const { return motions_[static_cast<std::size_t>(cluster)]; }
-  /// The mean displacement of all dynamic vertices [m]. Swept boxes are computed in a frame that moves with it.
-  const Vec3f& mean() const { return mean_; }
-  /// The box that a cluster sweeps in this substep, in the frame that moves with mean().
+  /// The mean displacement of all dynamic vertices of the cluster's set [m]. Swept boxes are computed in a frame that moves
+  /// with it. It is that of the set, so that others, which the set cannot meet, change none of its bits.
+  const Vec3f& mean(int cluster) const { return means_[static_cast<std::size_t>(model_.set_of_cluster(cluster))]; }
+  /// The box that a cluster sweeps in this substep, in the frame that moves with mean(cluster).
   BoxBounds path_box(int cluster) const;
   /// The largest absolute coordinate of a cluster at the last broad-phase rebuild [m].
   float extent(int cluster) const { return extent_[static_cast<std::size_t>(cluster)]; }
 
-  /// True if no cluster has travelled more than `room` [m] relative to the mean since begin_travel().
+  /// True if no cluster has travelled more than `room` [m] relative to the mean of its set since begin_travel().
   bool stay_within(float room, const std::vector<int>& order) const;
   /// True if a cluster is so far from the origin that its rounding error exceeds what its distance bounds allow for.
   bool has_gone_far() const;
@@ -42,13 +43,22 @@ class ClusterMotions {
   void keep_extent(int cluster);
 
  private:
-  float travel_next(int cluster) const;
+  /// The sum of the displacements of a set's dynamic vertices [m], and their number.
+  struct Sum {
+    Vec3d of_displacements{};
+    double count = 0;
+  };
 
+  float travel_next(int cluster) const;
+  void find_means(const std::vector<int>& order);
+
+  const PairModel& model_;
   const PairKernels& kernels_;
   std::vector<ClusterMotion> motions_;
-  std::vector<float> travel_;  ///< distance that each cluster has travelled relative to the mean, since begin_travel() [m]
+  std::vector<float> travel_;  ///< distance that each cluster has travelled relative to mean(), since begin_travel() [m]
   std::vector<float> extent_;
-  Vec3f mean_{};
+  std::vector<Sum> sums_;     ///< scratch memory of find_means
+  std::vector<Vec3f> means_;  ///< for each set, at the index of its first body
 };
 
 }  // namespace pliant

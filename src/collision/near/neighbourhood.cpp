@@ -21,7 +21,8 @@ void find_paths(const Neighbourhood& near, const ClusterSides& sides, const Pair
     for (int lane = 0; lane < 16; ++lane)
       swapped |= (near.model.vertex_cluster[lanes.stencils.vertex[0][lane]] != sides.first ? 1U : 0U) << lane;
   near.kernels.paths(lanes.stencils, sides.of_vertices ? 1 : 2, particles,
-                     {&near.motions[sides.first], &near.motions[sides.second], swapped, near.motions.mean()}, lanes.paths);
+                     {&near.motions[sides.first], &near.motions[sides.second], swapped, near.motions.mean(sides.first)},
+                     lanes.paths);
   const float rigid = near.pair_of(sides).rigid;
   for (float& falls : lanes.paths.falls) falls += rigid;
 }

@@ -54,7 +54,7 @@ struct Neighbourhood {
   std::vector<std::int32_t> order;  ///< indices of lists in use: vertex-triangle lists, then edge-edge lists, by clusters
   std::vector<NearTask> tasks;
 
-  Neighbourhood(const PairModel& of, const PairKernels& with) : model(of), kernels(with), motions(with), pairs(of) {}
+  Neighbourhood(const PairModel& of, const PairKernels& with) : model(of), kernels(with), motions(of, with), pairs(of) {}
 
   const ClusterPair& pair_of(const ClusterSides& sides) const { return pairs[sides.pair]; }
   const Odometer& odometer(const ClusterSides& sides) const { return pair_of(sides).odometer; }

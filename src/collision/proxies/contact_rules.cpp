@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "math/vector.h"
+#include "model/object_sets.h"
 
 namespace pliant {
 
@@ -61,6 +62,14 @@ void ContactRules::find_thickest(int body, Class& of) const {
   } else if (is_thicker(of.second)) {
     of.second = body;
   }
+}
+
+std::vector<int> ContactRules::sets() const {
+  std::vector<SetMember> members;
+  members.reserve(bodies_.size());
+  for (const ContactBody& body : bodies_)
+    members.push_back({body.groups, body.mask, body.collides && !body.is_collider, body.is_collider});
+  return find_sets(members);
 }
 
 float ContactRules::largest_thickness() const {

@@ -37,6 +37,8 @@ class ContactRules {
 
   /// The largest thickness of any two bodies that meet [m].
   float largest_thickness() const;
+  /// For each body the first body of its set. Bodies that meet are in one set, directly or through others.
+  std::vector<int> sets() const;
   /// For each body: 1 if it meets any other body or itself.
   std::vector<char> meeting() const;
 

@@ -52,7 +52,8 @@ ContactBody body_of(const Model& model, int number, const std::vector<char>& has
   body.static_friction = object.static_friction;
   body.kinetic_friction = object.kinetic_friction;
   body.restitution = object.restitution;
-  if (has.empty() || has[number] != 0) return body;
+  const bool is_there = object.particles > 0;  // or it was removed
+  if (is_there && (has.empty() || has[number] != 0)) return body;
   body.groups = body.mask = 0;
   body.meets_itself = false;
   return body;
@@ -238,6 +239,7 @@ std::optional<PairChanges> update_pair_model(const Model& model, const std::vect
   const std::vector<char> meets_some = out.rules.meeting();
   std::vector<int> affected = changed;
   out.bodies.resize(meets_some.size());
+  out.body_set = out.rules.sets();
   for (int o = 0; o < out.rules.bodies(); ++o) {
     const bool has_particles = model.objects[o].particles > 0;
     if ((meets_some[o] != 0 && has_particles) != takes_part(out, o)) affected.push_back(o);
@@ -293,6 +295,7 @@ void index_entries(std::size_t count, BodyOf body_of, BodyBlocks& blocks, Block 
 void index_bodies(PairModel& model) {
   ContactElements& all = model.elements;
   model.bodies.assign(static_cast<std::size_t>(model.rules.bodies()), {});
+  model.body_set = model.rules.sets();
   BodyBlocks vertex_blocks;
   const auto body_at = [&](std::size_t i) { return model.vertex_body[i]; };
   index_entries(model.rest.size(), body_at, vertex_blocks, &BodyElements::vertices, model);

@@ -42,7 +42,8 @@ struct PairModel {
   /// For each cluster: its pairs have no contact where positions round by more than this [m]. Empty: no limit.
   std::vector<float> coarsest;
   std::vector<BodyElements> bodies;
-  std::vector<char> has;  ///< for each body: 1 if it may meet any body; empty: all may
+  std::vector<int> body_set;  ///< for each body the first body of its set (ContactRules::sets)
+  std::vector<char> has;      ///< for each body: 1 if it may meet any body; empty: all may
   BodyBlocks edge_blocks, triangle_blocks, cluster_blocks;
   TrianglesAround triangles_around;
   float radius = 0;             ///< distance within which clusters are searched for candidates [m]
@@ -52,6 +53,9 @@ struct PairModel {
 
   /// The order of clusters that decides bits: by body, then by number.
   bool is_before(int cluster, int other) const { return key_of(cluster) < key_of(other); }
+  int set_of_cluster(int cluster) const {
+    return body_set[static_cast<std::size_t>(cluster_body[static_cast<std::size_t>(cluster)])];
+  }
   std::pair<int, int> key_of(int cluster) const { return {cluster_body[static_cast<std::size_t>(cluster)], cluster}; }
 };
 
@@ -69,7 +73,7 @@ struct PairChanges {
 /// Returns nullopt if no two bodies can meet any more; the PairModel is then invalid.
 std::optional<PairChanges> update_pair_model(const Model& model, const std::vector<int>& changed, PairModel& out);
 
-/// Computes `bodies`, `cluster_order` and `triangles_around` of a model whose other arrays are in the order of bodies.
+/// Computes `bodies`, `body_set`, `cluster_order` and `triangles_around` of a model whose other arrays are in the order of bodies.
 void index_bodies(PairModel& model);
 
 }  // namespace pliant

@@ -15,7 +15,8 @@ constexpr int most_rounds_of_impacts = 8;
 constexpr float share_left = 0.1f;
 
 /// Removes the remaining approach velocity of impacts in this substep. If it were left to the next one, contact normals
-/// of crumpled surfaces would deflect it sideways.
+/// of crumpled surfaces would deflect it sideways. Each set of objects that can meet has as many rounds as it needs, so
+/// that it gets the bits that it gets alone.
 void end_impacts(Substep& s, FunctionRef<Vec3f(int)> gravity, float slow) {
   SurfaceContact& pairs = *s.pairs;
   const Record* positions = s.state.positions.data();
@@ -24,14 +25,24 @@ void end_impacts(Substep& s, FunctionRef<Vec3f(int)> gravity, float slow) {
   const auto for_impacts = [&](FunctionRef<void(const Contact&)> answer) {
     impacts.for_each(s.context.executor, "respond", pairs.contacts(), answer);
   };
-  std::atomic<bool> again{true};
-  for (int round = 0; again && round < most_rounds_of_impacts; ++round) {
-    again = false;
+  std::vector<std::atomic<char>> again(pairs.sets());  ///< of each set: it needs another round
+  std::vector<char> goes_on(pairs.sets(), 1);
+  for (int round = 0; round < most_rounds_of_impacts; ++round) {
     for_impacts([&](const Contact& contact) {
+      const std::size_t set = pairs.set_of(contact);
+      if (goes_on[set] == 0) return;
       const float approach = pairs.end_impact(contact, positions, velocities, gravity);
-      if (approach * s.h > share_left * contact.thickness) again.store(true, std::memory_order_relaxed);
+      if (approach * s.h > share_left * contact.thickness) again[set].store(1, std::memory_order_relaxed);
     });
-    for_impacts([&](const Contact& contact) { pairs.respond(contact, positions, velocities, slow, gravity); });
+    for_impacts([&](const Contact& contact) {
+      if (goes_on[pairs.set_of(contact)] != 0) pairs.respond(contact, positions, velocities, slow, gravity);
+    });
+    bool any = false;
+    for (std::size_t set = 0; set < goes_on.size(); ++set) {
+      goes_on[set] = again[set].exchange(0, std::memory_order_relaxed);
+      any = any || goes_on[set] != 0;
+    }
+    if (!any) break;
   }
 }
 
