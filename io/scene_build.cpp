@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "pliant/substep_bounds.h"
 #include "scene_grammar.h"
 #include "scene_hints.h"
 #include "scene_values.h"

@@ -245,10 +245,9 @@ const Record& settings_record() {
       "How constraints are solved. `threads`, `isa` and the measuring options do not change the result.",
       {field(
            "substeps", integer(0, 10000), Settings{}.substeps,
-           "Substeps per frame; 0: they follow strain and motion where chains solve cloth of 400 particles or rope of 48; "
-           "5 for objects that `multigrid` solves, 10 if they can touch surfaces, are in wind or a force field, or have "
-           "pins "
-           "that move or lie together; 20 for all others."),
+           "Substeps per frame; 0: they follow strain and motion where chains solve an object; 5 for objects that "
+           "`multigrid` solves, 10 if they can touch surfaces, are in wind or a force field, or have pins that move or lie "
+           "together; 20 for all others."),
        field("iterations", integer(1, 10000), Settings{}.iterations, "Iterations per substep."),
        field("tolerance", number("m", 0, largest_place), Settings{}.tolerance,
              "A substep ends its iterations when the root mean square error of its distance constraints falls below this; "

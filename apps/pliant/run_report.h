@@ -2,10 +2,10 @@
 #pragma once
 
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "pliant/advise.h"
 #include "pliant/scene.h"
 #include "pliant/world.h"
 

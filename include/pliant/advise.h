@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,18 @@
 #include "pliant/world.h"
 
 namespace pliant {
+
+/// Collects the warnings of several frames: of each kind the first one, with its frame ("frame 3: ..."). Warnings that
+/// differ only in numbers are of one kind.
+class WarningLog {
+ public:
+  void add(const Report& report);
+  const std::vector<std::string>& lines() const { return lines_; }
+
+ private:
+  std::set<std::string> kinds_;  ///< texts of warnings that have occurred, without numbers
+  std::vector<std::string> lines_;
+};
 
 /// Limits of the trial runs.
 struct AdviseOptions {

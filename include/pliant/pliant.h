@@ -17,5 +17,6 @@
 #include "pliant/save.h"
 #include "pliant/scene.h"
 #include "pliant/state.h"
+#include "pliant/substep_bounds.h"
 #include "pliant/vec3.h"
 #include "pliant/world.h"

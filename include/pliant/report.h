@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -142,18 +141,6 @@ struct Report {
 
   bool ok() const { return !nonfinite; }
   std::string explain() const;  ///< problems and warnings as text; also says if nothing moved, as for an invalid dt
-};
-
-/// Collects the warnings of several frames: of each kind the first one, with its frame ("frame 3: ..."). Warnings that
-/// differ only in numbers are of one kind.
-class WarningLog {
- public:
-  void add(const Report& report);
-  const std::vector<std::string>& lines() const { return lines_; }
-
- private:
-  std::set<std::string> kinds_;  ///< texts of warnings that have occurred, without numbers
-  std::vector<std::string> lines_;
 };
 
 }  // namespace pliant

@@ -14,7 +14,6 @@
 #include <variant>
 #include <vector>
 
-#include "pliant/error.h"
 #include "pliant/formula.h"
 #include "pliant/material.h"
 #include "pliant/mesh.h"
@@ -375,10 +374,6 @@ std::vector<int> chosen_substeps(const Scene& scene);
 /// of all objects (chosen_substeps), or stay if they differ. If the sweep was left open, `reason` receives the deciding
 /// fact.
 Settings chosen_settings(const Scene& scene, std::string* reason = nullptr);
-
-/// The error of `least_substeps` and `most_substeps` that leave no number of substeps; empty if they leave one. Substeps that
-/// follow the State are multiples of four, as many in each quarter of a frame.
-std::optional<Error> error_of_bounds(const Settings& settings);
 
 /// Inspects a scene: grave findings, for which a World rejects it, and warnings.
 std::vector<Finding> inspect(const Scene& scene);

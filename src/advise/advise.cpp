@@ -64,7 +64,7 @@ std::vector<std::string> passed_through_themselves(const Scene& scene, const Wor
     if (object.self_collision || object.triangles.empty()) continue;
     CrossingFinder finder(object.triangles, static_cast<int>(object.positions.size()));
     if (!finder.find(object.positions).empty()) continue;
-    const std::vector<Crossing> crossings = finder.find(world.positions(static_cast<int>(o)));
+    const std::vector<Crossing> crossings = finder.find(world.object(static_cast<int>(o)).positions());
     if (crossings.empty()) continue;
     const Crossing& first = crossings.front();
     found.push_back("frame " + std::to_string(world.state().frame) + ": object '" + object.name + "': edge " +

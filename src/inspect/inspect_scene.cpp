@@ -13,6 +13,7 @@
 #include "inspect/problems.h"
 #include "model/object_sets.h"
 #include "pliant/error.h"
+#include "pliant/substep_bounds.h"
 #include "solver/kernels.h"
 
 namespace pliant {

@@ -14,7 +14,7 @@ namespace pliant {
 namespace {
 
 /// The substeps for tethers of `edges` edges: edges^1.5 over this. Hung by two corners, cloth of 64, 128, 256 and 512 rows
-/// needs some 4, 10, 27 and 77 (docs/internals/convergence.md).
+/// needs some 4, 10, 27 and 77 (docs/internals/default_settings.md).
 constexpr double edges_to_hang = 150;
 constexpr int most_to_hang = 100;
 

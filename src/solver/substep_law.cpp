@@ -27,7 +27,7 @@ constexpr double share_beyond = 0.01;
 /// strain with too few substeps is released when more follow.
 constexpr double share_beyond_of_impact = 0.001;
 
-/// What constraints demand substeps by, from given velocities.
+/// How strain and rotation of constraints are turned into a demand for substeps, and the velocities that it is found from.
 struct Demand {
   const Record* velocities = nullptr;  ///< of all particles of the State
   double per_strain = 0, per_radian = 0;

@@ -25,7 +25,7 @@ std::vector<int> folded_edges(const std::vector<Vec3f>& positions, const std::ve
     const Vec3d a = at(edge.a), b = at(edge.b);
     const Vec3d p = height_over(a, b, at(edge.opposites[0])), q = height_over(a, b, at(edge.opposites[1]));
     const double lengths = std::sqrt(length_squared(p) * length_squared(q));
-    // Not a number if the edge has no length, and zero if a triangle has no area.
+    // `lengths` is NaN if the edge has no length, and zero if a triangle has no area.
     if (lengths > 0 && dot(p, q) > cosine_of_a_degree * lengths) folded.push_back(static_cast<int>(i));
   }
   return folded;
