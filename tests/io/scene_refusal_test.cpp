@@ -47,10 +47,10 @@ TEST(SceneRefusal, SaysWhatIsWrongAndWhatToDo) {
 
 TEST(SceneRefusal, NamesThePlaceOfBoundsThatLeaveNoSubsteps) {
   EXPECT_EQ(scene_message("{\"objects\": [], \"settings\":\n {\"least_substeps\": 48, \"most_substeps\": 20}}"),
-            "x.json:2:20: /settings/least_substeps: is 48, more than most_substeps, 20; "
+            "x.json:2:21: /settings/least_substeps: is 48, more than most_substeps, 20; "
             "increase most_substeps, or name a fixed number of substeps");
   EXPECT_EQ(scene_message(R"({"objects": [], "settings": {"substeps": 9, "least_substeps": 13, "most_substeps": 14}})"),
-            "x.json:1:62: /settings/least_substeps: is 13 and most_substeps 14, but substeps that follow the State are "
+            "x.json:1:63: /settings/least_substeps: is 13 and most_substeps 14, but substeps that follow the State are "
             "multiples of four, and none lies between; "
             "increase most_substeps to 16, or remove both bounds: the scene names substeps");
 }
