@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "apps/bench/bending_energy.h"
 #include "pliant/error.h"
 #include "pliant/queries.h"
 #include "pliant/world.h"
@@ -123,6 +124,8 @@ SceneRow measure(const NamedScene& named, const std::string& settings, const Sce
   for (const ObjectId id : world.objects()) row.particles += world.object(id).info().particles;
   const double mass = std::max(mass_of(scene), 1e-30);
   double least = world.measure().kinetic_energy() + world.measure().potential_energy();
+  const BendingEnergy folds(scene);
+  double least_with_bending = least + folds.of(world);
   std::vector<double> motions;
   for (int frame = 1; frame <= row.frames; ++frame) {
     const auto before = positions_of(world);
@@ -134,6 +137,9 @@ SceneRow measure(const NamedScene& named, const std::string& settings, const Sce
     const double energy = world.measure().kinetic_energy() + world.measure().potential_energy();
     least = std::min(least, energy);
     row.gain = std::max(row.gain, (energy - least) / mass);
+    const double with_bending = energy + folds.of(world);
+    least_with_bending = std::min(least_with_bending, with_bending);
+    row.gain_with_bending = std::max(row.gain_with_bending, (with_bending - least_with_bending) / mass);
     row.milliseconds += report.milliseconds / row.frames;
     row.substeps += double(report.substeps) / row.frames;
     motions.push_back(mean_motion(world, before));
@@ -189,6 +195,7 @@ std::string to_json(const std::vector<SceneRow>& rows) {
                     {"largest", row.largest},
                     {"frame_of_largest", row.frame_of_largest},
                     {"energy_gain", row.gain},
+                    {"energy_gain_with_bending", row.gain_with_bending},
                     {"moved", row.moved},
                     {"ms_per_frame", row.milliseconds},
                     {"substeps", row.substeps},

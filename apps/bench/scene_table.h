@@ -22,12 +22,13 @@ struct SceneRow {
   int particles = 0, frames = 0;
   double p99 = 0, largest = 0;  ///< the worst overstretch of any frame [-]
   int frame_of_p99 = 0, frame_of_largest = 0;
-  double gain = 0;          ///< most by which kinetic + potential energy rises above an earlier minimum [J/kg]
-  double moved = 0;         ///< mean displacement of a particle in each of the last 30 frames [m]
-  double milliseconds = 0;  ///< mean per frame
-  double substeps = 0;      ///< mean per frame
-  int crossings = -1;       ///< most edges that pass through a triangle in any frame, by exact signs; -1: not counted
-  bool finite = true;       ///< false: the run ended at a non-finite value
+  double gain = 0;               ///< most by which kinetic + gravitational energy rises above an earlier minimum [J/kg]
+  double gain_with_bending = 0;  ///< the same of kinetic + gravitational + bending energy, which a rebound leaves alone
+  double moved = 0;              ///< mean displacement of a particle in each of the last 30 frames [m]
+  double milliseconds = 0;       ///< mean per frame
+  double substeps = 0;           ///< mean per frame
+  int crossings = -1;            ///< most edges that pass through a triangle in any frame, by exact signs; -1: not counted
+  bool finite = true;            ///< false: the run ended at a non-finite value
   /// Of the default's row: the cheapest setting of a sweep and substeps whose row holds the bounds, empty if none does, and
   /// the cost of the default as a multiple of its cost.
   std::string cheapest{};

@@ -116,18 +116,18 @@ std::string bench_default(const BenchOptions& options) {
   wanted.counts_crossings = !options.meshes.empty();
   print(
       "scene                          settings           substeps  ms/frame  p99, % (frame)  largest, % (frame)  gain, "
-      "J/kg  moved, mm  crossings  ratio to the cheapest that holds\n");
+      "J/kg (with bending)  moved, mm  crossings  ratio to the cheapest that holds\n");
   const bool compares = !wanted.against.empty();
   wanted.on_row = [compares](const pliant::bench::SceneRow& row) {
     throw_if_interrupted();
     const std::string cost = row.settings != "default" || !compares ? ""
                              : row.cheapest.empty()                 ? "  none holds"
                                                     : fmt::format("  {:.2f} to '{}'", row.ratio, row.cheapest);
-    print(fmt::format("{:<30} {:<18} {:8.1f} {:9.2f} {:8.2f} {:<7} {:11.2f} {:<8} {:10.4f} {:10.4f}  {:>9}{}{}\n",
+    print(fmt::format("{:<30} {:<18} {:8.1f} {:9.2f} {:8.2f} {:<7} {:11.2f} {:<8} {:10.4f} {:<9} {:10.4f}  {:>9}{}{}\n",
                       row.scene, row.settings, row.substeps, row.milliseconds, 100 * row.p99,
                       fmt::format("({})", row.frame_of_p99), 100 * row.largest, fmt::format("({})", row.frame_of_largest),
-                      row.gain, 1000 * row.moved, row.crossings < 0 ? "-" : std::to_string(row.crossings), cost,
-                      row.finite ? "" : "  not finite"));
+                      row.gain, fmt::format("({:.4f})", row.gain_with_bending), 1000 * row.moved,
+                      row.crossings < 0 ? "-" : std::to_string(row.crossings), cost, row.finite ? "" : "  not finite"));
   };
   return to_json(pliant::bench::measure_scenes(scenes, wanted));
 }

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "apps/bench/bending_energy.h"
 #include "apps/bench/draped_meshes.h"
 #include "pliant/error.h"
 
@@ -96,6 +98,46 @@ TEST(SceneTable, NamesTheCheapestSettingThatHoldsTheBounds) {
   rows[4].finite = false;
   compare_costs(rows);
   EXPECT_EQ(rows[0].cheapest, "");
+}
+
+/// Two hinges, one bent by 90 degrees at rest and one flat.
+TEST(BendingEnergy, IsHalfTheSquareOfTheAngleOverTheCompliance) {
+  for (const float height : {0.f, 1.f}) {
+    Scene scene;
+    Object& hinge = scene.objects.emplace_back();
+    hinge.positions = {{0, 0, 0}, {1, 0, 0}, {0.3f, 0, 1}, {0.4f, height, height > 0 ? 0.f : -1.f}};
+    hinge.masses.assign(4, 1);
+    hinge.constraints.push_back({"dihedral_bending", {0, 1, 2, 3}, {0.f}, Stiffness::compliance(0.05f), {}});
+    const World world(scene);
+    const double bent = height > 0 ? 1.5707963267948966 : 0;
+    EXPECT_NEAR(BendingEnergy(scene).of(world), 0.5 * bent * bent / 0.05, 1e-5);
+    scene.objects[0].constraints[0].rest.clear();
+    EXPECT_EQ(BendingEnergy(scene).of(world), 0) << "the angle at rest is the measured one";
+    scene.objects[0].constraints[0].stiffness = Stiffness::rigid();
+    EXPECT_EQ(BendingEnergy(scene).of(world), 0);
+  }
+}
+
+/// What a bent strip gives back is no gain.
+TEST(SceneTable, CountsWhatFoldsGiveBackApart) {
+  NamedScene strip{"strip", {}};
+  ClothOptions stiff;
+  stiff.material.bending_stiffness = 1e-3f;
+  strip.scene.add_cloth(grid_mesh(5, 40, 0.1f, 1), stiff);
+  strip.scene.gravity = {};
+  Object& sheet = strip.scene.objects[0];
+  for (ConstraintGroup& group : sheet.constraints)
+    if (group.type == "dihedral_bending") group.rest.assign(group.particles.size() / 4, 0);
+  for (Vec3f& p : sheet.positions) {
+    const float angle = 3 * p.z;
+    p = {p.x, (1 - std::cos(angle)) / 3, std::sin(angle) / 3};
+  }
+  SceneTableOptions options;
+  options.against.clear();
+  options.frames = 60;
+  const SceneRow row = measure_scenes({strip}, options).front();
+  EXPECT_GT(row.gain, 1e-3);
+  EXPECT_LT(row.gain_with_bending, 0.25 * row.gain);
 }
 
 TEST(SceneTable, LeavesTheBoundsOfTheFileToItsOwnSettings) {
