@@ -99,6 +99,22 @@ TEST(Words, NameSubstepsThatTheSceneLeavesOpen) {
   EXPECT_EQ(in_json(wanted, own), R"({"least_substeps": 48, "most_substeps": 48})");
 }
 
+/// A larger lower bound of substeps is not the default, although both leave the substeps open.
+TEST(Words, TellALargerLowerBoundFromTheDefault) {
+  Advice advice;
+  advice.frames = advice.own.frames = 10;
+  advice.own.complete = true;
+  advice.own.worst.largest = advice.own.worst.p99 = 0.5;
+  Trial bounded = advice.own;
+  bounded.worst = {};
+  bounded.settings.least_substeps = 48;
+  advice.others = {bounded};
+  advice.best = 0;
+  const std::string words = remedy(advice, {});
+  EXPECT_EQ(words.rfind("at least 48 substeps (", 0), 0U) << words;
+  EXPECT_NE(words.find(R"({"least_substeps": 48})"), std::string::npos) << words;
+}
+
 /// Multigrid ignores bending and makes a stiff sheet oscillate, and gains energy where surfaces touch, so it is not tried.
 TEST(BetterSweeps, BeginWithTheDefaultAndLeaveOutMultigridWhereItDoesHarm) {
   Scene scene;

@@ -140,6 +140,22 @@ TEST(SceneTable, CountsWhatFoldsGiveBackApart) {
   EXPECT_LT(row.gain_with_bending, 0.25 * row.gain);
 }
 
+/// A field that lifts a sheet by 20 m/s^2 against gravity: its work is energy gained.
+TEST(SceneTable, MeasuresEnergyGainedAndMotion) {
+  NamedScene lifted{"lifted", {}};
+  lifted.scene.add_cloth(grid_mesh(12, 12, 1, 1));
+  lifted.scene.gravity = {0, -9.81f, 0};
+  lifted.scene.forces.push_back([](const Vec3f&, const Vec3f&, float mass, float) { return Vec3f{0, 20 * mass, 0}; });
+  SceneTableOptions options;
+  options.against.clear();
+  options.frames = 30;
+  const SceneRow row = measure_scenes({lifted}, options).front();
+  const double seconds = 30 * static_cast<double>(lifted.scene.frame_time), rise = 0.5 * 10.19 * seconds * seconds;
+  EXPECT_NEAR(row.moved, rise / 30, 0.02 * rise / 30);
+  EXPECT_NEAR(row.gain, 20 * rise, 0.02 * 20 * rise);
+  EXPECT_TRUE(row.finite);
+}
+
 TEST(SceneTable, LeavesTheBoundsOfTheFileToItsOwnSettings) {
   NamedScene hung{"hung", {}};
   hung.scene.add_cloth(grid_mesh(24, 24, 1, 1));
