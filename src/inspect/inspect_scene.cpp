@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
@@ -247,7 +248,7 @@ void look_through(Problems& problems, const Scene& scene) {
 }  // namespace
 
 std::optional<Error> error_of_bounds(const Settings& settings) {
-  const int least = settings.least_substeps, most = settings.most_substeps, rounded_up = (least + 3) / 4 * 4;
+  const int least = settings.least_substeps, most = settings.most_substeps;
   if (least <= 0 || most <= 0) return {};
   const Location where{{}, 0, {}, "settings, least_substeps"};
   const std::string fixed =
@@ -255,6 +256,8 @@ std::optional<Error> error_of_bounds(const Settings& settings) {
   if (least > most)
     return Error(where, "is " + std::to_string(least) + ", more than most_substeps, " + std::to_string(most),
                  "increase most_substeps" + fixed);
+  // In 64 bits: the next multiple of four of the largest int is no int.
+  const std::int64_t rounded_up = (std::int64_t{least} + 3) / 4 * 4;
   if (most >= 4 && rounded_up > most)
     return Error(where,
                  "is " + std::to_string(least) + " and most_substeps " + std::to_string(most) +

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "pliant/mesh.h"
 #include "pliant/scene.h"
+#include "pliant/substep_bounds.h"
 
 namespace pliant {
 namespace {
@@ -70,6 +73,19 @@ TEST(InspectScene, OffersSubstepsInsteadOfBoundsOnlyWhereNoneAreNamed) {
   EXPECT_NE(finding(scene, "has no effect").find("name substeps instead"), std::string::npos);
   scene.settings.substeps = 20;
   EXPECT_NE(finding(scene, "has no effect").find("because the scene names substeps; remove it\n"), std::string::npos);
+}
+
+TEST(InspectScene, BoundsUpToTheLargestIntDoNotOverflow) {
+  constexpr int largest = std::numeric_limits<int>::max();
+  Settings settings;
+  settings.least_substeps = largest;
+  EXPECT_FALSE(error_of_bounds(settings)) << "no upper bound, so no pair to refuse";
+  settings.most_substeps = largest;
+  const std::optional<Error> error = error_of_bounds(settings);
+  ASSERT_TRUE(error) << "no multiple of four lies between";
+  EXPECT_NE(error->advice().find("increase most_substeps to 2147483648"), std::string::npos) << error->advice();
+  settings.least_substeps = largest - 3;
+  EXPECT_FALSE(error_of_bounds(settings));
 }
 
 }  // namespace
