@@ -13,14 +13,14 @@
 namespace pliant {
 
 /// Collects the warnings of several frames: of each kind the first one, with its frame ("frame 3: ..."). Warnings that
-/// differ only in numbers are of one kind.
+/// differ only in numbers outside quoted names are of one kind.
 class WarningLog {
  public:
   void add(const Report& report);
   const std::vector<std::string>& lines() const { return lines_; }
 
  private:
-  std::set<std::string> kinds_;  ///< texts of warnings that have occurred, without numbers
+  std::set<std::string> kinds_;  ///< texts of warnings that have occurred, without those numbers
   std::vector<std::string> lines_;
 };
 

@@ -72,5 +72,27 @@ TEST(Warnings, ThatDifferOnlyInNumbersAreOfOneKind) {
   EXPECT_EQ(log.lines(), (std::vector<std::string>{"frame 1: vertex 3 is at 1.5 m", "frame 1: other", "frame 2: another"}));
 }
 
+/// The lines that a log keeps of warnings of one frame.
+std::size_t kept(const std::vector<std::string>& warnings) {
+  WarningLog log;
+  Report report;
+  report.warnings = warnings;
+  log.add(report);
+  return log.lines().size();
+}
+
+TEST(Warnings, OfObjectsWhoseNamesDifferInDigitsAreOfTwoKinds) {
+  EXPECT_EQ(kept({"object 'sheet1': edge 3-4", "object 'sheet2': edge 3-4", "object 'sheet1': edge 5-61"}), 2U);
+  EXPECT_EQ(kept({"\"1.5\" is far", "\"2.5\" is far"}), 2U);
+  EXPECT_EQ(kept({"object 'Ann's 1' at 2", "object 'Ann's 2' at 2", "object 'Ann's 2' at 3"}), 2U);
+  EXPECT_EQ(kept({"the sheet's 1 of the ball's 2", "the sheet's 3 of the ball's 4"}), 1U) << "apostrophes quote nothing";
+  EXPECT_EQ(kept({"' 1", "' 2"}), 1U) << "nor does a quote without its end";
+}
+
+TEST(Warnings, OfNumbersWithSignFractionOrExponentAreOfOneKind) {
+  EXPECT_EQ(kept({"moves 0.5 m", "moves -0.5 m", "moves 7 m", "moves 2e-05 m", "moves +1.25e+3 m"}), 1U);
+  EXPECT_EQ(kept({"moves 3 edges", "moves 3. edges", "moves - edges", "moves edges"}), 4U) << "what is no number stays";
+}
+
 }  // namespace
 }  // namespace pliant
