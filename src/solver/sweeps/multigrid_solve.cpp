@@ -68,6 +68,8 @@ double MultigridSolve::apply() {
   });
 }
 
+/// Batches at borders overwrite what the parallel loop wrote for them. They follow it on one thread, so where pieces are so
+/// small that most batches have a border this does not scale with threads.
 void MultigridSolve::apply_to_shifts() {
   const Record* direction = work_.direction.data();
   Record* image = work_.image().data();
