@@ -247,7 +247,7 @@ const Record& settings_record() {
            "substeps", integer(0, 10000), Settings{}.substeps,
            "Substeps per frame; 0: they follow strain and motion where chains solve an object; 5 for objects that "
            "`multigrid` solves, 10 if they can touch surfaces, are in wind or a force field, or have pins that move or lie "
-           "together; 20 for all others."),
+           "together; 80 to 160 for volumes that chains solve; 20 for all others."),
        field("iterations", integer(1, 10000), Settings{}.iterations, "Iterations per substep."),
        field("tolerance", number("m", 0, largest_place), Settings{}.tolerance,
              "A substep ends its iterations when the root mean square error of its distance constraints falls below this; "
@@ -258,13 +258,15 @@ const Record& settings_record() {
            "The method that projects constraints (docs/internals/sweeps.md), unless an object has its own. "
            "`automatic` chooses for each object of 32 particles or more: `tethered_chains` for regular cloth and rope that "
            "hang from pins, `chains` for others that can touch others or themselves, `multigrid` for irregular ones that "
-           "can meet no collider, and `tiled` for inflated volumes, PBD stiffness, or several iterations. "
+           "can meet no collider, and `tiled` for volumes at a pressure that their edges resist, PBD stiffness, or several "
+           "iterations. "
            "`sequential` is the slow scalar reference with the bits of `tiled`."),
        field("sweep_options", record(sweep_options_record()), "the defaults", "Options of sweeps."),
        field("contact_filter", boolean(), Settings{}.contact_filter,
              "Truncate steps so that colliding surfaces never cross (docs/guide/contact.md). Without it only contacts keep "
              "them apart."),
-       field("most_substeps", integer(0, 10000), "100 where substeps follow the State, else eight times `substeps`",
+       field("most_substeps", integer(0, 10000),
+             "100 where substeps follow the State, or what a volume that they can meet needs; else eight times `substeps`",
              "Maximum number of substeps of a frame: where they follow the State (in multiples of four), and where a mesh "
              "collider moves fast (docs/guide/contact.md)."),
        field("least_substeps", integer(0, 10000), "12; 8 for cloth that only hangs by `tethered_chains`",

@@ -104,7 +104,8 @@ bool set_bounds(const Settings& settings, const SubstepGroup& group, const Limit
   const auto up = [](int substeps) { return (substeps + quarters - 1) / quarters * quarters; };
   const auto down = [](int substeps) { return substeps / quarters * quarters; };
   const int named = up(settings.least_substeps);
-  const int most = limited(settings.most_substeps > 0 ? settings.most_substeps : std::max(named, most_by_state));
+  const int usual = std::max({named, most_by_state, up(group.least)});  // with what a volume of the set needs
+  const int most = limited(settings.most_substeps > 0 ? settings.most_substeps : usual);
   frame.substeps = most;
   if (most < quarters) return false;
   frame.most_substeps = down(most);

@@ -293,6 +293,10 @@ TEST(InspectScene, DoubtfulConstraintsAndSurfaces) {
     stretch(s).compliances.assign(stretch(s).compliances.size(), 0);
   };
   expect_doubt("edges must become 11.9 % longer", inflate, balloon_scene());
+  Scene within_bounds = balloon_scene();
+  inflate(within_bounds);
+  within_bounds.objects[0].volume->pressure = 1.06f;  // 2.0 % longer
+  EXPECT_EQ(text_of(inspect(within_bounds)), "");
 }
 
 TEST(InspectScene, DoubtfulOverlaps) {

@@ -172,6 +172,28 @@ TEST(SubstepLaw, GrantsWhatOtherSweepsOfTheSetNeed) {
   for (int frame = 0; frame < 15; ++frame) EXPECT_GE(world.step(dt).substeps, 20);  // free fall demands nothing
 }
 
+/// A rubber balloon that cloth can meet keeps its substeps, which are more than the law's largest number.
+TEST(SubstepLaw, GrantsWhatVolumesOfTheSetNeed) {
+  ClothOptions options;
+  options.material.area_density = 0.5f;
+  options.material.stretch_stiffness = 1800;
+  options.volume = Volume{1.5f, Stiffness::rigid()};
+  TriangleMesh mesh = sphere_mesh(3);
+  for (Vec3f& p : mesh.positions) p = p * 0.2f + Vec3f{5, 0, 0};
+  Scene scene;
+  scene.add_cloth(mesh, options);
+  const int alone = chosen_substeps(scene)[0];
+  EXPECT_GT(alone, 100);
+  scene.objects[0].collides = true;
+  scene.add(falling_sheet(10));
+  scene.objects[1].collides = true;
+  EXPECT_EQ(chosen_substeps(scene), (std::vector<int>{0, 0}));
+  World world(scene);
+  for (int frame = 0; frame < 3; ++frame) EXPECT_GE(world.step(dt).substeps, alone);
+  scene.settings.most_substeps = 100;
+  EXPECT_EQ(World(scene).step(dt).substeps, 100) << "what the scene names holds";
+}
+
 /// The substeps of the last of five frames.
 int substeps_after(const Scene& scene) {
   World world(scene);
