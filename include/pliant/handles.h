@@ -1,7 +1,8 @@
 // Handles of what is in a World, to read and control it between steps: World::object(id).positions().
 //
-// A view reads, a handle reads and controls. Both are small values: an id and a pointer to the World. They are valid while
-// the World lives, also if it is moved. All functions throw an Error if the thing was removed.
+// A view reads, a handle reads and controls. Both are small values: an id and a pointer to the World's data. They stay valid
+// if the World is moved to another, and end when it is destroyed or another is assigned to it. All functions throw an Error
+// if the thing was removed.
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,7 @@ namespace pliant {
 
 struct WorldData;
 
-/// Measures a World between steps. A small value that is valid while the World lives.
+/// Measures a World between steps. A small value that is valid as long as a handle (handles.h).
 class Measurements {
  public:
   explicit Measurements(const WorldData& world) : world_(&world) {}

@@ -24,17 +24,6 @@ SetMember member_of(const CompiledObject& object) {
           object.is_collider, object.own_substeps, object.substep_rule};
 }
 
-/// Copies a phase with the tasks of a group only. Phases whose tasks are found in each substep have none, and are kept.
-Phase part_of(const Phase& phase, const std::vector<char>& has) {
-  Phase part{phase.driver, phase.colour};
-  for (const Task& task : phase.tasks) {
-    if (has[task.object] == 0) continue;
-    part.tasks.push_back(task);
-    part.work += task.work;
-  }
-  return part;
-}
-
 /// True if the limit of overstretch applies: other sweeps leave whole regions too long, which shortening one constraint
 /// after another does not mend.
 bool limits_lengths(Sweep sweep) { return solves_chains(sweep) || sweep == Sweep::multigrid; }
@@ -79,49 +68,67 @@ int substeps_to_hang(const CompiledObject& object) {
   return static_cast<int>(std::min(edges * std::sqrt(edges) / edges_to_hang, double(most_to_hang)));
 }
 
-void list_lengths(const Model& model, SubstepGroup& group) {
-  group.hangs = group.by_state;
-  for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) {
-    const CompiledObject& object = model.objects[o];
-    if (object.particles == 0 || !(group.has_all || group.has[o] != 0)) continue;
-    group.hangs = group.hangs && (object.is_collider || hangs(object));
-    if (group.hangs && !object.is_collider) group.least_hanging = std::max(group.least_hanging, substeps_to_hang(object));
-    if (!limits_lengths(object.sweep)) continue;
-    for (int i = 0; i < static_cast<int>(object.lengths.size()); ++i)
-      group.lengths.push_back({o, i, object.lengths[i].batches});
-  }
+void list_lengths(const Model& model, int o, SubstepGroup& group) {
+  const CompiledObject& object = model.objects[o];
+  if (object.particles == 0) return;
+  group.hangs = group.hangs && (object.is_collider || hangs(object));
+  if (group.hangs && !object.is_collider) group.least_hanging = std::max(group.least_hanging, substeps_to_hang(object));
+  if (!limits_lengths(object.sweep)) return;
+  for (int i = 0; i < static_cast<int>(object.lengths.size()); ++i)
+    group.lengths.push_back({o, i, object.lengths[i].batches});
 }
 
-/// The group with the objects whose key is `key`.
-SubstepGroup group_of(const Model& model, const std::vector<int>& of_object, int key, const SetSubsteps& of_set) {
-  SubstepGroup group;
-  group.substeps = of_set.substeps;
-  group.by_state = of_set.by_state;
-  group.least = of_set.least;
-  group.has_all = false;
-  for (std::size_t o = 0; o < of_object.size(); ++o) {
-    const CompiledObject& object = model.objects[o];
-    const bool is_in = object.particles > 0 && of_object[o] == key;
-    group.has.push_back(is_in ? 1 : 0);
-    if (!is_in) continue;
-    group.objects.push_back(static_cast<int>(o));
-    const bool is_new = std::find(group.sweeps.begin(), group.sweeps.end(), object.sweep) == group.sweeps.end();
-    if (!object.is_collider && is_new) group.sweeps.push_back(object.sweep);
-  }
-  for (std::size_t task = 0; task < model.tiles().size(); ++task)
-    if (group.has[model.tiles()[task].object] != 0) group.tiles.push_back(static_cast<int>(task));
+/// Adds an object to a group.
+void add(const Model& model, int o, SubstepGroup& group) {
+  const CompiledObject& object = model.objects[o];
+  group.has[o] = 1;
+  group.objects.push_back(o);
+  const bool is_new = std::find(group.sweeps.begin(), group.sweeps.end(), object.sweep) == group.sweeps.end();
+  if (!object.is_collider && is_new) group.sweeps.push_back(object.sweep);
+  list_lengths(model, o, group);
+}
+
+/// Copies phases to the groups, each with the tasks of its objects. Phases whose tasks are found in each substep have none, and
+/// all groups get them. `of_object` is the group of each object, or -1.
+void divide_phases(const Model& model, const std::vector<int>& of_object, std::vector<SubstepGroup>& groups) {
+  std::vector<const Phase*> last(groups.size(), nullptr);  // the last phase of which each group has a part
   for (const Phase& phase : model.phases) {
-    Phase part = part_of(phase, group.has);
-    if (phase.tasks.empty() || !part.tasks.empty()) group.phases.push_back(std::move(part));
+    if (phase.tasks.empty())
+      for (SubstepGroup& group : groups) group.phases.push_back(phase);
+    for (const Task& task : phase.tasks) {
+      const int g = of_object[task.object];
+      if (g < 0) continue;
+      if (std::exchange(last[g], &phase) != &phase) groups[g].phases.push_back({phase.driver, phase.colour});
+      Phase& part = groups[g].phases.back();
+      part.tasks.push_back(task);
+      part.work += task.work;
+    }
   }
-  list_lengths(model, group);
-  return group;
 }
 
 /// Sets that share a group have the same key, in ascending order of substeps; each set that follows its State has its own.
 int key_of(const SetSubsteps& set) {
   constexpr int most = 10000;  // Settings::substeps
   return set.by_state ? most + 1 + set.set : set.substeps;
+}
+
+/// The key of each object, and the substeps of each key. Objects without a key belong to the first one.
+struct GroupKeys {
+  std::vector<int> of_object;
+  std::map<int, SetSubsteps> substeps;
+};
+
+GroupKeys find_keys(const Model& model) {
+  std::vector<SetMember> members;
+  for (const CompiledObject& object : model.objects) members.push_back(member_of(object));
+  GroupKeys keys;
+  for (const SetSubsteps& set : substeps_of_sets(members)) {
+    keys.of_object.push_back(key_of(set));
+    if (keys.of_object.back() > 0) keys.substeps.try_emplace(keys.of_object.back(), set);
+  }
+  if (keys.substeps.empty()) keys.substeps.emplace(0, SetSubsteps{0, substeps_of_others});
+  for (int& key : keys.of_object) key = key > 0 ? key : keys.substeps.begin()->first;
+  return keys;
 }
 
 }  // namespace
@@ -131,28 +138,46 @@ SubstepGroup group_of_all(const Model& model, int substeps, bool by_state, int l
   group.substeps = substeps;
   group.by_state = by_state;
   group.least = least;
-  list_lengths(model, group);
+  group.hangs = by_state;
+  for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) list_lengths(model, o, group);
   return group;
 }
 
 std::vector<SubstepGroup> make_substep_groups(const Model& model) {
-  std::vector<SetMember> members;
-  for (const CompiledObject& object : model.objects) members.push_back(member_of(object));
-  std::map<int, SetSubsteps> keys;
-  std::vector<int> of_object;
-  for (const SetSubsteps& set : substeps_of_sets(members)) {
-    of_object.push_back(key_of(set));
-    if (of_object.back() > 0) keys.try_emplace(of_object.back(), set);
-  }
+  const GroupKeys keys = find_keys(model);
   std::vector<SubstepGroup> groups;
-  if (keys.size() < 2) {
-    const SetSubsteps all = keys.empty() ? SetSubsteps{0, substeps_of_others} : keys.begin()->second;
+  if (keys.substeps.size() < 2) {
+    const SetSubsteps& all = keys.substeps.begin()->second;
     groups.push_back(group_of_all(model, all.substeps, all.by_state, all.least));
     return groups;
   }
-  for (int& key : of_object) key = key > 0 ? key : keys.begin()->first;
-  for (const auto& [key, set] : keys) groups.push_back(group_of(model, of_object, key, set));
+  std::map<int, int> group_of_key;
+  for (const auto& [key, set] : keys.substeps) {
+    group_of_key.emplace(key, static_cast<int>(groups.size()));
+    SubstepGroup& group = groups.emplace_back();
+    group.substeps = set.substeps;
+    group.by_state = group.hangs = set.by_state;
+    group.least = set.least;
+    group.has_all = false;
+    group.has.assign(model.objects.size(), 0);
+  }
+  std::vector<int> of_object(model.objects.size(), -1);
+  for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) {
+    if (model.objects[o].particles == 0) continue;  // the object was removed
+    of_object[o] = group_of_key.at(keys.of_object[o]);
+    add(model, o, groups[of_object[o]]);
+  }
+  for (int task = 0; task < static_cast<int>(model.tiles().size()); ++task)
+    if (const int g = of_object[model.tiles()[task].object]; g >= 0) groups[g].tiles.push_back(task);
+  divide_phases(model, of_object, groups);
   return groups;
+}
+
+std::vector<SetSubsteps> planned_substeps(const Model& model) {
+  const GroupKeys keys = find_keys(model);
+  std::vector<SetSubsteps> out;
+  for (const int key : keys.of_object) out.push_back(keys.substeps.at(key));
+  return out;
 }
 
 }  // namespace pliant

@@ -11,6 +11,7 @@
 
 #include "collision/surfaces/surface_contact.h"
 #include "model/model.h"
+#include "model/object_sets.h"
 
 namespace pliant {
 
@@ -33,6 +34,9 @@ struct SubstepGroup {
 
 /// Makes the groups of a model, ordered by substeps. Mesh colliders that touch no object belong to the first group.
 std::vector<SubstepGroup> make_substep_groups(const Model& model);
+
+/// For each object, the substeps of the group that make_substep_groups() puts it in, without making groups.
+std::vector<SetSubsteps> planned_substeps(const Model& model);
 
 /// Makes one group of all objects.
 SubstepGroup group_of_all(const Model& model, int substeps, bool by_state = false, int least = 0);

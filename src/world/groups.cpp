@@ -13,11 +13,21 @@ namespace pliant {
 
 namespace {
 
+/// True if surfaces of a group may meet.
+bool can_touch(const Model& model, const SubstepGroup& group) {
+  return std::any_of(group.objects.begin(), group.objects.end(), [&](int o) {
+    const CompiledObject& object = model.objects[o];
+    return object.self_collision || object.collides || object.is_collider;
+  });
+}
+
 /// Makes the contact between surfaces for all objects of a group.
 void make_pairs(WorldData& world, SubstepGroup& group) {
   std::unique_ptr<PairModel>& pairs = group.has_all ? world.groups.pairs_of_all : group.pair_model;
   std::unique_ptr<SurfaceContact>& contact = group.has_all ? world.workspace.pairs : group.pairs;
   contact = nullptr;
+  pairs = nullptr;
+  if (!group.has_all && !can_touch(world.model, group)) return;
   pairs = make_pair_model(world.model, group.has);  // `has` is empty if the group has all objects
   if (pairs == nullptr) return;
   pairs->filter = world.settings.contact_filter;
@@ -52,6 +62,9 @@ void take_over_pairs(WorldData& world, SubstepGroup& group, SubstepGroup& before
   if (!changed.empty()) update_pairs(world, group, changed);
 }
 
+/// True if all objects have the same substeps, because the tolerance, or the record of residuals, is for all together.
+bool shares_one_group(const WorldData& world) { return world.settings.tolerance > 0 || world.settings.record_residuals; }
+
 /// Finds the groups of objects with the same substeps. Their contact between surfaces is not made yet.
 std::vector<SubstepGroup> find_groups(const WorldData& world) {
   std::vector<SubstepGroup> found;
@@ -59,19 +72,21 @@ std::vector<SubstepGroup> find_groups(const WorldData& world) {
     found.push_back(group_of_all(world.model, named_substeps(world)));
   else
     found = make_substep_groups(world.model);
-  if (named_substeps(world) > 0 || (world.settings.tolerance <= 0 && !world.settings.record_residuals)) return found;
-  int most = 0;  // because the tolerance is for all objects together
+  if (named_substeps(world) > 0 || !shares_one_group(world)) return found;
+  int most = 0;
   for (const SubstepGroup& group : found) most = std::max(most, group.substeps);
   found.clear();
   found.push_back(group_of_all(world.model, most));
   return found;
 }
 
-bool have_common_object(const SubstepGroup& a, const SubstepGroup& b) {
-  const std::size_t count = std::min(a.has.size(), b.has.size());
-  for (std::size_t o = 0; o < count; ++o)
-    if (a.has[o] != 0 && b.has[o] != 0) return true;
-  return false;
+/// For each object, the index of the earlier group that had it and followed its State, or the number of groups.
+std::vector<std::size_t> groups_before(const std::vector<SubstepGroup>& before, std::size_t objects) {
+  std::vector<std::size_t> of_object(objects, before.size());
+  for (std::size_t g = 0; g < before.size(); ++g)
+    if (before[g].by_state)
+      for (const int o : before[g].objects) of_object[o] = g;
+  return of_object;
 }
 
 /// Finds the groups, and makes their contact between surfaces or takes it over from the groups before.
@@ -80,12 +95,18 @@ void prepare_groups(WorldData& world) {
   if (before.size() == 1 && world.groups.all.size() == 1) return;  // still one group of all objects, whose contact stays
   world.workspace.pairs = nullptr;
   world.groups.pairs_of_all = nullptr;
+  const std::vector<std::size_t> of_object = groups_before(before, world.model.objects.size());
   for (SubstepGroup& group : world.groups.all) {
-    const auto same = std::find_if(before.begin(), before.end(), [&](const SubstepGroup& one) {
-      if (one.has_all || group.has_all || one.by_state != group.by_state) return false;
-      return group.by_state ? have_common_object(one, group) : one.substeps == group.substeps;
-    });
-    same != before.end() ? take_over_pairs(world, group, *same) : make_pairs(world, group);
+    std::size_t same = before.size();
+    if (group.by_state) {
+      for (const int o : group.objects) same = std::min(same, of_object[o]);
+    } else if (!group.has_all) {
+      const auto equal = [&](const SubstepGroup& one) {
+        return !one.has_all && !one.by_state && one.substeps == group.substeps;
+      };
+      same = static_cast<std::size_t>(std::find_if(before.begin(), before.end(), equal) - before.begin());
+    }
+    same < before.size() ? take_over_pairs(world, group, before[same]) : make_pairs(world, group);
   }
   world.groups.changed_surfaces.clear();
 }
@@ -169,12 +190,15 @@ void bring_up_to_date(WorldData& world) {
 
 int substeps_of(const WorldData& world, int number) {
   if (named_substeps(world) > 0) return named_substeps(world);
-  const auto find = [&](const std::vector<SubstepGroup>& all) {
+  if (!world.groups.objects_changed) {
     const auto has = [&](const SubstepGroup& group) { return group.has_all || group.has[number] != 0; };
-    const SubstepGroup& group = *std::find_if(all.begin(), all.end(), has);
+    const SubstepGroup& group = *std::find_if(world.groups.all.begin(), world.groups.all.end(), has);
     return group.by_state ? 0 : group.substeps;
-  };
-  return world.groups.objects_changed ? find(find_groups(world)) : find(world.groups.all);
+  }
+  const std::vector<SetSubsteps> planned = planned_substeps(world.model);
+  if (!shares_one_group(world)) return planned[number].by_state ? 0 : planned[number].substeps;
+  const auto fewer = [](const SetSubsteps& a, const SetSubsteps& b) { return a.substeps < b.substeps; };
+  return std::max_element(planned.begin(), planned.end(), fewer)->substeps;
 }
 
 std::vector<GroupFrame> plan_frame(const WorldData& world, double dt, Report& report) {

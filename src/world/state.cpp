@@ -71,13 +71,13 @@ void require_held_poses(const WorldData& world, const State& given) {
     const bool exists = pose.is_mesh ? world.ids.mesh_colliders.has({pose.slot, pose.generation})
                                      : world.ids.colliders.has({pose.slot, pose.generation});
     if (!exists)
-      throw Error({}, "the world.state holds a pose of a collider that this World does not have",
-                  "restore a world.state of this world");
+      throw Error({}, "the state holds a pose of a collider that this World does not have",
+                  "restore a state of this world");
     const Quatf& q = pose.rotation;
     const Vec3f& x = pose.position;
     bool is_finite = true;
     for (const float value : {x.x, x.y, x.z, q.x, q.y, q.z, q.w}) is_finite = is_finite && std::isfinite(value);
-    if (!is_finite) throw Error({}, "the world.state holds a pose that is not finite", "restore an earlier world.state");
+    if (!is_finite) throw Error({}, "the state holds a pose that is not finite", "restore an earlier state");
   }
 }
 
@@ -89,8 +89,8 @@ void require_blocks(const WorldData& world, const State& given) {
   const std::string name =
       other != own.end() ? world.model.objects[static_cast<std::size_t>(other - own.begin())].name : "";
   throw Error({.object = name},
-              "the world.state is of a World with other objects, or from before one was added, removed or edited",
-              "restore a world.state that was taken since the last such change");
+              "the state is of a World with other objects, or from before one was added, removed or edited",
+              "restore a state that was taken since the last such change");
 }
 
 }  // namespace

@@ -106,6 +106,10 @@ TEST(ObjectSets, LeaveOutWhatBendsARope) {
   EXPECT_EQ(substep_rule(rope(60, 1e-3f), Sweep::chains, gravity), SubstepRule::any);
   EXPECT_EQ(substep_rule(rope(40, 0), Sweep::chains, gravity), SubstepRule::by_state);
   EXPECT_EQ(substep_rule(rope(60, 0), Sweep::tiled, gravity), SubstepRule::any);
+  Object touching = rope(40, 0);
+  touching.self_collision = true;
+  EXPECT_EQ(substep_rule(touching, Sweep::chains, gravity), SubstepRule::any)
+      << "small objects that can touch share a group";
 }
 
 }  // namespace

@@ -72,6 +72,27 @@ TEST(Snapshot, OfAnotherWorldOrSpoiltIsRefused) {
   EXPECT_FALSE(refused([](State&) {}));
 }
 
+TEST(Snapshot, OfAnotherWorldIsRefusedInWords) {
+  const auto message = [](const auto& call) -> std::string {
+    try {
+      call();
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  World world(hanging_cloth());
+  State other = world.state();
+  other.blocks[0].generation = 1;
+  EXPECT_EQ(message([&] { world.restore(other); }),
+            "object 'cloth': the state is of a World with other objects, or from before one was added, removed or edited; "
+            "restore a state that was taken since the last such change");
+  State held = world.state();
+  held.held_poses.push_back({false, 7, 0, {}, {}});
+  EXPECT_EQ(message([&] { world.restore(held); }),
+            "the state holds a pose of a collider that this World does not have; restore a state of this world");
+}
+
 TEST(Snapshot, ReadsTheSameInAnyWorld) {
   Scene scene = hanging_cloth();
   scene.settings.record_multipliers = true;

@@ -180,6 +180,27 @@ TEST(SubstepGroups, GoOnFromAStateThatIsPutBack) {
   EXPECT_EQ(other.state_hash(), world.state_hash());
 }
 
+TEST(SubstepGroups, ArePlannedAsTheyAreThenMade) {
+  for (const float tolerance : {0.f, 1e-5f}) {
+    Scene scene = scene_of({flag(), sock()});
+    scene.settings.tolerance = tolerance;
+    World world(scene);
+    const auto numbers = [&] {
+      std::vector<int> all;
+      for (const ObjectId id : world.objects()) all.push_back(world.object(id).info().substeps);
+      return all;
+    };
+    const std::vector<Object> more{sock(), flag(), sock(), flag()};
+    for (std::size_t i = 0; i < more.size(); ++i) {
+      world.add(more[i]);
+      if (i == 2) world.remove(ObjectId(0));
+      const std::vector<int> planned = numbers();
+      run(world, 1);
+      EXPECT_EQ(numbers(), planned) << tolerance << ", addition " << i;
+    }
+  }
+}
+
 TEST(SubstepGroups, AreFoundAgainWhenObjectsComeAndGo) {
   World alone(scene_of({flag()})), world(scene_of({flag(), sock()}));
   run(alone);
