@@ -9,6 +9,8 @@ int main() {
   options.material = pliant::fabric("cotton");  // typical figures, in SI units
   pliant::TriangleMesh square = pliant::grid_mesh(40, 40, 1.f, 1.f);
   int cloth = scene.add_cloth(square, options);
+  scene.objects[cloth].thickness = 0.003f;  // metres that surfaces keep from each other: a tenth of an edge
+  scene.objects[cloth].self_collision = true;
 
   pliant::Collider ball;
   ball.shape = pliant::Sphere{0.25f};
