@@ -55,6 +55,11 @@ struct FrameScratch {
   Records predicted, corrections;  ///< rotation vectors of each frame in world axes [rad]
 };
 
+/// Of each set of objects that can meet: whether its impacts go on in this round (respond.cpp), and in the next one.
+struct ImpactScratch {
+  std::vector<char> goes_on, again;
+};
+
 /// Scratch data of a substep of a group. Nothing lasts for the next one, so groups that take turns share it; groups that run
 /// side by side have one for each thread.
 struct SubstepScratch {
@@ -64,7 +69,8 @@ struct SubstepScratch {
   ContactSolver shape_contact_solver;
   std::vector<AlignedVector<float>> chains;  ///< for each thread that solves chains, room for the longest
   std::vector<float> demands;                ///< substeps that constraints demand (substep_law.h)
-  LimitScratch limit;                        ///< the limit of overstretch
+  ImpactScratch impacts;
+  LimitScratch limit;  ///< the limit of overstretch
 };
 
 /// Memory that a World reuses from step to step. Over fifteen members: each stage of a substep has buffers of its own.

@@ -36,7 +36,7 @@ bool ClusterMotions::measure(Executor& executor, const ClusterLayout& layout, co
 }
 
 void ClusterMotions::find_means(const std::vector<int>& order) {
-  sums_.assign(model_.body_set.size(), {});
+  sums_.assign(static_cast<std::size_t>(model_.sets), {});
   for (const int c : order) {
     const ClusterMotion& motion = motions_[static_cast<std::size_t>(c)];
     Sum& sum = sums_[static_cast<std::size_t>(model_.set_of_cluster(c))];

@@ -58,7 +58,7 @@ class ClusterMotions {
   std::vector<float> travel_;  ///< distance that each cluster has travelled relative to mean(), since begin_travel() [m]
   std::vector<float> extent_;
   std::vector<Sum> sums_;     ///< scratch memory of find_means
-  std::vector<Vec3f> means_;  ///< for each set, at the index of its first body
+  std::vector<Vec3f> means_;  ///< for each set
 };
 
 }  // namespace pliant

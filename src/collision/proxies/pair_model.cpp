@@ -230,6 +230,20 @@ void order_clusters(PairModel& model) {
     for (int c = body.clusters.first; c < body.clusters.end(); ++c) model.cluster_order.push_back(c);
 }
 
+/// Numbers the sets of the bodies that meet some, in the order of their first such bodies.
+void number_sets(const std::vector<char>& meets_some, PairModel& model) {
+  const std::vector<int> first_body = model.rules.sets();
+  std::vector<int> number(first_body.size(), -1);
+  model.body_set.assign(first_body.size(), -1);
+  model.sets = 0;
+  for (std::size_t body = 0; body < first_body.size(); ++body) {
+    if (meets_some[body] == 0) continue;
+    int& of_set = number[static_cast<std::size_t>(first_body[body])];
+    if (of_set < 0) of_set = model.sets++;
+    model.body_set[body] = of_set;
+  }
+}
+
 bool takes_part(const PairModel& model, int body) { return model.bodies[body].clusters.size > 0; }
 
 }  // namespace
@@ -239,7 +253,7 @@ std::optional<PairChanges> update_pair_model(const Model& model, const std::vect
   const std::vector<char> meets_some = out.rules.meeting();
   std::vector<int> affected = changed;
   out.bodies.resize(meets_some.size());
-  out.body_set = out.rules.sets();
+  number_sets(meets_some, out);
   for (int o = 0; o < out.rules.bodies(); ++o) {
     const bool has_particles = model.objects[o].particles > 0;
     if ((meets_some[o] != 0 && has_particles) != takes_part(out, o)) affected.push_back(o);
@@ -295,7 +309,7 @@ void index_entries(std::size_t count, BodyOf body_of, BodyBlocks& blocks, Block 
 void index_bodies(PairModel& model) {
   ContactElements& all = model.elements;
   model.bodies.assign(static_cast<std::size_t>(model.rules.bodies()), {});
-  model.body_set = model.rules.sets();
+  number_sets(std::vector<char>(model.bodies.size(), 1), model);
   BodyBlocks vertex_blocks;
   const auto body_at = [&](std::size_t i) { return model.vertex_body[i]; };
   index_entries(model.rest.size(), body_at, vertex_blocks, &BodyElements::vertices, model);

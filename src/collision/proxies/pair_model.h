@@ -42,8 +42,11 @@ struct PairModel {
   /// For each cluster: its pairs have no contact where positions round by more than this [m]. Empty: no limit.
   std::vector<float> coarsest;
   std::vector<BodyElements> bodies;
-  std::vector<int> body_set;  ///< for each body the first body of its set (ContactRules::sets)
-  std::vector<char> has;      ///< for each body: 1 if it may meet any body; empty: all may
+  /// For each body that may meet others, the number of its set (ContactRules::sets), below `sets`; -1: meets none. Sets are
+  /// numbered densely, so that what is kept for each of them costs nothing for bodies of other PairModels.
+  std::vector<int> body_set;
+  int sets = 0;
+  std::vector<char> has;  ///< for each body: 1 if it may meet any body; empty: all may
   BodyBlocks edge_blocks, triangle_blocks, cluster_blocks;
   TrianglesAround triangles_around;
   float radius = 0;             ///< distance within which clusters are searched for candidates [m]
@@ -73,7 +76,8 @@ struct PairChanges {
 /// Returns nullopt if no two bodies can meet any more; the PairModel is then invalid.
 std::optional<PairChanges> update_pair_model(const Model& model, const std::vector<int>& changed, PairModel& out);
 
-/// Computes `bodies`, `body_set`, `cluster_order` and `triangles_around` of a model whose other arrays are in the order of bodies.
+/// Computes `bodies`, `body_set`, `sets`, `cluster_order` and `triangles_around` of a model whose other arrays are in the order
+/// of bodies.
 void index_bodies(PairModel& model);
 
 }  // namespace pliant

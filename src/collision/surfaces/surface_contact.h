@@ -56,12 +56,12 @@ class SurfaceContact {
   void measure_overlaps(const PairParticles& particles);
   /// True if a contact of this substep is an impact (is_impact); valid after the filter.
   bool has_impacts() const { return has_impacts_; }
-  /// The set of the bodies of a contact: the index of its first body, below sets().
+  /// The number of the set of a contact's bodies, below sets().
   std::size_t set_of(const Contact& contact) const {
     return static_cast<std::size_t>(
         model_.body_set[static_cast<std::size_t>(model_.vertex_body[static_cast<std::size_t>(contact.point[0])])]);
   }
-  std::size_t sets() const { return model_.body_set.size(); }
+  std::size_t sets() const { return static_cast<std::size_t>(model_.sets); }
   /// Removes the remaining approach speed of an impact after a substep, and returns it [m/s].
   float end_impact(const Contact& contact, const Record* positions, Record* velocities,
                    FunctionRef<Vec3f(int body)> gravity) const;

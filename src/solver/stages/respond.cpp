@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <atomic>
 #include <vector>
 
@@ -25,24 +26,21 @@ void end_impacts(Substep& s, FunctionRef<Vec3f(int)> gravity, float slow) {
   const auto for_impacts = [&](FunctionRef<void(const Contact&)> answer) {
     impacts.for_each(s.context.executor, "respond", pairs.contacts(), answer);
   };
-  std::vector<std::atomic<char>> again(pairs.sets());  ///< of each set: it needs another round
-  std::vector<char> goes_on(pairs.sets(), 1);
+  std::vector<char>&goes_on = s.own->impacts.goes_on, &again = s.own->impacts.again;
+  goes_on.assign(pairs.sets(), 1);
   for (int round = 0; round < most_rounds_of_impacts; ++round) {
+    again.assign(goes_on.size(), 0);
     for_impacts([&](const Contact& contact) {
       const std::size_t set = pairs.set_of(contact);
       if (goes_on[set] == 0) return;
       const float approach = pairs.end_impact(contact, positions, velocities, gravity);
-      if (approach * s.h > share_left * contact.thickness) again[set].store(1, std::memory_order_relaxed);
+      if (approach * s.h > share_left * contact.thickness) std::atomic_ref(again[set]).store(1, std::memory_order_relaxed);
     });
     for_impacts([&](const Contact& contact) {
       if (goes_on[pairs.set_of(contact)] != 0) pairs.respond(contact, positions, velocities, slow, gravity);
     });
-    bool any = false;
-    for (std::size_t set = 0; set < goes_on.size(); ++set) {
-      goes_on[set] = again[set].exchange(0, std::memory_order_relaxed);
-      any = any || goes_on[set] != 0;
-    }
-    if (!any) break;
+    goes_on.swap(again);
+    if (std::find(goes_on.begin(), goes_on.end(), 1) == goes_on.end()) break;
   }
 }
 
