@@ -133,7 +133,7 @@ TEST(RunTime, AStaleIdIsRefusedAndNeverAnotherObject) {
   }
   const ColliderId there = world.add(ball());
   world.remove(there);
-  EXPECT_THROW(world.collider(there).pose().position, Error);
+  EXPECT_THROW((void)world.collider(there).pose(), Error);
   EXPECT_THROW(world.remove(there), Error);
   const MeshColliderId mesh = world.add(table());
   EXPECT_EQ(world.mesh_collider(mesh).positions().size(), table().mesh.positions.size());
