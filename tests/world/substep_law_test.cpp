@@ -185,7 +185,7 @@ TEST(SubstepLaw, GrantsWhatVolumesOfTheSetNeed) {
   const int alone = chosen_substeps(scene)[0];
   EXPECT_GT(alone, 100);
   scene.objects[0].collides = true;
-  scene.add(falling_sheet(10));
+  scene.add(falling_sheet(20));
   scene.objects[1].collides = true;
   EXPECT_EQ(chosen_substeps(scene), (std::vector<int>{0, 0}));
   World world(scene);
