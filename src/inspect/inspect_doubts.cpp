@@ -190,9 +190,10 @@ void doubt_volume(const Doubts& d) {
     d.problems.doubtful("volume", "is inside out: its triangles face inward",
                         "flip all triangles; make_cloth does so itself");
   const bool is_rigid = d.object.volume->stiffness.kind == Stiffness::Kind::pbd || d.object.volume->stiffness.value == 0;
+  const double frame = static_cast<double>(d.scene.frame_time);
   const bool is_strained =
       strain_of_inflated(d.object) > tolerated_p99;  // less is within the bounds even if no edge yields
-  if (is_rigid && is_strained && !can_follow_volume(d.object))
+  if (is_rigid && is_strained && !can_follow_volume(d.object, frame / substeps_of_volumes))
     d.problems.doubtful("volume",
                         "has a pressure of " + words(d.object.volume->pressure) + ", for which edges must become " +
                             words(std::round(1000 * strain_of_inflated(d.object)) / 10) +

@@ -265,16 +265,62 @@ struct Choice {
   std::string reason;
 };
 
-Choice choose(const Scene& scene, const Settings& settings, const Object& object) {
+/// What the sets of a scene demand before a sweep is chosen for its volumes; found when the first inflated object asks.
+class OpenSets {
+ public:
+  OpenSets(const Scene& scene, const Settings& settings) : scene_(scene), settings_(settings) {}
+
+  /// The substeps in which chains would solve an inflated object of the scene, or fewer.
+  int substeps_of(const Object& object) {
+    if (settings_.substeps > 0) return settings_.substeps;
+    if (sets_.empty()) find();
+    const SetSubsteps& set = sets_[static_cast<std::size_t>(&object - scene_.objects.data())];
+    if (set.substeps == substeps_of_others) return substeps_of_others;  // for which PBD stiffness is converted
+    const bool has_bounds = set.by_state && settings_.least_substeps + settings_.most_substeps > 0;
+    if (!has_bounds) return substeps_of_volumes;
+    const int least = settings_.least_substeps > 0 ? settings_.least_substeps : substeps_of_volumes;
+    return settings_.most_substeps > 0 ? std::min(least, settings_.most_substeps) : least;
+  }
+
+ private:
+  void find() {
+    std::vector<SetMember> members;
+    for (const Object& object : scene_.objects) {
+      const Sweep named = object.sweep != Sweep::automatic ? object.sweep : settings_.sweep;
+      const Sweep sweep = named != Sweep::automatic ? named : Sweep::chains;
+      members.push_back(member_of(object, 0, substep_rule(object, sweep, gravity_of(scene_))));
+    }
+    for (const MeshCollider& collider : scene_.mesh_colliders) members.push_back(member_of(collider));
+    sets_ = substeps_of_sets(members);
+  }
+
+  const Scene& scene_;
+  const Settings& settings_;
+  std::vector<SetSubsteps> sets_;
+};
+
+/// The sweep of an object of 32 linked particles or more with a volume.
+Choice choose_for_volume(const Scene& scene, const Object& object, OpenSets& sets) {
+  const std::string name = "'" + object.name + "'";
+  const double frame = static_cast<double>(scene.frame_time);
+  if (strain_of_inflated(object) == 0) return {Sweep::chains, name + ", which has a volume"};
+  if (!can_follow_volume(object, frame / substeps_of_volumes))
+    return {Sweep::tiled, name + ", which is inflated, though its edges resist that"};
+  const int substeps = sets.substeps_of(object);
+  if (!can_follow_volume(object, frame / substeps))
+    return {Sweep::tiled,
+            name + ", which is inflated, for which " + std::to_string(substeps) + " substeps of chains are too few"};
+  return {Sweep::chains, name + ", which has a volume"};
+}
+
+Choice choose(const Scene& scene, const Settings& settings, const Object& object, OpenSets& sets) {
   const std::string name = "'" + object.name + "'";
   const double gravity = gravity_of(scene);
   const std::size_t springs = springs_of(object);
   if (settings.iterations > 1) return {Sweep::tiled, "more than one iteration"};
   const std::size_t particles = linked_particles(object.positions.size(), springs);
   if (is_coarse(particles)) return {Sweep::tiled, too_coarse};
-  if (object.volume && !can_follow_volume(object))
-    return {Sweep::tiled, name + ", which is inflated, though its edges resist that"};
-  if (object.volume) return {Sweep::chains, name + ", which has a volume"};
+  if (object.volume) return choose_for_volume(scene, object, sets);
   // Neither tethers nor multigrid know of bending, which demands more substeps than they need for stretch.
   const bool is_stiff = is_stiff_sheet(object, gravity), is_in_rows = is_regular(object);
   const bool touches = can_touch(scene, object);
@@ -290,10 +336,10 @@ Choice choose(const Scene& scene, const Settings& settings, const Object& object
 }
 
 /// The sweep of one object: its own, else that of the settings, else the one chosen for it.
-Choice choice_of(const Scene& scene, const Settings& settings, const Object& object) {
+Choice choice_of(const Scene& scene, const Settings& settings, const Object& object, OpenSets& sets) {
   if (object.sweep != Sweep::automatic) return {object.sweep, {}};
   if (settings.sweep != Sweep::automatic) return {settings.sweep, {}};
-  return choose(scene, settings, object);
+  return choose(scene, settings, object, sets);
 }
 
 /// Counts the objects of each sweep. Objects too small for sweeps to differ are ignored; they use the sweep of the others.
@@ -346,8 +392,9 @@ struct Choices {
 Choices choices_of(const Scene& scene, const Settings& settings) {
   Choices out;
   std::vector<std::size_t> coarse;
+  OpenSets sets(scene, settings);
   for (const Object& object : scene.objects) {
-    const Choice choice = choice_of(scene, settings, object);
+    const Choice choice = choice_of(scene, settings, object, sets);
     if (choice.reason != too_coarse)
       out.used.add(object, choice);
     else
@@ -378,7 +425,8 @@ Sweep chosen_sweep(const Scene& scene, int object, std::string* reason) {
 }
 
 Sweep chosen_sweep(const Scene& scene, const Settings& settings, int object, std::string* reason) {
-  const Choice choice = choice_of(scene, settings, scene.objects[static_cast<std::size_t>(object)]);
+  OpenSets sets(scene, settings);
+  const Choice choice = choice_of(scene, settings, scene.objects[static_cast<std::size_t>(object)], sets);
   if (reason != nullptr) *reason = choice.reason;
   if (choice.reason != too_coarse) return choice.sweep;
   return choices_of(scene, settings).sweeps[static_cast<std::size_t>(object)];
@@ -397,7 +445,8 @@ std::vector<int> substeps_of_objects(const Scene& scene, const Settings& setting
   const double gravity = gravity_of(scene);
   const bool is_blown = blows(scene.wind, scene.forces);
   for (std::size_t o = 0; o < sweeps.size(); ++o)
-    members.push_back(member_of(scene.objects[o], own_substeps(scene.objects[o], sweeps[o], is_blown),
+    members.push_back(member_of(scene.objects[o],
+                                own_substeps(scene.objects[o], sweeps[o], is_blown, static_cast<double>(scene.frame_time)),
                                 substep_rule(scene.objects[o], sweeps[o], gravity)));
   for (const MeshCollider& collider : scene.mesh_colliders) members.push_back(member_of(collider));
   std::vector<SetSubsteps> sets = substeps_of_sets(members);

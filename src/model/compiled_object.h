@@ -122,9 +122,10 @@ struct CompileOptions {
   bool tethers = false;
   float chain_softness = 0.1f;  ///< SweepOptions::chain_softness
   float tether_slack = 0;
-  bool air = true;        ///< true: prepare the data for aerodynamic forces
-  float gravity = 0;      ///< magnitude of gravity, from which multigrid estimates the load on an object [m/s^2]
-  bool is_blown = false;  ///< blows() of model/object_sets.h
+  bool air = true;               ///< true: prepare the data for aerodynamic forces
+  float gravity = 0;             ///< magnitude of gravity, from which multigrid estimates the load on an object [m/s^2]
+  bool is_blown = false;         ///< blows() of model/object_sets.h
+  double frame_time = 1.0 / 60;  ///< Scene::frame_time [s]
 };
 
 /// Compiles a mesh collider to an object of kinematic particles, so that contact treats it like any other object.

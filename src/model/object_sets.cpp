@@ -95,10 +95,7 @@ bool swings(const Object& object) {
   return extent(object.pins, of_pin) < swinging_share * whole;
 }
 
-/// Substeps of chains where there is a volume, which is corrected after the lengths and pushes them out again: an edge in a
-/// hundred of a balloon is 5 % too long with 20, 0.6 % with 80.
-constexpr int substeps_of_volumes = 80;
-/// An inflated object may have up to twice as many, with which its overstretch stays below 2 %.
+/// An inflated object may have up to twice substeps_of_volumes, with which its overstretch stays below 2 %.
 constexpr int most_substeps_of_volumes = 160;
 constexpr double wanted_overstretch = 0.018;
 /// Beyond this overstretch an inflated object would jitter: its edges gain energy from the volume that pushes them.
@@ -198,16 +195,21 @@ double strain_of_inflated(const Object& object) {
   return pow(static_cast<double>(object.volume->pressure), 1.0 / 3) - 1;
 }
 
-double overstretch_of_inflated(const Object& object) {
-  const double mass = mean_mass(object), h = 1.0 / 60 / substeps_of_volumes;
-  return mass > 0 ? 1.8 * strain_of_inflated(object) * h * h * mean_stiffness(object) / mass : 0;
+double overstretch_of_inflated(const Object& object, double substep) {
+  const double strain = strain_of_inflated(object);
+  if (strain == 0) return 0;
+  const double mass = mean_mass(object);
+  return mass > 0 ? 1.8 * strain * substep * substep * mean_stiffness(object) / mass : 0;
 }
 
-bool can_follow_volume(const Object& object) { return overstretch_of_inflated(object) <= most_overstretch_of_volumes; }
+bool can_follow_volume(const Object& object, double substep) {
+  return overstretch_of_inflated(object, substep) <= most_overstretch_of_volumes;
+}
 
-int own_substeps(const Object& object, Sweep sweep, bool is_blown) {
+int own_substeps(const Object& object, Sweep sweep, bool is_blown, double frame_time) {
   if (object.volume && solves_chains(sweep) && !has_converted(object)) {
-    const double too_long = can_follow_volume(object) ? overstretch_of_inflated(object) / wanted_overstretch : 0;
+    const double overstretch = overstretch_of_inflated(object, frame_time / substeps_of_volumes);
+    const double too_long = overstretch <= most_overstretch_of_volumes ? overstretch / wanted_overstretch : 0;
     const int needed = static_cast<int>(std::ceil(substeps_of_volumes * std::sqrt(too_long)));
     return std::clamp(needed, substeps_of_volumes, most_substeps_of_volumes);
   }

@@ -49,6 +49,7 @@ Scene without_things(const Scene& scene) {
   rest.forces = scene.forces;
   rest.pairs = scene.pairs;
   rest.settings = scene.settings;
+  rest.frame_time = scene.frame_time;
   return rest;
 }
 

@@ -39,6 +39,10 @@ Sweep sweep_for(const WorldData& world, const Object& object) {
   if (!world.open.sweep) return world.settings.sweep;
   Scene scene;  // has of colliders and other objects only what decides whether the new one can meet them
   scene.settings.iterations = world.settings.iterations;
+  scene.settings.substeps = named_substeps(world);
+  scene.settings.least_substeps = world.settings.least_substeps;
+  scene.settings.most_substeps = world.settings.most_substeps;
+  scene.frame_time = world.frame_time;
   scene.gravity = world.model.gravity;
   scene.colliders = world.model.colliders;
   const auto add_mesh = [&](MeshCollider::As as, const Masks& masks) {
@@ -58,6 +62,12 @@ Sweep sweep_for(const WorldData& world, const Object& object) {
       one.collides = other.collides;
       one.groups = other.groups;
       one.mask = other.mask;
+      if (other.substep_rule == SubstepRule::by_state) {  // any distance, and particles enough, that give it that rule
+        one.constraints.push_back({"distance", {0, 1}, {1.f}, Stiffness::compliance(0), {}});
+        one.positions.resize(64);
+      }
+      if (other.substep_rule == SubstepRule::fixed)
+        one.constraints.push_back({"distance", {0, 1}, {}, Stiffness::pbd(0.5f), {}});
     }
   }
   scene.objects.push_back(object);

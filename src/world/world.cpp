@@ -25,6 +25,7 @@ const Kernels& kernels_for(const Settings& settings) {
 
 WorldData::WorldData(const Scene& scene, const Settings& given, const Settings& with, Scene* given_away)
     : settings(with),
+      frame_time(scene.frame_time),
       open{given.sweep == Sweep::automatic, given.substeps == 0, departures(scene, given, with)},
       executor(with.threads),
       kernels(kernels_for(with)) {
@@ -59,6 +60,7 @@ CompileOptions compile_options(const WorldData& world, Sweep sweep) {
   options.air = world.model.wind.air_density > 0;
   options.gravity = length(world.model.gravity);
   options.is_blown = blows(world.model.wind, world.model.forces);
+  options.frame_time = static_cast<double>(world.frame_time);
   return options;
 }
 

@@ -58,7 +58,8 @@ struct WorldData {
   const CompiledObject& object(ObjectId id) const { return model.objects[number(id)]; }
   const Collider& collider(ColliderId id) const { return model.colliders[ids.colliders.number(id)]; }
 
-  Settings settings;  ///< as World::settings() returns them
+  Settings settings;            ///< as World::settings() returns them
+  float frame_time = 1.f / 60;  ///< Scene::frame_time [s], by which inflated objects get their sweep and substeps
   OpenSettings open;
   Executor executor;
   const Kernels& kernels;

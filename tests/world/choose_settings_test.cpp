@@ -163,6 +163,58 @@ TEST(ChosenSettings, AreChainsForInflatedObjectsThatCanFollow) {
   expect_chosen(balloon(450, 1.4f), Sweep::tiled, 20, "edges resist");
 }
 
+/// The prediction counts with the duration of the substeps that the scene will have.
+TEST(ChosenSettings, AreChainsForInflatedObjectsWhereSubstepsAreShort) {
+  Scene longer = balloon(40, 1.4f);
+  longer.frame_time = 1.f / 30;
+  expect_chosen(longer, Sweep::chains, 154, "'cloth', which has a volume");  // about twice as many as in 1/60 s
+  EXPECT_EQ(World(longer).step(longer.frame_time).substeps, 154);
+  longer.frame_time = 1.f / 24;
+  expect_chosen(longer, Sweep::tiled, 20, "edges resist");
+  Scene named = balloon(120, 1.1f);
+  for (const auto& [substeps, sweep] : {std::pair{20, Sweep::tiled}, {40, Sweep::tiled}, {80, Sweep::chains}}) {
+    named.settings.substeps = substeps;
+    EXPECT_EQ(chosen_sweep(named, 0), sweep) << substeps;
+  }
+  named.settings.substeps = 40;
+  expect_chosen(named, Sweep::tiled, 40, "40 substeps of chains are too few");
+  World empty([&] {
+    Scene without = named;
+    without.objects.clear();
+    return without;
+  }());
+  empty.add(named.objects[0]);
+  EXPECT_EQ(empty.layout().sweeps[0], Sweep::tiled) << "also if it is added later";
+}
+
+/// The sweep of a balloon beside a rope that it can meet, by the content of the scene and if the balloon is added later.
+Sweep beside(const Object& rope, Scene scene) {
+  Object ball = scene.objects[0];
+  ball.collides = true;
+  scene.objects = {rope};
+  scene.objects[0].collides = true;
+  World world(scene);
+  world.add(ball);
+  scene.add(ball);
+  EXPECT_EQ(world.layout().sweeps[1], chosen_sweep(scene, 1));
+  return chosen_sweep(scene, 1);
+}
+
+TEST(ChosenSettings, AreChainsForInflatedObjectsWhereTheirSetGrantsTheSubsteps) {
+  Object rope = chain(60, 0.1f), converted = rope;
+  for (Vec3f& p : converted.positions) p.x += 3;
+  converted.constraints.push_back({"distance", {0, 2}, {}, Stiffness::pbd(0.5f), {}});
+  EXPECT_EQ(beside(rope, balloon(40, 1.4f)), Sweep::chains);
+  EXPECT_EQ(beside(converted, balloon(40, 1.4f)), Sweep::tiled) << "in 20 substeps, for which stiffness is converted";
+  Scene bounded = balloon(40, 1.4f);
+  bounded.settings.most_substeps = 24;
+  EXPECT_EQ(beside(rope, bounded), Sweep::tiled);
+  bounded.settings.most_substeps = 80;
+  EXPECT_EQ(beside(rope, bounded), Sweep::chains);
+  bounded.settings.least_substeps = 12;
+  EXPECT_EQ(beside(rope, bounded), Sweep::tiled) << "the law knows of strain alone";
+}
+
 TEST(ChosenSettings, AreEachObjectsOwn) {
   ClothOptions ball, sock;
   ball.name = "ball";
