@@ -355,8 +355,8 @@ struct Scene {
 /// objects. Cloth and rope of 32 particles or more is solved by `tethered_chains` if it is regular, hangs from pins that
 /// rest or move as one, is not meant to stretch, and has a bending length (B / rho g)^(1/3) up to a quarter of its size
 /// (no PBD stiffness of bending). Irregular cloth that can touch no surface and no collider, and bends as easily, is solved
-/// by `multigrid`, and the rest by `chains`. It is `tiled` where none of these helps: an inflated volume, PBD stiffness of
-/// all distances, or several iterations. Smaller objects use the sweep of all others. If the sweep was left
+/// by `multigrid`, and the rest by `chains`. It is `tiled` where none of these helps: a volume inflated against stiff edges,
+/// PBD stiffness of all distances, or several iterations. Smaller objects use the sweep of all others. If the sweep was left
 /// open, `reason` receives the deciding fact.
 Sweep chosen_sweep(const Scene& scene, int object, std::string* reason = nullptr);
 
@@ -364,9 +364,9 @@ Sweep chosen_sweep(const Scene& scene, int object, std::string* reason = nullptr
 /// consists of objects and mesh colliders (as triangles) whose surfaces can touch, by groups, masks and `collides`,
 /// directly or through others. An object that touches nothing is a set of its own. 0 stands for substeps that follow
 /// the State: they are decided in each quarter of a frame by strain and motion. They do so if an object of the set is
-/// solved by chains and not meant to stretch, and none has PBD stiffness between 0 and 1. Any other set has 5 substeps
-/// if all its objects use `multigrid` and have no such stiffness, else 20; 10 of `multigrid` if an object can touch, is in
-/// wind or a force field, or has pins that move or that lie together. With a tolerance or recorded residuals all objects form one set, whose substeps are fixed.
+/// solved by chains, not meant to stretch, and not both small (fewer than 400 particles, 48 in a rope) and able to touch,
+/// and none has PBD stiffness between 0 and 1. Other sets have 80 to 160 with a volume; 5 if all use `multigrid`, 10 if one
+/// can touch, is in wind or a force field, or has pins that move or lie together; else 20. A tolerance makes one set of all.
 std::vector<int> chosen_substeps(const Scene& scene);
 
 /// Returns the settings of a World of this scene; what the scene leaves open is chosen by its content.
