@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pliant/error.h"
+#include "world/refusal.h"
 #include "world/run_time_support.h"
 
 namespace pliant {
@@ -196,29 +197,21 @@ TEST(Control, WrongSizesAndNumbersAreNamedAndChangeNothing) {
   World world(scene);
   world.step(dt);
   const std::string before = world.state_hash();
-  const auto message = [](const auto& call) -> std::string {
-    try {
-      call();
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "nothing was refused";
-  };
   std::vector<Vec3f> values(144);
   values[12].y = nan;
   const std::vector<Vec3f> few(3);
   for (const auto& bad : {values, few}) {
-    EXPECT_NE(message([&] { world.object(0).set_velocities(bad); }).find("cloth"), std::string::npos);
-    EXPECT_NE(message([&] { world.object(0).add_impulses(bad); }).find("cloth"), std::string::npos);
-    EXPECT_NE(message([&] { world.object(0).set_forces(bad); }).find("cloth"), std::string::npos);
+    EXPECT_NE(refusal([&] { world.object(0).set_velocities(bad); }).find("cloth"), std::string::npos);
+    EXPECT_NE(refusal([&] { world.object(0).add_impulses(bad); }).find("cloth"), std::string::npos);
+    EXPECT_NE(refusal([&] { world.object(0).set_forces(bad); }).find("cloth"), std::string::npos);
   }
-  EXPECT_NE(message([&] { world.object(0).add_impulses(values); }).find("particle 12"), std::string::npos);
+  EXPECT_NE(refusal([&] { world.object(0).add_impulses(values); }).find("particle 12"), std::string::npos);
   const std::vector<int> free = {40}, missing = {144}, pin = {0};
   const std::vector<Vec3f> place(1), off = {{0, nan, 0}};
-  EXPECT_NE(message([&] { world.object(0).set_targets(free, place); }).find("particle 40"), std::string::npos);
-  EXPECT_NE(message([&] { world.object(0).set_targets(missing, place); }).find("particle 144"), std::string::npos);
-  EXPECT_NE(message([&] { world.object(0).set_targets(pin, off); }).find("not finite"), std::string::npos);
-  EXPECT_NE(message([&] { world.object(0).set_targets(pin, few); }).find("3 positions"), std::string::npos);
+  EXPECT_NE(refusal([&] { world.object(0).set_targets(free, place); }).find("particle 40"), std::string::npos);
+  EXPECT_NE(refusal([&] { world.object(0).set_targets(missing, place); }).find("particle 144"), std::string::npos);
+  EXPECT_NE(refusal([&] { world.object(0).set_targets(pin, off); }).find("not finite"), std::string::npos);
+  EXPECT_NE(refusal([&] { world.object(0).set_targets(pin, few); }).find("3 positions"), std::string::npos);
   EXPECT_THROW(world.collider(7).set_pose({}), Error);
   EXPECT_THROW(world.collider(0).set_pose({{}, {0, 0, 0, 0}}), Error);
   EXPECT_THROW(world.collider(0).set_pose({{nan, 0, 0}, {}}), Error);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "pliant/error.h"
+#include "world/refusal.h"
 #include "world/world_support.h"
 
 namespace pliant {
@@ -73,23 +74,15 @@ TEST(Snapshot, OfAnotherWorldOrSpoiltIsRefused) {
 }
 
 TEST(Snapshot, OfAnotherWorldIsRefusedInWords) {
-  const auto message = [](const auto& call) -> std::string {
-    try {
-      call();
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
-  };
   World world(hanging_cloth());
   State other = world.state();
   other.blocks[0].generation = 1;
-  EXPECT_EQ(message([&] { world.restore(other); }),
+  EXPECT_EQ(refusal([&] { world.restore(other); }),
             "object 'cloth': the state is of a World with other objects, or from before one was added, removed or edited; "
             "restore a state that was taken since the last such change");
   State held = world.state();
   held.held_poses.push_back({false, 7, 0, {}, {}});
-  EXPECT_EQ(message([&] { world.restore(held); }),
+  EXPECT_EQ(refusal([&] { world.restore(held); }),
             "the state holds a pose of a collider that this World does not have; restore a state of this world");
 }
 
