@@ -157,6 +157,11 @@ bool holds(const SceneRow& row) {
   return row.finite && is_within && row.crossings <= 0;
 }
 
+void refuse_unknown_settings(const std::vector<std::string>& settings) {
+  Scene scene;
+  for (const std::string& one : settings) apply(one, scene);
+}
+
 void compare_costs(std::vector<SceneRow>& rows) {
   const SceneRow* best = nullptr;
   for (const SceneRow& row : rows)

@@ -47,6 +47,9 @@ struct SceneTableOptions {
 /// True if no frame exceeded the bounds of the default, and no surfaces crossed as far as that was counted.
 bool holds(const SceneRow& row);
 
+/// Throws an Error for the first of them that is not understood (SceneTableOptions::against).
+void refuse_unknown_settings(const std::vector<std::string>& settings);
+
 /// Sets `cheapest` and `ratio` of the first of a scene's rows, which is the default's.
 void compare_costs(std::vector<SceneRow>& rows);
 

@@ -12,6 +12,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double slow = 0.05;  ///< speed below which a scene counts as almost at rest [m/s]
+
 double percent(double ratio) { return 100 * (ratio - 1); }
 
 template <class... Values>
@@ -49,12 +51,20 @@ std::vector<std::size_t> shown_samples(const Curve& curve) {
 
 // ------------------------------------------------------------------------------------------------ the table
 
+/// Cloth at rest has little to correct, so its curves say little about the sweeps.
+std::string rest_note(const Result& result) {
+  if (result.frame == 0 || result.speed >= slow) return {};
+  return format("the scene is almost at rest there, at %s m/s in the mean: choose a --frame in motion\n",
+                figure(result.speed, 2).c_str());
+}
+
 std::string table_head(const Result& result) {
   const Curve& first = result.curves.front();
   std::string head =
       format("after %d frames: the next substep, of %s ms, solved by each sweep from the same state\n", result.frame,
              figure(1000 * result.substep, 4).c_str()) +
-      "default of the scene: " + result.by_default + "\n" +
+      rest_note(result) + "default of the scene: " + result.by_default +
+      (result.budget > 0 ? "" : "; its curve is that of its sweep, and --budget-ms runs it too") + "\n" +
       format("residual: root mean square error of the %s constraints%s, %.3g before the first iteration\n",
              result.residual_type.c_str(), result.residual_type == "distance" ? " [m]" : "", first.residuals.front()) +
       "stretch: largest elongation beyond rest length [%]\n" +
@@ -149,6 +159,7 @@ std::string to_json(const Result& result) {
   Json json = {{"frame", result.frame},
                {"default", result.by_default},
                {"substep", result.substep},
+               {"speed", result.speed},
                {"iterations", result.iterations},
                {"residual_type", result.residual_type},
                {"times_next", times_next(result)},

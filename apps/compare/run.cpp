@@ -1,5 +1,6 @@
 // Makes all measurements in order.
 #include <algorithm>
+#include <cmath>
 
 #include "apps/compare/compare.h"
 #include "pliant/error.h"
@@ -31,6 +32,13 @@ Start run_to(const Scene& scene, int frames, const Options& options) {
   }
   if (frames == 0) start.world.restore(at_start);
   return start;
+}
+
+double mass_of(const Scene& scene) {
+  double mass = 0;
+  for (const Object& object : scene.objects)
+    for (const float m : object.masses) mass += std::isfinite(m) ? static_cast<double>(m) : 0;
+  return mass;
 }
 
 std::vector<Method> methods_of(const Scene& scene, const Options& options) {
@@ -104,6 +112,7 @@ Result run(const Scene& given, const Options& options) {
   result.budget = options.budget;
   result.by_default = default_in_words(given);
   Start start = run_to(scene, result.frame, options);
+  result.speed = std::sqrt(2 * start.world.measure().kinetic_energy() / std::max(mass_of(scene), 1e-30));
   scene.settings.substeps = substeps_of_curves(given, start);
   result.substep = substep_of(scene, options);
   add_default(given, options, result);

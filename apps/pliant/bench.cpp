@@ -102,16 +102,17 @@ std::string bench_default(const BenchOptions& options) {
     throw Error({}, "'default' measures scene files", "name them: --scenes scenes/*.json, or --meshes FOLDER");
   if (!options.sizes.empty())
     throw Error({}, "'default' takes no --sizes, because its scenes have their own", "leave out --sizes");
-  std::vector<pliant::bench::NamedScene> scenes;
-  for (const std::string& path : options.scenes) scenes.push_back({path, read_scene_with(path, {}, true)});
-  if (!options.meshes.empty())
-    for (pliant::bench::NamedScene& draped : pliant::bench::draped_meshes(options.meshes))
-      scenes.push_back(std::move(draped));
   pliant::bench::SceneTableOptions wanted;
   if (options.settings == std::vector<std::string>{"none"})
     wanted.against.clear();
   else if (!options.settings.empty())
     wanted.against = options.settings;
+  pliant::bench::refuse_unknown_settings(wanted.against);
+  std::vector<pliant::bench::NamedScene> scenes;
+  for (const std::string& path : options.scenes) scenes.push_back({path, read_scene_with(path, {}, true)});
+  if (!options.meshes.empty())
+    for (pliant::bench::NamedScene& draped : pliant::bench::draped_meshes(options.meshes))
+      scenes.push_back(std::move(draped));
   wanted.frames = options.frames.value_or(0);
   wanted.counts_crossings = !options.meshes.empty();
   print(
@@ -121,7 +122,7 @@ std::string bench_default(const BenchOptions& options) {
   wanted.on_row = [compares](const pliant::bench::SceneRow& row) {
     throw_if_interrupted();
     const std::string cost = row.settings != "default" || !compares ? ""
-                             : row.cheapest.empty()                 ? "  none holds"
+                             : row.cheapest.empty()                 ? "  no named one holds"
                                                     : fmt::format("  {:.2f} to '{}'", row.ratio, row.cheapest);
     print(fmt::format("{:<30} {:<18} {:8.1f} {:9.2f} {:8.2f} {:<7} {:11.2f} {:<8} {:10.4f} {:<9} {:10.4f}  {:>9}{}{}\n",
                       row.scene, row.settings, row.substeps, row.milliseconds, 100 * row.p99,

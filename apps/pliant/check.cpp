@@ -71,29 +71,35 @@ std::string broken(const std::string& line) {
   return text;
 }
 
+/// What a check found.
+struct Checked {
+  std::vector<Finding> findings;
+  std::string within = {};  ///< for example " in 19 of 120 frames", if not all were tried
+};
+
 // Prints a line for each finding, grave ones first, others with the label `lesser`. Returns true if any is grave.
-bool print_findings(const std::vector<Finding>& findings, const std::string& lesser) {
+bool print_findings(const Checked& checked, const std::string& lesser) {
   std::string text;
   bool grave = false;
   for (const bool wanted : {true, false}) {
-    for (const Finding& finding : findings) {
+    for (const Finding& finding : checked.findings) {
       if (finding.grave != wanted) continue;
       grave = grave || finding.grave;
       const std::string advice = finding.advice.empty() ? "" : "; " + one_line(finding.advice);
       text += broken((finding.grave ? "wrong: " : lesser + ": ") + one_line(finding.message) + advice) + "\n";
     }
   }
-  print(text.empty() ? "nothing wrong, nothing doubtful\n" : text);
+  print(text.empty() ? "nothing wrong, nothing doubtful" + checked.within + "\n" : text);
   return grave;
 }
 
-std::vector<Finding> check_mesh(const std::string& path) {
+Checked check_mesh(const std::string& path) {
   const MeshFile file = read_mesh_file(path);
   print(one_line(path) + ": " + std::to_string(file.mesh.positions.size()) + " vertices, " +
         counted(file.mesh.triangles.size(), "triangle") + extent(file.mesh.positions) + "; indices count from 0\n");
   print_repairs(file.repairs);
   if (!file.repairs.empty()) print("the indices below refer to the repaired mesh\n");
-  return inspect(file.mesh);
+  return {inspect(file.mesh)};
 }
 
 /// The time limit to suggest: enough for all frames with the scene's own settings, or otherwise for more trials.
@@ -103,7 +109,8 @@ double more_seconds(const Advice& advice, double seconds) {
 }
 
 /// Simulates the scene with its own and other settings, unless it has grave findings or `seconds` is 0.
-void try_out(const Scene& scene, double seconds, std::vector<Finding>& findings) {
+void try_out(const Scene& scene, double seconds, Checked& checked) {
+  std::vector<Finding>& findings = checked.findings;
   const bool grave = std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.grave; });
   if (grave || seconds <= 0 || scene.frames < 1) return;
   const auto stops = [] {
@@ -115,11 +122,12 @@ void try_out(const Scene& scene, double seconds, std::vector<Finding>& findings)
       advice.cut_short ? "; --seconds " + compare::figure(more_seconds(advice, seconds), 3) + " tries more" : "";
   for (const std::string& warning : advice.warnings) findings.push_back({false, "in a trial run, " + warning, ""});
   if (!advice.words.empty()) findings.push_back({false, advice.words, advice.what_to_do + more_time});
-  const bool is_fine = advice.words.empty() && advice.warnings.empty() && advice.cut_short;
-  if (is_fine)
-    print("tried " + std::to_string(advice.own.frames) + " of " +
-          counted(static_cast<std::size_t>(advice.frames), "frame") + " within the time limit; --seconds " +
-          compare::figure(more_seconds(advice, seconds), 3) + " gives more\n");
+  if (!advice.words.empty() || !advice.cut_short) return;
+  const std::string tried =
+      std::to_string(advice.own.frames) + " of " + counted(static_cast<std::size_t>(advice.frames), "frame");
+  checked.within = " in " + tried;
+  print("tried " + tried + " within the time limit; --seconds " + compare::figure(more_seconds(advice, seconds), 3) +
+        " gives more\n");
 }
 
 /// For example "20 substeps a frame", or where objects differ "10 substeps a frame for 'flag', 20 for 'sock' and 2 more".
@@ -156,7 +164,7 @@ std::string how_it_is_solved(const Scene& scene) {
          (reason.empty() ? "" : "; the scene leaves the sweep open and has " + one_line(reason));
 }
 
-std::vector<Finding> check_scene(const std::string& path, double seconds) {
+Checked check_scene(const std::string& path, double seconds) {
   const SceneFile file = read_scene_file(path);
   const Scene& scene = file.scene;
   std::vector<Vec3f> particles;
@@ -167,9 +175,9 @@ std::vector<Finding> check_scene(const std::string& path, double seconds) {
         counted(static_cast<std::size_t>(scene.frames), "frame") + "\n");
   print(broken(how_it_is_solved(scene)) + "\n");
   print_repairs(file.repairs);
-  std::vector<Finding> findings = inspect(scene);
-  try_out(scene, seconds, findings);
-  return findings;
+  Checked checked{inspect(scene)};
+  try_out(scene, seconds, checked);
+  return checked;
 }
 
 }  // namespace

@@ -16,9 +16,9 @@
 #include <limits>
 #include <utility>
 
+#include "advise/passed_through.h"
 #include "matter/advice_settings.h"
 #include "model/object_sets.h"
-#include "pliant/queries.h"
 #include "solver/substep_law.h"
 #include "world/advice.h"
 
@@ -54,26 +54,6 @@ void keep_worst(const Report& report, Trial& trial) {
   trial.worst = report.worst_overstretch.overstretch;
   trial.frame = report.worst_overstretch.frame_of_largest;
   if (!report.ok()) trial.worst.largest = trial.worst.p99 = std::numeric_limits<double>::infinity();
-}
-
-/// A warning for each object without self-collision whose triangles pass through one another now, and did not at the start.
-std::vector<std::string> passed_through_themselves(const Scene& scene, const World& world) {
-  std::vector<std::string> found;
-  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
-    const Object& object = scene.objects[o];
-    if (object.self_collision || object.triangles.empty()) continue;
-    CrossingFinder finder(object.triangles, static_cast<int>(object.positions.size()));
-    if (!finder.find(object.positions).empty()) continue;
-    const std::vector<Crossing> crossings = finder.find(world.object(static_cast<int>(o)).positions());
-    if (crossings.empty()) continue;
-    const Crossing& first = crossings.front();
-    found.push_back("frame " + std::to_string(world.state().frame) + ": object '" + object.name + "': edge " +
-                    std::to_string(first.a) + "-" + std::to_string(first.b) + " passes through triangle " +
-                    std::to_string(first.triangle) + " of the same object, one of " + std::to_string(crossings.size()) +
-                    (crossings.size() == 1 ? " crossing" : " crossings") +
-                    ", because it has no contact with itself; set its \"self_collision\" to true and give it a thickness");
-  }
-  return found;
 }
 
 /// Runs trials of a scene, with the data that they share.
@@ -138,8 +118,8 @@ class Trials {
     if (!is_tolerable(trial.worst)) found.words = in_words(world, trial, last);
     if (!last.ok()) return;  // its words contain the warnings, and its positions mean nothing
     found.warnings = warnings;
-    const std::vector<std::string> folds = passed_through_themselves(scene_, world);
-    found.warnings.insert(found.warnings.end(), folds.begin(), folds.end());
+    const std::vector<std::string> passed = passed_through(scene_, world);
+    found.warnings.insert(found.warnings.end(), passed.begin(), passed.end());
   }
 
   bool is_over(Clock::time_point end) const { return Clock::now() >= end || (stops_ && stops_()); }

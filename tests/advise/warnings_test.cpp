@@ -37,6 +37,41 @@ TEST(Warnings, OfATrialNameClothThatPassesThroughItself) {
   EXPECT_EQ(advise(over_a_bar(true), unhurried).warnings, std::vector<std::string>{});
 }
 
+/// Two sheets that fall towards each other's places, the lower one upwards.
+Scene changing_places(bool first_collides, bool second_collides) {
+  Scene scene;
+  for (const float side : {1.f, -1.f}) {
+    ClothOptions options;
+    options.name = side > 0 ? "upper" : "lower";
+    options.velocity = {0, -side, 0};
+    TriangleMesh mesh = grid_mesh(8, 8, 0.6f, 0.6f);
+    for (Vec3f& p : mesh.positions) p = p + Vec3f{0.01f * side, side * (0.045f + 0.1f * p.x), 0};
+    scene.add_cloth(mesh, options);
+    scene.objects.back().thickness = 0.004f;
+  }
+  scene.objects[0].collides = first_collides;
+  scene.objects[1].collides = second_collides;
+  scene.frames = 3;
+  scene.gravity = {0, 0, 0};
+  return scene;
+}
+
+TEST(Warnings, OfATrialNameObjectsThatPassThroughEachOther) {
+  const std::vector<std::string> warnings = advise(changing_places(true, false), unhurried).warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].rfind("frame 3: object 'upper' passes through object 'lower' in ", 0), 0U) << warnings[0];
+  EXPECT_NE(warnings[0].find("set \"collides\" of 'lower' to true"), std::string::npos) << warnings[0];
+  EXPECT_EQ(advise(changing_places(true, true), unhurried).warnings, std::vector<std::string>{});
+}
+
+TEST(Warnings, AreNotGivenWhereMasksKeepObjectsApart) {
+  Scene scene = changing_places(false, false);
+  EXPECT_EQ(advise(scene, unhurried).warnings.size(), 1U);
+  scene.objects[0].groups = 2;
+  scene.objects[1].mask = 1;
+  EXPECT_EQ(advise(scene, unhurried).warnings, std::vector<std::string>{});
+}
+
 /// A mesh that crosses itself at the start is named by inspect(); the run adds nothing.
 TEST(Warnings, DoNotRepeatWhatCrossesAtTheStart) {
   Scene scene = over_a_bar(false);

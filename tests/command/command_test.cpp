@@ -395,6 +395,8 @@ TEST_F(Command, CheckRunsASceneAndNamesTheDefaultThatWouldMendIt) {
   scene["settings"].erase("sweep");
   scene["settings"].erase("substeps");
   std::ofstream(folder_ / "mended.json") << scene.dump();
+  const std::string short_run = pliant("check mended.json --seconds 1e-6").out;
+  EXPECT_NE(short_run.find("\nnothing wrong, nothing doubtful in 1 of 20 frames\n"), std::string::npos) << short_run;
   EXPECT_NE(pliant("check mended.json --seconds 600").out.find("nothing wrong, nothing doubtful"), std::string::npos);
   expect_refused("check sagging.json --seconds -1", 2, "seconds");
 }
@@ -435,6 +437,9 @@ TEST_F(Command, CompareShowsEverySweepAndWritesPictureAndNumbers) {
   EXPECT_NE(result.out.find("small.json after 2 frames"), std::string::npos) << result.out;
   for (const char* sweep : {"\ntiled ", "\nsymmetric ", "\njacobi ", "\nnatural ", "\nchains ", "\ntiled+chebyshev "})
     EXPECT_NE(result.out.find(sweep), std::string::npos) << sweep << result.out;
+  EXPECT_NE(result.out.find("; its curve is that of its sweep, and --budget-ms runs it too\n"), std::string::npos)
+      << result.out;
+  EXPECT_EQ(result.out.find("almost at rest"), std::string::npos) << result.out;
   EXPECT_EQ(slurp(folder_ / "curves.png").substr(1, 3), "PNG");
   const Json json = Json::parse(slurp(folder_ / "curves.json"));
   EXPECT_EQ(json.at("iterations"), 3);
@@ -444,6 +449,16 @@ TEST_F(Command, CompareShowsEverySweepAndWritesPictureAndNumbers) {
   EXPECT_EQ(few.status, 0) << few.err;
   EXPECT_NE(few.out.find("left out: natural+chebyshev: "), std::string::npos) << few.out;
   EXPECT_NE(few.out.find("within 100000 ms per frame, 2 frames"), std::string::npos) << few.out;
+}
+
+TEST_F(Command, CompareSaysThatASceneIsAtRest) {
+  Json scene = Json::parse(small_scene(4));
+  scene["gravity"] = {0, 0, 0};
+  std::ofstream(folder_ / "small.json") << scene.dump();
+  const std::string out = pliant("compare small.json --iterations 2 --sweeps tiled").out;
+  EXPECT_NE(out.find("the scene is almost at rest there, at 0 m/s in the mean: choose a --frame in motion\n"),
+            std::string::npos)
+      << out;
 }
 
 TEST_F(Command, CompareRefusesWhatItCannotDo) {
