@@ -11,6 +11,7 @@
 #include "constraints/registry.h"
 #include "math/vector.h"
 #include "matter/advice_settings.h"
+#include "model/attachments.h"
 #include "model/object_sets.h"
 #include "pliant/scene.h"
 
@@ -23,8 +24,6 @@ constexpr std::size_t fewest_particles = 32;
 /// A sheet whose bending length exceeds this share of its size supports itself; sweeps that correct only stretch
 /// converge slowly.
 constexpr double stiff_share = 0.25;
-/// Lower limit of the acceleration that bends a sheet [m/s^2]: with less gravity, other forces bend it.
-constexpr double least_acceleration = 9.81;
 /// A spring continues straight at an end if another one leaves there within 10 degrees of its direction.
 constexpr double straight_cosine = -0.985;
 /// A mesh with more of its ends so is regular. Of a grid of 6 x 6 three quarters are, of irregular meshes a third.
@@ -50,18 +49,6 @@ std::size_t springs_of(const Object& object) {
 /// A path has one particle more than springs.
 std::size_t linked_particles(std::size_t particles, std::size_t springs) {
   return springs == 0 ? 0 : std::min(particles, springs + 1);
-}
-
-double largest_extent(const Object& object) {
-  double extent = 0;
-  if (object.positions.empty()) return extent;
-  for (const auto coordinate : {&Vec3f::x, &Vec3f::y, &Vec3f::z}) {
-    const auto [low, high] =
-        std::minmax_element(object.positions.begin(), object.positions.end(),
-                            [&](const Vec3f& a, const Vec3f& b) { return a.*coordinate < b.*coordinate; });
-    extent = std::max(extent, static_cast<double>((*high).*coordinate) - static_cast<double>((*low).*coordinate));
-  }
-  return extent;
 }
 
 /// Collects the flexural rigidity of each hinge [N m] (see hinge_compliance in cloth.cpp) and the sum of the areas of
@@ -126,11 +113,8 @@ bool is_stiff_sheet(const Object& object, double gravity) {
   Bending bending = bending_of(object);
   const double rigidity = bending.median(), drawn = area_of(object), area = drawn > 0 ? drawn : bending.area / 3;
   if (!(rigidity > 0) || !(area > 0)) return false;
-  double mass = 0;
-  for (const float m : object.masses)
-    if (std::isfinite(m)) mass += static_cast<double>(m);
-  const double weight = std::max(mass / area * std::max(gravity, least_acceleration), 1e-30);
-  const double allowed = stiff_share * largest_extent(object);
+  const double weight = std::max(finite_mass(object) / area * std::max(gravity, least_acceleration), 1e-30);
+  const double allowed = stiff_share * largest_extent(object.positions);
   return !(rigidity / weight <= allowed * allowed * allowed);
 }
 
@@ -237,23 +221,30 @@ bool is_regular(const Object& object) {
   return static_cast<double>(straight) > straight_share * static_cast<double>(ends);
 }
 
-/// True if it has pins whose distances stay the same: none moves, or all have one motion.
-bool hangs(const Object& object) {
-  const auto moves_alike = [&](const Pin& pin) { return have_same_motion(pin.motion, object.pins.front().motion); };
-  return !object.pins.empty() && std::all_of(object.pins.begin(), object.pins.end(), moves_alike);
+/// True if it has pins, or attachments that act like pins, whose distances stay the same: none moves, or all have one motion.
+bool hangs(const Object& object, double gravity) {
+  if (object.pins.empty() && object.attachments.empty()) return false;
+  const Motion& one = object.pins.empty() ? object.attachments.front().motion : object.pins.front().motion;
+  const auto moves_alike = [&](const auto& other) { return have_same_motion(other.motion, one); };
+  const AttachmentTest test(object, gravity);
+  const auto holds = [&](const Attachment& other) { return test.is_like_pin(other) && moves_alike(other); };
+  return std::all_of(object.pins.begin(), object.pins.end(), moves_alike) &&
+         std::all_of(object.attachments.begin(), object.attachments.end(), holds);
 }
 
 double gravity_of(const Scene& scene) { return std::sqrt(static_cast<double>(length_squared(scene.gravity))); }
 
 /// True if tethers do not change how an object moves: it hangs from pins whose distances stay, and is not meant to stretch.
 bool may_be_tethered(const Scene& scene, const Object& object) {
-  return hangs(object) && !is_meant_to_stretch(object, gravity_of(scene));
+  return hangs(object, gravity_of(scene)) && !is_meant_to_stretch(object, gravity_of(scene));
 }
 
-/// True if more than a tenth of the particles are pinned, as in Cusick's test of drape. What overhangs is short, and bends by the
+/// True if more than a tenth of the particles are pinned or attached, as in Cusick's test of drape. What overhangs is short, and bends by the
 /// substeps that its strain demands; with tethers there is less strain, so fewer substeps, and cloth that can touch itself drapes
 /// too softly.
-bool lies_on_pins(const Object& object) { return 10 * object.pins.size() > object.positions.size(); }
+bool lies_on_pins(const Object& object) {
+  return 10 * (object.pins.size() + object.attachments.size()) > object.positions.size();
+}
 
 bool has_fixed(const Object& object) {
   return !object.pins.empty() || !object.attachments.empty() ||
@@ -325,7 +316,7 @@ Choice choose(const Scene& scene, const Settings& settings, const Object& object
   const bool is_stiff = is_stiff_sheet(object, gravity), is_in_rows = is_regular(object);
   const bool touches = can_touch(scene, object);
   if (!is_stiff && is_in_rows && may_be_tethered(scene, object) && (!touches || !lies_on_pins(object)))
-    return {Sweep::tethered_chains, name + ", which hangs from pins and has its springs in straight rows"};
+    return {Sweep::tethered_chains, name + ", which hangs from pins or attachments and has its springs in straight rows"};
   if (touches) return {Sweep::chains, name + ", a surface that can touch itself or others"};
   if (is_stiff) return {Sweep::chains, name + ", a sheet whose bending length is more than a quarter of its size"};
   if (is_in_rows) return {Sweep::chains, name + ", whose springs lie in straight rows"};

@@ -27,6 +27,12 @@ void move_constraint(const ConstraintList& from, int i, ConstraintList& to) {
   to.origin.push_back(from.origin[i]);
 }
 
+/// Replaces particles by the targets that hold them.
+void hold(ConstraintList& list, const std::vector<int>& held) {
+  if (held.empty()) return;
+  for (int& particle : list.stencils.own()) particle = held[particle];
+}
+
 std::vector<std::array<int, 2>> edges_of(const ConstraintList& list) {
   std::vector<std::array<int, 2>> edges(list.count());
   for (std::size_t i = 0; i < edges.size(); ++i) edges[i] = {list.stencils[2 * i], list.stencils[2 * i + 1]};
@@ -134,7 +140,7 @@ void append_row(const Tether (&lanes)[batch_width], Tethers& out) {
 
 }  // namespace
 
-void split_off_chains(std::vector<ConstraintList>& lists) {
+void split_off_chains(std::vector<ConstraintList>& lists, const std::vector<int>& held) {
   std::vector<ConstraintList> split;
   for (ConstraintList& list : lists) {
     if (!is_length(list.type) || list.law != Law::compliant) {
@@ -144,6 +150,7 @@ void split_off_chains(std::vector<ConstraintList>& lists) {
     ConstraintList chained = list.empty(), rest = list.empty();
     chained.chained = true;
     for (int i = 0; i < list.count(); ++i) move_constraint(list, i, has_direction(list, i) ? chained : rest);
+    hold(chained, held);
     if (chained.count() > 0) split.push_back(std::move(chained));
     if (rest.count() > 0) split.push_back(std::move(rest));
   }
@@ -158,8 +165,10 @@ void append_chains(const std::vector<ConstraintList>& lists, float softness, Com
   }
 }
 
-Tethers find_tethers(const std::vector<ConstraintList>& lists, float slack, const CompiledObject& object) {
+Tethers find_tethers(const std::vector<ConstraintList>& lists, float slack, const std::vector<int>& anchors,
+                     const CompiledObject& object) {
   Tethers out;
+  out.anchors = anchors;
   Distances mesh{object.particles, {}, {}, object.surface.triangles};
   for (const ConstraintList& list : lists) {
     if (!is_length(list.type)) continue;
@@ -167,8 +176,6 @@ Tethers find_tethers(const std::vector<ConstraintList>& lists, float slack, cons
     mesh.edges.insert(mesh.edges.end(), more.begin(), more.end());
     for (std::size_t i = 0; i < list.rest.size(); ++i) mesh.lengths.push_back(list.rest[i]);
   }
-  for (int i = 0; i < object.particles; ++i)
-    if (object.positions[i].w == 0) out.anchors.push_back(i);
   const auto near = nearest_sources(mesh, out.anchors, most_tethers);
   for (std::size_t i = 0; i < near.size(); ++i)
     if (object.positions[i].w > 0) out.slots = std::max(out.slots, static_cast<int>(near[i].size()));

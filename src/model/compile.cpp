@@ -7,6 +7,7 @@
 
 #include "constraints/registry.h"
 #include "math/quat.h"
+#include "model/attachments.h"
 #include "model/chains.h"
 #include "model/choose_order.h"
 #include "model/compiled_object.h"
@@ -269,6 +270,19 @@ float tether_slack(const Object& object, const CompileOptions& options) {
   return options.tether_slack + static_cast<float>(strain_at_pins * strain);
 }
 
+/// The fixed particles to which tethers lead, in ascending order: all but the targets of attachments that yield or pull from afar.
+std::vector<int> anchors_of(const Object& object, double gravity, const CompiledObject& of) {
+  const AttachmentTest test(object, gravity);
+  const auto holds = [&](int storage) {
+    const auto user = static_cast<std::size_t>(of.order[static_cast<std::size_t>(storage)]);
+    return user < object.positions.size() || test.is_like_pin(object.attachments[user - object.positions.size()]);
+  };
+  std::vector<int> anchors;
+  for (int i = 0; i < of.particles; ++i)
+    if (of.positions[static_cast<std::size_t>(i)].w == 0 && holds(i)) anchors.push_back(i);
+  return anchors;
+}
+
 /// True if a later step of compile() reads the list: chains, stencils, tethers or multigrid.
 bool is_needed_later(const ConstraintList& list, const CompileOptions& options) {
   return list.chained || !list.in_lanes ||
@@ -394,7 +408,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   std::vector<ConstraintList> lists = given_away != nullptr ? gather_constraints(std::move(*given_away), options.passes)
                                                             : gather_constraints(object, options.passes);
   const bool in_given_order = options.sweep == Sweep::natural;
-  if (solves_chains(options.sweep)) split_off_chains(lists);
+  if (solves_chains(options.sweep)) split_off_chains(lists, held_by_targets(object, static_cast<double>(options.gravity)));
   std::vector<int> tile;
   const int largest_tile = in_given_order ? std::numeric_limits<int>::max() : options.largest_tile;
   number_particles(positions, lists, largest_tile, tile, out);
@@ -406,7 +420,8 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   schedule_stencils(lists, in_given_order, out);
   fill_triangles(object, out);
   if (options.air || object.volume) fill_corners(out);
-  if (has_tethers(options)) out.tethers = find_tethers(lists, slack, out);
+  if (has_tethers(options))
+    out.tethers = find_tethers(lists, slack, anchors_of(object, static_cast<double>(options.gravity), out), out);
   if (options.sweep == Sweep::multigrid) out.multigrid = build_multigrid(lists, out.positions, options.gravity);
   fill_volume(object, options.passes, out);
   add_whole_object_phases(out);

@@ -11,6 +11,7 @@
 #include "constraints/registry.h"
 #include "math/functions.h"
 #include "math/vector.h"
+#include "model/attachments.h"
 
 namespace pliant {
 
@@ -32,8 +33,6 @@ bool has_converted(const Object& object) {
 
 /// Up to this strain under its own weight an object counts as one that is not meant to stretch [-].
 constexpr double most_strain_by_weight = 0.002;
-/// Lower bound of the acceleration that loads an object: under less gravity, other forces load it [m/s^2].
-constexpr double least_acceleration = 9.81;
 
 /// Zero for a missing particle, because this runs before the scene is validated.
 float distance(const Object& object, int from, int to) {
@@ -70,29 +69,16 @@ constexpr int substeps_of_undisturbed_multigrid = 5;
 /// Pins within this share of an object's extent lie together: it swings about them.
 constexpr double swinging_share = 0.25;
 
-/// The largest side of the box around the given particles [m].
-template <class Particles, class Position>
-double extent(const Particles& particles, const Position& position_of) {
-  constexpr float far = std::numeric_limits<float>::max();
-  Vec3f low{far, far, far}, high{-far, -far, -far};
-  for (const auto& particle : particles) {
-    const Vec3f p = position_of(particle);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const Vec3f sides = high - low;
-  return static_cast<double>(std::max({sides.x, sides.y, sides.z, 0.f}));
-}
-
-/// True if it has pins, and all of them lie together.
+/// True if it has pins or attachments, and all of them lie together.
 bool swings(const Object& object) {
-  if (object.pins.empty()) return false;
-  const auto of_pin = [&](const Pin& pin) {
-    const auto p = static_cast<std::size_t>(pin.particle);
-    return p < object.positions.size() ? object.positions[p] : Vec3f{};
+  std::vector<Vec3f> held;
+  const auto add = [&](int particle) {
+    const auto p = static_cast<std::size_t>(particle);
+    held.push_back(p < object.positions.size() ? object.positions[p] : Vec3f{});
   };
-  const double whole = extent(object.positions, [](const Vec3f& p) { return p; });
-  return extent(object.pins, of_pin) < swinging_share * whole;
+  for (const Pin& pin : object.pins) add(pin.particle);
+  for (const Attachment& attachment : object.attachments) add(attachment.particle);
+  return !held.empty() && largest_extent(held) < swinging_share * largest_extent(object.positions);
 }
 
 /// An inflated object may have up to twice substeps_of_volumes, with which its overstretch stays below 2 %.
@@ -168,8 +154,7 @@ std::vector<std::vector<int>> classes_of(const std::vector<SetMember>& members) 
 }  // namespace
 
 std::optional<double> strain_by_weight(const Object& object, double gravity) {
-  double mass = 0;
-  for (const float m : object.masses) mass += std::isfinite(m) ? static_cast<double>(m) : 0;
+  const double mass = finite_mass(object);
   const bool is_sheet = !object.triangles.empty();
   CompliancePerLength all, stiffest;
   for (const ConstraintGroup& group : object.constraints) {
@@ -214,9 +199,10 @@ int own_substeps(const Object& object, Sweep sweep, bool is_blown, double frame_
     return std::clamp(needed, substeps_of_volumes, most_substeps_of_volumes);
   }
   if (sweep != Sweep::multigrid || has_converted(object)) return substeps_of_others;
-  const auto moves = [](const Pin& pin) { return pin.motion.keyframes.size() > 1; };
+  const auto moves = [](const auto& one) { return one.motion.keyframes.size() > 1; };  // a pin or an attachment
   const bool is_disturbed = is_blown || object.collides || object.self_collision || swings(object) ||
-                            std::any_of(object.pins.begin(), object.pins.end(), moves);
+                            std::any_of(object.pins.begin(), object.pins.end(), moves) ||
+                            std::any_of(object.attachments.begin(), object.attachments.end(), moves);
   return is_disturbed ? substeps_of_multigrid : substeps_of_undisturbed_multigrid;
 }
 

@@ -4,6 +4,9 @@
 #include <bit>
 #include <functional>
 
+#include "constraints/registry.h"
+#include "solver/visit.h"
+
 namespace pliant {
 
 namespace {
@@ -33,6 +36,20 @@ float start_of(int bin, float above) {
 std::size_t number_beyond(std::int64_t constraints) {
   const auto below = static_cast<std::int64_t>(0.99 * static_cast<double>(constraints - 1));
   return static_cast<std::size_t>(constraints - below);
+}
+
+/// The user's number of a particle; for the target of an attachment, at which chains may end, that of the attached particle.
+int user_particle(const CompiledObject& object, int storage) {
+  int user = object.order[static_cast<std::size_t>(storage)];
+  if (user < object.user_particles) return user;
+  for (int type = 0; type < constraint_type_count(); ++type) {
+    if (!is_length(type)) continue;
+    for_constraints(object, type, [&](const ConstraintPlace& at, const std::int32_t* particle) {
+      if (at.value(0) == 0 && particle[0] == storage) user = object.order[static_cast<std::size_t>(particle[1])];
+      if (at.value(0) == 0 && particle[1] == storage) user = object.order[static_cast<std::size_t>(particle[0])];
+    });
+  }
+  return user;
 }
 
 }  // namespace
@@ -100,7 +117,7 @@ void OverstretchMeter::count(const MeasuredFrame& frame, Overstretch& into) {
   const CompiledObject& object = frame.model.objects[into.object];
   const auto [from, to] = ends_of(object, *largest);
   into.largest = static_cast<double>(largest->value);
-  into.particles = {object.order[from], object.order[to]};
+  into.particles = {user_particle(object, from), user_particle(object, to)};
 }
 
 int OverstretchMeter::bin_of_rank(std::size_t& rank) const {

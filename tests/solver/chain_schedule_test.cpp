@@ -74,6 +74,53 @@ TEST(Chains, take_each_distance_with_its_own_numbers) {
   EXPECT_EQ(found, 40);
 }
 
+/// The particles that links of chains join, by the user's numbers; targets of attachments come after all particles.
+std::vector<int> joined(const CompiledObject& object) {
+  std::vector<int> ends;
+  for (const ChainBatch& chain : object.chains)
+    for (int k = 0; k < chain.steps; ++k) {
+      const Segment& segment = object.segments[chain.first_segment + k];
+      for (int slot = 0; slot < 2; ++slot)
+        for (int lane = 0; lane < segment.last_count; ++lane)
+          ends.push_back(object.order[object.pools[chain.pool].indices[segment.index_offset + slot * batch_width + lane]]);
+    }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  return ends;
+}
+
+// Attachments are projected before the chains, which would pull a held particle off its target.
+TEST(Chains, end_at_the_targets_of_rigid_attachments) {
+  std::mt19937 random(6);
+  const Object from = line(4, 0, random);
+  const auto joined_with = [&](const Stiffness& stiffness, float gap, bool is_pinned = false) {
+    Object object = from;
+    object.attachments.push_back({4, object.positions[4] + Vec3f{gap, 0, 0}, {}, stiffness});
+    if (is_pinned) object.pins.push_back({4, {}});
+    return joined(compile(object, chained(0)));
+  };
+  const std::vector<int> own{0, 1, 2, 3, 4}, at_target{0, 1, 2, 3, 5};
+  for (const Stiffness& rigid : {Stiffness::rigid(), Stiffness::compliance(1e-8f), Stiffness::pbd(1)})
+    EXPECT_EQ(joined_with(rigid, 0.01f), at_target);
+  for (const Stiffness& yields : {Stiffness::compliance(1e-5f), Stiffness::pbd(0.9f)})
+    EXPECT_EQ(joined_with(yields, 0), own);
+  EXPECT_EQ(joined_with(Stiffness::rigid(), 0.02f), own) << "0.4 m long, it would be torn away";
+  EXPECT_EQ(joined_with(Stiffness::rigid(), 0, true), own) << "the pin keeps it";
+}
+
+TEST(Tethers, lead_to_pins_and_to_attachments_that_act_like_pins) {
+  Object object = grid(9, 9, 0);  // 0.8 kg
+  object.pins.push_back({0, {}});
+  object.attachments.push_back({8, object.positions[8], {}, Stiffness::compliance(1e-4f)});
+  object.attachments.push_back({72, object.positions[72], {}, Stiffness::compliance(1e-3f)});
+  object.attachments.push_back({80, object.positions[80] + Vec3f{0.01f, 0, 0}, {}, Stiffness::rigid()});
+  const CompiledObject compiled = compile(object, chained(0, true));
+  std::vector<int> anchors;
+  for (const int storage : compiled.tethers.anchors) anchors.push_back(compiled.order[storage]);
+  std::sort(anchors.begin(), anchors.end());
+  EXPECT_EQ(anchors, (std::vector<int>{0, 81}));
+}
+
 TEST(Chains, leave_damped_and_pbd_distances_to_the_tiles) {
   for (const Stiffness& other : {Stiffness::compliance(1e-5f, 0.1f), Stiffness::pbd(0.5f)}) {
     std::mt19937 random(6);

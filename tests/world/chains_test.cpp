@@ -40,6 +40,31 @@ std::string run(const Scene& scene, const Settings& settings, int frames) {
   return world.state_hash();
 }
 
+/// A rope of 40 links that swings down from the horizontal, held at one end by a pin or by an attachment.
+Scene held_rope(bool is_pinned) {
+  std::vector<Vec3f> points;
+  for (int i = 0; i <= 40; ++i) points.push_back({0.05f * static_cast<float>(i), 0, 0});
+  Scene scene;
+  const int rope = scene.add(make_rope(points));
+  if (is_pinned)
+    scene.pin(rope, {0});
+  else
+    scene.objects[0].attachments.push_back({0, points[0], {}, Stiffness::rigid()});
+  scene.settings.sweep = Sweep::chains;
+  return scene;
+}
+
+TEST(ChainSweep, holds_by_a_rigid_attachment_as_by_a_pin) {
+  World pinned(held_rope(true)), attached(held_rope(false));
+  for (int frame = 0; frame < 40; ++frame) {
+    ASSERT_TRUE(pinned.step(1.f / 60).ok());
+    ASSERT_TRUE(attached.step(1.f / 60).ok());
+  }
+  const std::vector<Vec3f> by_pin = pinned.object(0).positions(), by_attachment = attached.object(0).positions();
+  ASSERT_LT(by_pin[40].y, -0.5f) << "it has swung";
+  for (std::size_t i = 0; i < by_pin.size(); ++i) EXPECT_LT(length(by_pin[i] - by_attachment[i]), 1e-5f) << i;
+}
+
 TEST(ChainSweep, gives_one_hash_whatever_runs_it) {
   for (int iterations : {1, 2}) {
     Scene scene = hanging(70, 4, iterations, Stiffness::compliance(iterations == 1 ? 0.f : 1e-6f));

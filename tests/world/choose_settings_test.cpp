@@ -51,6 +51,10 @@ void expect_chosen(const Scene& scene, Sweep sweep, int substeps, const std::str
   EXPECT_EQ(world.settings().substeps, substeps);
 }
 
+Attachment attached(const Object& object, int particle, const Stiffness& stiffness = Stiffness::rigid()) {
+  return {particle, object.positions[static_cast<std::size_t>(particle)], {}, stiffness};
+}
+
 TEST(ChosenSettings, AreMultigridForIrregularCloth) {
   expect_chosen(irregular(40, 1), Sweep::multigrid, 5, "1600 particles");
   expect_chosen(irregular(6, 1), Sweep::multigrid, 5, "36 particles");
@@ -67,6 +71,14 @@ TEST(ChosenSettings, AreMoreSubstepsOfMultigridWhereClothIsDisturbed) {
   other.objects[0].pins[1].particle = 1;  // it swings about one corner
   expect_chosen(other, Sweep::multigrid, 10, "meets nothing");
   other = scene;
+  other.objects[0].pins.clear();
+  for (const int p : {0, 1}) other.objects[0].attachments.push_back(attached(other.objects[0], p));
+  expect_chosen(other, Sweep::multigrid, 10, "meets nothing");
+  other.objects[0].attachments[1] = attached(other.objects[0], 39);
+  expect_chosen(other, Sweep::multigrid, 5, "meets nothing");
+  other.objects[0].attachments[1].motion = straight({1, 0, 0}, 1);
+  expect_chosen(other, Sweep::multigrid, 10, "meets nothing");
+  other = scene;
   other.wind.air_density = 1.2f;
   expect_chosen(other, Sweep::multigrid, 5, "meets nothing");  // still air only brakes
   other.wind.velocity = {3, 0, 0};
@@ -74,6 +86,38 @@ TEST(ChosenSettings, AreMoreSubstepsOfMultigridWhereClothIsDisturbed) {
   other = scene;
   other.forces.push_back([](const Vec3f&, const Vec3f&, float, float) { return Vec3f{}; });
   expect_chosen(other, Sweep::multigrid, 10, "meets nothing");
+}
+
+TEST(ChosenSettings, AreTetheredWhereAttachmentsActLikePins) {
+  Scene scene = sheet(40, 1);  // 0.15 kg, 1.5 N
+  for (const int p : {0, 39}) scene.objects[0].attachments.push_back(attached(scene.objects[0], p));
+  expect_chosen(scene, Sweep::tethered_chains, 0, "hangs from pins or attachments");
+  const auto with_second = [&](const Attachment& second) {
+    Scene other = scene;
+    other.objects[0].attachments[1] = second;
+    return other;
+  };
+  const Attachment rigid = attached(scene.objects[0], 39);
+  const std::string why = "springs lie in straight rows";
+  for (const Stiffness& firm : {Stiffness::compliance(0.001f), Stiffness::pbd(1)})
+    expect_chosen(with_second(attached(scene.objects[0], 39, firm)), Sweep::tethered_chains, 0, "hangs from pins");
+  expect_chosen(with_second(attached(scene.objects[0], 39, Stiffness::compliance(0.002f))), Sweep::chains, 0, why);
+  expect_chosen(with_second(attached(scene.objects[0], 39, Stiffness::pbd(0.9f))), Sweep::chains, 20, why);
+  Attachment other = rigid;
+  other.target.x += 0.002f;
+  expect_chosen(with_second(other), Sweep::chains, 0, why);
+  other = rigid;
+  other.motion = straight({1, 0, 0}, 1);
+  expect_chosen(with_second(other), Sweep::chains, 0, why);
+  Scene alike = with_second(other);
+  alike.objects[0].attachments[0].motion = other.motion;
+  expect_chosen(alike, Sweep::tethered_chains, 0, "hangs from pins");
+  alike.objects[0].attachments.pop_back();
+  alike.objects[0].attachments[0].motion = {};
+  alike.pin(0, {39});
+  expect_chosen(alike, Sweep::tethered_chains, 0, "hangs from pins");
+  alike.objects[0].attachments[0].stiffness = Stiffness::compliance(1);
+  expect_chosen(alike, Sweep::chains, 0, why);
 }
 
 /// With multigrid cloth sticks to a collider on which it should slide.
