@@ -44,9 +44,11 @@ struct Trial {
 
 /// The result of all trials.
 struct Advice {
-  Trial own;                  ///< trial with the scene's own settings
-  int frames = 0;             ///< frames planned; if `own` completed fewer, the advice covers only those
-  std::vector<Trial> others;  ///< further trials in the order in which they ran; none if `own` is good
+  Trial own;       ///< trial with the scene's own settings
+  int frames = 0;  ///< frames planned; if `own` completed fewer, the advice covers only those
+  /// Further trials in the order in which they ran; none if `own` is good, or if pins are farther apart than the object between
+  /// them is long, so that no settings help.
+  std::vector<Trial> others;
   /// Index in `others` of the advised settings: the default (Settings{}) if the scene names others and it is good; else the
   /// cheapest good trial; if none is good, the best one that is clearly better than `own`; -1: none.
   int best = -1;

@@ -16,6 +16,7 @@
 #include <limits>
 #include <utility>
 
+#include "advise/far_pins.h"
 #include "advise/passed_through.h"
 #include "matter/advice_settings.h"
 #include "model/object_sets.h"
@@ -309,6 +310,11 @@ Advice advise(const Scene& given, const AdviseOptions& options) {
   advice.own = trials.run_own(advice);
   advice.cut_short = !advice.own.complete && std::isfinite(advice.own.worst.largest);
   if (advice.words.empty()) return advice;
+  advice.what_to_do = advice_for_far_pins(scene, advice.own);
+  if (!advice.what_to_do.empty()) {
+    advice.cut_short = false;  // more time would change nothing
+    return advice;
+  }
   Search search(open, trials, advice);
   const Departures departs{departures(scene, given.settings, scene.settings), with_own_sweep(scene)};
   const bool is_default = departs.settings.empty() && departs.objects.empty();

@@ -53,8 +53,12 @@ double AttachmentTest::gap_of(const Attachment& attachment) const {
   return length(convert<double>(attachment.target) - convert<double>(object_.positions[p]));
 }
 
+bool AttachmentTest::is_firm(const Attachment& attachment) const {
+  return yield_of(attachment) <= most_yield_of_pin * extent_;
+}
+
 bool AttachmentTest::is_like_pin(const Attachment& attachment) const {
-  return yield_of(attachment) <= most_yield_of_pin * extent_ && gap_of(attachment) <= most_gap_of_pin * extent_;
+  return is_firm(attachment) && gap_of(attachment) <= most_gap_of_pin * extent_;
 }
 
 bool AttachmentTest::is_rigid(const Attachment& attachment) const {

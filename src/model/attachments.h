@@ -21,8 +21,10 @@ class AttachmentTest {
  public:
   AttachmentTest(const Object& object, double gravity);
 
-  /// True if the attachment acts like a pin: the weight of the whole object would pull it out by 0.2 % of the object's extent at
-  /// most, and its target is where its particle starts.
+  /// True if the weight of the whole object would pull the attachment out by 0.2 % of the object's extent at most.
+  bool is_firm(const Attachment& attachment) const;
+
+  /// True if the attachment acts like a pin: it is firm, and its target is where its particle starts.
   bool is_like_pin(const Attachment& attachment) const;
 
   /// True if it also yields so little that nobody could measure it, and its target is near where its particle starts. Chains end

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "advise/advise_support.h"
@@ -112,9 +113,20 @@ TEST(Advise, LetsRubberStretch) {
 
 TEST(Advise, KnowsWhenNothingHelps) {
   Scene scene;
-  scene.add(chain(6, 0.2f));
-  scene.pin(0, {0});
-  scene.pin(0, {5}, straight({0.5f, 0, 0}, 0.2f));
+  constexpr int links = 24;
+  Object ring = chain(links, 0.1f);  // its 2.4 m are around a ball of 3.1 m
+  ConstraintGroup& group = ring.constraints[0];
+  group.particles.insert(group.particles.end(), {links - 1, 0});
+  group.rest.assign(links, 0.1f);
+  for (int i = 0; i < links; ++i) {
+    const float angle = 6.2831853f * static_cast<float>(i) / links;
+    ring.positions[static_cast<std::size_t>(i)] = {0.4f * std::cos(angle), 0, 0.4f * std::sin(angle)};
+  }
+  scene.add(ring);
+  Collider ball;
+  ball.shape = Sphere{0.5f};
+  scene.add(ball);
+  scene.gravity = {};
   scene.settings = settings_of(4);
   scene.frames = 20;
   const Advice advice = advise(scene, unhurried);
