@@ -1,0 +1,230 @@
+#include "geometry/polyhedron_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "math/vector.h"
+
+namespace pliant {
+
+namespace {
+
+/// An axis must be better by this share of the smaller polyhedron's depth to replace one of a preferred kind.
+constexpr float preference = 1e-3f;
+/// Edges more parallel than this have no axis [sine].
+constexpr float parallel = 1e-3f;
+
+float lowest(const Polyhedron& p, const Vec3f& normal) {
+  float least = dot(normal, p.corners.front());
+  for (const Vec3f& corner : p.corners) least = std::min(least, dot(normal, corner));
+  return least;
+}
+
+struct FaceAxis {
+  int face = -1;
+  float separation = 0;
+};
+
+/// The face of `one` in front of which `other` is farthest.
+FaceAxis best_face(const Polyhedron& one, const Polyhedron& other) {
+  FaceAxis best;
+  for (int f = 0; f < one.faces(); ++f) {
+    const Vec3f& on =
+        one.corners[static_cast<std::size_t>(one.face_corners[static_cast<std::size_t>(one.first_of_face[f])])];
+    const float separation = lowest(other, one.normals[static_cast<std::size_t>(f)]) - dot(one.normals[f], on);
+    if (best.face < 0 || separation > best.separation) best = {f, separation};
+  }
+  return best;
+}
+
+/// True if arcs of the unit sphere cross: from a to b, which edge `ab` (along b x a) separates, and from c to d.
+bool arcs_cross(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d) {
+  const Vec3f ba = cross(b, a), dc = cross(d, c);
+  const float cba = dot(c, ba), dba = dot(d, ba), adc = dot(a, dc), bdc = dot(b, dc);
+  return cba * dba < 0 && adc * bdc < 0 && cba * bdc > 0;
+}
+
+struct EdgeAxis {
+  int a = -1, b = -1;
+  float separation = 0;
+  Vec3f normal{};
+};
+
+/// The axis of two edges, if they build a face of the Minkowski difference.
+std::optional<EdgeAxis> axis_of(const Polyhedron& a, int i, const Polyhedron& b, int j) {
+  const PolyhedronEdge &e = a.edges[static_cast<std::size_t>(i)], &f = b.edges[static_cast<std::size_t>(j)];
+  if (!arcs_cross(a.normals[e.left], a.normals[e.right], -b.normals[f.left], -b.normals[f.right])) return std::nullopt;
+  const Vec3f along_a = a.corners[e.b] - a.corners[e.a], along_b = b.corners[f.b] - b.corners[f.a];
+  const Vec3f across = cross(along_a, along_b);
+  const float squared = length_squared(across);
+  if (squared <= parallel * parallel * length_squared(along_a) * length_squared(along_b)) return std::nullopt;
+  Vec3f normal = across * (1 / std::sqrt(squared));
+  if (dot(normal, a.corners[e.a] - a.centre) < 0) normal = -normal;
+  return EdgeAxis{i, j, dot(normal, b.corners[f.a] - a.corners[e.a]), normal};
+}
+
+EdgeAxis best_edges(const Polyhedron& a, const Polyhedron& b) {
+  EdgeAxis best;
+  for (int i = 0; i < static_cast<int>(a.edges.size()); ++i)
+    for (int j = 0; j < static_cast<int>(b.edges.size()); ++j) {
+      const auto axis = axis_of(a, i, b, j);
+      if (axis && (best.a < 0 || axis->separation > best.separation)) best = *axis;
+    }
+  return best;
+}
+
+float size_of(const Polyhedron& p) { return largest(p.corners.front() - p.centre); }
+
+// ------------------------------------------------------------------------------------------------ clipping
+
+/// A side of the clipped face: an edge of the incident face, or a side of the reference face by which it was clipped.
+using Side = std::uint32_t;
+constexpr Side sides_of_reference = 1024;  ///< number of the first; edges of the incident face have smaller ones
+constexpr int bits_of_side = 11;
+
+/// A corner of the clipped face, and the sides that meet there, which name it.
+struct ClipPoint {
+  Vec3f place{};
+  Side before = 0, after = 0;
+};
+using Polygon = std::vector<ClipPoint>;
+
+/// The face of `p` whose normal is most opposite.
+int facing(const Polyhedron& p, const Vec3f& normal) {
+  int best = 0;
+  for (int f = 1; f < p.faces(); ++f)
+    if (dot(p.normals[f], normal) < dot(p.normals[best], normal)) best = f;
+  return best;
+}
+
+Polygon polygon_of(const Polyhedron& p, int face) {
+  Polygon polygon;
+  polygon.reserve(static_cast<std::size_t>(p.corners_of(face)) + 8);
+  const int first = p.first_of_face[face], count = p.corners_of(face);
+  for (int i = 0; i < count; ++i) {
+    const int corner = p.face_corners[static_cast<std::size_t>(first + i)];
+    polygon.push_back(
+        {p.corners[static_cast<std::size_t>(corner)], static_cast<Side>((i + count - 1) % count), static_cast<Side>(i)});
+  }
+  return polygon;
+}
+
+/// Keeps what lies behind a plane, n.x <= offset. The polygon gets a side of the number `side` there.
+Polygon clipped(const Polygon& polygon, const Vec3f& n, float offset, Side side) {
+  Polygon out;
+  out.reserve(polygon.size() + 1);
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const ClipPoint &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+    const float start = dot(n, from.place) - offset, end = dot(n, to.place) - offset;
+    if (start <= 0) out.push_back(from);
+    if (!((start < 0 && end > 0) || (start > 0 && end < 0))) continue;
+    const Vec3f place = from.place + (to.place - from.place) * (start / (start - end));
+    out.push_back(start < 0 ? ClipPoint{place, from.after, side} : ClipPoint{place, side, from.after});
+  }
+  return out;
+}
+
+/// Clips a polygon by the sides of a face.
+Polygon clipped_by_sides(Polygon polygon, const Polyhedron& p, int face) {
+  const int first = p.first_of_face[face], count = p.corners_of(face);
+  for (int i = 0; i < count && !polygon.empty(); ++i) {
+    const Vec3f &a = p.corners[static_cast<std::size_t>(p.face_corners[static_cast<std::size_t>(first + i)])],
+                &b = p.corners[static_cast<std::size_t>(p.face_corners[static_cast<std::size_t>(first + (i + 1) % count)])];
+    const Vec3f outward = cross(b - a, p.normals[static_cast<std::size_t>(face)]);
+    polygon = clipped(polygon, outward, dot(outward, a), sides_of_reference + static_cast<Side>(i));
+  }
+  return polygon;
+}
+
+/// Chooses four points that span much of the area: the deepest, the one farthest from it, then those that are farthest to
+/// both sides of the line through these.
+std::vector<std::size_t> four_of(const std::vector<TouchPoint>& points, const Vec3f& normal) {
+  const auto best = [&](const auto& value) {
+    std::size_t found = 0;
+    for (std::size_t i = 1; i < points.size(); ++i)
+      if (value(points[i]) > value(points[found])) found = i;
+    return found;
+  };
+  const std::size_t first = best([](const TouchPoint& p) { return -p.separation; });
+  const Vec3f origin = points[first].on_a;
+  const std::size_t second = best([&](const TouchPoint& p) { return length_squared(p.on_a - origin); });
+  const Vec3f sideways = cross(normal, points[second].on_a - origin);
+  const std::size_t third = best([&](const TouchPoint& p) { return dot(sideways, p.on_a - origin); });
+  const std::size_t fourth = best([&](const TouchPoint& p) { return -dot(sideways, p.on_a - origin); });
+  std::vector<std::size_t> chosen;
+  for (const std::size_t i : {first, second, third, fourth})
+    if (std::find(chosen.begin(), chosen.end(), i) == chosen.end()) chosen.push_back(i);
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+/// The points of the face of `incident` that is turned to face `face` of `reference`.
+Touch face_touch(const Polyhedron& reference, const Polyhedron& incident, int face, bool swapped, float margin) {
+  const Vec3f normal = reference.normals[static_cast<std::size_t>(face)];
+  const Vec3f on = reference.corners[static_cast<std::size_t>(
+      reference.face_corners[static_cast<std::size_t>(reference.first_of_face[face])])];
+  const int other = facing(incident, normal);
+  std::vector<TouchPoint> points;
+  for (const ClipPoint& point : clipped_by_sides(polygon_of(incident, other), reference, face)) {
+    const float separation = dot(normal, point.place - on);
+    if (separation > margin) continue;
+    const Vec3f below = point.place - normal * separation;
+    const std::uint32_t feature = (swapped ? 0x40000000u : 0u) ^ point.before << bits_of_side ^ point.after;
+    points.push_back(swapped ? TouchPoint{point.place, below, separation, feature}
+                             : TouchPoint{below, point.place, separation, feature});
+  }
+  Touch out;
+  out.normal = swapped ? -normal : normal;
+  if (points.empty()) return out;
+  if (points.size() <= out.points.size()) {
+    for (const TouchPoint& point : points) out.points[static_cast<std::size_t>(out.count++)] = point;
+    return out;
+  }
+  for (const std::size_t i : four_of(points, normal)) out.points[static_cast<std::size_t>(out.count++)] = points[i];
+  return out;
+}
+
+/// The nearest points of two lines that are not parallel.
+Touch edge_touch(const Polyhedron& a, const Polyhedron& b, const SeparatingAxis& axis) {
+  const PolyhedronEdge &e = a.edges[static_cast<std::size_t>(axis.a)], &f = b.edges[static_cast<std::size_t>(axis.b)];
+  const Vec3f p = a.corners[e.a], q = b.corners[f.a], u = a.corners[e.b] - p, v = b.corners[f.b] - q, w = q - p;
+  const float uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
+  const float determinant = uu * vv - uv * uv;
+  const float s = std::min(std::max((uw * vv - uv * vw) / determinant, 0.f), 1.f);
+  const float t = std::min(std::max((uv * s - vw) / vv, 0.f), 1.f);
+  Touch out;
+  out.normal = axis.normal;
+  out.count = 1;
+  const Vec3f on_a = p + u * s, on_b = q + v * t;
+  const Vec3f middle = (on_a + on_b) * 0.5f, half = axis.normal * (0.5f * axis.separation);
+  out.points[0] = {middle - half, middle + half, axis.separation,
+                   0x20000000u ^ static_cast<std::uint32_t>(axis.a) << 12 ^ static_cast<std::uint32_t>(axis.b)};
+  return out;
+}
+
+}  // namespace
+
+SeparatingAxis separating_axis(const Polyhedron& a, const Polyhedron& b) {
+  const FaceAxis of_a = best_face(a, b), of_b = best_face(b, a);
+  const float tolerance = preference * std::min(size_of(a), size_of(b));
+  SeparatingAxis best{SeparatingAxis::Kind::face_of_a, of_a.face, -1, of_a.separation,
+                      a.normals[static_cast<std::size_t>(of_a.face)]};
+  if (of_b.separation > best.separation + tolerance)
+    best = {SeparatingAxis::Kind::face_of_b, -1, of_b.face, of_b.separation,
+            -b.normals[static_cast<std::size_t>(of_b.face)]};
+  const EdgeAxis edges = best_edges(a, b);
+  if (edges.a >= 0 && edges.separation > best.separation + tolerance)
+    best = {SeparatingAxis::Kind::edges, edges.a, edges.b, edges.separation, edges.normal};
+  return best;
+}
+
+Touch touch(const Polyhedron& a, const Polyhedron& b, float margin) {
+  const SeparatingAxis axis = separating_axis(a, b);
+  if (axis.separation > margin) return {};
+  if (axis.kind == SeparatingAxis::Kind::face_of_a) return face_touch(a, b, axis.a, false, margin);
+  if (axis.kind == SeparatingAxis::Kind::face_of_b) return face_touch(b, a, axis.b, true, margin);
+  return edge_touch(a, b, axis);
+}
+
+}  // namespace pliant
