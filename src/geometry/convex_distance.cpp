@@ -1,0 +1,336 @@
+#include "geometry/convex_distance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "math/vector.h"
+
+namespace pliant {
+
+namespace {
+
+constexpr int most_steps = 64;
+/// Relative error of squared distances at which the search ends.
+constexpr double accuracy = 1e-13;
+/// The polytope stops growing when that would move its nearest face by less than this share of the solids' size.
+constexpr double growth = 1e-7;
+/// Cores nearer than this share of their size count as overlapping.
+constexpr double contact = 1e-10;
+
+/// Directions to try where nothing is known: of a cube's faces and corners.
+constexpr std::array<std::array<double, 3>, 14> directions{{{1, 0, 0},
+                                                            {-1, 0, 0},
+                                                            {0, 1, 0},
+                                                            {0, -1, 0},
+                                                            {0, 0, 1},
+                                                            {0, 0, -1},
+                                                            {1, 1, 1},
+                                                            {-1, 1, 1},
+                                                            {1, -1, 1},
+                                                            {1, 1, -1},
+                                                            {-1, -1, 1},
+                                                            {-1, 1, -1},
+                                                            {1, -1, -1},
+                                                            {-1, -1, -1}}};
+
+/// A point of the difference a - b, and the points that it comes from.
+struct Vertex {
+  Vec3d w{}, on_a{}, on_b{};
+};
+
+class Difference {
+ public:
+  Difference(const ConvexShape& a, const ConvexShape& b, const Posed& pose) : a_(a), b_(b), pose_(pose) {}
+
+  Vertex support(const Vec3d& direction) const {
+    const Vec3d p = pliant::support(a_, direction);
+    const Vec3d q = to_world(pose_, pliant::support(b_, rotate(conjugate(pose_.rotation), -direction)));
+    return {p - q, p, q};
+  }
+
+ private:
+  const ConvexShape &a_, &b_;
+  const Posed& pose_;
+};
+
+/// The nearest point to the origin of a simplex, as shares of its corners.
+struct Simplex {
+  std::array<Vertex, 4> corners{};
+  std::array<double, 4> shares{};
+  int count = 0;
+
+  Vec3d nearest() const {
+    Vec3d sum{};
+    for (int i = 0; i < count; ++i) sum += corners[i].w * shares[i];
+    return sum;
+  }
+  Vec3d on_a() const {
+    Vec3d sum{};
+    for (int i = 0; i < count; ++i) sum += corners[i].on_a * shares[i];
+    return sum;
+  }
+  Vec3d on_b() const {
+    Vec3d sum{};
+    for (int i = 0; i < count; ++i) sum += corners[i].on_b * shares[i];
+    return sum;
+  }
+};
+
+Simplex part(const Simplex& whole, std::initializer_list<int> corners) {
+  Simplex out;
+  for (const int c : corners)
+    out.corners[static_cast<std::size_t>(out.count++)] = whole.corners[static_cast<std::size_t>(c)];
+  return out;
+}
+
+Simplex nearest_of_segment(Simplex s) {
+  const Vec3d a = s.corners[0].w, along = s.corners[1].w - a;
+  const double squared = length_squared(along), t = squared > 0 ? -dot(a, along) / squared : 0;
+  if (t <= 0 || t >= 1) {
+    s = part(s, {t <= 0 ? 0 : 1});
+    s.shares[0] = 1;
+    return s;
+  }
+  s.shares = {1 - t, t};
+  return s;
+}
+
+Simplex nearer(const Simplex& a, const Simplex& b) {
+  return length_squared(b.nearest()) < length_squared(a.nearest()) ? b : a;
+}
+
+Simplex nearest_of_triangle(Simplex s) {
+  const Vec3d a = s.corners[0].w, b = s.corners[1].w, c = s.corners[2].w, normal = cross(b - a, c - a);
+  const double squared = length_squared(normal);
+  const double u = dot(cross(b, c), normal), v = dot(cross(c, a), normal), w = dot(cross(a, b), normal);
+  if (squared > 0 && u > 0 && v > 0 && w > 0) {
+    const double sum = u + v + w;
+    s.shares = {u / sum, v / sum, w / sum};
+    return s;
+  }
+  return nearer(nearer(nearest_of_segment(part(s, {0, 1})), nearest_of_segment(part(s, {1, 2}))),
+                nearest_of_segment(part(s, {2, 0})));
+}
+
+double volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) { return dot(cross(b - a, c - a), d - a); }
+
+/// Of a tetrahedron that contains the origin all four corners stay.
+Simplex nearest_of_tetrahedron(Simplex s) {
+  const Vec3d a = s.corners[0].w, b = s.corners[1].w, c = s.corners[2].w, d = s.corners[3].w, o{};
+  const double whole = volume(a, b, c, d);
+  const std::array<double, 4> shares{volume(o, b, c, d), volume(a, o, c, d), volume(a, b, o, d), volume(a, b, c, o)};
+  const bool is_inside = whole != 0 && std::all_of(shares.begin(), shares.end(), [&](double v) { return v * whole > 0; });
+  if (is_inside) {
+    for (int i = 0; i < 4; ++i) s.shares[i] = shares[i] / whole;
+    return s;
+  }
+  return nearer(nearer(nearest_of_triangle(part(s, {0, 1, 2})), nearest_of_triangle(part(s, {0, 1, 3}))),
+                nearer(nearest_of_triangle(part(s, {0, 2, 3})), nearest_of_triangle(part(s, {1, 2, 3}))));
+}
+
+Simplex nearest_of(const Simplex& s) {
+  if (s.count == 4) return nearest_of_tetrahedron(s);
+  if (s.count == 3) return nearest_of_triangle(s);
+  if (s.count == 2) return nearest_of_segment(s);
+  Simplex out = s;
+  out.shares[0] = 1;
+  return out;
+}
+
+/// The nearest point of the difference to the origin.
+Simplex nearest_point(const Difference& difference, const Vec3d& first) {
+  Simplex s;
+  s.corners[0] = difference.support(first);
+  s.count = 1;
+  s.shares[0] = 1;
+  for (int step = 0; step < most_steps; ++step) {
+    const Vec3d v = s.nearest();
+    const double squared = length_squared(v);
+    if (squared == 0 || s.count == 4) return s;
+    const Vertex next = difference.support(-v);
+    if (squared - dot(v, next.w) <= accuracy * squared) return s;
+    for (int i = 0; i < s.count; ++i)
+      if (s.corners[i].w.x == next.w.x && s.corners[i].w.y == next.w.y && s.corners[i].w.z == next.w.z) return s;
+    Simplex grown = s;
+    grown.corners[static_cast<std::size_t>(grown.count++)] = next;
+    grown = nearest_of(grown);
+    if (grown.count < 4 && length_squared(grown.nearest()) >= squared) return s;  // rounding: no more progress
+    s = grown;
+  }
+  return s;
+}
+
+// ------------------------------------------------------------------------------------------------ overlap
+
+/// A triangle of the polytope, counter-clockwise from outside.
+struct Side {
+  std::array<int, 3> corners{};
+  Vec3d normal{};
+  double distance = 0;  ///< of its plane from the origin
+  bool alive = true;
+};
+
+class Polytope {
+ public:
+  Polytope(const Difference& difference, const Simplex& simplex) : difference_(difference) {
+    for (int i = 0; i < simplex.count; ++i) vertices_.push_back(simplex.corners[i]);
+    complete();
+  }
+
+  /// The least way out of the difference. Empty volume, which flat cores make, gives a depth of zero.
+  ConvexDistance depth() {
+    if (!is_solid_) return flat();
+    int nearest = nearest_side();
+    for (int step = 0; step < most_steps; ++step) {
+      const Side side = sides_[static_cast<std::size_t>(nearest)];
+      const Vertex next = difference_.support(side.normal);
+      if (dot(next.w, side.normal) - side.distance <= growth * size_ || !grow(next)) break;
+      nearest = nearest_side();
+    }
+    return way_out(sides_[static_cast<std::size_t>(nearest)]);
+  }
+
+ private:
+  const Vec3d& at(int i) const { return vertices_[static_cast<std::size_t>(i)].w; }
+
+  /// Adds supports until there are four corners that span a volume.
+  void complete() {
+    for (const auto& [x, y, z] : directions) size_ = std::max(size_, largest(difference_.support({x, y, z}).w));
+    if (vertices_.size() == 4 && spans(vertices_[0], vertices_[1], vertices_[2], vertices_[3])) return start();
+    std::vector<Vertex> candidates = vertices_;
+    for (const auto& [x, y, z] : directions) candidates.push_back(difference_.support({x, y, z}));
+    enclose(candidates);
+  }
+
+  bool spans(const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& d) const {
+    return std::fabs(volume(a.w, b.w, c.w, d.w)) > 1e-12 * size_ * size_ * size_;
+  }
+
+  /// Starts from any four candidates that span a volume, and lets it grow by the others, so that the origin is inside or on it.
+  void enclose(const std::vector<Vertex>& candidates) {
+    for (std::size_t i = 1; i < candidates.size(); ++i)
+      for (std::size_t j = i + 1; j < candidates.size(); ++j)
+        for (std::size_t k = j + 1; k < candidates.size(); ++k) {
+          if (!spans(candidates[0], candidates[i], candidates[j], candidates[k])) continue;
+          vertices_ = {candidates[0], candidates[i], candidates[j], candidates[k]};
+          start();
+          for (const Vertex& more : candidates) grow(more);
+          return;
+        }
+  }
+
+  void start() {
+    is_solid_ = true;
+    if (volume(at(0), at(1), at(2), at(3)) > 0) std::swap(vertices_[1], vertices_[2]);
+    for (const auto& corners : {std::array{0, 1, 2}, std::array{0, 3, 1}, std::array{1, 3, 2}, std::array{2, 3, 0}})
+      add(corners);
+  }
+
+  void add(const std::array<int, 3>& corners) {
+    const Vec3d a = at(corners[0]);
+    const Vec3d normal = unit_or(cross(at(corners[1]) - a, at(corners[2]) - a), Vec3d{});
+    sides_.push_back({corners, normal, dot(normal, a), length_squared(normal) > 0});
+  }
+
+  int nearest_side() const {
+    int best = -1;
+    for (std::size_t i = 0; i < sides_.size(); ++i)
+      if (sides_[i].alive && (best < 0 || sides_[i].distance < sides_[static_cast<std::size_t>(best)].distance))
+        best = static_cast<int>(i);
+    return best;
+  }
+
+  /// Replaces the sides that a point sees. False if it sees none, or if the border of these is not one loop.
+  bool grow(const Vertex& next) {
+    std::vector<std::pair<int, int>> border;
+    std::vector<std::size_t> seen;
+    for (std::size_t i = 0; i < sides_.size(); ++i)
+      if (sides_[i].alive && dot(sides_[i].normal, next.w) - sides_[i].distance > 1e-12 * size_) seen.push_back(i);
+    for (const std::size_t i : seen)
+      for (std::size_t e = 0; e < 3; ++e) {
+        const std::pair<int, int> edge{sides_[i].corners[e], sides_[i].corners[(e + 1) % 3]};
+        const auto back = std::find(border.begin(), border.end(), std::pair{edge.second, edge.first});
+        if (back != border.end())
+          border.erase(back);
+        else
+          border.push_back(edge);
+      }
+    if (border.empty()) return false;
+    const auto made = static_cast<int>(vertices_.size());
+    vertices_.push_back(next);
+    for (const std::size_t i : seen) sides_[i].alive = false;
+    for (const auto& [from, to] : border) add({from, to, made});
+    return true;
+  }
+
+  ConvexDistance way_out(const Side& side) const {
+    const Vec3d p = side.normal * side.distance;
+    const Vec3d a = at(side.corners[0]), b = at(side.corners[1]), c = at(side.corners[2]);
+    const double whole = dot(cross(b - a, c - a), side.normal);
+    const double u = dot(cross(b - p, c - p), side.normal) / whole, v = dot(cross(c - p, a - p), side.normal) / whole;
+    const auto mix = [&](Vec3d Vertex::*of) {
+      return vertices_[static_cast<std::size_t>(side.corners[0])].*of * u +
+             vertices_[static_cast<std::size_t>(side.corners[1])].*of * v +
+             vertices_[static_cast<std::size_t>(side.corners[2])].*of * (1 - u - v);
+    };
+    return {-side.distance, side.normal, mix(&Vertex::on_a), mix(&Vertex::on_b)};
+  }
+
+  /// Cores whose difference has no volume, such as two segments: the normal is that of the plane, or one of the line, in which
+  /// it lies.
+  ConvexDistance flat() const {
+    const Vertex& first = vertices_.front();
+    Vec3d along{}, normal{};
+    for (const auto& [x, y, z] : directions) {
+      const Vec3d away = difference_.support({x, y, z}).w - first.w;
+      if (length_squared(away) > length_squared(along)) along = away;
+    }
+    for (const auto& [x, y, z] : directions) {
+      const Vec3d across = cross(along, difference_.support({x, y, z}).w - first.w);
+      if (length_squared(across) > length_squared(normal)) normal = across;
+    }
+    if (length(normal) <= 1e-12 * length_squared(along)) normal = perpendicular(along);
+    return {0, unit_or(normal, Vec3d{0, 1, 0}), first.on_a, first.on_a};
+  }
+
+  /// A vector across another one; upward, if that is not long.
+  static Vec3d perpendicular(const Vec3d& along) {
+    const Vec3d size = abs(along);
+    const Vec3d axis = size.y <= size.x && size.y <= size.z ? Vec3d{0, 1, 0}
+                       : size.x <= size.z                   ? Vec3d{1, 0, 0}
+                                                            : Vec3d{0, 0, 1};
+    return axis - along * (dot(axis, along) / std::max(length_squared(along), 1e-300));
+  }
+
+  const Difference& difference_;
+  std::vector<Vertex> vertices_;
+  std::vector<Side> sides_;
+  double size_ = 0;
+  bool is_solid_ = false;
+};
+
+}  // namespace
+
+ConvexDistance convex_distance(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b) {
+  const Difference difference(a, b, pose_of_b);
+  const bool is_apart = length_squared(pose_of_b.position) > 0;
+  const Simplex simplex = nearest_point(difference, is_apart ? pose_of_b.position : Vec3d{1, 0, 0});
+  const Vec3d v = simplex.nearest();
+  const double distance = length(v), size = 1 + largest(simplex.corners[0].w);
+  ConvexDistance out;
+  if (simplex.count < 4 && distance > contact * size)
+    out = {distance, v * (-1 / distance), simplex.on_a(), simplex.on_b()};
+  else
+    out = Polytope(difference, simplex).depth();
+  out.on_a += out.normal * static_cast<double>(a.radius);
+  out.on_b -= out.normal * static_cast<double>(b.radius);
+  out.separation -= static_cast<double>(a.radius) + static_cast<double>(b.radius);
+  return out;
+}
+
+}  // namespace pliant

@@ -1,0 +1,124 @@
+#include "geometry/convex_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "math/vector.h"
+
+namespace pliant {
+
+namespace {
+
+constexpr std::size_t corners_of_disc = 8;
+
+/// The farthest point of a disc in the plane of x and z.
+Vec3d on_circle(double radius, const Vec3d& direction) {
+  const double across = std::sqrt(direction.x * direction.x + direction.z * direction.z);
+  if (!(across > 0)) return {radius, 0, 0};
+  return {radius * direction.x / across, 0, radius * direction.z / across};
+}
+
+Vec3d farthest_corner(const Polyhedron& p, const Vec3d& direction) {
+  std::size_t best = 0;
+  double most = dot(direction, convert<double>(p.corners[0]));
+  for (std::size_t i = 1; i < p.corners.size(); ++i) {
+    const double reach = dot(direction, convert<double>(p.corners[i]));
+    if (reach <= most) continue;
+    most = reach;
+    best = i;
+  }
+  return convert<double>(p.corners[best]);
+}
+
+/// A regular polygon in place of a disc at the height y; it faces up or down.
+Feature disc(double radius, double y, bool up) {
+  constexpr double c = 0.70710678118654752;  // of an eighth of a turn
+  constexpr std::array<std::array<double, 2>, corners_of_disc> around{
+      {{1, 0}, {c, -c}, {0, -1}, {-c, -c}, {-1, 0}, {-c, c}, {0, 1}, {c, c}}};
+  Feature out;
+  out.count = static_cast<int>(corners_of_disc);
+  for (std::size_t i = 0; i < corners_of_disc; ++i) {
+    const auto& [x, z] = around[up ? i : corners_of_disc - 1 - i];
+    out.points[i] = {radius * x, y, radius * z};
+  }
+  out.normal = {0, up ? 1. : -1., 0};
+  return out;
+}
+
+Feature points_of(std::initializer_list<Vec3d> points) {
+  Feature out;
+  for (const Vec3d& p : points) out.points[static_cast<std::size_t>(out.count++)] = p;
+  return out;
+}
+
+/// The face that is flattest in a direction, an edge of it, or the farthest corner.
+Feature feature_of(const Polyhedron& p, const Vec3d& direction, double slack) {
+  const Vec3d top = farthest_corner(p, direction);
+  const double least = dot(direction, top) - slack;
+  const auto is_near = [&](int corner) { return dot(direction, convert<double>(p.corners[corner])) >= least; };
+  int best = 0;
+  for (int f = 1; f < p.faces(); ++f)
+    if (dot(direction, convert<double>(p.normals[f])) > dot(direction, convert<double>(p.normals[best]))) best = f;
+  const auto first = p.face_corners.begin() + p.first_of_face[best], last = first + p.corners_of(best);
+  if (std::all_of(first, last, is_near)) {
+    Feature out;
+    out.count = std::min(p.corners_of(best), Feature::most);
+    for (int i = 0; i < out.count; ++i) out.points[i] = convert<double>(p.corners[*(first + i)]);
+    out.normal = convert<double>(p.normals[best]);
+    return out;
+  }
+  for (const PolyhedronEdge& edge : p.edges)
+    if (is_near(edge.a) && is_near(edge.b))
+      return points_of({convert<double>(p.corners[edge.a]), convert<double>(p.corners[edge.b])});
+  return points_of({top});
+}
+
+/// Of a solid of revolution with a segment as its outline: a disc below, one above if `has_top`, and a side.
+Feature feature_of_round(const ConvexShape& shape, const Vec3d& direction, double slack) {
+  const double r = shape.core_radius, h = shape.half_length, top_radius = shape.kind == ConvexShape::Kind::cone ? 0 : r;
+  const double across = std::sqrt(direction.x * direction.x + direction.z * direction.z);
+  const double tilt = 2 * r * across;  // the height of a disc in the direction
+  if (tilt <= slack && (direction.y < 0 || top_radius > 0)) return disc(r, direction.y < 0 ? -h : h, direction.y >= 0);
+  const Vec3d side = on_circle(1, direction), below = side * r - Vec3d{0, h, 0}, above = side * top_radius + Vec3d{0, h, 0};
+  if (std::fabs(dot(direction, above - below)) <= slack) return points_of({below, above});
+  return points_of({support(shape, direction)});
+}
+
+}  // namespace
+
+Vec3d support(const ConvexShape& shape, const Vec3d& direction) {
+  const double end = direction.y < 0 ? -shape.half_length : shape.half_length;
+  switch (shape.kind) {
+    case ConvexShape::Kind::point:
+      return {};
+    case ConvexShape::Kind::segment:
+      return {0, end, 0};
+    case ConvexShape::Kind::cylinder:
+      return on_circle(shape.core_radius, direction) + Vec3d{0, end, 0};
+    case ConvexShape::Kind::cone: {
+      const Vec3d base = on_circle(shape.core_radius, direction) - Vec3d{0, shape.half_length, 0};
+      const Vec3d apex{0, shape.half_length, 0};
+      return dot(direction, apex - base) >= 0 ? apex : base;
+    }
+    case ConvexShape::Kind::polyhedron:
+      return farthest_corner(*shape.polyhedron, direction);
+  }
+  return {};
+}
+
+Feature feature_towards(const ConvexShape& shape, const Vec3d& direction, double slack) {
+  switch (shape.kind) {
+    case ConvexShape::Kind::point:
+      return points_of({Vec3d{}});
+    case ConvexShape::Kind::segment:
+      if (2 * shape.half_length * std::fabs(direction.y) > slack) return points_of({support(shape, direction)});
+      return points_of({Vec3d{0, -shape.half_length, 0}, Vec3d{0, shape.half_length, 0}});
+    case ConvexShape::Kind::polyhedron:
+      return feature_of(*shape.polyhedron, direction, slack);
+    default:
+      return feature_of_round(shape, direction, slack);
+  }
+}
+
+}  // namespace pliant
