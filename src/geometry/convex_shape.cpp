@@ -61,13 +61,7 @@ Feature feature_of(const Polyhedron& p, const Vec3d& direction, double slack) {
   for (int f = 1; f < p.faces(); ++f)
     if (dot(direction, convert<double>(p.normals[f])) > dot(direction, convert<double>(p.normals[best]))) best = f;
   const auto first = p.face_corners.begin() + p.first_of_face[best], last = first + p.corners_of(best);
-  if (std::all_of(first, last, is_near)) {
-    Feature out;
-    out.count = std::min(p.corners_of(best), Feature::most);
-    for (int i = 0; i < out.count; ++i) out.points[i] = convert<double>(p.corners[*(first + i)]);
-    out.normal = convert<double>(p.normals[best]);
-    return out;
-  }
+  if (std::all_of(first, last, is_near)) return face_of(p, best);
   for (const PolyhedronEdge& edge : p.edges)
     if (is_near(edge.a) && is_near(edge.b))
       return points_of({convert<double>(p.corners[edge.a]), convert<double>(p.corners[edge.b])});
@@ -86,6 +80,17 @@ Feature feature_of_round(const ConvexShape& shape, const Vec3d& direction, doubl
 }
 
 }  // namespace
+
+Feature face_of(const Polyhedron& p, int face) {
+  const int first = p.first_of_face[static_cast<std::size_t>(face)], all = p.corners_of(face);
+  Feature out;
+  out.count = std::min(all, Feature::most);
+  for (int i = 0; i < out.count; ++i)
+    out.points[static_cast<std::size_t>(i)] = convert<double>(
+        p.corners[static_cast<std::size_t>(p.face_corners[static_cast<std::size_t>(first + i * all / out.count)])]);
+  out.normal = convert<double>(p.normals[static_cast<std::size_t>(face)]);
+  return out;
+}
 
 Vec3d support(const ConvexShape& shape, const Vec3d& direction) {
   const double end = direction.y < 0 ? -shape.half_length : shape.half_length;

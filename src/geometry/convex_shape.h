@@ -34,4 +34,7 @@ struct Feature {
 /// vector). Round faces count as polygons of eight corners.
 Feature feature_towards(const ConvexShape& shape, const Vec3d& direction, double slack);
 
+/// A face of a polyhedron; of one with more corners than a feature holds, some are left out.
+Feature face_of(const Polyhedron& polyhedron, int face);
+
 }  // namespace pliant

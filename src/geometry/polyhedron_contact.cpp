@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 
 #include "math/vector.h"
 
@@ -76,19 +78,7 @@ EdgeAxis best_edges(const Polyhedron& a, const Polyhedron& b) {
 
 float size_of(const Polyhedron& p) { return largest(p.corners.front() - p.centre); }
 
-// ------------------------------------------------------------------------------------------------ clipping
-
-/// A side of the clipped face: an edge of the incident face, or a side of the reference face by which it was clipped.
-using Side = std::uint32_t;
-constexpr Side sides_of_reference = 1024;  ///< number of the first; edges of the incident face have smaller ones
-constexpr int bits_of_side = 11;
-
-/// A corner of the clipped face, and the sides that meet there, which name it.
-struct ClipPoint {
-  Vec3f place{};
-  Side before = 0, after = 0;
-};
-using Polygon = std::vector<ClipPoint>;
+// ------------------------------------------------------------------------------------------------ points
 
 /// The face of `p` whose normal is most opposite.
 int facing(const Polyhedron& p, const Vec3f& normal) {
@@ -98,91 +88,12 @@ int facing(const Polyhedron& p, const Vec3f& normal) {
   return best;
 }
 
-Polygon polygon_of(const Polyhedron& p, int face) {
-  Polygon polygon;
-  polygon.reserve(static_cast<std::size_t>(p.corners_of(face)) + 8);
-  const int first = p.first_of_face[face], count = p.corners_of(face);
-  for (int i = 0; i < count; ++i) {
-    const int corner = p.face_corners[static_cast<std::size_t>(first + i)];
-    polygon.push_back(
-        {p.corners[static_cast<std::size_t>(corner)], static_cast<Side>((i + count - 1) % count), static_cast<Side>(i)});
-  }
-  return polygon;
-}
-
-/// Keeps what lies behind a plane, n.x <= offset. The polygon gets a side of the number `side` there.
-Polygon clipped(const Polygon& polygon, const Vec3f& n, float offset, Side side) {
-  Polygon out;
-  out.reserve(polygon.size() + 1);
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const ClipPoint &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
-    const float start = dot(n, from.place) - offset, end = dot(n, to.place) - offset;
-    if (start <= 0) out.push_back(from);
-    if (!((start < 0 && end > 0) || (start > 0 && end < 0))) continue;
-    const Vec3f place = from.place + (to.place - from.place) * (start / (start - end));
-    out.push_back(start < 0 ? ClipPoint{place, from.after, side} : ClipPoint{place, side, from.after});
-  }
-  return out;
-}
-
-/// Clips a polygon by the sides of a face.
-Polygon clipped_by_sides(Polygon polygon, const Polyhedron& p, int face) {
-  const int first = p.first_of_face[face], count = p.corners_of(face);
-  for (int i = 0; i < count && !polygon.empty(); ++i) {
-    const Vec3f &a = p.corners[static_cast<std::size_t>(p.face_corners[static_cast<std::size_t>(first + i)])],
-                &b = p.corners[static_cast<std::size_t>(p.face_corners[static_cast<std::size_t>(first + (i + 1) % count)])];
-    const Vec3f outward = cross(b - a, p.normals[static_cast<std::size_t>(face)]);
-    polygon = clipped(polygon, outward, dot(outward, a), sides_of_reference + static_cast<Side>(i));
-  }
-  return polygon;
-}
-
-/// Chooses four points that span much of the area: the deepest, the one farthest from it, then those that are farthest to
-/// both sides of the line through these.
-std::vector<std::size_t> four_of(const std::vector<TouchPoint>& points, const Vec3f& normal) {
-  const auto best = [&](const auto& value) {
-    std::size_t found = 0;
-    for (std::size_t i = 1; i < points.size(); ++i)
-      if (value(points[i]) > value(points[found])) found = i;
-    return found;
-  };
-  const std::size_t first = best([](const TouchPoint& p) { return -p.separation; });
-  const Vec3f origin = points[first].on_a;
-  const std::size_t second = best([&](const TouchPoint& p) { return length_squared(p.on_a - origin); });
-  const Vec3f sideways = cross(normal, points[second].on_a - origin);
-  const std::size_t third = best([&](const TouchPoint& p) { return dot(sideways, p.on_a - origin); });
-  const std::size_t fourth = best([&](const TouchPoint& p) { return -dot(sideways, p.on_a - origin); });
-  std::vector<std::size_t> chosen;
-  for (const std::size_t i : {first, second, third, fourth})
-    if (std::find(chosen.begin(), chosen.end(), i) == chosen.end()) chosen.push_back(i);
-  std::sort(chosen.begin(), chosen.end());
-  return chosen;
-}
-
 /// The points of the face of `incident` that is turned to face `face` of `reference`.
 Touch face_touch(const Polyhedron& reference, const Polyhedron& incident, int face, bool swapped, float margin) {
-  const Vec3f normal = reference.normals[static_cast<std::size_t>(face)];
-  const Vec3f on = reference.corners[static_cast<std::size_t>(
-      reference.face_corners[static_cast<std::size_t>(reference.first_of_face[face])])];
-  const int other = facing(incident, normal);
-  std::vector<TouchPoint> points;
-  for (const ClipPoint& point : clipped_by_sides(polygon_of(incident, other), reference, face)) {
-    const float separation = dot(normal, point.place - on);
-    if (separation > margin) continue;
-    const Vec3f below = point.place - normal * separation;
-    const std::uint32_t feature = (swapped ? 0x40000000u : 0u) ^ point.before << bits_of_side ^ point.after;
-    points.push_back(swapped ? TouchPoint{point.place, below, separation, feature}
-                             : TouchPoint{below, point.place, separation, feature});
-  }
-  Touch out;
-  out.normal = swapped ? -normal : normal;
-  if (points.empty()) return out;
-  if (points.size() <= out.points.size()) {
-    for (const TouchPoint& point : points) out.points[static_cast<std::size_t>(out.count++)] = point;
-    return out;
-  }
-  for (const std::size_t i : four_of(points, normal)) out.points[static_cast<std::size_t>(out.count++)] = points[i];
-  return out;
+  const Vec3f outward = reference.normals[static_cast<std::size_t>(face)];
+  const Vec3d normal = convert<double>(swapped ? -outward : outward);
+  const Feature polygon = face_of(reference, face), other = face_of(incident, facing(incident, outward));
+  return four_of(points_over(polygon, other, normal, swapped, static_cast<double>(margin)), normal);
 }
 
 /// The nearest points of two lines that are not parallel.
@@ -193,12 +104,13 @@ Touch edge_touch(const Polyhedron& a, const Polyhedron& b, const SeparatingAxis&
   const float determinant = uu * vv - uv * uv;
   const float s = std::min(std::max((uw * vv - uv * vw) / determinant, 0.f), 1.f);
   const float t = std::min(std::max((uv * s - vw) / vv, 0.f), 1.f);
+  const Vec3d middle = convert<double>((p + u * s) + (q + v * t)) * 0.5;
+  const double separation = static_cast<double>(axis.separation);
   Touch out;
-  out.normal = axis.normal;
+  out.normal = convert<double>(axis.normal);
   out.count = 1;
-  const Vec3f on_a = p + u * s, on_b = q + v * t;
-  const Vec3f middle = (on_a + on_b) * 0.5f, half = axis.normal * (0.5f * axis.separation);
-  out.points[0] = {middle - half, middle + half, axis.separation,
+  const Vec3d half = out.normal * (0.5 * separation);
+  out.points[0] = {middle - half, middle + half, separation,
                    0x20000000u ^ static_cast<std::uint32_t>(axis.a) << 12 ^ static_cast<std::uint32_t>(axis.b)};
   return out;
 }

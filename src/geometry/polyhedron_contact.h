@@ -4,12 +4,8 @@
 // separating axis test", GDC 2013), then one face clipped by the sides of the other (Sutherland and Hodgman 1974).
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <vector>
-
 #include "geometry/polyhedron.h"
+#include "geometry/touch.h"
 
 namespace pliant {
 
@@ -20,20 +16,6 @@ struct SeparatingAxis {
   int a = -1, b = -1;    ///< the face of one, or the edges of both
   float separation = 0;  ///< distance along the normal, negative if they overlap [m]
   Vec3f normal{};        ///< unit vector from a to b
-};
-
-/// One point of contact.
-struct TouchPoint {
-  Vec3f on_a{}, on_b{};  ///< places on the surfaces [m]; on_b - on_a is separation x normal
-  float separation = 0;  ///< negative inside [m]
-  /// What makes the point, the same as long as the same corners and edges do.
-  std::uint32_t feature = 0;
-};
-
-struct Touch {
-  Vec3f normal{};  ///< unit vector from a to b
-  int count = 0;
-  std::array<TouchPoint, 4> points{};
 };
 
 /// The best axis of polyhedra in one frame. An axis of faces is preferred to one of edges that is hardly better, and the

@@ -98,15 +98,15 @@ TEST(PolyhedronContact, PointsLieOnBothAndSeparationIsBetweenThem) {
     touching += found.count > 0 ? 1 : 0;
     for (int i = 0; i < found.count; ++i) {
       const TouchPoint& p = found.points[static_cast<std::size_t>(i)];
-      const Vec3f error = p.on_b - p.on_a - found.normal * p.separation;
-      EXPECT_LT(length(error), 1e-5f);
-      EXPECT_LE(p.separation, margin);
-      EXPECT_GE(p.separation, axis.separation - 1e-5f);
-      const auto is_in = [](const Polyhedron& in, const Vec3f& place) {
+      const Vec3d error = p.on_b - p.on_a - found.normal * p.separation;
+      EXPECT_LT(length(error), 1e-5);
+      EXPECT_LE(p.separation, double(margin));
+      EXPECT_GE(p.separation, double(axis.separation) - 1e-5);
+      const auto is_in = [](const Polyhedron& in, const Vec3d& place) {
         for (int f = 0; f < in.faces(); ++f) {
           const Vec3f on =
               in.corners[static_cast<std::size_t>(in.face_corners[static_cast<std::size_t>(in.first_of_face[f])])];
-          if (dot(in.normals[static_cast<std::size_t>(f)], place - on) > 1e-4f) return false;
+          if (dot(in.normals[static_cast<std::size_t>(f)], convert<float>(place) - on) > 1e-4f) return false;
         }
         return true;
       };
@@ -123,8 +123,8 @@ TEST(PolyhedronContact, ABoxOnABoxTouchesAtFourCorners) {
   const Polyhedron above = moved(polyhedron_of_box({0.5f, 0.25f, 0.4f}), {{0.2f, 0.749f, 0.1f}, {}});
   const Touch found = touch(below, above, 0.01f);
   ASSERT_EQ(found.count, 4);
-  EXPECT_EQ(found.normal, (Vec3f{0, 1, 0}));
-  float x = 0, z = 0;
+  EXPECT_EQ(found.normal.y, 1);
+  double x = 0, z = 0;
   for (const TouchPoint& p : found.points) {
     EXPECT_NEAR(p.separation, -0.001f, 1e-6f);
     EXPECT_NEAR(p.on_a.y, 0.5f, 1e-6f);

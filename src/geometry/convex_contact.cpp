@@ -1,0 +1,92 @@
+#include "geometry/convex_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "geometry/convex_distance.h"
+#include "math/vector.h"
+
+namespace pliant {
+
+namespace {
+
+/// A feature is flat to the other solid if its points differ in height by no more than this share of its size, or by the margin.
+constexpr double flat_share = 0.1;
+/// Polygons that face each other less than this serve no clipping [cosine].
+constexpr double facing = 0.9;
+
+double size_of(const ConvexShape& shape) {
+  if (shape.kind == ConvexShape::Kind::polyhedron) return static_cast<double>(largest(shape.polyhedron->corners[0]));
+  return static_cast<double>(std::max(shape.core_radius, shape.half_length));
+}
+
+Feature moved(Feature feature, const Posed& pose) {
+  for (int i = 0; i < feature.count; ++i) {
+    Vec3d& point = feature.points[static_cast<std::size_t>(i)];
+    point = to_world(pose, point);
+  }
+  feature.normal = rotate(pose.rotation, feature.normal);
+  return feature;
+}
+
+Feature facing_feature(const ConvexShape& shape, const Posed& pose, const Vec3d& direction, double margin) {
+  const double slack = std::min(margin, flat_share * size_of(shape));
+  return moved(feature_towards(shape, rotate(conjugate(pose.rotation), direction), slack), pose);
+}
+
+/// Two segments that are nearly parallel: where they lie side by side, one is a narrow polygon to the other.
+Feature widened(const Feature& segment, const Vec3d& outward) {
+  const Vec3d along = segment.points[1] - segment.points[0], side = cross(outward, along);
+  Feature out;
+  out.count = 4;
+  out.points = {segment.points[0] - side, segment.points[1] - side, segment.points[1] + side, segment.points[0] + side};
+  out.normal = unit_or(cross(along, side), outward);
+  if (dot(out.normal, outward) < 0) {
+    std::reverse(out.points.begin(), out.points.begin() + 4);
+    out.normal = -out.normal;
+  }
+  return out;
+}
+
+bool are_parallel(const Feature& a, const Feature& b) {
+  const Vec3d u = a.points[1] - a.points[0], v = b.points[1] - b.points[0];
+  return dot(u, v) * dot(u, v) > 0.99 * length_squared(u) * length_squared(v);
+}
+
+/// The points of two features, between cores; none if one of them is a point, or segments cross.
+std::vector<TouchPoint> points_between(const Feature& a, const Feature& b, const Vec3d& normal, double margin) {
+  if (a.count < 2 || b.count < 2) return {};
+  if (a.count == 2 && b.count == 2) {
+    if (!are_parallel(a, b)) return {};
+    return points_over(widened(a, normal), b, normal, false, margin);
+  }
+  const double of_a = a.count > 2 ? dot(a.normal, normal) : 0, of_b = b.count > 2 ? -dot(b.normal, normal) : 0;
+  if (std::max(of_a, of_b) < facing) return {};
+  return of_a >= of_b ? points_over(a, b, normal, false, margin) : points_over(b, a, normal, true, margin);
+}
+
+}  // namespace
+
+Touch touch(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, double margin) {
+  const ConvexDistance nearest = convex_distance(a, b, pose_of_b);
+  if (nearest.separation > margin) return {};
+  const Vec3d normal = nearest.normal;
+  const double radius_a = static_cast<double>(a.radius), radius_b = static_cast<double>(b.radius);
+  std::vector<TouchPoint> points =
+      points_between(facing_feature(a, {}, normal, margin), facing_feature(b, pose_of_b, -normal, margin), normal,
+                     margin + radius_a + radius_b);
+  double deepest = margin;
+  for (TouchPoint& point : points) {
+    point.on_a += normal * radius_a;
+    point.on_b -= normal * radius_b;
+    point.separation -= radius_a + radius_b;
+    deepest = std::min(deepest, point.separation);
+  }
+  const double error = 0.01 * (size_of(a) + size_of(b)) + 1e-6;
+  const bool has_all = !points.empty() && deepest <= nearest.separation + error;
+  if (!has_all) points.push_back({nearest.on_a, nearest.on_b, nearest.separation, 0x20000000u});
+  return four_of(points, normal);
+}
+
+}  // namespace pliant

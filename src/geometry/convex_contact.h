@@ -1,0 +1,12 @@
+// Contact points of any two convex solids.
+#pragma once
+
+#include "geometry/touch.h"
+
+namespace pliant {
+
+/// The points at which two solids touch, or might within `margin` [m]; none if they are farther apart. Both in the frame of a,
+/// where b has a pose. Flat parts that nearly face each other touch in up to four points, round ones in one.
+Touch touch(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, double margin);
+
+}  // namespace pliant
