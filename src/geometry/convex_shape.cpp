@@ -85,9 +85,10 @@ Feature face_of(const Polyhedron& p, int face) {
   const int first = p.first_of_face[static_cast<std::size_t>(face)], all = p.corners_of(face);
   Feature out;
   out.count = std::min(all, Feature::most);
-  for (int i = 0; i < out.count; ++i)
-    out.points[static_cast<std::size_t>(i)] = convert<double>(
-        p.corners[static_cast<std::size_t>(p.face_corners[static_cast<std::size_t>(first + i * all / out.count)])]);
+  for (int i = 0; i < out.count; ++i) {
+    const int place = first + i * all / out.count, corner = p.face_corners[static_cast<std::size_t>(place)];
+    out.points[static_cast<std::size_t>(i)] = convert<double>(p.corners[static_cast<std::size_t>(corner)]);
+  }
   out.normal = convert<double>(p.normals[static_cast<std::size_t>(face)]);
   return out;
 }
