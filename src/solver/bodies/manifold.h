@@ -1,0 +1,67 @@
+// Contact of two rigid bodies: up to four points that share a normal, solved together through the motion at their centre.
+//
+// One multiplier per point is kept over substeps and frames. A soft pass moves the bodies apart, a second pass takes back the
+// velocity that this made. Arms and normal stay those of the manifold's birth while the pair hardly moves; gaps are renewed.
+// Soft constraints: Catto 2011; substeps: Macklin et al. 2019.
+#pragma once
+
+#include <array>
+
+#include "math/vector.h"
+
+namespace pliant {
+
+/// The motion of a body in a frame, as contact sees it. A fixed body has zero inverse mass and inertia.
+struct BodyMotion {
+  Vec3f velocity{};                        ///< of the centre of mass [m/s]
+  Vec3f spin{};                            ///< angular velocity in world axes [rad/s]
+  float inverse_mass = 0;                  ///< [1/kg]
+  std::array<float, 6> inverse_inertia{};  ///< in world axes: xx, yy, zz, yz, zx, xy [1/(kg m^2)]
+  Vec3f displacement{};                    ///< since the frame's start [m]
+  Vec3f rotation{};                        ///< since the frame's start, as a vector in world axes [rad]
+};
+
+/// How stiff contacts are, as shares for each substep.
+struct ContactSoftness {
+  float beta = 0.04f;     ///< share of a penetration that is corrected
+  float epsilon = 0.04f;  ///< share of the multiplier that leaks; beta / epsilon is a stiffness
+  float fastest = 3;      ///< largest speed of separation [m/s]
+};
+
+/// Contact of bodies a and b. Over fifteen members: what is kept, then what is prepared once a frame.
+struct Manifold {
+  int a = 0, b = 0;
+  int count = 0;                           ///< of points, 1 to 4
+  Vec3f normal{}, tangent1{}, tangent2{};  ///< unit vectors, the normal from a to b
+  Vec3f arm_a{}, arm_b{};                  ///< from the centres of mass to the centre of the points [m]
+  std::array<float, 4> x{}, y{};           ///< places of points along the tangents, from that centre [m]
+  std::array<float, 4> gap{};              ///< separations at the frame's start [m]
+  float friction = 0, restitution = 0;     ///< coefficients [-]
+
+  std::array<float, 4> impulse{};           ///< of the points along the normal, in a substep [N s]
+  std::array<float, 2> friction_impulse{};  ///< along the tangents, at the centre [N s]
+  float twist_impulse = 0;                  ///< about the normal [N m s]
+  std::array<float, 4> gap_now{};           ///< separations at the substep's start [m]
+  std::array<float, 4> closing{};  ///< speed at which a point closed in this substep, for restitution; else 0 [m/s]
+
+  std::array<float, 6> mobility{};      ///< K of normal force and moments about tangents: NN, 11, 22, 12, 2N, N1
+  std::array<float, 4> inverse_mass{};  ///< of the points along the normal [1/kg]
+  std::array<float, 3> slide{};         ///< of the tangents at the centre: 11, 22, 12 [1/kg]
+  float twist_mobility = 0;             ///< [1/(kg m^2)]
+  float radius = 0;                     ///< mean distance of the points from the centre [m]
+};
+
+/// Computes what follows from arms, normal and inertia. Call it once a frame.
+void prepare(Manifold& manifold, const BodyMotion& a, const BodyMotion& b);
+
+/// Applies the kept impulses, at the start of a substep.
+void warm_start(const Manifold& manifold, BodyMotion& a, BodyMotion& b);
+
+/// Corrects velocities so that gaps become shorter by their share: friction first, then the points one after another. Points
+/// that close in faster than `slow` [m/s] are noted for restitution.
+void position_pass(Manifold& manifold, BodyMotion& a, BodyMotion& b, float h, float slow, const ContactSoftness& softness);
+
+/// Takes back the velocity of separation that the position pass made, after displacements have followed; applies restitution.
+void velocity_pass(Manifold& manifold, BodyMotion& a, BodyMotion& b, float h);
+
+}  // namespace pliant
