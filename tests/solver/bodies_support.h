@@ -18,6 +18,7 @@ namespace testing_support {
 
 struct BoxBody {
   Vec3f half{0.5f, 0.5f, 0.5f};
+  float radius = 0;  ///< of a ball; 0: a box
   Posed pose{};
   Vec3f velocity{}, spin{};
   float mass = 1;  ///< 0: fixed
@@ -39,7 +40,10 @@ class Boxes {
   Vec3f gravity{0, -9.81f, 0};
 
   void add(const Vec3f& half, const Vec3d& place, float mass = 1, const Quatd& turned = {}) {
-    bodies.push_back({half, {place, turned}, {}, {}, mass});
+    bodies.push_back({half, 0, {place, turned}, {}, {}, mass});
+  }
+  void add_ball(float radius, const Vec3d& place, float mass = 1) {
+    bodies.push_back({{radius, radius, radius}, radius, {place, {}}, {}, {}, mass});
   }
 
   void frame() {
@@ -51,7 +55,12 @@ class Boxes {
       for (BodyMotion& m : motions_)
         if (m.inverse_mass > 0) m.velocity += gravity * h;
       for_manifolds([&](Manifold& m, BodyMotion& a, BodyMotion& b) { warm_start(m, a, b); });
-      for_manifolds([&](Manifold& m, BodyMotion& a, BodyMotion& b) { position_pass(m, a, b, h, slow, {}); });
+      bool bounced = restitution > 0;
+      for (int round = 0; bounced && round < most_rounds; ++round) {
+        bounced = false;
+        for_manifolds([&](Manifold& m, BodyMotion& a, BodyMotion& b) { bounced = bounce(m, a, b, h, slow) || bounced; });
+      }
+      for_manifolds([&](Manifold& m, BodyMotion& a, BodyMotion& b) { position_pass(m, a, b, h, {}); });
       for (BodyMotion& m : motions_) {
         m.displacement += m.velocity * h;
         m.rotation += m.spin * h;
@@ -64,6 +73,7 @@ class Boxes {
   const std::map<std::pair<int, int>, KeptManifold>& manifolds() const { return manifolds_; }
 
  private:
+  static constexpr int most_rounds = 32;
   static constexpr double still = 0.02, straight = 0.9999;  ///< a manifold stays while its pair has moved and turned less
 
   template <class Body>
@@ -103,10 +113,17 @@ class Boxes {
       }
     }
     const float reach = margin + dt * length(other.velocity - one.velocity);  // of what may meet within the frame
-    const Touch found =
-        touch(polyhedron_of_box(one.half), moved(polyhedron_of_box(other.half), convert<float>(relative)), reach);
+    const Polyhedron first = polyhedron_of_box(one.half), second = polyhedron_of_box(other.half);
+    const bool are_boxes = one.radius == 0 && other.radius == 0;
+    const Touch found = are_boxes ? touch(first, moved(second, convert<float>(relative)), reach)
+                                  : touch(shape_of(one, first), shape_of(other, second), relative, double(reach));
     if (found.count == 0) return;
     next.emplace(std::pair{a, b}, born(a, b, found, relative, before == manifolds_.end() ? nullptr : &before->second));
+  }
+
+  static ConvexShape shape_of(const BoxBody& body, const Polyhedron& box) {
+    if (body.radius > 0) return {ConvexShape::Kind::point, body.radius, 0, 0, nullptr};
+    return {ConvexShape::Kind::polyhedron, 0, 0, 0, &box};
   }
 
   static void renew(KeptManifold& kept, const BoxBody& one, const BoxBody& other) {
@@ -168,7 +185,7 @@ class Boxes {
       if (body.mass == 0) continue;
       m.inverse_mass = 1 / body.mass;
       const Vec3d half = convert<double>(body.half);
-      const Moments solid = moments_of_box(half);
+      const Moments solid = body.radius > 0 ? moments_of_sphere(double(body.radius)) : moments_of_box(half);
       const Vec3d inertia = mass_properties(times(solid, static_cast<double>(body.mass) / solid.mass)).inertia;
       const Vec3d inverse{1 / inertia.x, 1 / inertia.y, 1 / inertia.z};
       const Quatd& q = body.pose.rotation;

@@ -92,6 +92,28 @@ TEST(Manifold, ADroppedBoxBouncesByItsRestitution) {
   }
 }
 
+/// Five balls in a row, which touch or are a little apart: the last one flies off.
+TEST(Manifold, ACradlePassesAnImpactOn) {
+  for (const double apart : {0., 1e-4, 5e-3, 0.03})
+    for (const bool backwards : {false, true}) {
+      Boxes boxes;
+      boxes.gravity = {};
+      boxes.restitution = 1;
+      const auto x = [&](int i) { return (backwards ? 4 - i : i) * (0.1 + apart); };
+      for (int i = 0; i < 5; ++i) boxes.add_ball(0.05f, {x(i), 0, 0});
+      const std::size_t first = backwards ? 4 : 0, last = backwards ? 0 : 4;
+      boxes.bodies[first].pose.position.x -= 0.2;
+      boxes.bodies[first].velocity = {1, 0, 0};
+      run(boxes, 60);
+      EXPECT_NEAR(boxes.bodies[last].velocity.x, 1, 1e-3) << apart << backwards;
+      for (std::size_t i = 0; i < 5; ++i) {
+        if (i != last) {
+          EXPECT_NEAR(boxes.bodies[i].velocity.x, 0, 1e-3) << apart << ' ' << backwards << ' ' << i;
+        }
+      }
+    }
+}
+
 TEST(Manifold, MomentumIsKeptBetweenFreeBodies) {
   Boxes boxes;
   boxes.gravity = {};
@@ -141,10 +163,11 @@ TEST(Manifold, AnOverhangingBoxStandsUpToHalfItsWidth) {
     boxes.add({0.5f, 0.5f, 0.5f}, {0, 0.5, 0}, 0);
     boxes.add({0.5f, 0.5f, 0.5f}, {overhang, 1.5, 0});
     run(boxes, 240);
-    if (overhang < 0.5)
+    if (overhang < 0.5) {
       EXPECT_NEAR(boxes.bodies[2].pose.position.y, 1.5, 0.02);
-    else
+    } else {
       EXPECT_LT(boxes.bodies[2].pose.position.y, 1.2);
+    }
   }
 }
 

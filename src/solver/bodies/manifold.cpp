@@ -94,21 +94,20 @@ struct Aim {
   float bias, leak;
 };
 
-/// Passes over the points, one after another.
+/// One pass over the points, one after another.
 template <class AimOf>
-void press(Manifold& m, BodyMotion& a, BodyMotion& b, int passes, const AimOf& aim) {
+void press(Manifold& m, BodyMotion& a, BodyMotion& b, const AimOf& aim) {
   const Relative now = relative(m, a, b);
   Wrench motion = along(m, now.velocity, now.spin);
   std::array<float, 4> change{};
-  for (int turn = 0; turn < passes * m.count; ++turn) {
-    const auto i = static_cast<std::size_t>(turn % m.count);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i) {
     const auto [bias, leak] = aim(i);
     const float wanted =
         -(1 - leak) * (at_point(m, i, motion) + bias) / std::max(m.inverse_mass[i], tiny) - leak * m.impulse[i];
     const float next = std::max(m.impulse[i] + wanted, 0.f);
-    push(m, i, next - m.impulse[i], motion);
-    change[i] += next - m.impulse[i];
+    change[i] = next - m.impulse[i];
     m.impulse[i] = next;
+    push(m, i, change[i], motion);
   }
   apply_wrench(m, change, a, b);
 }
@@ -118,18 +117,6 @@ std::array<float, 4> gaps_now(const Manifold& m, const BodyMotion& a, const Body
   std::array<float, 4> gaps{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i) gaps[i] = m.gap[i] + at_point(m, i, moved);
   return gaps;
-}
-
-/// Notes the speed of points that close in this substep and shall bounce.
-void note_closing(Manifold& m, const BodyMotion& a, const BodyMotion& b, const std::array<float, 4>& gaps, float h,
-                  float slow) {
-  if (m.restitution == 0) return;
-  const Relative now = relative(m, a, b);
-  const Wrench motion = along(m, now.velocity, now.spin);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i) {
-    const float speed = at_point(m, i, motion);
-    if (gaps[i] + h * speed < 0 && speed < -slow) m.closing[i] = speed;
-  }
 }
 
 }  // namespace
@@ -166,27 +153,44 @@ void warm_start(const Manifold& m, BodyMotion& a, BodyMotion& b) {
   add(m, m.tangent1 * m.friction_impulse[0] + m.tangent2 * m.friction_impulse[1], m.normal * m.twist_impulse, a, b);
 }
 
-void position_pass(Manifold& m, BodyMotion& a, BodyMotion& b, float h, float slow, const ContactSoftness& soft) {
-  m.gap_now = gaps_now(m, a, b);
-  const std::array<float, 4>& gaps = m.gap_now;
-  note_closing(m, a, b, gaps, h, slow);
+bool bounce(Manifold& m, BodyMotion& a, BodyMotion& b, float h, float slow) {
+  if (m.restitution == 0) return false;
+  const Relative now = relative(m, a, b);
+  Wrench motion = along(m, now.velocity, now.spin);
+  const std::array<float, 4> gaps = gaps_now(m, a, b);
+  std::array<float, 4> wanted{}, impulse{};
+  bool closes = false;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i) {
+    const float speed = at_point(m, i, motion);
+    if (gaps[i] + h * speed >= 0 || speed > -slow) continue;
+    wanted[i] = -m.restitution * speed;
+    closes = true;
+  }
+  if (!closes) return false;
+  for (int turn = 0; turn < passes_of_impact * m.count; ++turn) {
+    const auto i = static_cast<std::size_t>(turn % m.count);
+    if (wanted[i] == 0) continue;
+    const float change = (wanted[i] - at_point(m, i, motion)) / std::max(m.inverse_mass[i], tiny);
+    const float next = std::max(impulse[i] + change, 0.f);
+    push(m, i, next - impulse[i], motion);
+    impulse[i] = next;
+  }
+  apply_wrench(m, impulse, a, b);
+  return true;
+}
+
+void position_pass(Manifold& m, BodyMotion& a, BodyMotion& b, float h, const ContactSoftness& soft) {
   rub(m, a, b);
-  press(m, a, b, 1, [&](std::size_t i) -> Aim {
-    if (gaps[i] > 0) return {gaps[i] / h, 0};
-    return {std::max(soft.beta * gaps[i] / h, -soft.fastest), soft.epsilon};
+  m.gap_now = gaps_now(m, a, b);
+  press(m, a, b, [&](std::size_t i) -> Aim {
+    if (m.gap_now[i] > 0) return {m.gap_now[i] / h, 0};
+    return {std::max(soft.beta * m.gap_now[i] / h, -soft.fastest), soft.epsilon};
   });
 }
 
 void velocity_pass(Manifold& m, BodyMotion& a, BodyMotion& b, float h) {
   rub(m, a, b);
-  const std::array<float, 4>& gaps = m.gap_now;
-  const bool bounces = std::any_of(m.closing.begin(), m.closing.end(), [](float speed) { return speed < 0; });
-  press(m, a, b, bounces ? passes_of_impact : 1, [&](std::size_t i) -> Aim {
-    if (m.closing[i] < 0) return {m.restitution * m.closing[i], 0};
-    return {gaps[i] > 0 ? gaps[i] / h : 0, 0};
-  });
-  if (bounces) m.impulse = {};  // of an impact, which is not the load of the next substep
-  m.closing = {};
+  press(m, a, b, [&](std::size_t i) -> Aim { return {m.gap_now[i] > 0 ? m.gap_now[i] / h : 0, 0}; });
 }
 
 }  // namespace pliant

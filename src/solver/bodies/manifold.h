@@ -2,6 +2,7 @@
 //
 // One multiplier per point is kept over substeps and frames. A soft pass moves the bodies apart, a second pass takes back the
 // velocity that this made. Arms and normal stay those of the manifold's birth while the pair hardly moves; gaps are renewed.
+// Impacts with restitution come before both passes.
 // Soft constraints: Catto 2011; substeps: Macklin et al. 2019.
 #pragma once
 
@@ -42,7 +43,6 @@ struct Manifold {
   std::array<float, 2> friction_impulse{};  ///< along the tangents, at the centre [N s]
   float twist_impulse = 0;                  ///< about the normal [N m s]
   std::array<float, 4> gap_now{};           ///< separations at the substep's start [m]
-  std::array<float, 4> closing{};  ///< speed at which a point closed in this substep, for restitution; else 0 [m/s]
 
   std::array<float, 6> mobility{};      ///< K of normal force and moments about tangents: NN, 11, 22, 12, 2N, N1
   std::array<float, 4> inverse_mass{};  ///< of the points along the normal [1/kg]
@@ -57,11 +57,15 @@ void prepare(Manifold& manifold, const BodyMotion& a, const BodyMotion& b);
 /// Applies the kept impulses, at the start of a substep.
 void warm_start(const Manifold& manifold, BodyMotion& a, BodyMotion& b);
 
-/// Corrects velocities so that gaps become shorter by their share: friction first, then the points one after another. Points
-/// that close in faster than `slow` [m/s] are noted for restitution.
-void position_pass(Manifold& manifold, BodyMotion& a, BodyMotion& b, float h, float slow, const ContactSoftness& softness);
+/// Where points would pass through in this substep, faster than `slow` [m/s], gives them the velocity that restitution demands.
+/// Returns true if there were any. Called for all manifolds in turn until none is left, before the passes, so that a row of
+/// balls passes an impact on.
+bool bounce(Manifold& manifold, BodyMotion& a, BodyMotion& b, float h, float slow);
 
-/// Takes back the velocity of separation that the position pass made, after displacements have followed; applies restitution.
+/// Corrects velocities so that gaps become shorter by their share: friction first, then the points one after another.
+void position_pass(Manifold& manifold, BodyMotion& a, BodyMotion& b, float h, const ContactSoftness& softness);
+
+/// Takes back the velocity of separation that the position pass made, after displacements have followed.
 void velocity_pass(Manifold& manifold, BodyMotion& a, BodyMotion& b, float h);
 
 }  // namespace pliant
