@@ -1,0 +1,106 @@
+// Direct solution of symmetric systems whose blocks form a forest, in time linear in the number of blocks.
+//
+// Bodies and the joints between them are such blocks: (M, J^T; J, -compliance). Eliminated from the leaves on, no block fills
+// in (Baraff 1996, "Linear-time dynamics using Lagrange multipliers").
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace pliant {
+
+constexpr int most_of_block = 12;  ///< unknowns of a block: a body's six, and those of its joint with the ground
+
+/// One block: its part of the matrix and of the right-hand side, which the solution replaces.
+template <class R>
+struct TreeBlock {
+  using Matrix = std::array<std::array<R, most_of_block>, most_of_block>;
+
+  int parent = -1;                   ///< a later block; -1: a root
+  int size = 0;                      ///< unknowns, 1 to 12
+  Matrix diagonal{};                 ///< symmetric; only the lower half is read
+  Matrix to_parent{};                ///< rows of this block, columns of its parent
+  std::array<R, most_of_block> x{};  ///< right-hand side, then solution
+};
+
+namespace block_tree {
+
+/// A pivot below this share of its diagonal element is rounding: its unknown depends on earlier ones and becomes zero.
+template <class R>
+constexpr R least_pivot = R(1e-6);
+
+/// L D L^T of a block in place. Returns which unknowns are lost.
+template <class R>
+std::array<bool, most_of_block> factorise(TreeBlock<R>& block) {
+  std::array<bool, most_of_block> lost{};
+  auto& m = block.diagonal;
+  for (int i = 0; i < block.size; ++i) {
+    const R whole = m[i][i] < 0 ? -m[i][i] : m[i][i];
+    for (int j = 0; j <= i; ++j) {
+      R left = m[i][j];
+      for (int k = 0; k < j; ++k) left = left - m[i][k] * m[k][k] * m[j][k];
+      m[i][j] = i == j ? left : lost[j] ? R(0) : left / m[j][j];
+    }
+    const R pivot = m[i][i] < 0 ? -m[i][i] : m[i][i];
+    lost[i] = !(pivot > least_pivot<R> * whole);
+  }
+  return lost;
+}
+
+/// Solves with the factors of a block.
+template <class R>
+std::array<R, most_of_block> solved(const TreeBlock<R>& block, const std::array<bool, most_of_block>& lost,
+                                    std::array<R, most_of_block> b) {
+  const auto& m = block.diagonal;
+  for (int i = 0; i < block.size; ++i)
+    for (int j = 0; j < i; ++j) b[i] = b[i] - m[i][j] * b[j];
+  for (int i = 0; i < block.size; ++i) b[i] = lost[i] ? R(0) : b[i] / m[i][i];
+  for (int i = block.size; i-- > 0;)
+    for (int j = i + 1; j < block.size; ++j) b[i] = b[i] - m[j][i] * b[j];
+  return b;
+}
+
+/// Subtracts what eliminating a block leaves in its parent, and replaces its coupling by that times the inverse diagonal.
+template <class R>
+void eliminate(TreeBlock<R>& block, TreeBlock<R>& parent) {
+  const std::array<bool, most_of_block> lost = factorise(block);
+  block.x = solved(block, lost, block.x);
+  typename TreeBlock<R>::Matrix through{};
+  for (int c = 0; c < parent.size; ++c) {
+    std::array<R, most_of_block> column{};
+    for (int r = 0; r < block.size; ++r) column[r] = block.to_parent[r][c];
+    column = solved(block, lost, column);
+    for (int r = 0; r < block.size; ++r) through[r][c] = column[r];
+  }
+  for (int c = 0; c < parent.size; ++c)
+    for (int r = 0; r < block.size; ++r) {
+      parent.x[c] = parent.x[c] - block.to_parent[r][c] * block.x[r];
+      for (int d = 0; d <= c; ++d) parent.diagonal[c][d] = parent.diagonal[c][d] - block.to_parent[r][c] * through[r][d];
+    }
+  block.to_parent = through;
+}
+
+}  // namespace block_tree
+
+/// Solves in place. Children come before their parents; the order decides the bits.
+template <class R>
+void solve_block_tree(std::vector<TreeBlock<R>>& blocks) {
+  for (TreeBlock<R>& block : blocks) {
+    if (block.parent >= 0) {
+      block_tree::eliminate(block, blocks[static_cast<std::size_t>(block.parent)]);
+      continue;
+    }
+    const std::array<bool, most_of_block> lost = block_tree::factorise(block);
+    block.x = block_tree::solved(block, lost, block.x);
+  }
+  for (std::size_t i = blocks.size(); i-- > 0;) {
+    TreeBlock<R>& block = blocks[i];
+    if (block.parent < 0) continue;
+    const TreeBlock<R>& parent = blocks[static_cast<std::size_t>(block.parent)];
+    for (int r = 0; r < block.size; ++r)
+      for (int c = 0; c < parent.size; ++c) block.x[r] = block.x[r] - block.to_parent[r][c] * parent.x[c];
+  }
+}
+
+}  // namespace pliant

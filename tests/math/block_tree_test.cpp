@@ -1,0 +1,117 @@
+// Compares the solution over a forest of blocks with Gaussian elimination of the whole matrix.
+#include "math/block_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace pliant {
+namespace {
+
+using Blocks = std::vector<TreeBlock<double>>;
+
+/// Bodies and joints in turn: a joint's diagonal is zero or slightly negative, as compliance makes it.
+Blocks random_forest(std::mt19937_64& random, int pairs, double compliance) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Blocks blocks;
+  for (int i = 0; i < pairs; ++i) {
+    TreeBlock<double> body, joint;
+    body.size = i % 3 == 0 ? 3 : 6;
+    for (int r = 0; r < body.size; ++r) body.diagonal[r][r] = 1 + 50 * (uniform(random) + 1);
+    joint.size = 1 + i % std::min(body.size, 5);
+    for (int r = 0; r < joint.size; ++r) joint.diagonal[r][r] = -compliance;
+    body.parent = 2 * i + 1;  // a body's only way on is its joint
+    for (int r = 0; r < body.size; ++r)
+      for (int c = 0; c < joint.size; ++c) body.to_parent[r][c] = uniform(random);
+    for (double& x : body.x) x = uniform(random);
+    for (double& x : joint.x) x = uniform(random);
+    blocks.push_back(body);
+    blocks.push_back(joint);
+  }
+  TreeBlock<double> root;
+  root.size = 6;
+  for (int r = 0; r < 6; ++r) root.diagonal[r][r] = 7 + r;
+  for (double& x : root.x) x = uniform(random);
+  for (int i = 0; i < pairs; ++i) {  // to any later body, or to none: a joint with the ground
+    TreeBlock<double>& joint = blocks[std::size_t(2 * i + 1)];
+    std::uniform_int_distribution<int> later(i + 1, pairs + 1);
+    const int to = later(random);
+    if (to > pairs) continue;
+    joint.parent = 2 * to;
+    const int size = to == pairs ? 6 : blocks[std::size_t(2 * to)].size;
+    for (int r = 0; r < joint.size; ++r)
+      for (int c = 0; c < size; ++c) joint.to_parent[r][c] = uniform(random);
+  }
+  blocks.push_back(root);
+  return blocks;
+}
+
+std::vector<double> solved_densely(const Blocks& blocks) {
+  std::vector<int> first;
+  int n = 0;
+  for (const auto& block : blocks) {
+    first.push_back(n);
+    n += block.size;
+  }
+  std::vector<std::vector<double>> m(std::size_t(n), std::vector<double>(std::size_t(n) + 1));
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (int r = 0; r < blocks[b].size; ++r) {
+      const int row = first[b] + r;
+      m[std::size_t(row)][std::size_t(n)] = blocks[b].x[std::size_t(r)];
+      for (int c = 0; c < blocks[b].size; ++c)
+        m[std::size_t(row)][std::size_t(first[b] + c)] = blocks[b].diagonal[std::size_t(r)][std::size_t(c)];
+      if (blocks[b].parent < 0) continue;
+      const auto parent = std::size_t(blocks[b].parent);
+      for (int c = 0; c < blocks[parent].size; ++c) {
+        const int column = first[parent] + c;
+        m[std::size_t(row)][std::size_t(column)] = m[std::size_t(column)][std::size_t(row)] =
+            blocks[b].to_parent[std::size_t(r)][std::size_t(c)];
+      }
+    }
+  for (std::size_t i = 0; i < std::size_t(n); ++i) {
+    std::size_t pivot = i;
+    for (std::size_t r = i; r < std::size_t(n); ++r)
+      if (std::fabs(m[r][i]) > std::fabs(m[pivot][i])) pivot = r;
+    std::swap(m[i], m[pivot]);
+    for (std::size_t r = 0; r < std::size_t(n); ++r) {
+      if (r == i) continue;
+      const double factor = m[r][i] / m[i][i];
+      for (std::size_t c = i; c <= std::size_t(n); ++c) m[r][c] -= factor * m[i][c];
+    }
+  }
+  std::vector<double> x;
+  for (std::size_t i = 0; i < std::size_t(n); ++i) x.push_back(m[i][std::size_t(n)] / m[i][i]);
+  return x;
+}
+
+TEST(BlockTree, AgreesWithEliminationOfTheWholeMatrix) {
+  std::mt19937_64 random(3);
+  for (int trial = 0; trial < 200; ++trial) {
+    Blocks blocks = random_forest(random, 1 + trial % 12, trial % 2 == 0 ? 0 : 0.3);
+    const std::vector<double> expected = solved_densely(blocks);
+    solve_block_tree(blocks);
+    std::size_t i = 0;
+    for (const auto& block : blocks)
+      for (int r = 0; r < block.size; ++r, ++i)
+        ASSERT_NEAR(block.x[std::size_t(r)], expected[i], 1e-8 * (1 + std::fabs(expected[i]))) << trial << ' ' << i;
+  }
+}
+
+/// A row that says the same as another one is left out, and the rest is solved.
+TEST(BlockTree, RepeatedRowsAreLeftOut) {
+  Blocks blocks(2);
+  blocks[0].size = 3;
+  for (int r = 0; r < 3; ++r) blocks[0].diagonal[std::size_t(r)][std::size_t(r)] = 2;
+  blocks[0].parent = 1;
+  blocks[0].to_parent = {{{1, 1}}};  // two rows, both the first coordinate
+  blocks[1].size = 2;
+  blocks[1].x = {0.5, 0.5};  // which shall be 0.5
+  solve_block_tree(blocks);
+  EXPECT_NEAR(blocks[0].x[0], 0.5, 1e-12);
+  EXPECT_EQ(blocks[1].x[1], 0);
+}
+
+}  // namespace
+}  // namespace pliant
