@@ -18,15 +18,14 @@ void push(Record& velocity, const Vec3f& change) {
 }
 
 void apply_air(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h,
-               FunctionRef<Vec3f(int)> gravity, FunctionRef<bool(int)> takes_part) {
+               FunctionRef<Vec3f(int)> gravity, EachObject each) {
   const Vec3f air = wind_at(model.wind, time);
-  for (std::size_t o = 0; o < model.objects.size(); ++o) {
+  each([&](int o) {
     const CompiledObject& object = model.objects[o];
-    if (!takes_part(static_cast<int>(o))) continue;
     const int triangles = static_cast<int>(object.surface.triangles.size());
     std::vector<Vec3f>& forces = workspace.triangle_forces[o];
     forces.resize(triangles);
-    const Vec3f gravity_so_far = gravity(static_cast<int>(o));
+    const Vec3f gravity_so_far = gravity(o);
     const Record* positions = state.positions.data() + model.first[o];
     Record* velocities = state.velocities.data() + model.first[o];
     const int* corners = triangles > 0 ? object.surface.triangles.front().data() : nullptr;
@@ -36,7 +35,7 @@ void apply_air(const Model& model, State& state, Workspace& workspace, Executor&
     launch(executor, "forces: air", object.particles,
            AirOnParticle{object.surface.corner_begin.data(), object.surface.corners.data(), forces.data(), positions, h,
                          velocities});
-  }
+  });
 }
 
 bool is_finite(const Vec3f& v) { return (v.x - v.x) + (v.y - v.y) + (v.z - v.z) == 0; }
@@ -101,13 +100,13 @@ LeftOut apply_by_tiles(const Model& model, const CompiledObject& object, const R
 }
 
 void apply_fields(const Model& model, State& state, Executor& executor, double time, float h,
-                  FunctionRef<Vec3f(int)> gravity, FunctionRef<bool(int)> takes_part, std::vector<std::string>& warnings) {
+                  FunctionRef<Vec3f(int)> gravity, EachObject each, std::vector<std::string>& warnings) {
   const bool on_all_threads =
       std::all_of(model.forces.begin(), model.forces.end(), [](const ForceField& field) { return field.on_all_threads; });
-  for (std::size_t o = 0; o < model.objects.size(); ++o) {
+  each([&](int o) {
     const CompiledObject& object = model.objects[o];
-    if (object.is_collider || !takes_part(static_cast<int>(o))) continue;
-    const Vec3f gravity_so_far = gravity(static_cast<int>(o));
+    if (object.is_collider) return;
+    const Vec3f gravity_so_far = gravity(o);
     const Record* positions = state.positions.data() + model.first[o];
     Record* velocities = state.velocities.data() + model.first[o];
     if (on_all_threads) {
@@ -116,7 +115,7 @@ void apply_fields(const Model& model, State& state, Executor& executor, double t
       Stopwatch watch(executor.timings(), "forces: fields");
       warn_of(apply_in_order(model, object, positions, velocities, gravity_so_far, time, h), object, warnings);
     }
-  }
+  });
 }
 
 /// Applies the forces that the user set for this frame.
@@ -149,11 +148,10 @@ Vec3f wind_at(const Wind& wind, double time) {
 }
 
 void apply_forces(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h,
-                  FunctionRef<Vec3f(int)> gravity, FunctionRef<bool(int)> takes_part, std::vector<std::string>& warnings) {
-  if (model.wind.air_density > 0) apply_air(model, state, workspace, executor, time, h, gravity, takes_part);
-  if (!model.forces.empty()) {
-    apply_fields(model, state, executor, time, h, gravity, takes_part, warnings);
-  }
+                  FunctionRef<Vec3f(int)> gravity, EachObject each, FunctionRef<bool(int)> takes_part,
+                  std::vector<std::string>& warnings) {
+  if (model.wind.air_density > 0) apply_air(model, state, workspace, executor, time, h, gravity, each);
+  if (!model.forces.empty()) apply_fields(model, state, executor, time, h, gravity, each, warnings);
   if (workspace.control.has_forces()) apply_given(model, workspace.control, state, executor, h, takes_part);
 }
 

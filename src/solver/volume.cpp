@@ -79,46 +79,52 @@ void apply_tile(const Tile& tile, const SweepArguments& a, const Record* gradien
 
 }  // namespace
 
-void project_volumes(const Model& model, Workspace& workspace, Executor& executor,
-                     FunctionRef<SweepArguments(int)> arguments, FunctionRef<bool(int)> takes_part) {
-  if (workspace.volume_gradients.empty()) return;
-  const auto gather = [&](int task) {
-    const CompiledObject& object = model.objects[model.tiles()[task].object];
-    if (!takes_part(model.tiles()[task].object)) return;
-    Record* gradients = workspace.volume_gradients.data() + model.first[model.tiles()[task].object];
-    gather_tile(object, object.tiles[model.tiles()[task].item], arguments(model.tiles()[task].object), gradients,
-                workspace.tiles[task]);
-  };
-  executor.parallel_for("solve: volume", static_cast<int>(model.tiles().size()), gather);
+namespace {
 
-  std::vector<double>& multipliers = workspace.volume_multipliers;
-  struct Sums {
-    double mass = 0, along = 0, motion = 0, change = 0;
-  };
-  std::vector<Sums> sums(model.objects.size());
-  for (std::size_t task = 0; task < model.tiles().size(); ++task) {
-    Sums& sum = sums[model.tiles()[task].object];
-    sum.mass += workspace.tiles[task].gradient_squared;
-    sum.along += workspace.tiles[task].position_along;
-    sum.motion += workspace.tiles[task].motion_along;
+/// The sums over an object's tiles, and the change of its multiplier.
+struct VolumeSums {
+  double mass = 0, along = 0, motion = 0, change = 0;
+
+  void add(const TileScratch& tile) {
+    mass += tile.gradient_squared;
+    along += tile.position_along;
+    motion += tile.motion_along;
   }
-  for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) {
-    const CompiledObject& object = model.objects[o];
-    if (!takes_part(o)) continue;
-    const SweepArguments a = arguments(o);
-    if (a.first_pass) multipliers[o] = 0;
-    const double six_volumes = sums[o].along / 3, c = six_volumes - object.volume.target;
-    const double change = multiplier_change(object.volume, c, sums[o].mass, sums[o].motion, multipliers[o], a);
-    sums[o].change = static_cast<double>(a.relaxation) * within_trust(object.volume, six_volumes, sums[o].mass, change);
-    multipliers[o] += sums[o].change;
+};
+
+void change_multiplier(const CompiledVolume& volume, const SweepArguments& a, double& multiplier, VolumeSums& sums) {
+  if (a.first_pass) multiplier = 0;
+  const double six_volumes = sums.along / 3, c = six_volumes - volume.target;
+  const double change = multiplier_change(volume, c, sums.mass, sums.motion, multiplier, a);
+  sums.change = static_cast<double>(a.relaxation) * within_trust(volume, six_volumes, sums.mass, change);
+  multiplier += sums.change;
+}
+
+}  // namespace
+
+void project_volumes(const Model& model, Workspace& workspace, Executor& executor,
+                     FunctionRef<SweepArguments(int)> arguments, const std::vector<int>& tasks) {
+  if (workspace.volume_gradients.empty() || tasks.empty()) return;
+  const auto gradients_of = [&](int o) { return workspace.volume_gradients.data() + model.first[o]; };
+  const auto tile_of = [&](const Task& tile) -> const Tile& { return model.objects[tile.object].tiles[tile.item]; };
+  executor.parallel_for("solve: volume", static_cast<int>(tasks.size()), [&](int i) {
+    const Task& tile = model.tiles()[tasks[i]];
+    gather_tile(model.objects[tile.object], tile_of(tile), arguments(tile.object), gradients_of(tile.object),
+                workspace.tiles[tasks[i]]);
+  });
+  std::vector<double> changes(tasks.size());  // of the object of each tile
+  for (std::size_t i = 0; i < tasks.size();) {
+    const int o = model.tiles()[tasks[i]].object;
+    VolumeSums sums;
+    std::size_t end = i;
+    for (; end < tasks.size() && model.tiles()[tasks[end]].object == o; ++end) sums.add(workspace.tiles[tasks[end]]);
+    change_multiplier(model.objects[o].volume, arguments(o), workspace.volume_multipliers[o], sums);
+    for (; i < end; ++i) changes[i] = sums.change;
   }
-  const auto apply = [&](int task) {
-    const int o = model.tiles()[task].object;
-    if (!takes_part(o)) return;
-    apply_tile(model.objects[o].tiles[model.tiles()[task].item], arguments(o),
-               workspace.volume_gradients.data() + model.first[o], sums[o].change);
-  };
-  executor.parallel_for("solve: volume", static_cast<int>(model.tiles().size()), apply);
+  executor.parallel_for("solve: volume", static_cast<int>(tasks.size()), [&](int i) {
+    const Task& tile = model.tiles()[tasks[i]];
+    apply_tile(tile_of(tile), arguments(tile.object), gradients_of(tile.object), changes[i]);
+  });
 }
 
 Vec3f volume_gradient(const CompiledObject& object, const Record* positions, int particle) {

@@ -9,6 +9,8 @@
 // bits.
 #pragma once
 
+#include <vector>
+
 #include "model/model.h"
 #include "model/substep.h"
 #include "parallel/executor.h"
@@ -16,9 +18,10 @@
 
 namespace pliant {
 
-/// Projects the volume constraints of objects that take part once. `arguments(object)` gives an object's particles.
+/// Projects the volume constraints of some objects once. `tasks` are the indices in Model::tiles() of all tiles of these objects,
+/// ascending. `arguments(object)` gives an object's particles.
 void project_volumes(const Model& model, Workspace& workspace, Executor& executor,
-                     FunctionRef<SweepArguments(int)> arguments, FunctionRef<bool(int)> takes_part);
+                     FunctionRef<SweepArguments(int)> arguments, const std::vector<int>& tasks);
 
 /// The gradient of C at one particle [m^2].
 Vec3f volume_gradient(const CompiledObject& object, const Record* positions, int particle);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <regex>
 
 #include "math/quat.h"
@@ -190,7 +191,9 @@ struct VolumeCase {
         a.first_pass = first_pass;
         return a;
       };
-      project_volumes(model, workspace, executor, of_object, [](int) { return true; });
+      std::vector<int> tasks(model.tiles().size());
+      std::iota(tasks.begin(), tasks.end(), 0);
+      project_volumes(model, workspace, executor, of_object, tasks);
     });
   }
 };

@@ -8,7 +8,8 @@ void apply_forces(Substep& s) {
   apply_forces(
       s.model, s.state, s.work, s.context.executor, time_of(s, s.number), s.h,
       [&](int object) { return gravity_for(s, s.work.gravity[object].settled); },
-      [&](int object) { return takes_part(s, object); }, s.report.warnings);
+      [&](FunctionRef<void(int)> body) { for_objects(s, body); }, [&](int object) { return takes_part(s, object); },
+      s.report.warnings);
 }
 
 }  // namespace pliant
