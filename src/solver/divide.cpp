@@ -116,15 +116,14 @@ int divided_substeps(const Model& model, const Control& control, const PairModel
   const int most = std::max(frame.substeps, frame.most_substeps);
   int substeps = frame.substeps;
   Demand demand;
-  const int objects = static_cast<int>(model.objects.size());
-  for (int c = 0; c < objects; ++c) {
+  for (const int c : pairs.members) {
     const CompiledObject& collider = model.objects[c];
     if (!collider.is_collider) continue;
     const Swept sweep = swept(model, control, c, frame);
     if (!(sweep.largest > 0)) continue;
-    for (int o = 0; o < objects; ++o) {
-      if (model.objects[o].is_collider || !pairs.rules.meet(c, o)) continue;
-      const double thickness = pairs.rules.material(c, o).thickness, allowed = share_of_thickness * thickness;
+    for (const int o : pairs.members) {
+      if (model.objects[o].is_collider || !pairs.shared->rules.meet(c, o)) continue;
+      const double thickness = pairs.shared->rules.material(c, o).thickness, allowed = share_of_thickness * thickness;
       if (!(allowed > 0) || !(sweep.largest > allowed)) continue;
       const double margin = thickness + sweep.largest * frame.substeps * 0.1;
       if (!come_near(sweep.box, foreseen(model, state, o, frame.dt), margin)) continue;

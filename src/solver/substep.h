@@ -74,7 +74,7 @@ inline const CompiledObject& object_of(const Substep& s, int task) { return s.mo
 inline const Tile& tile_of(const Substep& s, int task) { return object_of(s, task).tiles[s.model.tiles()[task].item]; }
 
 /// True if an object takes part in this substep.
-inline bool takes_part(const Substep& s, int object) { return s.part == nullptr || s.part->has[object] != 0; }
+inline bool takes_part(const Substep& s, int object) { return s.part == nullptr || s.part->has(object); }
 
 /// True if the sweep group being iterated contains an object.
 inline bool is_swept(const Substep& s, int object) {

@@ -78,26 +78,50 @@ void list_lengths(const Model& model, int o, SubstepGroup& group) {
     group.lengths.push_back({o, i, object.lengths[i].batches});
 }
 
-/// Adds an object to a group.
-void add(const Model& model, int o, SubstepGroup& group) {
-  const CompiledObject& object = model.objects[o];
-  group.has[o] = 1;
-  group.objects.push_back(o);
-  const bool is_new = std::find(group.sweeps.begin(), group.sweeps.end(), object.sweep) == group.sweeps.end();
-  if (!object.is_collider && is_new) group.sweeps.push_back(object.sweep);
-  list_lengths(model, o, group);
+/// Sets what follows from the objects of a group alone, but for its tiles and phases.
+void describe(const Model& model, SubstepGroup& group) {
+  for (const int o : group.objects) {
+    const CompiledObject& object = model.objects[o];
+    const bool is_new = std::find(group.sweeps.begin(), group.sweeps.end(), object.sweep) == group.sweeps.end();
+    if (!object.is_collider && is_new) group.sweeps.push_back(object.sweep);
+    list_lengths(model, o, group);
+  }
 }
 
-/// Copies phases to the groups, each with the tasks of its objects. Phases whose tasks are found in each substep have none, and
-/// all groups get them. `of_object` is the group of each object, or -1.
+/// The earlier group of the same objects as `group`, none of which changed; null if there is none.
+SubstepGroup* same_before(const GroupsBefore& before, const SubstepGroup& group) {
+  if (before.groups.empty() || before.groups.front().has_all || group.objects.empty()) return nullptr;
+  const std::vector<int>& group_of_object = *before.groups.front().group_of_object;
+  const auto first = static_cast<std::size_t>(group.objects.front());
+  if (first >= group_of_object.size() || group_of_object[first] < 0) return nullptr;
+  SubstepGroup& candidate = before.groups[static_cast<std::size_t>(group_of_object[first])];
+  const auto has_changed = [&](int o) { return std::binary_search(before.changed.begin(), before.changed.end(), o); };
+  const bool is_same = candidate.objects == group.objects && candidate.by_state == group.by_state;
+  return is_same && std::none_of(group.objects.begin(), group.objects.end(), has_changed) ? &candidate : nullptr;
+}
+
+/// Takes from an earlier group of the same objects all that follows from them.
+void take_over(SubstepGroup& from, SubstepGroup& group) {
+  group.hangs = from.hangs;
+  group.least_hanging = from.least_hanging;
+  group.sweeps = std::move(from.sweeps);
+  group.lengths = std::move(from.lengths);
+  group.phases = std::move(from.phases);
+}
+
+/// Copies phases to the groups that have none, each with the tasks of its objects. Phases whose tasks are found in each substep have
+/// no tasks, and all groups get them. `of_object` is the group of each object, or -1.
 void divide_phases(const Model& model, const std::vector<int>& of_object, std::vector<SubstepGroup>& groups) {
   std::vector<const Phase*> last(groups.size(), nullptr);  // the last phase of which each group has a part
+  std::vector<char> is_done(groups.size());
+  for (std::size_t g = 0; g < groups.size(); ++g) is_done[g] = groups[g].phases.empty() ? 0 : 1;
   for (const Phase& phase : model.phases) {
     if (phase.tasks.empty())
-      for (SubstepGroup& group : groups) group.phases.push_back(phase);
+      for (std::size_t g = 0; g < groups.size(); ++g)
+        if (is_done[g] == 0) groups[g].phases.push_back(phase);
     for (const Task& task : phase.tasks) {
       const int g = of_object[task.object];
-      if (g < 0) continue;
+      if (g < 0 || is_done[static_cast<std::size_t>(g)] != 0) continue;
       if (std::exchange(last[g], &phase) != &phase) groups[g].phases.push_back({phase.driver, phase.colour});
       Phase& part = groups[g].phases.back();
       part.tasks.push_back(task);
@@ -143,7 +167,7 @@ SubstepGroup group_of_all(const Model& model, int substeps, bool by_state, int l
   return group;
 }
 
-std::vector<SubstepGroup> make_substep_groups(const Model& model) {
+std::vector<SubstepGroup> make_substep_groups(const Model& model, const GroupsBefore* before) {
   const GroupKeys keys = find_keys(model);
   std::vector<SubstepGroup> groups;
   if (keys.substeps.size() < 2) {
@@ -152,20 +176,27 @@ std::vector<SubstepGroup> make_substep_groups(const Model& model) {
     return groups;
   }
   std::map<int, int> group_of_key;
+  groups.reserve(keys.substeps.size());
+  const auto group_of_object = std::make_shared<std::vector<int>>(model.objects.size(), -1);
+  std::vector<int>& of_object = *group_of_object;
   for (const auto& [key, set] : keys.substeps) {
     group_of_key.emplace(key, static_cast<int>(groups.size()));
     SubstepGroup& group = groups.emplace_back();
+    group.number = static_cast<int>(groups.size()) - 1;
+    group.group_of_object = group_of_object;
     group.substeps = set.substeps;
     group.by_state = group.hangs = set.by_state;
     group.least = set.least;
     group.has_all = false;
-    group.has.assign(model.objects.size(), 0);
   }
-  std::vector<int> of_object(model.objects.size(), -1);
   for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) {
     if (model.objects[o].particles == 0) continue;  // the object was removed
     of_object[o] = group_of_key.at(keys.of_object[o]);
-    add(model, o, groups[of_object[o]]);
+    groups[of_object[o]].objects.push_back(o);
+  }
+  for (SubstepGroup& group : groups) {
+    SubstepGroup* same = before == nullptr ? nullptr : same_before(*before, group);
+    same != nullptr ? take_over(*same, group) : describe(model, group);
   }
   for (int task = 0; task < static_cast<int>(model.tiles().size()); ++task)
     if (const int g = of_object[model.tiles()[task].object]; g >= 0) groups[g].tiles.push_back(task);

@@ -17,23 +17,39 @@ namespace pliant {
 
 /// The data of a group that stages use. Its lists are subsets of the model's lists, in the same order.
 struct SubstepGroup {
-  int substeps = 1;                     ///< substeps per frame, unless a fast collider requires more (solver/divide.h)
-  bool by_state = false;                ///< true: `substeps` is a first guess, decided again in each quarter of a frame
-  int least = 0;                        ///< where they follow the State: what objects need that do not
-  bool hangs = false;                   ///< true: all of its objects hang by tethers
-  int least_hanging = 0;                ///< where they do: what the finest object needs by its resolution
-  bool has_all = true;                  ///< true: all objects; stages then use the model's lists, and all below is empty
-  std::vector<char> has{};              ///< for each object of the model, 1 if the group has it
+  int substeps = 1;       ///< substeps per frame, unless a fast collider requires more (solver/divide.h)
+  bool by_state = false;  ///< true: `substeps` is a first guess, decided again in each quarter of a frame
+  int least = 0;          ///< where they follow the State: what objects need that do not
+  bool hangs = false;     ///< true: all of its objects hang by tethers
+  int least_hanging = 0;  ///< where they do: what the finest object needs by its resolution
+  bool has_all = true;    ///< true: all objects; stages then use the model's lists, and all below is empty
+  int number = 0;         ///< index among the groups
+  std::shared_ptr<const std::vector<int>>
+      group_of_object{};                ///< of all groups: each object's group, -1 where it was removed
   std::vector<int> objects{}, tiles{};  ///< ascending; indices of Model::objects and Model::tiles()
   std::vector<Phase> phases{};          ///< phases with the tasks of these objects only
   std::vector<Sweep> sweeps{};          ///< sweeps that these objects use
   std::vector<Task> lengths{};          ///< also where it has all: objects solved by chains, and each of their LengthRanges
   std::unique_ptr<PairModel> pair_model{};
   std::unique_ptr<SurfaceContact> pairs{};  ///< contact between surfaces; null if no two of the group can touch
+
+  bool has(int object) const {
+    if (has_all) return true;
+    const auto o = static_cast<std::size_t>(object);
+    return o < group_of_object->size() && (*group_of_object)[o] == number;
+  }
 };
 
-/// Makes the groups of a model, ordered by substeps. Mesh colliders that touch no object belong to the first group.
-std::vector<SubstepGroup> make_substep_groups(const Model& model);
+/// The groups before objects were added, removed or edited, and the numbers of these objects, ascending.
+struct GroupsBefore {
+  std::vector<SubstepGroup>& groups;
+  const std::vector<int>& changed;
+};
+
+/// Makes the groups of a model, ordered by substeps. Mesh colliders that touch no object belong to the first group. A group of the
+/// same unchanged objects as before takes the phases and lengths of that group, so that one object that comes or goes costs
+/// little beside a thousand groups.
+std::vector<SubstepGroup> make_substep_groups(const Model& model, const GroupsBefore* before = nullptr);
 
 /// For each object, the substeps of the group that make_substep_groups() puts it in, without making groups.
 std::vector<SetSubsteps> planned_substeps(const Model& model);

@@ -2,6 +2,7 @@
 #include "world/groups.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -28,7 +29,11 @@ void make_pairs(WorldData& world, SubstepGroup& group) {
   contact = nullptr;
   pairs = nullptr;
   if (!group.has_all && !can_touch(world.model, group)) return;
-  pairs = make_pair_model(world.model, group.has);  // `has` is empty if the group has all objects
+  if (world.groups.tables == nullptr) {
+    world.groups.tables = std::make_shared<ContactTables>();
+    update_tables(world.model, {}, *world.groups.tables);
+  }
+  pairs = make_pair_model(world.model, world.groups.tables, group.has_all ? nullptr : &group.objects);
   if (pairs == nullptr) return;
   pairs->filter = world.settings.contact_filter;
   if (world.settings.initial_intersections == Settings::Intersections::untangle)
@@ -46,19 +51,20 @@ void update_pairs(WorldData& world, SubstepGroup& group, const std::vector<int>&
   (group.has_all ? world.workspace.pairs : group.pairs)->change(*changes);
 }
 
-/// Moves to a group the contact of the earlier group with equal substeps, and updates it for objects that changed group.
+/// Moves to a group the contact of the earlier group with equal substeps, and updates it for objects that changed or joined or
+/// left it.
 void take_over_pairs(WorldData& world, SubstepGroup& group, SubstepGroup& before) {
   if (before.pair_model == nullptr) return make_pairs(world, group);
-  std::vector<int> changed = world.groups.changed_surfaces;
-  for (int o = 0; o < static_cast<int>(group.has.size()); ++o) {
-    const bool had = o < static_cast<int>(before.has.size()) && before.has[o] != 0;
-    if (had != (group.has[o] != 0)) changed.push_back(o);
-  }
+  std::vector<int> changed;
+  std::set_symmetric_difference(before.objects.begin(), before.objects.end(), group.objects.begin(), group.objects.end(),
+                                std::back_inserter(changed));
+  for (const int o : world.groups.changed_surfaces)
+    if (before.has(o) || group.has(o)) changed.push_back(o);
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   group.pair_model = std::move(before.pair_model);
   group.pairs = std::move(before.pairs);
-  group.pair_model->has = group.has;
+  group.pair_model->members = group.objects;
   if (!changed.empty()) update_pairs(world, group, changed);
 }
 
@@ -66,12 +72,12 @@ void take_over_pairs(WorldData& world, SubstepGroup& group, SubstepGroup& before
 bool shares_one_group(const WorldData& world) { return world.settings.tolerance > 0 || world.settings.record_residuals; }
 
 /// Finds the groups of objects with the same substeps. Their contact between surfaces is not made yet.
-std::vector<SubstepGroup> find_groups(const WorldData& world) {
+std::vector<SubstepGroup> find_groups(const WorldData& world, const GroupsBefore& before) {
   std::vector<SubstepGroup> found;
   if (named_substeps(world) > 0)
     found.push_back(group_of_all(world.model, named_substeps(world)));
   else
-    found = make_substep_groups(world.model);
+    found = make_substep_groups(world.model, &before);
   if (named_substeps(world) > 0 || !shares_one_group(world)) return found;
   int most = 0;
   for (const SubstepGroup& group : found) most = std::max(most, group.substeps);
@@ -91,7 +97,10 @@ std::vector<std::size_t> groups_before(const std::vector<SubstepGroup>& before, 
 
 /// Finds the groups, and makes their contact between surfaces or takes it over from the groups before.
 void prepare_groups(WorldData& world) {
-  std::vector<SubstepGroup> before = std::exchange(world.groups.all, find_groups(world));
+  std::vector<SubstepGroup> before = std::move(world.groups.all);
+  std::sort(world.groups.changed.begin(), world.groups.changed.end());
+  world.groups.all = find_groups(world, {before, world.groups.changed});
+  world.groups.changed.clear();
   if (before.size() == 1 && world.groups.all.size() == 1) return;  // still one group of all objects, whose contact stays
   world.workspace.pairs = nullptr;
   world.groups.pairs_of_all = nullptr;
@@ -109,6 +118,11 @@ void prepare_groups(WorldData& world) {
     same < before.size() ? take_over_pairs(world, group, before[same]) : make_pairs(world, group);
   }
   world.groups.changed_surfaces.clear();
+}
+
+bool has_contact(const WorldGroups& groups) {
+  return groups.pairs_of_all != nullptr || std::any_of(groups.all.begin(), groups.all.end(),
+                                                       [](const SubstepGroup& group) { return group.pairs != nullptr; });
 }
 
 /// Updates the contact between surfaces, if all objects are in one group.
@@ -169,18 +183,17 @@ GroupFrame plan(const WorldData& world, const SubstepGroup& group, double dt, st
 void note_surfaces(WorldData& world, int number) {
   const CompiledObject& object = world.model.objects[number];
   const auto is_mesh = [](const CompiledObject& one) { return one.is_collider && one.groups != 0; };
-  const auto has_pairs = [&](const SubstepGroup& group) {
-    return world.groups.pairs_of_all != nullptr || group.pairs != nullptr;
-  };
-  if (std::any_of(world.groups.all.begin(), world.groups.all.end(), has_pairs) || object.self_collision ||
-      (object.collides && object.groups != 0) ||
+  if (world.groups.tables != nullptr || object.self_collision || (object.collides && object.groups != 0) ||
       std::any_of(world.model.objects.begin(), world.model.objects.end(), is_mesh))
     world.groups.changed_surfaces.push_back(number);
 }
 
 void bring_up_to_date(WorldData& world) {
+  if (world.groups.tables != nullptr && !world.groups.changed_surfaces.empty())
+    update_tables(world.model, world.groups.changed_surfaces, *world.groups.tables);
   if (world.groups.objects_changed || world.groups.all.empty()) prepare_groups(world);
   update_surfaces(world);
+  if (!has_contact(world.groups)) world.groups.tables = nullptr;
   if (!world.groups.objects_changed) return;
   for (TileScratch& tile : world.workspace.tiles)
     tile.contacts.clear();  // contacts have collider indices, which may have changed
@@ -191,7 +204,7 @@ void bring_up_to_date(WorldData& world) {
 int substeps_of(const WorldData& world, int number) {
   if (named_substeps(world) > 0) return named_substeps(world);
   if (!world.groups.objects_changed) {
-    const auto has = [&](const SubstepGroup& group) { return group.has_all || group.has[number] != 0; };
+    const auto has = [&](const SubstepGroup& group) { return group.has(number); };
     const SubstepGroup& group = *std::find_if(world.groups.all.begin(), world.groups.all.end(), has);
     return group.by_state ? 0 : group.substeps;
   }

@@ -116,6 +116,7 @@ WorldData::WorldData(const Scene& scene, const WorldLayout& layout)
     prepare_object(*this, static_cast<int>(number));
   }
   groups.all.clear();  // groups of the World without objects
+  groups.tables = nullptr;
   bring_up_to_date(*this);
 }
 

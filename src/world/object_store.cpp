@@ -137,6 +137,7 @@ void prepare_object(WorldData& world, int number) {
                   world.workspace);
   prepare_sweep(world.model, number, world.settings, world.executor.threads(), world.workspace);
   world.groups.objects_changed = true;
+  world.groups.changed.push_back(number);
 }
 
 void place_object(WorldData& world, int number) {

@@ -34,19 +34,24 @@ ContactRules random_rules(std::uint64_t seed, int bodies, int exceptions) {
 TEST(ContactRules, LargestThicknessAndWhoMeetsAnyoneAreThoseOfAllPairs) {
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     const ContactRules rules = random_rules(seed, 1 + static_cast<int>(seed % 12), static_cast<int>(seed % 4));
-    const std::vector<char> meeting = rules.meeting();
+    std::vector<int> among;  // all bodies, or two in three
+    for (int body = 0; body < rules.bodies(); ++body)
+      if (seed % 2 == 0 || (static_cast<std::uint64_t>(body) + seed) % 3 != 0) among.push_back(body);
+    const std::vector<char> meeting = rules.meeting(among);
+    ASSERT_EQ(meeting.size(), among.size());
     float largest = 0;
-    for (int a = 0; a < rules.bodies(); ++a) {
+    for (std::size_t i = 0; i < among.size(); ++i) {
+      const int a = among[i];
       bool meets = false;
-      for (int b = 0; b < rules.bodies(); ++b) {
+      for (const int b : among) {
         ASSERT_EQ(rules.meet(a, b), rules.meet(b, a));
         if (!rules.meet(a, b)) continue;
         meets = true;
         largest = std::max(largest, rules.material(a, b).thickness);
       }
-      ASSERT_EQ(meeting[static_cast<std::size_t>(a)] != 0, meets) << seed << " " << a;
+      ASSERT_EQ(meeting[i] != 0, meets) << seed << " " << a;
     }
-    ASSERT_EQ(rules.largest_thickness(), largest) << seed;
+    ASSERT_EQ(rules.largest_thickness(among), largest) << seed;
   }
 }
 

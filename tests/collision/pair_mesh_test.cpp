@@ -17,25 +17,25 @@ constexpr int spokes = 30;
 /// cluster of its own.
 PairModel wheel() {
   PairModel model;
-  model.rest.push_back({0, 0, 0, 1});
+  model.shared->rest.push_back({0, 0, 0, 1});
   std::vector<Triangle> triangles;
   for (int i = 0; i < spokes; ++i) {
     const double angle = i * 6.283185307179586 / spokes;
-    model.rest.push_back({float(0.1 * std::cos(angle)), 0, float(0.1 * std::sin(angle)), 1});
+    model.shared->rest.push_back({float(0.1 * std::cos(angle)), 0, float(0.1 * std::sin(angle)), 1});
     triangles.push_back({0, 1 + i, 1 + (i + 1) % spokes});
   }
   model.clusters = 2;
-  model.vertex_body.assign(model.rest.size(), 0);
-  model.vertex_cluster.assign(model.rest.size(), 0);
-  model.vertex_cluster[spokes] = 1;
+  model.shared->vertex_body.assign(model.shared->rest.size(), 0);
+  model.shared->vertex_cluster.assign(model.shared->rest.size(), 0);
+  model.shared->vertex_cluster[spokes] = 1;
   model.cluster_body = {0, 0};
   ContactBody body;
   body.meets_itself = true;
   body.thickness = 0.001f;
-  model.rules.add(body);
+  model.shared->rules.add(body);
   model.largest_thickness = 0.002f;
   model.radius = 0.02f;
-  model.elements = make_contact_elements(triangles, {}, {}, static_cast<int>(model.rest.size()));
+  model.elements = make_contact_elements(triangles, {}, {}, static_cast<int>(model.shared->rest.size()));
   model.edge_cluster.assign(model.elements.edges.size(), 0);
   model.triangle_cluster.assign(triangles.size(), 0);
   index_bodies(model);
@@ -46,7 +46,7 @@ PairModel wheel() {
 /// must include them. The rim is folded over, to 1 cm beyond the hub.
 TEST(Pairs, OfAVertexOfManyNeighboursAreFound) {
   const PairModel model = wheel();
-  std::vector<Record> positions = model.rest, remainders(positions.size()), displacements(positions.size());
+  std::vector<Record> positions = model.shared->rest, remainders(positions.size()), displacements(positions.size());
   const double angle = 174 * 6.283185307179586 / 360;
   positions[spokes] = {float(0.01 * std::cos(angle)), 0.001f, float(0.01 * std::sin(angle)), 1};
   SurfaceContact system(model);
@@ -64,25 +64,25 @@ PairModel strip() {
   std::vector<Triangle> triangles;
   for (int v = 0; v < 30; ++v) {
     const int row = v / 3, column = v % 3;
-    model.rest.push_back({0.02f * static_cast<float>(row), 0, 0.02f * static_cast<float>(column), 1});
-    model.vertex_cluster.push_back(v / 15);
+    model.shared->rest.push_back({0.02f * static_cast<float>(row), 0, 0.02f * static_cast<float>(column), 1});
+    model.shared->vertex_cluster.push_back(v / 15);
     if (v % 3 == 2 || v >= 27) continue;
     triangles.push_back({v, v + 1, v + 3});
     triangles.push_back({v + 1, v + 4, v + 3});
   }
   model.clusters = 2;
-  model.vertex_body.assign(model.rest.size(), 0);
+  model.shared->vertex_body.assign(model.shared->rest.size(), 0);
   model.cluster_body = {0, 0};
   ContactBody body;
   body.meets_itself = true;
   body.thickness = 0.006f;
-  model.rules.add(body);
+  model.shared->rules.add(body);
   model.largest_thickness = 0.012f;
   model.radius = 0.014f;
   model.filter = false;
   model.elements = make_contact_elements(triangles, {}, {}, 30);
-  for (const auto& edge : model.elements.edges) model.edge_cluster.push_back(model.vertex_cluster[edge[0]]);
-  for (const Triangle& t : triangles) model.triangle_cluster.push_back(model.vertex_cluster[t[0]]);
+  for (const auto& edge : model.elements.edges) model.edge_cluster.push_back(model.shared->vertex_cluster[edge[0]]);
+  for (const Triangle& t : triangles) model.triangle_cluster.push_back(model.shared->vertex_cluster[t[0]]);
   index_bodies(model);
   return model;
 }
@@ -90,7 +90,7 @@ PairModel strip() {
 /// One half is folded over the other by 0.4 degrees a substep. Pairs that are clear at first must be found in time.
 TEST(Pairs, OfASheetThatFoldsAreFoundInTime) {
   const PairModel model = strip();
-  std::vector<Record> positions = model.rest, remainders(positions.size()), displacements(positions.size());
+  std::vector<Record> positions = model.shared->rest, remainders(positions.size()), displacements(positions.size());
   const PairParticles particles{positions.data(), remainders.data(), displacements.data(), 1e-3f};
   SurfaceContact system(model);
   Executor executor(1);
@@ -99,7 +99,7 @@ TEST(Pairs, OfASheetThatFoldsAreFoundInTime) {
   for (int substep = 1; substep <= 425; ++substep) {
     const double angle = substep * 0.4 * 3.141592653589793 / 180, c = std::cos(angle), s = std::sin(angle);
     for (std::size_t i = 15; i < positions.size(); ++i) {
-      const double arm = double(model.rest[i].x) - 0.09;
+      const double arm = double(model.shared->rest[i].x) - 0.09;
       displacements[i] = {float(0.09 + c * arm) - positions[i].x, float(s * arm) - positions[i].y, 0, 0};
     }
     SurfaceContact fresh(model);

@@ -36,17 +36,17 @@ TriangleMesh sheet(int n, double size, const Vec3d& at) {
 /// Makes clusters of nine vertices of one body each, with the primitives that begin at them.
 void cluster(PairModel& model) {
   int size = 0;
-  for (std::size_t v = 0; v < model.rest.size(); ++v) {
-    if (v == 0 || size == 9 || model.vertex_body[v] != model.vertex_body[v - 1]) {
-      model.cluster_body.push_back(model.vertex_body[v]);
+  for (std::size_t v = 0; v < model.shared->rest.size(); ++v) {
+    if (v == 0 || size == 9 || model.shared->vertex_body[v] != model.shared->vertex_body[v - 1]) {
+      model.cluster_body.push_back(model.shared->vertex_body[v]);
       ++model.clusters;
       size = 0;
     }
-    model.vertex_cluster.push_back(model.clusters - 1);
+    model.shared->vertex_cluster.push_back(model.clusters - 1);
     ++size;
   }
-  for (const Triangle& t : model.elements.triangles) model.triangle_cluster.push_back(model.vertex_cluster[t[0]]);
-  for (const auto& edge : model.elements.edges) model.edge_cluster.push_back(model.vertex_cluster[edge[0]]);
+  for (const Triangle& t : model.elements.triangles) model.triangle_cluster.push_back(model.shared->vertex_cluster[t[0]]);
+  for (const auto& edge : model.elements.edges) model.edge_cluster.push_back(model.shared->vertex_cluster[edge[0]]);
 }
 
 PairModel model_of(const std::vector<Body>& bodies, bool filter) {
@@ -55,10 +55,10 @@ PairModel model_of(const std::vector<Body>& bodies, bool filter) {
   std::vector<Triangle> triangles;
   double edges = 0;
   for (const Body& body : bodies) {
-    const int first = static_cast<int>(model.rest.size()), number = static_cast<int>(&body - bodies.data());
+    const int first = static_cast<int>(model.shared->rest.size()), number = static_cast<int>(&body - bodies.data());
     for (const Vec3f& p : body.mesh.positions) {
-      model.rest.push_back({p.x, p.y, p.z, body.movable ? 1.f : 0.f});
-      model.vertex_body.push_back(number);
+      model.shared->rest.push_back({p.x, p.y, p.z, body.movable ? 1.f : 0.f});
+      model.shared->vertex_body.push_back(number);
     }
     for (const auto& t : body.mesh.triangles) triangles.push_back({first + t[0], first + t[1], first + t[2]});
   }
@@ -69,23 +69,25 @@ PairModel model_of(const std::vector<Body>& bodies, bool filter) {
     rule.thickness = body.thickness;
     rule.static_friction = 0.4f;
     rule.kinetic_friction = 0.3f;
-    model.rules.add(rule);
+    model.shared->rules.add(rule);
   }
-  model.largest_thickness = model.rules.largest_thickness();
-  model.elements = make_contact_elements(triangles, {}, {}, static_cast<int>(model.rest.size()));
+  model.elements = make_contact_elements(triangles, {}, {}, static_cast<int>(model.shared->rest.size()));
   cluster(model);
+  index_bodies(model);
+  model.largest_thickness = model.shared->rules.largest_thickness(model.members);
   for (const auto& [a, b] : model.elements.edges) {
-    const Record &p = model.rest[a], &q = model.rest[b];
+    const Record &p = model.shared->rest[a], &q = model.shared->rest[b];
     edges += double(length(Vec3f{p.x - q.x, p.y - q.y, p.z - q.z})) / static_cast<double>(model.elements.edges.size());
   }
   model.radius = model.largest_thickness + 0.5f * static_cast<float>(edges);
-  index_bodies(model);
   return model;
 }
 
 std::vector<PairStencil> all_pairs(const PairModel& model) {
   std::vector<PairStencil> pairs;
-  const auto meet = [&](int a, int b) { return model.rules.meet(model.vertex_body[a], model.vertex_body[b]); };
+  const auto meet = [&](int a, int b) {
+    return model.shared->rules.meet(model.shared->vertex_body[a], model.shared->vertex_body[b]);
+  };
   for (const int v : model.elements.vertices)
     for (const Triangle& t : model.elements.triangles)
       if (v != t[0] && v != t[1] && v != t[2] && meet(v, t[0])) pairs.push_back({{v, t[0], t[1], t[2]}, 1});
@@ -107,7 +109,7 @@ class Soup {
         model_(model_of(bodies, filter)),
         pairs_(all_pairs(model_)),
         system_(model_),
-        positions_(model_.rest),
+        positions_(model_.shared->rest),
         remainders_(positions_.size()),
         displacements_(positions_.size()),
         velocities_(positions_.size()),
@@ -146,8 +148,9 @@ class Soup {
     for (const Record& r : positions_) places.push_back({r.x, r.y, r.z});
     std::size_t count = 0;
     for (const Intersection& found : intersections_.find(places)) {
-      const int a = model_.vertex_body[found.a], b = model_.vertex_body[model_.elements.triangles[found.triangle][0]];
-      count += model_.rules.meet(a, b) ? 1 : 0;
+      const int a = model_.shared->vertex_body[found.a],
+                b = model_.shared->vertex_body[model_.elements.triangles[found.triangle][0]];
+      count += model_.shared->rules.meet(a, b) ? 1 : 0;
     }
     return count;
   }
@@ -163,7 +166,7 @@ class Soup {
 
  private:
   Vec3d velocity_at(int vertex) const {
-    const Body& body = bodies_[model_.vertex_body[vertex]];
+    const Body& body = bodies_[model_.shared->vertex_body[vertex]];
     return body.velocity + cross(body.spin, place(vertex));
   }
 
@@ -172,12 +175,12 @@ class Soup {
   }
 
   PairMaterial material(const PairStencil& pair) const {
-    const int a = model_.vertex_body[pair.vertex[0]], b = model_.vertex_body[pair.vertex[3]];
-    return model_.rules.material(a, b);
+    const int a = model_.shared->vertex_body[pair.vertex[0]], b = model_.shared->vertex_body[pair.vertex[3]];
+    return model_.shared->rules.material(a, b);
   }
 
   float thickness(const PairStencil& pair) const {
-    const double rest = 0.9 * pair_distance(pair, model_.rest.data()).distance;
+    const double rest = 0.9 * pair_distance(pair, model_.shared->rest.data()).distance;
     return std::min(material(pair).thickness, static_cast<float>(rest));
   }
 
@@ -367,7 +370,7 @@ TEST(Pairs, AreNoMoreWhereAnythingElseIsFarAway) {
     const PairModel model = model_of(bodies, true);
     SurfaceContact system(model);
     Executor executor(1);
-    std::vector<Record> positions = model.rest, remainders(positions.size()), displacements(positions.size());
+    std::vector<Record> positions = model.shared->rest, remainders(positions.size()), displacements(positions.size());
     const PairParticles particles{positions.data(), remainders.data(), displacements.data(), 1e-3f};
     system.begin_frame(positions.data(), true);
     system.detect(executor, particles);
@@ -387,11 +390,11 @@ TEST(Pairs, AreLookedForAnewFarFromWhereTheyWere) {
   const PairModel model = model_of(bodies, true);
   Executor executor(1);
   for (const bool returns : {false, true}) {
-    std::vector<Record> positions = model.rest, remainders(positions.size()), displacements(positions.size());
+    std::vector<Record> positions = model.shared->rest, remainders(positions.size()), displacements(positions.size());
     const PairParticles particles{positions.data(), remainders.data(), displacements.data(), 1e-3f};
     const auto plan = [&](float along, float upper) {
       for (std::size_t i = 0; i < positions.size(); ++i)
-        displacements[i] = {along, model.vertex_body[i] == 1 ? upper : 0.f, 0, 0};
+        displacements[i] = {along, model.shared->vertex_body[i] == 1 ? upper : 0.f, 0, 0};
     };
     const auto step = [&](SurfaceContact& system) {
       system.detect(executor, particles);
@@ -411,7 +414,7 @@ TEST(Pairs, AreLookedForAnewFarFromWhereTheyWere) {
     if (returns)
       for (std::size_t i = 0; i < positions.size(); ++i) {
         positions[i].x += 5e4f;
-        positions[i].y += model.vertex_body[i] == 1 ? 0.2f : 0.f;
+        positions[i].y += model.shared->vertex_body[i] == 1 ? 0.2f : 0.f;
       }
     system.begin_frame(positions.data(), true);
     if (returns) {
@@ -436,7 +439,7 @@ TEST(Pairs, OutliveWhatIsNotFinite) {
     const PairModel model = model_of(bodies_of({"", 0, {}, {}, 2, 0, false}), true);
     SurfaceContact system(model);
     Executor executor(1);
-    std::vector<Record> positions = model.rest, remainders(positions.size()), displacements(positions.size());
+    std::vector<Record> positions = model.shared->rest, remainders(positions.size()), displacements(positions.size());
     const PairParticles particles{positions.data(), remainders.data(), displacements.data(), 1e-3f};
     system.begin_frame(positions.data(), true);
     for (const bool spoilt : {true, false, true, false}) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "collision/proxies/pair_model.h"
@@ -33,15 +34,19 @@ TEST(PairSets, AreNumberedDenselyInTheOrderOfTheirFirstBodies) {
   const auto pairs = make_pair_model(triangles({0, 2, 4, 2, 0, 4}));
   ASSERT_NE(pairs, nullptr);
   EXPECT_EQ(pairs->sets, 2);
-  EXPECT_EQ(pairs->body_set, (std::vector<int>{-1, 0, 1, 0, -1, 1}));
+  EXPECT_EQ(pairs->shared->body_set, (std::vector<int>{-1, 0, 1, 0, -1, 1}));
 }
 
 /// Thousands of groups of a frame have a PairModel each: what they keep of sets must not grow with the scene.
 TEST(PairSets, AreOnlyThoseOfBodiesThatThePairModelHas) {
-  const auto pairs = make_pair_model(triangles({2, 4, 8, 2, 4, 8}), {0, 0, 1, 0, 0, 1});
+  const Model model = triangles({2, 4, 8, 2, 4, 8});
+  const auto tables = std::make_shared<ContactTables>();
+  update_tables(model, {}, *tables);
+  const std::vector<int> members{2, 5};
+  const auto pairs = make_pair_model(model, tables, &members);
   ASSERT_NE(pairs, nullptr);
   EXPECT_EQ(pairs->sets, 1);
-  EXPECT_EQ(pairs->body_set, (std::vector<int>{-1, -1, 0, -1, -1, 0}));
+  EXPECT_EQ(pairs->shared->body_set, (std::vector<int>{-1, -1, 0, -1, -1, 0}));
   for (const int cluster : pairs->cluster_order) EXPECT_EQ(pairs->set_of_cluster(cluster), 0);
 }
 

@@ -94,15 +94,15 @@ TEST(ParticleContact, FindsWhatEveryPairByItselfFinds) {
       const float a = uniform(far), b = uniform(far), c = uniform(far);
       displacements.push_back({a, b, c, 0});
       model.free_points.push_back(i);
-      model.vertex_body.push_back(i % 3);
+      model.shared->vertex_body.push_back(i % 3);
     }
     for (int body = 0; body < 3; ++body) {
       ContactBody of;
       of.meets_itself = body != 1;
       of.thickness = 0.05f + 0.02f * static_cast<float>(body);
-      model.rules.add(of);
+      model.shared->rules.add(of);
     }
-    model.largest_thickness = model.rules.largest_thickness();
+    model.largest_thickness = model.shared->rules.largest_thickness({0, 1, 2});
     const PairParticles all{positions.data(), remainders.data(), displacements.data(), 0.01f};
     std::vector<Contact> found, wanted;
     Executor executor(1);
@@ -110,7 +110,8 @@ TEST(ParticleContact, FindsWhatEveryPairByItselfFinds) {
     for (int i = 0; i < 300; ++i)
       for (int j = i + 1; j < 300; ++j) {
         Contact contact;
-        if (model.rules.meet(i % 3, j % 3) && find_point_contact(i, j, model.rules.material(i % 3, j % 3), all, contact))
+        if (model.shared->rules.meet(i % 3, j % 3) &&
+            find_point_contact(i, j, model.shared->rules.material(i % 3, j % 3), all, contact))
           wanted.push_back(contact);
       }
     ASSERT_GT(wanted.size(), 50u);

@@ -75,7 +75,10 @@ void StepFilter::Round::plan_pair(const ClusterSides& sides, const PairLanes& la
     if (shares[i] < 1) scratch.shares.emplace_back(pair.vertex[i], shares[i]);
 }
 
-void StepFilter::fit_to_model() { share_.resize(model_.rest.size(), 1.f); }
+void StepFilter::fit_to_model() {
+  std::vector<float>& shares = model_.shared->permitted_shares;
+  if (shares.size() < model_.shared->rest.size()) shares.resize(model_.shared->rest.size(), 1.f);
+}
 
 void StepFilter::forget_counts() {
   truncated_ = unresolvable_count_ = 0;
@@ -115,19 +118,20 @@ void StepFilter::plan(Executor& executor, Neighbourhood& near, const PairParticl
 /// Truncates each vertex's step to the smallest share that its pairs permit, or to zero if `stops`. Vertices that
 /// rounding would still put beyond a plane then stay at their start. Returns true if any step was truncated.
 bool StepFilter::truncate(const PairParticles& particles, bool stops) {
+  std::vector<float>& shares = model_.shared->permitted_shares;
   touched_.clear();
   const auto allow = [&](std::int32_t v, float share) {
     if (!moves_at_all(particles.displacements[v])) return;
-    if (share_[v] == 1) touched_.push_back(v);
-    share_[v] = min(share_[v], stops ? 0 : share);
+    if (shares[v] == 1) touched_.push_back(v);
+    shares[v] = min(shares[v], stops ? 0 : share);
   };
   for (const Scratch& scratch : scratch_)
     for (const auto& [vertex, share] : scratch.shares) allow(vertex, share);
   hold_rounded(particles, allow);
   for (const std::int32_t v : touched_) {
     Record& d = particles.displacements[v];
-    d = {d.x * share_[v], d.y * share_[v], d.z * share_[v], 0};
-    share_[v] = 1;
+    d = {d.x * shares[v], d.y * shares[v], d.z * shares[v], 0};
+    shares[v] = 1;
   }
   truncated_in_.insert(truncated_in_.end(), touched_.begin(), touched_.end());
   return !touched_.empty();
@@ -135,15 +139,16 @@ bool StepFilter::truncate(const PairParticles& particles, bool stops) {
 
 template <class Allow>
 void StepFilter::hold_rounded(const PairParticles& particles, Allow allow) {
+  const std::vector<float>& shares = model_.shared->permitted_shares;
   for (bool again = true; again;) {
     again = false;
     for (const Scratch& scratch : scratch_)
       for (const SeparatingSlab& slab : scratch.slabs)
         for (int i = 0; i < 4; ++i) {
           const std::int32_t v = slab.pair.vertex[i];
-          if (share_[v] == 0 || !ends_beyond(slab, i, particles.positions, particles.displacements, share_[v])) continue;
+          if (shares[v] == 0 || !ends_beyond(slab, i, particles.positions, particles.displacements, shares[v])) continue;
           allow(v, 0);
-          again = share_[v] == 0 || again;
+          again = shares[v] == 0 || again;
         }
   }
 }
@@ -151,7 +156,7 @@ void StepFilter::hold_rounded(const PairParticles& particles, Allow allow) {
 void StepFilter::count() {
   for (const Scratch& scratch : scratch_)
     for (const PairStencil& pair : scratch.unresolvable) {
-      const int a = model_.vertex_body[pair.vertex[0]], b = model_.vertex_body[pair.vertex[3]];
+      const int a = model_.shared->vertex_body[pair.vertex[0]], b = model_.shared->vertex_body[pair.vertex[3]];
       UnresolvablePairs& between = unresolvable_[std::minmax(a, b)];
       if (between.count++ == 0 || pair.vertex < between.first.vertex) between.first = pair;
       ++unresolvable_count_;

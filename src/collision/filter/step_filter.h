@@ -19,9 +19,9 @@ struct UnresolvablePairs {
 
 class StepFilter {
  public:
-  explicit StepFilter(const PairModel& model) : model_(model), share_(model.rest.size(), 1.f) {}
+  explicit StepFilter(const PairModel& model) : model_(model) { fit_to_model(); }
 
-  /// Resizes the arrays to the model; call it after bodies were added or removed.
+  /// Resizes the permitted shares of steps to the model; call it after bodies were added or removed.
   void fit_to_model();
   /// Resets the counts; call it at a frame's start.
   void forget_counts();
@@ -54,7 +54,6 @@ class StepFilter {
 
   const PairModel& model_;
   std::vector<Scratch> scratch_;
-  std::vector<float> share_;                          ///< permitted share of each vertex's step in the current round
   std::vector<std::int32_t> touched_, truncated_in_;  ///< vertices truncated in the current round; in this substep
   std::int64_t truncated_ = 0, unresolvable_count_ = 0;
   std::map<std::pair<int, int>, UnresolvablePairs> unresolvable_;

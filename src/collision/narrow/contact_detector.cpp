@@ -23,7 +23,7 @@ struct Detection {
 /// computed yet; null if it is not cached.
 float kept_at_rest(const Neighbourhood& near, const PairStencil& pair, float* known) {
   if (known != nullptr && *known >= 0) return *known;
-  const auto kept = static_cast<float>(share_of_rest * pair_distance(pair, near.model.rest.data()).distance);
+  const auto kept = static_cast<float>(share_of_rest * pair_distance(pair, near.model.shared->rest.data()).distance);
   if (known != nullptr) *known = kept;
   return kept;
 }

@@ -75,11 +75,11 @@ void PointContacts::detect(Executor& executor, const PairParticles& particles, s
     for (const int b : others) {
       if (b <= a) continue;
       const int i = points[static_cast<std::size_t>(a)], j = points[static_cast<std::size_t>(b)];
-      const int first = model_.vertex_body[static_cast<std::size_t>(i)],
-                second = model_.vertex_body[static_cast<std::size_t>(j)];
+      const int first = model_.shared->vertex_body[static_cast<std::size_t>(i)],
+                second = model_.shared->vertex_body[static_cast<std::size_t>(j)];
       Contact contact;
-      if (model_.rules.meet(first, second) &&
-          find_point_contact(i, j, model_.rules.material(first, second), particles, contact))
+      if (model_.shared->rules.meet(first, second) &&
+          find_point_contact(i, j, model_.shared->rules.material(first, second), particles, contact))
         task.pairs.push_back({i, j});
     }
   };
@@ -94,8 +94,8 @@ void PointContacts::detect(Executor& executor, const PairParticles& particles, s
   for (const Task& task : tasks_) pairs_.insert(pairs_.end(), task.pairs.begin(), task.pairs.end());
   std::sort(pairs_.begin(), pairs_.end());
   for (const auto& [i, j] : pairs_) {
-    const PairMaterial material = model_.rules.material(model_.vertex_body[static_cast<std::size_t>(i)],
-                                                        model_.vertex_body[static_cast<std::size_t>(j)]);
+    const PairMaterial material = model_.shared->rules.material(model_.shared->vertex_body[static_cast<std::size_t>(i)],
+                                                                model_.shared->vertex_body[static_cast<std::size_t>(j)]);
     contacts.emplace_back();
     find_point_contact(i, j, material, particles, contacts.back());
   }

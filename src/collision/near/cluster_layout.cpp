@@ -24,11 +24,11 @@ struct Elements {
     return kind == edge_kind ? model.elements.edges[item][k] : model.elements.triangles[item][k];
   }
   int cluster(int item) const {
-    if (kind == vertex_kind) return model.vertex_cluster[item];
+    if (kind == vertex_kind) return model.shared->vertex_cluster[item];
     return kind == edge_kind ? model.edge_cluster[item] : model.triangle_cluster[item];
   }
   Block of(int body) const {
-    const BodyElements& all = model.bodies[body];
+    const BodyElements& all = model.bodies.at(body);
     return kind == vertex_kind ? all.vertices : kind == edge_kind ? all.edges : all.triangles;
   }
 };
@@ -38,11 +38,12 @@ struct Elements {
 std::vector<std::vector<std::int32_t>> items_of(const Elements& from, int body, int corners) {
   std::vector<std::int32_t> items;
   std::vector<Vec3f> middles;
-  for (int item = from.of(body).first; item < from.of(body).end(); ++item) {
+  const Block all = from.of(body);
+  for (int item = all.first; item < all.end(); ++item) {
     if (from.cluster(item) < 0) continue;
     Vec3f middle{};
     for (int k = 0; k < corners; ++k) {
-      const Record& x = from.model.rest[from.corner(item, k)];
+      const Record& x = from.model.shared->rest[from.corner(item, k)];
       middle += Vec3f{x.x, x.y, x.z};
     }
     items.push_back(item);
@@ -50,7 +51,7 @@ std::vector<std::vector<std::int32_t>> items_of(const Elements& from, int body, 
   }
   std::vector<int> order;
   MortonSorter().sort(middles, order);
-  const Block clusters = from.model.bodies[body].clusters;
+  const Block clusters = from.model.bodies.at(body).clusters;
   std::vector<std::vector<std::int32_t>> of_cluster(static_cast<std::size_t>(clusters.size));
   for (const int i : order)
     of_cluster[static_cast<std::size_t>(from.cluster(items[i]) - clusters.first)].push_back(items[i]);
@@ -62,7 +63,7 @@ void lay_out_elements(const Elements& from, int body, ClusterElements& to) {
   const std::size_t clusters = from.model.cluster_body.size();
   to.start.resize(clusters);
   to.count.resize(clusters);
-  const int first_cluster = from.model.bodies[body].clusters.first;
+  const int first_cluster = from.model.bodies.at(body).clusters.first;
   std::vector<std::int32_t> items;
   for (std::size_t c = 0; c < of_cluster.size(); ++c) {
     to.start[first_cluster + c] = static_cast<int>(items.size());
@@ -82,7 +83,7 @@ void lay_out_elements(const Elements& from, int body, ClusterElements& to) {
 }
 
 void lay_out_vertices(const PairModel& model, int body, ClusterLayout& layout) {
-  const Block clusters = model.bodies[body].clusters;
+  const Block clusters = model.bodies.at(body).clusters;
   layout.vertex_start.resize(model.cluster_body.size());
   layout.vertex_count.resize(model.cluster_body.size());
   std::vector<std::int32_t> together, all;

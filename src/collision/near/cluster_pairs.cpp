@@ -49,7 +49,7 @@ void ClusterPair::measure(const ClusterMotions& motions) {
 float ClusterPairs::travel() const { return travel_over_radius * model_.radius; }
 
 void ClusterPairs::add_if_they_meet(int a, int b, std::vector<Clusters>& to) const {
-  if (!model_.rules.meet(model_.cluster_body[a], model_.cluster_body[b])) return;
+  if (!model_.shared->rules.meet(model_.cluster_body[a], model_.cluster_body[b])) return;
   to.push_back(rank_[b] < rank_[a] ? Clusters{b, a} : Clusters{a, b});
 }
 
@@ -60,7 +60,7 @@ void ClusterPairs::sort(std::vector<Clusters>& pairs) const {
 
 ClusterPair ClusterPairs::make(const Clusters& clusters) const {
   ClusterPair pair{clusters.first, clusters.second};
-  pair.material = model_.rules.material(model_.cluster_body[pair.a], model_.cluster_body[pair.b]);
+  pair.material = model_.shared->rules.material(model_.cluster_body[pair.a], model_.cluster_body[pair.b]);
   return pair;
 }
 
@@ -79,7 +79,7 @@ std::vector<int> ClusterPairs::find(const ClusterMotions& motions, const std::ve
   tree_.build(boxes_);
   std::vector<Places> found;
   const auto add = [&](int i, int k) {
-    if (model_.rules.meet(model_.cluster_body[order[i]], model_.cluster_body[order[k]]))
+    if (model_.shared->rules.meet(model_.cluster_body[order[i]], model_.cluster_body[order[k]]))
       found.push_back({std::min(i, k), std::max(i, k)});
   };
   for (int i = 0; i < static_cast<int>(order.size()); ++i) add(i, i);

@@ -46,7 +46,7 @@ void NearLists::remove(const std::vector<int>& bodies, const std::vector<Block>&
 void NearLists::add(const std::vector<int>& bodies) {
   for (const int body : bodies) {
     near_.layout.add(near_.model, body);
-    const Block clusters = near_.model.bodies[body].clusters;
+    const Block clusters = near_.model.bodies.at(body).clusters;
     for (int c = clusters.first; c < clusters.end(); ++c) new_clusters_.push_back(c);
   }
   add_static_pairs(near_.model, bodies, near_.layout, near_.static_pairs, clearance_.clearance());

@@ -49,8 +49,8 @@ void copy(const PairStencils& from, std::size_t lane, std::int32_t rank, NearBlo
 NearLists::NearLists(const PairModel& model, const PairKernels& kernels)
     : near_(model, kernels), search_(model, kernels, near_.layout) {
   std::vector<int> bodies;
-  for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body)
-    if (model.bodies[body].clusters.size > 0) bodies.push_back(body);
+  for (const auto& [body, elements] : model.bodies)
+    if (elements.clusters.size > 0) bodies.push_back(body);
   resize();
   add(bodies);
 }

@@ -19,7 +19,7 @@ void find_paths(const Neighbourhood& near, const ClusterSides& sides, const Pair
   unsigned swapped = 0;
   if (sides.first != sides.second)
     for (int lane = 0; lane < 16; ++lane)
-      swapped |= (near.model.vertex_cluster[lanes.stencils.vertex[0][lane]] != sides.first ? 1U : 0U) << lane;
+      swapped |= (near.model.shared->vertex_cluster[lanes.stencils.vertex[0][lane]] != sides.first ? 1U : 0U) << lane;
   near.kernels.paths(lanes.stencils, sides.of_vertices ? 1 : 2, particles,
                      {&near.motions[sides.first], &near.motions[sides.second], swapped, near.motions.mean(sides.first)},
                      lanes.paths);

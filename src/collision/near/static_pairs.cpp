@@ -99,11 +99,11 @@ void add_near(const Mesh& mesh, int v, int u, MeshPairs& out) {
 
 MeshPairs find_mesh_pairs(const PairModel& model, int body) {
   MeshPairs out;
-  if (!model.rules.meet(body, body)) return out;
-  const Mesh mesh{model, model.bodies[body]};
+  if (!model.shared->rules.meet(body, body)) return out;
+  const Mesh mesh{model, model.bodies.at(body)};
   const TrianglesAround& around = model.triangles_around;
   for (int v = mesh.body.vertices.first; v < mesh.body.vertices.end(); ++v) {
-    if (model.vertex_cluster[v] < 0 || !mesh.has_few(v)) continue;
+    if (model.shared->vertex_cluster[v] < 0 || !mesh.has_few(v)) continue;
     for (const int* t = around.begin(v); t != around.end(v); ++t) out.sharing[0].push_back({v, *t});
     for (const int* e = mesh.edges_begin(v); e != mesh.edges_end(v); ++e) {
       for (const int* f = mesh.edges_begin(v); f != mesh.edges_end(v); ++f) out.sharing[1].push_back({*e, *f});
@@ -123,7 +123,7 @@ std::vector<std::int32_t> places_of(const ClusterElements& of, const Block& clus
 
 /// Sets the columns that the rows of a body exclude: for each row and batch of sixteen columns, a word of bits.
 void leave_out(ClusterLayout& layout, const PairModel& model, int body, bool of_vertices, std::vector<Numbers>& pairs) {
-  const BodyElements& all = model.bodies[body];
+  const BodyElements& all = model.bodies.at(body);
   ClusterElements &rows = layout.elements[row_kind(of_vertices)], &columns = layout.elements[column_kind(of_vertices)];
   const Block of_rows = of_vertices ? all.vertices : all.edges, of_columns = of_vertices ? all.triangles : all.edges;
   const std::vector<std::int32_t> row_at = places_of(rows, all.clusters, of_rows),
@@ -156,7 +156,8 @@ void add_group(StaticGroup group, const std::vector<PairStencil>& pairs, const P
                std::vector<StaticGroup>& to) {
   std::vector<std::pair<double, std::size_t>> order;
   order.reserve(pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i) order.emplace_back(pair_distance(pairs[i], model.rest.data()).distance, i);
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    order.emplace_back(pair_distance(pairs[i], model.shared->rest.data()).distance, i);
   std::sort(order.begin(), order.end());
   group.pairs = static_cast<int>(pairs.size());
   group.blocks.resize((order.size() + 15) / 16);
@@ -176,7 +177,7 @@ void add_groups(const PairModel& model, bool of_vertices, const std::vector<Numb
   std::vector<Placed> placed;
   placed.reserve(pairs.size());
   for (const Numbers& p : pairs) {
-    int first = of_vertices ? model.vertex_cluster[p[0]] : model.edge_cluster[p[0]],
+    int first = of_vertices ? model.shared->vertex_cluster[p[0]] : model.edge_cluster[p[0]],
         second = of_vertices ? model.triangle_cluster[p[1]] : model.edge_cluster[p[1]];
     if (!of_vertices && first > second) std::swap(first, second);
     placed.push_back({first, second, stencil_of(model.elements, of_vertices, p[0], p[1])});
@@ -222,7 +223,7 @@ std::vector<Clearance::Piece> clearance_pieces(const ClusterLayout& layout, cons
 
 void add_pairs_of(const PairModel& model, int body, ClusterLayout& layout, std::vector<StaticGroup>& groups,
                   Clearance& clearance) {
-  const BodyElements& all = model.bodies[body];
+  const BodyElements& all = model.bodies.at(body);
   MeshPairs pairs = find_mesh_pairs(model, body);
   for (const bool of_vertices : {true, false}) {
     std::vector<Numbers>&near = pairs.near[of_vertices ? 0 : 1], &sharing = pairs.sharing[of_vertices ? 0 : 1];
@@ -233,8 +234,9 @@ void add_pairs_of(const PairModel& model, int body, ClusterLayout& layout, std::
       for (const Numbers& pair : near) sharing.push_back({pair[1], pair[0]});
     leave_out(layout, model, body, of_vertices, sharing);
   }
-  if (!model.rules.meet(body, body)) return;
-  clearance.add(body, all.clusters.first, clearance_pieces(layout, all.clusters), model.rest, all.vertices, pairs.joined);
+  if (!model.shared->rules.meet(body, body)) return;
+  clearance.add(body, all.clusters.first, clearance_pieces(layout, all.clusters), model.shared->rest, all.vertices,
+                pairs.joined);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 // later blocks may use.
 #pragma once
 
-#include <vector>
+#include <map>
 
 #include "model/blocks.h"
 
@@ -19,28 +19,27 @@ struct Block {
 class BodyBlocks {
  public:
   /// Allocates a block of `size` entries for a body that has none.
-  Block take(int body, int size) {
-    if (blocks_.size() <= static_cast<std::size_t>(body)) blocks_.resize(static_cast<std::size_t>(body) + 1);
-    return blocks_[static_cast<std::size_t>(body)] = {allocator_.allocate(size, body), size};
-  }
+  Block take(int body, int size) { return blocks_[body] = {allocator_.allocate(size, body), size}; }
   /// Frees a body's block and returns it.
   Block release(int body) {
-    if (static_cast<std::size_t>(body) >= blocks_.size()) return {};
-    const Block had = blocks_[static_cast<std::size_t>(body)];
+    const auto found = blocks_.find(body);
+    if (found == blocks_.end()) return {};
+    const Block had = found->second;
     allocator_.release(had.first, had.size);
-    blocks_[static_cast<std::size_t>(body)] = {};
+    blocks_.erase(found);
     return had;
   }
   /// The block of a body; its size is 0 if the body has none.
   Block operator[](int body) const {
-    return static_cast<std::size_t>(body) < blocks_.size() ? blocks_[static_cast<std::size_t>(body)] : Block{};
+    const auto found = blocks_.find(body);
+    return found != blocks_.end() ? found->second : Block{};
   }
   /// One past the last entry of the array that is in use.
   std::size_t end() const { return static_cast<std::size_t>(allocator_.end()); }
 
  private:
   BlockAllocator allocator_;
-  std::vector<Block> blocks_;
+  std::map<int, Block> blocks_;  ///< by body; a group of few bodies has few, whatever their numbers
 };
 
 }  // namespace pliant

@@ -1,5 +1,6 @@
 #include "collision/proxies/contact_rules.h"
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -29,23 +30,32 @@ PairMaterial ContactRules::material(int a, int b) const {
           std::sqrt(p.kinetic_friction * q.kinetic_friction), max(p.restitution, q.restitution)};
 }
 
+/// The bodies that have an exception, ascending.
+std::vector<int> ContactRules::excepted() const {
+  std::vector<int> bodies;
+  for (const auto& [pair, material] : exceptions_) bodies.insert(bodies.end(), {pair.first, pair.second});
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  return bodies;
+}
+
 /// Sorts bodies into classes with equal contact rules; returns the class of each body.
-std::vector<int> ContactRules::find_classes(std::vector<Class>& classes) const {
-  std::vector<int> alone(bodies_.size(), -1);
-  for (const auto& [pair, material] : exceptions_)
-    for (const int body : {pair.first, pair.second}) alone[static_cast<std::size_t>(body)] = body;
+std::vector<int> ContactRules::find_classes(const std::vector<int>& among, std::vector<Class>& classes) const {
+  const std::vector<int> alone = excepted();
   using Key = std::tuple<std::uint32_t, std::uint32_t, int, int>;
   std::map<Key, int> numbers;
   const std::pair<const Key, int>* last = nullptr;  // cached, because most bodies have the same rules as the previous one
-  std::vector<int> class_of(bodies_.size());
-  for (int i = 0; i < bodies(); ++i) {
-    const ContactBody& body = bodies_[static_cast<std::size_t>(i)];
+  std::vector<int> class_of;
+  class_of.reserve(among.size());
+  for (const int number : among) {
+    const ContactBody& body = bodies_[static_cast<std::size_t>(number)];
     const int flags = (body.collides ? 1 : 0) + (body.is_collider ? 2 : 0) + (body.is_immovable ? 4 : 0);
-    const Key key{body.groups, body.mask, flags, alone[static_cast<std::size_t>(i)]};
+    const bool is_alone = std::binary_search(alone.begin(), alone.end(), number);
+    const Key key{body.groups, body.mask, flags, is_alone ? number : -1};
     if (last == nullptr || last->first != key) last = &*numbers.try_emplace(key, static_cast<int>(classes.size())).first;
     if (static_cast<std::size_t>(last->second) == classes.size()) classes.emplace_back();
-    class_of[static_cast<std::size_t>(i)] = last->second;
-    find_thickest(i, classes[static_cast<std::size_t>(last->second)]);
+    class_of.push_back(last->second);
+    find_thickest(number, classes[static_cast<std::size_t>(last->second)]);
   }
   return class_of;
 }
@@ -64,22 +74,24 @@ void ContactRules::find_thickest(int body, Class& of) const {
   }
 }
 
-std::vector<int> ContactRules::sets() const {
+std::vector<int> ContactRules::sets(const std::vector<int>& among) const {
   std::vector<SetMember> members;
-  members.reserve(bodies_.size());
-  for (const ContactBody& body : bodies_)
+  members.reserve(among.size());
+  for (const int number : among) {
+    const ContactBody& body = bodies_[static_cast<std::size_t>(number)];
     members.push_back({body.groups, body.mask, body.collides && !body.is_collider, body.is_collider});
+  }
   return find_sets(members);
 }
 
-float ContactRules::largest_thickness() const {
+float ContactRules::largest_thickness(const std::vector<int>& among) const {
   std::vector<Class> classes;
-  find_classes(classes);
+  find_classes(among, classes);
   float largest = 0;
   const auto consider = [&](int a, int b) {
     if (a >= 0 && b >= 0 && meet(a, b)) largest = max(largest, material(a, b).thickness);
   };
-  for (int i = 0; i < bodies(); ++i) consider(i, i);
+  for (const int body : among) consider(body, body);
   for (std::size_t i = 0; i < classes.size(); ++i) {
     consider(classes[i].thickest, classes[i].second);
     for (std::size_t j = 0; j < i; ++j) consider(classes[i].thickest, classes[j].thickest);
@@ -87,9 +99,9 @@ float ContactRules::largest_thickness() const {
   return largest;
 }
 
-std::vector<char> ContactRules::meeting() const {
+std::vector<char> ContactRules::meeting(const std::vector<int>& among) const {
   std::vector<Class> classes;
-  const std::vector<int> class_of = find_classes(classes);
+  const std::vector<int> class_of = find_classes(among, classes);
   std::vector<char> meets(classes.size(), 0);
   const auto consider = [&](std::size_t i, std::size_t j, int a, int b) {
     if (a >= 0 && b >= 0 && meet(a, b)) meets[i] = meets[j] = 1;
@@ -99,9 +111,10 @@ std::vector<char> ContactRules::meeting() const {
     for (std::size_t j = 0; j < i; ++j) consider(i, j, classes[i].thickest, classes[j].thickest);
   }
   std::vector<char> out;
-  for (int i = 0; i < bodies(); ++i) {
-    const bool meets_other = meets[static_cast<std::size_t>(class_of[static_cast<std::size_t>(i)])] != 0;
-    out.push_back(meets_other || bodies_[static_cast<std::size_t>(i)].meets_itself ? 1 : 0);
+  out.reserve(among.size());
+  for (std::size_t i = 0; i < among.size(); ++i) {
+    const bool meets_other = meets[static_cast<std::size_t>(class_of[i])] != 0;
+    out.push_back(meets_other || bodies_[static_cast<std::size_t>(among[i])].meets_itself ? 1 : 0);
   }
   return out;
 }

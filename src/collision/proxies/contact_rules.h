@@ -35,19 +35,21 @@ class ContactRules {
   bool meet(int a, int b) const;
   PairMaterial material(int a, int b) const;
 
-  /// The largest thickness of any two bodies that meet [m].
-  float largest_thickness() const;
-  /// For each body the first body of its set. Bodies that meet are in one set, directly or through others.
-  std::vector<int> sets() const;
-  /// For each body: 1 if it meets any other body or itself.
-  std::vector<char> meeting() const;
+  /// The largest thickness of any two of these bodies that meet [m].
+  float largest_thickness(const std::vector<int>& among) const;
+  /// For each of these bodies the index in `among` of the first body of its set. Bodies that meet are in one set, directly or
+  /// through others.
+  std::vector<int> sets(const std::vector<int>& among) const;
+  /// For each of these bodies: 1 if it meets another of them or itself.
+  std::vector<char> meeting(const std::vector<int>& among) const;
 
  private:
   /// A class of bodies that meet the same others. A body with an exception has a class of its own.
   struct Class {
     int thickest = -1, second = -1;  ///< bodies of largest and second largest thickness in the class; -1: none
   };
-  std::vector<int> find_classes(std::vector<Class>& classes) const;
+  std::vector<int> find_classes(const std::vector<int>& among, std::vector<Class>& classes) const;
+  std::vector<int> excepted() const;
   void find_thickest(int body, Class& of) const;
 
   std::vector<ContactBody> bodies_;

@@ -2,9 +2,9 @@
 #include "collision/proxies/pair_model.h"
 
 #include <algorithm>
-#include <map>
+#include <iterator>
 #include <numeric>
-#include <string>
+#include <utility>
 
 #include "collision/proxies/body_clusters.h"
 
@@ -22,12 +22,6 @@ constexpr float no_limit = 1e30f;
 /// from.
 constexpr float radius_slack = 1.5f;
 
-bool is_immovable(const CompiledObject& object) {
-  for (const Record& p : object.positions)
-    if (p.w > 0) return false;
-  return true;
-}
-
 /// The primitives of one object, with vertices numbered from its first particle. Targets of attachments are left out.
 ContactElements elements_of(const CompiledObject& object) {
   std::vector<Triangle> triangles(object.surface.triangles.begin(), object.surface.triangles.end());
@@ -37,58 +31,6 @@ ContactElements elements_of(const CompiledObject& object) {
   for (int i = 0; i < object.particles; ++i)
     if (object.order[static_cast<std::size_t>(i)] < object.user_particles) all.push_back(i);
   return make_contact_elements(triangles, lines, all, object.particles);
-}
-
-ContactBody body_of(const Model& model, int number, const std::vector<char>& has) {
-  const CompiledObject& object = model.objects[number];
-  ContactBody body;
-  body.groups = object.groups;
-  body.mask = object.mask;
-  body.collides = object.collides;
-  body.is_collider = object.is_collider;
-  body.is_immovable = is_immovable(object);
-  body.meets_itself = object.self_collision;
-  body.thickness = object.thickness;
-  body.static_friction = object.static_friction;
-  body.kinetic_friction = object.kinetic_friction;
-  body.restitution = object.restitution;
-  const bool is_there = object.particles > 0;  // or it was removed
-  if (is_there && (has.empty() || has[number] != 0)) return body;
-  body.groups = body.mask = 0;
-  body.meets_itself = false;
-  return body;
-}
-
-/// Applies the scene's override of a pair's material. If only the static friction is given, the kinetic one is at most
-/// that.
-void apply(const PairProperties& said, PairMaterial& material) {
-  material.thickness = said.thickness.value_or(material.thickness);
-  material.static_friction = said.static_friction.value_or(material.static_friction);
-  material.kinetic_friction = std::min(said.kinetic_friction.value_or(material.kinetic_friction), material.static_friction);
-  material.restitution = said.restitution.value_or(material.restitution);
-}
-
-/// Applies the overrides of pairs that the scene names.
-void set_exceptions(const Model& model, ContactRules& rules) {
-  std::map<std::string, std::vector<int>> named;
-  for (int o = 0; o < rules.bodies(); ++o) named[model.objects[o].name].push_back(o);
-  for (const PairProperties& pair : model.pairs)
-    for (const int a : named[pair.first])
-      for (const int b : named[pair.second]) {
-        PairMaterial material = rules.material(a, b);
-        apply(pair, material);
-        rules.set_material(a, b, material);
-      }
-}
-
-/// Updates the changed bodies. If the scene names pairs, all rules are rebuilt, because overrides refer to names of
-/// objects.
-void update_rules(const Model& model, const std::vector<int>& changed, PairModel& out) {
-  ContactRules& rules = out.rules;
-  if (!model.pairs.empty()) rules = {};
-  for (int o = rules.bodies(); o < static_cast<int>(model.objects.size()); ++o) rules.add(body_of(model, o, out.has));
-  if (!model.pairs.empty()) return set_exceptions(model, rules);
-  for (const int o : changed) rules.set(o, body_of(model, o, out.has));
 }
 
 float median_edge(const std::vector<std::array<int, 2>>& edges, const std::vector<Record>& positions) {
@@ -108,7 +50,7 @@ float median_edge(const std::vector<std::array<int, 2>>& edges, const std::vecto
 float median_edge(const PairModel& model) {
   std::vector<std::pair<float, int>> medians;
   std::int64_t count = 0;
-  for (const BodyElements& body : model.bodies) {
+  for (const auto& [number, body] : model.bodies) {
     if (body.edges.size == 0) continue;
     medians.emplace_back(body.median_edge, body.edges.size);
     count += body.edges.size;
@@ -124,7 +66,7 @@ float median_edge(const PairModel& model) {
 
 /// Updates the search radius and returns true if it changed. The radius affects only speed.
 bool update_radius(PairModel& model) {
-  const float thickness = model.rules.largest_thickness(), edge = median_edge(model),
+  const float thickness = model.shared->rules.largest_thickness(model.members), edge = median_edge(model),
               before = (model.radius - model.largest_thickness) / skin_over_edge;
   const bool is_kept =
       thickness == model.largest_thickness && edge <= before * radius_slack && before <= edge * radius_slack;
@@ -138,12 +80,9 @@ void fit(std::vector<T>& list, std::size_t size, const T& hole) {
   list.resize(size, hole);
 }
 
-void fit_arrays(std::size_t particles, PairModel& model) {
+void fit_arrays(PairModel& model) {
   ContactElements& all = model.elements;
-  all.vertex_count = static_cast<int>(particles);
-  fit(model.rest, particles, Record{});
-  fit(model.vertex_body, particles, -1);
-  fit(model.vertex_cluster, particles, -1);
+  all.vertex_count = static_cast<int>(model.shared->rest.size());
   fit(all.edges, model.edge_blocks.end(), {-1, -1});
   fit(model.edge_cluster, all.edges.size(), -1);
   fit(all.triangles, model.triangle_blocks.end(), {-1, -1, -1});
@@ -159,10 +98,7 @@ void clear(std::vector<T>& list, const Block& block, const T& hole) {
 }
 
 void remove_body(int body, PairModel& model) {
-  const BodyElements had = model.bodies[body];
-  clear(model.rest, had.vertices, Record{});
-  clear(model.vertex_body, had.vertices, -1);
-  clear(model.vertex_cluster, had.vertices, -1);
+  const BodyElements had = model.bodies.at(body);
   clear(model.elements.edges, had.edges, {-1, -1});
   clear(model.edge_cluster, had.edges, -1);
   clear(model.elements.triangles, had.triangles, {-1, -1, -1});
@@ -171,27 +107,26 @@ void remove_body(int body, PairModel& model) {
   model.edge_blocks.release(body);
   model.triangle_blocks.release(body);
   model.cluster_blocks.release(body);
-  model.bodies[body] = {};
+  model.bodies.erase(body);
 }
 
-/// Adds a body's particles and, if it meets any body, its primitives and clusters.
-void add_body(const Model& model, int body, bool meets, PairModel& out) {
+/// Adds a body's primitives and clusters.
+void add_body(const Model& model, int body, PairModel& out) {
   const CompiledObject& object = model.objects[body];
-  BodyElements& of = out.bodies[body];
+  BodyElements& of = out.bodies[body];  // valid until another body is added
   of.vertices = {model.first[body], object.particles};
-  std::copy(object.positions.begin(), object.positions.end(), out.rest.begin() + of.vertices.first);
-  clear(out.vertex_body, of.vertices, body);
-  if (!meets) return;
+  std::copy(object.positions.begin(), object.positions.end(), out.shared->rest.begin() + of.vertices.first);
+  clear(out.shared->vertex_body, of.vertices, body);
   const ContactElements own = elements_of(object);
   const Clusters clusters = find_clusters(own, object.positions);
   of.median_edge = median_edge(own.edges, object.positions);
   of.edges = out.edge_blocks.take(body, static_cast<int>(own.edges.size()));
   of.triangles = out.triangle_blocks.take(body, static_cast<int>(own.triangles.size()));
   of.clusters = out.cluster_blocks.take(body, clusters.count);
-  fit_arrays(out.rest.size(), out);
+  fit_arrays(out);
   const int first = of.vertices.first;
   const auto number = [&](int vertex) { return clusters.of[vertex] < 0 ? -1 : of.clusters.first + clusters.of[vertex]; };
-  for (int v = 0; v < of.vertices.size; ++v) out.vertex_cluster[first + v] = number(v);
+  for (int v = 0; v < of.vertices.size; ++v) out.shared->vertex_cluster[first + v] = number(v);
   for (int e = 0; e < of.edges.size; ++e) {
     const auto [a, b] = own.edges[e];
     out.elements.edges[of.edges.first + e] = {first + a, first + b};
@@ -210,14 +145,14 @@ void add_body(const Model& model, int body, bool meets, PairModel& out) {
 }
 
 /// Lists free particles that can meet others: of bodies with self-collision, or of all bodies if there are several.
-void find_free_points(const Model& model, const std::vector<char>& meets_some, PairModel& out) {
+void find_free_points(const Model& model, PairModel& out) {
   out.free_points.clear();
   std::vector<int> bodies;
-  for (int o = 0; o < out.rules.bodies(); ++o) {
-    const CompiledObject& object = model.objects[o];
-    if (meets_some[o] != 0 && object.surface.triangles.empty() && object.lines.empty()) bodies.push_back(o);
+  for (const auto& [number, body] : out.bodies) {
+    const CompiledObject& object = model.objects[number];
+    if (object.surface.triangles.empty() && object.lines.empty()) bodies.push_back(number);
   }
-  if (bodies.size() == 1 && !out.rules.meet(bodies[0], bodies[0])) return;
+  if (bodies.size() == 1 && !out.shared->rules.meet(bodies[0], bodies[0])) return;
   for (const int o : bodies)
     for (int i = 0; i < model.objects[o].particles; ++i)
       if (model.objects[o].order[static_cast<std::size_t>(i)] < model.objects[o].user_particles)
@@ -226,67 +161,92 @@ void find_free_points(const Model& model, const std::vector<char>& meets_some, P
 
 void order_clusters(PairModel& model) {
   model.cluster_order.clear();
-  for (const BodyElements& body : model.bodies)
+  for (const auto& [number, body] : model.bodies)
     for (int c = body.clusters.first; c < body.clusters.end(); ++c) model.cluster_order.push_back(c);
 }
 
-/// Numbers the sets of the bodies that meet some, in the order of their first such bodies.
+/// Numbers the sets of the members that meet some, in the order of their first such members.
 void number_sets(const std::vector<char>& meets_some, PairModel& model) {
-  const std::vector<int> first_body = model.rules.sets();
-  std::vector<int> number(first_body.size(), -1);
-  model.body_set.assign(first_body.size(), -1);
+  const std::vector<int> first_of = model.shared->rules.sets(model.members);
+  std::vector<int> numbers(first_of.size(), -1);
   model.sets = 0;
-  for (std::size_t body = 0; body < first_body.size(); ++body) {
-    if (meets_some[body] == 0) continue;
-    int& of_set = number[static_cast<std::size_t>(first_body[body])];
+  for (std::size_t i = 0; i < first_of.size(); ++i) {
+    int& of_body = model.shared->body_set[static_cast<std::size_t>(model.members[i])];
+    of_body = -1;
+    if (meets_some[i] == 0) continue;
+    int& of_set = numbers[static_cast<std::size_t>(first_of[i])];
     if (of_set < 0) of_set = model.sets++;
-    model.body_set[body] = of_set;
+    of_body = of_set;
   }
 }
 
-bool takes_part(const PairModel& model, int body) { return model.bodies[body].clusters.size > 0; }
+/// All bodies of a model, ascending.
+std::vector<int> all_bodies(std::size_t count) {
+  std::vector<int> all(count);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+/// The members that meet others or themselves, ascending; numbers the sets that they form.
+std::vector<int> find_meeting(PairModel& model) {
+  const std::vector<char> meets_some = model.shared->rules.meeting(model.members);
+  number_sets(meets_some, model);
+  std::vector<int> meeting;
+  for (std::size_t i = 0; i < meets_some.size(); ++i)
+    if (meets_some[i] != 0) meeting.push_back(model.members[i]);
+  return meeting;
+}
+
+/// The bodies to remove or to add: those changed, and those that begin or cease to meet others.
+std::vector<int> find_affected(const PairModel& model, const std::vector<int>& changed, const std::vector<int>& meeting) {
+  std::vector<int> affected = changed, present;
+  present.reserve(meeting.size());
+  for (const auto& [body, elements] : model.bodies) present.push_back(body);
+  std::set_symmetric_difference(meeting.begin(), meeting.end(), present.begin(), present.end(),
+                                std::back_inserter(affected));
+  std::sort(affected.begin(), affected.end());
+  affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
+  return affected;
+}
 
 }  // namespace
 
 std::optional<PairChanges> update_pair_model(const Model& model, const std::vector<int>& changed, PairModel& out) {
-  update_rules(model, changed, out);
-  const std::vector<char> meets_some = out.rules.meeting();
-  std::vector<int> affected = changed;
-  out.bodies.resize(meets_some.size());
-  number_sets(meets_some, out);
-  for (int o = 0; o < out.rules.bodies(); ++o) {
-    const bool has_particles = model.objects[o].particles > 0;
-    if ((meets_some[o] != 0 && has_particles) != takes_part(out, o)) affected.push_back(o);
-  }
-  std::sort(affected.begin(), affected.end());
-  affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
+  if (out.has_all) out.members = all_bodies(model.objects.size());
+  const std::vector<int> meeting = find_meeting(out), affected = find_affected(out, changed, meeting);
   PairChanges changes;
-  for (const int o : affected) {
-    if (takes_part(out, o)) {
-      changes.removed.push_back(o);
-      changes.clusters.push_back(out.bodies[o].clusters);
-    }
-    remove_body(o, out);
+  for (const int body : affected) {
+    if (!out.bodies.has(body)) continue;
+    changes.removed.push_back(body);
+    changes.clusters.push_back(out.bodies.at(body).clusters);
+    remove_body(body, out);
   }
-  fit_arrays(static_cast<std::size_t>(model.particles()), out);
-  for (const int o : affected) {
-    add_body(model, o, meets_some[o] != 0, out);
-    if (takes_part(out, o)) changes.added.push_back(o);
+  fit_arrays(out);
+  for (const int body : affected) {
+    if (!std::binary_search(meeting.begin(), meeting.end(), body)) continue;
+    add_body(model, body, out);
+    changes.added.push_back(body);
   }
-  fit_arrays(static_cast<std::size_t>(model.particles()), out);
+  fit_arrays(out);
   order_clusters(out);
-  find_free_points(model, meets_some, out);
+  find_free_points(model, out);
   changes.radius = update_radius(out);
   if (out.edge_blocks.end() == 0 && out.free_points.empty()) return std::nullopt;
   return changes;
 }
 
-std::unique_ptr<PairModel> make_pair_model(const Model& model, const std::vector<char>& has) {
-  auto out = std::make_unique<PairModel>();
-  out->has = has;
-  std::vector<int> all(model.objects.size());
-  std::iota(all.begin(), all.end(), 0);
-  return update_pair_model(model, all, *out) ? std::move(out) : nullptr;
+std::unique_ptr<PairModel> make_pair_model(const Model& model, std::shared_ptr<ContactTables> tables,
+                                           const std::vector<int>* members) {
+  auto out = std::make_unique<PairModel>(std::move(tables));
+  out->has_all = members == nullptr;
+  if (members != nullptr) out->members = *members;
+  return update_pair_model(model, {}, *out) ? std::move(out) : nullptr;
+}
+
+std::unique_ptr<PairModel> make_pair_model(const Model& model) {
+  auto tables = std::make_shared<ContactTables>();
+  update_tables(model, {}, *tables);
+  return make_pair_model(model, std::move(tables), nullptr);
 }
 
 namespace {
@@ -308,18 +268,20 @@ void index_entries(std::size_t count, BodyOf body_of, BodyBlocks& blocks, Block 
 
 void index_bodies(PairModel& model) {
   ContactElements& all = model.elements;
-  model.bodies.assign(static_cast<std::size_t>(model.rules.bodies()), {});
-  number_sets(std::vector<char>(model.bodies.size(), 1), model);
+  const ContactTables& shared = *model.shared;
+  model.members = all_bodies(static_cast<std::size_t>(shared.rules.bodies()));
+  model.shared->body_set.resize(model.members.size());
+  number_sets(std::vector<char>(model.members.size(), 1), model);
   BodyBlocks vertex_blocks;
-  const auto body_at = [&](std::size_t i) { return model.vertex_body[i]; };
-  index_entries(model.rest.size(), body_at, vertex_blocks, &BodyElements::vertices, model);
-  const auto body_of_edge = [&](std::size_t i) { return model.vertex_body[all.edges[i][0]]; };
+  const auto body_at = [&](std::size_t i) { return shared.vertex_body[i]; };
+  index_entries(shared.rest.size(), body_at, vertex_blocks, &BodyElements::vertices, model);
+  const auto body_of_edge = [&](std::size_t i) { return shared.vertex_body[all.edges[i][0]]; };
   index_entries(all.edges.size(), body_of_edge, model.edge_blocks, &BodyElements::edges, model);
-  const auto body_of_triangle = [&](std::size_t i) { return model.vertex_body[all.triangles[i][0]]; };
+  const auto body_of_triangle = [&](std::size_t i) { return shared.vertex_body[all.triangles[i][0]]; };
   index_entries(all.triangles.size(), body_of_triangle, model.triangle_blocks, &BodyElements::triangles, model);
   const auto body_of_cluster = [&](std::size_t i) { return model.cluster_body[i]; };
   index_entries(model.cluster_body.size(), body_of_cluster, model.cluster_blocks, &BodyElements::clusters, model);
-  for (const BodyElements& body : model.bodies) model.triangles_around.add(all, body.triangles, body.vertices);
+  for (const auto& [number, body] : model.bodies) model.triangles_around.add(all, body.triangles, body.vertices);
   order_clusters(model);
 }
 

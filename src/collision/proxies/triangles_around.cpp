@@ -5,22 +5,24 @@
 namespace pliant {
 
 void TrianglesAround::add(const ContactElements& elements, const Block& triangles, const Block& vertices) {
-  first_.resize(static_cast<std::size_t>(elements.vertex_count));
-  last_.resize(first_.size());
+  std::vector<int>&first = ranges_->first, &last = ranges_->last;
+  const auto count = std::max(first.size(), static_cast<std::size_t>(elements.vertex_count));
+  first.resize(count);
+  last.resize(count);
   numbers_.resize(3 * elements.triangles.size());
-  std::fill_n(last_.begin() + vertices.first, vertices.size, 0);
+  std::fill_n(last.begin() + vertices.first, vertices.size, 0);
   for (int t = triangles.first; t < triangles.end(); ++t)
-    for (const int v : elements.triangles[static_cast<std::size_t>(t)]) ++last_[static_cast<std::size_t>(v)];
+    for (const int v : elements.triangles[static_cast<std::size_t>(t)]) ++last[static_cast<std::size_t>(v)];
   int next = 3 * triangles.first;
   for (int v = vertices.first; v < vertices.end(); ++v) {
     const auto at = static_cast<std::size_t>(v);
-    first_[at] = next;
-    next += last_[at];
-    last_[at] = first_[at];
+    first[at] = next;
+    next += last[at];
+    last[at] = first[at];
   }
   for (int t = triangles.first; t < triangles.end(); ++t)
     for (const int v : elements.triangles[static_cast<std::size_t>(t)])
-      numbers_[static_cast<std::size_t>(last_[static_cast<std::size_t>(v)]++)] = t;
+      numbers_[static_cast<std::size_t>(last[static_cast<std::size_t>(v)]++)] = t;
 }
 
 }  // namespace pliant

@@ -25,11 +25,11 @@ class ConnectedBodies {
  public:
   ConnectedBodies(const PairModel& model, const PairParticles& particles, const std::vector<Contact>& contacts)
       : model_(model), positions_(particles.positions) {
-    for (int body = 0; body < model.rules.bodies(); ++body) parent_.push_back(body);
+    for (int body = 0; body < model.shared->rules.bodies(); ++body) parent_.push_back(body);
     for (const Contact& contact : contacts) {
       const int first = of(contact);
       for (std::size_t i = 0; i < 4; ++i)
-        if (is_dynamic(contact, i)) parent_[root(model.vertex_body[contact.point[i]])] = root(first);
+        if (is_dynamic(contact, i)) parent_[root(model.shared->vertex_body[contact.point[i]])] = root(first);
     }
   }
 
@@ -41,7 +41,7 @@ class ConnectedBodies {
   /// The root of a contact's dynamic bodies; -1 if it has none.
   int of(const Contact& contact) const {
     for (std::size_t i = 0; i < 4; ++i)
-      if (is_dynamic(contact, i)) return root(model_.vertex_body[contact.point[i]]);
+      if (is_dynamic(contact, i)) return root(model_.shared->vertex_body[contact.point[i]]);
     return -1;
   }
 
@@ -159,7 +159,8 @@ Vec3f SurfaceContact::missing_of(const Contact& contact, const Record* positions
                                  FunctionRef<Vec3f(int body)> gravity) const {
   Vec3f missing{};
   for (int i = 0; i < 4; ++i)
-    if (positions[contact.point[i]].w > 0) missing += gravity(model_.vertex_body[contact.point[i]]) * contact.weight[i];
+    if (positions[contact.point[i]].w > 0)
+      missing += gravity(model_.shared->vertex_body[contact.point[i]]) * contact.weight[i];
   return missing;
 }
 

@@ -59,7 +59,8 @@ class SurfaceContact {
   /// The number of the set of a contact's bodies, below sets().
   std::size_t set_of(const Contact& contact) const {
     return static_cast<std::size_t>(
-        model_.body_set[static_cast<std::size_t>(model_.vertex_body[static_cast<std::size_t>(contact.point[0])])]);
+        model_.shared
+            ->body_set[static_cast<std::size_t>(model_.shared->vertex_body[static_cast<std::size_t>(contact.point[0])])]);
   }
   std::size_t sets() const { return static_cast<std::size_t>(model_.sets); }
   /// Removes the remaining approach speed of an impact after a substep, and returns it [m/s].

@@ -48,18 +48,23 @@ void add_triangles_in(const BoxBounds& box, const PairModel& model, const Block&
 
 /// Selects all triangles of a body, and those of bodies that it may meet that overlap its bounding box.
 Extract around_body(const PairModel& model, int body, const Record* positions) {
-  const BodyElements& own = model.bodies[body];
+  const BodyElements& own = model.bodies.at(body);
   Extract out;
   if (own.triangles.size == 0) return out;
   const BoxBounds box = box_of(own.vertices, positions);
-  for (int other = 0; other < static_cast<int>(model.bodies.size()); ++other) {
-    const BodyElements& of = model.bodies[other];
-    if (of.triangles.size == 0 || (other != body && !model.rules.meet(body, other))) continue;
+  for (const auto& [other, of] : model.bodies) {
+    if (of.triangles.size == 0 || (other != body && !model.shared->rules.meet(body, other))) continue;
     if (other == body || overlap(box_of(of.vertices, positions), box))
       add_triangles_in(box, model, of.triangles, positions, out);
   }
   out.renumber();
   return out;
+}
+
+void sort(std::vector<Intersection>& found) {
+  std::sort(found.begin(), found.end(), [](const Intersection& x, const Intersection& y) {
+    return std::tie(x.a, x.b, x.triangle) < std::tie(y.a, y.b, y.triangle);
+  });
 }
 
 }  // namespace
@@ -72,24 +77,35 @@ void InitialIntersections::change(const std::vector<int>& removed, const std::ve
 }
 
 void InitialIntersections::find(const Record* positions, bool forget) {
-  const ContactElements& all = model_.elements;
-  if (finder_ == nullptr) {
-    std::vector<Triangle> in_use;
-    triangles_.clear();
-    for (int number = 0; number < static_cast<int>(all.triangles.size()); ++number) {
-      if (all.triangles[number][0] < 0) continue;
-      triangles_.push_back(number);
-      in_use.push_back(all.triangles[number]);
-    }
-    finder_ = std::make_unique<IntersectionFinder>(in_use, all.vertex_count);
-  }
+  if (finder_ == nullptr) make_finder();
   counts_before_.clear();
   if (!forget) counts_before_.swap(counts_);
-  std::vector<Vec3f> places(model_.rest.size());
-  for (std::size_t i = 0; i < places.size(); ++i) places[i] = {positions[i].x, positions[i].y, positions[i].z};
+  std::vector<Vec3f> places;
+  places.reserve(vertices_.size());
+  for (const int v : vertices_) places.push_back({positions[v].x, positions[v].y, positions[v].z});
   std::vector<Intersection> found = finder_->find(places);
-  for (Intersection& one : found) one.triangle = triangles_[one.triangle];
+  for (Intersection& one : found) one = {vertices_[one.a], vertices_[one.b], triangles_[one.triangle], one.kind};
+  sort(found);
   keep(std::move(found));
+}
+
+/// Makes the search over all triangles. It numbers the vertices body by body, so that it costs what the PairModel's bodies cost
+/// and not what the World does.
+void InitialIntersections::make_finder() {
+  std::vector<Triangle> in_use;
+  triangles_.clear();
+  vertices_.clear();
+  for (const auto& [body, of] : model_.bodies) {
+    if (of.triangles.size == 0) continue;
+    const int shift = static_cast<int>(vertices_.size()) - of.vertices.first;
+    for (int v = of.vertices.first; v < of.vertices.end(); ++v) vertices_.push_back(v);
+    for (int number = of.triangles.first; number < of.triangles.end(); ++number) {
+      const auto& [a, b, c] = model_.elements.triangles[number];
+      triangles_.push_back(number);
+      in_use.push_back({a + shift, b + shift, c + shift});
+    }
+  }
+  finder_ = std::make_unique<IntersectionFinder>(in_use, static_cast<int>(vertices_.size()));
 }
 
 void InitialIntersections::find_of_new(const Record* positions) {
@@ -103,15 +119,14 @@ void InitialIntersections::find_of_new(const Record* positions) {
     IntersectionFinder finder(near.triangles, static_cast<int>(places.size()));
     for (const Intersection& one : finder.find(places)) {
       const Intersection in_model{near.vertices[one.a], near.vertices[one.b], near.numbers[one.triangle], one.kind};
-      const int a = model_.vertex_body[in_model.a], b = model_.vertex_body[model_.elements.triangles[in_model.triangle][0]];
+      const int a = model_.shared->vertex_body[in_model.a],
+                b = model_.shared->vertex_body[model_.elements.triangles[in_model.triangle][0]];
       const bool is_found_before =
           std::min(a, b) < body && std::binary_search(new_bodies_.begin(), new_bodies_.end(), std::min(a, b));
       if ((a == body || b == body) && !is_found_before) found.push_back(in_model);
     }
   }
-  std::sort(found.begin(), found.end(), [](const Intersection& x, const Intersection& y) {
-    return std::tie(x.a, x.b, x.triangle) < std::tie(y.a, y.b, y.triangle);
-  });
+  sort(found);
   keep(std::move(found));
 }
 
@@ -119,11 +134,12 @@ void InitialIntersections::find_of_new(const Record* positions) {
 void InitialIntersections::keep(std::vector<Intersection> found) {
   new_bodies_.clear();
   const auto bodies_of = [&](const Intersection& one) {
-    return std::pair(model_.vertex_body[one.a], model_.vertex_body[model_.elements.triangles[one.triangle][0]]);
+    return std::pair(model_.shared->vertex_body[one.a],
+                     model_.shared->vertex_body[model_.elements.triangles[one.triangle][0]]);
   };
   std::erase_if(found, [&](const Intersection& one) {
     const auto [a, b] = bodies_of(one);
-    return !model_.rules.meet(a, b);
+    return !model_.shared->rules.meet(a, b);
   });
   found_ = std::move(found);
   counts_.clear();

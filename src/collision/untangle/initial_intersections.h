@@ -33,12 +33,13 @@ class InitialIntersections {
   bool hold(const PairStencil& pair) const;
 
  private:
+  void make_finder();
   void keep(std::vector<Intersection> found);
   void exempt(const Intersection& found);
 
   const PairModel& model_;
   std::unique_ptr<IntersectionFinder> finder_;  ///< search over all triangles in use; null after bodies changed
-  std::vector<int> triangles_;                  ///< indices in the model of the triangles that finder_ searches
+  std::vector<int> triangles_, vertices_;       ///< indices in the model of the triangles and vertices of finder_
   std::vector<int> new_bodies_;                 ///< bodies added since the last search, ascending
   std::vector<Intersection> found_;
   std::map<std::pair<int, int>, std::size_t> counts_, counts_before_;  ///< counts by two bodies, the lower index first

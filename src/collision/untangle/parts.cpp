@@ -27,14 +27,15 @@ struct Sets {
 }  // namespace
 
 Parts find_parts(const PairModel& model) {
-  const auto body_of = [&](int v) { return model.vertex_body[static_cast<std::size_t>(v)]; };
-  const auto vertices = static_cast<int>(model.rest.size());
-  Sets sets(model.rest.size());
+  const auto body_of = [&](int v) { return model.shared->vertex_body[static_cast<std::size_t>(v)]; };
+  const auto vertices = static_cast<int>(model.shared->rest.size());
+  Sets sets(model.shared->rest.size());
   for (const auto& [a, b] : model.elements.edges) sets.join(a, b);
   for (int v = 1; v < vertices; ++v)
-    if (body_of(v) >= 0 && body_of(v) == body_of(v - 1) && model.rules.is_immovable(body_of(v))) sets.join(v - 1, v);
+    if (body_of(v) >= 0 && body_of(v) == body_of(v - 1) && model.shared->rules.is_immovable(body_of(v)))
+      sets.join(v - 1, v);
   Parts parts;
-  parts.of.resize(model.rest.size());
+  parts.of.resize(model.shared->rest.size());
   for (int v = 0; v < vertices; ++v) {
     const int root = sets.root(v);
     parts.of[static_cast<std::size_t>(v)] = root == v ? parts.count++ : parts.of[static_cast<std::size_t>(root)];

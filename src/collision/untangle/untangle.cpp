@@ -13,16 +13,16 @@ namespace {
 
 Vec3f place(const Record& r) { return {r.x, r.y, r.z}; }
 
-/// Writes the triangles of a body, with vertices numbered from `first`. Returns false if they do not form a closed
+/// Writes the triangles of a body, with vertices numbered from its first one. Returns false if they do not form a closed
 /// surface.
-bool closed_surface(const PairModel& model, int body, std::vector<Triangle>& triangles, int& first, int& count) {
-  const auto of_body = [&](int v) { return model.vertex_body[static_cast<std::size_t>(v)] == body; };
-  first = static_cast<int>(std::find(model.vertex_body.begin(), model.vertex_body.end(), body) - model.vertex_body.begin());
-  count = static_cast<int>(std::count(model.vertex_body.begin(), model.vertex_body.end(), body));
-  for (const Triangle& t : model.elements.triangles)
-    if (of_body(t[0])) triangles.push_back({t[0] - first, t[1] - first, t[2] - first});
+bool closed_surface(const PairModel& model, const BodyElements& body, std::vector<Triangle>& triangles) {
+  const int first = body.vertices.first;
+  for (int number = body.triangles.first; number < body.triangles.end(); ++number) {
+    const auto& [a, b, c] = model.elements.triangles[static_cast<std::size_t>(number)];
+    triangles.push_back({a - first, b - first, c - first});
+  }
   if (triangles.empty()) return false;
-  for (const Edge& edge : find_edges(triangles, count))
+  for (const Edge& edge : find_edges(triangles, body.vertices.size))
     if (edge.triangle_count != 2) return false;
   return true;
 }
@@ -82,19 +82,32 @@ Vec3f mean_normal(const PairModel& model, const Patch& patch, const Record* posi
 }
 
 float thickness_of(const PairModel& model, int vertex, int body) {
-  return model.rules.material(model.vertex_body[static_cast<std::size_t>(vertex)], body).thickness;
+  return model.shared->rules.material(model.shared->vertex_body[static_cast<std::size_t>(vertex)], body).thickness;
+}
+
+/// The vertices of a model that have a cluster, ascending.
+std::vector<int> vertices_of(const PairModel& model) {
+  std::vector<int> vertices;
+  for (const auto& [body, of] : model.bodies)
+    for (int v = of.vertices.first; v < of.vertices.end(); ++v)
+      if (model.shared->vertex_cluster[static_cast<std::size_t>(v)] >= 0) vertices.push_back(v);
+  std::sort(vertices.begin(), vertices.end());
+  return vertices;
 }
 
 }  // namespace
 
 Untangler::Untangler(const PairModel& model)
-    : model_(model), finder_(model.elements.triangles, model.elements.vertex_count), parts_(find_parts(model)) {
-  for (int body = 0; body < model.rules.bodies(); ++body) {
+    : model_(model),
+      finder_(model.elements.triangles, model.elements.vertex_count),
+      vertices_(vertices_of(model)),
+      parts_(find_parts(model)) {
+  for (const auto& [body, of] : model.bodies) {
     std::vector<Triangle> triangles;
-    int first = 0, count = 0;
-    if (!model.rules.is_immovable(body) || !closed_surface(model, body, triangles, first, count)) continue;
-    closed_.push_back(
-        {body, part_of(first), first, std::make_unique<MeshQuery>(places_of(model.rest.data(), first, count), triangles)});
+    if (!model.shared->rules.is_immovable(body) || !closed_surface(model, of, triangles)) continue;
+    const auto [first, count] = of.vertices;
+    closed_.push_back({body, part_of(first), first,
+                       std::make_unique<MeshQuery>(places_of(model.shared->rest.data(), first, count), triangles)});
   }
 }
 
@@ -111,8 +124,8 @@ void Untangler::begin_frame(const Record* positions, const std::vector<Intersect
   inside_ = 0;
   find_inside(positions);
   find_pieces(positions, found);
-  for (int v = 0; v < static_cast<int>(model_.rest.size()); ++v)
-    if (model_.vertex_cluster[v] >= 0 && positions[v].w > 0 && is_led(part_of(v))) speeds_.emplace_back(v, 0.f);
+  for (const int v : vertices_)
+    if (positions[v].w > 0 && is_led(part_of(v))) speeds_.emplace_back(v, 0.f);
 }
 
 bool Untangler::leads_apart(const Intersection& found) const {
@@ -138,8 +151,8 @@ bool Untangler::is_exempt(const PairStencil& pair) const {
 
 void Untangler::add(int part, int piece, const Push& push) {
   if (wrong_side_of_.empty()) {
-    wrong_side_of_.assign(model_.rest.size(), -1);
-    piece_.assign(model_.rest.size(), -1);
+    wrong_side_of_.assign(model_.shared->rest.size(), -1);
+    piece_.assign(model_.shared->rest.size(), -1);
   }
   int& wrong_side_of = wrong_side_of_[static_cast<std::size_t>(push.vertex)];
   if (wrong_side_of >= 0) return;
@@ -162,9 +175,8 @@ void Untangler::find_inside(const Record* positions) {
     MeshQuery& query = *closed.query;
     query.move(places_of(positions, closed.first, static_cast<int>(query.positions().size())));
     std::vector<int> inside;
-    for (int v = 0; v < static_cast<int>(model_.rest.size()); ++v) {
-      if (model_.vertex_cluster[v] < 0) continue;
-      const bool meets = model_.rules.meet(model_.vertex_body[static_cast<std::size_t>(v)], closed.body);
+    for (const int v : vertices_) {
+      const bool meets = model_.shared->rules.meet(model_.shared->vertex_body[static_cast<std::size_t>(v)], closed.body);
       if (positions[v].w > 0 && meets && query.is_inside(place(positions[v]))) inside.push_back(v);
     }
     inside_ += static_cast<std::int64_t>(inside.size());
@@ -240,7 +252,7 @@ void Untangler::find_pieces(const Record* positions, const std::vector<Intersect
   for (const Intersection& one : found) {
     const int a = part_of(one.a), b = part_of(model_.elements.triangles[static_cast<std::size_t>(one.triangle)][0]);
     // Closed bodies need no rule of the smaller piece: find_inside tests each vertex exactly.
-    if (!model_.rules.is_immovable(body_of(one.a)) && !is_closed(b)) cuts[{a, b}].push_back(one);
+    if (!model_.shared->rules.is_immovable(body_of(one.a)) && !is_closed(b)) cuts[{a, b}].push_back(one);
     // The edge's vertices may already be outside; their part keeps the speed limit until the edge itself is outside.
     if (is_closed(b)) mark_led(one.a);
     if (is_closed(a)) mark_led(model_.elements.triangles[one.triangle][0]);
@@ -259,14 +271,14 @@ void Untangler::find_pieces(const Record* positions, const std::vector<Intersect
 std::vector<Untangler::PartPair> Untangler::made_worse(const Record* positions, const std::vector<Intersection>& found,
                                                        const std::vector<Candidate>& candidates) {
   if (candidates.empty()) return {};
-  std::vector<Vec3f> places = places_of(positions, 0, static_cast<int>(model_.rest.size()));
+  std::vector<Vec3f> places = places_of(positions, 0, static_cast<int>(model_.shared->rest.size()));
   for (const Candidate& candidate : candidates)
     places[static_cast<std::size_t>(candidate.push.vertex)] += candidate.push.direction * (model_.untangling_speed / 60);
   std::map<PartPair, int> more;
   for (const Intersection& one : found) --more[parts_of(one)];
   for (const Intersection& then : finder_.find(places)) {
     const int other = model_.elements.triangles[static_cast<std::size_t>(then.triangle)][0];
-    if (model_.rules.meet(body_of(then.a), body_of(other))) ++more[parts_of(then)];
+    if (model_.shared->rules.meet(body_of(then.a), body_of(other))) ++more[parts_of(then)];
   }
   std::vector<PartPair> worse;
   for (const auto& [parts, by] : more)
@@ -286,22 +298,22 @@ struct Pieces {
   }
 };
 
-Pieces pieces_of(const PairModel& model, const std::vector<Intersection>& cuts, const std::vector<int>& part_of, int part) {
+Pieces pieces_of(const PairModel& model, const std::vector<int>& vertices, const std::vector<Intersection>& cuts,
+                 const std::vector<int>& part_of, int part) {
   std::vector<std::pair<int, int>> cut;
   cut.reserve(cuts.size());
   for (const Intersection& one : cuts) cut.push_back(std::minmax(one.a, one.b));
   std::sort(cut.begin(), cut.end());
   Pieces pieces;
-  for (int i = 0; i < static_cast<int>(model.rest.size()); ++i) pieces.of.push_back(i);
-  pieces.size.assign(model.rest.size(), 0);
+  for (int i = 0; i < static_cast<int>(model.shared->rest.size()); ++i) pieces.of.push_back(i);
+  pieces.size.assign(model.shared->rest.size(), 0);
   for (const auto& [a, b] : model.elements.edges) {
     if (part_of[static_cast<std::size_t>(a)] != part || std::binary_search(cut.begin(), cut.end(), std::pair{a, b}))
       continue;
     const int from = pieces.root(a), to = pieces.root(b);
     pieces.of[static_cast<std::size_t>(std::max(from, to))] = std::min(from, to);
   }
-  for (int v = 0; v < static_cast<int>(model.rest.size()); ++v) {
-    if (model.vertex_cluster[v] < 0) continue;
+  for (const int v : vertices) {
     const int root = pieces.of[static_cast<std::size_t>(v)] = pieces.root(v);
     if (part_of[static_cast<std::size_t>(v)] == part) ++pieces.size[static_cast<std::size_t>(root)];
   }
@@ -315,7 +327,7 @@ Pieces pieces_of(const PairModel& model, const std::vector<Intersection>& cuts, 
 void Untangler::lead_back(const Record* positions, const std::vector<Intersection>& cuts, PartPair parts,
                           std::vector<Candidate>& out) const {
   const auto [part, through] = parts;
-  const Pieces pieces = pieces_of(model_, cuts, parts_.of, part);
+  const Pieces pieces = pieces_of(model_, vertices_, cuts, parts_.of, part);
   const int largest_piece =
       static_cast<int>(std::max_element(pieces.size.begin(), pieces.size.end()) - pieces.size.begin());
   std::map<int, Vec3f> ways;
@@ -330,8 +342,7 @@ void Untangler::lead_back(const Record* positions, const std::vector<Intersectio
       ways[piece] += unit_or(with ? normal : -normal, Vec3f{});
     }
   }
-  for (int v = 0; v < static_cast<int>(model_.rest.size()); ++v) {
-    if (model_.vertex_cluster[v] < 0) continue;
+  for (const int v : vertices_) {
     const auto way = ways.find(pieces.of[static_cast<std::size_t>(v)]);
     if (way == ways.end() || !(positions[v].w > 0)) continue;
     out.push_back({{v, unit_or(way->second, Vec3f{0, 1, 0}), 1e30f}, through, way->first});
@@ -359,7 +370,7 @@ void Untangler::push(float distance, float h, Record* displacements, Record* rem
 
 void Untangler::limit_speeds(float limit, Record* velocities, FunctionRef<Vec3f(int body)> missing) const {
   for (const auto& [v, speed] : speeds_) {
-    const Vec3f lacks = missing(model_.vertex_body[static_cast<std::size_t>(v)]);
+    const Vec3f lacks = missing(model_.shared->vertex_body[static_cast<std::size_t>(v)]);
     Record& r = velocities[v];
     const Vec3f velocity = Vec3f{r.x, r.y, r.z} + lacks;
     const float is = length(velocity), most = max(speed, limit);

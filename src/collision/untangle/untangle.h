@@ -73,7 +73,7 @@ class Untangler {
   void find_inside(const Record* positions);
   void lead_out(const std::vector<int>& patch, const Closed& closed, const Record* positions);
   int part_of(int vertex) const { return parts_.of[static_cast<std::size_t>(vertex)]; }
-  int body_of(int vertex) const { return model_.vertex_body[static_cast<std::size_t>(vertex)]; }
+  int body_of(int vertex) const { return model_.shared->vertex_body[static_cast<std::size_t>(vertex)]; }
   PartPair parts_of(const Intersection& found) const;
   bool is_closed(int part) const;
   bool is_led(int part) const { return !led_.empty() && led_[static_cast<std::size_t>(part)] != 0; }
@@ -87,6 +87,7 @@ class Untangler {
 
   const PairModel& model_;
   IntersectionFinder finder_;
+  std::vector<int> vertices_;  ///< all vertices with a cluster, ascending
   Parts parts_;
   std::vector<Closed> closed_;
   std::vector<int> wrong_side_of_;  ///< for each vertex, the part whose wrong side it is on, or -1; empty: no vertex is
