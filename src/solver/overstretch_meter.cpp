@@ -1,10 +1,10 @@
 #include "solver/overstretch_meter.h"
 
 #include <algorithm>
-#include <bit>
 #include <functional>
 
 #include "constraints/registry.h"
+#include "math/scalar.h"
 #include "solver/visit.h"
 
 namespace pliant {
@@ -24,12 +24,12 @@ constexpr int bits_per_bin = 17;
 
 /// The bits of floats without sign have the same order as their values.
 int bin_of(float value, float above, int bins) {
-  const std::uint32_t beyond = std::bit_cast<std::uint32_t>(value) - std::bit_cast<std::uint32_t>(above);
+  const std::uint32_t beyond = bits_as<std::uint32_t>(value) - bits_as<std::uint32_t>(above);
   return std::min(static_cast<int>(beyond >> bits_per_bin), bins - 1);
 }
 
 float start_of(int bin, float above) {
-  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(above) + (static_cast<std::uint32_t>(bin) << bits_per_bin));
+  return bits_as<float>(bits_as<std::uint32_t>(above) + (static_cast<std::uint32_t>(bin) << bits_per_bin));
 }
 
 /// The number of constraints from the 99th percentile up.
