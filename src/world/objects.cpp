@@ -5,6 +5,7 @@
 
 #include "inspect/inspect_scene.h"
 #include "matter/advice_settings.h"
+#include "matter/surroundings.h"
 #include "model/object_sets.h"
 #include "pliant/error.h"
 #include "solver/sweeps/sweep.h"
@@ -33,45 +34,38 @@ void require_room(const Model& model, std::size_t particles, const std::string& 
                 "make it smaller, or remove others first");
 }
 
+/// What an object that is added now has around it: it is the last object.
+Surroundings surroundings_of(const WorldData& world, const Object& added) {
+  Surroundings found;
+  std::vector<SubstepRule> rules;
+  for (const CompiledObject& other : world.model.objects) {
+    if (other.is_collider || other.particles == 0) continue;
+    found.members.push_back({other.groups, other.mask, other.collides});
+    rules.push_back(other.substep_rule);
+  }
+  found.gravity = magnitude(world.model.gravity);
+  found.frame_time = static_cast<double>(world.frame_time);
+  found.members.push_back(member_of(added, 0, SubstepRule::any));
+  rules.push_back(substep_rule(added, Sweep::chains, found.gravity));
+  found.rule_of = [rules](std::size_t number) { return rules[number]; };
+  for (const CompiledObject& other : world.model.objects)
+    if (other.is_collider) found.members.push_back({other.groups, other.mask, false, true});
+  for (const FieldCollider& field : world.model.fields) found.other_meshes.push_back({field.groups, field.mask});
+  found.has_primitives = !world.model.colliders.empty();
+  return found;
+}
+
 /// The sweep that an object gets if it is added now.
 Sweep sweep_for(const WorldData& world, const Object& object) {
   if (object.sweep != Sweep::automatic) return object.sweep;
   if (!world.open.sweep) return world.settings.sweep;
-  Scene scene;  // has of colliders and other objects only what decides whether the new one can meet them
-  scene.settings.iterations = world.settings.iterations;
-  scene.settings.substeps = named_substeps(world);
-  scene.settings.least_substeps = world.settings.least_substeps;
-  scene.settings.most_substeps = world.settings.most_substeps;
-  scene.frame_time = world.frame_time;
-  scene.gravity = world.model.gravity;
-  scene.colliders = world.model.colliders;
-  const auto add_mesh = [&](MeshCollider::As as, const Masks& masks) {
-    MeshCollider& mesh = scene.mesh_colliders.emplace_back();
-    mesh.as = as;
-    mesh.groups = masks.groups;
-    mesh.mask = masks.mask;
-  };
-  for (const FieldCollider& field : world.model.fields)
-    add_mesh(MeshCollider::As::distance_grid, {field.groups, field.mask});
-  for (const CompiledObject& other : world.model.objects) {
-    if (other.is_collider) {
-      add_mesh(MeshCollider::As::triangles, {other.groups, other.mask});
-    } else if (other.particles > 0) {
-      Object& one = scene.objects.emplace_back();
-      one.sweep = sweep_to_follow(other);
-      one.collides = other.collides;
-      one.groups = other.groups;
-      one.mask = other.mask;
-      if (other.substep_rule == SubstepRule::by_state) {  // any distance, and particles enough, that give it that rule
-        one.constraints.push_back({"distance", {0, 1}, {1.f}, Stiffness::compliance(0), {}});
-        one.positions.resize(64);
-      }
-      if (other.substep_rule == SubstepRule::fixed)
-        one.constraints.push_back({"distance", {0, 1}, {}, Stiffness::pbd(0.5f), {}});
-    }
-  }
-  scene.objects.push_back(object);
-  return chosen_sweep(scene, static_cast<int>(scene.objects.size()) - 1);
+  Settings settings = world.settings;
+  settings.sweep = Sweep::automatic;
+  settings.substeps = named_substeps(world);
+  std::vector<Sweep> others;
+  for (const CompiledObject& other : world.model.objects)
+    if (!other.is_collider && other.particles > 0) others.push_back(sweep_to_follow(other));
+  return chosen_sweep(object, surroundings_of(world, object), settings, others);
 }
 
 /// Throws an Error if the acceleration in the settings does not support the sweep.
