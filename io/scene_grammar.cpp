@@ -266,7 +266,8 @@ const Record& settings_record() {
              "Truncate steps so that colliding surfaces never cross (docs/guide/contact.md). Without it only contacts keep "
              "them apart."),
        field("most_substeps", integer(0, 10000),
-             "100 where substeps follow the State, or what a volume that they can meet needs; else eight times `substeps`",
+             "100 (ropes 200) where substeps follow the State, or what a volume that they can meet needs; else eight times "
+             "`substeps`",
              "Maximum number of substeps of a frame: where they follow the State (in multiples of four), and where a mesh "
              "collider moves fast (docs/guide/contact.md)."),
        field("least_substeps", integer(0, 10000), "12; 8 for cloth that only hangs by `tethered_chains`",

@@ -23,7 +23,8 @@ inline int most_substeps_of(const Settings& chosen) { return chosen.substeps > 0
 /// the largest default: its stiffness is converted for a fixed number of projections, which no set may change. With
 /// `multigrid`, objects are disturbed that can touch, that are blown about by wind or force fields, whose pins move, or
 /// that swing about pins which lie together; others need half as many.
-/// An inflated object needs more the longer the frame is [s].
+/// An inflated object needs more the longer the frame is [s]. A sheet that is meant to stretch and hangs from few of its many particles
+/// needs more too, if chains solve it.
 int own_substeps(const Object& object, Sweep sweep, bool is_blown, double frame_time = 1.0 / 60);
 
 /// The strain of an object's edges at its target volume if it grows alike in all directions: pressure^(1/3) - 1. 0 if its pressure

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "model/attachments.h"
 #include "model/length_ranges.h"
 #include "model/object_sets.h"
 
@@ -14,7 +15,7 @@ namespace pliant {
 namespace {
 
 /// The substeps for tethers of `edges` edges: edges^1.5 over this. Hung by two corners, cloth of 64, 128, 256 and 512 rows
-/// needs some 4, 10, 27 and 77 (docs/internals/default_settings.md).
+/// needs some 4, 10, 27 and 77 (docs/internals/default_settings_tried.md).
 constexpr double edges_to_hang = 150;
 constexpr int most_to_hang = 100;
 
@@ -28,10 +29,17 @@ SetMember member_of(const CompiledObject& object) {
 /// after another does not mend.
 bool limits_lengths(Sweep sweep) { return solves_chains(sweep) || sweep == Sweep::multigrid; }
 
-/// True if the object is cloth that hangs by tethers; without a fixed particle there are none. A rope is not counted: its
-/// free end swings fast, few substeps let it stretch and gain energy, and it is cheap.
+/// Anchors within this share of an object's extent lie together: it swings about them.
+constexpr double swinging_share = 0.25;
+
+/// True if the object is cloth that hangs by tethers; without a fixed particle there are none. A rope is not counted, nor cloth
+/// that swings about one place: its free end swings fast, and few substeps let it stretch.
 bool hangs(const CompiledObject& object) {
-  return object.sweep == Sweep::tethered_chains && !object.surface.triangles.empty() && !object.tethers.anchors.empty();
+  if (object.sweep != Sweep::tethered_chains || object.surface.triangles.empty()) return false;
+  std::vector<Vec3f> all, anchors;
+  for (const Record& p : object.positions) all.push_back({p.x, p.y, p.z});
+  for (const int anchor : object.tethers.anchors) anchors.push_back(all[static_cast<std::size_t>(anchor)]);
+  return largest_extent(anchors) > swinging_share * largest_extent(all);
 }
 
 double mean_length(const CompiledObject& object) {
@@ -71,6 +79,7 @@ int substeps_to_hang(const CompiledObject& object) {
 void list_lengths(const Model& model, int o, SubstepGroup& group) {
   const CompiledObject& object = model.objects[o];
   if (object.particles == 0) return;
+  group.has_sheets = group.has_sheets || (!object.is_collider && !object.surface.triangles.empty());
   group.hangs = group.hangs && (object.is_collider || hangs(object));
   if (group.hangs && !object.is_collider) group.least_hanging = std::max(group.least_hanging, substeps_to_hang(object));
   if (!limits_lengths(object.sweep)) return;

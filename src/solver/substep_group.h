@@ -17,13 +17,14 @@ namespace pliant {
 
 /// The data of a group that stages use. Its lists are subsets of the model's lists, in the same order.
 struct SubstepGroup {
-  int substeps = 1;       ///< substeps per frame, unless a fast collider requires more (solver/divide.h)
-  bool by_state = false;  ///< true: `substeps` is a first guess, decided again in each quarter of a frame
-  int least = 0;          ///< where they follow the State: what objects need that do not
-  bool hangs = false;     ///< true: all of its objects hang by tethers
-  int least_hanging = 0;  ///< where they do: what the finest object needs by its resolution
-  bool has_all = true;    ///< true: all objects; stages then use the model's lists, and all below is empty
-  int number = 0;         ///< index among the groups
+  int substeps = 1;         ///< substeps per frame, unless a fast collider requires more (solver/divide.h)
+  bool by_state = false;    ///< true: `substeps` is a first guess, decided again in each quarter of a frame
+  int least = 0;            ///< where they follow the State: what objects need that do not
+  bool has_sheets = false;  ///< true: some object has triangles; false: ropes and loose particles
+  bool hangs = false;       ///< true: all of its objects hang by tethers
+  int least_hanging = 0;    ///< where they do: what the finest object needs by its resolution
+  bool has_all = true;      ///< true: all objects; stages then use the model's lists, and all below is empty
+  int number = 0;           ///< index among the groups
   std::shared_ptr<const std::vector<int>>
       group_of_object{};                ///< of all groups: each object's group, -1 where it was removed
   std::vector<int> objects{}, tiles{};  ///< ascending; indices of Model::objects and Model::tiles()

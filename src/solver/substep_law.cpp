@@ -13,7 +13,7 @@ namespace pliant {
 namespace {
 
 /// Substeps per frame for each unit of strain, and for each radian that a constraint turns by in a frame. Measured: with
-/// fewer, folds pass 2 % of strain at their impact (docs/internals/default_settings.md).
+/// fewer, folds pass 2 % of strain at their impact (docs/internals/default_settings_tried.md).
 constexpr double substeps_per_strain = 5000, substeps_per_radian = 20;
 /// Tethers leave no long errors, and an impact on a primitive collider moves few particles.
 constexpr double substeps_per_strain_hanging = 1000;

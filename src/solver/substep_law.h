@@ -2,7 +2,7 @@
 //
 // They are decided at the start of each quarter of a frame from positions and velocities alone, so a restored State has
 // the same. An error in the lengths turns into velocity where the substeps change, so they must follow before it grows:
-// whole frames are too long for that (docs/internals/default_settings.md).
+// whole frames are too long for that (docs/internals/default_settings_tried.md).
 #pragma once
 
 #include <vector>
@@ -13,7 +13,9 @@ namespace pliant {
 
 inline constexpr int quarters = 4;                              ///< of a frame, in which substeps may differ
 inline constexpr int least_by_state = 12, most_by_state = 100;  ///< substeps per frame, unless the settings differ
-inline constexpr int least_of_hanging = 6;                      ///< the same where SubstepGroup::hangs
+inline constexpr int most_of_ropes =
+    200;  ///< the same where there are only ropes, whose ends may crack like whips and cost little
+inline constexpr int least_of_hanging = 6;  ///< the same where SubstepGroup::hangs
 
 /// True if the current substep is the last of a quarter.
 inline bool ends_quarter(const Substep& s) { return s.most > 0 && (s.number + 1) * quarters % s.planned == 0; }

@@ -139,7 +139,8 @@ bool set_bounds(const Settings& settings, const SubstepGroup& group, const Limit
   const auto up = [](int substeps) { return (substeps + quarters - 1) / quarters * quarters; };
   const auto down = [](int substeps) { return substeps / quarters * quarters; };
   const int named = up(settings.least_substeps);
-  const int usual = std::max({named, most_by_state, up(group.least)});  // with what a volume of the set needs
+  const int usual = std::max(
+      {named, group.has_sheets ? most_by_state : most_of_ropes, up(group.least)});  // with what a volume of the set needs
   const int most = limited(settings.most_substeps > 0 ? settings.most_substeps : usual);
   frame.substeps = most;
   if (most < quarters) return false;

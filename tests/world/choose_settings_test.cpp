@@ -139,7 +139,32 @@ TEST(ChosenSettings, AreChainsForRegularCloth) {
   expect_chosen(lying, Sweep::chains, 0, "can touch itself");
   for (ConstraintGroup& group : hung.objects[0].constraints)
     if (group.type == "distance") group.compliances.assign(group.particles.size() / 2, 0.1f);
-  expect_chosen(hung, Sweep::chains, 20, "springs lie in straight rows");  // it is meant to stretch
+  expect_chosen(hung, Sweep::chains, 48, "springs lie in straight rows");  // it is meant to stretch
+}
+
+/// Forces gather at what holds such a sheet, in proportion to the number of particles that hang there.
+TEST(ChosenSettings, AreMoreSubstepsForSheetsThatStretchAndHangFromFewParticles) {
+  ClothOptions options;
+  options.material = fabric("rubber sheet");
+  const std::string why = "springs lie in straight rows";
+  const auto hung = [&](int n, int step) {
+    Scene scene = sheet(n, 1, options);
+    for (int p = 0; p < n; p += step) scene.pin(0, {p});
+    return scene;
+  };
+  expect_chosen(sheet(64, 1, options), Sweep::chains, 20, why);
+  expect_chosen(hung(64, 63), Sweep::chains, 76, why);
+  expect_chosen(hung(64, 64), Sweep::chains, 76, why);  // one corner
+  expect_chosen(hung(64, 21), Sweep::chains, 52, why);  // four pins
+  expect_chosen(hung(64, 1), Sweep::chains, 20, why);
+  expect_chosen(hung(144, 143), Sweep::chains, 160, why);
+  Scene attached_at_corners = sheet(64, 1, options);
+  for (const int p : {0, 63})
+    attached_at_corners.objects[0].attachments.push_back(attached(attached_at_corners.objects[0], p));
+  expect_chosen(attached_at_corners, Sweep::chains, 76, why);
+  Scene tiled = hung(64, 63);
+  tiled.objects[0].sweep = Sweep::tiled;
+  EXPECT_EQ(chosen_substeps(tiled), std::vector<int>{20});
 }
 
 TEST(ChosenSettings, ArePlainForWhatIsCoarse) {

@@ -2,7 +2,7 @@
 //
 // An unfinished solve acts like a spring: strain that it leaves is corrected in the next substep, with a velocity of
 // strain / h, so the energy stored in it goes with the square of strain / h. If the State demands more substeps in the middle of an impact,
-// h decreases while the strain stays, and that energy multiplies (docs/internals/default_settings.md). So in a quarter that has more
+// h decreases while the strain stays, and that energy multiplies (docs/internals/default_settings_tried.md). So in a quarter that has more
 // substeps than the last one only a share of the corrections becomes velocity. Positions are corrected wholly.
 //
 // The share is the same for all particles of a group, so corrections still conserve momentum. Without corrections a
