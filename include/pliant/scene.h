@@ -305,9 +305,10 @@ struct Settings {
   Sweep sweep = Sweep::automatic;
   SweepOptions sweep_options{};
   bool contact_filter = true;  ///< truncate steps that would make colliding surfaces cross
-  /// The largest number of substeps of a frame, 1..10000. Where they follow the State, 0 means 100, and below four it is their
-  /// fixed number. Elsewhere a frame gets more, so that no mesh collider near an object moves more than half the thickness
-  /// in each, as the filter cannot limit it; the Report warns. 0: eight times `substeps`; up to `substeps`: never more.
+  /// The largest number of substeps of a frame, 1..10000. Where they follow the State, 0 means 100, or 200 for ropes
+  /// alone, and below four it is their fixed number. Elsewhere a frame gets more, so that no mesh collider near an
+  /// object moves more than half the thickness in each, as the filter cannot limit it; the Report warns. 0: eight times
+  /// `substeps`; up to `substeps`: never more.
   int most_substeps = 0;
   /// The least number of substeps of a frame where they follow the State, rounded up to a multiple of four; up to
   /// most_substeps. 0: 12, or 8 for cloth that only hangs by tethers. No effect elsewhere.
@@ -352,12 +353,12 @@ struct Scene {
 };
 
 /// Returns the sweep of one object: its own, else that of the settings, else the one that measured best on such
-/// objects. Cloth and rope of 32 particles or more is solved by `tethered_chains` if it is regular, hangs from pins that
-/// rest or move as one, is not meant to stretch, and has a bending length (B / rho g)^(1/3) up to a quarter of its size
-/// (no PBD stiffness of bending). Irregular cloth that can touch no surface and no collider, and bends as easily, is solved
-/// by `multigrid`, and the rest by `chains`. It is `tiled` where none of these helps: a volume inflated against stiff edges,
-/// PBD stiffness of all distances, or several iterations. Smaller objects use the sweep of all others. If the sweep was left
-/// open, `reason` receives the deciding fact.
+/// objects. Cloth and rope of 32 particles or more is solved by `tethered_chains` if it is regular, hangs from pins (or
+/// attachments that hardly yield) that rest or move as one, is not meant to stretch, and has a bending length (B / rho
+/// g)^(1/3) up to a quarter of its size (no PBD stiffness of bending). Irregular cloth that can touch no surface and no
+/// collider, and bends as easily, is solved by `multigrid`, and the rest by `chains`. It is `tiled` where none of these
+/// helps: a volume inflated against stiff edges, PBD stiffness of all distances, or several iterations. Smaller objects
+/// use the sweep of all others. If the sweep was left open, `reason` receives the deciding fact.
 Sweep chosen_sweep(const Scene& scene, int object, std::string* reason = nullptr);
 
 /// Returns the substeps per frame of each object: those of the settings, or, if they are 0, those of its set. A set
@@ -366,7 +367,8 @@ Sweep chosen_sweep(const Scene& scene, int object, std::string* reason = nullptr
 /// the State: they are decided in each quarter of a frame by strain and motion. They do so if an object of the set is
 /// solved by chains, not meant to stretch, and not both small (fewer than 400 particles, 48 in a rope) and able to touch,
 /// and none has PBD stiffness between 0 and 1. Other sets have 80 to 160 with a volume; 5 if all use `multigrid`, 10 if one
-/// can touch, is in wind or a force field, or has pins that move or lie together; else 20. A tolerance makes one set of all.
+/// can touch, is in wind or a force field, or has pins that move or lie together; up to 160 with a sheet that is meant to
+/// stretch and hangs from few of its particles; else 20. A tolerance makes one set of all.
 std::vector<int> chosen_substeps(const Scene& scene);
 
 /// Returns the settings of a World of this scene; what the scene leaves open is chosen by its content.

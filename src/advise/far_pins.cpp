@@ -65,6 +65,7 @@ FarPins farthest(const Object& object, double gravity, double time) {
   FarPins found;
   if (held.size() < 2) return found;
   std::vector<int> sources;
+  sources.reserve(held.size());
   for (const auto& one : held) sources.push_back(one.first);
   const std::vector<std::vector<NearSource>> near = nearest_sources(mesh_of(object), sources, nearest_groups);
   for (const int from : sources)

@@ -37,6 +37,8 @@ constexpr double swinging_share = 0.25;
 bool hangs(const CompiledObject& object) {
   if (object.sweep != Sweep::tethered_chains || object.surface.triangles.empty()) return false;
   std::vector<Vec3f> all, anchors;
+  all.reserve(object.positions.size());
+  anchors.reserve(object.tethers.anchors.size());
   for (const Record& p : object.positions) all.push_back({p.x, p.y, p.z});
   for (const int anchor : object.tethers.anchors) anchors.push_back(all[static_cast<std::size_t>(anchor)]);
   return largest_extent(anchors) > swinging_share * largest_extent(all);
