@@ -16,6 +16,7 @@
 #include "model/length_ranges.h"
 #include "model/object_sets.h"
 #include "model/stiffness.h"
+#include "topology/boundary.h"
 #include "topology/colouring.h"
 #include "topology/tiles.h"
 
@@ -348,6 +349,14 @@ void fill_corners(CompiledObject& out) {
   }
 }
 
+/// True if no particle is kinematic, and the triangles connect all of them.
+bool is_one_free_surface(const Object& object, const CompiledObject& out) {
+  for (int p = 0; p < out.particles; ++p)
+    if (!(out.positions[p].w > 0) || out.surface.corner_begin[p] == out.surface.corner_begin[p + 1]) return false;
+  const int triangles = static_cast<int>(object.triangles.size());
+  return find_pieces(find_edges(object.triangles, out.particles), triangles).count == 1;
+}
+
 void fill_volume(const Object& object, int passes, CompiledObject& out) {
   if (!object.volume) return;
   double six_volumes = 0;
@@ -368,6 +377,7 @@ void fill_volume(const Object& object, int passes, CompiledObject& out) {
     const bool is_free = out.positions[p].w > 0 && out.surface.corner_begin[p] < out.surface.corner_begin[p + 1];
     out.volume.mass += is_free ? 1.0 / out.positions[p].w : 0;
   }
+  out.volume.keeps_momentum = object.volume->pressure > 1 && is_one_free_surface(object, out);
 }
 
 /// Adds the phases of volume and tethers, and sorts all phases by driver.

@@ -70,6 +70,8 @@ struct CompiledVolume {
   Law law = Law::compliant;
   float response = 0;  ///< compliance alpha or PBD stiffness k'
   float damping = 0;
+  bool keeps_momentum =
+      false;  ///< true: its own constraints may not turn or move the object as a whole (solver/momentum.h)
 };
 
 /// A range of segments, some of which hold distance constraints: a task of loops that only measure these.

@@ -35,15 +35,18 @@ struct UpdatePoint {
   }
 };
 
-/// Starts a particle's substep: d = residue + h (v + gravity).
+/// The displacement with which a particle starts a substep: residue + h (v + gravity).
+PLIANT_HD Record predicted_displacement(const AdvanceArguments& a, int i) {
+  const Record &r = a.remainders[i], &v = a.velocities[i];
+  const Vec3f gravity = gravity_on(a.positions[i], a.gravity_begun);
+  return {r.x + (v.x + gravity.x) * a.h, r.y + (v.y + gravity.y) * a.h, r.z + (v.z + gravity.z) * a.h, 0};
+}
+
+/// Starts a particle's substep.
 struct PredictPoint {
   AdvanceArguments a;
 
-  PLIANT_HD void operator()(int i) const {
-    const Record &r = a.remainders[i], &v = a.velocities[i];
-    const Vec3f gravity = gravity_on(a.positions[i], a.gravity_begun);
-    a.displacements[i] = {r.x + (v.x + gravity.x) * a.h, r.y + (v.y + gravity.y) * a.h, r.z + (v.z + gravity.z) * a.h, 0};
-  }
+  PLIANT_HD void operator()(int i) const { a.displacements[i] = predicted_displacement(a, i); }
 };
 
 /// True if x, y and z are finite: x - x is zero for finite x, otherwise NaN.

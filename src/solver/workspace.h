@@ -14,6 +14,7 @@
 #include "solver/contact_log.h"
 #include "solver/contact_solver.h"
 #include "solver/limit.h"
+#include "solver/momentum.h"
 #include "solver/residual.h"
 #include "solver/sweeps/sweep.h"
 
@@ -36,6 +37,8 @@ struct alignas(64) TileScratch {
   int impacts = 0;  ///< on colliders, within the next quarter of a frame (impacts.h)
   CorrectionEnergy energy;
   double gradient_squared = 0, position_along = 0, motion_along = 0;  ///< sums of the volume constraint
+  RigidSums rigid;                                                    ///< of inflated objects
+  DisplacementMomentum noted;                                         ///< before an iteration, likewise
 };
 
 /// For how long gravity of this frame has acted on an object's particles, reduced by damping [s].
@@ -70,7 +73,8 @@ struct SubstepScratch {
   std::vector<AlignedVector<float>> chains;  ///< for each thread that solves chains, room for the longest
   std::vector<float> demands;                ///< substeps that constraints demand (substep_law.h)
   ImpactScratch impacts;
-  LimitScratch limit;  ///< the limit of overstretch
+  LimitScratch limit;                  ///< the limit of overstretch
+  std::vector<RigidStep> rigid_steps;  ///< [object] if it is inflated (momentum.h)
 };
 
 /// Memory that a World reuses from step to step. Over fifteen members: each stage of a substep has buffers of its own.

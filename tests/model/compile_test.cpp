@@ -345,6 +345,36 @@ TEST(Compile, MovingPinsAndTargetsAreKinematic) {
   EXPECT_EQ(compiled.kinematics[0].rest, object.positions[0]);
 }
 
+/// Momentum is conserved where the volume is in conflict with the lengths, and nothing but contact takes it away.
+TEST(Compile, MomentumIsConservedOfOneFreeInflatedSurface) {
+  Object ball;
+  const TriangleMesh mesh = sphere_mesh(1);
+  ball.positions = mesh.positions;
+  ball.triangles = mesh.triangles;
+  ball.masses.assign(ball.positions.size(), 1);
+  ball.volume = Volume{1.1f, Stiffness::rigid()};
+  EXPECT_TRUE(compile(ball, {}).volume.keeps_momentum);
+
+  Object level = ball;
+  level.volume->pressure = 1;
+  EXPECT_FALSE(compile(level, {}).volume.keeps_momentum);
+  Object pinned = ball;
+  pinned.pins.push_back({3, {}});
+  EXPECT_FALSE(compile(pinned, {}).volume.keeps_momentum);
+  Object with_string = ball;
+  with_string.positions.push_back({0, -2, 0});
+  with_string.masses.push_back(1);
+  EXPECT_FALSE(compile(with_string, {}).volume.keeps_momentum);
+  Object two = ball;
+  for (const auto& t : mesh.triangles) {
+    const int first = static_cast<int>(mesh.positions.size());
+    two.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  for (const Vec3f& p : mesh.positions) two.positions.push_back(p + Vec3f{3, 0, 0});
+  two.masses.assign(two.positions.size(), 1);
+  EXPECT_FALSE(compile(two, {}).volume.keeps_momentum) << "each would turn on";
+}
+
 TEST(Compile, TheStarOfFiveHundredEdges) {
   Object star;
   star.positions.push_back({});

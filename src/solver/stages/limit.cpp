@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "solver/drivers/contacts.h"
+#include "solver/momentum.h"
 #include "solver/stages/solve_again.h"
 #include "solver/stages/stages.h"
 
@@ -124,7 +125,9 @@ void limit(Substep& s) {
   if (s.lengths().empty() || !(s.context.options.most_overstretch > 0)) return;
   for (int round = 0; round < most_rounds && choose_searched(s, round, scratch) && find_all(s, scratch); ++round) {
     list_all(s, scratch);
+    note_momentum(s, &scratch.is_moved);
     shorten_all(s, scratch.limited);
+    conserve_momentum(s, Since::note, &scratch.is_moved);
     project_contacts_of(s, "limit: contacts", scratch.is_moved, overlap_left);
   }
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "solver/drivers/driver.h"
+#include "solver/momentum.h"
 #include "solver/residual.h"
 #include "solver/stages/stages.h"
 #include "solver/sweeps/chebyshev.h"
@@ -36,7 +37,9 @@ void iterate(Substep& s, int iteration) {
     if (!uses(s, sweep)) continue;
     s.group = &group;
     if (group.acceleration) keep_iterate(s, iteration);
+    if (iteration > 0) note_momentum(s);
     group.method->iterate(s, iteration == 0);
+    conserve_momentum(s, iteration == 0 ? Since::prediction : Since::note);
     if (group.acceleration) accelerate(s, iteration);
   }
   s.group = nullptr;

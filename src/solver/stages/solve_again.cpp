@@ -8,6 +8,7 @@
 
 #include "solver/drivers/contacts.h"
 #include "solver/drivers/driver.h"
+#include "solver/momentum.h"
 #include "solver/object_lookup.h"
 #include "solver/stages/stages.h"
 
@@ -51,7 +52,9 @@ void solve_again(Substep& s) {
   std::vector<char>& is_pressed = s.own->limit.is_moved;
   if (!find_pressed(s, is_pressed)) return;
   for (int round = 0; round < rounds; ++round) {
+    note_momentum(s, &is_pressed);
     solve_chains(s, is_pressed);
+    conserve_momentum(s, Since::note, &is_pressed);
     project_contacts_of(s, "solve: contacts among surfaces", is_pressed, overlap_left);
   }
 }
