@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <atomic>
 #include <vector>
 
 #include "solver/stages/stages.h"
@@ -8,6 +7,10 @@
 namespace pliant {
 
 namespace {
+
+/// Several threads may set one flag at the same time. By the compilers' own function, because not all supported libraries have
+/// std::atomic_ref.
+void set_flag(char& flag) { __atomic_store_n(&flag, 1, __ATOMIC_RELAXED); }
 
 /// Upper limit of passes that end impacts. Each propagates velocity changes from one contact of a vertex to its other
 /// ones.
@@ -34,7 +37,7 @@ void end_impacts(Substep& s, FunctionRef<Vec3f(int)> gravity, float slow) {
       const std::size_t set = pairs.set_of(contact);
       if (goes_on[set] == 0) return;
       const float approach = pairs.end_impact(contact, positions, velocities, gravity);
-      if (approach * s.h > share_left * contact.thickness) std::atomic_ref(again[set]).store(1, std::memory_order_relaxed);
+      if (approach * s.h > share_left * contact.thickness) set_flag(again[set]);
     });
     for_impacts([&](const Contact& contact) {
       if (goes_on[pairs.set_of(contact)] != 0) pairs.respond(contact, positions, velocities, slow, gravity);
