@@ -365,7 +365,7 @@ Sweep chosen_sweep(const Scene& scene, int object, std::string* reason = nullptr
 /// consists of objects and mesh colliders (as triangles) whose surfaces can touch, by groups, masks and `collides`,
 /// directly or through others. An object that touches nothing is a set of its own. 0 stands for substeps that follow
 /// the State: they are decided in each quarter of a frame by strain and motion. They do so if an object of the set is
-/// solved by chains, not meant to stretch, and not both small (fewer than 400 particles, 48 in a rope) and able to touch,
+/// solved by chains and not meant to stretch,
 /// and none has PBD stiffness between 0 and 1. Other sets have 80 to 160 with a volume; 5 if all use `multigrid`, 10 if one
 /// can touch, is in wind or a force field, or has pins that move or lie together; up to 160 with a sheet that is meant to
 /// stretch and hangs from few of its particles; else 20. A tolerance makes one set of all.

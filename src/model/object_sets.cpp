@@ -61,9 +61,6 @@ CompliancePerLength compliance_per_length(const Object& object, const Constraint
   return of;
 }
 
-/// Smaller objects that can touch keep a fixed number, for which they share a group: contact of each group has arrays over all
-/// particles.
-constexpr std::size_t fewest_touching_by_state = 400, fewest_of_a_touching_rope_by_state = 48;
 /// Substeps of objects solved by `multigrid` that nothing disturbs.
 constexpr int substeps_of_undisturbed_multigrid = 5;
 /// Pins within this share of an object's extent lie together: it swings about them.
@@ -229,9 +226,7 @@ bool is_meant_to_stretch(const Object& object, double gravity) {
 SubstepRule substep_rule(const Object& object, Sweep sweep, double gravity) {
   if (has_converted(object)) return SubstepRule::fixed;
   if (object.volume) return SubstepRule::any;  // chosen by measurements of volumes, not of strain
-  const std::size_t fewest = object.triangles.empty() ? fewest_of_a_touching_rope_by_state : fewest_touching_by_state;
-  const bool touches = object.self_collision || object.collides;
-  if (!solves_chains(sweep) || (touches && object.positions.size() < fewest)) return SubstepRule::any;
+  if (!solves_chains(sweep)) return SubstepRule::any;
   const std::optional<double> strain = strain_by_weight(object, gravity);
   return strain && *strain <= most_strain_by_weight ? SubstepRule::by_state : SubstepRule::any;
 }

@@ -62,7 +62,7 @@ std::optional<double> strain_by_weight(const Object& object, double gravity);
 bool is_meant_to_stretch(const Object& object, double gravity);
 
 /// Objects solved by chains follow the State, unless they are meant to stretch: the law sees strain, not what force
-/// explains. Nor do objects that can touch and have fewer than 400 particles, 48 without triangles.
+/// explains. It does not matter how small they are, nor whether they can touch.
 SubstepRule substep_rule(const Object& object, Sweep sweep, double gravity);
 
 /// The data that determine the set of an object or mesh collider.

@@ -108,8 +108,7 @@ TEST(ObjectSets, LeaveOutWhatBendsARope) {
   EXPECT_EQ(substep_rule(rope(60, 0), Sweep::tiled, gravity), SubstepRule::any);
   Object touching = rope(40, 0);
   touching.self_collision = true;
-  EXPECT_EQ(substep_rule(touching, Sweep::chains, gravity), SubstepRule::any)
-      << "small objects that can touch share a group";
+  EXPECT_EQ(substep_rule(touching, Sweep::chains, gravity), SubstepRule::by_state);
 }
 
 }  // namespace
