@@ -55,7 +55,7 @@ struct Advice {
   bool cut_short = false;  ///< true if time ran out before all trials were done
   /// Warnings of the frames of `own`, of each kind the first (WarningLog). One more for each object without self-collision
   /// whose triangles pass through one another at the end of `own`, and did not at the start; and one if two objects that may
-  /// meet by groups and masks, but do not both have `collides`, have passed through each other.
+  /// meet by groups and masks, but do not both have `collides`, pass through each other in one of the frames.
   std::vector<std::string> warnings;
   std::string words;       ///< what is wrong, in one sentence; empty if nothing was found in `own.frames` frames
   std::string what_to_do;  ///< what to do about the overstretch

@@ -41,6 +41,9 @@ constexpr double own_share = 0.3;
 /// substeps with 1 substep, 85 % with 2, and 92 % with 4.
 int least_substeps_of(const Settings& settings) { return settings.sweep == Sweep::multigrid ? 4 : 1; }
 
+/// Frames between searches for objects that pass through one another.
+constexpr int frames_between_looks = 4;
+
 Clock::time_point after(double seconds) {
   const std::chrono::duration<double> limited(seconds > 0 ? std::min(seconds, 1e6) : 0.0);  // within the range of the clock
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(limited);
@@ -96,6 +99,7 @@ class Trials {
     World world(found != nullptr ? scene_ : open_, settings);
     Report last;
     WarningLog warnings;
+    PassingObjects passing(scene_);
     bool goes_on = true;
     while (goes_on && trial.frames < frames_) {
       last = world.step(scene_.frame_time);
@@ -103,24 +107,28 @@ class Trials {
       warnings.add(last);
       trial.milliseconds += (last.milliseconds - trial.milliseconds) / trial.frames;
       keep_worst(last, trial);
+      const bool is_looked_at =
+          found != nullptr && last.ok() && (trial.frames % frames_between_looks == 0 || trial.frames == frames_);
+      if (is_looked_at) passing.look(world, [&] { return is_over(end_); });
       const bool measurable = trial.worst.constraints > 0;
       trial.worse = excess(trial.worst) > std::max(bound, 1.);
       const bool is_own = found != nullptr && !is_tolerable(trial.worst);
       goes_on = measurable && last.ok() && !trial.worse && !is_over(is_own ? own_end_ : end_);
       trial.complete = last.ok() && (trial.frames == frames_ || !measurable);
     }
-    if (found != nullptr) tell(world, trial, last, warnings.lines(), *found);
+    if (found != nullptr) tell(world, trial, last, warnings.lines(), passing, *found);
     return trial;
   }
 
   /// Adds to `found` what the trial of the scene's own settings showed.
   void tell(const World& world, const Trial& trial, const Report& last, const std::vector<std::string>& warnings,
-            Advice& found) const {
+            const PassingObjects& passing, Advice& found) const {
     if (!is_tolerable(trial.worst)) found.words = in_words(world, trial, last);
     if (!last.ok()) return;  // its words contain the warnings, and its positions mean nothing
     found.warnings = warnings;
-    const std::vector<std::string> passed = passed_through(scene_, world);
+    const std::vector<std::string> passed = passed_through_themselves(scene_, world);
     found.warnings.insert(found.warnings.end(), passed.begin(), passed.end());
+    if (const std::string warning = passing.warning(); !warning.empty()) found.warnings.push_back(warning);
   }
 
   bool is_over(Clock::time_point end) const { return Clock::now() >= end || (stops_ && stops_()); }

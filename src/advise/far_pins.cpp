@@ -9,6 +9,7 @@
 #include "math/motion.h"
 #include "math/vector.h"
 #include "model/attachments.h"
+#include "model/object_sets.h"
 #include "topology/geodesics.h"
 #include "world/advice.h"
 
@@ -83,8 +84,10 @@ std::string advice_for_far_pins(const Scene& scene, const Trial& trial) {
   const auto number = static_cast<std::size_t>(trial.worst.object);
   if (trial.worst.object < 0 || number >= scene.objects.size()) return {};
   const Object& object = scene.objects[number];
+  const auto gravity = static_cast<double>(length(scene.gravity));
+  if (is_meant_to_stretch(object, gravity)) return {};  // other settings may well hold it
   const double time = static_cast<double>(trial.frame) * static_cast<double>(scene.frame_time);
-  const FarPins found = farthest(object, static_cast<double>(length(scene.gravity)), time);
+  const FarPins found = farthest(object, gravity, time);
   if (found.from < 0 || found.apart <= (1 + tolerated_p99) * found.along) return {};
   return "no settings keep its lengths: particles " + std::to_string(found.from) + " and " + std::to_string(found.to) +
          ", which are pinned or attached, are " + two_digits(found.apart) +

@@ -17,7 +17,8 @@ constexpr double flat_share = 0.1;
 constexpr double facing = 0.9;
 
 double size_of(const ConvexShape& shape) {
-  if (shape.kind == ConvexShape::Kind::polyhedron) return static_cast<double>(largest(shape.polyhedron->corners[0]));
+  if (shape.kind == ConvexShape::Kind::polyhedron)
+    return static_cast<double>(largest(shape.polyhedron->corners[0] - shape.polyhedron->centre));
   return static_cast<double>(std::max(shape.core_radius, shape.half_length));
 }
 

@@ -19,7 +19,7 @@ constexpr int most_steps = 64;
 constexpr double accuracy = 1e-13;
 /// The polytope stops growing when that would move its nearest face by less than this share of the solids' size.
 constexpr double growth = 1e-7;
-/// Cores nearer than this share of their size count as overlapping.
+/// Cores nearer than this, times a metre and their size, count as overlapping.
 constexpr double contact = 1e-10;
 
 /// Directions to try where nothing is known: of a cube's faces and corners.
@@ -177,20 +177,22 @@ struct Side {
 
 class Polytope {
  public:
-  Polytope(const Difference& difference, const Simplex& simplex) : difference_(difference) {
+  Polytope(const Difference& difference, const Simplex& simplex) : difference_(difference), simplex_(simplex) {
     for (int i = 0; i < simplex.count; ++i) vertices_.push_back(simplex.corners[i]);
     complete();
   }
 
   /// The least way out of the difference. Empty volume, which flat cores make, gives a depth of zero.
   ConvexDistance depth() {
-    if (!is_solid_) return flat();
-    int nearest = nearest_side();
+    int nearest = is_solid_ ? nearest_side() : -1;
+    if (nearest < 0) return flat();
     for (int step = 0; step < most_steps; ++step) {
       const Side side = sides_[static_cast<std::size_t>(nearest)];
       const Vertex next = difference_.support(side.normal);
       if (dot(next.w, side.normal) - side.distance <= growth * size_ || !grow(next)) break;
-      nearest = nearest_side();
+      const int next_nearest = nearest_side();
+      if (next_nearest < 0) return way_out(side);
+      nearest = next_nearest;
     }
     return way_out(sides_[static_cast<std::size_t>(nearest)]);
   }
@@ -245,7 +247,7 @@ class Polytope {
     return best;
   }
 
-  /// Replaces the sides that a point sees. False if it sees none, or if the border of these is not one loop.
+  /// Replaces the sides that a point sees. False if it sees none.
   bool grow(const Vertex& next) {
     std::vector<std::pair<int, int>> border;
     std::vector<std::size_t> seen;
@@ -295,7 +297,7 @@ class Polytope {
       if (length_squared(across) > length_squared(normal)) normal = across;
     }
     if (length(normal) <= 1e-12 * length_squared(along)) normal = perpendicular(along);
-    return {0, unit_or(normal, Vec3d{0, 1, 0}), first.on_a, first.on_a};
+    return {0, unit_or(normal, Vec3d{0, 1, 0}), simplex_.on_a(), simplex_.on_b()};
   }
 
   /// A vector across another one; upward, if that is not long.
@@ -308,6 +310,7 @@ class Polytope {
   }
 
   const Difference& difference_;
+  Simplex simplex_;  ///< the nearest points of the cores, where these only touch
   std::vector<Vertex> vertices_;
   std::vector<Side> sides_;
   double size_ = 0;

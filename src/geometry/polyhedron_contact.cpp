@@ -6,13 +6,14 @@
 #include <cstdint>
 #include <optional>
 
+#include "geometry/convex_distance.h"
 #include "math/vector.h"
 
 namespace pliant {
 
 namespace {
 
-/// An axis must be better by this share of the smaller polyhedron's depth to replace one of a preferred kind.
+/// An axis must be better by this share of the smaller polyhedron's size to replace one of a preferred kind.
 constexpr float preference = 1e-3f;
 /// Edges more parallel than this have no axis [sine].
 constexpr float parallel = 1e-3f;
@@ -80,12 +81,27 @@ float size_of(const Polyhedron& p) { return largest(p.corners.front() - p.centre
 
 // ------------------------------------------------------------------------------------------------ points
 
-/// The face of `p` whose normal is most opposite.
+/// Of the faces of `p` that have its lowest corner along a normal the one that faces it most.
 int facing(const Polyhedron& p, const Vec3f& normal) {
-  int best = 0;
-  for (int f = 1; f < p.faces(); ++f)
-    if (dot(p.normals[f], normal) < dot(p.normals[best], normal)) best = f;
+  const float least = lowest(p, normal);
+  int best = -1;
+  for (int f = 0; f < p.faces(); ++f) {
+    const auto first = p.face_corners.begin() + p.first_of_face[f], last = first + p.corners_of(f);
+    if (std::none_of(first, last, [&](int corner) { return dot(normal, p.corners[corner]) <= least; })) continue;
+    if (best < 0 || dot(p.normals[f], normal) < dot(p.normals[best], normal)) best = f;
+  }
   return best;
+}
+
+/// The nearest places of two polyhedra, as one point.
+Touch nearest_touch(const Polyhedron& a, const Polyhedron& b) {
+  using Kind = ConvexShape::Kind;
+  const ConvexDistance nearest = convex_distance({Kind::polyhedron, 0, 0, 0, &a}, {Kind::polyhedron, 0, 0, 0, &b}, {});
+  Touch out;
+  out.normal = nearest.normal;
+  out.count = 1;
+  out.points[0] = {nearest.on_a, nearest.on_b, nearest.separation, 0x10000000u};
+  return out;
 }
 
 /// The points of the face of `incident` that is turned to face `face` of `reference`.
@@ -134,9 +150,12 @@ SeparatingAxis separating_axis(const Polyhedron& a, const Polyhedron& b) {
 Touch touch(const Polyhedron& a, const Polyhedron& b, float margin) {
   const SeparatingAxis axis = separating_axis(a, b);
   if (axis.separation > margin) return {};
-  if (axis.kind == SeparatingAxis::Kind::face_of_a) return face_touch(a, b, axis.a, false, margin);
-  if (axis.kind == SeparatingAxis::Kind::face_of_b) return face_touch(b, a, axis.b, true, margin);
-  return edge_touch(a, b, axis);
+  if (axis.kind == SeparatingAxis::Kind::edges) return edge_touch(a, b, axis);
+  const bool by_a = axis.kind == SeparatingAxis::Kind::face_of_a;
+  const Touch found = by_a ? face_touch(a, b, axis.a, false, margin) : face_touch(b, a, axis.b, true, margin);
+  if (found.count > 0) return found;
+  const Touch nearest = nearest_touch(a, b);  // slim ones may meet beside the face
+  return nearest.points[0].separation <= static_cast<double>(margin) ? nearest : found;
 }
 
 }  // namespace pliant

@@ -26,7 +26,7 @@ struct TreeBlock {
 
 namespace block_tree {
 
-/// A pivot below this share of its diagonal element is rounding: its unknown depends on earlier ones and becomes zero.
+/// A pivot below this share of the terms that made it is rounding: its unknown depends on earlier ones and becomes zero.
 template <class R>
 constexpr R least_pivot = R(1e-6);
 
@@ -36,10 +36,14 @@ std::array<bool, most_of_block> factorise(TreeBlock<R>& block) {
   std::array<bool, most_of_block> lost{};
   auto& m = block.diagonal;
   for (int i = 0; i < block.size; ++i) {
-    const R whole = m[i][i] < 0 ? -m[i][i] : m[i][i];
+    R whole = m[i][i] < 0 ? -m[i][i] : m[i][i];
     for (int j = 0; j <= i; ++j) {
       R left = m[i][j];
-      for (int k = 0; k < j; ++k) left = left - m[i][k] * m[k][k] * m[j][k];
+      for (int k = 0; k < j; ++k) {
+        const R term = m[i][k] * m[k][k] * m[j][k], size = term < 0 ? -term : term;
+        if (i == j && size > whole) whole = size;
+        left = left - term;
+      }
       m[i][j] = i == j ? left : lost[j] ? R(0) : left / m[j][j];
     }
     const R pivot = m[i][i] < 0 ? -m[i][i] : m[i][i];

@@ -74,9 +74,10 @@ std::vector<int> held_by_targets(const Object& object, double gravity) {
   for (std::size_t i = 0; i < object.attachments.size(); ++i) {
     const Attachment& attachment = object.attachments[i];
     const auto p = static_cast<std::size_t>(attachment.particle);
-    if (p >= object.masses.size() || !std::isfinite(object.masses[p]) || !test.is_rigid(attachment)) continue;
-    held[p] = static_cast<int>(object.positions.size() + i);
-    any = true;
+    if (p >= object.masses.size() || !std::isfinite(object.masses[p])) continue;
+    const bool is_rigid = test.is_rigid(attachment);  // the last one of a particle counts, as it is projected last
+    held[p] = static_cast<int>(is_rigid ? object.positions.size() + i : p);
+    any = any || is_rigid;
   }
   for (const Pin& pin : object.pins) held[static_cast<std::size_t>(pin.particle)] = pin.particle;  // stays at its pin
   return any ? held : std::vector<int>{};

@@ -115,6 +115,7 @@ SubstepGroup* same_before(const GroupsBefore& before, const SubstepGroup& group)
 void take_over(SubstepGroup& from, SubstepGroup& group) {
   group.hangs = from.hangs;
   group.least_hanging = from.least_hanging;
+  group.has_sheets = from.has_sheets;
   group.sweeps = std::move(from.sweeps);
   group.lengths = std::move(from.lengths);
   group.phases = std::move(from.phases);

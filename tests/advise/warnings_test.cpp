@@ -64,6 +64,25 @@ TEST(Warnings, OfATrialNameObjectsThatPassThroughEachOther) {
   EXPECT_EQ(advise(changing_places(true, true), unhurried).warnings, std::vector<std::string>{});
 }
 
+/// When all is over they are apart again, and neither crosses anything in the last frame.
+TEST(Warnings, OfATrialNameObjectsThatHavePassedThroughEachOther) {
+  Scene scene = changing_places(false, false);
+  scene.frames = 30;
+  const std::vector<std::string> warnings = advise(scene, unhurried).warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].rfind("frame 4: object 'upper' passes through object 'lower' in ", 0), 0U) << warnings[0];
+}
+
+TEST(Warnings, AreNotGivenWhereNothingCanMove) {
+  Scene scene = changing_places(false, false);
+  for (Object& object : scene.objects) {
+    for (std::size_t p = 0; p < object.positions.size(); ++p)
+      object.pins.push_back({static_cast<int>(p), straight({0, object.name == "upper" ? -0.5f : 0.5f, 0}, 0.1f)});
+    object.velocities.clear();
+  }
+  EXPECT_EQ(advise(scene, unhurried).warnings, std::vector<std::string>{});
+}
+
 TEST(Warnings, AreNotGivenWhereMasksKeepObjectsApart) {
   Scene scene = changing_places(false, false);
   EXPECT_EQ(advise(scene, unhurried).warnings.size(), 1U);

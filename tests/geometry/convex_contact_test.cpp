@@ -84,6 +84,14 @@ TEST_F(Contact, AHullWithAMarginTouchesAtItsFace) {
   expect_all_at(on_floor({Kind::polyhedron, 0.05f, 0, 0, &box}, 0.25), 4, -0.001);
 }
 
+/// A hull whose frame is at one of its corners touches like any other.
+TEST_F(Contact, AHullsFrameDoesNotMatter) {
+  const Polyhedron cornered = moved(polyhedron_of_box({0.5f, 0.5f, 0.5f}), {{0.5f, 0.5f, 0.5f}, {}});
+  const ConvexShape box{Kind::polyhedron, 0, 0, 0, &cornered}, cylinder{Kind::cylinder, 0, 0.4f, 0.5f, nullptr};
+  const Quatd tilted{0.0005, 0, 0, 1};
+  EXPECT_EQ(touch(cylinder, box, {{-0.5, 0.499, -0.5}, normalise(tilted)}, 0.01).count, 4);
+}
+
 TEST_F(Contact, WhatHangsOverTouchesOnlyAbove) {
   const ConvexShape cylinder{Kind::cylinder, 0, 0.3f, 0.5f, nullptr};
   const Touch found = touch(floor_, cylinder, {{4.9, 1.3, 0}, quarter}, 0.01);

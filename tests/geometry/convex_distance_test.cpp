@@ -128,6 +128,8 @@ TEST(ConvexDistance, OfCapsulesWithCommonPointsIsAcross) {
   const ConvexDistance on_axis = convex_distance(capsule, ball(0.3f), {{0, 0.5, 0}, {}});
   EXPECT_NEAR(on_axis.separation, -0.4, 1e-6);
   EXPECT_NEAR(on_axis.normal.y, 0, 1e-9);
+  EXPECT_NEAR(on_axis.on_a.y, 0.5, 1e-6) << "where the ball is, not at the capsule's end";
+  EXPECT_NEAR(crossed.on_a.y, 0, 1e-6);
 }
 
 TEST(ConvexDistance, OfACylinderThatStandsOrLiesIsThatToTheFloor) {

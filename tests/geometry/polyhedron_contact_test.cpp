@@ -118,6 +118,27 @@ TEST(PolyhedronContact, PointsLieOnBothAndSeparationIsBetweenThem) {
   EXPECT_GT(touching, 500);
 }
 
+/// Slim hulls may meet beside the face that separates them best; what overlaps touches all the same.
+TEST(PolyhedronContact, SlimHullsThatOverlapTouch) {
+  Random random(9);
+  int overlapping = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const auto slim = [&] {
+      std::vector<Vec3f> points;
+      for (int i = 0; i < 6; ++i) {
+        const Vec3f p = random.vector();
+        points.push_back({p.x, 0.15f * p.y, 0.05f * p.z});
+      }
+      return polyhedron_of(*convex_hull(points));
+    };
+    const Polyhedron a = slim(), b = moved(slim(), random.pose(0.4f));
+    if (separating_axis(a, b).separation >= 0) continue;
+    ++overlapping;
+    EXPECT_GT(touch(a, b, 0.01f).count, 0) << trial;
+  }
+  EXPECT_GT(overlapping, 300);
+}
+
 TEST(PolyhedronContact, ABoxOnABoxTouchesAtFourCorners) {
   const Polyhedron below = polyhedron_of_box({1, 0.5f, 1});
   const Polyhedron above = moved(polyhedron_of_box({0.5f, 0.25f, 0.4f}), {{0.2f, 0.749f, 0.1f}, {}});

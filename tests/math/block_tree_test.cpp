@@ -113,5 +113,23 @@ TEST(BlockTree, RepeatedRowsAreLeftOut) {
   EXPECT_EQ(blocks[1].x[1], 0);
 }
 
+/// Also inside of a block, where a joint's rows have no diagonal of their own.
+TEST(BlockTree, RepeatedRowsOfABlockAreLeftOut) {
+  Blocks blocks(1);
+  blocks[0].size = 6;
+  for (int r = 0; r < 3; ++r) blocks[0].diagonal[std::size_t(r)][std::size_t(r)] = 3 + r;
+  const double rows[3][3] = {{0.3, 0.1, 0.7}, {0.2, -0.4, 0.1}, {0.5, -0.3, 0.8}};  // the third is the sum
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) blocks[0].diagonal[std::size_t(3 + r)][std::size_t(c)] = rows[r][c];
+  for (int r = 0; r < 3; ++r) blocks[0].x[std::size_t(3 + r)] = r < 2 ? 0.01 : 0.021;  // and demands 1 mm more
+  solve_block_tree(blocks);
+  EXPECT_EQ(blocks[0].x[5], 0);
+  for (int r = 0; r < 2; ++r) {
+    double change = 0;
+    for (int c = 0; c < 3; ++c) change += rows[r][c] * blocks[0].x[std::size_t(c)];
+    EXPECT_NEAR(change, 0.01, 1e-12) << r;
+  }
+}
+
 }  // namespace
 }  // namespace pliant

@@ -45,6 +45,7 @@ void expect_equal(const std::vector<SubstepGroup>& found, const std::vector<Subs
     EXPECT_EQ(a.sweeps, b.sweeps);
     EXPECT_EQ(a.hangs, b.hangs);
     EXPECT_EQ(a.least_hanging, b.least_hanging);
+    EXPECT_EQ(a.has_sheets, b.has_sheets);
     EXPECT_TRUE(are_equal(a.lengths, b.lengths));
     ASSERT_EQ(a.phases.size(), b.phases.size());
     for (std::size_t p = 0; p < a.phases.size(); ++p) {

@@ -110,6 +110,31 @@ TEST(Untangle, BringsOutWhatIsInsideABody) {
   EXPECT_GT(left_after(pierced(Intersections::leave), 60, fastest), 5U);
 }
 
+/// What keeps an inflated object from turning by itself must not take this motion back.
+TEST(Untangle, BringsOutAnInflatedBall) {
+  Scene scene;
+  scene.settings.initial_intersections = Intersections::untangle;
+  TriangleMesh mesh = sphere_mesh(2);
+  for (Vec3f& p : mesh.positions) p = p * 0.2f + Vec3f{0, 0.1f, 0};
+  ClothOptions options;
+  options.volume = Volume{1.4f, Stiffness::rigid()};
+  options.material = fabric("rubber sheet");
+  Object ball = make_cloth(mesh, options);
+  ball.collides = true;
+  ball.thickness = 0.005f;
+  scene.add(ball);
+  MeshCollider shell;
+  shell.mesh = sphere_mesh(2);
+  for (Vec3f& p : shell.mesh.positions) p = {p.x * 0.6f, p.y * 0.3f, p.z * 0.6f};
+  scene.add(shell);
+  World world(scene);
+  for (int frame = 0; frame < 60; ++frame) ASSERT_TRUE(world.step(scene.frame_time).ok());
+  double height = 0;
+  const std::vector<Vec3f> places = world.object(0).positions();
+  for (const Vec3f& p : places) height += double(p.y) / double(places.size());
+  EXPECT_GT(height, 0.25);
+}
+
 TEST(Untangle, KeepsToItsSpeed) {
   Scene scene = pierced(Intersections::untangle);
   scene.settings.untangling_speed = 0.05f;

@@ -33,13 +33,15 @@ void walk_stencils(Substep& s, bool first) {
 
 /// Runs one iteration: for each sweep group its phases and acceleration, then the phases of all groups together.
 void iterate(Substep& s, int iteration) {
+  const bool is_pushed = s.has_pairs() && s.pairs->untangles();  // since the prediction
+  const bool is_first = iteration == 0 && !is_pushed;
   for (const auto& [sweep, group] : s.work.sweeps) {
     if (!uses(s, sweep)) continue;
     s.group = &group;
     if (group.acceleration) keep_iterate(s, iteration);
-    if (iteration > 0) note_momentum(s);
+    if (!is_first) note_momentum(s);
     group.method->iterate(s, iteration == 0);
-    conserve_momentum(s, iteration == 0 ? Since::prediction : Since::note);
+    conserve_momentum(s, is_first ? Since::prediction : Since::note);
     if (group.acceleration) accelerate(s, iteration);
   }
   s.group = nullptr;
