@@ -1,4 +1,4 @@
-#include "solver/bodies/manifold.h"
+#include "solver/bodies/manifold_passes.h"
 
 #include <algorithm>
 #include <cmath>

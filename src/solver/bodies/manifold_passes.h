@@ -8,6 +8,7 @@
 
 #include <array>
 
+#include "collision/bodies/manifold.h"
 #include "math/vector.h"
 
 namespace pliant {
@@ -27,28 +28,6 @@ struct ContactSoftness {
   float beta = 0.04f;     ///< share of a penetration that is corrected
   float epsilon = 0.04f;  ///< share of the multiplier that leaks; beta / epsilon is a stiffness
   float fastest = 3;      ///< largest speed of separation [m/s]
-};
-
-/// Contact of bodies a and b. Over fifteen members: what is kept, then what is prepared once a frame.
-struct Manifold {
-  int a = 0, b = 0;
-  int count = 0;                           ///< of points, 1 to 4
-  Vec3f normal{}, tangent1{}, tangent2{};  ///< unit vectors, the normal from a to b
-  Vec3f arm_a{}, arm_b{};                  ///< from the centres of mass to the centre of the points [m]
-  std::array<float, 4> x{}, y{};           ///< places of points along the tangents, from that centre [m]
-  std::array<float, 4> gap{};              ///< separations at the frame's start [m]
-  float friction = 0, restitution = 0;     ///< coefficients [-]
-
-  std::array<float, 4> impulse{};           ///< of the points along the normal, in a substep [N s]
-  std::array<float, 2> friction_impulse{};  ///< along the tangents, at the centre [N s]
-  float twist_impulse = 0;                  ///< about the normal [N m s]
-  std::array<float, 4> gap_now{};           ///< separations at the substep's start [m]
-
-  std::array<float, 6> mobility{};      ///< K of normal force and moments about tangents: NN, 11, 22, 12, 2N, N1
-  std::array<float, 4> inverse_mass{};  ///< of the points along the normal [1/kg]
-  std::array<float, 3> slide{};         ///< of the tangents at the centre: 11, 22, 12 [1/kg]
-  float twist_mobility = 0;             ///< [1/(kg m^2)]
-  float radius = 0;                     ///< mean distance of the points from the centre [m]
 };
 
 /// Computes what follows from arms, normal and inertia. Call it once a frame.

@@ -1,0 +1,43 @@
+// Contact of two rigid bodies: up to four points that share a normal. Part of it is kept from frame to frame.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "math/quat.h"
+#include "math/vector.h"
+
+namespace pliant {
+
+/// Contact of bodies a and b. Over fifteen members: what is kept, then what is prepared once a frame (solver/bodies).
+struct Manifold {
+  int a = 0, b = 0;
+  int count = 0;                           ///< of points, 1 to 4
+  Vec3f normal{}, tangent1{}, tangent2{};  ///< unit vectors, the normal from a to b
+  Vec3f arm_a{}, arm_b{};                  ///< from the centres of mass to the centre of the points [m]
+  std::array<float, 4> x{}, y{};           ///< places of points along the tangents, from that centre [m]
+  std::array<float, 4> gap{};              ///< separations at the frame's start [m]
+  float friction = 0, restitution = 0;     ///< coefficients [-]
+
+  std::array<float, 4> impulse{};           ///< of the points along the normal, in a substep [N s]
+  std::array<float, 2> friction_impulse{};  ///< along the tangents, at the centre [N s]
+  float twist_impulse = 0;                  ///< about the normal [N m s]
+  std::array<float, 4> gap_now{};           ///< separations at the substep's start [m]
+
+  std::array<float, 6> mobility{};      ///< K of normal force and moments about tangents: NN, 11, 22, 12, 2N, N1
+  std::array<float, 4> inverse_mass{};  ///< of the points along the normal [1/kg]
+  std::array<float, 3> slide{};         ///< of the tangents at the centre: 11, 22, 12 [1/kg]
+  float twist_mobility = 0;             ///< [1/(kg m^2)]
+  float radius = 0;                     ///< mean distance of the points from the centre [m]
+};
+
+/// A manifold between two parts of bodies, and what renews its gaps while the bodies hardly move.
+struct KeptManifold {
+  int part_a = 0, part_b = 0;
+  Manifold manifold;
+  std::array<Vec3d, 4> anchor_a{}, anchor_b{};  ///< places of the points on each body's surface, in the bodies' frames [m]
+  std::array<std::uint32_t, 4> feature{};       ///< what makes each point (TouchPoint::feature)
+  Posed born{};                                 ///< of body b in the frame of body a when the manifold was made
+};
+
+}  // namespace pliant
