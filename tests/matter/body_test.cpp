@@ -1,0 +1,78 @@
+// Tests rigid bodies as they are made: mass, place and axes; what is refused.
+#include "pliant/body.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "pliant/error.h"
+#include "pliant/world.h"
+
+namespace pliant {
+namespace {
+
+TEST(Body, OfABoxHasItsMassAndInertia) {
+  const Object body = make_body({{Box{{0.5f, 1, 1.5f}}, {}, {}, 2}});
+  ASSERT_EQ(body.masses.size(), 1U);
+  EXPECT_FLOAT_EQ(body.masses[0], 12);
+  EXPECT_NEAR(body.frames[0].inertia.x, 13, 1e-5);
+  EXPECT_NEAR(body.frames[0].inertia.y, 10, 1e-5);
+  EXPECT_NEAR(body.frames[0].inertia.z, 5, 1e-5);
+  EXPECT_EQ(body.frames[0].orientation.w, 1);
+}
+
+/// A hammer: its centre of mass is nearer to the head.
+TEST(Body, OfTwoSolidsHasItsParticleAtTheCentreOfMass) {
+  BodyOptions options;
+  options.position = {0, 2, 0};
+  options.mass = 3;
+  const Object body =
+      make_body({{Box{{0.5f, 0.5f, 0.5f}}, {-1, 0, 0}, {}, 100}, {Box{{0.5f, 0.5f, 0.5f}}, {1, 0, 0}, {}, 300}}, options);
+  EXPECT_FLOAT_EQ(body.masses[0], 3);
+  EXPECT_NEAR(body.positions[0].x, 0.5, 1e-6);
+  EXPECT_NEAR(body.positions[0].y, 2, 1e-6);
+}
+
+TEST(Body, OfAHullIsThatOfItsBox) {
+  std::vector<Vec3f> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.push_back({(i & 1) != 0 ? 0.5f : -0.5f, (i & 2) != 0 ? 1.f : -1.f, (i & 4) != 0 ? 1.5f : -1.5f});
+  const Object hull = make_body({{Hull{corners}, {}, {}, 2}}), box = make_body({{Box{{0.5f, 1, 1.5f}}, {}, {}, 2}});
+  EXPECT_NEAR(hull.masses[0], box.masses[0], 1e-4);
+  EXPECT_NEAR(hull.frames[0].inertia.x, box.frames[0].inertia.x, 1e-4);
+}
+
+std::string refused(const Solid& solid, const BodyOptions& options = {}) {
+  try {
+    static_cast<void>(make_body({solid}, options));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Body, OfNoSizeDensityOrVolumeIsRefused) {
+  EXPECT_NE(refused({Sphere{0}}).find("solid 0"), std::string::npos) << refused({Sphere{0}});
+  EXPECT_NE(refused({Cylinder{0.1f, -1}}).find("half_length is -1"), std::string::npos);
+  EXPECT_NE(refused({Sphere{1}, {}, {}, std::numeric_limits<float>::quiet_NaN()}).find("density"), std::string::npos);
+  EXPECT_NE(refused({Hull{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}}}).find("in one plane"), std::string::npos);
+  BodyOptions options;
+  options.mass = -1;
+  EXPECT_NE(refused({Sphere{1}}, options).find("mass"), std::string::npos);
+}
+
+/// It falls, and keeps its spin about its axis of largest inertia.
+TEST(Body, FallsAndSpins) {
+  Scene scene;
+  BodyOptions options;
+  options.angular_velocity = {3, 0, 0};
+  scene.add(make_body({{Box{{0.1f, 0.5f, 1}}}}, options));
+  World world(scene);
+  for (int frame = 0; frame < 60; ++frame) ASSERT_TRUE(world.step(1.f / 60).ok());
+  EXPECT_NEAR(world.object(0).positions()[0].y, -9.81 / 2, 0.1);
+  EXPECT_NEAR(world.state().frames.angular_velocities[0].x, 3, 1e-4);
+}
+
+}  // namespace
+}  // namespace pliant
