@@ -1,5 +1,5 @@
 // Rigid bodies: what they are made of. A body is a particle, which is its centre of mass, and a frame, which is its orientation,
-// so constraints act on it like on any other (ObjectFrame).
+// so constraints act on it like on any other (ObjectFrame). Nothing touches bodies yet: contact of bodies is not part of a step.
 #pragma once
 
 #include <string>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pliant/advise.h"
+#include "pliant/body.h"
 #include "pliant/constraint.h"
 #include "pliant/edit.h"
 #include "pliant/error.h"
