@@ -82,7 +82,7 @@ struct Options {
 struct Result {
   int frame = 0, iterations = 0, frames = 0;
   double substep = 0;         ///< length of the substep that is compared [s]
-  double speed = 0;           ///< root mean square speed of the free particles before it [m/s]
+  double speed = 0;           ///< root mean square speed of all particles of finite mass before it [m/s]
   double budget = 0;          ///< time per frame [ms]
   std::string by_default;     ///< sweep and substeps that the scene has if it leaves them open, in words
   std::string residual_type;  ///< constraint type of Sample::residual: "distance" if the scene has distance constraints

@@ -63,8 +63,6 @@ CompliancePerLength compliance_per_length(const Object& object, const Constraint
 
 /// Substeps of objects solved by `multigrid` that nothing disturbs.
 constexpr int substeps_of_undisturbed_multigrid = 5;
-/// Pins within this share of an object's extent lie together: it swings about them.
-constexpr double swinging_share = 0.25;
 
 /// True if it has pins or attachments, and all of them lie together.
 bool swings(const Object& object) {

@@ -16,6 +16,9 @@ namespace pliant {
 /// Default substeps per frame of objects solved by `multigrid` that are disturbed (own_substeps), and of all others.
 inline constexpr int substeps_of_multigrid = 10, substeps_of_others = 20;
 
+/// Pins or anchors within this share of an object's extent lie together: it swings about them.
+inline constexpr double swinging_share = 0.25;
+
 /// The largest number of substeps of any object; chosen_settings(scene) has 0 substeps if objects differ.
 inline int most_substeps_of(const Settings& chosen) { return chosen.substeps > 0 ? chosen.substeps : substeps_of_others; }
 

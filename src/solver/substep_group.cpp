@@ -29,9 +29,6 @@ SetMember member_of(const CompiledObject& object) {
 /// after another does not mend.
 bool limits_lengths(Sweep sweep) { return solves_chains(sweep) || sweep == Sweep::multigrid; }
 
-/// Anchors within this share of an object's extent lie together: it swings about them.
-constexpr double swinging_share = 0.25;
-
 /// True if the object is cloth that hangs by tethers; without a fixed particle there are none. A rope is not counted, nor cloth
 /// that swings about one place: its free end swings fast, and few substeps let it stretch.
 bool hangs(const CompiledObject& object) {

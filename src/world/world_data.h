@@ -38,8 +38,8 @@ struct WorldGroups {
   std::vector<SubstepGroup> all;
   std::shared_ptr<ContactTables> tables;    ///< shared by the contact of all groups; null if there is none
   std::unique_ptr<PairModel> pairs_of_all;  ///< contact between surfaces, if one group has all objects
-  std::vector<int> changed_surfaces;        ///< numbers of objects added, removed or edited since the last step
-  std::vector<int> changed;                 ///< the same, also of objects that can touch nothing
+  std::vector<int> changed_surfaces;        ///< the numbers of these objects whose surface can touch something
+  std::vector<int> changed;                 ///< the numbers of all of these objects
   bool objects_changed = false;             ///< true if objects were added, removed or edited since the last step
 };
 

@@ -2,8 +2,9 @@
 //
 // Arrays of primitives and clusters hold those of the PairModel's own bodies. Each body has a block in every such array; a
 // removed body leaves unused entries that a later one takes. So adding a body costs what that body costs, and indices of
-// other bodies stay. Arrays of particles and bodies are in ContactTables, which the PairModels of a World share. Indices of primitives and clusters therefore say
-// nothing about the order of bodies; whatever decides bits is ordered by body first (is_before, cluster_order).
+// other bodies stay. Indices of primitives and clusters therefore say nothing about the order of bodies; whatever decides bits
+// is ordered by body first (is_before, cluster_order). Arrays of particles and bodies are in ContactTables, which the
+// PairModels of a World share.
 #pragma once
 
 #include <algorithm>
@@ -104,7 +105,8 @@ struct PairChanges {
 };
 
 /// Updates bodies that were added, removed or edited, became members or ceased to be (ascending), and bodies that begin or
-/// cease to meet others because of them. The tables must be up to date. Returns nullopt if no two bodies can meet any more; the PairModel is then invalid.
+/// cease to meet others because of them. The tables must be up to date. Returns nullopt if no two bodies can meet any more;
+/// the PairModel is then invalid.
 std::optional<PairChanges> update_pair_model(const Model& model, const std::vector<int>& changed, PairModel& out);
 
 /// Computes `members`, `bodies`, `sets`, their numbers, `cluster_order` and `triangles_around` of a model whose other arrays are
