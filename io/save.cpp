@@ -26,10 +26,11 @@ constexpr std::string_view time_block = "state.time", frame_block = "state.frame
 /// Names of blocks that a saved State has only if it has frames, channels, held poses or substeps.
 constexpr std::string_view orientations_block = "state.orientations", spins_block = "state.angular_velocities",
                            inertias_block = "state.inverse_inertias", channels_block = "state.channels",
-                           poses_block = "state.held_poses", substeps_block = "state.substeps";
-const std::vector<std::string_view> state_blocks{time_block,       frame_block,      blocks_block,       positions_block,
-                                                 remainders_block, velocities_block, orientations_block, spins_block,
-                                                 inertias_block,   channels_block,   poses_block,        substeps_block};
+                           poses_block = "state.held_poses", substeps_block = "state.substeps",
+                           contacts_block = "state.body_contacts";
+const std::vector<std::string_view> state_blocks{
+    time_block,  frame_block,    blocks_block,   positions_block, remainders_block, velocities_block, orientations_block,
+    spins_block, inertias_block, channels_block, poses_block,     substeps_block,   contacts_block};
 constexpr std::string_view fingerprint_blocks[] = {"fingerprint.scene", "fingerprint.settings"};
 constexpr std::string_view scene_block = "scene", settings_block = "settings", layout_block = "layout";
 
@@ -60,8 +61,8 @@ struct Columns {
 /// The blocks of a State; `columns` has memory for some. A new member of State is a compile error here until it is
 /// written.
 std::vector<Block> blocks_of(const State& state, Columns& columns) {
-  const auto& [time, frame, object_blocks, positions, remainders, velocities, frames, channels, held_poses, substeps] =
-      state;
+  const auto& [time, frame, object_blocks, positions, remainders, velocities, frames, channels, held_poses, substeps,
+               body_contacts] = state;
   const auto bytes = [](std::string_view name, const std::string& column) {
     return Block{name, Type::bytes, 1, column.size(), column.data()};
   };
@@ -84,6 +85,8 @@ std::vector<Block> blocks_of(const State& state, Columns& columns) {
   if (!channels.empty()) blocks.push_back(bytes(channels_block, columns.channels));
   if (!held_poses.empty()) blocks.push_back(bytes(poses_block, columns.held_poses));
   if (!substeps.empty()) blocks.push_back({substeps_block, Type::float32, sizeof(float), substeps.size(), substeps.data()});
+  if (!body_contacts.empty())
+    blocks.push_back({contacts_block, Type::bytes, 1, body_contacts.size() * sizeof(BodyContact), body_contacts.data()});
   return blocks;
 }
 
@@ -107,9 +110,19 @@ void read(const Contents& from, std::string_view name, Type type, T& value) {
   std::memcpy(&value, block.data, sizeof value);
 }
 
+void read_contacts(const Contents& from, std::vector<BodyContact>& contacts) {
+  const std::string_view bytes = from.text(contacts_block);
+  if (bytes.size() % sizeof(BodyContact) != 0)
+    from.fail(fmt::format("is malformed: its block '{}' has {} bytes", contacts_block, bytes.size()),
+              "use an earlier file");
+  contacts.resize(bytes.size() / sizeof(BodyContact));
+  std::memcpy(static_cast<void*>(contacts.data()), bytes.data(), bytes.size());
+}
+
 State state_in(const Contents& from) {
   State state;
-  auto& [time, frame, blocks, positions, remainders, velocities, frames, channels, held_poses, substeps] = state;
+  auto& [time, frame, blocks, positions, remainders, velocities, frames, channels, held_poses, substeps, body_contacts] =
+      state;
   read(from, time_block, Type::float64, time);
   read(from, frame_block, Type::int64, frame);
   blocks = read_bytes<std::vector<StateBlock>>(from, blocks_block);
@@ -126,6 +139,7 @@ State state_in(const Contents& from) {
   if (from.has(channels_block)) channels = read_bytes<std::vector<Channel>>(from, channels_block);
   if (from.has(poses_block)) held_poses = read_bytes<std::vector<HeldPose>>(from, poses_block);
   if (from.has(substeps_block)) read(from, substeps_block, substeps);
+  if (from.has(contacts_block)) read_contacts(from, body_contacts);
   return state;
 }
 

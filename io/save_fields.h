@@ -57,6 +57,16 @@ void fields(A& a, Is<ObjectFrame> auto& of) {
   a(orientation, angular_velocity, inertia);
 }
 template <class A>
+void fields(A& a, Is<Solid> auto& of) {
+  auto& [shape, position, rotation, density] = of;
+  a(shape, position, rotation, density);
+}
+template <class A>
+void fields(A& a, Is<ObjectBody> auto& of) {
+  auto& [name, particle, frame, solids, origin, axes] = of;
+  a(name, particle, frame, solids, origin, axes);
+}
+template <class A>
 void fields(A& a, Is<Channel> auto& of) {
   auto& [name, components, values] = of;
   a(name, components, values);
@@ -83,10 +93,10 @@ void fields(A& a, Is<WorldLayout> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<Object> auto& of) {
-  auto& [name, positions, velocities, masses, frames, constraints, triangles, volume, pins, attachments, thickness,
+  auto& [name, positions, velocities, masses, frames, bodies, constraints, triangles, volume, pins, attachments, thickness,
          self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift, sweep, damping,
          colour] = of;
-  a(name, positions, velocities, masses, frames, constraints, triangles, volume, pins, attachments, thickness,
+  a(name, positions, velocities, masses, frames, bodies, constraints, triangles, volume, pins, attachments, thickness,
     self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift, sweep, damping);
   a.aside(colour);
 }
@@ -106,6 +116,21 @@ template <class A>
 void fields(A& a, Is<Box> auto& of) {
   auto& [half_extents] = of;
   a(half_extents);
+}
+template <class A>
+void fields(A& a, Is<Cylinder> auto& of) {
+  auto& [radius, half_length] = of;
+  a(radius, half_length);
+}
+template <class A>
+void fields(A& a, Is<Cone> auto& of) {
+  auto& [radius, half_length] = of;
+  a(radius, half_length);
+}
+template <class A>
+void fields(A& a, Is<Hull> auto& of) {
+  auto& [points, margin] = of;
+  a(points, margin);
 }
 template <class A>
 void fields(A& a, Is<Collider> auto& of) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pliant/mesh.h"
+#include "pliant/motion.h"
 #include "pliant/state.h"
 
 namespace pliant {
@@ -83,12 +84,6 @@ class ObjectHandle : public ObjectView {
 
  private:
   WorldData* world_;
-};
-
-/// A pose of a collider: a point p of its local frame is at rotation p + position.
-struct RigidPose {
-  Vec3f position{};  ///< position of the local frame's origin [m]
-  Quatf rotation{};  ///< quaternion of any non-zero length
 };
 
 /// Reads a primitive collider.

@@ -24,6 +24,12 @@ struct Motion {
   bool moves() const { return !keyframes.empty(); }
 };
 
+/// A pose of a collider or body: a point p of its local frame is at rotation p + position.
+struct RigidPose {
+  Vec3f position{};  ///< position of the local frame's origin [m]
+  Quatf rotation{};  ///< quaternion of any non-zero length
+};
+
 /// The rotation by `degrees` about `axis` (of any non-zero length), with the same bits on every machine. Throws an
 /// Error if the axis is zero or a number is not finite.
 Quatf rotation(const Vec3f& axis, float degrees);

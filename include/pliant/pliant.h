@@ -17,6 +17,7 @@
 #include "pliant/report.h"
 #include "pliant/save.h"
 #include "pliant/scene.h"
+#include "pliant/shape.h"
 #include "pliant/state.h"
 #include "pliant/substep_bounds.h"
 #include "pliant/vec3.h"

@@ -18,6 +18,7 @@
 #include "pliant/material.h"
 #include "pliant/mesh.h"
 #include "pliant/motion.h"
+#include "pliant/shape.h"
 #include "pliant/vec3.h"
 
 namespace pliant {
@@ -91,6 +92,16 @@ struct ObjectFrame {
   Vec3f inertia{1, 1, 1};    ///< moments of inertia about the principal axes, > 0 [kg m^2]; infinity locks that axis
 };
 
+/// A rigid body of an object: a particle is its centre of mass, a frame its orientation, and its solids move with both.
+struct ObjectBody {
+  std::string name;
+  int particle = 0;           ///< index in Object::positions
+  int frame = 0;              ///< index in Object::frames
+  std::vector<Solid> solids;  ///< in the frame's principal axes, about the particle; may overlap, may be empty
+  Vec3f origin{};  ///< of the frame in which the body was described, in its principal axes about the particle [m]
+  Quatf axes{};    ///< from that frame to the principal axes
+};
+
 /// An object: particles and constraints. make_cloth and make_rope make one. Over fifteen members: its whole description.
 struct Object {
   std::string name;
@@ -98,6 +109,7 @@ struct Object {
   std::vector<Vec3f> velocities;    ///< initial velocities [m/s]; empty: at rest
   std::vector<float> masses;        ///< mass of each particle, > 0; infinity: fixed [kg]
   std::vector<ObjectFrame> frames;  ///< orientations, for constraints with frame slots
+  std::vector<ObjectBody> bodies;   ///< rigid bodies; their particles touch nothing by themselves, their solids do
   std::vector<ConstraintGroup> constraints;
   std::vector<std::array<int, 3>> triangles;  ///< surface for contact, air, volume and pictures; may be empty
   std::optional<Volume> volume;               ///< keeps the enclosed volume; needs a closed surface
@@ -149,18 +161,6 @@ struct RopeOptions {
 Object make_rope(const std::vector<Vec3f>& points, const RopeOptions& options = {});
 
 // ---------------------------------------------------------------- colliders
-
-struct Plane {};  ///< solid is the half-space y <= 0 of the collider's frame
-struct Sphere {
-  float radius = 0.5f;
-};  ///< a solid ball of this radius [m]
-struct Capsule {
-  float radius = 0.25f, half_length = 0.5f;
-};  ///< a solid capsule along the y-axis of its frame; half_length excludes the caps [m]
-struct Box {
-  Vec3f half_extents{0.5f, 0.5f, 0.5f};
-};  ///< a solid box; half_extents are half its edge lengths [m]
-using Shape = std::variant<Plane, Sphere, Capsule, Box>;
 
 /// A static solid, or a kinematic one that follows keyframes or is moved by the user.
 struct Collider {

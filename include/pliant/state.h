@@ -1,6 +1,7 @@
 // The part of a World that changes with time, and the ids of its contents.
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstdint>
 #include <new>
@@ -84,6 +85,35 @@ struct Channel {
   std::vector<float> values;  ///< components x particles numbers, in the order of the State's particles
 };
 
+/// A part of a body that touches something: a solid of an object's body, or a collider.
+struct ContactPart {
+  int owner = 0;  ///< an object or mesh collider: its index in State::blocks; a primitive collider: -1 - its index
+  int solid = 0;  ///< of an object: its solids are numbered body after body; else 0
+  int piece = 0;  ///< of a mesh collider: a triangle; else 0
+  friend auto operator<=>(const ContactPart&, const ContactPart&) = default;
+};
+
+/// Contact of rigid bodies a and b in up to four points that share a normal. What the next step needs to know of it: arms and
+/// normal stay as they were when it began, as long as the bodies hardly move against each other; impulses are where the
+/// solver starts. Over fifteen members, without padding, because it is saved and hashed as it is.
+struct BodyContact {
+  std::array<Vec3d, 4> anchor_a{}, anchor_b{};  ///< the points on each surface, in the frame of each body [m]
+  Vec3d position{};                             ///< of b in the frame of a when it began [m]
+  Quat<double> rotation{};                      ///< likewise
+  ContactPart a, b;                             ///< a < b
+  std::array<std::uint32_t, 4> feature{};       ///< what makes each point: corners and edges
+  int count = 0;                                ///< of points, 1 to 4
+  float substep = 0;                            ///< length of the substep of the impulses [s]
+  Vec3f normal{}, tangent1{}, tangent2{};       ///< unit vectors, the normal from a to b
+  Vec3f arm_a{}, arm_b{};                       ///< from the centres of mass to the centre of the points [m]
+  std::array<float, 4> x{}, y{};                ///< places of the points along the tangents, from that centre [m]
+  std::array<float, 4> gap{};                   ///< separation at each point when the last step began [m]
+  std::array<float, 4> impulse{};               ///< at each point along the normal, in the last substep [N s]
+  std::array<float, 2> friction_impulse{};      ///< along the tangents, at the centre [N s]
+  float twist_impulse = 0, unused = 0;          ///< about the normal [N m s]; zero
+};
+static_assert(sizeof(BodyContact) == 440);
+
 /// All data of a World that change with time, as a plain value: copy, hash or restore it, and the next step gives the
 /// same bits. Each object has a block of particles in storage order, which ObjectView::storage_order relates to the user's
 /// order. Blocks of removed objects are filled with zeros.
@@ -100,6 +130,7 @@ struct State {
   /// For each block, the substeps per frame that its object demanded for the last quarter of a frame, if they follow the
   /// State (chosen_substeps), else 0, as before the first frame. Empty if all are 0.
   std::vector<float> substeps;
+  std::vector<BodyContact> body_contacts;  ///< of rigid bodies, in ascending order of their parts; usually none
 };
 
 /// The SHA-256 hash of a State as 64 hexadecimal digits. It includes blocks only after a removal or an edit, because

@@ -2,7 +2,9 @@
 #include "pliant/body.h"
 
 #include <cmath>
+#include <limits>
 #include <string>
+#include <utility>
 
 #include "geometry/convex_hull.h"
 #include "geometry/mass_properties.h"
@@ -70,28 +72,80 @@ Moments moments_of(const Solid& solid, const std::string& body, std::size_t numb
 
 }  // namespace
 
-Object make_body(const std::vector<Solid>& solids, const BodyOptions& options) {
+namespace {
+
+/// Moments of all solids in the frame in which they are described, with the mass that the options give.
+Moments moments_of_all(const std::vector<Solid>& solids, const BodyOptions& options) {
   if (solids.empty()) throw Error({"", 0, options.name, ""}, "is a body of no solid", "give it one at least");
   Moments all;
   for (std::size_t i = 0; i < solids.size(); ++i) all += moments_of(solids[i], options.name, i);
-  if (options.mass != 0) {
-    if (!(options.mass > 0) || !std::isfinite(options.mass))
-      throw Error({"", 0, options.name, "mass"}, "is " + std::to_string(options.mass), "give a positive, finite mass [kg]");
-    all = times(all, static_cast<double>(options.mass) / all.mass);
+  if (options.mass == 0 || std::isinf(options.mass)) return all;
+  if (!(options.mass > 0))
+    throw Error({"", 0, options.name, "mass"}, "is " + std::to_string(options.mass),
+                "give a positive mass [kg], or infinity for a fixed body");
+  return times(all, static_cast<double>(options.mass) / all.mass);
+}
+
+/// The body's solids in its principal axes, about its centre of mass.
+std::vector<Solid> in_principal_axes(std::vector<Solid> solids, const MassProperties& own) {
+  for (Solid& solid : solids) {
+    const Posed pose{convert<double>(solid.position), normalise(convert<double>(solid.rotation))};
+    solid.position = convert<float>(rotate(conjugate(own.axes), pose.position - own.centre));
+    solid.rotation = convert<float>(normalise(multiply(conjugate(own.axes), pose.rotation)));
   }
-  const MassProperties own = mass_properties(all);
+  return solids;
+}
+
+/// Velocities are empty if all are zero.
+void append_velocity(Object& object, const Vec3f& velocity) {
+  if (object.velocities.empty() && velocity == Vec3f{}) return;
+  object.velocities.resize(object.positions.size());
+  object.velocities.back() = velocity;
+}
+
+}  // namespace
+
+int add_body(Object& object, const std::vector<Solid>& solids, const BodyOptions& options) {
+  const MassProperties own = mass_properties(moments_of_all(solids, options));
   const Posed pose{convert<double>(options.position), normalise(convert<double>(options.rotation))};
-  Object body;
-  body.name = options.name;
-  body.positions = {convert<float>(to_world(pose, own.centre))};
-  body.velocities = {options.velocity};
-  body.masses = {static_cast<float>(own.mass)};
+  const bool is_fixed = std::isinf(options.mass);
+  const float infinity = std::numeric_limits<float>::infinity();
+  object.positions.push_back(convert<float>(to_world(pose, own.centre)));
+  append_velocity(object, is_fixed ? Vec3f{} : options.velocity);
+  object.masses.push_back(is_fixed ? infinity : static_cast<float>(own.mass));
   ObjectFrame frame;
   frame.orientation = convert<float>(multiply(pose.rotation, own.axes));
-  frame.angular_velocity = options.angular_velocity;
-  frame.inertia = convert<float>(own.inertia);
-  body.frames = {frame};
-  return body;
+  frame.angular_velocity = is_fixed ? Vec3f{} : options.angular_velocity;
+  frame.inertia = is_fixed ? Vec3f{infinity, infinity, infinity} : convert<float>(own.inertia);
+  object.frames.push_back(frame);
+  ObjectBody body;
+  body.name = options.name;
+  body.particle = static_cast<int>(object.positions.size()) - 1;
+  body.frame = static_cast<int>(object.frames.size()) - 1;
+  body.solids = in_principal_axes(solids, own);
+  body.origin = convert<float>(rotate(conjugate(own.axes), -own.centre));
+  body.axes = convert<float>(conjugate(own.axes));
+  object.bodies.push_back(std::move(body));
+  object.collides = object.self_collision = true;
+  return static_cast<int>(object.bodies.size()) - 1;
+}
+
+Object make_body(const std::vector<Solid>& solids, const BodyOptions& options) {
+  Object object;
+  object.name = options.name;
+  add_body(object, solids, options);
+  return object;
+}
+
+RigidPose pose_of(const Object& object, int body) {
+  if (body < 0 || static_cast<std::size_t>(body) >= object.bodies.size())
+    throw Error({"", 0, object.name, "body " + std::to_string(body)},
+                "does not exist; there are " + std::to_string(object.bodies.size()) + " bodies", "indices count from 0");
+  const ObjectBody& of = object.bodies[static_cast<std::size_t>(body)];
+  const Quatd axes = convert<double>(object.frames.at(static_cast<std::size_t>(of.frame)).orientation);
+  const Posed pose{convert<double>(object.positions.at(static_cast<std::size_t>(of.particle))), normalise(axes)};
+  return {convert<float>(to_world(pose, convert<double>(of.origin))),
+          convert<float>(normalise(multiply(pose.rotation, convert<double>(of.axes))))};
 }
 
 }  // namespace pliant

@@ -164,6 +164,7 @@ std::string hash(const State& state) {
     sha.add(&pose.rotation, sizeof pose.rotation);
   }
   if (!state.substeps.empty()) sha.add(state.substeps.data(), state.substeps.size() * sizeof(float));
+  if (!state.body_contacts.empty()) sha.add(state.body_contacts.data(), state.body_contacts.size() * sizeof(BodyContact));
   return sha.finish();
 }
 
