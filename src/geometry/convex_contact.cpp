@@ -90,4 +90,16 @@ Touch touch(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, 
   return four_of(points, normal);
 }
 
+Touch touch_half_space(const ConvexShape& b, const Posed& pose_of_b, double margin) {
+  const Vec3d up{0, 1, 0};
+  const double radius = static_cast<double>(b.radius);
+  const Feature lowest = facing_feature(b, pose_of_b, -up, margin);
+  std::vector<TouchPoint> points;
+  for (int i = 0; i < lowest.count; ++i) {
+    const Vec3d on_b = lowest.points[static_cast<std::size_t>(i)] - up * radius;
+    if (on_b.y <= margin) points.push_back({{on_b.x, 0, on_b.z}, on_b, on_b.y, static_cast<std::uint32_t>(i)});
+  }
+  return points.empty() ? Touch{} : four_of(points, up);
+}
+
 }  // namespace pliant

@@ -9,4 +9,7 @@ namespace pliant {
 /// where b has a pose. Flat parts that nearly face each other touch in up to four points, round ones in one.
 Touch touch(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, double margin);
 
+/// The same for a half-space y <= 0 (solid a, in its frame) and a convex solid b.
+Touch touch_half_space(const ConvexShape& b, const Posed& pose_of_b, double margin);
+
 }  // namespace pliant

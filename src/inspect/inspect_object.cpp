@@ -253,6 +253,7 @@ void check_object(Problems& problems, const Object& object) {
   check_velocities(problems, object);
   check_masses(problems, object);
   check_frames(problems, object);
+  check_bodies(problems, object);
   for (const ConstraintGroup& group : object.constraints) check_group(problems, object, group);
   const bool sound = check_triangles(problems, object);
   check_volume(problems, object, sound);

@@ -70,6 +70,8 @@ void check_motion(Problems& problems, const std::string& element, const Motion& 
 void check_rotation(Problems& problems, const std::string& element, const Quatf& rotation);
 void check_friction(Problems& problems, float static_friction, float kinetic_friction, float restitution);
 
+/// Reports as grave what is wrong with the rigid bodies of an object.
+void check_bodies(Problems& problems, const Object& object);
 /// Reports as grave everything for which a World rejects an object.
 void check_object(Problems& problems, const Object& object);
 /// Reports doubtful settings of an object that has no grave findings.

@@ -423,6 +423,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   const int largest_tile = in_given_order ? std::numeric_limits<int>::max() : options.largest_tile;
   number_particles(positions, lists, largest_tile, tile, out);
   fill_frames(object, out.frames);
+  out.bodies = compile_bodies(object, out.place, out.particles);
   fill_kinematics(object, out);
   schedule(lists, tile, options, out);
   fill_particles(object, positions, out);
@@ -481,7 +482,7 @@ void fill_carrier(const MeshCollider& collider, CompiledObject& out) {
 CompiledObject compile(const Object& object, const CompileOptions& options) { return compile(object, nullptr, options); }
 
 CompiledObject compile(Object&& object, const CompileOptions& options) {
-  const bool is_surface = !object.triangles.empty();  // lines come from the constraints
+  const bool is_surface = !object.triangles.empty() && object.bodies.empty();  // else constraints are read again
   return compile(object, is_surface ? &object : nullptr, options);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/carrier.h"
+#include "model/compiled_bodies.h"
 #include "model/multigrid.h"
 #include "model/object_sets.h"
 #include "model/phase.h"
@@ -91,6 +92,7 @@ struct CompiledObject {
   std::vector<int> place;                     ///< place[user's index] = storage index; the inverse of `order`
   std::vector<Record> positions, velocities;  ///< initial positions and velocities; no velocities if all are zero
   FrameRecords frames;                        ///< initial values of the frames, in the order of Object::frames
+  CompiledBodies bodies;
   std::vector<Pool> pools;
   std::vector<Segment>
       segments;  ///< of tiles, then inter-tile constraints, then links of chains, then constraints projected one at a time

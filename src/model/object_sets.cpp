@@ -201,6 +201,8 @@ bool can_follow_volume(const Object& object, double substep) {
 }
 
 int own_substeps(const Object& object, Sweep sweep, bool is_blown, double frame_time) {
+  const bool is_of_bodies = !object.bodies.empty() && object.bodies.size() == object.positions.size();
+  if (is_of_bodies && !has_converted(object)) return substeps_of_bodies;
   if (object.volume && solves_chains(sweep) && !has_converted(object)) {
     const double overstretch = overstretch_of_inflated(object, frame_time / substeps_of_volumes);
     const double too_long = overstretch <= most_overstretch_of_volumes ? overstretch / wanted_overstretch : 0;

@@ -16,6 +16,9 @@ namespace pliant {
 /// Default substeps per frame of objects solved by `multigrid` that are disturbed (own_substeps), and of all others.
 inline constexpr int substeps_of_multigrid = 10, substeps_of_others = 20;
 
+/// Substeps of sets of rigid bodies alone: boxes of a wall of 30 rows sink by 1 cm, 3 with 16.
+inline constexpr int substeps_of_bodies = 8;
+
 /// Pins or anchors within this share of an object's extent lie together: it swings about them.
 inline constexpr double swinging_share = 0.25;
 

@@ -12,6 +12,7 @@
 #include "collision/surfaces/surface_contact.h"
 #include "model/model.h"
 #include "model/object_sets.h"
+#include "solver/bodies/body_solver.h"
 
 namespace pliant {
 
@@ -31,6 +32,7 @@ struct SubstepGroup {
   std::vector<Phase> phases{};          ///< phases with the tasks of these objects only
   std::vector<Sweep> sweeps{};          ///< sweeps that these objects use
   std::vector<Task> lengths{};          ///< also where it has all: objects solved by chains, and each of their LengthRanges
+  std::unique_ptr<BodySolver> bodies{};  ///< also where it has all; null without rigid bodies
   std::unique_ptr<PairModel> pair_model{};
   std::unique_ptr<SurfaceContact> pairs{};  ///< contact between surfaces; null if no two of the group can touch
 

@@ -120,6 +120,18 @@ void prepare_groups(WorldData& world) {
   world.groups.changed_surfaces.clear();
 }
 
+/// Makes the contact of rigid bodies of all groups again. What lasts of it is in the State.
+void make_body_solvers(WorldData& world) {
+  const bool has_bodies = std::any_of(world.model.objects.begin(), world.model.objects.end(),
+                                      [](const CompiledObject& object) { return !object.bodies.empty(); });
+  for (SubstepGroup& group : world.groups.all) {
+    group.bodies = nullptr;
+    if (!has_bodies) continue;
+    group.bodies = std::make_unique<BodySolver>(world.model, group.has_all ? nullptr : &group.objects);
+    if (!group.bodies->has_bodies()) group.bodies = nullptr;
+  }
+}
+
 bool has_contact(const WorldGroups& groups) {
   return groups.pairs_of_all != nullptr || std::any_of(groups.all.begin(), groups.all.end(),
                                                        [](const SubstepGroup& group) { return group.pairs != nullptr; });
@@ -195,6 +207,7 @@ void bring_up_to_date(WorldData& world) {
   if (world.groups.objects_changed || world.groups.all.empty()) prepare_groups(world);
   update_surfaces(world);
   if (!has_contact(world.groups)) world.groups.tables = nullptr;
+  if (std::exchange(world.groups.colliders_changed, false) || world.groups.objects_changed) make_body_solvers(world);
   if (!world.groups.objects_changed) return;
   for (TileScratch& tile : world.workspace.tiles)
     tile.contacts.clear();  // contacts have collider indices, which may have changed

@@ -92,6 +92,12 @@ void give_back_state(WorldData& world, int number, const ObjectState& kept, cons
   }
 }
 
+/// Discards the contacts of rigid bodies of an object.
+void forget_contacts(WorldData& world, int number) {
+  std::erase_if(world.state.body_contacts,
+                [&](const BodyContact& contact) { return contact.a.owner == number || contact.b.owner == number; });
+}
+
 /// Discards what the user set for an object or mesh collider that is removed or edited.
 void forget_control(WorldData& world, int number) {
   world.workspace.control.objects.erase(number);
@@ -152,6 +158,7 @@ void place_object(WorldData& world, int number) {
 
 void remove_object(WorldData& world, int number) {
   note_surfaces(world, number);
+  forget_contacts(world, number);
   (void)take_state(world, number);
   world.model.remove(number);
   forget_control(world, number);
@@ -178,6 +185,7 @@ void replace_object(WorldData& world, int number, CompiledObject by, const std::
   for (const int user : by.order) origins.push_back(origin(user));
   const ObjectState kept = take_state(world, number);
   forget_control(world, number);
+  forget_contacts(world, number);
   world.model.replace(number, std::move(by));
   place_object(world, number);
   drop_unused_sweeps(world.model, world.workspace);

@@ -93,8 +93,19 @@ void require_origins(const WorldData& world, int number, const Edit& edit) {
   require_room(world.model, edit.object.positions.size() + edit.object.attachments.size(), edit.object.name);
 }
 
+/// Removes the contacts of rigid bodies with a collider. Later colliders move up by one.
+void forget_contacts(WorldData& world, int collider) {
+  const int owner = -1 - collider;
+  std::erase_if(world.state.body_contacts,
+                [&](const BodyContact& contact) { return contact.a.owner == owner || contact.b.owner == owner; });
+  for (BodyContact& contact : world.state.body_contacts)
+    for (ContactPart* part : {&contact.a, &contact.b})
+      if (part->owner < owner) ++part->owner;
+}
+
 /// For each object that can collide by edges and triangles: prepares these, which depend on the colliders.
 void prepare_shape_contacts(WorldData& world) {
+  world.groups.colliders_changed = true;
   for (int o = 0; o < static_cast<int>(world.model.objects.size()); ++o)
     world.workspace.shape_contacts.prepare(world.model, o);
 }
@@ -158,6 +169,7 @@ void World::remove(ColliderId collider) {
   const int number = data_->ids.colliders.number(collider);
   forget_pose(*data_, false, collider.slot);
   forget_touching(*data_, collider);
+  forget_contacts(*data_, number);
   data_->ids.colliders.remove(collider);
   data_->ids.colliders.close_gap(number);
   data_->model.colliders.erase(data_->model.colliders.begin() + number);

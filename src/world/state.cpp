@@ -56,6 +56,31 @@ void require_substeps(const State& state) {
       throw Error({}, "the state has an object of " + std::to_string(substeps) + " substeps", "give 0 to 10000");
 }
 
+/// All numbers of a contact that must be finite.
+bool is_finite(const BodyContact& c) {
+  float sum = c.substep + c.twist_impulse;
+  for (const Vec3f& v : {c.normal, c.tangent1, c.tangent2, c.arm_a, c.arm_b}) sum += v.x + v.y + v.z;
+  for (std::size_t i = 0; i < 4; ++i) sum += c.x[i] + c.y[i] + c.gap[i] + c.impulse[i];
+  double more = static_cast<double>(sum + c.friction_impulse[0] + c.friction_impulse[1]);
+  for (const Vec3d* list : {c.anchor_a.data(), c.anchor_b.data()})
+    for (std::size_t i = 0; i < 4; ++i) more += list[i].x + list[i].y + list[i].z;
+  more += c.position.x + c.position.y + c.position.z + c.rotation.x + c.rotation.y + c.rotation.z + c.rotation.w;
+  return std::isfinite(more);
+}
+
+void require_body_contacts(const State& state) {
+  const BodyContact* before = nullptr;
+  for (const BodyContact& contact : state.body_contacts) {
+    const std::string element = "contact " + std::to_string(&contact - state.body_contacts.data());
+    if (contact.count < 1 || contact.count > 4 || !is_finite(contact))
+      throw Error({.element = element}, "has a number of points outside 1 to 4, or a value that is not finite",
+                  "restore a state of this world");
+    if (before != nullptr && !(std::pair{before->a, before->b} < std::pair{contact.a, contact.b}))
+      throw Error({.element = element}, "is not in ascending order of parts", "restore a state of this world");
+    before = &contact;
+  }
+}
+
 /// True if blocks are contiguous and in order, as in a World in which nothing was removed or edited.
 bool follow_one_another(const std::vector<StateBlock>& blocks) {
   int first = 0;
@@ -123,6 +148,7 @@ void World::restore(const State& state) {
   require_frames_of(data_->state.frames, state.frames);
   require_channels(state);
   require_substeps(state);
+  require_body_contacts(state);
   if (!std::isfinite(state.time)) throw Error({}, "the state's time is not finite", "restore an earlier state");
   if (state.frame < 0 || state.frame > largest_frame)
     throw Error({}, "the state's frame is " + std::to_string(state.frame), "restore a state of this world");

@@ -40,6 +40,7 @@ struct WorldGroups {
   std::unique_ptr<PairModel> pairs_of_all;  ///< contact between surfaces, if one group has all objects
   std::vector<int> changed_surfaces;        ///< the numbers of these objects whose surface can touch something
   std::vector<int> changed;                 ///< the numbers of all of these objects
+  bool colliders_changed = false;           ///< true if primitive colliders were added or removed since the last step
   bool objects_changed = false;             ///< true if objects were added, removed or edited since the last step
 };
 

@@ -10,6 +10,7 @@
 #include "geometry/mass_properties.h"
 #include "math/quat.h"
 #include "solver/bodies/manifold_passes.h"
+#include "solver/bodies/manifolds.h"
 
 namespace pliant {
 namespace testing_support {
@@ -25,7 +26,7 @@ class Bodies {
  public:
   std::vector<TestBody> bodies;
   int substeps = 8;
-  float dt = 1.f / 60, friction = 0.6f, restitution = 0, margin = 0.02f;
+  float dt = 1.f / 60, friction = 0.6f, restitution = 0;
   Vec3f gravity{0, -9.81f, 0};
 
   void add(const Vec3f& half, const Vec3d& place, float mass = 1, const Quatd& turned = {}) {
@@ -47,13 +48,17 @@ class Bodies {
   }
 
   void frame() {
-    for (BodyPart& part : parts_) part.friction = friction, part.restitution = restitution;
-    if (contacts_.parts() != parts_.size()) contacts_ = BodyContacts(parts_);
+    if (finder_.parts().size() != parts_.size()) finder_ = BodyContacts(parts_);
     std::vector<BodyState> states;
     for (const TestBody& body : bodies) states.push_back({body.pose, body.velocity, body.spin, body.mass == 0});
-    contacts_.update(states, dt, margin);
+    const std::vector<BodyContact> before = contacts_;
+    finder_.update(
+        executor_, states, dt, dt * length(gravity), [](int, int) { return true; }, before, contacts_);
     load();
     const float h = dt / static_cast<float>(substeps), slow = 2 * h * length(gravity);
+    manifolds_.clear();
+    for (const BodyContact& c : contacts_)
+      manifolds_.push_back(manifold_of(c, c.a.owner, c.b.owner, {friction, friction, restitution}, h));
     for_manifolds([](Manifold& m, BodyMotion& a, BodyMotion& b) { prepare(m, a, b); });
     for (int substep = 0; substep < substeps; ++substep) {
       for (BodyMotion& m : motions_)
@@ -71,10 +76,11 @@ class Bodies {
       }
       for_manifolds([&](Manifold& m, BodyMotion& a, BodyMotion& b) { velocity_pass(m, a, b, h); });
     }
+    for (std::size_t i = 0; i < contacts_.size(); ++i) keep_impulses(manifolds_[i], h, contacts_[i]);
     store();
   }
 
-  const std::vector<KeptManifold>& manifolds() const { return contacts_.manifolds(); }
+  const std::vector<Manifold>& manifolds() const { return manifolds_; }
 
  private:
   static constexpr int most_rounds = 32;
@@ -83,13 +89,12 @@ class Bodies {
     const int number = static_cast<int>(bodies.size());
     const MassProperties own = mass_properties(times(solid, static_cast<double>(mass) / solid.mass));
     bodies.push_back({{place + rotate(turned, own.centre), turned}, {}, {}, mass, own.inertia});
-    parts_.push_back({number, shape, {-own.centre, {}}, friction, restitution});
+    parts_.push_back({{number, 0, 0}, number, shape, false, {-own.centre, {}}});
   }
 
   template <class Body>
   void for_manifolds(const Body& body) {
-    for (KeptManifold& kept : contacts_.manifolds())
-      body(kept.manifold, motions_[std::size_t(kept.manifold.a)], motions_[std::size_t(kept.manifold.b)]);
+    for (Manifold& m : manifolds_) body(m, motions_[std::size_t(m.a)], motions_[std::size_t(m.b)]);
   }
 
   void load() {
@@ -130,7 +135,10 @@ class Bodies {
 
   std::deque<Polyhedron> polyhedra_;  ///< stay where they are
   std::vector<BodyPart> parts_;
-  BodyContacts contacts_{std::vector<BodyPart>{}};
+  Executor executor_{1};
+  BodyContacts finder_;
+  std::vector<BodyContact> contacts_;
+  std::vector<Manifold> manifolds_;
   std::vector<BodyMotion> motions_;
 };
 

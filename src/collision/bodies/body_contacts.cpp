@@ -3,35 +3,51 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <tuple>
 #include <utility>
 
 #include "geometry/convex_contact.h"
-#include "geometry/polyhedron_contact.h"
 
 namespace pliant {
 
 namespace {
 
-/// A manifold stays while its bodies have moved less against each other since its birth [m], and turned by less than 1.6 degrees
-/// (cosine of half the angle).
-constexpr double still = 0.02, straight = 0.9999;
+constexpr int parts_a_task = 256, pairs_a_task = 64;
+/// A contact stays while its bodies have moved less against each other since it began than this share of the smaller part's size, and
+/// turned by less than 1.6 degrees (cosine of half the angle).
+constexpr double still_share = 0.04, straight = 0.9999;
+/// Parts nearer than this share of the smaller one's size have a contact.
+constexpr double margin_share = 0.04;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Posed relative_pose(const Posed& a, const Posed& b) {
   return {to_local(a, b.position), normalise(multiply(conjugate(a.rotation), b.rotation))};
 }
 
-/// The box of a part in the world. Supports are exact up to rounding.
-BoxBounds box_of(const BodyPart& part, const Posed& body) {
-  const Posed pose = compose(body, part.pose);
+/// How far a part reaches from its frame's origin in six directions of some frame.
+struct Extent {
+  Vec3d low{}, high{};
+};
+
+Extent extent_of(const ConvexShape& shape, const Posed& pose) {
   const auto farthest = [&](const Vec3d& direction) {
     const Vec3d local = rotate(conjugate(pose.rotation), direction);
-    return dot(direction, to_world(pose, support(part.shape, local))) + static_cast<double>(part.shape.radius);
+    return dot(direction, to_world(pose, support(shape, local))) + static_cast<double>(shape.radius);
   };
-  const Vec3d high{farthest({1, 0, 0}), farthest({0, 1, 0}), farthest({0, 0, 1})};
-  const Vec3d low{-farthest({-1, 0, 0}), -farthest({0, -1, 0}), -farthest({0, 0, -1})};
+  return {{-farthest({-1, 0, 0}), -farthest({0, -1, 0}), -farthest({0, 0, -1})},
+          {farthest({1, 0, 0}), farthest({0, 1, 0}), farthest({0, 0, 1})}};
+}
+
+/// The box of a part in the world. Supports are exact up to rounding.
+BoxBounds box_of(const BodyPart& part, const Posed& body) {
+  const auto [low, high] = extent_of(part.shape, compose(body, part.pose));
   return {{detail::float_below(low.x), detail::float_below(low.y), detail::float_below(low.z)},
           {detail::float_above(high.x), detail::float_above(high.y), detail::float_above(high.z)}};
+}
+
+float size_of(const ConvexShape& shape) {
+  const auto [low, high] = extent_of(shape, {});
+  return static_cast<float>(0.5 * std::min({high.x - low.x, high.y - low.y, high.z - low.z}));
 }
 
 /// An upper bound of the speed of a part's points: what a box of it can move in a second.
@@ -41,137 +57,174 @@ float speed_of(const BodyState& body, const BoxBounds& box) {
   return length(body.velocity) + length(body.spin) * length(reach);
 }
 
-bool hardly_moved(const Posed& now, const Posed& born) {
-  return length(now.position - born.position) < still && std::fabs(dot(now.rotation, born.rotation)) > straight;
+bool hardly_moved(const Posed& now, const BodyContact& contact, double size) {
+  return length(now.position - contact.position) < still_share * size &&
+         std::fabs(dot(now.rotation, contact.rotation)) > straight;
 }
 
-void renew_gaps(KeptManifold& kept, const Posed& a, const Posed& b) {
-  Manifold& m = kept.manifold;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i)
-    m.gap[i] =
-        static_cast<float>(dot(convert<double>(m.normal), to_world(b, kept.anchor_b[i]) - to_world(a, kept.anchor_a[i])));
+void renew_gaps(const Posed& a, const Posed& b, BodyContact& c) {
+  for (std::size_t i = 0; i < at(c.count); ++i)
+    c.gap[i] = static_cast<float>(dot(convert<double>(c.normal), to_world(b, c.anchor_b[i]) - to_world(a, c.anchor_a[i])));
 }
 
 /// Contact points of two parts in the frame of body a.
 Touch touch_of(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, double reach) {
   const Posed pose = relative_pose(a.pose, compose(b_in_a, b.pose));
-  Touch found = touch(a.shape, b.shape, pose, reach);
+  Touch found = a.is_half_space ? touch_half_space(b.shape, pose, reach) : touch(a.shape, b.shape, pose, reach);
   found.normal = rotate(a.pose.rotation, found.normal);
   for (int i = 0; i < found.count; ++i) {
-    TouchPoint& point = found.points[static_cast<std::size_t>(i)];
+    TouchPoint& point = found.points[at(i)];
     point.on_a = to_world(a.pose, point.on_a);
     point.on_b = to_world(a.pose, point.on_b);
   }
   return found;
 }
 
-void set_directions(Manifold& m, const Vec3d& normal) {
+void set_directions(BodyContact& c, const Vec3d& normal) {
   const Vec3d size = abs(normal);
   const Vec3d axis = size.x <= size.y && size.x <= size.z ? Vec3d{1, 0, 0}
                      : size.y <= size.z                   ? Vec3d{0, 1, 0}
                                                           : Vec3d{0, 0, 1};
   const Vec3d first = unit_or(cross(normal, axis), axis);
-  m.normal = convert<float>(normal);
-  m.tangent1 = convert<float>(first);
-  m.tangent2 = convert<float>(cross(normal, first));
+  c.normal = convert<float>(normal);
+  c.tangent1 = convert<float>(first);
+  c.tangent2 = convert<float>(cross(normal, first));
 }
 
-/// Places the points of a new manifold.
-void set_points(KeptManifold& kept, const Touch& found, const Posed& a, const Posed& b) {
-  Manifold& m = kept.manifold;
-  m.count = found.count;
-  set_directions(m, rotate(a.rotation, found.normal));
+/// Places the points of a new contact.
+void set_points(const Touch& found, const Posed& a, const Posed& b, BodyContact& c) {
+  c.count = found.count;
+  set_directions(c, rotate(a.rotation, found.normal));
   Vec3d centre{};
   for (int i = 0; i < found.count; ++i) {
-    const TouchPoint& point = found.points[static_cast<std::size_t>(i)];
+    const TouchPoint& point = found.points[at(i)];
     centre += to_world(a, (point.on_a + point.on_b) * 0.5) * (1. / found.count);
   }
-  m.arm_a = convert<float>(centre - a.position);
-  m.arm_b = convert<float>(centre - b.position);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(found.count); ++i) {
+  c.arm_a = convert<float>(centre - a.position);
+  c.arm_b = convert<float>(centre - b.position);
+  for (std::size_t i = 0; i < at(found.count); ++i) {
     const TouchPoint& point = found.points[i];
     const Vec3f place = convert<float>(to_world(a, (point.on_a + point.on_b) * 0.5) - centre);
-    m.x[i] = dot(place, m.tangent1);
-    m.y[i] = dot(place, m.tangent2);
-    m.gap[i] = static_cast<float>(point.separation);
-    kept.anchor_a[i] = point.on_a;
-    kept.anchor_b[i] = to_local(b, to_world(a, point.on_b));
-    kept.feature[i] = point.feature;
+    c.x[i] = dot(place, c.tangent1);
+    c.y[i] = dot(place, c.tangent2);
+    c.gap[i] = static_cast<float>(point.separation);
+    c.anchor_a[i] = point.on_a;
+    c.anchor_b[i] = to_local(b, to_world(a, point.on_b));
+    c.feature[i] = point.feature;
   }
 }
 
-/// Hands the impulses of an earlier manifold of the same parts to the points that are the same.
-void take_impulses(const KeptManifold& from, KeptManifold& kept) {
-  Manifold& m = kept.manifold;
-  const Manifold& old = from.manifold;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i)
-    for (std::size_t j = 0; j < static_cast<std::size_t>(old.count); ++j)
-      if (kept.feature[i] == from.feature[j]) m.impulse[i] = old.impulse[j];
+/// Hands the impulses of an earlier contact of the same parts to the points that are the same.
+void take_impulses(const BodyContact& old, BodyContact& c) {
+  for (std::size_t i = 0; i < at(c.count); ++i)
+    for (std::size_t j = 0; j < at(old.count); ++j)
+      if (c.feature[i] == old.feature[j]) c.impulse[i] = old.impulse[j];
   const Vec3f friction = old.tangent1 * old.friction_impulse[0] + old.tangent2 * old.friction_impulse[1];
-  m.friction_impulse = {dot(friction, m.tangent1), dot(friction, m.tangent2)};
-  m.twist_impulse = old.twist_impulse;
+  c.friction_impulse = {dot(friction, c.tangent1), dot(friction, c.tangent2)};
+  c.twist_impulse = old.twist_impulse;
+  c.substep = old.substep;
+}
+
+/// The contact of two parts in the frame before; null if there was none.
+const BodyContact* find_before(const std::vector<BodyContact>& before, const ContactPart& a, const ContactPart& b) {
+  const auto place = std::lower_bound(before.begin(), before.end(), std::pair{a, b},
+                                      [](const BodyContact& c, const std::pair<ContactPart, ContactPart>& parts) {
+                                        return std::pair{c.a, c.b} < parts;
+                                      });
+  return place != before.end() && place->a == a && place->b == b ? &*place : nullptr;
 }
 
 }  // namespace
 
-BodyContacts::BodyContacts(std::vector<BodyPart> parts) : parts_(std::move(parts)) {}
+/// What the search for the contact of one pair needs.
+struct BodyContacts::Task {
+  const BodyContacts& of;
+  const std::vector<BodyState>& bodies;
+  const std::vector<BodyContact>& before;
+  float dt;
 
-void BodyContacts::find_pairs(const std::vector<BodyState>& bodies, float dt, float margin) {
-  boxes_.clear();
-  boxes_.reserve(parts_.size());
-  for (const BodyPart& part : parts_) {
-    const BodyState& body = bodies[static_cast<std::size_t>(part.body)];
-    const BoxBounds box = box_of(part, body.pose);
-    boxes_.push_back(box.grown(0.5f * margin + dt * speed_of(body, box)));
+  void run(const Pair& pair, std::vector<BodyContact>& found) const {
+    const BodyPart &one = of.parts_[at(pair.first)], &other = of.parts_[at(pair.second)];
+    const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
+    const Posed relative = relative_pose(a.pose, b.pose);
+    const double size = static_cast<double>(std::min(of.size_[at(pair.first)], of.size_[at(pair.second)]));
+    const BodyContact* old = find_before(before, one.id, other.id);
+    if (old != nullptr && hardly_moved(relative, *old, size)) {
+      found.push_back(*old);
+      return renew_gaps(a.pose, b.pose, found.back());
+    }
+    const float fast = of.speed_[at(pair.first)] + of.speed_[at(pair.second)];
+    const Touch touching = touch_of(one, other, relative, margin_share * size + static_cast<double>(dt * fast));
+    if (touching.count == 0) return;
+    BodyContact contact;
+    contact.a = one.id;
+    contact.b = other.id;
+    contact.position = relative.position;
+    contact.rotation = relative.rotation;
+    set_points(touching, a.pose, b.pose, contact);
+    if (old != nullptr) take_impulses(*old, contact);
+    found.push_back(contact);
   }
-  tree_.build(boxes_);
-  pairs_.clear();
-  tree_.self_pairs([&](int i, int j) {
-    const int a = parts_[static_cast<std::size_t>(i)].body, b = parts_[static_cast<std::size_t>(j)].body;
-    const bool are_fixed = bodies[static_cast<std::size_t>(a)].is_fixed && bodies[static_cast<std::size_t>(b)].is_fixed;
-    if (a != b && !are_fixed) pairs_.emplace_back(std::min(i, j), std::max(i, j));
+};
+
+BodyContacts::BodyContacts(std::vector<BodyPart> parts) : parts_(std::move(parts)) {
+  size_.reserve(parts_.size());
+  for (int i = 0; i < static_cast<int>(parts_.size()); ++i) {
+    const BodyPart& part = parts_[at(i)];
+    (part.is_half_space ? half_spaces_ : convex_).push_back(i);
+    size_.push_back(part.is_half_space ? 1e30f : size_of(part.shape));
+  }
+}
+
+void BodyContacts::find_boxes(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster) {
+  const int count = static_cast<int>(convex_.size());
+  boxes_.resize(convex_.size());
+  speed_.resize(parts_.size());
+  for (const int part : half_spaces_) speed_[at(part)] = length(bodies[at(parts_[at(part)].body)].velocity);
+  executor.parallel_for("bodies: boxes", (count + parts_a_task - 1) / parts_a_task, [&](int task) {
+    for (int i = task * parts_a_task; i < std::min(count, (task + 1) * parts_a_task); ++i) {
+      const int number = convex_[at(i)];
+      const BodyPart& part = parts_[at(number)];
+      const BodyState& body = bodies[at(part.body)];
+      const BoxBounds box = box_of(part, body.pose);
+      speed_[at(number)] = speed_of(body, box) + (body.is_fixed ? 0 : faster);
+      boxes_[at(i)] = box.grown(0.5f * static_cast<float>(margin_share) * size_[at(number)] + dt * speed_[at(number)]);
+    }
   });
+}
+
+void BodyContacts::find_pairs(const std::vector<BodyState>& bodies, FunctionRef<bool(int, int)> meet) {
+  pairs_.clear();
+  const auto add = [&](int i, int j) {
+    const int a = parts_[at(i)].body, b = parts_[at(j)].body;
+    const bool are_fixed = bodies[at(a)].is_fixed && bodies[at(b)].is_fixed;
+    if (a != b && !are_fixed && meet(a, b)) pairs_.emplace_back(std::min(i, j), std::max(i, j));
+  };
+  tree_.build(boxes_);
+  tree_.self_pairs([&](int i, int j) { add(convex_[at(i)], convex_[at(j)]); });
+  for (const int half_space : half_spaces_)
+    for (const int part : convex_) add(half_space, part);
   std::sort(pairs_.begin(), pairs_.end());
 }
 
-const KeptManifold* BodyContacts::before(int part_a, int part_b) const {
-  const auto place = std::lower_bound(manifolds_.begin(), manifolds_.end(), std::pair{part_a, part_b},
-                                      [](const KeptManifold& kept, const std::pair<int, int>& parts) {
-                                        return std::pair{kept.part_a, kept.part_b} < parts;
-                                      });
-  const bool is_there = place != manifolds_.end() && place->part_a == part_a && place->part_b == part_b;
-  return is_there ? &*place : nullptr;
-}
-
-void BodyContacts::update(const std::vector<BodyState>& bodies, float dt, float margin) {
-  find_pairs(bodies, dt, margin);
-  next_.clear();
-  for (const auto& [i, j] : pairs_) {
-    const BodyPart &one = parts_[static_cast<std::size_t>(i)], &other = parts_[static_cast<std::size_t>(j)];
-    const BodyState &a = bodies[static_cast<std::size_t>(one.body)], &b = bodies[static_cast<std::size_t>(other.body)];
-    const Posed relative = relative_pose(a.pose, b.pose);
-    const KeptManifold* old = before(i, j);
-    if (old != nullptr && hardly_moved(relative, old->born)) {
-      next_.push_back(*old);
-      renew_gaps(next_.back(), a.pose, b.pose);
-      continue;
-    }
-    const float fast = speed_of(a, boxes_[static_cast<std::size_t>(i)]) + speed_of(b, boxes_[static_cast<std::size_t>(j)]);
-    const Touch found = touch_of(one, other, relative, static_cast<double>(margin + dt * fast));
-    if (found.count == 0) continue;
-    KeptManifold kept;
-    kept.part_a = i;
-    kept.part_b = j;
-    kept.born = relative;
-    kept.manifold.a = one.body;
-    kept.manifold.b = other.body;
-    kept.manifold.friction = std::sqrt(one.friction * other.friction);
-    kept.manifold.restitution = std::max(one.restitution, other.restitution);
-    set_points(kept, found, a.pose, b.pose);
-    if (old != nullptr) take_impulses(*old, kept);
-    next_.push_back(kept);
+void BodyContacts::update(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
+                          FunctionRef<bool(int, int)> meet, const std::vector<BodyContact>& before,
+                          std::vector<BodyContact>& now) {
+  find_boxes(executor, bodies, dt, faster);
+  {
+    const Stopwatch stopwatch(executor.timings(), "bodies: pairs");
+    find_pairs(bodies, meet);
   }
-  std::swap(manifolds_, next_);
+  const int count = static_cast<int>(pairs_.size()), tasks = (count + pairs_a_task - 1) / pairs_a_task;
+  if (static_cast<int>(found_.size()) < tasks) found_.resize(at(tasks));
+  const Task task_of_pair{*this, bodies, before, dt};
+  executor.parallel_for("bodies: contacts", tasks, [&](int task) {
+    found_[at(task)].clear();
+    for (int i = task * pairs_a_task; i < std::min(count, (task + 1) * pairs_a_task); ++i)
+      task_of_pair.run(pairs_[at(i)], found_[at(task)]);
+  });
+  now.clear();
+  for (int task = 0; task < tasks; ++task) now.insert(now.end(), found_[at(task)].begin(), found_[at(task)].end());
 }
 
 }  // namespace pliant

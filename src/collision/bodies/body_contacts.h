@@ -1,23 +1,27 @@
-// Contact between rigid bodies: pairs of parts that may touch within a frame, and their manifolds, kept over frames.
+// Contact between rigid bodies, and of bodies with colliders: pairs of parts that may touch within a frame, and their points.
 //
-// A manifold stays as it was born, with its normal and its arms, while its bodies hardly move against each other, and only its gaps
+// A contact stays as it was born, with its normal and its arms, while its bodies hardly move against each other, and only its gaps
 // are renewed: fresh arms let tall stacks of soft contacts buckle (Catto, box2d 3, recycles manifolds for the same reason).
 #pragma once
 
+#include <cstdint>
+#include <utility>
 #include <vector>
 
-#include "collision/bodies/manifold.h"
 #include "collision/broad/tree.h"
 #include "geometry/convex_shape.h"
+#include "parallel/executor.h"
+#include "pliant/state.h"
 
 namespace pliant {
 
-/// A convex part of a body.
+/// A convex part of a body, or a half-space.
 struct BodyPart {
+  ContactPart id;
   int body = 0;
   ConvexShape shape;
-  Posed pose{};  ///< of the shape in the body's frame
-  float friction = 0.5f, restitution = 0;
+  bool is_half_space = false;  ///< y <= 0 of its frame, instead of the shape
+  Posed pose{};                ///< of the shape in the body's frame
 };
 
 /// Where a body is and how it moves at a frame's start.
@@ -29,26 +33,33 @@ struct BodyState {
 
 class BodyContacts {
  public:
-  /// The polyhedra of parts must stay where they are.
+  BodyContacts() = default;
+  /// Parts are in ascending order of their ids. The polyhedra of parts must stay where they are.
   explicit BodyContacts(std::vector<BodyPart> parts);
 
-  /// Finds all manifolds of a frame of `dt` seconds. Bodies touch if they may come within reach in it, or are within `margin` [m].
-  void update(const std::vector<BodyState>& bodies, float dt, float margin);
+  /// Finds all contacts of a frame of `dt` seconds, in ascending order of parts. Parts may touch if `meet` is true for their bodies,
+  /// and they may come within reach in the frame, in which speeds may increase by `faster` [m/s]. `before` are the contacts of the
+  /// frame before, in the same order.
+  void update(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
+              FunctionRef<bool(int, int)> meet, const std::vector<BodyContact>& before, std::vector<BodyContact>& now);
 
-  std::size_t parts() const { return parts_.size(); }
-
-  /// Sorted by parts.
-  std::vector<KeptManifold>& manifolds() { return manifolds_; }
-  const std::vector<KeptManifold>& manifolds() const { return manifolds_; }
+  const std::vector<BodyPart>& parts() const { return parts_; }
 
  private:
-  void find_pairs(const std::vector<BodyState>& bodies, float dt, float margin);
-  const KeptManifold* before(int part_a, int part_b) const;
+  /// Two parts that may touch, by index.
+  using Pair = std::pair<int, int>;
+  struct Task;
+
+  void find_boxes(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster);
+  void find_pairs(const std::vector<BodyState>& bodies, FunctionRef<bool(int, int)> meet);
 
   std::vector<BodyPart> parts_;
-  std::vector<std::pair<int, int>> pairs_;  ///< of parts whose boxes overlap, sorted
-  std::vector<KeptManifold> manifolds_, next_;
-  std::vector<BoxBounds> boxes_;
+  std::vector<int> convex_, half_spaces_;  ///< parts of either kind, ascending
+  std::vector<float> size_;                ///< of each part: half of its smallest extent [m]
+  std::vector<Pair> pairs_;                ///< of parts whose boxes overlap, sorted
+  std::vector<BoxBounds> boxes_;           ///< of convex parts
+  std::vector<float> speed_;               ///< [part] an upper bound of what a point of it moves in a second [m/s]
+  std::vector<std::vector<BodyContact>> found_;
   Tree<BoxBounds> tree_;
 };
 

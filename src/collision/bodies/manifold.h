@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 
-#include "math/quat.h"
 #include "math/vector.h"
 
 namespace pliant {
@@ -18,6 +17,7 @@ struct Manifold {
   std::array<float, 4> x{}, y{};           ///< places of points along the tangents, from that centre [m]
   std::array<float, 4> gap{};              ///< separations at the frame's start [m]
   float friction = 0, restitution = 0;     ///< coefficients [-]
+  float sliding = 1;                       ///< kinetic over static friction [-]
 
   std::array<float, 4> impulse{};           ///< of the points along the normal, in a substep [N s]
   std::array<float, 2> friction_impulse{};  ///< along the tangents, at the centre [N s]
@@ -29,15 +29,6 @@ struct Manifold {
   std::array<float, 3> slide{};         ///< of the tangents at the centre: 11, 22, 12 [1/kg]
   float twist_mobility = 0;             ///< [1/(kg m^2)]
   float radius = 0;                     ///< mean distance of the points from the centre [m]
-};
-
-/// A manifold between two parts of bodies, and what renews its gaps while the bodies hardly move.
-struct KeptManifold {
-  int part_a = 0, part_b = 0;
-  Manifold manifold;
-  std::array<Vec3d, 4> anchor_a{}, anchor_b{};  ///< places of the points on each body's surface, in the bodies' frames [m]
-  std::array<std::uint32_t, 4> feature{};       ///< what makes each point (TouchPoint::feature)
-  Posed born{};                                 ///< of body b in the frame of body a when the manifold was made
 };
 
 }  // namespace pliant

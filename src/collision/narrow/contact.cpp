@@ -201,6 +201,13 @@ void find_contacts_in_lanes(const Meeting& m, std::vector<std::int32_t>& near, i
   }
 }
 
+/// Removes centres of rigid bodies from the first `count` of a list, because only a body's solids touch. Returns how many remain.
+int without_centres(const CompiledObject& object, int count, std::vector<std::int32_t>& near) {
+  if (object.bodies.empty()) return count;
+  const auto end = std::remove_if(near.begin(), near.begin() + count, [&](int i) { return object.bodies.has_centre(i); });
+  return static_cast<int>(end - near.begin());
+}
+
 /// Finds the particles to test against a collider. These are all particles of the tile if the collider moves, because
 /// the kernel measures displacements of particles only.
 int find_near(const ContactSearch& search, const MovingCollider& collider, float thickness,
@@ -236,7 +243,7 @@ void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near,
     const MovingCollider& collider = search.colliders[c];
     if (!overlap(search.bounds, collider.swept, search.object.thickness) || !meet(search.object, collider)) continue;
     const float thickness = search.object.thickness + collider.thickness;
-    const int count = find_near(search, collider, thickness, near);
+    const int count = without_centres(search.object, find_near(search, collider, thickness, near), near);
     const Meeting meeting(search, c, thickness);
     if (search.make_contacts != nullptr && collider.field == nullptr) {
       find_contacts_in_lanes(meeting, near, count, contacts);
@@ -264,8 +271,9 @@ void find_breaches(const ContactSearch& search, const std::vector<Contact>& know
     const MovingCollider& collider = search.colliders[c];
     if (collider.field != nullptr || collider.shape.kind != ShapeKind::plane) continue;
     if (!overlap(b, collider.swept, margin) || !meet(search.object, collider)) continue;
-    const int count =
+    const int found =
         search.find_near({a.positions, a.displacements, a.first, a.last, collider.shape, collider.after, 0}, near.data());
+    const int count = without_centres(search.object, found, near);
     const Meeting meeting(search, c, 0);
     for (int k = 0; k < count; ++k) {
       if (is_known(c, near[k])) continue;

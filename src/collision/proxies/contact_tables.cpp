@@ -63,6 +63,12 @@ void update_rules(const Model& model, const std::vector<int>& changed, ContactRu
 
 }  // namespace
 
+ContactRules contact_rules(const Model& model) {
+  ContactRules rules;
+  update_rules(model, {}, rules);
+  return rules;
+}
+
 void update_tables(const Model& model, const std::vector<int>& changed, ContactTables& out) {
   update_rules(model, changed, out.rules);
   const auto particles = static_cast<std::size_t>(model.particles());

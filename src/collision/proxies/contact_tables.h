@@ -25,6 +25,9 @@ struct ContactTables {
   std::shared_ptr<VertexRanges> triangle_ranges = std::make_shared<VertexRanges>();
 };
 
+/// The rules of all objects and mesh colliders of a model.
+ContactRules contact_rules(const Model& model);
+
 /// Updates the rules of the bodies that were added, removed or edited, and the sizes of the arrays.
 void update_tables(const Model& model, const std::vector<int>& changed, ContactTables& out);
 

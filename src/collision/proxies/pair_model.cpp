@@ -29,7 +29,7 @@ ContactElements elements_of(const CompiledObject& object) {
   const std::vector<std::array<int, 2>> lines = triangles.empty() ? object.lines : std::vector<std::array<int, 2>>{};
   std::vector<int> all;
   for (int i = 0; i < object.particles; ++i)
-    if (object.order[static_cast<std::size_t>(i)] < object.user_particles) all.push_back(i);
+    if (object.order[static_cast<std::size_t>(i)] < object.user_particles && !object.bodies.has_centre(i)) all.push_back(i);
   return make_contact_elements(triangles, lines, all, object.particles);
 }
 
@@ -155,7 +155,8 @@ void find_free_points(const Model& model, PairModel& out) {
   if (bodies.size() == 1 && !out.shared->rules.meet(bodies[0], bodies[0])) return;
   for (const int o : bodies)
     for (int i = 0; i < model.objects[o].particles; ++i)
-      if (model.objects[o].order[static_cast<std::size_t>(i)] < model.objects[o].user_particles)
+      if (model.objects[o].order[static_cast<std::size_t>(i)] < model.objects[o].user_particles &&
+          !model.objects[o].bodies.has_centre(i))
         out.free_points.push_back(model.first[o] + i);
 }
 

@@ -80,7 +80,7 @@ void rub(Manifold& m, BodyMotion& a, BodyMotion& b) {
                               before[1] - (m.slide[0] * v - m.slide[2] * u) / determinant};
   const float limit = m.friction * sum_of_impulses(m);
   const float size = std::sqrt(wanted[0] * wanted[0] + wanted[1] * wanted[1]);
-  const float scale = std::min(1.f, limit / std::max(size, tiny));
+  const float scale = size <= limit ? 1.f : m.sliding * limit / std::max(size, tiny);
   m.friction_impulse = {wanted[0] * scale, wanted[1] * scale};
   const float twist_limit = limit * m.radius, old_twist = m.twist_impulse;
   const float twist = old_twist - dot(now.spin, m.normal) / std::max(m.twist_mobility, tiny);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "solver/bodies/body_solver.h"
 #include "solver/diagnose.h"
 #include "solver/pair_words.h"
 #include "solver/stages/stages.h"
@@ -29,6 +30,7 @@ Substep begin_group(const StepContext& context, const GroupFrame& of, double dt)
   s.least = of.substeps;
   s.most = of.most_substeps;
   s.least_hanging = of.least_hanging;
+  if (of.group != nullptr) s.bodies = of.group->bodies.get();
   if (of.group != nullptr) s.own_lengths = &of.group->lengths;
   for_objects(s, [&](int o) {
     s.work.gravity[o] = {0, static_cast<double>(s.h), 0, 1 / (1 + s.h * s.model.objects[o].damping)};
@@ -37,6 +39,7 @@ Substep begin_group(const StepContext& context, const GroupFrame& of, double dt)
   forget_substeps(s);
   begin_quarter(s);
   if (s.has_pairs()) s.pairs->begin_frame(s.state.positions.data(), s.work.look_for_tangles);
+  if (s.bodies != nullptr) s.bodies->begin_frame(s);
   s.sweeps_on_entry = may_sweep_on_entry(s);
   return s;
 }
@@ -82,6 +85,7 @@ void count_contacts(Substep& s) {
   };
   for_each_tile(s, [&](int task) { count(s.work.tiles[task].contacts); });
   count(s.own->shape_contacts);
+  if (s.bodies != nullptr) s.report.contacts += s.bodies->contacts_that_press();
 }
 
 namespace {
@@ -121,9 +125,24 @@ void add(Substep& s, Report& sum) {
   warn_of_pairs(s.model, *s.pairs, sum.warnings);
 }
 
+/// Puts the contacts of rigid bodies of all groups into the State.
+void keep_body_contacts(std::vector<Substep>& groups) {
+  std::vector<BodyContact>& all = groups.front().state.body_contacts;
+  all.clear();
+  for (Substep& s : groups) {
+    if (s.bodies == nullptr) continue;
+    s.bodies->end_frame(s);
+    all.insert(all.end(), s.bodies->contacts().begin(), s.bodies->contacts().end());
+  }
+  std::sort(all.begin(), all.end(), [](const BodyContact& a, const BodyContact& b) {
+    return std::pair{a.a, a.b} < std::pair{b.a, b.b};
+  });
+}
+
 }  // namespace
 
 bool end_frame(std::vector<Substep>& groups, Report& report) {
+  keep_body_contacts(groups);
   add(groups, report.iterations);
   for (Substep& s : groups) add(s, report);
   for (const Substep& s : groups) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "solver/bodies/body_solver.h"
 #include "solver/stages/stages.h"
 #include "solver/substep_law.h"
 
@@ -64,6 +65,7 @@ void respond(Substep& s) {
   const float slow = 2 * length(s.model.gravity) * s.h;
   const bool is_settled = s.is_last() || ends_quarter(s);
   const auto gravity = [&](int object) { return is_settled ? Vec3f{} : gravity_for(s, s.work.gravity[object].settled); };
+  if (s.bodies != nullptr) s.bodies->respond(s, gravity);
   respond_to_shapes(s, slow, gravity);
   if (!s.has_pairs()) return;
   Record* velocities = s.state.velocities.data();

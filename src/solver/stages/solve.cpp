@@ -1,6 +1,7 @@
 // Runs the iterations of a substep.
 #include <algorithm>
 
+#include "solver/bodies/body_solver.h"
 #include "solver/drivers/driver.h"
 #include "solver/momentum.h"
 #include "solver/residual.h"
@@ -46,6 +47,7 @@ void iterate(Substep& s, int iteration) {
   }
   s.group = nullptr;
   walk_stencils(s, iteration == 0);
+  if (s.bodies != nullptr) s.bodies->project(s, iteration == 0);
   walk(s, Turn::last, {});
 }
 

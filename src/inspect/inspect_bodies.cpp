@@ -1,0 +1,76 @@
+// Errors in the rigid bodies of an object for which a World rejects it.
+#include <cmath>
+#include <string>
+#include <variant>
+
+#include "geometry/convex_hull.h"
+#include "inspect/problems.h"
+
+namespace pliant {
+
+namespace {
+
+/// Largest size of a solid [m].
+constexpr double largest_size = 1e6, smallest_size = 1e-6;
+
+struct SolidCheck {
+  Problems& problems;
+  const std::string& element;
+
+  void size(const char* name, float value) const {
+    require_range(problems, element + ": " + name, static_cast<double>(value), smallest_size, largest_size);
+  }
+  void operator()(const Sphere& s) const { size("radius", s.radius); }
+  void operator()(const Box& s) const {
+    size("half_extents", s.half_extents.x);
+    size("half_extents", s.half_extents.y);
+    size("half_extents", s.half_extents.z);
+  }
+  void operator()(const Hull& s) const {
+    require_range(problems, element + ": margin", static_cast<double>(s.margin), 0, largest_size);
+    for (const Vec3f& p : s.points)
+      if (!is_finite(p) ||
+          !(std::fabs(p.x) < largest_size && std::fabs(p.y) < largest_size && std::fabs(p.z) < largest_size))
+        return problems.grave(element, "has a point that is not finite or beyond 1e6 m",
+                              "give finite coordinates in metres");
+    if (!convex_hull(s.points))
+      problems.grave(element, "has points that lie in one plane", "give points that enclose a volume");
+  }
+  template <class Round>
+  void operator()(const Round& s) const {
+    size("radius", s.radius);
+    size("half_length", s.half_length);
+  }
+};
+
+/// Reports a particle or frame that does not exist or belongs to two bodies.
+void check_place(Problems& problems, const std::string& element, const char* kind, int index, std::vector<char>& taken) {
+  if (index < 0 || static_cast<std::size_t>(index) >= taken.size())
+    return problems.grave(element, std::string("has ") + kind + ' ' + std::to_string(index) + ", which does not exist",
+                          "make bodies by add_body");
+  if (taken[static_cast<std::size_t>(index)] != 0)
+    problems.grave(element, std::string("has the ") + kind + " of another body", "give each body its own");
+  taken[static_cast<std::size_t>(index)] = 1;
+}
+
+}  // namespace
+
+void check_bodies(Problems& problems, const Object& object) {
+  std::vector<char> particles(object.positions.size()), frames(object.frames.size());
+  for (std::size_t b = 0; b < object.bodies.size(); ++b) {
+    const ObjectBody& body = object.bodies[b];
+    const std::string element = "body " + std::to_string(b) + (body.name.empty() ? "" : " '" + body.name + "'");
+    check_place(problems, element, "particle", body.particle, particles);
+    check_place(problems, element, "frame", body.frame, frames);
+    check_rotation(problems, element, body.axes);
+    require_place(problems, element, body.origin);
+    for (std::size_t i = 0; i < body.solids.size(); ++i) {
+      const std::string solid = element + ", solid " + std::to_string(i);
+      require_place(problems, solid, body.solids[i].position);
+      check_rotation(problems, solid, body.solids[i].rotation);
+      std::visit(SolidCheck{problems, solid}, body.solids[i].shape);
+    }
+  }
+}
+
+}  // namespace pliant

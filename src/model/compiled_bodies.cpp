@@ -1,0 +1,111 @@
+#include "model/compiled_bodies.h"
+
+#include <algorithm>
+#include <map>
+
+#include "constraints/registry.h"
+#include "geometry/convex_hull.h"
+#include "math/quat.h"
+
+namespace pliant {
+
+namespace {
+
+/// What makes the polyhedron of a shape: half extents of a box, the points of a hull. Empty for round shapes.
+struct PolyhedronKey {
+  std::vector<float> operator()(const Box& box) const {
+    return {box.half_extents.x, box.half_extents.y, box.half_extents.z};
+  }
+  std::vector<float> operator()(const Hull& hull) const {
+    std::vector<float> key;
+    for (const Vec3f& p : hull.points) key.insert(key.end(), {p.x, p.y, p.z});
+    return key;
+  }
+  template <class Round>
+  std::vector<float> operator()(const Round&) const {
+    return {};
+  }
+};
+
+/// Makes convex shapes; `polyhedra` has room for what it adds.
+struct MakeShape {
+  std::vector<Polyhedron>& polyhedra;
+
+  ConvexShape operator()(const Sphere& s) const { return {ConvexShape::Kind::point, s.radius, 0, 0, nullptr}; }
+  ConvexShape operator()(const Capsule& s) const {
+    return {ConvexShape::Kind::segment, s.radius, 0, s.half_length, nullptr};
+  }
+  ConvexShape operator()(const Cylinder& s) const {
+    return {ConvexShape::Kind::cylinder, 0, s.radius, s.half_length, nullptr};
+  }
+  ConvexShape operator()(const Cone& s) const { return {ConvexShape::Kind::cone, 0, s.radius, s.half_length, nullptr}; }
+  ConvexShape operator()(const Box& s) const {
+    polyhedra.push_back(polyhedron_of_box(s.half_extents));
+    return {ConvexShape::Kind::polyhedron, 0, 0, 0, &polyhedra.back()};
+  }
+  ConvexShape operator()(const Hull& s) const {
+    const auto hull = convex_hull(s.points);
+    polyhedra.push_back(hull ? polyhedron_of(*hull) : polyhedron_of_box({1, 1, 1}));  // inspect() rejects flat hulls
+    return {ConvexShape::Kind::polyhedron, s.margin, 0, 0, &polyhedra.back()};
+  }
+};
+
+/// Pairs of bodies whose frames one constraint has.
+std::vector<std::pair<int, int>> find_jointed(const Object& object) {
+  std::vector<int> body_of(object.frames.size(), -1);
+  for (std::size_t b = 0; b < object.bodies.size(); ++b)
+    body_of[static_cast<std::size_t>(object.bodies[b].frame)] = static_cast<int>(b);
+  std::vector<std::pair<int, int>> pairs;
+  for (const ConstraintGroup& group : object.constraints) {
+    const int number = find_constraint_type(group.type);
+    if (number < 0) continue;  // compile() names it
+    const ConstraintDefinition& type = constraint_type(number);
+    std::vector<std::size_t> frames;
+    for (std::size_t slot = 0; slot < type.slots.size(); ++slot)
+      if (type.slots[slot] == SlotKind::frame) frames.push_back(slot);
+    if (frames.size() < 2) continue;
+    for (std::size_t first = 0; first + type.slots.size() <= group.particles.size(); first += type.slots.size()) {
+      const int a = body_of[static_cast<std::size_t>(group.particles[first + frames[0]])],
+                b = body_of[static_cast<std::size_t>(group.particles[first + frames[1]])];
+      if (a >= 0 && b >= 0 && a != b) pairs.emplace_back(std::minmax(a, b));
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+}  // namespace
+
+ConvexShape convex_shape_of(const SolidShape& shape, std::vector<Polyhedron>& polyhedra) {
+  return std::visit(MakeShape{polyhedra}, shape);
+}
+
+CompiledBodies compile_bodies(const Object& object, const std::vector<int>& place, int particles) {
+  CompiledBodies out;
+  if (object.bodies.empty()) return out;
+  out.is_centre.assign(static_cast<std::size_t>(particles), 0);
+  std::size_t solids = 0;
+  for (const ObjectBody& body : object.bodies) solids += body.solids.size();
+  auto polyhedra = std::make_shared<std::vector<Polyhedron>>();
+  polyhedra->reserve(solids);  // shapes point into it
+  std::map<std::vector<float>, ConvexShape> known;
+  for (const ObjectBody& body : object.bodies) {
+    const int number = static_cast<int>(out.bodies.size()), particle = place[static_cast<std::size_t>(body.particle)];
+    out.bodies.push_back({particle, body.frame});
+    out.is_centre[static_cast<std::size_t>(particle)] = 1;
+    for (const Solid& solid : body.solids) {
+      std::vector<float> key = std::visit(PolyhedronKey{}, solid.shape);
+      const auto found = key.empty() ? known.end() : known.find(key);
+      ConvexShape shape = found != known.end() ? found->second : convex_shape_of(solid.shape, *polyhedra);
+      if (const Hull* hull = std::get_if<Hull>(&solid.shape)) shape.radius = hull->margin;
+      if (!key.empty() && found == known.end()) known.emplace(std::move(key), shape);
+      out.solids.push_back({number, shape, {convert<double>(solid.position), normalise(convert<double>(solid.rotation))}});
+    }
+  }
+  out.jointed = find_jointed(object);
+  out.polyhedra = std::move(polyhedra);
+  return out;
+}
+
+}  // namespace pliant

@@ -1,0 +1,44 @@
+// The rigid bodies of a compiled object: where they are in the State, and their solids as convex shapes.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "geometry/convex_shape.h"
+#include "pliant/scene.h"
+
+namespace pliant {
+
+/// One convex solid of a body.
+struct CompiledSolid {
+  int body = 0;  ///< index in CompiledBodies::bodies
+  ConvexShape shape;
+  Posed pose{};  ///< of the shape in the body's principal axes, about its centre of mass
+};
+
+struct CompiledBodies {
+  struct Body {
+    int particle = 0;  ///< storage index of the centre of mass
+    int frame = 0;     ///< index of the orientation, among the object's frames
+  };
+  std::vector<Body> bodies;           ///< in the order of Object::bodies
+  std::vector<CompiledSolid> solids;  ///< body after body
+  std::vector<std::pair<int, int>>
+      jointed;  ///< pairs of bodies with a constraint between them, which do not collide; sorted
+  std::shared_ptr<const std::vector<Polyhedron>> polyhedra;  ///< what shapes point to; each different one once
+
+  bool empty() const { return bodies.empty(); }
+  /// True if a particle, by storage index, is the centre of a body. Such particles touch nothing by themselves.
+  bool has_centre(int particle) const { return !is_centre.empty() && is_centre[static_cast<std::size_t>(particle)] != 0; }
+  std::vector<char> is_centre;  ///< [particle]; empty without bodies
+};
+
+/// Compiles the bodies of an object. `place` are the storage indices of its particles.
+CompiledBodies compile_bodies(const Object& object, const std::vector<int>& place, int particles);
+
+/// The convex shape of a solid or primitive collider other than a plane. A box or hull points to a polyhedron of `polyhedra`, which
+/// has room for it.
+ConvexShape convex_shape_of(const SolidShape& shape, std::vector<Polyhedron>& polyhedra);
+
+}  // namespace pliant

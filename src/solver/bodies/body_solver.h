@@ -1,0 +1,86 @@
+// Contact of the rigid bodies of a substep group with one another and with colliders, as stages of a frame.
+//
+// Contacts are found once a frame, and each substep solves them with one soft pass that corrects the predicted motion and one
+// pass over velocities after the update, which takes back what the first added (manifold_passes.h). Bodies' motions are gathered from the
+// State for a pass and scattered after it, so constraints, chains and other contact act on bodies as on any particle and frame.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "collision/bodies/body_contacts.h"
+#include "collision/narrow/contact.h"
+#include "collision/proxies/contact_rules.h"
+#include "model/model.h"
+#include "solver/bodies/manifold_passes.h"
+#include "solver/bodies/manifolds.h"
+
+namespace pliant {
+
+struct Substep;
+
+/// Over fifteen members: the bodies of a group, their contacts, and the memory of a frame.
+class BodySolver {
+ public:
+  /// For the bodies of the given objects, or of all if it is null. Call begin_frame before anything else.
+  BodySolver(const Model& model, const std::vector<int>* objects);
+
+  /// False if there are no bodies, so that no stage need be called.
+  bool has_bodies() const { return dynamic_ > 0; }
+
+  /// Finds the contacts of a frame. Kept ones come from the State.
+  void begin_frame(Substep& s);
+  /// Corrects displacements and rotations of bodies. In the first iteration of a substep, starts from the impulses of the last
+  /// one, and makes bodies bounce.
+  void project(Substep& s, bool is_first);
+  /// The pass over velocities. `gravity` is what the velocities of an object lack of this frame's gravity [m/s].
+  void respond(Substep& s, FunctionRef<Vec3f(int object)> gravity);
+  /// Puts the impulses of the last substep into contacts().
+  void end_frame(const Substep& s);
+
+  /// In ascending order of parts.
+  const std::vector<BodyContact>& contacts() const { return contacts_; }
+  int contacts_that_press() const;
+
+ private:
+  /// Where a body is in the State; or a collider.
+  struct Place {
+    int object = -1, body = -1;   ///< index in Model::objects, and among the object's bodies
+    int particle = 0, frame = 0;  ///< indices in the State
+    int collider = -1;            ///< >= 0: a collider instead: index in SubstepScratch::colliders
+  };
+  /// Position and remainder of a body at the frame's start [m].
+  struct Start {
+    Vec3f position{}, remainder{};
+  };
+
+  void add_object(const Model& model, int object, std::vector<BodyPart>& parts);
+  void add_collider(const Model& model, int collider, std::vector<BodyPart>& parts);
+  bool meet(const Model& model, int a, int b) const;
+  BodyMaterial material(const Model& model, int a, int b) const;
+  BodyState state_at_start(const Substep& s, int body) const;
+  void make_manifolds(const Substep& s);
+  void move_with_collider(const Substep& s, int body);
+  void load_predicted(const Substep& s);
+  void load_velocities(const Substep& s, FunctionRef<Vec3f(int object)> gravity);
+  void start_substep(const Substep& s);
+  const std::vector<BodyMotion>& keep_motions();
+  template <class Pass>
+  void for_manifolds(const Pass& pass);
+
+  ContactRules rules_;
+  std::vector<Place> places_;  ///< bodies of objects, then colliders
+  int dynamic_ = 0;            ///< bodies of objects
+  BodyContacts finder_;
+  std::vector<Polyhedron> collider_shapes_;
+  std::vector<MovingCollider> colliders_at_start_;  ///< their poses are those at the frame's start and end
+  std::vector<BodyState> states_;
+  std::vector<Start> starts_;
+  std::vector<BodyContact> contacts_;
+  std::vector<Manifold> manifolds_;         ///< of contacts_, in their order
+  std::vector<BodyMotion> motions_, kept_;  ///< of places_; before a pass
+  float last_h_ = 0;                        ///< length of the last substep [s]
+  bool bounces_ = false;                    ///< true: some manifold has restitution
+};
+
+}  // namespace pliant

@@ -1,0 +1,41 @@
+#include "solver/bodies/manifolds.h"
+
+namespace pliant {
+
+void scale_impulses(float factor, Manifold& m) {
+  for (float& impulse : m.impulse) impulse *= factor;
+  for (float& impulse : m.friction_impulse) impulse *= factor;
+  m.twist_impulse *= factor;
+}
+
+Manifold manifold_of(const BodyContact& contact, int a, int b, const BodyMaterial& material, float h) {
+  Manifold m;
+  m.a = a;
+  m.b = b;
+  m.count = contact.count;
+  m.normal = contact.normal;
+  m.tangent1 = contact.tangent1;
+  m.tangent2 = contact.tangent2;
+  m.arm_a = contact.arm_a;
+  m.arm_b = contact.arm_b;
+  m.x = contact.x;
+  m.y = contact.y;
+  m.gap = contact.gap;
+  m.friction = material.static_friction;
+  m.sliding = material.static_friction > 0 ? material.kinetic_friction / material.static_friction : 0;
+  m.restitution = material.restitution;
+  m.impulse = contact.impulse;
+  m.friction_impulse = contact.friction_impulse;
+  m.twist_impulse = contact.twist_impulse;
+  if (contact.substep > 0 && contact.substep != h) scale_impulses(h / contact.substep, m);
+  return m;
+}
+
+void keep_impulses(const Manifold& manifold, float h, BodyContact& contact) {
+  contact.impulse = manifold.impulse;
+  contact.friction_impulse = manifold.friction_impulse;
+  contact.twist_impulse = manifold.twist_impulse;
+  contact.substep = h;
+}
+
+}  // namespace pliant

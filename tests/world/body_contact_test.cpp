@@ -1,0 +1,196 @@
+// Tests contact of rigid bodies in a World: with one another and with colliders.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "pliant/body.h"
+#include "pliant/world.h"
+
+namespace pliant {
+namespace {
+
+constexpr float dt = 1.f / 60;
+
+Scene with_ground() {
+  Scene scene;
+  scene.colliders.emplace_back();
+  scene.colliders.back().static_friction = scene.colliders.back().kinetic_friction = 0.6f;
+  return scene;
+}
+
+void set_friction(Object& object, float friction) { object.static_friction = object.kinetic_friction = friction; }
+
+Object pyramid(int base) {
+  Object pile;
+  pile.name = "pyramid";
+  for (int row = 0; row < base; ++row)
+    for (int i = 0; i < base - row; ++i) {
+      BodyOptions options;
+      options.position = {static_cast<float>(i) + 0.5f * static_cast<float>(row), 0.5f + static_cast<float>(row),
+                          0};
+      add_body(pile, {{Box{}}}, options);
+    }
+  set_friction(pile, 0.6f);
+  return pile;
+}
+
+void run(World& world, int frames) {
+  for (int frame = 0; frame < frames; ++frame) ASSERT_TRUE(world.step(dt).ok());
+}
+
+float fastest(const World& world) {
+  float speed = 0;
+  for (const Record& v : world.state().velocities) speed = std::max(speed, std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z));
+  return speed;
+}
+
+TEST(BodyContact, ABoxFallsOnAPlaneAndRests) {
+  Scene scene = with_ground();
+  BodyOptions options;
+  options.position = {0, 1, 0};
+  scene.add(make_body({{Box{}}}, options));
+  World world(scene);
+  run(world, 120);
+  EXPECT_NEAR(world.object(0).positions()[0].y, 0.5, 1e-3);
+  EXPECT_LT(fastest(world), 1e-4f);
+  ASSERT_EQ(world.state().body_contacts.size(), 1U);
+  EXPECT_EQ(world.state().body_contacts[0].count, 4);
+  const double substep = 1. / 60 / 8;  // four impulses bear the weight
+  double sum = 0;
+  for (const float impulse : world.state().body_contacts[0].impulse) sum += static_cast<double>(impulse);
+  EXPECT_NEAR(sum / (1000 * 9.81 * substep), 1, 1e-3);
+}
+
+TEST(BodyContact, EachShapeRestsOnEachCollider) {
+  const std::vector<Vec3f> corners{{.3f, .3f, .3f}, {-.3f, -.3f, .3f}, {-.3f, .3f, -.3f}, {.3f, -.3f, -.3f}};
+  const std::vector<SolidShape> shapes{Sphere{.3f},        Capsule{.2f, .2f}, Box{{.3f, .2f, .2f}},
+                                       Cylinder{.3f, .2f}, Cone{.3f, .3f},    Hull{corners}};
+  const std::vector<Shape> colliders{Plane{}, Box{{2, 0.5f, 2}}};
+  for (const Shape& shape : colliders)
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      Scene scene = with_ground();
+      scene.colliders[0].shape = shape;
+      if (!std::holds_alternative<Plane>(shape)) scene.colliders[0].position = {0, -0.5f, 0};
+      BodyOptions options;
+      options.position = {0, 0.6f, 0};
+      options.rotation = {0.1f, 0, 0.05f, 0.9937f};
+      Object body = make_body({{shapes[i]}}, options);
+      set_friction(body, 0.6f);
+      scene.add(body);
+      World world(scene);
+      run(world, 480);
+      EXPECT_LT(fastest(world), 0.02f) << "shape " << i;
+      EXPECT_GT(world.object(0).positions()[0].y, 0.1f) << "shape " << i;
+      EXPECT_LT(world.object(0).positions()[0].y, 0.4f) << "shape " << i;
+    }
+}
+
+/// rigid.md: 0.011 m at 8 substeps.
+TEST(BodyContact, APyramidOf30RowsStands) {
+  Scene scene = with_ground();
+  scene.add(pyramid(30));
+  World world(scene);
+  const std::vector<Vec3f> start = world.object(0).positions();
+  run(world, 240);
+  const std::vector<Vec3f> end = world.object(0).positions();
+  float farthest = 0;
+  for (std::size_t i = 0; i < start.size(); ++i)
+    farthest = std::max(farthest, std::sqrt(length_squared(end[i] - start[i])));
+  EXPECT_LT(farthest, 0.015f);
+  EXPECT_LT(fastest(world), 1e-2f);
+}
+
+TEST(BodyContact, HasTheSameBitsOnAnyNumberOfThreadsAndAfterRestore) {
+  Scene scene = with_ground();
+  scene.add(pyramid(12));
+  BodyOptions options;
+  options.position = {6, 14, 0.2f};
+  options.velocity = {0, -8, 0};
+  scene.add(make_body({{Sphere{0.8f}}}, options));
+  std::string hashes[2];
+  for (int i = 0; i < 2; ++i) {
+    scene.settings.threads = i + 1;
+    World world(scene);
+    run(world, 60);
+    hashes[i] = world.state_hash();
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  World world(scene), other(scene);
+  run(world, 30);
+  other.restore(world.state());
+  run(other, 30);
+  EXPECT_EQ(other.state_hash(), hashes[0]);
+}
+
+/// Friction of 0.6 holds at a slope of tan 0.5 and not at tan 0.7.
+TEST(BodyContact, ABoxStaysOnASlopeUpToItsFriction) {
+  for (const double slope : {0.5, 0.7}) {
+    Scene scene = with_ground();
+    const auto half = static_cast<float>(std::atan(slope) / 2);
+    scene.colliders[0].rotation = {0, 0, std::sin(half), std::cos(half)};
+    BodyOptions options;
+    options.rotation = scene.colliders[0].rotation;
+    options.position = {-0.5f * std::sin(2 * half), 0.5f * std::cos(2 * half), 0};
+    Object box = make_body({{Box{}}}, options);
+    set_friction(box, 0.6f);
+    scene.add(box);
+    World world(scene);
+    run(world, 60);
+    const Vec3f moved = world.object(0).positions()[0] - options.position;
+    const double angle = std::atan(slope), expected = 0.5 * 9.81 * (std::sin(angle) - 0.6 * std::cos(angle));
+    EXPECT_NEAR(static_cast<double>(std::sqrt(length_squared(moved))), std::max(expected, 0.), 0.02) << slope;
+  }
+}
+
+TEST(BodyContact, ABallBouncesToTheSquareOfItsRestitution) {
+  Scene scene = with_ground();
+  BodyOptions options;
+  options.position = {0, 2.1f, 0};
+  Object ball = make_body({{Sphere{0.1f}}}, options);
+  ball.restitution = 0.8f;
+  scene.add(ball);
+  World world(scene);
+  float highest = 0;
+  for (int frame = 0; frame < 100; ++frame) {
+    ASSERT_TRUE(world.step(dt).ok());
+    if (frame > 45) highest = std::max(highest, world.object(0).positions()[0].y - 0.1f);
+  }
+  EXPECT_NEAR(highest, 2 * 0.64, 0.04);
+}
+
+TEST(BodyContact, AMovingColliderCarriesABox) {
+  Scene scene = with_ground();
+  scene.colliders[0].shape = Box{{2, 0.1f, 2}};
+  scene.colliders[0].motion.keyframes = {{0, {}, {}}, {1, {}, {}}, {3, {1, 0.5f, 0}, {}}};
+  BodyOptions options;
+  options.position = {0, 0.6f, 0};
+  scene.add(make_body({{Box{}}}, options));
+  World world(scene);
+  run(world, 240);
+  EXPECT_NEAR(world.object(0).positions()[0].x, 1, 0.04);
+  EXPECT_NEAR(world.object(0).positions()[0].y, 1.1, 2e-3);
+}
+
+TEST(BodyContact, OfARemovedObjectOrColliderIsForgotten) {
+  Scene scene = with_ground();
+  BodyOptions options;
+  options.position = {0, 0.5f, 0};
+  scene.add(make_body({{Box{}}}, options));
+  options.position = {0, 1.5f, 0};
+  scene.add(make_body({{Box{}}}, options));
+  World world(scene);
+  run(world, 30);
+  EXPECT_EQ(world.state().body_contacts.size(), 2U);
+  world.remove(ObjectId(0));
+  EXPECT_EQ(world.state().body_contacts.size(), 0U);
+  run(world, 60);
+  EXPECT_NEAR(world.object(1).positions()[0].y, 0.5, 1e-3);
+  world.remove(ColliderId(0));
+  EXPECT_EQ(world.state().body_contacts.size(), 0U);
+  run(world, 30);
+  EXPECT_LT(world.object(1).positions()[0].y, -0.5f);
+}
+
+}  // namespace
+}  // namespace pliant
