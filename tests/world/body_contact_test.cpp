@@ -27,8 +27,7 @@ Object pyramid(int base) {
   for (int row = 0; row < base; ++row)
     for (int i = 0; i < base - row; ++i) {
       BodyOptions options;
-      options.position = {static_cast<float>(i) + 0.5f * static_cast<float>(row), 0.5f + static_cast<float>(row),
-                          0};
+      options.position = {static_cast<float>(i) + 0.5f * static_cast<float>(row), 0.5f + static_cast<float>(row), 0};
       add_body(pile, {{Box{}}}, options);
     }
   set_friction(pile, 0.6f);
