@@ -1,0 +1,119 @@
+#include "collision/bodies/mesh_contacts.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "collision/bodies/triangle_contact.h"
+#include "math/vector.h"
+
+namespace pliant {
+
+namespace {
+
+/// Manifolds whose normals agree better than this are one [cosine].
+constexpr double alike = 0.995;
+/// Points nearer to each other than this share of the solid's size are one.
+constexpr double coincident = 1e-4;
+
+/// The points of one triangle: points[first] to points[end].
+struct Group {
+  int triangle = 0;
+  std::size_t first = 0, end = 0;
+  double deepest = 0;
+};
+
+/// Triangles that share a manifold, around the one that is touched most.
+struct Cluster {
+  Vec3d normal{};
+  int piece = 0;
+  std::vector<TrianglePoint> points;
+};
+
+std::vector<Group> groups_of(const std::vector<TrianglePoint>& points) {
+  std::vector<Group> groups;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const TrianglePoint& at = points[i];
+    if (groups.empty() || groups.back().triangle != at.triangle) groups.push_back({at.triangle, i, i, at.point.separation});
+    groups.back().end = i + 1;
+    groups.back().deepest = std::min(groups.back().deepest, at.point.separation);
+  }
+  std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
+    return a.deepest != b.deepest ? a.deepest < b.deepest : a.triangle < b.triangle;
+  });
+  return groups;
+}
+
+/// Adds points, but for those that are there already: neighbouring triangles share what lies on their edge.
+void add_points(Cluster& cluster, const std::vector<TrianglePoint>& points, const Group& group, double tolerance) {
+  cluster.piece = std::min(cluster.piece, group.triangle);
+  for (std::size_t i = group.first; i < group.end; ++i) {
+    const bool is_there = std::any_of(cluster.points.begin(), cluster.points.end(), [&](const TrianglePoint& other) {
+      return length_squared(other.point.on_b - points[i].point.on_b) <= tolerance * tolerance;
+    });
+    if (!is_there) cluster.points.push_back(points[i]);
+  }
+}
+
+std::vector<Cluster> clusters_of(const std::vector<TrianglePoint>& points, double tolerance) {
+  std::vector<Cluster> clusters;
+  for (const Group& group : groups_of(points)) {
+    const Vec3d& normal = points[group.first].normal;
+    auto place =
+        std::find_if(clusters.begin(), clusters.end(), [&](const Cluster& c) { return dot(c.normal, normal) > alike; });
+    if (place == clusters.end()) place = clusters.insert(place, {normal, group.triangle, {}});
+    add_points(*place, points, group, tolerance);
+  }
+  return clusters;
+}
+
+/// Four points of a cluster with the mean of their normals, so that a solid on a curved mesh is not held by one triangle's.
+Touch touch_of(const Cluster& cluster) {
+  Vec3d sum{};
+  for (const TrianglePoint& at : cluster.points) sum += at.normal;
+  const Vec3d normal = cluster.points.size() == 1 ? cluster.normal : unit_or(sum, cluster.normal);
+  std::vector<TouchPoint> points;
+  for (const TrianglePoint& at : cluster.points) {
+    TouchPoint point = at.point;
+    point.separation *= dot(at.normal, normal);
+    point.on_a = point.on_b - normal * point.separation;
+    points.push_back(point);
+  }
+  return four_of(points, normal);
+}
+
+/// The triangle of terrain above the centre of a solid that has sunk below it, else -1.
+int triangle_above(const BodyMesh& mesh, const SolidInMesh& solid) {
+  if (!mesh.is_terrain()) return -1;
+  const int triangle = mesh.triangle_in_column(solid.centre());
+  if (triangle < 0) return -1;
+  const MeshFace& face = mesh.face(triangle);
+  return dot(face.normal, solid.centre() - face.corners[0]) <= 0 ? triangle : -1;
+}
+
+std::vector<TrianglePoint> points_on(const BodyMesh& mesh, const SolidInMesh& solid, double reach) {
+  std::vector<TrianglePoint> points;
+  std::vector<int> near;
+  int plane = triangle_above(mesh, solid);
+  if (plane < 0) {
+    mesh.find(solid.box(reach + mesh.thickness()), near);
+    for (const int triangle : near) touch_triangle(solid, mesh, triangle, reach, points);
+    // Deep inside a fine mesh no triangle may be below the solid's lowest points.
+    if (points.empty()) plane = least_overlapped(solid, mesh, near);
+  }
+  if (plane >= 0) touch_plane_of(solid, mesh, plane, reach, points);
+  return points;
+}
+
+}  // namespace
+
+void touch_mesh(const ConvexShape& shape, const Posed& pose_in_mesh, const BodyMesh& mesh, double reach,
+                std::vector<MeshTouch>& found) {
+  found.clear();
+  const SolidInMesh solid(shape, pose_in_mesh);
+  const std::vector<TrianglePoint> points = points_on(mesh, solid, reach);
+  for (const Cluster& cluster : clusters_of(points, coincident * solid.size()))
+    found.push_back({cluster.piece, touch_of(cluster)});
+  std::sort(found.begin(), found.end(), [](const MeshTouch& a, const MeshTouch& b) { return a.piece < b.piece; });
+}
+
+}  // namespace pliant

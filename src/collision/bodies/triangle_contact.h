@@ -1,0 +1,34 @@
+// Where a convex solid touches one triangle of a mesh.
+//
+// The direction of contact is that of least overlap, or of the distance. If it lies outside the mesh's normal cone at the
+// triangle's edge or corner, some other triangle is nearer, and this one takes its own normal: so inner edges of a flat mesh
+// give no other normals than its faces.
+#pragma once
+
+#include <vector>
+
+#include "collision/bodies/body_mesh.h"
+#include "collision/bodies/solid_in_mesh.h"
+#include "geometry/touch.h"
+
+namespace pliant {
+
+/// A point of contact with a triangle. `a` of the touch point is the mesh, and normals point to the solid.
+struct TrianglePoint {
+  int triangle = 0;
+  Vec3d normal{};
+  TouchPoint point;
+};
+
+/// Appends the points at which a solid touches a triangle, or might within `reach` [m]. They share a normal.
+void touch_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, double reach,
+                    std::vector<TrianglePoint>& points);
+
+/// Appends the points of a solid that are deepest below the plane of a triangle, as if that had no bounds.
+void touch_plane_of(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, double reach,
+                    std::vector<TrianglePoint>& points);
+
+/// The triangle out of which the way along its normal is shortest, of those that a solid overlaps; -1: it overlaps none.
+int least_overlapped(const SolidInMesh& solid, const BodyMesh& mesh, const std::vector<int>& triangles);
+
+}  // namespace pliant
