@@ -11,6 +11,7 @@
 #include "apps/bench/draped_meshes.h"
 #include "apps/bench/landing.h"
 #include "apps/bench/memory.h"
+#include "apps/bench/piles.h"
 #include "apps/bench/scene_table.h"
 #include "atomic_file.h"
 #include "command.h"
@@ -97,6 +98,28 @@ std::string bench_landings(const BenchOptions& options) {
   return to_json(pliant::bench::measure_landings(wanted));
 }
 
+std::string bench_bodies(const BenchOptions& options) {
+  pliant::bench::PileOptions wanted;
+  if (options.workload != "bodies") wanted.piles = {options.workload.substr(std::string("bodies-").size())};
+  wanted.sizes = options.sizes;
+  wanted.frames = options.frames.value_or(wanted.frames);
+  wanted.limit = options.limit;
+  wanted.against_bullet = options.against == "bullet";
+  print(
+      "pile      size  bodies  engine  threads  substeps  mean, ms  slowest, ms  real-time    ratio  "
+      "after frame: moved, m; fastest, m/s; lost\n");
+  wanted.on_row = [](const pliant::bench::PileRow& row) {
+    throw_if_interrupted();
+    std::string snapshots;
+    for (const pliant::bench::PileSnapshot& snapshot : row.snapshots)
+      snapshots += fmt::format("  {}: {:.3g}; {:.2g}; {}", snapshot.frame, snapshot.moved, snapshot.speed, snapshot.lost);
+    print(fmt::format("{:<8} {:5} {:7}  {:<6} {:8} {:9} {:9.3f} {:12.2f} {:10.2f} {:8.2f}{}\n", row.pile, row.size,
+                      row.bodies, row.engine, row.threads, row.substeps, row.mean_ms, row.largest_ms,
+                      1000. / 60 / row.mean_ms, row.ratio, snapshots));
+  };
+  return to_json(pliant::bench::measure_piles(wanted));
+}
+
 std::string bench_default(const BenchOptions& options) {
   if (options.scenes.empty() && options.meshes.empty())
     throw Error({}, "'default' measures scene files", "name them: --scenes scenes/*.json, or --meshes FOLDER");
@@ -137,7 +160,9 @@ std::string bench_default(const BenchOptions& options) {
 void refuse_unknown(const std::string& workload) {
   std::vector<std::string> names;
   for (const pliant::bench::Workload& frames : pliant::bench::workloads()) names.push_back(frames.name);
-  for (const char* other : {"contact", "default", "memory", "W3", "W3-ball", "W3-cloth"}) names.emplace_back(other);
+  for (const char* other : {"bodies", "bodies-pyramid", "bodies-tower", "bodies-pour", "contact", "default", "memory", "W3",
+                            "W3-ball", "W3-cloth"})
+    names.emplace_back(other);
   if (workload.empty() || std::find(names.begin(), names.end(), workload) != names.end()) return;
   const std::string near = scene_file::nearest_name(workload, names);
   std::string list;
@@ -148,6 +173,7 @@ void refuse_unknown(const std::string& workload) {
 
 /// Measures a workload that has rows of its own, and returns them as JSON; nullopt for other workloads.
 std::optional<std::string> bench_by_name(const BenchOptions& options) {
+  if (options.workload.rfind("bodies", 0) == 0) return bench_bodies(options);
   if (options.workload == "contact") return bench_contact(options);
   if (options.workload == "default") return bench_default(options);
   if (options.workload == "memory") return bench_memory(options);

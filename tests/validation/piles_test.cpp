@@ -1,0 +1,77 @@
+// Tests the piles of rigid bodies that `pliant bench bodies` measures, in both engines.
+#include "apps/bench/piles.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/bench/bench.h"
+#include "pliant/error.h"
+
+namespace pliant::bench {
+namespace {
+
+std::vector<std::unique_ptr<PileEngine>> engines_of(const Pile& pile) {
+  std::vector<std::unique_ptr<PileEngine>> engines;
+  engines.push_back(make_pliant_pile(pile, 1));
+  if (has_bullet()) engines.push_back(make_bullet_pile(pile, 4));
+  return engines;
+}
+
+TEST(BenchPiles, APyramidHasAsManyBodiesAsItsRowsAndStands) {
+  const Pile pile = make_pile("pyramid", 4);
+  ASSERT_EQ(pile.bodies.size(), 10U);
+  for (const auto& engine : engines_of(pile)) {
+    for (int i = 0; i < 60; ++i) engine->step(1.f / 60);
+    const std::vector<Vec3f> x = engine->positions();
+    for (std::size_t i = 0; i < x.size(); ++i)
+      EXPECT_LT(std::sqrt(length_squared(x[i] - pile.bodies[i].position)), 0.02f) << i;
+    EXPECT_EQ(engine->velocities().size(), 10U);
+  }
+}
+
+TEST(BenchPiles, PouredBodiesFallApartAndStayInTheBowl) {
+  const Pile pile = make_pile("pour", 60);
+  for (const auto& engine : engines_of(pile)) {
+    for (int i = 0; i < 150; ++i) engine->step(1.f / 60);
+    const std::vector<Vec3f> x = engine->positions();
+    float highest = 0;
+    for (const Vec3f& p : x) {
+      EXPECT_GT(p.y, 0.03f);
+      highest = std::max(highest, p.y);
+    }
+    EXPECT_LT(highest, 1.f);  // the uppermost layer starts higher
+  }
+}
+
+TEST(BenchPiles, ARunYieldsARowForEachEngine) {
+  PileOptions options;
+  options.piles = {"tower"};
+  options.sizes = {3};
+  options.frames = 10;
+  options.against_bullet = has_bullet();
+  const std::vector<PileRow> rows = measure_piles(options);
+  ASSERT_EQ(rows.size(), has_bullet() ? 3U : 1U);
+  EXPECT_EQ(nlohmann::json::parse(to_json(rows)).size(), rows.size());
+  EXPECT_EQ(rows.back().engine, "pliant");
+  ASSERT_EQ(rows.back().snapshots.size(), 2U);
+  EXPECT_EQ(rows.back().snapshots[1].frame, 50);
+  EXPECT_EQ(rows.back().snapshots[1].lost, 0);
+  options.limit = 1e-9;  // no time for later frames
+  for (const PileRow& row : measure_piles(options)) EXPECT_EQ(row.snapshots.size(), 1U);
+}
+
+TEST(BenchPiles, RefusesWhatCannotBeMeasured) {
+  PileOptions options;
+  options.sizes = {0};
+  EXPECT_THROW(measure_piles(options), Error);
+  options.sizes = {3};
+  options.frames = 0;
+  EXPECT_THROW(measure_piles(options), Error);
+  EXPECT_THROW(make_pile("heap", 3), Error);
+}
+
+}  // namespace
+}  // namespace pliant::bench
