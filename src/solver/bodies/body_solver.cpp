@@ -13,6 +13,7 @@ namespace {
 
 /// Most rounds in which impacts are passed on from body to body in a substep.
 constexpr int most_rounds_of_impacts = 32;
+constexpr int manifolds_a_task = 128;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -141,9 +142,12 @@ void BodySolver::make_manifolds(const Substep& s) {
                                        [](const BodyPart& one, const ContactPart& wanted) { return one.id < wanted; });
     return part->body;
   };
-  for (const BodyContact& contact : contacts_) {
-    const int a = body_of(contact.a), b = body_of(contact.b);
-    manifolds_.push_back(manifold_of(contact, a, b, material(s.model, a, b), s.h));
+  bodies_of_.clear();
+  for (const BodyContact& contact : contacts_) bodies_of_.emplace_back(body_of(contact.a), body_of(contact.b));
+  colours_.colour(bodies_of_, is_fixed_);
+  for (const int i : colours_.order()) {
+    const auto& [a, b] = bodies_of_[at(i)];
+    manifolds_.push_back(manifold_of(contacts_[at(i)], a, b, material(s.model, a, b), s.h));
     bounces_ = bounces_ || manifolds_.back().restitution > 0;
     prepare(manifolds_.back(), motions_[at(a)], motions_[at(b)]);
   }
@@ -153,10 +157,12 @@ void BodySolver::begin_frame(Substep& s) {
   move_colliders(s.model, s.work.control, s.frame_start, s.frame_start + s.dt, colliders_at_start_);
   states_.clear();
   starts_.clear();
+  is_fixed_.clear();
   motions_.assign(places_.size(), {});
   const float gravity = static_cast<float>(s.dt) * length(s.model.gravity);
   for (int body = 0; body < static_cast<int>(places_.size()); ++body) {
     states_.push_back(state_at_start(s, body));
+    is_fixed_.push_back(states_.back().is_fixed ? 1 : 0);
     if (places_[at(body)].collider >= 0) continue;
     BodyMotion& motion = motions_[at(body)];
     const std::size_t particle = at(places_[at(body)].particle);
@@ -196,30 +202,49 @@ void BodySolver::load_predicted(const Substep& s) {
 }
 
 template <class Pass>
-void BodySolver::for_manifolds(const Pass& pass) {
-  for (Manifold& m : manifolds_) pass(m, motions_[at(m.a)], motions_[at(m.b)]);
+void BodySolver::for_manifolds(const Substep& s, const char* name, const Pass& pass) {
+  const auto run = [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      Manifold& m = manifolds_[at(i)];
+      BodyMotion fixed_a, fixed_b;  // several threads may read a fixed body, so passes get a copy of it
+      BodyMotion& a = is_fixed_[at(m.a)] != 0 ? fixed_a = motions_[at(m.a)] : motions_[at(m.a)];
+      BodyMotion& b = is_fixed_[at(m.b)] != 0 ? fixed_b = motions_[at(m.b)] : motions_[at(m.b)];
+      pass(m, a, b);
+    }
+  };
+  for (int colour = 0; colour < manifold_colours; ++colour) {
+    const int first = colours_.start()[at(colour)], last = colours_.start()[at(colour) + 1];
+    const int tasks = (last - first + manifolds_a_task - 1) / manifolds_a_task;
+    if (tasks == 0) continue;
+    s.context.executor.parallel_for(name, tasks, [&](int task) {
+      run(first + task * manifolds_a_task, std::min(last, first + (task + 1) * manifolds_a_task));
+    });
+  }
+  run(colours_.tail(), static_cast<int>(manifolds_.size()));
 }
 
 void BodySolver::start_substep(const Substep& s) {
   if (last_h_ != s.h)
     for (Manifold& m : manifolds_) scale_impulses(s.h / last_h_, m);
   last_h_ = s.h;
-  for_manifolds([](Manifold& m, BodyMotion& a, BodyMotion& b) { warm_start(m, a, b); });
+  for_manifolds(s, "solve: bodies", [](Manifold& m, BodyMotion& a, BodyMotion& b) { warm_start(m, a, b); });
   const float slow = 2 * s.h * length(s.model.gravity);
   bool goes_on = bounces_;
   for (int round = 0; goes_on && round < most_rounds_of_impacts; ++round) {
-    goes_on = false;
-    for_manifolds([&](Manifold& m, BodyMotion& a, BodyMotion& b) { goes_on = bounce(m, a, b, s.h, slow) || goes_on; });
+    char again = 0;  // set by several threads
+    for_manifolds(s, "solve: bodies", [&](Manifold& m, BodyMotion& a, BodyMotion& b) {
+      if (bounce(m, a, b, s.h, slow)) __atomic_store_n(&again, 1, __ATOMIC_RELAXED);
+    });
+    goes_on = again != 0;
   }
 }
 
 void BodySolver::project(Substep& s, bool is_first) {
-  const Stopwatch stopwatch(s.context.executor.timings(), "solve: bodies");
   load_predicted(s);
   if (manifolds_.empty()) return;
   const std::vector<BodyMotion>& before = keep_motions();
   if (is_first) start_substep(s);
-  for_manifolds([&](Manifold& m, BodyMotion& a, BodyMotion& b) { position_pass(m, a, b, s.h, {}); });
+  for_manifolds(s, "solve: bodies", [&](Manifold& m, BodyMotion& a, BodyMotion& b) { position_pass(m, a, b, s.h, {}); });
   for (int body = 0; body < dynamic_; ++body) {
     const Place& place = places_[at(body)];
     const BodyMotion& motion = motions_[at(body)];
@@ -251,11 +276,10 @@ void BodySolver::load_velocities(const Substep& s, FunctionRef<Vec3f(int object)
 }
 
 void BodySolver::respond(Substep& s, FunctionRef<Vec3f(int object)> gravity) {
-  const Stopwatch stopwatch(s.context.executor.timings(), "respond: bodies");
   load_velocities(s, gravity);
   if (manifolds_.empty()) return;
   const std::vector<BodyMotion>& before = keep_motions();
-  for_manifolds([&](Manifold& m, BodyMotion& a, BodyMotion& b) { velocity_pass(m, a, b, s.h); });
+  for_manifolds(s, "respond: bodies", [&](Manifold& m, BodyMotion& a, BodyMotion& b) { velocity_pass(m, a, b, s.h); });
   for (int body = 0; body < dynamic_; ++body) {
     const Place& place = places_[at(body)];
     const BodyMotion& motion = motions_[at(body)];
@@ -273,7 +297,7 @@ const std::vector<BodyMotion>& BodySolver::keep_motions() {
 }
 
 void BodySolver::end_frame(const Substep& s) {
-  for (std::size_t i = 0; i < contacts_.size(); ++i) keep_impulses(manifolds_[i], s.h, contacts_[i]);
+  for (std::size_t i = 0; i < manifolds_.size(); ++i) keep_impulses(manifolds_[i], s.h, contacts_[at(colours_.order()[i])]);
 }
 
 int BodySolver::contacts_that_press() const {

@@ -12,6 +12,7 @@
 #include "collision/narrow/contact.h"
 #include "collision/proxies/contact_rules.h"
 #include "model/model.h"
+#include "solver/bodies/manifold_colours.h"
 #include "solver/bodies/manifold_passes.h"
 #include "solver/bodies/manifolds.h"
 
@@ -65,8 +66,9 @@ class BodySolver {
   void load_velocities(const Substep& s, FunctionRef<Vec3f(int object)> gravity);
   void start_substep(const Substep& s);
   const std::vector<BodyMotion>& keep_motions();
+  /// Calls pass(manifold, motion of a, motion of b) for each manifold, colour after colour, each on all threads.
   template <class Pass>
-  void for_manifolds(const Pass& pass);
+  void for_manifolds(const Substep& s, const char* name, const Pass& pass);
 
   ContactRules rules_;
   std::vector<Place> places_;  ///< bodies of objects, then colliders
@@ -75,9 +77,12 @@ class BodySolver {
   std::vector<Polyhedron> collider_shapes_;
   std::vector<MovingCollider> colliders_at_start_;  ///< their poses are those at the frame's start and end
   std::vector<BodyState> states_;
+  std::vector<char> is_fixed_;                  ///< [place]
+  std::vector<std::pair<int, int>> bodies_of_;  ///< the bodies of contacts_
   std::vector<Start> starts_;
   std::vector<BodyContact> contacts_;
-  std::vector<Manifold> manifolds_;         ///< of contacts_, in their order
+  ManifoldColours colours_;                 ///< of contacts_
+  std::vector<Manifold> manifolds_;         ///< of contacts_, in the order of colours_
   std::vector<BodyMotion> motions_, kept_;  ///< of places_; before a pass
   float last_h_ = 0;                        ///< length of the last substep [s]
   bool bounces_ = false;                    ///< true: some manifold has restitution
