@@ -14,9 +14,9 @@ namespace {
 
 using AddRows = void (*)(Result&, bool);
 
-const AddRows adders[] = {spring_rows,      chain_rows,       momentum_rows, pendulum_rows, contact_rows,
-                          collision_rows,   stiffness_rows,   balloon_rows,  drape_rows,    steadiness_rows,
-                          convergence_rows, heavy_chain_rows, sweep_rows};
+const AddRows adders[] = {spring_rows,     chain_rows,       momentum_rows,    pendulum_rows, contact_rows,
+                          body_rows,       collision_rows,   stiffness_rows,   balloon_rows,  drape_rows,
+                          steadiness_rows, convergence_rows, heavy_chain_rows, sweep_rows};
 
 const char* word(Comparison comparison) {
   switch (comparison) {
@@ -55,6 +55,7 @@ const std::vector<Group>& groups() {
       {"momentum", "momentum, which internal constraints conserve; gradients"},
       {"pendulum", "period against amplitude, energy"},
       {"contact", "incline, stopping distance, bounce"},
+      {"bodies", "rigid bodies: tumbling, friction, impacts, stacks"},
       {"collision", "pairs, continuous tests, surfaces on surfaces, with the filter and without"},
       {"stiffness", "a rest shape that is independent of iterations, time step and mesh"},
       {"balloon", "volume against pressure"},
