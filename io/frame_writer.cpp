@@ -15,7 +15,7 @@ namespace {
 
 /// Throws an Error unless an object of the scene has as many particles as that of the World: writers use the scene's
 /// indices.
-void require_fitting(const std::string& path, const Object& object, int particles) {
+void require_fitting(const std::string& path, const Object& object, int particles, int frames) {
   if (object.positions.size() != static_cast<std::size_t>(particles))
     refuse(path, object.name, "",
            "the World has " + std::to_string(particles) + " particles, but the scene has " +
@@ -28,18 +28,31 @@ void require_fitting(const std::string& path, const Object& object, int particle
   for (const ConstraintGroup& group : object.constraints)
     for (const int particle : group.particles)
       if (!exists(particle)) refuse(path, object.name, group.type + " constraints", "use a particle that does not exist");
+  for (const ObjectBody& body : object.bodies)
+    if (!exists(body.particle) || body.frame < 0 || body.frame >= frames)
+      refuse(path, object.name, "body '" + body.name + "'", "uses a particle or frame that does not exist");
 }
 
 class WorldWriter final : public FrameWriter {
  public:
-  WorldWriter(std::unique_ptr<output::FormatWriter> format, std::vector<ObjectId> objects)
-      : format_(std::move(format)), objects_(std::move(objects)) {}
+  WorldWriter(std::unique_ptr<output::FormatWriter> format, const Scene& scene, std::vector<ObjectId> objects)
+      : format_(std::move(format)), objects_(std::move(objects)) {
+    for (const Object& object : scene.objects) {
+      Object part;
+      part.bodies = object.bodies;
+      for (ObjectBody& body : part.bodies) body.solids.clear();
+      bodies_.push_back(std::move(part));
+      has_bodies_ = has_bodies_ || !object.bodies.empty();
+    }
+  }
 
   void add(const World& world) override {
     output::Frame frame{.time = world.state().time, .positions = {}, .velocities = {}, .number = world.state().frame};
-    for (const ObjectId object : objects_) {
-      frame.positions.push_back(world.object(object).positions());
-      frame.velocities.push_back(world.object(object).velocities());
+    for (std::size_t o = 0; o < objects_.size(); ++o) {
+      const ObjectView object = world.object(objects_[o]);
+      frame.positions.push_back(object.positions());
+      frame.velocities.push_back(object.velocities());
+      if (has_bodies_) frame.bodies.push_back(output::body_motions(bodies_[o], object));
     }
     format_->add(frame);
   }
@@ -50,6 +63,8 @@ class WorldWriter final : public FrameWriter {
  private:
   std::unique_ptr<output::FormatWriter> format_;
   std::vector<ObjectId> objects_;  ///< objects at the start of the run
+  std::vector<Object> bodies_;     ///< for each object, which particles and frames are bodies
+  bool has_bodies_ = false;
 };
 
 }  // namespace
@@ -58,9 +73,10 @@ std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Sc
   if (world.object_count() != static_cast<int>(scene.objects.size()))
     refuse(path, "", "", "the scene has another number of objects than the World");
   for (int o = 0; o < world.object_count(); ++o)
-    require_fitting(path, scene.objects[static_cast<std::size_t>(o)], world.object(o).info().particles);
+    require_fitting(path, scene.objects[static_cast<std::size_t>(o)], world.object(o).info().particles,
+                    static_cast<int>(world.object(o).orientations().size()));
   const output::Objects objects = output::describe(scene);
-  return std::make_unique<WorldWriter>(output::make_format_writer(path, objects, scene.frame_time), world.objects());
+  return std::make_unique<WorldWriter>(output::make_format_writer(path, objects, scene.frame_time), scene, world.objects());
 }
 
 }  // namespace pliant

@@ -2,6 +2,7 @@
 #include "scene_build.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "pliant/substep_bounds.h"
@@ -142,6 +143,8 @@ void set_properties(const JsonDocument& document, const JsonValue& at, Object& o
   if (!object.velocities.empty())
     document.fail_key(*at.find("velocity"), "this object already has a velocity per particle", "give one of the two");
   object.velocities.assign(object.positions.size(), velocity);
+  for (const ObjectBody& body : object.bodies)  // a fixed body has no velocity
+    if (std::isinf(object.masses[body.particle])) object.velocities[body.particle] = {};
 }
 
 const JsonValue& one_of(const JsonValue& at, std::initializer_list<const char*> names) {
@@ -152,7 +155,7 @@ const JsonValue& one_of(const JsonValue& at, std::initializer_list<const char*> 
 
 Object object_of(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, Names& names,
                  std::vector<std::string>& repairs) {
-  const JsonValue& what = one_of(at, {"cloth", "rope", "particles"});
+  const JsonValue& what = one_of(at, {"cloth", "rope", "particles", "bodies"});
   BuiltObject built = build_matter(document, what, names.of(document, at, what.key), folder, repairs);
   set_properties(document, at, built.object);
   set_pins(document, at, built);

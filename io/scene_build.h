@@ -17,9 +17,13 @@ struct BuiltObject {
   int columns = 0, rows = 0;  ///< number of vertices along a grid; 0: no grid
 };
 
-/// Builds an object without pins and attachments. `what` is the member "cloth", "rope" or "particles".
+/// Builds an object without pins and attachments. `what` is the member "cloth", "rope", "particles" or "bodies".
 BuiltObject build_matter(const JsonDocument& document, const JsonValue& what, const std::string& name,
                          const MeshFolder& folder, std::vector<std::string>& repairs);
+
+/// Builds an object of rigid bodies. `list` is the member "bodies".
+Object build_bodies(const JsonDocument& document, const JsonValue& list, const std::string& name, const MeshFolder& folder,
+                    std::vector<std::string>& repairs);
 
 /// The particles that a checked selection denotes, each once.
 std::vector<int> selected(const JsonDocument& document, const JsonValue& at, const BuiltObject& built);

@@ -160,19 +160,22 @@ std::vector<std::string> sweep_names() {
 const Record& object_record() {
   static const Record result{
       "object",
-      "A cloth, a rope, or particles with constraints.",
+      "A cloth, a rope, particles with constraints, or rigid bodies.",
       {field("name", string(), "the kind, with a number if it is taken", "Unique name, used in messages and files."),
        either("cloth", record(cloth_record()), "A cloth, garment or balloon."),
        either("rope", record(rope_record()), "A rope."),
        either("particles", record(particles_record()), "Particles with constraints."),
+       either("bodies", list(record(body_record()), 1), "Rigid bodies: one, a pile, or the parts of a mechanism."),
        field("velocity", vector("m/s", largest_velocity), Vec3f{}, "Initial velocity of all its particles."),
        field("pins", list(record(pin_record())), "none", "Kinematic particles."),
        field("attachments", list(record(attachment_record())), "none", "Particles tied to targets."),
        field("thickness", number("m", 0, largest_place), "the material's; 0.005 for a rope, else 0.001",
              "Distance kept from colliders; two surfaces keep the sum of both."),
-       field("self_collision", boolean(), Object{}.self_collision,
-             "The surface does not pass through itself; without triangles, the links do not (docs/guide/contact.md)."),
-       field("collides", boolean(), Object{}.collides,
+       field(
+           "self_collision", boolean(), "false; true for bodies",
+           "The surface does not pass through itself; without triangles, the links do not (docs/guide/contact.md). Bodies "
+           "do not pass through each other."),
+       field("collides", boolean(), "false; true for bodies",
              "The object does not pass through other objects with `collides`. Mesh colliders always collide."),
        field("groups", bits(), "[0]",
              "Indices of its groups, 0 to 31. Two objects collide if the `mask` of each contains a group of the other."),
@@ -190,7 +193,7 @@ const Record& object_record() {
        field("damping", number("1/s", 0, 1e6), Object{}.damping,
              "Velocity damping: in a second a share of 1 - exp(-damping) is lost."),
        field("colour", colour(), Object{}.colour, "Colour as linear red, green and blue.")},
-      {"cloth", "rope", "particles"}};
+      {"cloth", "rope", "particles", "bodies"}};
   return result;
 }
 

@@ -12,6 +12,23 @@ const Record& plane_record() {
   return result;
 }
 
+constexpr const char* mesh_meaning =
+    "A static or kinematic surface, closed or open, that collides on both sides. `position` and `rotation` apply after the "
+    "mesh's own placement.";
+
+const Record& mesh_frame_record() {
+  static const Record result{
+      "mesh_frame",
+      "The vertices of a mesh at one time.",
+      {needed("time", number("s", 0, 1e9), "Time of the frame; increases along the list."),
+       either("file", string(), "A mesh file with the same number and order of vertices, placed like `mesh`."),
+       either("positions", list(place(), 1), "Vertex positions before the placement of `mesh`.")},
+      {"file", "positions"}};
+  return result;
+}
+
+}  // namespace
+
 const Record& sphere_record() {
   static const Record result{
       "sphere", "A ball.", {field("radius", positive("m", largest_place), Sphere{}.radius, "Radius.")}, {}};
@@ -36,23 +53,6 @@ const Record& box_record() {
       {}};
   return result;
 }
-
-constexpr const char* mesh_meaning =
-    "A static or kinematic surface, closed or open, that collides on both sides. `position` and `rotation` apply after the "
-    "mesh's own placement.";
-
-const Record& mesh_frame_record() {
-  static const Record result{
-      "mesh_frame",
-      "The vertices of a mesh at one time.",
-      {needed("time", number("s", 0, 1e9), "Time of the frame; increases along the list."),
-       either("file", string(), "A mesh file with the same number and order of vertices, placed like `mesh`."),
-       either("positions", list(place(), 1), "Vertex positions before the placement of `mesh`.")},
-      {"file", "positions"}};
-  return result;
-}
-
-}  // namespace
 
 const Record& pair_record() {
   static const Record result{

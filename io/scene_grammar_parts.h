@@ -14,7 +14,13 @@ const Record& fabric_record();
 std::vector<std::string> fabric_names();
 
 // Defined in scene_grammar_colliders.cpp.
+const Record& sphere_record();
+const Record& capsule_record();
+const Record& box_record();
 const Record& collider_record();
 const Record& pair_record();
+
+// Defined in scene_grammar_bodies.cpp.
+const Record& body_record();
 
 }  // namespace pliant::scene_file

@@ -1,4 +1,4 @@
-// Builds the three kinds of objects in scene files: cloth, rope, particles.
+// Builds objects in scene files: cloth, rope, particles; scene_bodies.cpp builds rigid bodies.
 #include <algorithm>
 #include <limits>
 
@@ -171,6 +171,7 @@ BuiltObject build_matter(const JsonDocument& document, const JsonValue& what, co
   try {
     if (what.key == "cloth") return cloth_of(document, what, name, folder, repairs);
     if (what.key == "rope") return rope_of(document, what, name);
+    if (what.key == "bodies") return {build_bodies(document, what, name, folder, repairs)};
   } catch (const Error& error) {
     if (!error.where().file.empty()) throw;  // the error has a location already: this file, or that of the mesh
     Location place = document.locate(what);

@@ -10,6 +10,7 @@
 
 #include "atomic_file.h"
 #include "pliant/error.h"
+#include "write_bodies.h"
 
 namespace pliant::output {
 
@@ -72,6 +73,17 @@ bool finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) &&
   throw Error({.file = path, .line = 0, .object = object, .element = element}, problem);
 }
 
+void check_bodies(const std::string& path, const FrameObject& object, const std::vector<BodyMotion>& motions) {
+  if (motions.size() != object.bodies.size())
+    refuse(path, object.name, {}, "a frame has another number of bodies than the scene");
+  for (std::size_t b = 0; b < motions.size(); ++b) {
+    const RigidPose& pose = motions[b].pose;
+    const Quatf& q = pose.rotation;
+    if (!finite(pose.position) || !finite({q.x, q.y, q.z}) || !std::isfinite(q.w))
+      refuse(path, object.name, "body '" + object.bodies[b].name + "'", "has a pose that is not finite");
+  }
+}
+
 std::string identifier(const std::string& name) {
   std::string result;
   for (const char c : name) {
@@ -99,12 +111,16 @@ FrameObject describe(const Object& object) {
                      .particles = static_cast<int>(object.positions.size()),
                      .triangles = object.triangles,
                      .lines = {}};
+  describe_bodies(object, result);
   if (!result.triangles.empty()) return result;
+  const std::vector<bool> is_body = body_centres(object);
   for (const ConstraintGroup& group : object.constraints) {
     if (group.type != "distance" || group.particles.size() < 2) continue;
     std::vector<std::array<int, 2>> edges;
-    for (std::size_t i = 0; i + 1 < group.particles.size(); i += 2)
-      edges.push_back({group.particles[i], group.particles[i + 1]});
+    for (std::size_t i = 0; i + 1 < group.particles.size(); i += 2) {
+      const std::array<int, 2> edge{group.particles[i], group.particles[i + 1]};
+      if (object.bodies.empty() || !is_body.at(edge[0]) || !is_body.at(edge[1])) edges.push_back(edge);
+    }
     result.lines = join_lines(edges);
     break;
   }
@@ -130,14 +146,21 @@ void check_frame(const std::string& path, const std::vector<FrameObject>& object
     if (bad != positions.end())
       refuse(path, objects[i].name, "particle " + std::to_string(bad - positions.begin()),
              "has a position that is not finite");
+    check_bodies(path, objects[i], frame.bodies.empty() ? std::vector<BodyMotion>{} : frame.bodies.at(i));
   }
 }
 
 std::vector<std::string> identifiers(const std::vector<FrameObject>& objects) {
+  std::vector<std::string> names;
+  for (const FrameObject& object : objects) names.push_back(object.name);
+  return identifiers(names);
+}
+
+std::vector<std::string> identifiers(const std::vector<std::string>& names) {
   std::vector<std::string> result;
   std::set<std::string> taken;
-  for (const FrameObject& object : objects) {
-    const std::string base = identifier(object.name);
+  for (const std::string& given : names) {
+    const std::string base = identifier(given);
     std::string name = base;
     for (int number = 2; !taken.insert(name).second; ++number) name = base + "_" + std::to_string(number);
     result.push_back(name);
@@ -182,12 +205,13 @@ std::string frame_number(std::int64_t frame) {
 std::unique_ptr<FormatWriter> make_format_writer(const std::string& path, const Objects& objects, double frame_time) {
   const SplitPath parts = split_path(path);
   const std::string& suffix = parts.suffix;
-  if (suffix == ".obj") return make_obj_sequence(path, objects);
-  if (suffix == ".ply") return make_ply_sequence(path, objects);
   if (suffix == ".glb") return make_glb_writer(path, objects);
   if (suffix == ".usda") return make_usda_writer(path, objects, frame_time);
-  if (suffix == ".pc2") return make_pc2_writer(path, objects, frame_time);
-  if (suffix == ".pvd") return make_pvd_writer(path, objects);
+  const auto surfaces = [&](auto make) { return make_surface_writer(objects, make); };
+  if (suffix == ".obj") return surfaces([&](const Objects& all) { return make_obj_sequence(path, all); });
+  if (suffix == ".ply") return surfaces([&](const Objects& all) { return make_ply_sequence(path, all); });
+  if (suffix == ".pc2") return surfaces([&](const Objects& all) { return make_pc2_writer(path, all, frame_time); });
+  if (suffix == ".pvd") return surfaces([&](const Objects& all) { return make_pvd_writer(path, all); });
   throw Error({.file = path, .line = 0, .object = {}, .element = {}}, "'" + suffix + "' is not a geometry format",
               "end it in .obj, .ply, .glb, .usda, .pc2 or .pvd");
 }

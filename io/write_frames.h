@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,7 +21,14 @@ class AtomicFile;
 
 namespace pliant::output {
 
-/// What does not change in an object. It is a surface if it has triangles, else lines if it has these, else points.
+/// A rigid body of an object: its surface is one of FrameObject::solids, which bodies of equal solids share.
+struct FrameBody {
+  std::string name;
+  int solid = 0;  ///< index in FrameObject::solids
+};
+
+/// What does not change in an object. It is a surface if it has triangles, else lines if it has these, else points; its
+/// rigid bodies are surfaces of their own.
 struct FrameObject {
   std::string name;
   Vec3f colour{};       ///< colour as linear RGB
@@ -28,14 +36,27 @@ struct FrameObject {
   int particles = 0;
   std::vector<std::array<int, 3>> triangles;
   std::vector<std::vector<int>> lines;  ///< particles along each line; a closed line ends with its first particle
+  std::vector<TriangleMesh> solids{};   ///< surfaces of bodies, each in the body's principal axes about its centre of mass
+  std::vector<FrameBody> bodies{};
+
+  /// True if the object has particles to show that are no centres of bodies.
+  bool has_matter() const { return bodies.empty() || !triangles.empty() || !lines.empty(); }
+};
+
+/// The motion of a rigid body at one time.
+struct BodyMotion {
+  RigidPose pose{};          ///< of the principal axes about the centre of mass
+  Vec3f velocity{};          ///< of the centre of mass [m/s]
+  Vec3f angular_velocity{};  ///< in world axes [rad/s]
 };
 
 /// The data of one frame.
 struct Frame {
-  double time = 0;                             ///< time of the frame [s]
-  std::vector<std::vector<Vec3f>> positions;   ///< positions of each object's particles [m]
-  std::vector<std::vector<Vec3f>> velocities;  ///< velocities of each object's particles, or empty [m/s]
-  std::int64_t number = 0;                     ///< number of the frame in the run, for file names
+  double time = 0;                                ///< time of the frame [s]
+  std::vector<std::vector<Vec3f>> positions;      ///< positions of each object's particles [m]
+  std::vector<std::vector<Vec3f>> velocities;     ///< velocities of each object's particles, or empty [m/s]
+  std::int64_t number = 0;                        ///< number of the frame in the run, for file names
+  std::vector<std::vector<BodyMotion>> bodies{};  ///< motions of each object's bodies; empty if no object has any
 };
 
 /// Writes frames in one format. Frames must be added in the order of time; finish() completes the files.
@@ -46,7 +67,7 @@ class FormatWriter {
   virtual void finish() = 0;
 
   /// Every file that is complete, in the order of completion.
-  const std::vector<WrittenFile>& written() const { return written_; }
+  virtual const std::vector<WrittenFile>& written() const { return written_; }
 
  protected:
   /// Completes a file and lists it in written(). Throws as AtomicFile::commit does.
@@ -61,6 +82,9 @@ class FormatWriter {
 std::vector<FrameObject> describe(const Scene& scene);
 FrameObject describe(const Object& object);
 
+/// The motions of all bodies of an object of a World.
+std::vector<BodyMotion> body_motions(const Object& object, const ObjectView& view);
+
 /// Joins edges to polylines, by following them in the order of particles.
 std::vector<std::vector<int>> join_lines(const std::vector<std::array<int, 2>>& edges);
 
@@ -68,8 +92,9 @@ std::vector<std::vector<int>> join_lines(const std::vector<std::array<int, 2>>& 
 /// finite, or is not later than `last_time` (-infinity for the first frame).
 void check_frame(const std::string& path, const std::vector<FrameObject>& objects, const Frame& frame, double last_time);
 
-/// A different identifier for each object, of letters, digits and _; the first character is no digit.
+/// A different identifier for each object or name, of letters, digits and _; the first character is no digit.
 std::vector<std::string> identifiers(const std::vector<FrameObject>& objects);
+std::vector<std::string> identifiers(const std::vector<std::string>& names);
 
 /// Normals of vertices, weighted by triangle area; (0, 1, 0) where undefined.
 std::vector<Vec3f> vertex_normals(const std::vector<Vec3f>& positions, const std::vector<std::array<int, 3>>& triangles);
@@ -94,6 +119,10 @@ std::unique_ptr<FormatWriter> make_glb_writer(const std::string& path, const Obj
 std::unique_ptr<FormatWriter> make_usda_writer(const std::string& path, const Objects& objects, double frame_time);
 std::unique_ptr<FormatWriter> make_pc2_writer(const std::string& path, const Objects& objects, double frame_time);
 std::unique_ptr<FormatWriter> make_pvd_writer(const std::string& path, const Objects& objects);
+
+/// A writer of a format without bodies, which gets their surfaces as vertices that move. `make` makes it for given objects.
+std::unique_ptr<FormatWriter> make_surface_writer(const Objects& objects,
+                                                  const std::function<std::unique_ptr<FormatWriter>(const Objects&)>& make);
 
 /// Makes the writer for the suffix of `path`. Throws an Error that lists the known suffixes if it is unknown.
 std::unique_ptr<FormatWriter> make_format_writer(const std::string& path, const Objects& objects, double frame_time);

@@ -1,5 +1,5 @@
 // Writes glTF 2.0 as one file: each object is a mesh, its frames are morph targets, and an animation of weights plays
-// them.
+// them. Rigid bodies are nodes that move (write_glb_bodies.h).
 //
 // Frame 0 is the mesh itself. Frame k is its k-th morph target, stored as differences; at its time the k-th weight is 1
 // and all others are 0, so a viewer blends two neighbouring frames. Normals are written, because viewers shade meshes
@@ -8,39 +8,18 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "atomic_file.h"
+#include "glb_document.h"
 #include "pliant/error.h"
 #include "write_frames.h"
+#include "write_glb_bodies.h"
 #include "write_spool.h"
 
 namespace pliant::output {
 
 namespace {
-
-using nlohmann::json;
-
-enum Component : int { unsigned_int = 5125, float_32 = 5126 };
-enum Target : int { array_buffer = 34962, element_array_buffer = 34963 };
-enum Mode : int { points = 0, lines = 1, triangles = 4 };
-constexpr std::uint64_t largest_file = 0xFFFFFFFFu;  // the format has 32-bit sizes
-
-struct Bounds {
-  Vec3f low, high;
-};
-
-Bounds bounds(const std::vector<Vec3f>& positions) {
-  Bounds b{positions[0], positions[0]};
-  for (const Vec3f& p : positions) {
-    b.low = {std::min(b.low.x, p.x), std::min(b.low.y, p.y), std::min(b.low.z, p.z)};
-    b.high = {std::max(b.high.x, p.x), std::max(b.high.y, p.y), std::max(b.high.z, p.z)};
-  }
-  return b;
-}
-
-json as_json(const Vec3f& v) { return json::array({v.x, v.y, v.z}); }
 
 std::vector<Vec3f> difference(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
   std::vector<Vec3f> result(a.size());
@@ -98,44 +77,6 @@ class Part {
   std::vector<Bounds> bounds_;              // bounds of each frame's positions
 };
 
-/// The JSON of the file and the layout of its binary part.
-class Document {
- public:
-  Document() : root_{{"asset", {{"version", "2.0"}, {"generator", "Pliant"}}}, {"scene", 0}} {}
-
-  /// Reserves `size` bytes of the binary part. Returns the index of the buffer view.
-  int add_view(std::uint64_t size, int target, bool vertices) {
-    json view{{"buffer", 0}, {"byteOffset", binary_size_}, {"byteLength", size}};
-    if (target != 0) view["target"] = target;
-    if (vertices) view["byteStride"] = sizeof(Vec3f);
-    binary_size_ += size;
-    return push("bufferViews", std::move(view));
-  }
-
-  int add_accessor(int view, std::uint64_t offset, int component, std::uint64_t count, const char* type,
-                   const Bounds* range = nullptr) {
-    json accessor{
-        {"bufferView", view}, {"byteOffset", offset}, {"componentType", component}, {"count", count}, {"type", type}};
-    if (range != nullptr) {
-      accessor["min"] = as_json(range->low);
-      accessor["max"] = as_json(range->high);
-    }
-    return push("accessors", std::move(accessor));
-  }
-
-  int push(const char* list, json value) {
-    root_[list].push_back(std::move(value));
-    return static_cast<int>(root_[list].size()) - 1;
-  }
-
-  json& root() { return root_; }
-  std::uint64_t binary_size() const { return binary_size_; }
-
- private:
-  json root_;
-  std::uint64_t binary_size_ = 0;
-};
-
 /// Adds the mesh and the node of an object. Returns the index of the node.
 int add_part(Document& document, const Part& part) {
   const std::uint64_t count = static_cast<std::uint64_t>(part.object().particles);
@@ -150,16 +91,7 @@ int add_part(Document& document, const Part& part) {
     else
       targets.push_back(std::move(attributes));
   }
-  const Vec3f& colour = part.object().colour;
-  const int material = document.push(
-      "materials",
-      {{"name", part.object().name},
-       {"doubleSided", true},
-       {"pbrMetallicRoughness",
-        {{"baseColorFactor",
-          {std::clamp(colour.x, 0.f, 1.f), std::clamp(colour.y, 0.f, 1.f), std::clamp(colour.z, 0.f, 1.f), 1.f}},
-         {"metallicFactor", 0.f},
-         {"roughnessFactor", 0.8f}}}});
+  const int material = add_material(document, part.object());
   json primitive{{"attributes", std::move(base)}, {"mode", part.mode()}, {"material", material}};
   if (const std::uint64_t indices = part.indices().size(); indices > 0)
     primitive["indices"] = document.add_accessor(document.add_view(indices * 4, element_array_buffer, false), 0,
@@ -176,7 +108,16 @@ int add_part(Document& document, const Part& part) {
 class GlbWriter final : public FormatWriter {
  public:
   GlbWriter(const std::string& path, const Objects& objects) : path_(path), objects_(objects), file_(path) {
-    for (const FrameObject& object : objects_) parts_.emplace_back(path, object);
+    for (std::size_t o = 0; o < objects_.size(); ++o) {
+      if (objects_[o].has_matter()) {
+        parts_.emplace_back(path, objects_[o]);
+        part_objects_.push_back(o);
+      }
+      if (!objects_[o].bodies.empty()) {
+        bodies_.emplace_back(objects_[o]);
+        body_objects_.push_back(o);
+      }
+    }
   }
 
   void add(const Frame& frame) override {
@@ -184,7 +125,8 @@ class GlbWriter final : public FormatWriter {
     // Times must increase as floats too, because the file stores floats.
     if (!times_.empty() && !(static_cast<float>(frame.time) > times_.back()))
       refuse("has frames too close in time for float precision");
-    for (std::size_t o = 0; o < parts_.size(); ++o) parts_[o].add(frame.positions[o]);
+    for (std::size_t p = 0; p < parts_.size(); ++p) parts_[p].add(frame.positions[part_objects_[p]]);
+    for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b].add(frame.bodies[body_objects_[b]]);
     times_.push_back(static_cast<float>(frame.time));
     last_time_ = frame.time;
     if (estimated_size() > largest_file) refuse("grows beyond the 4 GiB that the format allows");
@@ -201,13 +143,13 @@ class GlbWriter final : public FormatWriter {
       nodes.push_back(add_part(document, part));
       moving.push_back(nodes.back());
     }
-    const bool animated = times_.size() > 1 && !moving.empty();
-    if (animated) add_animation(document, moving);
+    for (GlbBodies& bodies : bodies_) nodes.push_back(bodies.add_nodes(document));
+    if (times_.size() > 1) add_animation(document, moving);
     json scene{{"name", "Pliant"}};
     if (!nodes.empty()) scene["nodes"] = std::move(nodes);
     document.push("scenes", std::move(scene));
     if (document.binary_size() > 0) document.push("buffers", {{"byteLength", document.binary_size()}});
-    write(document, animated);
+    write(document, times_.size() > 1 && !moving.empty());
   }
 
  private:
@@ -220,24 +162,29 @@ class GlbWriter final : public FormatWriter {
   std::uint64_t estimated_size() const {
     std::uint64_t size = 4 * (weight_count() + times_.size());
     for (const Part& part : parts_) size += part.size() + 12 * part.object().triangles.size() + 600 * times_.size() + 4096;
+    for (const GlbBodies& bodies : bodies_) size += bodies.estimated_size();
     return size;
   }
 
-  void add_animation(Document& document, const std::vector<int>& nodes) const {
+  void add_animation(Document& document, const std::vector<int>& morphed) {
+    json samplers = json::array(), channels = json::array();
     const int time_view = document.add_view(4 * times_.size(), 0, false);
     const int input = document.add_accessor(time_view, 0, float_32, times_.size(), "SCALAR");
     document.root()["accessors"][static_cast<std::size_t>(input)]["min"] = json::array({times_.front()});
     document.root()["accessors"][static_cast<std::size_t>(input)]["max"] = json::array({times_.back()});
-    const int weight_view = document.add_view(4 * weight_count(), 0, false);
-    const int output = document.add_accessor(weight_view, 0, float_32, weight_count(), "SCALAR");
-    json channels = json::array();
-    for (const int node : nodes) channels.push_back({{"sampler", 0}, {"target", {{"node", node}, {"path", "weights"}}}});
-    document.push("animations", {{"name", "simulation"},
-                                 {"channels", std::move(channels)},
-                                 {"samplers", {{{"input", input}, {"output", output}, {"interpolation", "LINEAR"}}}}});
+    if (!morphed.empty()) {
+      const int weight_view = document.add_view(4 * weight_count(), 0, false);
+      const int output = document.add_accessor(weight_view, 0, float_32, weight_count(), "SCALAR");
+      samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
+    }
+    for (const int node : morphed) channels.push_back({{"sampler", 0}, {"target", {{"node", node}, {"path", "weights"}}}});
+    for (GlbBodies& bodies : bodies_) bodies.add_channels(document, input, samplers, channels);
+    if (channels.empty()) return;  // nothing moves: the times alone are in the file
+    document.push("animations",
+                  {{"name", "simulation"}, {"channels", std::move(channels)}, {"samplers", std::move(samplers)}});
   }
 
-  void write(Document& document, bool animated) {
+  void write(Document& document, bool morphs) {
     std::string text = document.root().dump(-1, ' ', false, json::error_handler_t::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const std::uint64_t binary = document.binary_size();
@@ -251,21 +198,27 @@ class GlbWriter final : public FormatWriter {
     if (binary > 0) {
       file_.write_value(static_cast<std::uint32_t>(binary));
       file_.write("BIN", 4);
-      write_binary(animated);
+      write_binary(morphs);
     }
     commit(file_);
   }
 
   /// Writes the buffers in the order of the document's buffer views.
-  void write_binary(bool animated) {
+  void write_binary(bool morphs) {
     for (Part& part : parts_) {
       if (part.blocks().empty()) continue;
       part.vertices().copy_to(file_);
       const std::vector<std::uint32_t> indices = part.indices();
       file_.write(indices.data(), indices.size() * 4);
     }
-    if (!animated) return;
+    for (const GlbBodies& bodies : bodies_) bodies.write_meshes(file_);
+    if (times_.size() < 2) return;
     file_.write(times_.data(), times_.size() * 4);
+    if (morphs) write_weights();
+    for (const GlbBodies& bodies : bodies_) bodies.write_tracks(file_);
+  }
+
+  void write_weights() {
     std::vector<float> row(times_.size() - 1, 0.f);
     for (std::size_t frame = 0; frame < times_.size(); ++frame) {
       std::fill(row.begin(), row.end(), 0.f);
@@ -278,6 +231,8 @@ class GlbWriter final : public FormatWriter {
   Objects objects_;
   AtomicFile file_;
   std::vector<Part> parts_;
+  std::vector<GlbBodies> bodies_;
+  std::vector<std::size_t> part_objects_, body_objects_;  // indices of their objects
   std::vector<float> times_;
   bool finished_ = false;
   double last_time_ = -std::numeric_limits<double>::infinity();

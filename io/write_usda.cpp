@@ -1,4 +1,5 @@
-// Writes USD as text: one prim for each object under /World, its points as time samples.
+// Writes USD as text: one prim for each object under /World, its points as time samples. Rigid bodies are prims that move
+// (write_usda_bodies.h).
 //
 // A time code is a frame number, so that tools show integers; samples at other times are between these. The text has
 // all samples of a prim together, so each object has a Spool of its own until the end.
@@ -8,48 +9,14 @@
 
 #include "atomic_file.h"
 #include "pliant/error.h"
+#include "usda_text.h"
 #include "write_frames.h"
 #include "write_spool.h"
-#include "write_text.h"
+#include "write_usda_bodies.h"
 
 namespace pliant::output {
 
 namespace {
-
-template <class List, class Item>
-std::string listed(const List& items, Item item) {
-  std::string text = "[";
-  for (const auto& i : items) {
-    if (text.size() > 1) text += ", ";
-    item(text, i);
-  }
-  return text + "]";
-}
-
-void tuple(std::string& text, const Vec3f& v) {
-  append(text += '(', v, ", ");
-  text += ')';
-}
-
-std::string quoted(const std::string& name) {
-  std::string text = "\"";
-  for (const char c : name) {
-    if (c == '"' || c == '\\') text += '\\';
-    text += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return text + "\"";
-}
-
-std::string extent(const std::vector<Vec3f>& points, float margin) {
-  if (points.empty()) return "[(0, 0, 0), (0, 0, 0)]";
-  Vec3f low = points[0], high = points[0];
-  for (const Vec3f& p : points) {
-    low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y), std::fmin(low.z, p.z)};
-    high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y), std::fmax(high.z, p.z)};
-  }
-  const Vec3f around{margin, margin, margin};
-  return listed(std::vector<Vec3f>{low - around, high + around}, tuple);
-}
 
 /// The prim of an object: its points in the prim's order, and the samples so far.
 class Prim {
@@ -129,7 +96,10 @@ class UsdaWriter final : public FormatWriter {
  public:
   UsdaWriter(const std::string& path, Objects objects, double frame_time)
       : path_(path), objects_(std::move(objects)), frame_time_(frame_time > 0 ? frame_time : 1. / 60), file_(path) {
-    for (const FrameObject& object : objects_) prims_.emplace_back(path, object);
+    for (std::size_t o = 0; o < objects_.size(); ++o) {
+      if (objects_[o].has_matter()) prims_.emplace_back(path, objects_[o]), prim_objects_.push_back(o);
+      if (!objects_[o].bodies.empty()) bodies_.emplace_back(objects_[o]), body_objects_.push_back(o);
+    }
   }
 
   void add(const Frame& frame) override {
@@ -139,7 +109,8 @@ class UsdaWriter final : public FormatWriter {
     if (first_code_.empty()) first_code_ = text;
     last_code_ = text;
     last_time_ = frame.time;
-    for (std::size_t o = 0; o < prims_.size(); ++o) prims_[o].add(text, frame.positions[o]);
+    for (std::size_t p = 0; p < prims_.size(); ++p) prims_[p].add(text, frame.positions[prim_objects_[p]]);
+    for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b].add(text, frame.bodies[body_objects_[b]]);
   }
 
   void finish() override {
@@ -152,8 +123,12 @@ class UsdaWriter final : public FormatWriter {
     file_.write("#usda 1.0\n(\n    defaultPrim = \"World\"\n    startTimeCode = " + first_code_ + "\n    endTimeCode = " +
                 last_code_ + "\n    timeCodesPerSecond = " + rate + "\n    framesPerSecond = " + rate +
                 "\n    metersPerUnit = 1\n    upAxis = \"Y\"\n)\n\ndef Xform \"World\"\n{");
-    const std::vector<std::string> names = identifiers(objects_);
-    for (std::size_t o = 0; o < prims_.size(); ++o) prims_[o].write(file_, names[o]);
+    std::vector<std::string> names;
+    for (const auto* indices : {&prim_objects_, &body_objects_})
+      for (const std::size_t o : *indices) names.push_back(objects_[o].name);
+    names = identifiers(names);
+    for (std::size_t p = 0; p < prims_.size(); ++p) prims_[p].write(file_, names[p]);
+    for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b].write(file_, names[prims_.size() + b]);
     file_.write("}\n");
     commit(file_);
   }
@@ -170,6 +145,8 @@ class UsdaWriter final : public FormatWriter {
   double frame_time_;
   AtomicFile file_;
   std::vector<Prim> prims_;
+  std::vector<UsdaBodies> bodies_;
+  std::vector<std::size_t> prim_objects_, body_objects_;  // indices of their objects
   std::string first_code_, last_code_;
   bool finished_ = false;
   double last_time_ = -std::numeric_limits<double>::infinity();

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 
 #include "io/write_frames.h"
 #include "matrix.h"
@@ -148,6 +150,45 @@ Geometry build_solid(const RenderMesh& mesh) {
   return geometry;
 }
 
+/// Makes the geometry of each body: that of its mesh, which is made once, in the body's pose and colour.
+void add_bodies(const std::vector<RenderBody>& bodies, std::vector<Geometry>& result) {
+  std::map<const TriangleMesh*, Geometry> made;
+  for (const RenderBody& body : bodies) {
+    const auto [found, is_new] = made.try_emplace(body.mesh.get());
+    if (is_new)
+      found->second = build_solid(
+          {.positions = body.mesh->positions, .triangles = body.mesh->triangles, .colour = body.colour, .is_solid = true});
+    Geometry geometry = found->second;
+    geometry.colour = body.colour;
+    place(geometry, body.pose.position, body.pose.rotation);
+    result.push_back(std::move(geometry));
+  }
+}
+
+/// The corners of the box around a body's mesh, in the world.
+std::array<Vec3f, 8> box_corners(const Bounds& box, const RigidPose& pose) {
+  std::array<Vec3f, 8> corners;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Vec3f corner{(i & 1) != 0 ? box.high.x : box.low.x, (i & 2) != 0 ? box.high.y : box.low.y,
+                       (i & 4) != 0 ? box.high.z : box.low.z};
+    corners[i] = rotate(pose.rotation, corner) + pose.position;
+  }
+  return corners;
+}
+
+/// Adds the corners of the boxes around all bodies that are fixed, or all that are not.
+void include_bodies(const RenderScene& scene, bool fixed, float largest, std::vector<Vec3f>& points) {
+  std::map<const TriangleMesh*, Bounds> boxes;
+  for (const RenderBody& body : scene.bodies) {
+    if (body.is_fixed != fixed || body.mesh->positions.empty()) continue;
+    const auto [found, is_new] = boxes.try_emplace(body.mesh.get());
+    if (is_new) found->second = bounds(body.mesh->positions);
+    if (found->second.radius() > largest) continue;
+    const auto corners = box_corners(found->second, body.pose);
+    points.insert(points.end(), corners.begin(), corners.end());
+  }
+}
+
 Geometry build_mesh(const RenderMesh& mesh) {
   if (mesh.is_solid) return build_solid(mesh);
   Geometry geometry{.vertices = {}, .indices = {}, .colour = mesh.colour, .material = Material::cloth};
@@ -171,6 +212,25 @@ bool finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) &&
 [[noreturn]] void refuse(const char* kind, std::size_t index, const std::string& problem) {
   throw Error({.file = {}, .line = 0, .object = {}, .element = kind + (" " + std::to_string(index)) + " of the picture"},
               problem);
+}
+
+void check_triangles(const char* kind, std::size_t index, const std::vector<Vec3f>& positions,
+                     const std::vector<std::array<int, 3>>& triangles) {
+  if (!std::all_of(positions.begin(), positions.end(), finite))
+    refuse(kind, index, "has a vertex with a position that is not finite");
+  const int count = static_cast<int>(positions.size());
+  for (const auto& triangle : triangles)
+    for (const int i : triangle)
+      if (i < 0 || i >= count)
+        refuse(kind, index, "has a triangle with vertex " + std::to_string(i) + " of " + std::to_string(count));
+}
+
+void check_body(const RenderBody& body, std::size_t index) {
+  if (!body.mesh) refuse("body", index, "has no mesh");
+  check_triangles("body", index, body.mesh->positions, body.mesh->triangles);
+  const Quatf& q = body.pose.rotation;
+  if (!finite(body.pose.position) || !finite({q.x, q.y, q.z}) || !std::isfinite(q.w))
+    refuse("body", index, "has a pose that is not finite");
 }
 
 }  // namespace
@@ -209,7 +269,9 @@ std::vector<Vec3f> points_of_interest(const RenderScene& scene) {
   for (const RenderMesh& mesh : scene.meshes)
     if (!mesh.is_solid) points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
   for (const RenderTube& tube : scene.tubes) points.insert(points.end(), tube.points.begin(), tube.points.end());
+  include_bodies(scene, false, std::numeric_limits<float>::infinity(), points);
   const float size = bounds(points).radius();
+  include_bodies(scene, true, size == 0 ? std::numeric_limits<float>::infinity() : 2.5f * size, points);
   for (const RenderMesh& mesh : scene.meshes)
     if (mesh.is_solid && (size == 0 || bounds(mesh.positions).radius() < 2.5f * size))
       points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
@@ -235,6 +297,7 @@ std::vector<Geometry> build_geometry(const RenderScene& scene, const Vec3f& arou
   std::vector<Geometry> result;
   for (const RenderMesh& mesh : scene.meshes) result.push_back(build_mesh(mesh));
   for (const RenderTube& tube : scene.tubes) result.push_back(build_tube(tube, std::max(tube.radius, least_radius)));
+  add_bodies(scene.bodies, result);
   for (const RenderCollider& collider : scene.colliders) {
     const bool is_ground = scene.ground && is_level_plane(collider) && collider.position.y <= *scene.ground + 1e-6f;
     if (!is_ground) result.push_back(build_collider(collider, around, radius));
@@ -250,21 +313,14 @@ Geometry build_ground(const Vec3f& centre, float half_size_, const Vec3f& colour
 }
 
 void check(const RenderScene& scene) {
-  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
-    const RenderMesh& mesh = scene.meshes[m];
-    if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), finite))
-      refuse("mesh", m, "has a vertex with a position that is not finite");
-    const int count = static_cast<int>(mesh.positions.size());
-    for (const auto& triangle : mesh.triangles)
-      for (const int i : triangle)
-        if (i < 0 || i >= count)
-          refuse("mesh", m, "has a triangle with vertex " + std::to_string(i) + " of " + std::to_string(count));
-  }
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m)
+    check_triangles("mesh", m, scene.meshes[m].positions, scene.meshes[m].triangles);
   for (std::size_t t = 0; t < scene.tubes.size(); ++t) {
     const RenderTube& tube = scene.tubes[t];
     const bool fine = std::all_of(tube.points.begin(), tube.points.end(), finite) && std::isfinite(tube.radius);
     if (!fine) refuse("tube", t, "has a position that is not finite");
   }
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) check_body(scene.bodies[b], b);
   for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
     const Quatf& q = scene.colliders[c].rotation;
     const bool fine = finite(scene.colliders[c].position) && finite({q.x, q.y, q.z}) && std::isfinite(q.w) &&

@@ -33,6 +33,14 @@ struct RenderTube {
   Vec3f colour{0.75f, 0.35f, 0.30f};
 };
 
+/// A rigid body in its present pose. Bodies of equal solids share their mesh.
+struct RenderBody {
+  std::shared_ptr<const TriangleMesh> mesh;  ///< in the body's principal axes, about its centre of mass
+  RigidPose pose{};
+  Vec3f colour{0.75f, 0.35f, 0.30f};
+  bool is_fixed = false;  ///< true: shown, but framed by the camera only if it is not much larger than what moves
+};
+
 /// A collider in its present pose. A horizontal plane is drawn as the ground, a tilted one as a slab.
 struct RenderCollider {
   Shape shape = Plane{};
@@ -63,9 +71,11 @@ struct RenderScene {
   std::optional<float> ground = 0.f;  ///< height of the ground [m]; none: no ground
   std::optional<Camera> camera;       ///< none: a camera that shows the whole scene
   std::optional<Extent> extent;       ///< none: the extent of this scene
+  std::vector<RenderBody> bodies{};
 };
 
-/// Makes what to draw of a World at present: objects with triangles as surfaces, ropes as tubes, free particles as balls.
+/// Makes what to draw of a World at present: objects with triangles as surfaces, ropes as tubes, free particles as balls, rigid
+/// bodies as their solids.
 RenderScene make_render_scene(const Scene& scene, const World& world);
 
 /// A camera at the front, to the right and above, that shows all of every scene in `scenes` in a picture of this shape.

@@ -30,4 +30,8 @@ int add_body(Object& object, const std::vector<Solid>& solids, const BodyOptions
 /// The pose of a body at time 0: of the frame in which it was described (BodyOptions::position, rotation), in the world.
 RigidPose pose_of(const Object& object, int body);
 
+/// Closed triangle meshes of all solids in one mesh, for pictures and files, in the frame in which the solids are given. Round
+/// solids have `segments` (8..512) around their axis. Throws an Error if a hull's points lie in a plane.
+TriangleMesh mesh_of(const std::vector<Solid>& solids, int segments = 32);
+
 }  // namespace pliant

@@ -91,7 +91,8 @@ class FrameWriter {
 };
 
 /// Makes a writer by suffix: .obj, .ply (a file per frame: NAME_0000.obj for State::frame 0, ...), .glb (morph targets),
-/// .usda (time samples), .pc2 (and NAME.obj), .pvd (a .vtp file per frame and object). Throws an Error for others.
+/// .usda (time samples), .pc2 (and NAME.obj), .pvd (a .vtp file per frame and object). Rigid bodies are nodes that move in
+/// .glb and .usda, and surfaces in the others. Throws an Error for other suffixes.
 std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Scene& scene, const World& world);
 
 }  // namespace pliant

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "pliant/body.h"
 #include "pliant/error.h"
 #include "pliant/mesh.h"
 #include "render/render.h"
@@ -75,6 +76,51 @@ RenderScene with_sphere(float radius) {
   scene.ground.reset();
   scene.colliders.push_back({Sphere{radius}, {}, {}, {0.8f, 0.1f, 0.1f}});
   return scene;
+}
+
+RenderBody box_body(const Vec3f& position, const Quatf& turn) {
+  const TriangleMesh mesh = mesh_of({{Box{{0.4f, 0.4f, 0.4f}}}});
+  return {std::make_shared<const TriangleMesh>(mesh), {position, turn}, {0.8f, 0.1f, 0.1f}};
+}
+
+TEST_F(Picture, OfABodyIsThatOfItsSolidInItsPose) {
+  RenderScene body, solid, elsewhere;
+  for (RenderScene* scene : {&body, &solid, &elsewhere}) {
+    scene->ground.reset();
+    scene->camera = straight();
+    scene->extent = Extent{{}, 1};
+  }
+  const Quatf turn = rotation({0, 0, 1}, 45);
+  body.bodies.push_back(box_body({0.2f, 0, 0}, turn));
+  elsewhere.bodies.push_back(box_body({}, {}));
+  solid.colliders.push_back({Box{{0.4f, 0.4f, 0.4f}}, {0.2f, 0, 0}, turn, {0.8f, 0.1f, 0.1f}});
+  const auto picture = renderer->draw(body);
+  EXPECT_LT(different(picture, renderer->draw(solid)), 20);
+  EXPECT_GT(different(picture, renderer->draw(elsewhere)), 500);
+}
+
+TEST_F(Picture, FramesBodiesButNotHugeFixedOnes) {
+  RenderScene scene;
+  scene.bodies.push_back(box_body({0, 5, 0}, {}));
+  const Extent one = extent_of({scene});
+  EXPECT_NEAR(one.centre.y, 5, 1e-5);
+  EXPECT_NEAR(one.radius, 0.4f * std::sqrt(3.f), 1e-4);
+  RenderBody floor = box_body({}, {});
+  TriangleMesh slab = mesh_of({{Box{{50, 1, 50}}}});
+  floor.mesh = std::make_shared<const TriangleMesh>(slab);
+  floor.is_fixed = true;
+  scene.bodies.push_back(floor);
+  EXPECT_NEAR(extent_of({scene}).radius, one.radius, 1e-5);
+  scene.bodies[1].is_fixed = false;
+  EXPECT_GT(extent_of({scene}).radius, 50);
+}
+
+TEST_F(Picture, RefusesBodiesThatCannotBeDrawn) {
+  RenderScene scene;
+  scene.bodies.push_back({});
+  EXPECT_THROW(renderer->draw(scene), Error) << "no mesh";
+  scene.bodies[0] = box_body({std::nanf(""), 0, 0}, {});
+  EXPECT_THROW(renderer->draw(scene), Error) << "not finite";
 }
 
 TEST_F(Picture, OfASphereCoversItsDisc) {

@@ -1,6 +1,9 @@
 // Tests what of a Scene and a World is drawn, and at which height the ground is.
 #include <gtest/gtest.h>
 
+#include <limits>
+
+#include "pliant/body.h"
 #include "render/render.h"
 
 namespace pliant::render {
@@ -48,6 +51,37 @@ TEST(SceneView, ShowsMeshCollidersWhereTheyAre) {
   EXPECT_EQ(picture.meshes[1].triangles, rock.mesh.triangles);
   EXPECT_NEAR(picture.meshes[1].positions[0].x, rock.mesh.positions[0].x + 0.5f, 1e-5f);
   EXPECT_LT(picture.ground.value_or(0), -4) << "the ground is below what cloth falls on";
+}
+
+TEST(SceneView, ShowsBodiesAsTheirSolids) {
+  Object pile;
+  pile.name = "pile";
+  pile.colour = {0.5f, 0.25f, 0.125f};
+  BodyOptions options;
+  options.angular_velocity = {0, 6, 0};
+  for (int i = 0; i < 3; ++i) {
+    options.position = {static_cast<float>(2 * i), 3, 0};
+    if (i == 2) options.mass = std::numeric_limits<float>::infinity();
+    add_body(pile, {{Box{}}}, options);
+  }
+  Scene scene;
+  scene.add(pile);
+  World world(scene);
+  for (int frame = 0; frame < 10; ++frame) world.step(1.f / 60);
+  const RenderScene picture = make_render_scene(scene, world);
+  EXPECT_TRUE(picture.tubes.empty()) << "the centres of bodies are no balls";
+  ASSERT_EQ(picture.bodies.size(), 3u);
+  EXPECT_EQ(picture.bodies[0].mesh, picture.bodies[1].mesh);
+  EXPECT_EQ(picture.bodies[0].pose.position, world.object(0).positions()[0]);
+  EXPECT_LT(picture.bodies[0].pose.position.y, 3) << "nothing fell";
+  EXPECT_EQ(picture.bodies[1].pose.rotation, world.object(0).orientations()[1]);
+  EXPECT_FALSE(picture.bodies[1].pose.rotation == picture.bodies[2].pose.rotation) << "nothing spun";
+  EXPECT_EQ(picture.bodies[0].colour, (Vec3f{0.5f, 0.25f, 0.125f}));
+  EXPECT_FALSE(picture.bodies[0].colour == picture.bodies[1].colour) << "a pile can be read";
+  EXPECT_FALSE(picture.bodies[1].is_fixed);
+  EXPECT_TRUE(picture.bodies[2].is_fixed);
+  scene.objects[0].positions[2].y = -4;
+  EXPECT_LT(make_render_scene(scene, World(scene)).ground.value_or(0), -4.5f) << "the ground is below the lowest solid";
 }
 
 TEST(SceneView, ShowsWhatIsHeavyAsABall) {

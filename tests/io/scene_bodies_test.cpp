@@ -1,0 +1,186 @@
+// Tests rigid bodies in scene files: every field, copies, and what is refused.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <vector>
+
+#include "pliant/body.h"
+#include "scene_support.h"
+
+namespace pliant {
+namespace {
+
+/// The object "heap" of the scene that has every field.
+class Heap : public testing::Test {
+ protected:
+  const Scene scene = parse_scene(test::full_scene(), "every_field.json", ".");
+  const Object& heap = scene.objects.at(7);
+};
+
+float distance(const Vec3f& a, const Vec3f& b) { return std::sqrt(length_squared(a - b)); }
+
+/// The first body of a name that begins so.
+std::size_t body_named(const Object& object, const std::string& start) {
+  std::size_t i = 0;
+  while (i < object.bodies.size() && object.bodies[i].name.rfind(start, 0) != 0) ++i;
+  return i;
+}
+
+TEST_F(Heap, HasItsProperties) {
+  EXPECT_EQ(heap.name, "heap");
+  EXPECT_EQ(heap.bodies.size(), 5U + 6 + 5 + 40);
+  EXPECT_EQ(heap.positions.size(), heap.bodies.size());
+  EXPECT_EQ(heap.thickness, 0.25f);
+  EXPECT_EQ(heap.static_friction, 0.75f);
+  EXPECT_EQ(heap.kinetic_friction, 0.5f);
+  EXPECT_EQ(heap.restitution, 0.125f);
+  EXPECT_EQ(heap.groups, 8U);
+  EXPECT_EQ(heap.mask, 8U);
+  EXPECT_EQ(heap.colour, (Vec3f{0.125f, 0.25f, 0.5f}));
+  EXPECT_TRUE(heap.collides);
+  EXPECT_TRUE(heap.self_collision);
+}
+
+TEST_F(Heap, HasTheBodyThatTheSameOptionsMake) {
+  BodyOptions options;
+  options.name = "hammer";
+  options.position = {0, 4, 0};
+  options.rotation = rotation({0, 0, 1}, 90);
+  options.velocity = {1, 2, 3};
+  options.angular_velocity = {4, 5, 6};
+  options.mass = 3;
+  const Box box{{0.5f, 0.5f, 0.5f}};
+  const Object same = make_body({{box, {-1, 0, 0}, {}, 100}, {box, {1, 0, 0}, rotation({0, 1, 0}, 90), 300}}, options);
+  EXPECT_EQ(heap.bodies[0].name, "hammer");
+  EXPECT_EQ(heap.positions[0], same.positions[0]);
+  EXPECT_EQ(heap.velocities[0], same.velocities[0]);
+  EXPECT_EQ(heap.masses[0], 3.f);
+  EXPECT_EQ(heap.frames[0].orientation, same.frames[0].orientation);
+  EXPECT_EQ(heap.frames[0].angular_velocity, same.frames[0].angular_velocity);
+  EXPECT_EQ(heap.frames[0].inertia, same.frames[0].inertia);
+  EXPECT_EQ(heap.bodies[0].solids.size(), 2U);
+  EXPECT_EQ(heap.bodies[0].solids[1].position, same.bodies[0].solids[1].position);
+}
+
+TEST_F(Heap, HasEveryShape) {
+  EXPECT_EQ(std::get<Sphere>(heap.bodies[1].solids.at(0).shape).radius, 0.25f);
+  EXPECT_EQ(heap.bodies[1].name, "body");
+  EXPECT_TRUE(std::isinf(heap.masses[1]));
+  EXPECT_EQ(heap.bodies[2].name, "body_2");
+  EXPECT_EQ(std::get<Capsule>(heap.bodies[2].solids.at(0).shape).half_length, 1.f);
+  EXPECT_EQ(std::get<Capsule>(heap.bodies[2].solids.at(0).shape).radius, 0.5f);
+  EXPECT_EQ(std::get<Cylinder>(heap.bodies[2].solids.at(1).shape).half_length, 2.f);
+  EXPECT_EQ(std::get<Cone>(heap.bodies[3].solids.at(0).shape).half_length, 3.f);
+  const Hull& shard = std::get<Hull>(heap.bodies[4].solids.at(0).shape);
+  EXPECT_EQ(shard.points.size(), 4U);
+  EXPECT_EQ(shard.margin, 0.125f);
+  EXPECT_EQ(std::get<Hull>(heap.bodies[4].solids.at(1).shape).points.size(), 8U) << "the corners of the mesh alone";
+}
+
+TEST_F(Heap, HasAGridOfTumbledCopies) {
+  const std::size_t first = body_named(heap, "brick");
+  float turned = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(heap.bodies[first + i].name, "brick_" + std::to_string(i));
+    const auto x = static_cast<float>(i % 2), y = static_cast<float>(i / 2);
+    const Vec3f away = heap.positions[first + i] - Vec3f{10 + 2 * x, y, 0};
+    EXPECT_LE(std::fmax(std::fabs(away.x), std::fmax(std::fabs(away.y), std::fabs(away.z))), 0.125f);
+    EXPECT_GT(length_squared(away), 0);
+    turned += 1 - std::fabs(heap.frames[first + i].orientation.w);
+  }
+  EXPECT_GT(turned, 0.5f);
+}
+
+TEST_F(Heap, HasAPyramid) {
+  const std::size_t first = body_named(heap, "layer");
+  const std::vector<Vec3f> expected{
+      {19.25f, 0.5f, -0.75f}, {20.75f, 0.5f, -0.75f}, {19.25f, 0.5f, 0.75f}, {20.75f, 0.5f, 0.75f}, {20, 1.5f, 0}};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(heap.positions[first + i], expected[i]) << i;
+  EXPECT_EQ(heap.bodies[first + 5].name, "domino_0");
+}
+
+TEST_F(Heap, HasASpiralWhoseCopiesFaceAlongIt) {
+  const std::size_t first = body_named(heap, "domino");
+  double turned = 0;
+  for (std::size_t i = 0; i + 1 < 40; ++i) {
+    const Vec3f here = heap.positions[first + i], next = heap.positions[first + i + 1];
+    EXPECT_NEAR(distance(here, next), 2, 0.1) << i;
+    const Vec3f ahead = (next - here) * (1 / distance(here, next)), back{0, 0, -1};
+    const Quatf& q = heap.frames[first + i].orientation;
+    const Vec3f axis{q.x, q.y, q.z}, half = cross(axis, back), faces = back + (q.w * half + cross(axis, half)) * 2.f;
+    EXPECT_GT(dot(faces, ahead), 0.97f) << i;
+    turned += 2 / std::hypot(here.x - 40, here.z);
+  }
+  const double pitch = 3, radius = std::hypot(heap.positions[first + 39].x - 40, heap.positions[first + 39].z);
+  EXPECT_NEAR(radius, 5 + pitch * turned / 6.28318531, 0.1);
+}
+
+// ------------------------------------------------------------------------------------------------ other
+
+std::string bodies(const std::string& list, const std::string& members = "") {
+  return "{\"objects\": [{\"bodies\": [\n" + list + "]" + members + "}]}";
+}
+
+TEST(SceneBodies, AreNamedInErrors) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {R"({"name": "flat", "solids": [{"sphere": {}}, {"hull": {"points": [[0,0,0],[1,0,0],[0,1,0],[1,1,0]]}}]})",
+       "x.json:2:1: object 'bodies', /objects/0/bodies/0, body 'flat', solid 1: has 4 points, all in one plane"},
+      {R"({"name": "pill", "solids": [{"capsule": {"half_length": 0}}]})",
+       "x.json:2:1: object 'bodies', /objects/0/bodies/0, body 'pill', solid 0: half_length is 0"},
+      {R"({"name": "a", "solids": [{"box": {}}]}, {"name": "a", "solids": [{"box": {}}]})",
+       "/objects/0/bodies/1/name: the name 'a' is taken"},
+      {R"({"name": "a_1", "solids": [{"box": {}}]},
+          {"name": "a", "solids": [{"box": {}}], "repeat": {"grid": {"counts": [2, 1, 1], "spacing": [2, 0, 0]}}})",
+       "/objects/0/bodies/1/name: the name 'a_1' is taken"},
+      {R"({"solids": [{"box": {}}], "mass": "fixed", "velocity": [1, 0, 0]})",
+       "/objects/0/bodies/0/velocity: a fixed body has no velocity; remove it, or give the body a mass"},
+      {R"({"solids": [{"box": {}}], "repeat": {"grid": {"counts": [1024, 1024, 2], "spacing": [2, 2, 2]}}})",
+       "/objects/0/bodies/0/repeat/grid: more than 1048576 copies of a body; make fewer"},
+      {R"({"solids": []})", "/objects/0/bodies/0/solids: "},
+      {R"({"solids": [{"density": 3}]})", "the kind of this solid is missing"},
+      {R"({"solids": [{"box": {"half_extents": [1, 0, 1]}}]})", "/objects/0/bodies/0/solids/0/box/half_extents/1: "}};
+  for (const auto& [list, message] : cases) {
+    const std::string found = test::scene_message(bodies(list));
+    EXPECT_NE(found.find(message), std::string::npos) << list << "\n" << found;
+  }
+  EXPECT_NE(test::scene_message(bodies("")).find("/objects/0/bodies: "), std::string::npos);
+}
+
+TEST(SceneBodies, TakeTheVelocityOfTheirObjectUnlessTheyAreFixed) {
+  const Scene scene = parse_scene(bodies(R"({"solids": [{"box": {}}]}, {"solids": [{"box": {}}], "mass": "fixed"})",
+                                         R"(, "velocity": [0, 0, 7], "collides": false, "self_collision": false)"),
+                                  "x.json", ".");
+  EXPECT_EQ(scene.objects[0].name, "bodies");
+  EXPECT_EQ(scene.objects[0].velocities, (std::vector<Vec3f>{{0, 0, 7}, {0, 0, 0}}));
+  EXPECT_FALSE(scene.objects[0].collides);
+  EXPECT_FALSE(scene.objects[0].self_collision);
+}
+
+TEST(SceneBodies, OfOneSeedAreTheSame) {
+  const auto heap = [](const std::string& seed) {
+    const std::string grid = R"({"counts": [3, 3, 3], "spacing": [2, 2, 2], "jitter": 0.5, "tumbled": true, "seed": )";
+    return parse_scene(bodies(R"({"solids": [{"box": {}}], "repeat": {"grid": )" + grid + seed + "}}}"), "x.json", ".")
+        .objects[0];
+  };
+  const Object a = heap("1"), b = heap("1"), c = heap("2");
+  EXPECT_EQ(a.positions, b.positions);
+  EXPECT_NE(a.positions, c.positions);
+  EXPECT_EQ(a.frames[13].orientation, b.frames[13].orientation);
+}
+
+TEST(SceneBodies, AreHullsOfMeshFiles) {
+  std::string folder = testing::TempDir() + "/pliant_hull_XXXXXX";
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  // A tetrahedron with a dent: its fifth vertex lies inside.
+  std::ofstream(folder + "/a.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.2 0.2 0.2\n"
+                                   << "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 5\nf 3 4 5\nf 4 2 5\n";
+  const Scene scene = parse_scene(
+      bodies(R"({"solids": [{"hull": {"mesh": {"file": "a.obj", "scale": 6}}, "density": 1}]})"), "x.json", folder);
+  EXPECT_EQ(std::get<Hull>(scene.objects[0].bodies[0].solids[0].shape).points.size(), 4U);
+  EXPECT_NEAR(scene.objects[0].masses[0], 36, 1e-3);
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace pliant
