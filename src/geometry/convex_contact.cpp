@@ -70,7 +70,7 @@ std::vector<TouchPoint> points_between(const Feature& a, const Feature& b, const
 }  // namespace
 
 Touch touch(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, double margin) {
-  const ConvexDistance nearest = convex_distance(a, b, pose_of_b);
+  const ConvexDistance nearest = convex_distance(a, b, pose_of_b, margin);
   if (nearest.separation > margin) return {};
   const Vec3d normal = nearest.normal;
   const double radius_a = static_cast<double>(a.radius), radius_b = static_cast<double>(b.radius);

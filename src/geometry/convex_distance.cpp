@@ -15,8 +15,8 @@ namespace pliant {
 namespace {
 
 constexpr int most_steps = 64;
-/// Relative error of squared distances at which the search ends.
-constexpr double accuracy = 1e-13;
+/// The search ends at this relative error of the squared distance, or at this error of the distance [m].
+constexpr double accuracy = 1e-11, close = 1e-8;
 /// The polytope stops growing when that would move its nearest face by less than this share of the solids' size.
 constexpr double growth = 1e-7;
 /// Cores nearer than this, times a metre and their size, count as overlapping.
@@ -81,69 +81,81 @@ struct Simplex {
   }
 };
 
-Simplex part(const Simplex& whole, std::initializer_list<int> corners) {
-  Simplex out;
-  for (const int c : corners)
-    out.corners[static_cast<std::size_t>(out.count++)] = whole.corners[static_cast<std::size_t>(c)];
-  return out;
+/// The nearest point to the origin of some corners of a simplex.
+struct Nearest {
+  Vec3d point{};
+  double squared = 0;  ///< its squared distance
+  std::array<int, 4> corners{};
+  std::array<double, 4> shares{};
+  int count = 0;
+};
+
+/// Of two points the nearer one, the first of equally near ones.
+const Nearest& nearer(const Nearest& a, const Nearest& b) { return b.squared < a.squared ? b : a; }
+
+Nearest at_corner(const Simplex& s, int i) {
+  const Vec3d& point = s.corners[static_cast<std::size_t>(i)].w;
+  return {point, length_squared(point), {i}, {1}, 1};
 }
 
-Simplex nearest_of_segment(Simplex s) {
-  const Vec3d a = s.corners[0].w, along = s.corners[1].w - a;
+Nearest nearest_of_segment(const Simplex& s, int i, int j) {
+  const Vec3d a = s.corners[static_cast<std::size_t>(i)].w, along = s.corners[static_cast<std::size_t>(j)].w - a;
   const double squared = length_squared(along), t = squared > 0 ? -dot(a, along) / squared : 0;
-  if (t <= 0 || t >= 1) {
-    s = part(s, {t <= 0 ? 0 : 1});
-    s.shares[0] = 1;
-    return s;
-  }
-  s.shares = {1 - t, t};
-  return s;
+  if (t <= 0) return at_corner(s, i);
+  if (t >= 1) return at_corner(s, j);
+  const Vec3d point = a * (1 - t) + s.corners[static_cast<std::size_t>(j)].w * t;
+  return {point, length_squared(point), {i, j}, {1 - t, t}, 2};
 }
 
-Simplex nearer(const Simplex& a, const Simplex& b) {
-  return length_squared(b.nearest()) < length_squared(a.nearest()) ? b : a;
-}
-
-Simplex nearest_of_triangle(Simplex s) {
-  const Vec3d a = s.corners[0].w, b = s.corners[1].w, c = s.corners[2].w, normal = cross(b - a, c - a);
+Nearest nearest_of_triangle(const Simplex& s, int i, int j, int k) {
+  const Vec3d a = s.corners[static_cast<std::size_t>(i)].w, b = s.corners[static_cast<std::size_t>(j)].w,
+              c = s.corners[static_cast<std::size_t>(k)].w, normal = cross(b - a, c - a);
   const double squared = length_squared(normal);
   const double u = dot(cross(b, c), normal), v = dot(cross(c, a), normal), w = dot(cross(a, b), normal);
   if (squared > 0 && u > 0 && v > 0 && w > 0) {
     const double sum = u + v + w;
-    s.shares = {u / sum, v / sum, w / sum};
-    return s;
+    const std::array<double, 4> shares{u / sum, v / sum, w / sum};
+    const Vec3d point = a * shares[0] + b * shares[1] + c * shares[2];
+    return {point, length_squared(point), {i, j, k}, shares, 3};
   }
-  return nearer(nearer(nearest_of_segment(part(s, {0, 1})), nearest_of_segment(part(s, {1, 2}))),
-                nearest_of_segment(part(s, {2, 0})));
+  return nearer(nearer(nearest_of_segment(s, i, j), nearest_of_segment(s, j, k)), nearest_of_segment(s, k, i));
 }
 
 double volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) { return dot(cross(b - a, c - a), d - a); }
 
-/// Of a tetrahedron that contains the origin all four corners stay.
-Simplex nearest_of_tetrahedron(Simplex s) {
+/// Of a tetrahedron that contains the origin all four corners stay. Else the nearest point is on a side that the origin sees.
+Nearest nearest_of_tetrahedron(const Simplex& s) {
   const Vec3d a = s.corners[0].w, b = s.corners[1].w, c = s.corners[2].w, d = s.corners[3].w, o{};
   const double whole = volume(a, b, c, d);
-  const std::array<double, 4> shares{volume(o, b, c, d), volume(a, o, c, d), volume(a, b, o, d), volume(a, b, c, o)};
-  const bool is_inside = whole != 0 && std::all_of(shares.begin(), shares.end(), [&](double v) { return v * whole > 0; });
-  if (is_inside) {
-    for (int i = 0; i < 4; ++i) s.shares[i] = shares[i] / whole;
-    return s;
+  const std::array<double, 4> parts{volume(o, b, c, d), volume(a, o, c, d), volume(a, b, o, d), volume(a, b, c, o)};
+  if (whole != 0 && std::all_of(parts.begin(), parts.end(), [&](double v) { return v * whole > 0; })) {
+    const std::array<double, 4> shares{parts[0] / whole, parts[1] / whole, parts[2] / whole, parts[3] / whole};
+    return {{}, 0, {0, 1, 2, 3}, shares, 4};
   }
-  return nearer(nearer(nearest_of_triangle(part(s, {0, 1, 2})), nearest_of_triangle(part(s, {0, 1, 3}))),
-                nearer(nearest_of_triangle(part(s, {0, 2, 3})), nearest_of_triangle(part(s, {1, 2, 3}))));
+  constexpr std::array<std::array<int, 3>, 4> sides{{{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}};
+  Nearest best;
+  best.squared = 1e300;
+  for (std::size_t i = 0; i < 4; ++i)
+    if (!(parts[3 - i] * whole > 0)) best = nearer(best, nearest_of_triangle(s, sides[i][0], sides[i][1], sides[i][2]));
+  return best;
 }
 
+/// The part of a simplex that has its nearest point to the origin, with the shares of its corners.
 Simplex nearest_of(const Simplex& s) {
-  if (s.count == 4) return nearest_of_tetrahedron(s);
-  if (s.count == 3) return nearest_of_triangle(s);
-  if (s.count == 2) return nearest_of_segment(s);
-  Simplex out = s;
-  out.shares[0] = 1;
+  const Nearest best = s.count == 4   ? nearest_of_tetrahedron(s)
+                       : s.count == 3 ? nearest_of_triangle(s, 0, 1, 2)
+                       : s.count == 2 ? nearest_of_segment(s, 0, 1)
+                                      : at_corner(s, 0);
+  Simplex out;
+  out.count = best.count;
+  out.shares = best.shares;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(best.count); ++i)
+    out.corners[i] = s.corners[static_cast<std::size_t>(best.corners[i])];
   return out;
 }
 
-/// The nearest point of the difference to the origin.
-Simplex nearest_point(const Difference& difference, const Vec3d& first) {
+/// The nearest point of the difference to the origin, or any if `beyond` becomes a distance above `reach` that separates both.
+Simplex nearest_point(const Difference& difference, const Vec3d& first, double reach, double& beyond) {
   Simplex s;
   s.corners[0] = difference.support(first);
   s.count = 1;
@@ -153,7 +165,12 @@ Simplex nearest_point(const Difference& difference, const Vec3d& first) {
     const double squared = length_squared(v);
     if (squared == 0 || s.count == 4) return s;
     const Vertex next = difference.support(-v);
-    if (squared - dot(v, next.w) <= accuracy * squared) return s;
+    const double along = dot(v, next.w);
+    if (along > 0 && along * along > reach * reach * squared) {
+      beyond = along / std::sqrt(squared);
+      return s;
+    }
+    if (squared - along <= std::max(accuracy * squared, close * std::sqrt(squared))) return s;
     for (int i = 0; i < s.count; ++i)
       if (s.corners[i].w.x == next.w.x && s.corners[i].w.y == next.w.y && s.corners[i].w.z == next.w.z) return s;
     Simplex grown = s;
@@ -319,10 +336,13 @@ class Polytope {
 
 }  // namespace
 
-ConvexDistance convex_distance(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b) {
+ConvexDistance convex_distance(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, double reach) {
   const Difference difference(a, b, pose_of_b);
   const bool is_apart = length_squared(pose_of_b.position) > 0;
-  const Simplex simplex = nearest_point(difference, is_apart ? pose_of_b.position : Vec3d{1, 0, 0});
+  const double radii = static_cast<double>(a.radius) + static_cast<double>(b.radius);
+  double beyond = -1;
+  const Simplex simplex = nearest_point(difference, is_apart ? pose_of_b.position : Vec3d{1, 0, 0}, reach + radii, beyond);
+  if (beyond > 0) return {beyond - radii, {}, {}, {}};
   const Vec3d v = simplex.nearest();
   const double distance = length(v), size = 1 + largest(simplex.corners[0].w);
   ConvexDistance out;
@@ -332,7 +352,7 @@ ConvexDistance convex_distance(const ConvexShape& a, const ConvexShape& b, const
     out = Polytope(difference, simplex).depth();
   out.on_a += out.normal * static_cast<double>(a.radius);
   out.on_b -= out.normal * static_cast<double>(b.radius);
-  out.separation -= static_cast<double>(a.radius) + static_cast<double>(b.radius);
+  out.separation -= radii;
   return out;
 }
 

@@ -16,6 +16,7 @@ struct ConvexDistance {
 };
 
 /// Both in the frame of a, where b has a pose. Of cores that touch in one point the normal is one that separates them there.
-ConvexDistance convex_distance(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b);
+/// Solids that are found to be farther apart than `reach` [m] have a separation between that and their own, and no places.
+ConvexDistance convex_distance(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, double reach = 1e300);
 
 }  // namespace pliant

@@ -89,6 +89,29 @@ TEST(ConvexDistance, IsThatOfASlabBetweenBoth) {
   EXPECT_GT(overlapping, 3000);
 }
 
+// Pairs that are farther apart than asked for may be left early, with a lower bound.
+TEST(ConvexDistance, IsTheSameWithinReachAndABoundBeyond) {
+  Random random(5);
+  int within = 0, bounds = 0;
+  for (int trial = 0; trial < 5000; ++trial) {
+    Polyhedron first, second;
+    const ConvexShape a = draw(random, first), b = draw(random, second);
+    const Posed pose = random.pose(1.5);
+    const double reach = random.number(0, 0.5), whole = convex_distance(a, b, pose).separation;
+    const double found = convex_distance(a, b, pose, reach).separation;
+    if (whole <= reach) {
+      ++within;
+      ASSERT_EQ(found, whole) << trial;
+    } else {
+      if (found < whole) ++bounds;
+      ASSERT_GT(found, reach) << trial;
+      ASSERT_LT(found, whole + 1e-7) << trial;
+    }
+  }
+  EXPECT_GT(within, 1000);
+  EXPECT_GT(bounds, 1000);
+}
+
 TEST(ConvexDistance, OfBoxesIsThatOfSeparatingAxes) {
   Random random(2);
   int overlapping = 0;

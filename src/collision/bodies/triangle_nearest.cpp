@@ -60,12 +60,13 @@ TriangleNearest nearest_of_point(const MeshFace& face, const Vec3d& point) {
 }
 
 /// Of cores that are apart, and of round ones.
-TriangleNearest nearest_by_supports(const MeshFace& face, const SolidInMesh& solid) {
+TriangleNearest nearest_by_supports(const MeshFace& face, const SolidInMesh& solid, double reach) {
   Polyhedron triangle;
   for (const Vec3d& corner : face.corners) triangle.corners.push_back(convert<float>(corner));
   ConvexShape core = solid.shape();
   core.radius = 0;
-  const ConvexDistance found = convex_distance({ConvexShape::Kind::polyhedron, 0, 0, 0, &triangle}, core, solid.pose());
+  const ConvexDistance found =
+      convex_distance({ConvexShape::Kind::polyhedron, 0, 0, 0, &triangle}, core, solid.pose(), reach);
   return {true, found.normal, found.separation, found.on_a, found.on_b};
 }
 
@@ -143,7 +144,7 @@ TriangleNearest nearest_on(const MeshFace& face, const SolidInMesh& solid, doubl
     const bool is_face_contact = is_smooth || (out.separation > -shallow * solid.size() && is_over(face, out.on_solid));
     if (!is_face_contact && solid.is_polyhedron()) out = best_axis(face, solid, out, reach);
     if (out.separation > reach) return {};
-    if (!is_face_contact && (out.separation > 0 || !solid.is_polyhedron())) out = nearest_by_supports(face, solid);
+    if (!is_face_contact && (out.separation > 0 || !solid.is_polyhedron())) out = nearest_by_supports(face, solid, reach);
   }
   out.is_near = out.separation <= reach;
   return out;
