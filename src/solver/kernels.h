@@ -20,6 +20,7 @@ struct ChainKernels;      // solver/sweeps/chain_kernels.h
 struct MultigridKernels;  // solver/sweeps/multigrid_kernels.h
 struct ContactKernels;    // solver/contact_kernels.h
 struct LengthKernels;     // solver/length_kernels.h
+struct ManifoldKernels;   // solver/bodies/manifold_kernels.h
 struct PairKernels;       // collision/proxies/pair_kernels.h
 
 struct StepKernels {
@@ -58,6 +59,7 @@ struct Kernels : StepKernels {
   const ContactKernels& contacts;
   const LengthKernels& lengths;
   const PairKernels& pairs;
+  const ManifoldKernels& manifolds;
 };
 
 /// The readable reference in plain floats. Kernels without a scalar version (multigrid, pairs) use the generic level.

@@ -3,6 +3,7 @@
 
 #include "collision/proxies/pair_kernels.h"
 #include "pliant/error.h"
+#include "solver/bodies/manifold_kernels.h"
 #include "solver/contact_kernels.h"
 #include "solver/kernels.h"
 #include "solver/length_kernels.h"
@@ -31,7 +32,7 @@ bool runs_generic() { return true; }
     static const Kernels table{step_kernels_##suffix(),    isa,                          \
                                chain_kernels_##suffix(),   multigrid_kernels_##suffix(), \
                                contact_kernels_##suffix(), length_kernels_##suffix(),    \
-                               pair_kernels_##suffix()};                                 \
+                               pair_kernels_##suffix(),    manifold_kernels_##suffix()}; \
     return table;                                                                        \
   }
 PLIANT_FOR_EACH_LEVEL(PLIANT_LEVEL_TABLE, )
@@ -55,7 +56,7 @@ const Kernels& kernels_sequential() {
   static const Kernels table{step_kernels_sequential(),    "sequential",
                              chain_kernels_sequential(),   multigrid_kernels_generic(),
                              contact_kernels_sequential(), length_kernels_sequential(),
-                             pair_kernels_generic()};
+                             pair_kernels_generic(),       manifold_kernels_sequential()};
   return table;
 }
 

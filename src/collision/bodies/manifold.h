@@ -24,11 +24,11 @@ struct Manifold {
   float twist_impulse = 0;                  ///< about the normal [N m s]
   std::array<float, 4> gap_now{};           ///< separations at the substep's start [m]
 
-  std::array<float, 6> mobility{};      ///< K of normal force and moments about tangents: NN, 11, 22, 12, 2N, N1
-  std::array<float, 4> inverse_mass{};  ///< of the points along the normal [1/kg]
-  std::array<float, 3> slide{};         ///< of the tangents at the centre: 11, 22, 12 [1/kg]
-  float twist_mobility = 0;             ///< [1/(kg m^2)]
-  float radius = 0;                     ///< mean distance of the points from the centre [m]
+  std::array<float, 6> mobility{};  ///< K of normal force and moments about tangents: NN, 11, 22, 12, 2N, N1
+  std::array<float, 4> mass{};      ///< that the points oppose to impulses along the normal [kg]
+  std::array<float, 3> slide{};     ///< the same of the centre along the tangents, a matrix: 11, 22, 12 [kg]
+  float twist_mass = 0;             ///< inertia about the normal [kg m^2]
+  float radius = 0;                 ///< mean distance of the points from the centre [m]
 };
 
 }  // namespace pliant

@@ -13,15 +13,21 @@
 
 namespace pliant {
 
-/// The motion of a body in a frame, as contact sees it. A fixed body has zero inverse mass and inertia.
-struct BodyMotion {
-  Vec3f velocity{};                        ///< of the centre of mass [m/s]
-  Vec3f spin{};                            ///< angular velocity in world axes [rad/s]
-  float inverse_mass = 0;                  ///< [1/kg]
+/// The motion of a body in a frame, as contact sees it. A fixed body has zero inverse mass and inertia. It consists of records
+/// of four floats, which kernels load for sixteen bodies at a time.
+struct alignas(64) BodyMotion {
+  Vec3f velocity{};        ///< of the centre of mass [m/s]
+  float inverse_mass = 0;  ///< [1/kg]
+  Vec3f spin{};            ///< angular velocity in world axes [rad/s]
+  float unused_by_spin = 0;
   std::array<float, 6> inverse_inertia{};  ///< in world axes: xx, yy, zz, yz, zx, xy [1/(kg m^2)]
-  Vec3f displacement{};                    ///< since the frame's start [m]
-  Vec3f rotation{};                        ///< since the frame's start, as a vector in world axes [rad]
+  std::array<float, 2> unused_by_inertia{};
+  Vec3f displacement{};  ///< since the frame's start [m]
+  float unused_by_displacement = 0;
+  Vec3f rotation{};  ///< since the frame's start, as a vector in world axes [rad]
+  float unused_by_rotation = 0;
 };
+static_assert(sizeof(BodyMotion) == 128, "eight Records (records_a_motion)");
 
 /// How stiff contacts are, as shares for each substep.
 struct ContactSoftness {
@@ -29,6 +35,18 @@ struct ContactSoftness {
   float epsilon = 0.04f;  ///< share of the multiplier that leaks; beta / epsilon is a stiffness
   float fastest = 3;      ///< largest speed of separation [m/s]
 };
+
+/// The numbers of a pass that follow from the substep h [s].
+struct PassNumbers {
+  float inverse_h = 0;  ///< [1/s]
+  float beta_h = 0;     ///< beta / h [1/s]
+  float kept = 1;       ///< 1 - epsilon
+  float epsilon = 0;
+  float fastest = 0;  ///< [m/s]
+};
+inline PassNumbers pass_numbers(float h, const ContactSoftness& softness) {
+  return {1 / h, softness.beta / h, 1 - softness.epsilon, softness.epsilon, softness.fastest};
+}
 
 /// Computes what follows from arms, normal and inertia. Call it once a frame.
 void prepare(Manifold& manifold, const BodyMotion& a, const BodyMotion& b);

@@ -1,0 +1,143 @@
+#include "solver/bodies/manifold_blocks.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+
+namespace pliant {
+
+namespace {
+
+constexpr int block_width = 16;
+/// Blocks per task. A colour with fewer is done before other threads wake up.
+constexpr int blocks_a_task = 32;
+/// Blocks per task where they are filled.
+constexpr int blocks_a_fill = 16;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+int tasks_of(int count, int a_task) { return (count + a_task - 1) / a_task; }
+
+/// Calls body(i) for i in [0, n) on all threads, `a_task` of them in each task.
+template <class Body>
+void for_each(Executor& executor, const char* name, int n, int a_task, const Body& body) {
+  executor.parallel_for(name, tasks_of(n, a_task), [&](int task) {
+    for (int i = task * a_task; i < std::min(n, (task + 1) * a_task); ++i) body(i);
+  });
+}
+
+}  // namespace
+
+void ManifoldBlocks::fill_block(int number, std::span<const Manifold> manifolds, const ManifoldColours& colours,
+                                std::span<const char> is_fixed) {
+  ManifoldBlock& block = blocks_[at(number)];
+  block = {};
+  const int first = first_[at(number)];
+  block.lanes = first_[at(number + 1)] - first;
+  for (int lane = 0; lane < block_width; ++lane) {
+    const bool is_free = lane >= block.lanes;
+    const Manifold& m = manifolds[at(colours.order()[at(first + (is_free ? 0 : lane))])];
+    block.a[lane] = records_a_motion * m.a;
+    block.b[lane] = records_a_motion * m.b;
+    if (is_free) {
+      for (auto& gap : block.rows.gap) gap[lane] = no_point;
+      for (auto& gap : block.rows.gap_now) gap[lane] = no_point;
+      continue;
+    }
+    put_manifold(m, block.rows, lane);
+    if (is_fixed[at(m.a)] == 0) block.moves_a |= 1u << lane;
+    if (is_fixed[at(m.b)] == 0) block.moves_b |= 1u << lane;
+  }
+}
+
+void ManifoldBlocks::fill(Executor& executor, std::span<const Manifold> manifolds, const ManifoldColours& colours,
+                          std::span<const char> is_fixed) {
+  first_.clear();
+  for (int c = 0; c <= manifold_colours; ++c) {
+    start_[at(c)] = static_cast<int>(first_.size());
+    for (int i = colours.start()[at(c)]; i < colours.start()[at(c + 1)]; i += block_width) first_.push_back(i);
+  }
+  const int count = start_.back() = static_cast<int>(first_.size());
+  first_.push_back(colours.start().back());
+  blocks_.resize(at(count));
+  for_each(executor, "fill body contacts", count, blocks_a_fill,
+           [&](int i) { fill_block(i, manifolds, colours, is_fixed); });
+}
+
+void ManifoldBlocks::take(Executor& executor, const ManifoldColours& colours, std::span<Manifold> manifolds) const {
+  for_each(executor, "fill body contacts", static_cast<int>(blocks_.size()), blocks_a_fill, [&](int i) {
+    for (int lane = 0; lane < blocks_[at(i)].lanes; ++lane)
+      take_impulses(blocks_[at(i)].rows, lane, manifolds[at(colours.order()[at(first_[at(i)] + lane)])]);
+  });
+}
+
+void ManifoldBlocks::scale_impulses(Executor& executor, float factor) {
+  for_each(executor, nullptr, static_cast<int>(blocks_.size()), blocks_a_task, [&](int i) {
+    ManifoldRows<16>& rows = blocks_[at(i)].rows;
+    for (int lane = 0; lane < block_width; ++lane) {
+      for (auto& impulse : rows.impulse) impulse[lane] *= factor;
+      for (auto& impulse : rows.friction_impulse) impulse[lane] *= factor;
+      rows.twist_impulse[lane] *= factor;
+    }
+  });
+}
+
+int ManifoldBlocks::pressing() const {
+  int count = 0;
+  for (const ManifoldBlock& block : blocks_)
+    for (int lane = 0; lane < block.lanes; ++lane) {
+      float sum = 0;
+      for (const auto& impulse : block.rows.impulse) sum += impulse[lane];
+      count += sum > 0 ? 1 : 0;
+    }
+  return count;
+}
+
+void ManifoldBlocks::run(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions,
+                         const Pass& pass) {
+  const auto range = [&](int first, int last) -> BlockRange {
+    return {blocks_.data() + first, blocks_.data() + last, motions.data()};
+  };
+  for (int c = 0; c < manifold_colours && start_[at(c)] < start_.back(); ++c) {
+    const int first = start_[at(c)], last = start_[at(c + 1)];
+    executor.parallel_for(nullptr, tasks_of(last - first, blocks_a_task), [&](int task) {
+      const int from = first + task * blocks_a_task;
+      pass(kernels, range(from, std::min(from + blocks_a_task, last)));
+    });
+  }
+  const int tail = start_[manifold_colours];
+  if (tail < start_.back()) pass(manifold_kernels_sequential(), range(tail, start_.back()));
+}
+
+void ManifoldBlocks::prepare(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions) {
+  run(executor, kernels, motions, [](const ManifoldKernels& k, const BlockRange& range) { k.prepare(range); });
+}
+
+void ManifoldBlocks::warm_start(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions) {
+  run(executor, kernels, motions, [](const ManifoldKernels& k, const BlockRange& range) { k.warm_start(range); });
+}
+
+bool ManifoldBlocks::bounce(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions, float h,
+                            float slow) {
+  std::atomic<bool> bounced{false};
+  run(executor, kernels, motions, [&](const ManifoldKernels& k, const BlockRange& range) {
+    if (k.bounce(range, h, slow)) bounced.store(true, std::memory_order_relaxed);
+  });
+  return bounced.load();
+}
+
+void ManifoldBlocks::position_pass(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions,
+                                   float h, const ContactSoftness& softness) {
+  const PassNumbers numbers = pass_numbers(h, softness);
+  run(executor, kernels, motions,
+      [&](const ManifoldKernels& k, const BlockRange& range) { k.position_pass(range, numbers); });
+}
+
+void ManifoldBlocks::velocity_pass(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions,
+                                   float h) {
+  const PassNumbers numbers = pass_numbers(h, {});
+  run(executor, kernels, motions,
+      [&](const ManifoldKernels& k, const BlockRange& range) { k.velocity_pass(range, numbers); });
+}
+
+}  // namespace pliant

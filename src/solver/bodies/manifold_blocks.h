@@ -1,0 +1,52 @@
+// The manifolds of a frame as blocks of sixteen, colour after colour, and the passes over them on all threads.
+//
+// Manifolds of one colour share no dynamic body, so neither lanes nor threads change a bit: the result is that of the scalar
+// functions (manifold_passes.h) called in the order of colours. The tail is solved one by one.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "parallel/executor.h"
+#include "solver/bodies/manifold_colours.h"
+#include "solver/bodies/manifold_kernels.h"
+
+namespace pliant {
+
+class ManifoldBlocks {
+ public:
+  /// Copies manifolds in the order of their colours. `is_fixed` is by body: nonzero where a body is fixed.
+  void fill(Executor& executor, std::span<const Manifold> manifolds, const ManifoldColours& colours,
+            std::span<const char> is_fixed);
+
+  /// Copies impulses and present gaps back to the manifolds of `fill`.
+  void take(Executor& executor, const ManifoldColours& colours, std::span<Manifold> manifolds) const;
+
+  /// Multiplies all impulses, where the next substep is longer or shorter by that factor.
+  void scale_impulses(Executor& executor, float factor);
+
+  /// The number of manifolds with a normal impulse.
+  int pressing() const;
+
+  // Each of these calls the function of that name (manifold_passes.h) for all manifolds.
+  void prepare(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions);
+  void warm_start(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions);
+  bool bounce(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions, float h, float slow);
+  void position_pass(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions, float h,
+                     const ContactSoftness& softness);
+  void velocity_pass(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions, float h);
+
+ private:
+  using Pass = FunctionRef<void(const ManifoldKernels&, const BlockRange&)>;
+  /// Calls pass for ranges of each colour, on all threads if the colour is large; then for the tail.
+  void run(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions, const Pass& pass);
+  void fill_block(int number, std::span<const Manifold> manifolds, const ManifoldColours& colours,
+                  std::span<const char> is_fixed);
+
+  std::vector<ManifoldBlock> blocks_;
+  std::vector<int> start_ =
+      std::vector<int>(manifold_colours + 2, 0);  ///< first block of each colour, of the tail, and the end
+  std::vector<int> first_;                        ///< of each block: its first manifold in the order of colours
+};
+
+}  // namespace pliant
