@@ -63,6 +63,9 @@ Pyramid make_pyramid() {
       if (i > 0) touch(body - 1, body, right, right * 0.5f, right * -0.5f, 1, pyramid);
     }
   pyramid.colours.colour(pyramid.bodies_of, pyramid.is_fixed);
+  const std::vector<Manifold> as_found = pyramid.manifolds;
+  std::size_t next = 0;
+  for (const int i : pyramid.colours.order()) pyramid.manifolds[next++] = as_found[static_cast<std::size_t>(i)];
   return pyramid;
 }
 
@@ -87,7 +90,7 @@ class Run {
     time(Part::fill, [&] { blocks_.fill(executor_, pyramid_.manifolds, pyramid_.colours, pyramid_.is_fixed); });
     time(Part::prepare, [&] { blocks_.prepare(executor_, kernels_, pyramid_.motions); });
     for (int substep = 0; substep < 8; ++substep) this->substep();
-    time(Part::take, [&] { blocks_.take(executor_, pyramid_.colours, pyramid_.manifolds); });
+    time(Part::take, [&] { blocks_.take(executor_, pyramid_.manifolds); });
     state.SetIterationTime((seconds_ - before) / (part_ >= Part::warm_start && part_ <= Part::velocity_pass ? 8 : 1));
   }
   std::int64_t manifolds() const { return static_cast<std::int64_t>(pyramid_.manifolds.size()); }

@@ -29,7 +29,7 @@ Vec3f unit(Random& random) { return unit_or(vector(random, 1), Vec3f{1, 0, 0}); 
 struct Pile {
   std::vector<BodyMotion> motions;
   std::vector<char> is_fixed;
-  std::vector<Manifold> manifolds;
+  std::vector<Manifold> manifolds;  ///< in the order of colours
   ManifoldColours colours;
 };
 
@@ -87,9 +87,12 @@ Pile random_pile(int bodies, int contacts, int of_first, unsigned seed) {
     int a = i < of_first ? 1 : static_cast<int>(random() % static_cast<unsigned>(bodies)), b = a;
     while (a == b) b = static_cast<int>(random() % static_cast<unsigned>(bodies));
     bodies_of.emplace_back(a, b);
-    pile.manifolds.push_back(random_manifold(a, b, random));
   }
   pile.colours.colour(bodies_of, pile.is_fixed);
+  for (const int i : pile.colours.order()) {
+    const auto [a, b] = bodies_of[static_cast<std::size_t>(i)];
+    pile.manifolds.push_back(random_manifold(a, b, random));
+  }
   return pile;
 }
 
@@ -100,8 +103,7 @@ constexpr int substeps = 3;
 /// Calls function(manifold, a, b) in the order of colours. Fixed bodies stay as they are.
 template <class Function>
 void one_by_one(Pile& pile, const Function& function) {
-  for (const int i : pile.colours.order()) {
-    Manifold& m = pile.manifolds[static_cast<std::size_t>(i)];
+  for (Manifold& m : pile.manifolds) {
     const auto ia = static_cast<std::size_t>(m.a), ib = static_cast<std::size_t>(m.b);
     BodyMotion a = pile.motions[ia], b = pile.motions[ib];
     function(m, a, b);
@@ -147,7 +149,7 @@ int solve_in_blocks(Pile& pile, const ManifoldKernels& kernels, int threads) {
     advance(pile);
     blocks.velocity_pass(executor, kernels, pile.motions, step);
   }
-  blocks.take(executor, pile.colours, pile.manifolds);
+  blocks.take(executor, pile.manifolds);
   return bounces;
 }
 

@@ -13,7 +13,6 @@ namespace {
 
 /// Most rounds in which impacts are passed on from body to body in a substep.
 constexpr int most_rounds_of_impacts = 32;
-constexpr int manifolds_a_task = 128;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -149,8 +148,9 @@ void BodySolver::make_manifolds(const Substep& s) {
     const auto& [a, b] = bodies_of_[at(i)];
     manifolds_.push_back(manifold_of(contacts_[at(i)], a, b, material(s.model, a, b), s.h));
     bounces_ = bounces_ || manifolds_.back().restitution > 0;
-    prepare(manifolds_.back(), motions_[at(a)], motions_[at(b)]);
   }
+  blocks_.fill(s.context.executor, manifolds_, colours_, is_fixed_);
+  blocks_.prepare(s.context.executor, s.kernels.manifolds, motions_);
 }
 
 void BodySolver::begin_frame(Substep& s) {
@@ -201,50 +201,25 @@ void BodySolver::load_predicted(const Substep& s) {
   }
 }
 
-template <class Pass>
-void BodySolver::for_manifolds(const Substep& s, const char* name, const Pass& pass) {
-  const auto run = [&](int first, int last) {
-    for (int i = first; i < last; ++i) {
-      Manifold& m = manifolds_[at(i)];
-      BodyMotion fixed_a, fixed_b;  // several threads may read a fixed body, so passes get a copy of it
-      BodyMotion& a = is_fixed_[at(m.a)] != 0 ? fixed_a = motions_[at(m.a)] : motions_[at(m.a)];
-      BodyMotion& b = is_fixed_[at(m.b)] != 0 ? fixed_b = motions_[at(m.b)] : motions_[at(m.b)];
-      pass(m, a, b);
-    }
-  };
-  for (int colour = 0; colour < manifold_colours; ++colour) {
-    const int first = colours_.start()[at(colour)], last = colours_.start()[at(colour) + 1];
-    const int tasks = (last - first + manifolds_a_task - 1) / manifolds_a_task;
-    if (tasks == 0) continue;
-    s.context.executor.parallel_for(name, tasks, [&](int task) {
-      run(first + task * manifolds_a_task, std::min(last, first + (task + 1) * manifolds_a_task));
-    });
-  }
-  run(colours_.tail(), static_cast<int>(manifolds_.size()));
-}
-
 void BodySolver::start_substep(const Substep& s) {
-  if (last_h_ != s.h)
-    for (Manifold& m : manifolds_) scale_impulses(s.h / last_h_, m);
+  Executor& executor = s.context.executor;
+  const ManifoldKernels& kernels = s.kernels.manifolds;
+  if (last_h_ != s.h) blocks_.scale_impulses(executor, s.h / last_h_);
   last_h_ = s.h;
-  for_manifolds(s, "solve: bodies", [](Manifold& m, BodyMotion& a, BodyMotion& b) { warm_start(m, a, b); });
+  blocks_.warm_start(executor, kernels, motions_);
   const float slow = 2 * s.h * length(s.model.gravity);
   bool goes_on = bounces_;
-  for (int round = 0; goes_on && round < most_rounds_of_impacts; ++round) {
-    char again = 0;  // set by several threads
-    for_manifolds(s, "solve: bodies", [&](Manifold& m, BodyMotion& a, BodyMotion& b) {
-      if (bounce(m, a, b, s.h, slow)) __atomic_store_n(&again, 1, __ATOMIC_RELAXED);
-    });
-    goes_on = again != 0;
-  }
+  for (int round = 0; goes_on && round < most_rounds_of_impacts; ++round)
+    goes_on = blocks_.bounce(executor, kernels, motions_, s.h, slow);
 }
 
 void BodySolver::project(Substep& s, bool is_first) {
+  const Stopwatch stopwatch(s.context.executor.timings(), "solve: bodies");
   load_predicted(s);
   if (manifolds_.empty()) return;
   const std::vector<BodyMotion>& before = keep_motions();
   if (is_first) start_substep(s);
-  for_manifolds(s, "solve: bodies", [&](Manifold& m, BodyMotion& a, BodyMotion& b) { position_pass(m, a, b, s.h, {}); });
+  blocks_.position_pass(s.context.executor, s.kernels.manifolds, motions_, s.h, {});
   for (int body = 0; body < dynamic_; ++body) {
     const Place& place = places_[at(body)];
     const BodyMotion& motion = motions_[at(body)];
@@ -276,10 +251,11 @@ void BodySolver::load_velocities(const Substep& s, FunctionRef<Vec3f(int object)
 }
 
 void BodySolver::respond(Substep& s, FunctionRef<Vec3f(int object)> gravity) {
+  const Stopwatch stopwatch(s.context.executor.timings(), "respond: bodies");
   load_velocities(s, gravity);
   if (manifolds_.empty()) return;
   const std::vector<BodyMotion>& before = keep_motions();
-  for_manifolds(s, "respond: bodies", [&](Manifold& m, BodyMotion& a, BodyMotion& b) { velocity_pass(m, a, b, s.h); });
+  blocks_.velocity_pass(s.context.executor, s.kernels.manifolds, motions_, s.h);
   for (int body = 0; body < dynamic_; ++body) {
     const Place& place = places_[at(body)];
     const BodyMotion& motion = motions_[at(body)];
@@ -297,13 +273,10 @@ const std::vector<BodyMotion>& BodySolver::keep_motions() {
 }
 
 void BodySolver::end_frame(const Substep& s) {
+  blocks_.take(s.context.executor, manifolds_);
   for (std::size_t i = 0; i < manifolds_.size(); ++i) keep_impulses(manifolds_[i], s.h, contacts_[at(colours_.order()[i])]);
 }
 
-int BodySolver::contacts_that_press() const {
-  return static_cast<int>(std::count_if(manifolds_.begin(), manifolds_.end(), [](const Manifold& m) {
-    return (m.impulse[0] + m.impulse[1]) + (m.impulse[2] + m.impulse[3]) > 0;
-  }));
-}
+int BodySolver::contacts_that_press() const { return blocks_.pressing(); }
 
 }  // namespace pliant

@@ -12,8 +12,7 @@
 #include "collision/narrow/contact.h"
 #include "collision/proxies/contact_rules.h"
 #include "model/model.h"
-#include "solver/bodies/manifold_colours.h"
-#include "solver/bodies/manifold_passes.h"
+#include "solver/bodies/manifold_blocks.h"
 #include "solver/bodies/manifolds.h"
 
 namespace pliant {
@@ -66,9 +65,6 @@ class BodySolver {
   void load_velocities(const Substep& s, FunctionRef<Vec3f(int object)> gravity);
   void start_substep(const Substep& s);
   const std::vector<BodyMotion>& keep_motions();
-  /// Calls pass(manifold, motion of a, motion of b) for each manifold, colour after colour, each on all threads.
-  template <class Pass>
-  void for_manifolds(const Substep& s, const char* name, const Pass& pass);
 
   ContactRules rules_;
   std::vector<Place> places_;  ///< bodies of objects, then colliders
@@ -82,7 +78,8 @@ class BodySolver {
   std::vector<Start> starts_;
   std::vector<BodyContact> contacts_;
   ManifoldColours colours_;                 ///< of contacts_
-  std::vector<Manifold> manifolds_;         ///< of contacts_, in the order of colours_
+  std::vector<Manifold> manifolds_;         ///< of contacts_, in the order of colours_; impulses as the frame began
+  ManifoldBlocks blocks_;                   ///< of manifolds_
   std::vector<BodyMotion> motions_, kept_;  ///< of places_; before a pass
   float last_h_ = 0;                        ///< length of the last substep [s]
   bool bounces_ = false;                    ///< true: some manifold has restitution

@@ -28,15 +28,14 @@ void for_each(Executor& executor, const char* name, int n, int a_task, const Bod
 
 }  // namespace
 
-void ManifoldBlocks::fill_block(int number, std::span<const Manifold> manifolds, const ManifoldColours& colours,
-                                std::span<const char> is_fixed) {
+void ManifoldBlocks::fill_block(int number, std::span<const Manifold> manifolds, std::span<const char> is_fixed) {
   ManifoldBlock& block = blocks_[at(number)];
   block = {};
   const int first = first_[at(number)];
   block.lanes = first_[at(number + 1)] - first;
   for (int lane = 0; lane < block_width; ++lane) {
     const bool is_free = lane >= block.lanes;
-    const Manifold& m = manifolds[at(colours.order()[at(first + (is_free ? 0 : lane))])];
+    const Manifold& m = manifolds[at(first + (is_free ? 0 : lane))];
     block.a[lane] = records_a_motion * m.a;
     block.b[lane] = records_a_motion * m.b;
     if (is_free) {
@@ -60,14 +59,13 @@ void ManifoldBlocks::fill(Executor& executor, std::span<const Manifold> manifold
   const int count = start_.back() = static_cast<int>(first_.size());
   first_.push_back(colours.start().back());
   blocks_.resize(at(count));
-  for_each(executor, "fill body contacts", count, blocks_a_fill,
-           [&](int i) { fill_block(i, manifolds, colours, is_fixed); });
+  for_each(executor, "fill body contacts", count, blocks_a_fill, [&](int i) { fill_block(i, manifolds, is_fixed); });
 }
 
-void ManifoldBlocks::take(Executor& executor, const ManifoldColours& colours, std::span<Manifold> manifolds) const {
+void ManifoldBlocks::take(Executor& executor, std::span<Manifold> manifolds) const {
   for_each(executor, "fill body contacts", static_cast<int>(blocks_.size()), blocks_a_fill, [&](int i) {
     for (int lane = 0; lane < blocks_[at(i)].lanes; ++lane)
-      take_impulses(blocks_[at(i)].rows, lane, manifolds[at(colours.order()[at(first_[at(i)] + lane)])]);
+      take_impulses(blocks_[at(i)].rows, lane, manifolds[at(first_[at(i)] + lane)]);
   });
 }
 

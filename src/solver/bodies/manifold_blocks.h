@@ -15,12 +15,12 @@ namespace pliant {
 
 class ManifoldBlocks {
  public:
-  /// Copies manifolds in the order of their colours. `is_fixed` is by body: nonzero where a body is fixed.
+  /// Copies manifolds, which are in the order of their colours. `is_fixed` is by body: nonzero where a body is fixed.
   void fill(Executor& executor, std::span<const Manifold> manifolds, const ManifoldColours& colours,
             std::span<const char> is_fixed);
 
   /// Copies impulses and present gaps back to the manifolds of `fill`.
-  void take(Executor& executor, const ManifoldColours& colours, std::span<Manifold> manifolds) const;
+  void take(Executor& executor, std::span<Manifold> manifolds) const;
 
   /// Multiplies all impulses, where the next substep is longer or shorter by that factor.
   void scale_impulses(Executor& executor, float factor);
@@ -40,13 +40,12 @@ class ManifoldBlocks {
   using Pass = FunctionRef<void(const ManifoldKernels&, const BlockRange&)>;
   /// Calls pass for ranges of each colour, on all threads if the colour is large; then for the tail.
   void run(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions, const Pass& pass);
-  void fill_block(int number, std::span<const Manifold> manifolds, const ManifoldColours& colours,
-                  std::span<const char> is_fixed);
+  void fill_block(int number, std::span<const Manifold> manifolds, std::span<const char> is_fixed);
 
   std::vector<ManifoldBlock> blocks_;
   std::vector<int> start_ =
       std::vector<int>(manifold_colours + 2, 0);  ///< first block of each colour, of the tail, and the end
-  std::vector<int> first_;                        ///< of each block: its first manifold in the order of colours
+  std::vector<int> first_;                        ///< first manifold of each block, and the number of all
 };
 
 }  // namespace pliant
