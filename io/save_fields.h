@@ -67,6 +67,11 @@ void fields(A& a, Is<ObjectBody> auto& of) {
   a(name, particle, frame, solids, origin, axes);
 }
 template <class A>
+void fields(A& a, Is<ObjectJoint> auto& of) {
+  auto& [name, kind, joint_a, joint_b, anchor, constraints, break_force, break_torque] = of;
+  a(name, kind, joint_a, joint_b, anchor, constraints, break_force, break_torque);
+}
+template <class A>
 void fields(A& a, Is<Channel> auto& of) {
   auto& [name, components, values] = of;
   a(name, components, values);
@@ -93,11 +98,12 @@ void fields(A& a, Is<WorldLayout> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<Object> auto& of) {
-  auto& [name, positions, velocities, masses, frames, bodies, constraints, triangles, volume, pins, attachments, thickness,
-         self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift, sweep, damping,
-         colour] = of;
-  a(name, positions, velocities, masses, frames, bodies, constraints, triangles, volume, pins, attachments, thickness,
-    self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift, sweep, damping);
+  auto& [name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, pins, attachments,
+         thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift,
+         sweep, damping, colour] = of;
+  a(name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, pins, attachments,
+    thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift, sweep,
+    damping);
   a.aside(colour);
 }
 template <class A>

@@ -247,7 +247,9 @@ void dumbbell_rows(Result& result) {
 }  // namespace
 
 void momentum_rows(Result& result, bool) {
-  for (const ConstraintType& type : constraint_types()) type_rows(result, type);
+  for (const ConstraintType& type : constraint_types())
+    if (type.rows == 1 && std::find(type.slots.begin(), type.slots.end(), SlotKind::frame) == type.slots.end())
+      type_rows(result, type);  // the reference solver has no frames
   sheet_rows(result);
   dumbbell_rows(result);
 }

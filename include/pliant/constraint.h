@@ -11,6 +11,10 @@
 //   };
 //   pliant::register_constraint<RightAngle>();
 //
+// A type with `static constexpr bool is_bounded = true` also fills out.low and out.high, bounds of each row's force: a stop that
+// only pushes has low = 0, a motor has its greatest torque. With `acts_on_motion = true` a row does not bring C to zero, but
+// the speed of C to out.speed, within the bounds; its compliance is a speed over a force (a viscous damper's inverse rate).
+//
 // The unit of compliance is the inverse unit of the energy C^2 / 2. PBD stiffness, damping, multipliers, Report and scene
 // files work as for the library's types. Your constraints are projected one at a time, in colours that all threads share.
 //
@@ -38,10 +42,13 @@ struct ConstraintDefinition {
   std::vector<SlotKind> slots;
   int rows = 1;
   std::vector<std::string> rest_fields;
-  bool is_length = false;    ///< true if C is the distance of two points minus the only rest field
-  bool is_compiled = false;  ///< true for built-in types of one row over points, which are projected sixteen at a time
-  float largest_change = 0;  ///< largest change of C in one projection; 0: no limit
+  bool is_length = false;       ///< true if C is the distance of two points minus the only rest field
+  bool is_compiled = false;     ///< true for built-in types of one row over points, which are projected sixteen at a time
+  bool acts_on_motion = false;  ///< true if rows impose a speed of C; only with `evaluate_bounded`
+  float largest_change = 0;     ///< largest change of C in one projection; 0: no limit
   void (*evaluate)(const float* slots, const float* rest, float* c, float* gradients) = nullptr;
+  /// As evaluate; also low, high and speed of each row. Null: rows are without bounds.
+  void (*evaluate_bounded)(const float* slots, const float* rest, float* c, float* gradients, float* bounds) = nullptr;
   void (*evaluate_double)(const double* slots, const double* rest, double* c, double* gradients) = nullptr;
   void (*measure)(const double* slots, double* rest) = nullptr;  ///< computes rest data from a rest shape; null: give them
   void (*canonical)(int* stencil, float* rest) = nullptr;        ///< reorders slots that are symmetric; null: none are
@@ -100,9 +107,7 @@ void evaluate_rows(const SlotValues<typename T::slots, R>& at, const typename T:
 }
 
 template <class T, class R>
-void evaluate(const R* slots, const R* rest, R* c, R* gradients) {
-  Rows<typename T::slots, T::rows, R> out;
-  evaluate_rows<T, R>(values_of<typename T::slots, R>(slots), params_of<T, R>(rest), out);
+void store_rows(const Rows<typename T::slots, T::rows, R>& out, R* c, R* gradients) {
   for (int row = 0; row < T::rows; ++row) {
     c[row] = out.c[row];
     for (int slot = 0; slot < T::slots::count; ++slot, gradients += 3) {
@@ -110,6 +115,37 @@ void evaluate(const R* slots, const R* rest, R* c, R* gradients) {
       gradients[1] = out.gradient[row][slot].y;
       gradients[2] = out.gradient[row][slot].z;
     }
+  }
+}
+
+template <class T, class R>
+void evaluate(const R* slots, const R* rest, R* c, R* gradients) {
+  Rows<typename T::slots, T::rows, R> out;
+  evaluate_rows<T, R>(values_of<typename T::slots, R>(slots), params_of<T, R>(rest), out);
+  store_rows<T, R>(out, c, gradients);
+}
+
+template <class T>
+inline constexpr bool acts_on_motion = [] {
+  if constexpr (requires { T::acts_on_motion; }) return T::acts_on_motion;
+  return false;
+}();
+template <class T>
+inline constexpr bool is_bounded = [] {
+  if constexpr (requires { T::is_bounded; }) return T::is_bounded;
+  return false;
+}();
+
+/// Bounds are three numbers a row: low, high, speed.
+template <class T>
+void evaluate_bounded(const float* slots, const float* rest, float* c, float* gradients, float* bounds) {
+  Rows<typename T::slots, T::rows, float> out;
+  evaluate_rows<T, float>(values_of<typename T::slots, float>(slots), params_of<T, float>(rest), out);
+  store_rows<T, float>(out, c, gradients);
+  for (int row = 0; row < T::rows; ++row, bounds += 3) {
+    bounds[0] = out.low[row];
+    bounds[1] = out.high[row];
+    bounds[2] = acts_on_motion<T> ? out.speed[row] : 0;
   }
 }
 
@@ -159,6 +195,10 @@ ConstraintDefinition definition_of() {
   made.rest_fields.assign(T::fields.begin(), T::fields.end());
   if constexpr (requires { T::is_length; }) made.is_length = T::is_length;
   if constexpr (requires { T::largest_change; }) made.largest_change = T::largest_change;
+  static_assert(is_bounded<T> || !acts_on_motion<T>, "a type with acts_on_motion has is_bounded too");
+  static_assert(!is_bounded<T> || T::rows > 1 || T::slots::frames > 0, "a bounded row over points alone: not supported");
+  made.acts_on_motion = acts_on_motion<T>;
+  if constexpr (is_bounded<T>) made.evaluate_bounded = &evaluate_bounded<T>;
   made.evaluate = &evaluate<T, float>;
   made.evaluate_double = &evaluate<T, double>;
   if constexpr (measures_points<T> || measures_slots<T> || field_count<T> == 0) {

@@ -8,6 +8,7 @@
 #include "pliant/error.h"
 #include "pliant/handles.h"
 #include "pliant/io.h"
+#include "pliant/joint.h"
 #include "pliant/material.h"
 #include "pliant/measurements.h"
 #include "pliant/mesh.h"

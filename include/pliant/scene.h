@@ -102,6 +102,16 @@ struct ObjectBody {
   Quatf axes{};    ///< from that frame to the principal axes
 };
 
+/// A joint between two bodies of an object: a name for some of its constraints (add_joint of pliant/joint.h makes both).
+struct ObjectJoint {
+  std::string name;
+  std::string kind;                             ///< "ball", "hinge", ...
+  int a = 0, b = 0;                             ///< indices in Object::bodies
+  Vec3f anchor{};                               ///< in the frame of a's principal axes, about its centre of mass [m]
+  std::vector<std::array<int, 2>> constraints;  ///< each a group of Object::constraints, and an index in it
+  float break_force = 0, break_torque = 0;      ///< greatest force [N] and torque about the anchor [N m]; 0: no limit
+};
+
 /// An object: particles and constraints. make_cloth and make_rope make one. Over fifteen members: its whole description.
 struct Object {
   std::string name;
@@ -111,6 +121,7 @@ struct Object {
   std::vector<ObjectFrame> frames;  ///< orientations, for constraints with frame slots
   std::vector<ObjectBody> bodies;   ///< rigid bodies; their particles touch nothing by themselves, their solids do
   std::vector<ConstraintGroup> constraints;
+  std::vector<ObjectJoint> joints;            ///< joints of bodies, each made of some of the constraints
   std::vector<std::array<int, 3>> triangles;  ///< surface for contact, air, volume and pictures; may be empty
   std::optional<Volume> volume;               ///< keeps the enclosed volume; needs a closed surface
   std::vector<Pin> pins;

@@ -2,15 +2,35 @@
 // the list: pools, sweeps, files, tests and docs follow (docs/internals/architecture.md, "Adding a constraint").
 #pragma once
 
+#include "constraints/ball_joint.h"
+#include "constraints/cylindrical_joint.h"
 #include "constraints/dihedral_bending.h"
 #include "constraints/distance.h"
+#include "constraints/fixed_joint.h"
+#include "constraints/gear_joint.h"
+#include "constraints/hinge_joint.h"
 #include "constraints/isometric_bending.h"
+#include "constraints/joint_angle.h"
+#include "constraints/joint_angle_motor.h"
+#include "constraints/joint_distance.h"
+#include "constraints/joint_offset.h"
+#include "constraints/joint_offset_motor.h"
+#include "constraints/joint_swing.h"
+#include "constraints/planar_joint.h"
+#include "constraints/pulley_joint.h"
+#include "constraints/rack_joint.h"
+#include "constraints/slider_joint.h"
 #include "constraints/traits.h"
 #include "constraints/type_list.h"
+#include "constraints/universal_joint.h"
 
 namespace pliant {
 
-/// The types in the order in which a sweep visits them.
-using AllConstraints = TypeList<Distance, DihedralBending, IsometricBending>;
+/// The types in the order in which a sweep visits them. Of joints, motors and friction come first, then limits, so that what
+/// holds parts together has the last word.
+using AllConstraints =
+    TypeList<Distance, DihedralBending, IsometricBending, JointAngleMotor, JointOffsetMotor, JointAngle, JointOffset,
+             JointSwing, JointDistance, PulleyJointRows, GearJointRows, RackJointRows, PlanarJointRows,
+             CylindricalJointRows, UniversalJointRows, SliderJointRows, BallJointRows, HingeJointRows, FixedJointRows>;
 
 }  // namespace pliant

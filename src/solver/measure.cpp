@@ -32,10 +32,22 @@ View view_of(const Model& model, const State& state, const Workspace& workspace,
 
 Vec3f place_of(const Record& p) { return {p.x, p.y, p.z}; }
 
+/// Evaluates C. It is zero where the force that would reduce it is excluded by a bound, as within a joint's limits.
+void evaluate(const ConstraintDefinition& type, StencilArrays<float>& arrays, float (&bounds)[3 * most_components]) {
+  if (type.evaluate_bounded == nullptr) return type.evaluate(arrays.slots, arrays.rest, arrays.c, arrays.gradients);
+  type.evaluate_bounded(arrays.slots, arrays.rest, arrays.c, arrays.gradients, bounds);
+  for (int row = 0; row < type.rows; ++row) {
+    float& c = arrays.c[row];
+    if ((c > 0 && !(bounds[3 * row] < 0)) || (c < 0 && !(bounds[3 * row + 1] > 0))) c = 0;
+  }
+}
+
 /// Adds the norm of C + alpha~ lambda of every constraint of a type; C is a vector if the type has several rows.
 void add_residuals(const View& view, int type, ErrorSum& sum) {
-  const auto evaluate = constraint_type(type).evaluate;
+  const ConstraintDefinition& definition = constraint_type(type);
+  if (definition.acts_on_motion) return;  // imposes a speed, which has no C to be met
   StencilArrays<float> arrays;
+  float bounds[3 * most_components];
   for_constraints(view.object, type, [&](const ConstraintPlace& at, const std::int32_t* particle) {
     for (int slot = 0; slot < at.pool.stencil; ++slot) {
       const bool is_frame = particle[slot] >= view.object.particles;
@@ -44,7 +56,7 @@ void add_residuals(const View& view, int type, ErrorSum& sum) {
       arrays.set_slot(slot, p.x, p.y, p.z, p.w);
     }
     arrays.load_rest(at);
-    evaluate(arrays.slots, arrays.rest, arrays.c, arrays.gradients);
+    evaluate(definition, arrays, bounds);
     double squared = 0, error = 0;
     for (int component = 0; component < at.pool.components; ++component) {
       const double c = static_cast<double>(arrays.c[component]), multiplier = view.multiplier(at, component);

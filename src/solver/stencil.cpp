@@ -38,6 +38,7 @@ struct Work {
   Vec3f motion[most_slots];  ///< of each slot since the substep's start: displacement [m] or rotation [rad]
   float matrix[most_components][most_components];  ///< A, then its factors: D on the diagonal, L below it
   float change[most_components];                   ///< right-hand side, then dlambda
+  float bounds[3 * most_components];               ///< of bounded types, for each row: low, high, speed
 };
 
 void load(const CompiledObject& object, const SweepArguments& a, const FrameArguments& f, const Pool& pool,
@@ -107,6 +108,38 @@ void assemble(const ConstraintPlace& at, const float* multipliers, const SweepAr
   }
 }
 
+/// For types that act on motion: C becomes the displacement of C since the substep's start less that at the imposed speed.
+/// The compliance is a speed over a force.
+void assemble_motion(const ConstraintPlace& at, const float* multipliers, const SweepArguments& a, Work& work) {
+  const Pool& pool = at.pool;
+  const float compliance = pool.law == Law::pbd ? 0 : min(at.value(pool.fields) * a.inverse_h, largest_compliance);
+  for (int i = 0; i < pool.components; ++i) {
+    work.change[i] = work.bounds[3 * i + 2] * a.h - motion_along(pool, work, i);
+    if (multipliers != nullptr && !a.first_pass)
+      work.change[i] = work.change[i] - compliance * multipliers[i * batch_width];
+    for (int j = 0; j <= i; ++j) work.matrix[i][j] = coupling(pool, work, i, j) + (i == j ? compliance : 0);
+  }
+}
+
+/// Clamps the changes of a bounded type, so that each multiplier stays within its row's bounds. A force F has the
+/// multiplier F h^2. Without stored multipliers the pass must be the only one.
+void clamp_to_bounds(const Pool& pool, const float* multipliers, const SweepArguments& a, Work& work) {
+  const float h2 = a.h * a.h;
+  for (int row = 0; row < pool.components; ++row) {
+    const float before = multipliers == nullptr || a.first_pass ? 0 : multipliers[row * batch_width];
+    const float low = work.bounds[3 * row] * h2, high = work.bounds[3 * row + 1] * h2;
+    work.change[row] = clamp(before + work.change[row], low, high) - before;
+  }
+}
+
+void evaluate(const ConstraintDefinition& type, Work& work) {
+  StencilArrays<float>& arrays = work.arrays;
+  if (type.evaluate_bounded != nullptr)
+    type.evaluate_bounded(arrays.slots, arrays.rest, arrays.c, arrays.gradients, work.bounds);
+  else
+    type.evaluate(arrays.slots, arrays.rest, arrays.c, arrays.gradients);
+}
+
 /// Solves L D L^T x = b in place: `m` is overwritten by its factors, `x` (first b) by the solution.
 void solve(int rows, float (&m)[most_components][most_components], float (&x)[most_components]) {
   bool lost[most_components] = {};
@@ -170,13 +203,16 @@ void project_segment(const CompiledObject& object, const Segment& segment, const
     float* multipliers = all == nullptr ? nullptr : all + at.multiplier_place(0);
     load(object, points, frames, pool, number, work);
     work.arrays.load_rest(at);
-    type.evaluate(work.arrays.slots, work.arrays.rest, work.arrays.c, work.arrays.gradients);
-    assemble(at, multipliers, points, work);
+    evaluate(type, work);
+    if (type.acts_on_motion)
+      assemble_motion(at, multipliers, points, work);
+    else
+      assemble(at, multipliers, points, work);
     hold_to_trust(type, pool, work);
     solve(pool.components, work.matrix, work.change);
-    for (int row = 0; row < pool.components; ++row) {
-      work.change[row] = work.change[row] * points.relaxation;
-      if (multipliers == nullptr) continue;
+    for (int row = 0; row < pool.components; ++row) work.change[row] = work.change[row] * points.relaxation;
+    if (type.evaluate_bounded != nullptr) clamp_to_bounds(pool, multipliers, points, work);
+    for (int row = 0; row < pool.components && multipliers != nullptr; ++row) {
       float& multiplier = multipliers[row * batch_width];
       multiplier = (points.first_pass ? 0.f : multiplier) + work.change[row];
     }

@@ -5,6 +5,8 @@
 //   A = sum over slots of G W G^T             G: gradients by row, W: inverse mass, or inverse inertia in world axes
 //   PBD:   A dlambda = -k' C
 //   XPBD:  ((1 + g) A + a) dlambda = -C - a lambda - g G (motion since the substep's start)       a, g as in project.h
+//   bounded rows: dlambda is clamped so that low h^2 <= lambda <= high h^2
+//   rows that act on motion: (A + a / h) dlambda = h speed - G (motion since the substep's start) - (a / h) lambda
 //   point: x += w G^T dlambda      frame: theta = W G^T dlambda,  q += theta q / 2, normalised
 #pragma once
 

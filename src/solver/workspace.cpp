@@ -9,7 +9,9 @@ namespace pliant {
 namespace {
 
 /// True if a pool's multipliers must be stored. Rigid constraints move the same without them; PBD constraints have none.
+/// Constraints projected one at a time keep theirs: bounds need them, and they are the reactions of joints.
 bool needs_multipliers(const Pool& pool) {
+  if (!pool.in_lanes) return pool.law != Law::pbd;
   const std::size_t response = pool.row_offset.size() - (pool.law == Law::damped ? 2 : 1);
   const bool rigid = pool.row_offset[response] < 0 && *pool.row(static_cast<int>(response), 0) == 0;
   return pool.law != Law::pbd && !rigid;
@@ -21,7 +23,7 @@ void prepare_multipliers(const CompiledObject& object, Multipliers kept, std::ve
   pointers.clear();
   if (kept == Multipliers::none) return;
   for (const Pool& pool : object.pools) {
-    const bool is_asked_for = kept > Multipliers::lengths || pool.is_length;
+    const bool is_asked_for = kept > Multipliers::lengths || pool.is_length || !pool.in_lanes;
     const bool keeps = pool.law != Law::pbd && is_asked_for && (kept == Multipliers::all || needs_multipliers(pool));
     multipliers.emplace_back(keeps ? static_cast<std::size_t>(pool.batches) * batch_width * pool.components : 0, 0.f);
   }
@@ -67,7 +69,8 @@ void prepare(const Model& model, int object, Multipliers kept, Workspace& worksp
   resize(model, workspace);
   const CompiledObject& from = model.objects[object];
   prepare_multipliers(from, kept, workspace.multipliers[object], workspace.multiplier_pointers[object]);
-  workspace.stores_in_last[object] = kept == Multipliers::lengths_in_last ? 1 : 0;
+  const bool has_stencils = std::any_of(from.pools.begin(), from.pools.end(), [](const Pool& p) { return !p.in_lanes; });
+  workspace.stores_in_last[object] = kept == Multipliers::lengths_in_last && !has_stencils ? 1 : 0;
   workspace.volume_multipliers[object] = 0;
   workspace.last_h[object] = 0;
   workspace.triangle_forces[object] = {};

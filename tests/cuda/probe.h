@@ -56,11 +56,19 @@ struct FunctionProbe {
   }
 };
 
-template <class List>
+/// A probe for each type that is projected in lanes, then the others given.
+template <class List, class... Made>
 struct Probes;
-template <class... Constraints>
-struct Probes<TypeList<Constraints...>> {
-  using Type = TypeList<ConstraintProbe<Constraints>..., ConstraintProbe<PlaneContact>, FunctionProbe>;
+template <class... Made>
+struct Probes<TypeList<>, Made...> {
+  using Type = TypeList<Made..., ConstraintProbe<PlaneContact>, FunctionProbe>;
+};
+template <class First, class... More, class... Made>
+requires(in_lanes<First>) struct Probes<TypeList<First, More...>, Made...>
+    : Probes<TypeList<More...>, Made..., ConstraintProbe<First>> {
+};
+template <class First, class... More, class... Made>
+requires(!in_lanes<First>) struct Probes<TypeList<First, More...>, Made...> : Probes<TypeList<More...>, Made...> {
 };
 using AllProbes = Probes<AllConstraints>::Type;
 

@@ -20,7 +20,7 @@ template <class List>
 struct WithOurs;
 template <class... Types>
 struct WithOurs<TypeList<Types...>> {
-  using Type = testing::Types<Types..., BallJoint, TwoBars, Spread>;
+  using Type = testing::Types<Types..., TestJoint, TwoBars, Spread>;
 };
 
 struct NameOfType {

@@ -9,8 +9,8 @@
 namespace pliant::testing_support {
 
 /// Two bodies, a point and a frame each, share an anchor. C is the vector between their anchors in world axes [m].
-struct BallJoint {
-  static constexpr const char* name = "ball_joint";
+struct TestJoint {
+  static constexpr const char* name = "test_joint";
   using slots = Slots<Point, Frame, Point, Frame>;
   static constexpr int rows = 3;
 
@@ -103,7 +103,7 @@ struct Spread {
 };
 
 inline void register_test_types() {
-  register_constraint<BallJoint>();
+  register_constraint<TestJoint>();
   register_constraint<TwoBars>();
   register_constraint<Spread>();
 }

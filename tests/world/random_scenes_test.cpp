@@ -5,6 +5,7 @@
 // tries more scenes, PLIANT_RANDOM_SEED others.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <random>
@@ -56,7 +57,8 @@ Stiffness random_stiffness(Dice& dice) {
 void add_random_constraints(Dice& dice, Object& object, float scale) {
   const int particles = static_cast<int>(object.positions.size());
   for (const ConstraintType& type : constraint_types()) {
-    if (type.stencil_size > particles || dice.one_in(3)) continue;
+    const bool has_frames = std::find(type.slots.begin(), type.slots.end(), SlotKind::frame) != type.slots.end();
+    if (has_frames || type.stencil_size > particles || dice.one_in(3)) continue;  // these objects have no frames
     ConstraintGroup group{type.name, {}, {}, random_stiffness(dice), {}};
     const int count = dice.below(3 * particles);
     for (int c = 0; c < count; ++c) {

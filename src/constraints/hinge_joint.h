@@ -1,0 +1,34 @@
+// A hinge: two bodies share a point and the joint's x-axis. Three displacements, and x of b perpendicular to y and z of a
+// (joint_rows.h). Compliance in m/N and rad/(N m).
+#pragma once
+
+#include <array>
+
+#include "constraints/joint_rows.h"
+
+namespace pliant {
+
+struct HingeJointRows {
+  static constexpr const char* name = "hinge_joint";
+  using slots = joint::Bodies;
+  static constexpr int rows = 5;
+
+  template <class R>
+  using Params = joint::Places<R>;
+  static constexpr auto fields = joint::place_fields;
+
+  template <class R>
+  PLIANT_HD static void evaluate(const SlotValues<slots, R>& at, const Params<R>& p, Rows<slots, rows, R>& out) {
+    const joint::Posed<R> posed = joint::pose(at, p);
+    for (int axis = 0; axis < 3; ++axis) joint::displacement(posed, axis, axis, out);
+    joint::alignment(posed, 1, 0, 3, out);
+    joint::alignment(posed, 2, 0, 4, out);
+  }
+
+  template <class R>
+  PLIANT_HD static Params<R> measure(const SlotValues<slots, R>& at) {
+    return joint::measure_places(at);
+  }
+};
+
+}  // namespace pliant

@@ -1,0 +1,35 @@
+// A slider: body b slides along the joint's x-axis and does not rotate. Displacements along y and z, three rotations
+// (joint_rows.h). Compliance in m/N and rad/(N m).
+#pragma once
+
+#include <array>
+
+#include "constraints/joint_rows.h"
+
+namespace pliant {
+
+struct SliderJointRows {
+  static constexpr const char* name = "slider_joint";
+  using slots = joint::Bodies;
+  static constexpr int rows = 5;
+
+  template <class R>
+  using Params = joint::Places<R>;
+  static constexpr auto fields = joint::place_fields;
+
+  template <class R>
+  PLIANT_HD static void evaluate(const SlotValues<slots, R>& at, const Params<R>& p, Rows<slots, rows, R>& out) {
+    const joint::Posed<R> posed = joint::pose(at, p);
+    const Quat<R> turned = joint::relative(posed.frame_a, posed.frame_b);
+    joint::displacement(posed, 1, 0, out);
+    joint::displacement(posed, 2, 1, out);
+    for (int axis = 0; axis < 3; ++axis) joint::rotation(posed, turned, axis, 2 + axis, out);
+  }
+
+  template <class R>
+  PLIANT_HD static Params<R> measure(const SlotValues<slots, R>& at) {
+    return joint::measure_places(at);
+  }
+};
+
+}  // namespace pliant

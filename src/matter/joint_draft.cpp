@@ -1,0 +1,237 @@
+#include "matter/joint_draft.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "constraints/joint_rows.h"
+#include "pliant/error.h"
+
+namespace pliant {
+
+namespace {
+
+constexpr double pi = 3.14159265358979324;
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr const char* world_name = "world";
+
+bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+bool is_fixed(const Object& object, const JointBody& body) {
+  return body.body < 0 || std::isinf(object.masses.at(static_cast<std::size_t>(body.point)));
+}
+
+/// Rest data are finite.
+float limited(float value) { return std::min(value, joint::no_limit); }
+
+void append(const Vec3d& v, std::vector<float>& to) {
+  for (const double x : {v.x, v.y, v.z}) to.push_back(static_cast<float>(x));
+}
+void append(const Quatd& q, std::vector<float>& to) {
+  for (const double x : {q.x, q.y, q.z, q.w}) to.push_back(static_cast<float>(x));
+}
+
+/// The rotation that takes x to axis 0, 1 or 2, and permutes the others.
+Quatd exchange_axes(int axis) {
+  if (axis == 0) return {0, 0, 0, 1};
+  return axis == 1 ? Quatd{0.5, 0.5, 0.5, 0.5} : Quatd{-0.5, -0.5, -0.5, 0.5};
+}
+
+bool accepts(const ConstraintGroup& group, const std::string& type, const Stiffness& stiffness) {
+  const Stiffness& own = group.stiffness;
+  return group.type == type && own.kind == stiffness.kind && own.value == stiffness.value &&
+         own.damping == stiffness.damping && group.compliances.empty() && !group.rest.empty();
+}
+
+/// The group to which a constraint can be added; a new one if there is none.
+std::size_t group_for(Object& object, const std::string& type, const Stiffness& stiffness) {
+  for (std::size_t i = 0; i < object.constraints.size(); ++i)
+    if (accepts(object.constraints[i], type, stiffness)) return i;
+  object.constraints.push_back({type, {}, {}, stiffness, {}});
+  return object.constraints.size() - 1;
+}
+
+}  // namespace
+
+Quatd rotation_from_x(const Vec3d& axis) {
+  if (axis.x < -0.999999) return {0, 0, 1, 0};  // half a turn about z
+  return normalise(Quatd{0, -axis.z, axis.y, 1 + axis.x});
+}
+
+double principal_angle(double angle) { return std::remainder(angle, 2 * pi); }
+
+JointDraft::JointDraft(Object& object, std::string kind, int a, int b, const JointOptions& options)
+    : object_(object), kind_(std::move(kind)), name_(options.name), options_(options) {
+  if (name_.empty()) name_ = kind_ + " " + std::to_string(object.joints.size());
+  a_ = find(a);
+  b_ = find(b);
+  if (a_.body == b_.body) refuse("joins body " + std::to_string(a) + " with itself", "give two bodies");
+  if (is_fixed(object, a_) && is_fixed(object, b_)) refuse("joins two fixed bodies", "make at least one of them dynamic");
+  require(options.compliance, "compliance", 0);
+  require(options.damping, "damping", 0);
+  require(options.break_force, "break_force", 0, unlimited, true);
+  require(options.break_torque, "break_torque", 0, unlimited, true);
+}
+
+void JointDraft::refuse(const std::string& problem, const std::string& advice) const {
+  throw Error({"", 0, object_.name, "joint '" + name_ + "'"}, problem, advice);
+}
+
+void JointDraft::require(float value, const char* name, float least, float most, bool may_be_infinite) const {
+  if (value >= least && value <= most && (may_be_infinite || std::isfinite(value))) return;
+  refuse(std::string("has a ") + name + " of " + std::to_string(value),
+         std::isinf(most) ? "give a number of at least " + std::to_string(least)
+                          : "give a number from " + std::to_string(least) + " to " + std::to_string(most));
+}
+
+Vec3d JointDraft::place(const Vec3f& at, const char* name) const {
+  if (!is_finite(at)) refuse(std::string("has a ") + name + " that is not finite", "give coordinates in metres");
+  return convert<double>(at);
+}
+
+Vec3d JointDraft::direction(const Vec3f& axis, const char* name) const {
+  const Vec3d v = place(axis, name);
+  const double size = std::sqrt(length_squared(v));
+  if (!(size > 0)) refuse(std::string("has a ") + name + " of length zero", "give the direction of the axis");
+  return v * (1 / size);
+}
+
+JointBody JointDraft::find(int body) const {
+  if (body == -1) return world();
+  if (body < 0 || static_cast<std::size_t>(body) >= object_.bodies.size())
+    refuse("uses body " + std::to_string(body) + "; there are " + std::to_string(object_.bodies.size()),
+           "give an index in Object::bodies, or -1 for the world");
+  const ObjectBody& of = object_.bodies[static_cast<std::size_t>(body)];
+  const Quatd axes = convert<double>(object_.frames.at(static_cast<std::size_t>(of.frame)).orientation);
+  return {body,
+          of.particle,
+          of.frame,
+          {convert<double>(object_.positions.at(static_cast<std::size_t>(of.particle))), normalise(axes)}};
+}
+
+/// The fixed body that stands for the world; if there is none yet, the indices that it will get.
+JointBody JointDraft::world() const {
+  const auto at_origin = [&](const ObjectBody& body) {
+    return body.name == world_name && body.solids.empty() &&
+           object_.positions.at(static_cast<std::size_t>(body.particle)) == Vec3f{} &&
+           std::isinf(object_.masses.at(static_cast<std::size_t>(body.particle)));
+  };
+  const auto found = std::find_if(object_.bodies.begin(), object_.bodies.end(), at_origin);
+  if (found != object_.bodies.end()) return find(static_cast<int>(found - object_.bodies.begin()));
+  needs_world_ = true;
+  JointBody made;
+  made.body = static_cast<int>(object_.bodies.size());
+  made.point = static_cast<int>(object_.positions.size());
+  made.frame = static_cast<int>(object_.frames.size());
+  return made;
+}
+
+JointBody JointDraft::third(int body) const {
+  const JointBody found = find(body);
+  if (found.body == a_.body || found.body == b_.body)
+    refuse("uses body " + std::to_string(body) + " twice", "give a third body as carrier, or -1 for the world");
+  return found;
+}
+
+void JointDraft::add_world() {
+  object_.positions.push_back({});
+  object_.masses.push_back(infinity);
+  if (!object_.velocities.empty()) object_.velocities.push_back({});
+  object_.frames.push_back({{}, {}, {infinity, infinity, infinity}});
+  ObjectBody body;
+  body.name = world_name;
+  body.particle = static_cast<int>(object_.positions.size()) - 1;
+  body.frame = static_cast<int>(object_.frames.size()) - 1;
+  object_.bodies.push_back(std::move(body));
+}
+
+void JointDraft::set_frame(const Vec3d& anchor, const Quatd& axes) {
+  anchor_ = anchor;
+  axes_ = axes;
+}
+
+void JointDraft::add(const char* type, int axis, const std::vector<float>& more, float compliance, float damping) {
+  const Quatd axes = normalise(multiply(axes_, exchange_axes(axis)));
+  std::vector<float> rest;
+  append(a_.local(anchor_), rest);
+  append(b_.local(anchor_), rest);
+  append(a_.local(axes), rest);
+  append(b_.local(axes), rest);
+  rest.insert(rest.end(), more.begin(), more.end());
+  add_raw(type, {a_.point, a_.frame, b_.point, b_.frame}, rest, compliance, damping);
+}
+
+void JointDraft::add_raw(const char* type, const std::vector<int>& slots, const std::vector<float>& rest, float compliance,
+                         float damping) {
+  parts_.push_back({type, slots, rest, Stiffness::compliance(compliance, damping)});
+}
+
+void JointDraft::require_range(const JointRange& range) const {
+  if (!std::isfinite(range.low) || !std::isfinite(range.high) || range.low > range.high)
+    refuse("has a range from " + std::to_string(range.low) + " to " + std::to_string(range.high),
+           "give two finite numbers, the lower one first");
+  require(range.compliance, "compliance of its range", 0);
+}
+
+void JointDraft::limit_angle(int axis, const JointRange& range) {
+  require_range(range);
+  const double low = static_cast<double>(range.low), high = static_cast<double>(range.high);
+  if (high - low > 2 * pi)
+    refuse("has a range of " + std::to_string(high - low) + " rad", "give at most a full turn, or no range");
+  add("joint_angle", axis,
+      {static_cast<float>(principal_angle((low + high) / 2)), static_cast<float>((high - low) / 2), joint::no_limit},
+      range.compliance);
+}
+
+void JointDraft::limit_offset(int axis, const JointRange& range) {
+  require_range(range);
+  add("joint_offset", axis, {range.low, range.high, joint::no_limit}, range.compliance);
+}
+
+void JointDraft::drive(const char* type, int axis, const std::optional<JointMotor>& motor, float friction, bool is_angle) {
+  require(friction, "friction", 0);
+  if (motor) {
+    const bool to_position = motor->kind == JointMotor::Kind::position;
+    require(motor->target, "motor target", -joint::no_limit, joint::no_limit);
+    require(motor->most, "greatest motor torque or force", 0, unlimited, true);
+    require(motor->rate, "motor rate", 0);
+    require(motor->most_speed, "greatest motor speed", 0, unlimited, true);
+    const float target = is_angle ? static_cast<float>(principal_angle(static_cast<double>(motor->target))) : motor->target;
+    add(type, axis,
+        {to_position ? target : 0, to_position ? motor->rate : 0, to_position ? limited(motor->most_speed) : 0,
+         to_position ? 0 : motor->target, limited(motor->most)},
+        0);
+  }
+  if (friction > 0) add(type, axis, {0, 0, 0, 0, friction}, 0);
+}
+
+void JointDraft::drive_angle(int axis, const std::optional<JointMotor>& motor, float friction) {
+  drive("joint_angle_motor", axis, motor, friction, true);
+}
+void JointDraft::drive_offset(int axis, const std::optional<JointMotor>& motor, float friction) {
+  drive("joint_offset_motor", axis, motor, friction, false);
+}
+
+int JointDraft::finish() {
+  if (needs_world_) add_world();
+  ObjectJoint joint;
+  joint.name = name_;
+  joint.kind = kind_;
+  joint.a = a_.body;
+  joint.b = b_.body;
+  joint.anchor = convert<float>(b_.local(anchor_));
+  joint.break_force = std::isinf(options_.break_force) ? 0 : options_.break_force;
+  joint.break_torque = std::isinf(options_.break_torque) ? 0 : options_.break_torque;
+  for (const Part& part : parts_) {
+    const std::size_t number = group_for(object_, part.type, part.stiffness);
+    ConstraintGroup& group = object_.constraints[number];
+    joint.constraints.push_back({static_cast<int>(number), static_cast<int>(group.particles.size() / part.slots.size())});
+    group.particles.insert(group.particles.end(), part.slots.begin(), part.slots.end());
+    group.rest.insert(group.rest.end(), part.rest.begin(), part.rest.end());
+  }
+  object_.joints.push_back(std::move(joint));
+  return static_cast<int>(object_.joints.size()) - 1;
+}
+
+}  // namespace pliant
