@@ -27,10 +27,10 @@ constexpr std::string_view time_block = "state.time", frame_block = "state.frame
 constexpr std::string_view orientations_block = "state.orientations", spins_block = "state.angular_velocities",
                            inertias_block = "state.inverse_inertias", channels_block = "state.channels",
                            poses_block = "state.held_poses", substeps_block = "state.substeps",
-                           contacts_block = "state.body_contacts";
+                           contacts_block = "state.body_contacts", breaks_block = "state.broken_joints";
 const std::vector<std::string_view> state_blocks{
     time_block,  frame_block,    blocks_block,   positions_block, remainders_block, velocities_block, orientations_block,
-    spins_block, inertias_block, channels_block, poses_block,     substeps_block,   contacts_block};
+    spins_block, inertias_block, channels_block, poses_block,     substeps_block,   contacts_block,   breaks_block};
 constexpr std::string_view fingerprint_blocks[] = {"fingerprint.scene", "fingerprint.settings"};
 constexpr std::string_view scene_block = "scene", settings_block = "settings", layout_block = "layout";
 
@@ -62,7 +62,7 @@ struct Columns {
 /// written.
 std::vector<Block> blocks_of(const State& state, Columns& columns) {
   const auto& [time, frame, object_blocks, positions, remainders, velocities, frames, channels, held_poses, substeps,
-               body_contacts] = state;
+               broken_joints, body_contacts] = state;
   const auto bytes = [](std::string_view name, const std::string& column) {
     return Block{name, Type::bytes, 1, column.size(), column.data()};
   };
@@ -85,6 +85,8 @@ std::vector<Block> blocks_of(const State& state, Columns& columns) {
   if (!channels.empty()) blocks.push_back(bytes(channels_block, columns.channels));
   if (!held_poses.empty()) blocks.push_back(bytes(poses_block, columns.held_poses));
   if (!substeps.empty()) blocks.push_back({substeps_block, Type::float32, sizeof(float), substeps.size(), substeps.data()});
+  if (!broken_joints.empty())
+    blocks.push_back({breaks_block, Type::bytes, 1, broken_joints.size() * sizeof(BrokenJoint), broken_joints.data()});
   if (!body_contacts.empty())
     blocks.push_back({contacts_block, Type::bytes, 1, body_contacts.size() * sizeof(BodyContact), body_contacts.data()});
   return blocks;
@@ -110,19 +112,20 @@ void read(const Contents& from, std::string_view name, Type type, T& value) {
   std::memcpy(&value, block.data, sizeof value);
 }
 
-void read_contacts(const Contents& from, std::vector<BodyContact>& contacts) {
-  const std::string_view bytes = from.text(contacts_block);
-  if (bytes.size() % sizeof(BodyContact) != 0)
-    from.fail(fmt::format("is malformed: its block '{}' has {} bytes", contacts_block, bytes.size()),
-              "use an earlier file");
-  contacts.resize(bytes.size() / sizeof(BodyContact));
-  std::memcpy(static_cast<void*>(contacts.data()), bytes.data(), bytes.size());
+/// Reads a list of structs that was written as it is in memory.
+template <class T>
+void read_list(const Contents& from, std::string_view name, std::vector<T>& list) {
+  const std::string_view bytes = from.text(name);
+  if (bytes.size() % sizeof(T) != 0)
+    from.fail(fmt::format("is malformed: its block '{}' has {} bytes", name, bytes.size()), "use an earlier file");
+  list.resize(bytes.size() / sizeof(T));
+  std::memcpy(static_cast<void*>(list.data()), bytes.data(), bytes.size());
 }
 
 State state_in(const Contents& from) {
   State state;
-  auto& [time, frame, blocks, positions, remainders, velocities, frames, channels, held_poses, substeps, body_contacts] =
-      state;
+  auto& [time, frame, blocks, positions, remainders, velocities, frames, channels, held_poses, substeps, broken_joints,
+         body_contacts] = state;
   read(from, time_block, Type::float64, time);
   read(from, frame_block, Type::int64, frame);
   blocks = read_bytes<std::vector<StateBlock>>(from, blocks_block);
@@ -139,7 +142,8 @@ State state_in(const Contents& from) {
   if (from.has(channels_block)) channels = read_bytes<std::vector<Channel>>(from, channels_block);
   if (from.has(poses_block)) held_poses = read_bytes<std::vector<HeldPose>>(from, poses_block);
   if (from.has(substeps_block)) read(from, substeps_block, substeps);
-  if (from.has(contacts_block)) read_contacts(from, body_contacts);
+  if (from.has(breaks_block)) read_list(from, breaks_block, broken_joints);
+  if (from.has(contacts_block)) read_list(from, contacts_block, body_contacts);
   return state;
 }
 

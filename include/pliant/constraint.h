@@ -42,8 +42,10 @@ struct ConstraintDefinition {
   std::vector<SlotKind> slots;
   int rows = 1;
   std::vector<std::string> rest_fields;
-  bool is_length = false;       ///< true if C is the distance of two points minus the only rest field
-  bool is_compiled = false;     ///< true for built-in types of one row over points, which are projected sixteen at a time
+  bool is_length = false;    ///< true if C is the distance of two points minus the only rest field
+  bool is_compiled = false;  ///< true for built-in types of one row over points, which are projected sixteen at a time
+  bool is_joint =
+      false;  ///< true for bilateral joints of two bodies (point, frame, point, frame): trees of them are solved directly
   bool acts_on_motion = false;  ///< true if rows impose a speed of C; only with `evaluate_bounded`
   float largest_change = 0;     ///< largest change of C in one projection; 0: no limit
   void (*evaluate)(const float* slots, const float* rest, float* c, float* gradients) = nullptr;
@@ -198,6 +200,7 @@ ConstraintDefinition definition_of() {
   static_assert(is_bounded<T> || !acts_on_motion<T>, "a type with acts_on_motion has is_bounded too");
   static_assert(!is_bounded<T> || T::rows > 1 || T::slots::frames > 0, "a bounded row over points alone: not supported");
   made.acts_on_motion = acts_on_motion<T>;
+  if constexpr (requires { T::is_joint; }) made.is_joint = T::is_joint;
   if constexpr (is_bounded<T>) made.evaluate_bounded = &evaluate_bounded<T>;
   made.evaluate = &evaluate<T, float>;
   made.evaluate_double = &evaluate<T, double>;

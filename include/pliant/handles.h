@@ -27,6 +27,12 @@ struct ObjectInfo {
   int substeps = 0;  ///< substeps per frame; 0: they follow the State. Fast colliders may increase them (Report::substeps)
 };
 
+/// What a joint does to its body b, in world axes.
+struct JointLoad {
+  Vec3f force{};   ///< [N]
+  Vec3f torque{};  ///< about the joint's anchor [N m]
+};
+
 /// Reads an object.
 class ObjectView {
  public:
@@ -58,6 +64,11 @@ class ObjectView {
   /// if they were not stored: those of compliant distances always are, others if Settings::record_multipliers is set.
   /// The force is lambda / h^2 along the gradient (XPBD, eq. 17).
   std::vector<float> multipliers(const std::string& type) const;
+
+  /// The load that a joint carried in the last substep; zero before the first step and for a broken joint. `joint` is an index in
+  /// Object::joints.
+  JointLoad joint_load(int joint) const;
+  bool joint_is_broken(int joint) const;
 
  private:
   const WorldData* read_;

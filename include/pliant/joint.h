@@ -23,7 +23,7 @@ inline constexpr float unlimited = std::numeric_limits<float>::infinity();
 
 /// What all joints have.
 struct JointOptions {
-  std::string name;                ///< empty: "hinge 3", the kind and its index in Object::joints
+  std::string name{};              ///< empty: "hinge 3", the kind and its index in Object::joints
   float compliance = 0;            ///< of the locked directions, 0: rigid [m/N and rad/(N m)]
   float damping = 0;               ///< of the locked directions; only with compliance [N s/m and N m s/rad]
   float break_force = unlimited;   ///< the joint breaks where it carries a greater force [N]

@@ -120,6 +120,13 @@ struct ContactEvent {
   Vec3f normal{};       ///< unit vector: mean direction of the push on `first`; zero if pushes cancel
 };
 
+/// A joint that broke, because it carried more than its break_force or break_torque.
+struct JointBreak {
+  ObjectId object;
+  int joint = -1;    ///< index in Object::joints
+  std::string name;  ///< of the joint
+};
+
 /// The result of a step. A step never throws, except for exceptions of the user's force fields.
 struct Report {
   std::int64_t frame = 0;
@@ -135,6 +142,7 @@ struct Report {
   std::optional<Overstretch> overstretch;      ///< of this frame; empty if it was not completed; see Measurements::advice
   WorstOverstretch worst_overstretch;          ///< of this and earlier frames
   std::vector<IterationResidual> convergence;  ///< last substep by iteration, if Settings::record_residuals is set
+  std::vector<JointBreak> broken_joints;       ///< joints that broke in this step, by object and index
   std::optional<NonFinite> nonfinite;
   bool stopped = false;  ///< true if World::stop_when ended the step before the frame was complete
   std::vector<std::string> warnings;

@@ -114,6 +114,13 @@ struct BodyContact {
 };
 static_assert(sizeof(BodyContact) == 440);
 
+/// A joint of an object that has broken.
+struct BrokenJoint {
+  int block = 0;  ///< of the object: its index in State::blocks
+  int joint = 0;  ///< index in Object::joints
+  friend auto operator<=>(const BrokenJoint&, const BrokenJoint&) = default;
+};
+
 /// All data of a World that change with time, as a plain value: copy, hash or restore it, and the next step gives the
 /// same bits. Each object has a block of particles in storage order, which ObjectView::storage_order relates to the user's
 /// order. Blocks of removed objects are filled with zeros.
@@ -130,6 +137,7 @@ struct State {
   /// For each block, the substeps per frame that its object demanded for the last quarter of a frame, if they follow the
   /// State (chosen_substeps), else 0, as before the first frame. Empty if all are 0.
   std::vector<float> substeps;
+  std::vector<BrokenJoint> broken_joints;  ///< ascending; usually none
   std::vector<BodyContact> body_contacts;  ///< of rigid bodies, in ascending order of their parts; usually none
 };
 

@@ -11,6 +11,7 @@ struct BallJointRows {
   static constexpr const char* name = "ball_joint";
   using slots = joint::Bodies;
   static constexpr int rows = 3;
+  static constexpr bool is_joint = true;
 
   template <class R>
   using Params = joint::Places<R>;

@@ -12,6 +12,7 @@ struct CylindricalJointRows {
   static constexpr const char* name = "cylindrical_joint";
   using slots = joint::Bodies;
   static constexpr int rows = 4;
+  static constexpr bool is_joint = true;
 
   template <class R>
   using Params = joint::Places<R>;

@@ -12,6 +12,7 @@ struct FixedJointRows {
   static constexpr const char* name = "fixed_joint";
   using slots = joint::Bodies;
   static constexpr int rows = 6;
+  static constexpr bool is_joint = true;
 
   template <class R>
   using Params = joint::Places<R>;

@@ -12,6 +12,7 @@ struct HingeJointRows {
   static constexpr const char* name = "hinge_joint";
   using slots = joint::Bodies;
   static constexpr int rows = 5;
+  static constexpr bool is_joint = true;
 
   template <class R>
   using Params = joint::Places<R>;

@@ -12,6 +12,7 @@ struct PlanarJointRows {
   static constexpr const char* name = "planar_joint";
   using slots = joint::Bodies;
   static constexpr int rows = 3;
+  static constexpr bool is_joint = true;
 
   template <class R>
   using Params = joint::Places<R>;

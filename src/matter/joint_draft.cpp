@@ -18,8 +18,10 @@ constexpr const char* world_name = "world";
 
 bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
+/// True also for the world's body before it is added.
 bool is_fixed(const Object& object, const JointBody& body) {
-  return body.body < 0 || std::isinf(object.masses.at(static_cast<std::size_t>(body.point)));
+  const auto point = static_cast<std::size_t>(body.point);
+  return point >= object.masses.size() || std::isinf(object.masses[point]);
 }
 
 /// Rest data are finite.

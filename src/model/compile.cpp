@@ -429,6 +429,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   fill_particles(object, positions, out);
   append_chains(lists, options.chain_softness, out);
   schedule_stencils(lists, in_given_order, out);
+  out.joints = compile_joints(object, out);
   fill_triangles(object, out);
   if (options.air || object.volume) fill_corners(out);
   if (has_tethers(options))

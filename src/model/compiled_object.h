@@ -9,6 +9,7 @@
 
 #include "model/carrier.h"
 #include "model/compiled_bodies.h"
+#include "model/compiled_joints.h"
 #include "model/multigrid.h"
 #include "model/object_sets.h"
 #include "model/phase.h"
@@ -93,6 +94,7 @@ struct CompiledObject {
   std::vector<Record> positions, velocities;  ///< initial positions and velocities; no velocities if all are zero
   FrameRecords frames;                        ///< initial values of the frames, in the order of Object::frames
   CompiledBodies bodies;
+  std::vector<CompiledJoint> joints;  ///< in the order of Object::joints
   std::vector<Pool> pools;
   std::vector<Segment>
       segments;  ///< of tiles, then inter-tile constraints, then links of chains, then constraints projected one at a time

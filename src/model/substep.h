@@ -18,6 +18,8 @@ struct SweepArguments {
   Record* displacements = nullptr;      ///< displacements since the substep's start; w is zero
   const Record* remainders = nullptr;   ///< rounding residues, with which displacements started
   float* const* multipliers = nullptr;  ///< multipliers of each pool; null if none are stored
+  const char* const* skipped =
+      nullptr;  ///< for each pool, by lane: 1 if the stencil driver leaves a constraint out; null: none
   float h = 0, inverse_h = 0, inverse_h2 = 0;
   bool first_pass = true;  ///< true in the first pass of a substep, in which multipliers start at zero
 
@@ -32,6 +34,7 @@ struct SweepArguments {
 struct FrameArguments {
   Record* orientations = nullptr;
   const Record* inverse_inertias = nullptr;
+  const Record* starts = nullptr;     ///< orientations at the substep's start
   const Record* predicted = nullptr;  ///< rotation vectors of the prediction in world axes [rad]
   Record* corrections = nullptr;      ///< rotation vectors: sums of constraint corrections since the prediction [rad]
 };

@@ -59,6 +59,7 @@ void predict_frames(Substep& s) {
   if (s.model.frames() == 0) return;
   FrameRecords& frames = s.state.frames;
   for_frames(s, "predict: frames", [&](int i) {
+    s.work.frames.starts[i] = frames.orientations[i];
     predict(s.h, xyz(frames.inverse_inertias[i]), frames.orientations[i], frames.angular_velocities[i],
             s.work.frames.predicted[i]);
     s.work.frames.corrections[i] = {};

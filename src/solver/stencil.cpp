@@ -165,13 +165,6 @@ void hold_to_trust(const ConstraintDefinition& type, const Pool& pool, Work& wor
   work.matrix[0][0] = max(work.matrix[0][0], max(numerator, -numerator) * mass * (1 / type.largest_change));
 }
 
-void turn(const Vec3f& theta, Record& orientation, Record& corrections) {
-  const Quatf q = quaternion(orientation), spin = multiply(Quatf{theta.x, theta.y, theta.z, 0}, q);
-  const Quatf now = normalise(Quatf{q.x + 0.5f * spin.x, q.y + 0.5f * spin.y, q.z + 0.5f * spin.z, q.w + 0.5f * spin.w});
-  orientation = {now.x, now.y, now.z, now.w};
-  corrections = {corrections.x + theta.x, corrections.y + theta.y, corrections.z + theta.z, 0};
-}
-
 void apply(const CompiledObject& object, const SweepArguments& a, const FrameArguments& f, const Pool& pool,
            const std::int32_t* number, const Work& work) {
   for (int slot = 0; slot < pool.stencil; ++slot) {
@@ -180,7 +173,7 @@ void apply(const CompiledObject& object, const SweepArguments& a, const FrameArg
       Vec3f torque{};
       for (int row = 0; row < pool.components; ++row) torque += work.arrays.gradient(pool, row, slot) * work.change[row];
       const std::int32_t frame = number[slot] - object.particles;
-      turn(mass.times(torque), f.orientations[frame], f.corrections[frame]);
+      rotate_frame(mass.times(torque), f.orientations[frame], f.corrections[frame]);
       continue;
     }
     Record& d = a.displacements[number[slot]];
@@ -193,13 +186,22 @@ void apply(const CompiledObject& object, const SweepArguments& a, const FrameArg
 
 }  // namespace
 
+void rotate_frame(const Vec3f& theta, Record& orientation, Record& corrections) {
+  const Quatf q = quaternion(orientation), spin = multiply(Quatf{theta.x, theta.y, theta.z, 0}, q);
+  const Quatf now = normalise(Quatf{q.x + 0.5f * spin.x, q.y + 0.5f * spin.y, q.z + 0.5f * spin.z, q.w + 0.5f * spin.w});
+  orientation = {now.x, now.y, now.z, now.w};
+  corrections = {corrections.x + theta.x, corrections.y + theta.y, corrections.z + theta.z, 0};
+}
+
 void project_segment(const CompiledObject& object, const Segment& segment, const SweepArguments& points,
                      const FrameArguments& frames) {
   const Pool& pool = object.pools[segment.pool];
   const ConstraintDefinition& type = constraint_type(pool.type);
   float* all = points.multipliers != nullptr && pool.law != Law::pbd ? points.multipliers[segment.pool] : nullptr;
+  const char* skipped = points.skipped != nullptr ? points.skipped[segment.pool] : nullptr;
   Work work;
   for_segment(object, segment, [&](const ConstraintPlace& at, const std::int32_t* number) {
+    if (skipped != nullptr && skipped[at.batch * batch_width + at.lane] != 0) return;
     float* multipliers = all == nullptr ? nullptr : all + at.multiplier_place(0);
     load(object, points, frames, pool, number, work);
     work.arrays.load_rest(at);

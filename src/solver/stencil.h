@@ -14,6 +14,9 @@
 
 namespace pliant {
 
+/// Rotates a frame by a small rotation vector in world axes [rad], and adds it to the frame's corrections.
+void rotate_frame(const Vec3f& theta, Record& orientation, Record& corrections);
+
 /// Projects the constraints of one segment.
 void project_segment(const CompiledObject& object, const Segment& segment, const SweepArguments& points,
                      const FrameArguments& frames);

@@ -14,6 +14,8 @@ SweepArguments arguments(const Substep& s, int object, bool first_pass) {
   a.remainders = s.state.remainders.data() + first;
   const bool is_stored = !s.work.multiplier_pointers[object].empty() && (s.is_last() || s.work.stores_in_last[object] == 0);
   a.multipliers = is_stored ? s.work.multiplier_pointers[object].data() : nullptr;
+  const auto& skipped = s.work.joints[object].forest.skipped;
+  a.skipped = skipped.empty() ? nullptr : skipped.data();
   a.h = s.h;
   a.inverse_h = 1 / s.h;
   a.inverse_h2 = (1 / s.h) * (1 / s.h);
@@ -25,7 +27,8 @@ SweepArguments arguments(const Substep& s, int object, bool first_pass) {
 FrameArguments frame_arguments(const Substep& s, int object) {
   const int first = s.model.first_frame[object];
   return {s.state.frames.orientations.data() + first, s.state.frames.inverse_inertias.data() + first,
-          s.work.frames.predicted.data() + first, s.work.frames.corrections.data() + first};
+          s.work.frames.starts.data() + first, s.work.frames.predicted.data() + first,
+          s.work.frames.corrections.data() + first};
 }
 
 AdvanceArguments particles(const Substep& s, int task) {

@@ -35,6 +35,8 @@ void resize(const Model& model, Workspace& workspace) {
   const std::size_t objects = model.objects.size();
   workspace.displacements.resize(model.particles());
   workspace.expected_velocities.resize(model.particles());
+  workspace.joints.resize(objects);
+  workspace.frames.starts.resize(model.frames());
   workspace.frames.predicted.resize(model.frames());
   workspace.frames.corrections.resize(model.frames());
   workspace.multipliers.resize(objects);
@@ -72,6 +74,8 @@ void prepare(const Model& model, int object, Multipliers kept, Workspace& worksp
   const bool has_stencils = std::any_of(from.pools.begin(), from.pools.end(), [](const Pool& p) { return !p.in_lanes; });
   workspace.stores_in_last[object] = kept == Multipliers::lengths_in_last && !has_stencils ? 1 : 0;
   workspace.volume_multipliers[object] = 0;
+  workspace.joints[object] = {};
+  prepare_joints(from, {}, workspace.joints[object].forest);
   workspace.last_h[object] = 0;
   workspace.triangle_forces[object] = {};
   workspace.anchors[object].resize(2 * from.tethers.anchors.size());

@@ -11,6 +11,7 @@
 #include "model/control.h"
 #include "model/model.h"
 #include "pliant/state.h"
+#include "solver/bodies/joint_forest.h"
 #include "solver/contact_log.h"
 #include "solver/contact_solver.h"
 #include "solver/limit.h"
@@ -55,6 +56,7 @@ struct FrameGravity {
 
 /// Frame data within a substep (stencil.h).
 struct FrameScratch {
+  Records starts;                  ///< orientations at the substep's start
   Records predicted, corrections;  ///< rotation vectors of each frame in world axes [rad]
 };
 
@@ -83,6 +85,7 @@ struct Workspace {
   std::vector<std::vector<AlignedVector<float>>> multipliers;  ///< [object][pool], one float per lane; empty if not stored
   std::vector<std::vector<float*>> multiplier_pointers;
   std::vector<char> stores_in_last;  ///< [object] 1: multipliers are stored in the last substep of a frame only
+  std::vector<ObjectJoints> joints;  ///< [object]
   FrameScratch frames;
   std::vector<double> volume_multipliers;           ///< multiplier of each object's volume constraint
   Records volume_gradients;                         ///< gradient at each particle, if any object has a volume constraint

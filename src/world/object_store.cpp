@@ -92,8 +92,9 @@ void give_back_state(WorldData& world, int number, const ObjectState& kept, cons
   }
 }
 
-/// Discards the contacts of rigid bodies of an object.
+/// Discards the contacts and broken joints of rigid bodies of an object.
 void forget_contacts(WorldData& world, int number) {
+  std::erase_if(world.state.broken_joints, [&](const BrokenJoint& joint) { return joint.block == number; });
   std::erase_if(world.state.body_contacts,
                 [&](const BodyContact& contact) { return contact.a.owner == number || contact.b.owner == number; });
 }

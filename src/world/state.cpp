@@ -4,6 +4,7 @@
 
 #include "core/sha256.h"
 #include "pliant/error.h"
+#include "solver/bodies/joint_load.h"
 #include "world/world_data.h"
 
 namespace pliant {
@@ -81,6 +82,29 @@ void require_body_contacts(const State& state) {
   }
 }
 
+void require_broken_joints(const Model& model, const State& state) {
+  const BrokenJoint* before = nullptr;
+  for (const BrokenJoint& broken : state.broken_joints) {
+    const bool is_known = broken.block >= 0 && static_cast<std::size_t>(broken.block) < model.objects.size() &&
+                          broken.joint >= 0 &&
+                          static_cast<std::size_t>(broken.joint) < model.objects[broken.block].joints.size();
+    if (!is_known || (before != nullptr && !(*before < broken)))
+      throw Error({.element = "broken joint " + std::to_string(&broken - state.broken_joints.data())},
+                  "does not exist or is not in ascending order", "restore a state of this world");
+    before = &broken;
+  }
+}
+
+/// Leaves out the joints that are broken in the State.
+void break_joints_of_state(WorldData& world) {
+  for (std::size_t o = 0; o < world.model.objects.size(); ++o) {
+    std::vector<int> broken;
+    for (const BrokenJoint& joint : world.state.broken_joints)
+      if (joint.block == static_cast<int>(o)) broken.push_back(joint.joint);
+    if (broken != world.workspace.joints[o].broken) set_broken(world.model.objects[o], broken, world.workspace.joints[o]);
+  }
+}
+
 /// True if blocks are contiguous and in order, as in a World in which nothing was removed or edited.
 bool follow_one_another(const std::vector<StateBlock>& blocks) {
   int first = 0;
@@ -149,10 +173,12 @@ void World::restore(const State& state) {
   require_channels(state);
   require_substeps(state);
   require_body_contacts(state);
+  require_broken_joints(data_->model, state);
   if (!std::isfinite(state.time)) throw Error({}, "the state's time is not finite", "restore an earlier state");
   if (state.frame < 0 || state.frame > largest_frame)
     throw Error({}, "the state's frame is " + std::to_string(state.frame), "restore a state of this world");
   data_->state = state;
+  break_joints_of_state(*data_);
   forget_multipliers(*data_, false);
   data_->workspace.look_for_tangles = true;
   data_->stopped = false;
@@ -190,6 +216,7 @@ std::string hash(const State& state) {
     sha.add(&pose.rotation, sizeof pose.rotation);
   }
   if (!state.substeps.empty()) sha.add(state.substeps.data(), state.substeps.size() * sizeof(float));
+  if (!state.broken_joints.empty()) sha.add(state.broken_joints.data(), state.broken_joints.size() * sizeof(BrokenJoint));
   if (!state.body_contacts.empty()) sha.add(state.body_contacts.data(), state.body_contacts.size() * sizeof(BodyContact));
   return sha.finish();
 }

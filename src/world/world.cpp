@@ -127,6 +127,7 @@ Report World::step(float dt) {
                 data_->settings.separate_phases, static_cast<double>(data_->settings.tolerance), groups,
                 &data_->overstretch.meter()},
                dt, report);
+  for (JointBreak& broken : report.broken_joints) broken.object = data_->ids.objects.id_of(broken.object.slot);
   data_->stopped = report.nonfinite.has_value();
   if (data_->stopped || report.stopped) forget_multipliers(*data_, !data_->stopped);
   end_control(*data_, report.stopped);

@@ -119,6 +119,7 @@ void add(Substep& s, Report& sum) {
   sum.substeps = std::max(sum.substeps, s.made);
   sum.contacts += own.contacts;
   std::move(own.convergence.begin(), own.convergence.end(), std::back_inserter(sum.convergence));
+  std::move(own.broken_joints.begin(), own.broken_joints.end(), std::back_inserter(sum.broken_joints));
   std::move(own.warnings.begin(), own.warnings.end(), std::back_inserter(sum.warnings));
   if (!s.has_pairs()) return;
   add(s.pairs->counts(), sum.pairs);
@@ -139,12 +140,23 @@ void keep_body_contacts(std::vector<Substep>& groups) {
   });
 }
 
+/// Puts the broken joints of all objects into the State, and orders those that the Report names.
+void keep_broken_joints(const Substep& s, Report& report) {
+  s.state.broken_joints.clear();
+  for (std::size_t o = 0; o < s.work.joints.size(); ++o)
+    for (const int joint : s.work.joints[o].broken) s.state.broken_joints.push_back({static_cast<int>(o), joint});
+  std::sort(report.broken_joints.begin(), report.broken_joints.end(), [](const JointBreak& a, const JointBreak& b) {
+    return std::pair{a.object, a.joint} < std::pair{b.object, b.joint};
+  });
+}
+
 }  // namespace
 
 bool end_frame(std::vector<Substep>& groups, Report& report) {
   keep_body_contacts(groups);
   add(groups, report.iterations);
   for (Substep& s : groups) add(s, report);
+  keep_broken_joints(groups.front(), report);
   for (const Substep& s : groups) {
     if (s.failed_in < 0) continue;
     report.nonfinite = diagnose(s);

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "solver/bodies/body_solver.h"
+#include "solver/bodies/joint_load.h"
 #include "solver/drivers/driver.h"
 #include "solver/momentum.h"
 #include "solver/residual.h"
@@ -29,7 +30,10 @@ void walk_stencils(Substep& s, bool first) {
   int passes = 0;
   for (const auto& [sweep, group] : s.work.sweeps)
     if (uses(s, sweep)) passes = std::max(passes, group.method->passes);
-  for (int pass = 0; pass < passes; ++pass) walk(s, Turn::stencil, {first && pass == 0, Order::forward, pass});
+  for (int pass = 0; pass < passes; ++pass) {
+    walk(s, Turn::stencil, {first && pass == 0, Order::forward, pass});
+    solve_joint_trees(s, first && pass == 0);
+  }
 }
 
 /// Runs one iteration: for each sweep group its phases and acceleration, then the phases of all groups together.
@@ -73,6 +77,9 @@ void count_iterations(Substep& s, int iterations) {
 
 }  // namespace
 
-void solve(Substep& s) { count_iterations(s, iterate_to_tolerance(s)); }
+void solve(Substep& s) {
+  count_iterations(s, iterate_to_tolerance(s));
+  break_joints(s);
+}
 
 }  // namespace pliant
