@@ -67,8 +67,9 @@ std::optional<std::string> replay_stencils(const StepContext& context, const Com
   for (Record& q : orientations) q = is_finite(q) && q.w - q.w == 0 ? q : Record{0, 0, 0, 1};
   for (int s = colour.first; s < colour.last; ++s) {
     Records corrections(orientations.size());
-    project_segment(object, object.segments[s], arguments,
-                    {orientations.data(), all.inverse_inertias.data() + first, none.data(), corrections.data()});
+    project_segment(
+        object, object.segments[s], arguments,
+        {orientations.data(), all.inverse_inertias.data() + first, orientations.data(), none.data(), corrections.data()});
     if (auto culprit = find_culprit(object, object.segments[s], arguments.displacements)) return culprit;
   }
   return std::nullopt;
@@ -124,6 +125,7 @@ std::string explain(const Substep& s, const CompiledObject& object, const std::v
     }
   }
   arguments.displacements = displacements.data();
+  arguments.skipped = nullptr;  // joints that are solved directly are replayed one by one
   for (int iteration = 0; iteration < context.iterations; ++iteration) {
     arguments.first_pass = iteration == 0;
     for (int task : bad) {
