@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "geometry/convex_distance.h"
+#include "geometry/polyhedron_contact.h"
 #include "math/vector.h"
 
 namespace pliant {
@@ -15,6 +17,16 @@ namespace {
 constexpr double flat_share = 0.1;
 /// Polygons that face each other less than this serve no clipping [cosine].
 constexpr double facing = 0.9;
+
+constexpr std::uint32_t nearest_point = 0x20000000u;  ///< TouchPoint::feature of the nearest places
+
+/// True for polyhedra without a radius and with so few edges that all pairs of them are tried.
+bool are_polyhedra(const ConvexShape& a, const ConvexShape& b) {
+  const auto is_simple = [](const ConvexShape& shape) {
+    return shape.kind == ConvexShape::Kind::polyhedron && shape.radius == 0 && shape.polyhedron->edges.size() <= 64;
+  };
+  return is_simple(a) && is_simple(b);
+}
 
 double size_of(const ConvexShape& shape) {
   if (shape.kind == ConvexShape::Kind::polyhedron)
@@ -70,9 +82,13 @@ std::vector<TouchPoint> points_between(const Feature& a, const Feature& b, const
 }  // namespace
 
 Touch touch(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, double margin) {
+  if (are_polyhedra(a, b))
+    return touch(*a.polyhedron, moved(*b.polyhedron, convert<float>(pose_of_b)), static_cast<float>(margin));
   const ConvexDistance nearest = convex_distance(a, b, pose_of_b, margin);
   if (nearest.separation > margin) return {};
   const Vec3d normal = nearest.normal;
+  if (a.kind == ConvexShape::Kind::point || b.kind == ConvexShape::Kind::point)
+    return four_of({{nearest.on_a, nearest.on_b, nearest.separation, nearest_point}}, normal);
   const double radius_a = static_cast<double>(a.radius), radius_b = static_cast<double>(b.radius);
   std::vector<TouchPoint> points =
       points_between(facing_feature(a, {}, normal, margin), facing_feature(b, pose_of_b, -normal, margin), normal,
@@ -86,7 +102,7 @@ Touch touch(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, 
   }
   const double error = 0.01 * (size_of(a) + size_of(b)) + 1e-6;
   const bool has_all = !points.empty() && deepest <= nearest.separation + error;
-  if (!has_all) points.push_back({nearest.on_a, nearest.on_b, nearest.separation, 0x20000000u});
+  if (!has_all) points.push_back({nearest.on_a, nearest.on_b, nearest.separation, nearest_point});
   return four_of(points, normal);
 }
 

@@ -41,9 +41,20 @@ FaceAxis best_face(const Polyhedron& one, const Polyhedron& other) {
   return best;
 }
 
-/// True if arcs of the unit sphere cross: from a to b, which edge `ab` (along b x a) separates, and from c to d.
-bool arcs_cross(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d) {
-  const Vec3f ba = cross(b, a), dc = cross(d, c);
+/// An arc of the unit sphere between the normals of an edge's faces.
+struct Arc {
+  Vec3f from{}, to{}, across{};
+};
+
+Arc arc_of(const Polyhedron& p, const PolyhedronEdge& edge, float sign) {
+  const Vec3f from = p.normals[static_cast<std::size_t>(edge.left)] * sign,
+              to = p.normals[static_cast<std::size_t>(edge.right)] * sign;
+  return {from, to, cross(to, from)};
+}
+
+bool arcs_cross(const Arc& one, const Arc& other) {
+  const auto& [a, b, ba] = one;
+  const auto& [c, d, dc] = other;
   const float cba = dot(c, ba), dba = dot(d, ba), adc = dot(a, dc), bdc = dot(b, dc);
   return cba * dba < 0 && adc * bdc < 0 && cba * bdc > 0;
 }
@@ -54,10 +65,9 @@ struct EdgeAxis {
   Vec3f normal{};
 };
 
-/// The axis of two edges, if they build a face of the Minkowski difference.
+/// The axis of two edges, which build a face of the Minkowski difference.
 std::optional<EdgeAxis> axis_of(const Polyhedron& a, int i, const Polyhedron& b, int j) {
   const PolyhedronEdge &e = a.edges[static_cast<std::size_t>(i)], &f = b.edges[static_cast<std::size_t>(j)];
-  if (!arcs_cross(a.normals[e.left], a.normals[e.right], -b.normals[f.left], -b.normals[f.right])) return std::nullopt;
   const Vec3f along_a = a.corners[e.b] - a.corners[e.a], along_b = b.corners[f.b] - b.corners[f.a];
   const Vec3f across = cross(along_a, along_b);
   const float squared = length_squared(across);
@@ -69,11 +79,17 @@ std::optional<EdgeAxis> axis_of(const Polyhedron& a, int i, const Polyhedron& b,
 
 EdgeAxis best_edges(const Polyhedron& a, const Polyhedron& b) {
   EdgeAxis best;
-  for (int i = 0; i < static_cast<int>(a.edges.size()); ++i)
+  std::vector<Arc> arcs;
+  arcs.reserve(b.edges.size());
+  for (const PolyhedronEdge& edge : b.edges) arcs.push_back(arc_of(b, edge, -1));
+  for (int i = 0; i < static_cast<int>(a.edges.size()); ++i) {
+    const Arc arc = arc_of(a, a.edges[static_cast<std::size_t>(i)], 1);
     for (int j = 0; j < static_cast<int>(b.edges.size()); ++j) {
+      if (!arcs_cross(arc, arcs[static_cast<std::size_t>(j)])) continue;
       const auto axis = axis_of(a, i, b, j);
       if (axis && (best.a < 0 || axis->separation > best.separation)) best = *axis;
     }
+  }
   return best;
 }
 
@@ -133,14 +149,17 @@ Touch edge_touch(const Polyhedron& a, const Polyhedron& b, const SeparatingAxis&
 
 }  // namespace
 
-SeparatingAxis separating_axis(const Polyhedron& a, const Polyhedron& b) {
-  const FaceAxis of_a = best_face(a, b), of_b = best_face(b, a);
-  const float tolerance = preference * std::min(size_of(a), size_of(b));
+SeparatingAxis separating_axis(const Polyhedron& a, const Polyhedron& b, float reach) {
+  const FaceAxis of_a = best_face(a, b);
   SeparatingAxis best{SeparatingAxis::Kind::face_of_a, of_a.face, -1, of_a.separation,
                       a.normals[static_cast<std::size_t>(of_a.face)]};
+  if (best.separation > reach) return best;
+  const FaceAxis of_b = best_face(b, a);
+  const float tolerance = preference * std::min(size_of(a), size_of(b));
   if (of_b.separation > best.separation + tolerance)
     best = {SeparatingAxis::Kind::face_of_b, -1, of_b.face, of_b.separation,
             -b.normals[static_cast<std::size_t>(of_b.face)]};
+  if (best.separation > reach) return best;
   const EdgeAxis edges = best_edges(a, b);
   if (edges.a >= 0 && edges.separation > best.separation + tolerance)
     best = {SeparatingAxis::Kind::edges, edges.a, edges.b, edges.separation, edges.normal};
@@ -148,7 +167,7 @@ SeparatingAxis separating_axis(const Polyhedron& a, const Polyhedron& b) {
 }
 
 Touch touch(const Polyhedron& a, const Polyhedron& b, float margin) {
-  const SeparatingAxis axis = separating_axis(a, b);
+  const SeparatingAxis axis = separating_axis(a, b, margin);
   if (axis.separation > margin) return {};
   if (axis.kind == SeparatingAxis::Kind::edges) return edge_touch(a, b, axis);
   const bool by_a = axis.kind == SeparatingAxis::Kind::face_of_a;
