@@ -138,7 +138,7 @@ struct State {
   /// State (chosen_substeps), else 0, as before the first frame. Empty if all are 0.
   std::vector<float> substeps;
   std::vector<BrokenJoint> broken_joints;  ///< ascending; usually none
-  std::vector<BodyContact> body_contacts;  ///< of rigid bodies, in ascending order of their parts; usually none
+  std::vector<BodyContact> body_contacts;  ///< of rigid bodies, by owners and solids, then by pieces; usually none
 };
 
 /// The SHA-256 hash of a State as 64 hexadecimal digits. It includes blocks only after a removal or an edit, because

@@ -50,29 +50,42 @@ struct MakeShape {
   }
 };
 
-/// Pairs of bodies whose frames one constraint has.
-std::vector<std::pair<int, int>> find_jointed(const Object& object) {
-  std::vector<int> body_of(object.frames.size(), -1);
+void sort_once(std::vector<std::pair<int, int>>& pairs) {
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+/// Notes which bodies, and which particles and bodies, the slots of one constraint tie together.
+void note_ties(const ConstraintDefinition& type, const int* slots, const std::vector<int>& body_of_frame,
+               const std::vector<int>& place, CompiledBodies& out) {
+  std::vector<int> bodies;
+  for (std::size_t slot = 0; slot < type.slots.size(); ++slot)
+    if (type.slots[slot] == SlotKind::frame) bodies.push_back(body_of_frame[static_cast<std::size_t>(slots[slot])]);
+  bodies.erase(std::remove(bodies.begin(), bodies.end(), -1), bodies.end());
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (bodies[i] != bodies[j]) out.jointed.emplace_back(std::minmax(bodies[i], bodies[j]));
+  for (std::size_t slot = 0; slot < type.slots.size() && !bodies.empty(); ++slot) {
+    if (type.slots[slot] == SlotKind::frame) continue;
+    const int particle = place[static_cast<std::size_t>(slots[slot])];
+    for (const int body : bodies)
+      if (!out.has_centre(particle)) out.attached.emplace_back(particle, body);
+  }
+}
+
+void find_ties(const Object& object, const std::vector<int>& place, CompiledBodies& out) {
+  std::vector<int> body_of_frame(object.frames.size(), -1);
   for (std::size_t b = 0; b < object.bodies.size(); ++b)
-    body_of[static_cast<std::size_t>(object.bodies[b].frame)] = static_cast<int>(b);
-  std::vector<std::pair<int, int>> pairs;
+    body_of_frame[static_cast<std::size_t>(object.bodies[b].frame)] = static_cast<int>(b);
   for (const ConstraintGroup& group : object.constraints) {
     const int number = find_constraint_type(group.type);
     if (number < 0) continue;  // compile() names it
     const ConstraintDefinition& type = constraint_type(number);
-    std::vector<std::size_t> frames;
-    for (std::size_t slot = 0; slot < type.slots.size(); ++slot)
-      if (type.slots[slot] == SlotKind::frame) frames.push_back(slot);
-    if (frames.size() < 2) continue;
-    for (std::size_t first = 0; first + type.slots.size() <= group.particles.size(); first += type.slots.size()) {
-      const int a = body_of[static_cast<std::size_t>(group.particles[first + frames[0]])],
-                b = body_of[static_cast<std::size_t>(group.particles[first + frames[1]])];
-      if (a >= 0 && b >= 0 && a != b) pairs.emplace_back(std::minmax(a, b));
-    }
+    for (std::size_t first = 0; first + type.slots.size() <= group.particles.size(); first += type.slots.size())
+      note_ties(type, &group.particles[first], body_of_frame, place, out);
   }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  return pairs;
+  sort_once(out.jointed);
+  sort_once(out.attached);
 }
 
 }  // namespace
@@ -103,7 +116,7 @@ CompiledBodies compile_bodies(const Object& object, const std::vector<int>& plac
       out.solids.push_back({number, shape, {convert<double>(solid.position), normalise(convert<double>(solid.rotation))}});
     }
   }
-  out.jointed = find_jointed(object);
+  find_ties(object, place, out);
   out.polyhedra = std::move(polyhedra);
   return out;
 }

@@ -14,7 +14,8 @@ namespace pliant {
 struct CompiledSolid {
   int body = 0;  ///< index in CompiledBodies::bodies
   ConvexShape shape;
-  Posed pose{};  ///< of the shape in the body's principal axes, about its centre of mass
+  Posed pose{};          ///< of the shape in the body's principal axes, about its centre of mass
+  Vec3f half_extents{};  ///< of a box; zero for other shapes [m]
 };
 
 struct CompiledBodies {
@@ -26,6 +27,7 @@ struct CompiledBodies {
   std::vector<CompiledSolid> solids;  ///< body after body
   std::vector<std::pair<int, int>>
       jointed;  ///< pairs of bodies with a constraint between them, which do not collide; sorted
+  std::vector<std::pair<int, int>> attached;  ///< particles and the bodies to which a constraint ties them; likewise
   std::shared_ptr<const std::vector<Polyhedron>> polyhedra;  ///< what shapes point to; each different one once
 
   bool empty() const { return bodies.empty(); }

@@ -8,22 +8,6 @@ namespace pliant {
 
 namespace {
 
-struct Push {
-  int on = 0, by = 0;  ///< bodies on which the contact acts, and which exerts it
-  double impulse = 0;  ///< normal impulse [N s]
-  Vec3f normal{};      ///< unit direction of the impulse on body `on`
-  Vec3d at{};          ///< contact point [m]
-};
-
-void add(const Push& push, ContactLog& log) {
-  ContactSum& sum = log[std::minmax(push.on, push.by)];
-  ++sum.in_substep;
-  sum.impulse += push.impulse;
-  const double sign = push.on <= push.by ? 1 : -1;
-  sum.push += convert<double>(push.normal) * (sign * push.impulse);
-  sum.moment += push.at * push.impulse;
-}
-
 Vec3d place_of(const Record& position, const Record& displacement) {
   return {double(position.x) + displacement.x, double(position.y) + displacement.y, double(position.z) + displacement.z};
 }
@@ -52,7 +36,7 @@ double change_of(const Contact& contact, const PointReader& of, float slow) {
 void log_contact(const Substep& s, const Contact& contact, const PointReader& of, float slow, ContactLog& log) {
   const double mobility = inverse_mass_of(contact, of.positions);
   if (!(contact.push > 0) || !(mobility > 0)) return;
-  Push push;
+  ContactPush push;
   push.by = contact.collider >= 0 ? body_of(s, contact.collider) : 0;
   push.impulse = change_of(contact, of, slow) / mobility;
   push.normal = contact.normal;
@@ -63,10 +47,26 @@ void log_contact(const Substep& s, const Contact& contact, const PointReader& of
     (weight > 0 ? push.on : push.by) = of.object >= 0 ? of.object : s.model.object_of(point);
     if (weight > 0) push.at += place_of(of.positions[point], of.displacements[point]) * double(weight);
   }
-  add(push, log);
+  add_push(push, log);
 }
 
 }  // namespace
+
+void add_push(const ContactPush& push, ContactLog& log) {
+  ContactSum& sum = log[std::minmax(push.on, push.by)];
+  ++sum.in_substep;
+  sum.impulse += push.impulse;
+  const double sign = push.on <= push.by ? 1 : -1;
+  sum.push += convert<double>(push.normal) * (sign * push.impulse);
+  sum.moment += push.at * push.impulse;
+}
+
+void finish_substep(ContactLog& log) {
+  for (auto& [bodies, sum] : log) {
+    sum.contacts = std::max(sum.contacts, sum.in_substep);
+    sum.in_substep = 0;
+  }
+}
 
 void log_contacts(const Substep& s, ContactLog& log) {
   const float slow = 2 * length(s.model.gravity) * s.h;
@@ -79,10 +79,7 @@ void log_contacts(const Substep& s, ContactLog& log) {
   for (const Contact& contact : s.own->shape_contacts) log_contact(s, contact, all, slow, log);
   if (s.has_pairs())
     for (const Contact& contact : s.pairs->contacts()) log_contact(s, contact, all, slow, log);
-  for (auto& [bodies, sum] : log) {
-    sum.contacts = std::max(sum.contacts, sum.in_substep);
-    sum.in_substep = 0;
-  }
+  finish_substep(log);
 }
 
 }  // namespace pliant

@@ -24,6 +24,19 @@ using ContactLog = std::map<std::pair<int, int>, ContactSum>;
 
 struct Substep;
 
+/// The push of one contact.
+struct ContactPush {
+  int on = 0, by = 0;  ///< bodies on which the contact acts, and which exerts it
+  double impulse = 0;  ///< normal impulse [N s]
+  Vec3f normal{};      ///< unit direction of the impulse on body `on`
+  Vec3d at{};          ///< contact point [m]
+};
+
+/// Adds a push to the sums of the current substep.
+void add_push(const ContactPush& push, ContactLog& log);
+/// Ends the counting of a substep's contacts.
+void finish_substep(ContactLog& log);
+
 /// Adds a substep's active contacts in a fixed order: particles by tile, edges and triangles with colliders, surfaces.
 void log_contacts(const Substep& s, ContactLog& log);
 

@@ -127,7 +127,8 @@ void make_body_solvers(WorldData& world) {
   for (SubstepGroup& group : world.groups.all) {
     group.bodies = nullptr;
     if (!has_bodies) continue;
-    group.bodies = std::make_unique<BodySolver>(world.model, group.has_all ? nullptr : &group.objects);
+    group.bodies =
+        std::make_unique<BodySolver>(world.model, group.has_all ? nullptr : &group.objects, world.groups.body_meshes);
     if (!group.bodies->has_bodies()) group.bodies = nullptr;
   }
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/bodies/body_contacts.h"
 #include "core/sha256.h"
 #include "pliant/error.h"
 #include "solver/bodies/joint_load.h"
@@ -76,8 +77,8 @@ void require_body_contacts(const State& state) {
     if (contact.count < 1 || contact.count > 4 || !is_finite(contact))
       throw Error({.element = element}, "has a number of points outside 1 to 4, or a value that is not finite",
                   "restore a state of this world");
-    if (before != nullptr && !(std::pair{before->a, before->b} < std::pair{contact.a, contact.b}))
-      throw Error({.element = element}, "is not in ascending order of parts", "restore a state of this world");
+    if (before != nullptr && !in_order(*before, contact))
+      throw Error({.element = element}, "is not in the order of its parts", "restore a state of this world");
     before = &contact;
   }
 }

@@ -38,6 +38,7 @@ struct WorldGroups {
   std::vector<SubstepGroup> all;
   std::shared_ptr<ContactTables> tables;    ///< shared by the contact of all groups; null if there is none
   std::unique_ptr<PairModel> pairs_of_all;  ///< contact between surfaces, if one group has all objects
+  BodyMeshes body_meshes;                   ///< shared by all groups
   std::vector<int> changed_surfaces;        ///< the numbers of these objects whose surface can touch something
   std::vector<int> changed;                 ///< the numbers of all of these objects
   bool colliders_changed = false;           ///< true if primitive colliders were added or removed since the last step

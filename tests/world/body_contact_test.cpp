@@ -191,5 +191,70 @@ TEST(BodyContact, OfARemovedObjectOrColliderIsForgotten) {
   EXPECT_LT(world.object(1).positions()[0].y, -0.5f);
 }
 
+TEST(BodyContact, EventsNameBothAndTheImpulseOfAStep) {
+  Scene scene = with_ground();
+  BodyOptions options;
+  options.position = {0, 0.5f, 0};
+  scene.add(make_body({{Box{}}}, options));
+  options.position = {0, 1.5f, 0};
+  scene.add(make_body({{Box{}}}, options));
+  World world(scene);
+  run(world, 60);
+  world.record_contact_events(true);
+  run(world, 1);
+  const std::vector<ContactEvent>& events = world.contact_events();
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0].first, Thing(ObjectId(0)));
+  EXPECT_EQ(events[0].second, Thing(ObjectId(1)));
+  EXPECT_NEAR(events[0].impulse, 1000 * 9.81 / 60, 1);
+  EXPECT_LT(events[0].normal.y, -0.99f) << "the upper box pushes the lower one down";
+  EXPECT_NEAR(events[0].position.y, 1, 0.01);
+  EXPECT_EQ(events[1].second, Thing(ColliderId(0)));
+  EXPECT_NEAR(events[1].impulse, 2000 * 9.81 / 60, 2);
+}
+
+/// A bowl of flat sides; its lowest point is at the origin.
+MeshCollider bowl(MeshCollider::As as) {
+  MeshCollider collider;
+  collider.name = "bowl";
+  collider.as = as;
+  const int n = 16;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j) {
+      const float z = 4.f * static_cast<float>(i) / n - 2, x = 4.f * static_cast<float>(j) / n - 2;
+      collider.mesh.positions.push_back({x, 0.25f * (x * x + z * z), z});
+    }
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const int a = i * (n + 1) + j, b = a + n + 1;
+      collider.mesh.triangles.push_back({a, b, a + 1});
+      collider.mesh.triangles.push_back({a + 1, b, b + 1});
+    }
+  return collider;
+}
+
+TEST(BodyContact, BodiesStayInABowlThatIsAMeshOrAHeightfield) {
+  for (const MeshCollider::As as : {MeshCollider::As::triangles, MeshCollider::As::heightfield}) {
+    Scene scene;
+    scene.add(bowl(as));
+    Object pile;
+    const std::vector<SolidShape> shapes{Sphere{.15f}, Capsule{.1f, .1f}, Box{{.15f, .1f, .1f}}, Cylinder{.15f, .1f}};
+    for (int i = 0; i < 16; ++i) {
+      BodyOptions options;
+      options.position = {0.7f * static_cast<float>(i % 2) - 0.35f, 1 + 0.4f * static_cast<float>(i / 2),
+                          0.1f * static_cast<float>(i % 3)};
+      add_body(pile, {{shapes[static_cast<std::size_t>(i % 4)]}}, options);
+    }
+    scene.add(pile);
+    World world(scene);
+    run(world, 240);
+    for (const Vec3f& p : world.object(0).positions()) {
+      EXPECT_GT(p.y - 0.25f * (p.x * p.x + p.z * p.z), 0.05f);
+      EXPECT_LT(p.y, 1.5f);
+    }
+    EXPECT_LT(fastest(world), 0.5f);
+  }
+}
+
 }  // namespace
 }  // namespace pliant

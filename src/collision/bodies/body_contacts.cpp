@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
+#include <tuple>
 #include <utility>
 
+#include "collision/bodies/mesh_contacts.h"
 #include "geometry/convex_contact.h"
 
 namespace pliant {
@@ -55,6 +58,23 @@ float speed_of(const BodyState& body, const BoxBounds& box) {
   const Vec3f centre = convert<float>(body.pose.position);
   const Vec3f reach = max(abs(box.high - centre), abs(box.low - centre));
   return length(body.velocity) + length(body.spin) * length(reach);
+}
+
+/// A box in the world around a mesh.
+BoxBounds world_box(const BodyMesh& mesh, const Posed& pose) {
+  const BoxBounds local = mesh.bounds();
+  const Posef at = convert<float>(pose);
+  const Vec3f centre = to_world(at, (local.low + local.high) * 0.5f), half = (local.high - local.low) * 0.5f;
+  const Vec3f x = abs(rotate(at.rotation, Vec3f{half.x, 0, 0})), y = abs(rotate(at.rotation, Vec3f{0, half.y, 0})),
+              z = abs(rotate(at.rotation, Vec3f{0, 0, half.z}));
+  const Vec3f reach = x + y + z;
+  const float grown = static_cast<float>(mesh.thickness()) + 1e-5f * (largest(centre) + largest(reach));
+  return BoxBounds{centre - reach, centre + reach}.grown(grown);
+}
+
+/// The same for a half-space or a mesh. A half-space that turns is as fast as its origin.
+float speed_of_other(const BodyPart& part, const BodyState& body) {
+  return part.mesh == nullptr ? length(body.velocity) : speed_of(body, world_box(*part.mesh, body.pose));
 }
 
 bool hardly_moved(const Posed& now, const BodyContact& contact, double size) {
@@ -125,13 +145,31 @@ void take_impulses(const BodyContact& old, BodyContact& c) {
   c.substep = old.substep;
 }
 
-/// The contact of two parts in the frame before; null if there was none.
-const BodyContact* find_before(const std::vector<BodyContact>& before, const ContactPart& a, const ContactPart& b) {
-  const auto place = std::lower_bound(before.begin(), before.end(), std::pair{a, b},
-                                      [](const BodyContact& c, const std::pair<ContactPart, ContactPart>& parts) {
-                                        return std::pair{c.a, c.b} < parts;
-                                      });
-  return place != before.end() && place->a == a && place->b == b ? &*place : nullptr;
+auto solids_of(const BodyContact& c) { return std::tuple{c.a.owner, c.a.solid, c.b.owner, c.b.solid}; }
+
+/// The contacts of two parts in the frame before.
+std::span<const BodyContact> find_before(const std::vector<BodyContact>& before, const ContactPart& a,
+                                         const ContactPart& b) {
+  BodyContact wanted;
+  wanted.a = a;
+  wanted.b = b;
+  const auto [first, last] =
+      std::equal_range(before.begin(), before.end(), wanted,
+                       [](const BodyContact& one, const BodyContact& other) { return solids_of(one) < solids_of(other); });
+  return {first, last};
+}
+
+/// The contact of the frame before with the same piece, or else the one whose normal agrees best; null if none is similar.
+const BodyContact* like(const BodyContact& c, std::span<const BodyContact> before) {
+  const BodyContact* best = nullptr;
+  float closest = 0.9f;
+  for (const BodyContact& old : before) {
+    const float agreement = old.a.piece == c.a.piece ? 2 : dot(old.normal, c.normal);
+    if (!(agreement > closest)) continue;
+    closest = agreement;
+    best = &old;
+  }
+  return best;
 }
 
 }  // namespace
@@ -148,31 +186,45 @@ struct BodyContacts::Task {
     const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
     const Posed relative = relative_pose(a.pose, b.pose);
     const double size = static_cast<double>(std::min(of.size_[at(pair.first)], of.size_[at(pair.second)]));
-    const BodyContact* old = find_before(before, one.id, other.id);
-    if (old != nullptr && hardly_moved(relative, *old, size)) {
-      found.push_back(*old);
-      return renew_gaps(a.pose, b.pose, found.back());
+    const std::span<const BodyContact> old = find_before(before, one.id, other.id);
+    const auto stays = [&](const BodyContact& contact) { return hardly_moved(relative, contact, size); };
+    if (!old.empty() && std::all_of(old.begin(), old.end(), stays)) {
+      found.insert(found.end(), old.begin(), old.end());
+      for (auto contact = found.end() - static_cast<std::ptrdiff_t>(old.size()); contact != found.end(); ++contact)
+        renew_gaps(a.pose, b.pose, *contact);
+      return;
     }
     const float fast = of.speed_[at(pair.first)] + of.speed_[at(pair.second)];
-    const Touch touching = touch_of(one, other, relative, margin_share * size + static_cast<double>(dt * fast));
-    if (touching.count == 0) return;
-    BodyContact contact;
-    contact.a = one.id;
-    contact.b = other.id;
-    contact.position = relative.position;
-    contact.rotation = relative.rotation;
-    set_points(touching, a.pose, b.pose, contact);
-    if (old != nullptr) take_impulses(*old, contact);
-    found.push_back(contact);
+    const double reach = margin_share * size + static_cast<double>(dt * fast);
+    const auto add = [&](const Touch& touching, int piece) {
+      if (touching.count == 0) return;
+      BodyContact contact;
+      contact.a = one.id;
+      contact.a.piece = piece;
+      contact.b = other.id;
+      contact.position = relative.position;
+      contact.rotation = relative.rotation;
+      set_points(touching, a.pose, b.pose, contact);
+      if (const BodyContact* alike = like(contact, old)) take_impulses(*alike, contact);
+      found.push_back(contact);
+    };
+    if (one.mesh == nullptr) return add(touch_of(one, other, relative, reach), 0);
+    std::vector<MeshTouch> touches;
+    touch_mesh(other.shape, compose(relative, other.pose), *one.mesh, reach, touches);
+    for (const MeshTouch& touching : touches) add(touching.touch, touching.piece);
   }
 };
+
+bool in_order(const BodyContact& a, const BodyContact& b) {
+  return std::tuple{solids_of(a), a.a.piece, a.b.piece} < std::tuple{solids_of(b), b.a.piece, b.b.piece};
+}
 
 BodyContacts::BodyContacts(std::vector<BodyPart> parts) : parts_(std::move(parts)) {
   size_.reserve(parts_.size());
   for (int i = 0; i < static_cast<int>(parts_.size()); ++i) {
     const BodyPart& part = parts_[at(i)];
-    (part.is_half_space ? half_spaces_ : convex_).push_back(i);
-    size_.push_back(part.is_half_space ? 1e30f : size_of(part.shape));
+    (part.is_convex() ? convex_ : others_).push_back(i);
+    size_.push_back(part.is_convex() ? size_of(part.shape) : 1e30f);
   }
 }
 
@@ -180,7 +232,7 @@ void BodyContacts::find_boxes(Executor& executor, const std::vector<BodyState>& 
   const int count = static_cast<int>(convex_.size());
   boxes_.resize(convex_.size());
   speed_.resize(parts_.size());
-  for (const int part : half_spaces_) speed_[at(part)] = length(bodies[at(parts_[at(part)].body)].velocity);
+  for (const int part : others_) speed_[at(part)] = speed_of_other(parts_[at(part)], bodies[at(parts_[at(part)].body)]);
   executor.parallel_for("bodies: boxes", (count + parts_a_task - 1) / parts_a_task, [&](int task) {
     for (int i = task * parts_a_task; i < std::min(count, (task + 1) * parts_a_task); ++i) {
       const int number = convex_[at(i)];
@@ -198,12 +250,17 @@ void BodyContacts::find_pairs(const std::vector<BodyState>& bodies, FunctionRef<
   const auto add = [&](int i, int j) {
     const int a = parts_[at(i)].body, b = parts_[at(j)].body;
     const bool are_fixed = bodies[at(a)].is_fixed && bodies[at(b)].is_fixed;
-    if (a != b && !are_fixed && meet(a, b)) pairs_.emplace_back(std::min(i, j), std::max(i, j));
+    if (a != b && !are_fixed && meet(a, b)) pairs_.emplace_back(i, j);
   };
   tree_.build(boxes_);
-  tree_.self_pairs([&](int i, int j) { add(convex_[at(i)], convex_[at(j)]); });
-  for (const int half_space : half_spaces_)
-    for (const int part : convex_) add(half_space, part);
+  tree_.self_pairs([&](int i, int j) { add(convex_[at(std::min(i, j))], convex_[at(std::max(i, j))]); });
+  for (const int other : others_) {
+    const BodyPart& part = parts_[at(other)];
+    if (part.is_half_space)
+      for (const int i : convex_) add(other, i);
+    else
+      tree_.query(world_box(*part.mesh, bodies[at(part.body)].pose), [&](int i) { add(other, convex_[at(i)]); });
+  }
   std::sort(pairs_.begin(), pairs_.end());
 }
 
@@ -225,6 +282,7 @@ void BodyContacts::update(Executor& executor, const std::vector<BodyState>& bodi
   });
   now.clear();
   for (int task = 0; task < tasks; ++task) now.insert(now.end(), found_[at(task)].begin(), found_[at(task)].end());
+  if (!std::is_sorted(now.begin(), now.end(), in_order)) std::sort(now.begin(), now.end(), in_order);
 }
 
 }  // namespace pliant

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "collision/bodies/body_mesh.h"
 #include "collision/broad/tree.h"
 #include "geometry/convex_shape.h"
 #include "parallel/executor.h"
@@ -15,13 +16,19 @@
 
 namespace pliant {
 
-/// A convex part of a body, or a half-space.
+/// The order of contacts: by owners and solids of both sides, then by pieces.
+bool in_order(const BodyContact& a, const BodyContact& b);
+
+/// A convex part of a body, a half-space or a mesh.
 struct BodyPart {
   ContactPart id;
   int body = 0;
   ConvexShape shape;
-  bool is_half_space = false;  ///< y <= 0 of its frame, instead of the shape
-  Posed pose{};                ///< of the shape in the body's frame
+  bool is_half_space = false;      ///< y <= 0 of its frame, instead of the shape
+  Posed pose{};                    ///< of the shape in the body's frame
+  const BodyMesh* mesh = nullptr;  ///< instead of the shape
+
+  bool is_convex() const { return !is_half_space && mesh == nullptr; }
 };
 
 /// Where a body is and how it moves at a frame's start.
@@ -34,7 +41,8 @@ struct BodyState {
 class BodyContacts {
  public:
   BodyContacts() = default;
-  /// Parts are in ascending order of their ids. The polyhedra of parts must stay where they are.
+  /// Convex parts are in ascending order of their ids; polyhedra and meshes of parts must stay where they are. Half-spaces and meshes
+  /// belong to fixed bodies.
   explicit BodyContacts(std::vector<BodyPart> parts);
 
   /// Finds all contacts of a frame of `dt` seconds, in ascending order of parts. Parts may touch if `meet` is true for their bodies,
@@ -54,11 +62,11 @@ class BodyContacts {
   void find_pairs(const std::vector<BodyState>& bodies, FunctionRef<bool(int, int)> meet);
 
   std::vector<BodyPart> parts_;
-  std::vector<int> convex_, half_spaces_;  ///< parts of either kind, ascending
-  std::vector<float> size_;                ///< of each part: half of its smallest extent [m]
-  std::vector<Pair> pairs_;                ///< of parts whose boxes overlap, sorted
-  std::vector<BoxBounds> boxes_;           ///< of convex parts
-  std::vector<float> speed_;               ///< [part] an upper bound of what a point of it moves in a second [m/s]
+  std::vector<int> convex_, others_;  ///< parts: convex ones; half-spaces and meshes; ascending
+  std::vector<float> size_;           ///< of each part: half of its smallest extent [m]
+  std::vector<Pair> pairs_;           ///< of parts whose boxes overlap, sorted
+  std::vector<BoxBounds> boxes_;      ///< of convex parts
+  std::vector<float> speed_;          ///< [part] an upper bound of what a point of it moves in a second [m/s]
   std::vector<std::vector<BodyContact>> found_;
   Tree<BoxBounds> tree_;
 };

@@ -212,6 +212,18 @@ void ShapeContacts::prepare(const Model& model, int object) {
   if (std::none_of(model.colliders.begin(), model.colliders.end(), dips)) elements = {};
 }
 
+void ShapeContacts::prepare(const Model& model, int object, std::span<const LocalShape> shapes) {
+  elements_.resize(model.objects.size());
+  scratch_.resize(model.tiles().size());
+  const CompiledObject& of = model.objects[static_cast<std::size_t>(object)];
+  ShapeElements& elements = elements_[static_cast<std::size_t>(object)];
+  elements = {};
+  if (shapes.empty()) return;
+  elements = make_shape_elements(of);
+  const auto dips = [&](const LocalShape& shape) { return may_dip(elements.radius, shape, of.thickness); };
+  if (std::none_of(shapes.begin(), shapes.end(), dips)) elements = {};
+}
+
 void ShapeContacts::detect_tile(const ShapeContactSearch& search, int task) {
   const Task& of = search.model.tiles()[static_cast<std::size_t>(task)];
   const ShapeElements& elements = elements_[static_cast<std::size_t>(of.object)];

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "collision/narrow/contact.h"
@@ -40,6 +41,8 @@ class ShapeContacts {
  public:
   /// Prepares the elements of an object; call it after the object or the colliders were added or changed.
   void prepare(const Model& model, int object);
+  /// The same for given shapes instead of the model's colliders.
+  void prepare(const Model& model, int object, std::span<const LocalShape> shapes);
 
   /// Finds the contacts of the substep, ordered by tile, then by collider. Searches of different tiles may run at the same
   /// time.

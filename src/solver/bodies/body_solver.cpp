@@ -3,22 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 #include "collision/proxies/contact_tables.h"
+#include "math/motion.h"
+#include "solver/bodies/body_math.h"
 #include "solver/substep.h"
 
 namespace pliant {
 
 namespace {
 
+using namespace bodies;
+
 /// Most rounds in which impacts are passed on from body to body in a substep.
 constexpr int most_rounds_of_impacts = 32;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-Vec3f xyz(const Record& r) { return {r.x, r.y, r.z}; }
-Quatf quaternion(const Record& r) { return {r.x, r.y, r.z, r.w}; }
-Record plus(const Record& r, const Vec3f& v) { return {r.x + v.x, r.y + v.y, r.z + v.z, r.w}; }
 
 /// The inverse inertia in world axes of a body with the given principal values.
 std::array<float, 6> world_inertia(const Quatf& q, const Vec3f& inverse) {
@@ -37,11 +36,8 @@ Vec3f turn_between(const Quatf& from, const Quatf& to) {
   return {sign * turn.x, sign * turn.y, sign * turn.z};
 }
 
-/// Turns an orientation by a small rotation vector.
-void turn(const Vec3f& theta, Record& orientation) {
-  const Quatf q = quaternion(orientation), spin = multiply(Quatf{theta.x, theta.y, theta.z, 0}, q);
-  const Quatf now = normalise(Quatf{q.x + 0.5f * spin.x, q.y + 0.5f * spin.y, q.z + 0.5f * spin.z, q.w + 0.5f * spin.w});
-  orientation = {now.x, now.y, now.z, now.w};
+std::pair<Posed, Posed> poses_between(const MovingCollider& collider) {
+  return {convert<double>(collider.before), convert<double>(collider.after)};
 }
 
 ConvexShape shape_of_collider(const Shape& shape, std::vector<Polyhedron>& polyhedra) {
@@ -53,15 +49,25 @@ ConvexShape shape_of_collider(const Shape& shape, std::vector<Polyhedron>& polyh
 
 }  // namespace
 
-BodySolver::BodySolver(const Model& model, const std::vector<int>* objects) : rules_(contact_rules(model)) {
+BodySolver::BodySolver(const Model& model, const std::vector<int>* objects, BodyMeshes& meshes)
+    : rules_(contact_rules(model)), meshes_(&meshes) {
   std::vector<BodyPart> parts, of_colliders;
   const int count = objects == nullptr ? static_cast<int>(model.objects.size()) : static_cast<int>(objects->size());
   for (int i = 0; i < count; ++i) add_object(model, objects == nullptr ? i : (*objects)[at(i)], parts);
   dynamic_ = static_cast<int>(places_.size());
   if (dynamic_ == 0) return;
+  std::vector<TouchedBody> bodies;
+  for (const Place& place : places_) bodies.push_back({place.object, place.body, place.particle, place.frame});
+  std::vector<int> all(model.objects.size());
+  std::iota(all.begin(), all.end(), 0);
+  points_ = BodyPoints(model, objects == nullptr ? all : *objects, bodies, rules_);
   collider_shapes_.reserve(model.colliders.size());  // shapes point into it
   for (int c = static_cast<int>(model.colliders.size()); c-- > 0;) add_collider(model, c, of_colliders);
-  of_colliders.insert(of_colliders.end(), parts.begin(), parts.end());  // their owners are below zero
+  for (int o = 0; o < static_cast<int>(model.objects.size()); ++o)
+    if (model.objects[at(o)].is_collider && model.objects[at(o)].particles > 0) add_mesh(model, o, meshes, of_colliders);
+  of_colliders.insert(of_colliders.end(), parts.begin(), parts.end());
+  for (const BodyPart& part : of_colliders) body_of_part_.emplace_back(part.id, part.body);
+  std::sort(body_of_part_.begin(), body_of_part_.end());
   finder_ = BodyContacts(std::move(of_colliders));
 }
 
@@ -91,9 +97,28 @@ void BodySolver::add_collider(const Model& model, int collider, std::vector<Body
   places_.push_back(place);
 }
 
+void BodySolver::add_mesh(const Model& model, int object, BodyMeshes& meshes, std::vector<BodyPart>& parts) {
+  const CompiledObject& from = model.objects[at(object)];
+  const auto field = std::find_if(model.fields.begin(), model.fields.end(),
+                                  [&](const FieldCollider& one) { return one.object == object; });
+  const bool is_terrain = field != model.fields.end() && field->field->is_ground();
+  BodyMeshes::Entry& entry = meshes.of_object[object];
+  if (entry.mesh == nullptr || entry.generation != model.generation[at(object)])
+    entry = {model.generation[at(object)], false,
+             std::make_unique<BodyMesh>(from.carrier.rest, from.surface.triangles,
+                                        is_terrain ? BodyMesh::Kind::terrain : BodyMesh::Kind::surface, from.thickness)};
+  Place place;
+  place.object = object;
+  place.mesh = entry.mesh.get();
+  parts.push_back({{object, 0, 0}, static_cast<int>(places_.size()), {}, false, {}, place.mesh});
+  places_.push_back(place);
+}
+
 bool BodySolver::meet(const Model& model, int a, int b) const {
   const Place &one = places_[at(a)], &other = places_[at(b)];
   if (one.collider >= 0 || other.collider >= 0) return true;
+  if (!one.is_body() || !other.is_body())
+    return meets_mesh(model, one.is_body() ? one : other, one.is_body() ? other : one);
   if (!rules_.meet(one.object, other.object)) return false;
   if (one.object != other.object) return true;
   const std::vector<std::pair<int, int>>& jointed = model.objects[at(one.object)].bodies.jointed;
@@ -101,9 +126,38 @@ bool BodySolver::meet(const Model& model, int a, int b) const {
   return jointed.empty() || !std::binary_search(jointed.begin(), jointed.end(), both);
 }
 
+bool BodySolver::meets_mesh(const Model& model, const Place& body, const Place& mesh) const {
+  const CompiledObject &object = model.objects[at(body.object)], &collider = model.objects[at(mesh.object)];
+  const auto field = std::find_if(model.fields.begin(), model.fields.end(),
+                                  [&](const FieldCollider& one) { return one.object == mesh.object; });
+  const bool has_field = field != model.fields.end();
+  const std::uint32_t groups = has_field ? field->groups : collider.groups, mask = has_field ? field->mask : collider.mask;
+  return (object.groups & mask) != 0 && (groups & object.mask) != 0;
+}
+
+void BodySolver::move_vertices(const Substep& s, const Place& place) {
+  const CompiledObject& object = s.model.objects[at(place.object)];
+  const ObjectControl* control = s.work.control.object(place.object);
+  BodyMeshes::Entry& entry = meshes_->of_object.at(place.object);
+  entry.is_deformed = entry.is_deformed || object.carrier.deforms() || (control != nullptr && !control->targets.empty());
+  if (!entry.is_deformed) return;
+  std::vector<Vec3f> positions;
+  for (int i = 0; i < object.particles; ++i)
+    positions.push_back(xyz(s.state.positions[at(s.model.first[at(place.object)] + i)]));
+  entry.mesh->move(positions);
+}
+
+std::pair<Posed, Posed> BodySolver::poses_of_mesh(const Substep& s, const Place& place, double before, double after) const {
+  if (meshes_->of_object.at(place.object).is_deformed) return {};
+  const PoseDrive* drive = s.work.control.mesh(place.object);
+  const Motion& motion = s.model.objects[at(place.object)].carrier.motion;
+  if (drive != nullptr) return {drive->at(before), drive->at(after)};
+  return {pose_at(motion, before), pose_at(motion, after)};
+}
+
 BodyMaterial BodySolver::material(const Model& model, int a, int b) const {
   const Place &one = places_[at(a)], &other = places_[at(b)];
-  if (one.collider < 0 && other.collider < 0) {
+  if (one.collider < 0 && other.collider < 0) {  // rules_ has mesh colliders too
     const PairMaterial both = rules_.material(one.object, other.object);
     return {both.static_friction, both.kinetic_friction, both.restitution};
   }
@@ -114,14 +168,19 @@ BodyMaterial BodySolver::material(const Model& model, int a, int b) const {
           std::max(object.restitution, collider.restitution)};
 }
 
-BodyState BodySolver::state_at_start(const Substep& s, int body) const {
+BodyState BodySolver::collider_at_start(const Substep& s, const Place& place) {
+  if (place.mesh != nullptr) move_vertices(s, place);
+  const auto [before, after] = place.mesh == nullptr ? poses_between(colliders_at_start_[at(place.collider)])
+                                                     : poses_of_mesh(s, place, s.frame_start, s.frame_start + s.dt);
+  const Posef start = convert<float>(before), end = convert<float>(after);
+  const float rate = static_cast<float>(1 / s.dt);
+  return {before, convert<float>(after.position - before.position) * rate,
+          turn_between(start.rotation, end.rotation) * rate, true};
+}
+
+BodyState BodySolver::state_at_start(const Substep& s, int body) {
   const Place& place = places_[at(body)];
-  if (place.collider >= 0) {
-    const MovingCollider& collider = colliders_at_start_[at(place.collider)];
-    const float rate = static_cast<float>(1 / s.dt);
-    return {convert<double>(collider.before), (collider.after.position - collider.before.position) * rate,
-            turn_between(collider.before.rotation, collider.after.rotation) * rate, true};
-  }
+  if (!place.is_body()) return collider_at_start(s, place);
   const Record& x = s.state.positions[at(place.particle)];
   const Quatf q = quaternion(s.state.frames.orientations[at(place.frame)]);
   const Vec3f inverse = xyz(s.state.frames.inverse_inertias[at(place.frame)]);
@@ -135,11 +194,9 @@ BodyState BodySolver::state_at_start(const Substep& s, int body) const {
 void BodySolver::make_manifolds(const Substep& s) {
   manifolds_.clear();
   bounces_ = false;
-  const std::vector<BodyPart>& parts = finder_.parts();
-  const auto body_of = [&](const ContactPart& id) {
-    const auto part = std::lower_bound(parts.begin(), parts.end(), id,
-                                       [](const BodyPart& one, const ContactPart& wanted) { return one.id < wanted; });
-    return part->body;
+  const auto body_of = [&](ContactPart id) {
+    id.piece = 0;
+    return std::lower_bound(body_of_part_.begin(), body_of_part_.end(), std::pair{id, 0})->second;
   };
   bodies_of_.clear();
   for (const BodyContact& contact : contacts_) bodies_of_.emplace_back(body_of(contact.a), body_of(contact.b));
@@ -163,7 +220,7 @@ void BodySolver::begin_frame(Substep& s) {
   for (int body = 0; body < static_cast<int>(places_.size()); ++body) {
     states_.push_back(state_at_start(s, body));
     is_fixed_.push_back(states_.back().is_fixed ? 1 : 0);
-    if (places_[at(body)].collider >= 0) continue;
+    if (!places_[at(body)].is_body()) continue;
     BodyMotion& motion = motions_[at(body)];
     const std::size_t particle = at(places_[at(body)].particle);
     starts_.push_back({xyz(s.state.positions[particle]), xyz(s.state.remainders[particle])});
@@ -177,20 +234,23 @@ void BodySolver::begin_frame(Substep& s) {
       s.state.body_contacts, contacts_);
   last_h_ = s.h;
   make_manifolds(s);
+  points_.keep_poses(s);
 }
 
 void BodySolver::move_with_collider(const Substep& s, int body) {
-  const MovingCollider& collider = s.own->colliders[at(places_[at(body)].collider)];
+  const Place& place = places_[at(body)];
+  const auto [before, after] = place.mesh == nullptr ? poses_between(s.own->colliders[at(place.collider)])
+                                                     : poses_of_mesh(s, place, time_of(s, s.number), s.time_after);
   BodyMotion& motion = motions_[at(body)];
-  motion.velocity = (collider.after.position - collider.before.position) * (1 / s.h);
-  motion.spin = turn_between(collider.before.rotation, collider.after.rotation) * (1 / s.h);
+  motion.velocity = convert<float>(after.position - before.position) * (1 / s.h);
+  motion.spin = turn_between(convert<float>(before).rotation, convert<float>(after).rotation) * (1 / s.h);
 }
 
 void BodySolver::load_predicted(const Substep& s) {
   const float rate = 1 / s.h;
   for (int body = 0; body < static_cast<int>(places_.size()); ++body) {
     const Place& place = places_[at(body)];
-    if (place.collider >= 0) {
+    if (!place.is_body()) {
       move_with_collider(s, body);
       continue;
     }
@@ -213,10 +273,18 @@ void BodySolver::start_substep(const Substep& s) {
     goes_on = blocks_.bounce(executor, kernels, motions_, s.h, slow);
 }
 
+void BodySolver::collide(Substep& s) {
+  if (points_.has_any()) points_.detect(s);
+}
+
 void BodySolver::project(Substep& s, bool is_first) {
   const Stopwatch stopwatch(s.context.executor.timings(), "solve: bodies");
   load_predicted(s);
-  if (manifolds_.empty()) return;
+  if (!manifolds_.empty()) project_manifolds(s, is_first);
+  points_.project(s, motions_);
+}
+
+void BodySolver::project_manifolds(Substep& s, bool is_first) {
   const std::vector<BodyMotion>& before = keep_motions();
   if (is_first) start_substep(s);
   blocks_.position_pass(s.context.executor, s.kernels.manifolds, motions_, s.h, {});
@@ -236,7 +304,7 @@ void BodySolver::load_velocities(const Substep& s, FunctionRef<Vec3f(int object)
   for (int body = 0; body < static_cast<int>(places_.size()); ++body) {
     const Place& place = places_[at(body)];
     BodyMotion& motion = motions_[at(body)];
-    if (place.collider >= 0) {
+    if (!place.is_body()) {
       motion.displacement += motion.velocity * s.h;
       motion.rotation += motion.spin * s.h;
       continue;
@@ -253,7 +321,12 @@ void BodySolver::load_velocities(const Substep& s, FunctionRef<Vec3f(int object)
 void BodySolver::respond(Substep& s, FunctionRef<Vec3f(int object)> gravity) {
   const Stopwatch stopwatch(s.context.executor.timings(), "respond: bodies");
   load_velocities(s, gravity);
-  if (manifolds_.empty()) return;
+  if (!manifolds_.empty()) respond_manifolds(s);
+  points_.respond(s, motions_, gravity);
+  points_.keep_poses(s);
+}
+
+void BodySolver::respond_manifolds(Substep& s) {
   const std::vector<BodyMotion>& before = keep_motions();
   blocks_.velocity_pass(s.context.executor, s.kernels.manifolds, motions_, s.h);
   for (int body = 0; body < dynamic_; ++body) {
@@ -277,6 +350,20 @@ void BodySolver::end_frame(const Substep& s) {
   for (std::size_t i = 0; i < manifolds_.size(); ++i) keep_impulses(manifolds_[i], s.h, contacts_[at(colours_.order()[i])]);
 }
 
-int BodySolver::contacts_that_press() const { return blocks_.pressing(); }
+void BodySolver::log_contacts(const Substep& s, ContactLog& log) {
+  blocks_.take(s.context.executor, manifolds_);
+  for (std::size_t i = 0; i < manifolds_.size(); ++i) {
+    const Manifold& m = manifolds_[i];
+    const double impulse = static_cast<double>((m.impulse[0] + m.impulse[1]) + (m.impulse[2] + m.impulse[3]));
+    if (!(impulse > 0)) continue;
+    const BodyContact& contact = contacts_[at(colours_.order()[i])];
+    const Vec3d place = states_[at(m.b)].pose.position + convert<double>(motions_[at(m.b)].displacement + m.arm_b);
+    add_push({contact.a.owner, contact.b.owner, impulse, -m.normal, place}, log);
+  }
+  points_.log_contacts(s, log);
+  finish_substep(log);
+}
+
+int BodySolver::contacts_that_press() const { return points_.contacts_that_press() + blocks_.pressing(); }
 
 }  // namespace pliant

@@ -5,6 +5,8 @@
 // State for a pass and scattered after it, so constraints, chains and other contact act on bodies as on any particle and frame.
 #pragma once
 
+#include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -12,25 +14,40 @@
 #include "collision/narrow/contact.h"
 #include "collision/proxies/contact_rules.h"
 #include "model/model.h"
+#include "solver/bodies/body_points.h"
 #include "solver/bodies/manifold_blocks.h"
 #include "solver/bodies/manifolds.h"
+#include "solver/contact_log.h"
 
 namespace pliant {
 
 struct Substep;
 
+/// The meshes of a World's mesh colliders as bodies touch them, by object and generation. They are kept, because to make one takes
+/// longer than a frame.
+struct BodyMeshes {
+  struct Entry {
+    int generation = 0;
+    bool is_deformed = false;  ///< true: moved to places in the world, so its pose is the identity
+    std::unique_ptr<BodyMesh> mesh;
+  };
+  std::map<int, Entry> of_object;
+};
+
 /// Over fifteen members: the bodies of a group, their contacts, and the memory of a frame.
 class BodySolver {
  public:
   /// For the bodies of the given objects, or of all if it is null. Call begin_frame before anything else.
-  BodySolver(const Model& model, const std::vector<int>* objects);
+  BodySolver(const Model& model, const std::vector<int>* objects, BodyMeshes& meshes);
 
   /// False if there are no bodies, so that no stage need be called.
   bool has_bodies() const { return dynamic_ > 0; }
 
   /// Finds the contacts of a frame. Kept ones come from the State.
   void begin_frame(Substep& s);
-  /// Corrects displacements and rotations of bodies. In the first iteration of a substep, starts from the impulses of the last
+  /// Finds the contacts of points and bodies in a substep.
+  void collide(Substep& s);
+  /// Corrects displacements and rotations of bodies, and of points that touch them. In the first iteration of a substep, starts from the impulses of the last
   /// one, and makes bodies bounce.
   void project(Substep& s, bool is_first);
   /// The pass over velocities. `gravity` is what the velocities of an object lack of this frame's gravity [m/s].
@@ -41,13 +58,18 @@ class BodySolver {
   /// In ascending order of parts.
   const std::vector<BodyContact>& contacts() const { return contacts_; }
   int contacts_that_press() const;
+  /// Adds the impulses of the current substep, after respond. Those of impacts with restitution are left out.
+  void log_contacts(const Substep& s, ContactLog& log);
 
  private:
   /// Where a body is in the State; or a collider.
   struct Place {
     int object = -1, body = -1;   ///< index in Model::objects, and among the object's bodies
     int particle = 0, frame = 0;  ///< indices in the State
-    int collider = -1;            ///< >= 0: a collider instead: index in SubstepScratch::colliders
+    int collider = -1;            ///< >= 0: a primitive collider instead: index in SubstepScratch::colliders
+    BodyMesh* mesh = nullptr;     ///< or that of mesh collider `object`
+
+    bool is_body() const { return collider < 0 && mesh == nullptr; }
   };
   /// Position and remainder of a body at the frame's start [m].
   struct Start {
@@ -56,9 +78,16 @@ class BodySolver {
 
   void add_object(const Model& model, int object, std::vector<BodyPart>& parts);
   void add_collider(const Model& model, int collider, std::vector<BodyPart>& parts);
+  void add_mesh(const Model& model, int object, BodyMeshes& meshes, std::vector<BodyPart>& parts);
+  bool meets_mesh(const Model& model, const Place& body, const Place& mesh) const;
+  /// Moves the vertices of a mesh that deforms to where they are at the frame's start.
+  void move_vertices(const Substep& s, const Place& place);
+  /// The poses of a mesh collider at two times.
+  std::pair<Posed, Posed> poses_of_mesh(const Substep& s, const Place& place, double before, double after) const;
+  BodyState collider_at_start(const Substep& s, const Place& place);
   bool meet(const Model& model, int a, int b) const;
   BodyMaterial material(const Model& model, int a, int b) const;
-  BodyState state_at_start(const Substep& s, int body) const;
+  BodyState state_at_start(const Substep& s, int body);
   void make_manifolds(const Substep& s);
   void move_with_collider(const Substep& s, int body);
   void load_predicted(const Substep& s);
@@ -66,15 +95,21 @@ class BodySolver {
   void start_substep(const Substep& s);
   const std::vector<BodyMotion>& keep_motions();
 
+  void project_manifolds(Substep& s, bool is_first);
+  void respond_manifolds(Substep& s);
+
   ContactRules rules_;
   std::vector<Place> places_;  ///< bodies of objects, then colliders
   int dynamic_ = 0;            ///< bodies of objects
   BodyContacts finder_;
+  BodyPoints points_;
+  BodyMeshes* meshes_ = nullptr;
   std::vector<Polyhedron> collider_shapes_;
   std::vector<MovingCollider> colliders_at_start_;  ///< their poses are those at the frame's start and end
   std::vector<BodyState> states_;
-  std::vector<char> is_fixed_;                  ///< [place]
-  std::vector<std::pair<int, int>> bodies_of_;  ///< the bodies of contacts_
+  std::vector<std::pair<ContactPart, int>> body_of_part_;  ///< the place of each part, sorted
+  std::vector<char> is_fixed_;                             ///< [place]
+  std::vector<std::pair<int, int>> bodies_of_;             ///< the bodies of contacts_
   std::vector<Start> starts_;
   std::vector<BodyContact> contacts_;
   ManifoldColours colours_;                 ///< of contacts_

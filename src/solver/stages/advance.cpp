@@ -88,7 +88,7 @@ void predict_tile(const Substep& s, int task, void (*move)(const AdvanceArgument
   TileScratch& scratch = s.work.tiles[task];
   scratch.contacts.clear();
   scratch.bounds = {};
-  PointBounds* bounds = s.own->colliders.empty() ? nullptr : &scratch.bounds;
+  PointBounds* bounds = s.own->colliders.empty() && s.bodies == nullptr ? nullptr : &scratch.bounds;
   move(a, bounds);
   move_kinematics(s, task, a);
   if (bounds == nullptr) return;

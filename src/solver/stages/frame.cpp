@@ -135,9 +135,7 @@ void keep_body_contacts(std::vector<Substep>& groups) {
     s.bodies->end_frame(s);
     all.insert(all.end(), s.bodies->contacts().begin(), s.bodies->contacts().end());
   }
-  std::sort(all.begin(), all.end(), [](const BodyContact& a, const BodyContact& b) {
-    return std::pair{a.a, a.b} < std::pair{b.a, b.b};
-  });
+  std::sort(all.begin(), all.end(), in_order);
 }
 
 /// Puts the broken joints of all objects into the State, and orders those that the Report names.

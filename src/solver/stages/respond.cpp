@@ -66,6 +66,7 @@ void respond(Substep& s) {
   const bool is_settled = s.is_last() || ends_quarter(s);
   const auto gravity = [&](int object) { return is_settled ? Vec3f{} : gravity_for(s, s.work.gravity[object].settled); };
   if (s.bodies != nullptr) s.bodies->respond(s, gravity);
+  if (s.bodies != nullptr && s.work.contact_log != nullptr) s.bodies->log_contacts(s, *s.work.contact_log);
   respond_to_shapes(s, slow, gravity);
   if (!s.has_pairs()) return;
   Record* velocities = s.state.velocities.data();

@@ -1,0 +1,29 @@
+// Small functions that the contact of bodies shares.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "math/quat.h"
+#include "pliant/state.h"
+
+namespace pliant::bodies {
+
+inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
+inline Vec3f xyz(const Record& r) { return {r.x, r.y, r.z}; }
+inline Quatf quaternion(const Record& r) { return {r.x, r.y, r.z, r.w}; }
+inline Record plus(const Record& r, const Vec3f& v) { return {r.x + v.x, r.y + v.y, r.z + v.z, r.w}; }
+
+/// A symmetric matrix (xx, yy, zz, yz, zx, xy) times a vector.
+inline Vec3f times(const std::array<float, 6>& m, const Vec3f& v) {
+  return {m[0] * v.x + m[5] * v.y + m[4] * v.z, m[5] * v.x + m[1] * v.y + m[3] * v.z, m[4] * v.x + m[3] * v.y + m[2] * v.z};
+}
+
+/// Turns an orientation by a small rotation vector in world axes.
+inline void turn(const Vec3f& theta, Record& orientation) {
+  const Quatf q = quaternion(orientation), spin = multiply(Quatf{theta.x, theta.y, theta.z, 0}, q);
+  const Quatf now = normalise(Quatf{q.x + 0.5f * spin.x, q.y + 0.5f * spin.y, q.z + 0.5f * spin.z, q.w + 0.5f * spin.w});
+  orientation = {now.x, now.y, now.z, now.w};
+}
+
+}  // namespace pliant::bodies

@@ -1,0 +1,86 @@
+// Contact of particles, edges and triangles with the solids of rigid bodies, in both directions: each contact moves the points of
+// a surface and the body by one impulse at the point of contact, with the generalised inverse masses of both sides. The impulse
+// m dx / dt of the encyclopedia entry on position based dynamics is the limit of a body much heavier than the points.
+//
+// Solids are found like primitive colliders that move with their body's prediction. Contacts are projected one after another, in the
+// order in which they were found, because they share bodies: averages let a body fall through, sequences do not.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "collision/narrow/contact.h"
+#include "collision/narrow/shape_contacts.h"
+#include "collision/proxies/contact_rules.h"
+#include "model/model.h"
+#include "solver/bodies/manifold_passes.h"
+#include "solver/contact_log.h"
+
+namespace pliant {
+
+struct Substep;
+
+/// A body as points touch it.
+struct TouchedBody {
+  int object = 0, body = 0;     ///< index in Model::objects, and among the object's bodies
+  int particle = 0, frame = 0;  ///< indices in the State
+};
+
+class BodyPoints {
+ public:
+  BodyPoints() = default;
+  /// For objects whose particles may touch the solids of bodies. `rules` stay where they are.
+  BodyPoints(const Model& model, const std::vector<int>& objects, const std::vector<TouchedBody>& bodies,
+             const ContactRules& rules);
+
+  /// False if no particle can touch a body.
+  bool has_any() const { return !tasks_.empty() && !solids_.empty(); }
+
+  /// Keeps where bodies are, before the next prediction.
+  void keep_poses(const Substep& s);
+  /// Finds the contacts of a substep, after the prediction.
+  void detect(Substep& s);
+  /// Projects each contact once. `motions` have the bodies' inverse masses and inertias, in the order of the bodies.
+  void project(Substep& s, const std::vector<BodyMotion>& motions);
+  /// Applies restitution to velocities. `gravity` is what the velocities of an object lack of this frame's gravity [m/s].
+  void respond(Substep& s, const std::vector<BodyMotion>& motions, FunctionRef<Vec3f(int object)> gravity);
+  int contacts_that_press() const;
+  /// Adds the pushes of the current substep.
+  void log_contacts(const Substep& s, ContactLog& log) const;
+
+ private:
+  struct Solid {
+    int body = 0;
+    LocalShape shape;
+    Posef pose{};                             ///< of the shape in the body's frame
+    std::shared_ptr<const SolidField> field;  ///< instead of the shape where that is no primitive; null: a primitive
+    float margin = 0;                         ///< around the field [m]
+  };
+  /// How a body has moved since contacts were found, and in this pass.
+  struct Progress {
+    Vec3f displacement{}, rotation{};       ///< at the prediction [m], [rad]
+    Vec3f moved{}, turned{};                ///< since then
+    Vec3f moved_before{}, turned_before{};  ///< those when the pass began
+  };
+
+  void add_solids(const Model& model);
+  void place_solids(const Substep& s);
+  void begin_pass(const Substep& s);
+  void end_pass(Substep& s);
+  bool meets(const Model& model, const Contact& contact) const;
+  void project(Substep& s, const BodyMotion& motion, Contact& contact);
+
+  std::vector<float> impulses_;  ///< of contacts_ along their normals in this pass [N s]
+  const ContactRules* rules_ = nullptr;
+  std::vector<TouchedBody> bodies_;
+  std::vector<Solid> solids_;
+  std::vector<int> objects_, tasks_;    ///< objects with surfaces or particles, and their tiles, ascending
+  std::vector<Posef> poses_;            ///< of bodies at the substep's start
+  std::vector<MovingCollider> moving_;  ///< solids in the substep
+  std::vector<std::vector<Contact>> of_task_;
+  std::vector<Contact> contacts_, of_shapes_;  ///< `collider` is a solid; points are indices in the State
+  ShapeContacts shapes_;
+  std::vector<Progress> progress_;
+};
+
+}  // namespace pliant

@@ -1,0 +1,136 @@
+// Tests contact of cloth with rigid bodies, in both directions.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "pliant/body.h"
+#include "pliant/mesh.h"
+#include "pliant/world.h"
+
+namespace pliant {
+namespace {
+
+constexpr float dt = 1.f / 60;
+
+/// A square sheet of n x n vertices and the given side, level at a height.
+Object sheet(int n, float side, float height) {
+  Object cloth = make_cloth(grid_mesh(n, n, side, side));
+  Vec3f centre{};
+  for (const Vec3f& p : cloth.positions) centre += p * (1.f / static_cast<float>(cloth.positions.size()));
+  for (Vec3f& p : cloth.positions) p = {p.x - centre.x, height, p.z - centre.z};
+  cloth.collides = true;
+  cloth.thickness = 0.01f;
+  return cloth;
+}
+
+void pin_border(Object& cloth, float side) {
+  for (std::size_t i = 0; i < cloth.positions.size(); ++i)
+    if (std::max(std::fabs(cloth.positions[i].x), std::fabs(cloth.positions[i].z)) > 0.499f * side)
+      cloth.pins.push_back({static_cast<int>(i), {}});
+}
+
+Object body(const SolidShape& shape, const Vec3f& position, float mass) {
+  BodyOptions options;
+  options.position = position;
+  options.mass = mass;
+  return make_body({{shape}}, options);
+}
+
+void run(World& world, int frames) {
+  for (int frame = 0; frame < frames; ++frame) ASSERT_TRUE(world.step(dt).ok());
+}
+
+TEST(BodyPoints, EachShapeLiesInAHammock) {
+  const std::vector<Vec3f> corners{{.2f, .2f, .2f}, {-.2f, -.2f, .2f}, {-.2f, .2f, -.2f}, {.2f, -.2f, -.2f}};
+  const std::vector<SolidShape> shapes{Sphere{.2f},          Capsule{.1f, .1f}, Box{{.15f, .1f, .15f}},
+                                       Cylinder{.15f, .15f}, Cone{.2f, .15f},   Hull{corners}};
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    Scene scene;
+    Object cloth = sheet(25, 1.2f, 0);
+    pin_border(cloth, 1.2f);
+    scene.add(cloth);
+    scene.add(body(shapes[i], {0, 0.3f, 0}, 1));
+    World world(scene);
+    run(world, 120);
+    const Vec3f at = world.object(1).positions()[0];
+    EXPECT_GT(at.y, -0.4f) << "shape " << i;
+    EXPECT_LT(at.y, 0.3f) << "shape " << i;
+    EXPECT_LT(std::hypot(at.x, at.z), 0.6f) << "shape " << i;
+    float lowest = 0;
+    for (const Vec3f& p : world.object(0).positions()) lowest = std::min(lowest, p.y);
+    EXPECT_LT(lowest, -0.02f) << "shape " << i << ": the body presses the cloth down";
+  }
+}
+
+/// Without gravity: a ball flies into free cloth; both together keep their momentum.
+TEST(BodyPoints, AFreeSystemKeepsItsMomentum) {
+  Scene scene;
+  scene.gravity = {};
+  scene.add(sheet(21, 1, 0));
+  Object ball = body(Sphere{.15f}, {0.05f, 0.4f, 0}, 0.2f);
+  ball.velocities = {{0, -3, 0}};
+  scene.add(ball);
+  World world(scene);
+  const auto momentum = [&] {
+    Vec3d sum{};
+    const State& state = world.state();
+    for (std::size_t i = 0; i < state.positions.size(); ++i) {
+      if (!(state.positions[i].w > 0)) continue;
+      const double mass = 1 / static_cast<double>(state.positions[i].w);
+      const Record& v = state.velocities[i];
+      sum += Vec3d{v.x, v.y, v.z} * mass;
+    }
+    return sum;
+  };
+  const Vec3d before = momentum();
+  run(world, 60);
+  const Vec3d after = momentum();
+  EXPECT_GT(world.object(1).velocities()[0].y, -2.9f) << "the cloth slows the ball";
+  EXPECT_NEAR(length_squared(after - before), 0, 1e-10 * length_squared(before));
+}
+
+/// rigid.md: no speed above 3 m/s out of resting contact.
+TEST(BodyPoints, ALightBallUnderHeavyClothStaysCalm) {
+  for (const float mass : {1.f, 0.1f, 0.01f}) {
+    Scene scene;
+    scene.colliders.emplace_back();
+    scene.add(sheet(33, 1.5f, 0.5f));
+    scene.add(body(Sphere{.1f}, {0, 0.1f, 0}, mass));
+    World world(scene);
+    float fastest = 0;
+    for (int frame = 0; frame < 120; ++frame) {
+      ASSERT_TRUE(world.step(dt).ok());
+      fastest = std::max(fastest, std::sqrt(length_squared(world.object(1).velocities()[0])));
+    }
+    EXPECT_LT(fastest, 3.f) << mass;
+    EXPECT_GT(world.object(1).positions()[0].y, 0.05f) << mass;
+  }
+}
+
+TEST(BodyPoints, HasTheSameBitsOnAnyNumberOfThreads) {
+  std::string hashes[2];
+  for (int i = 0; i < 2; ++i) {
+    Scene scene;
+    scene.settings.threads = i + 1;
+    Object cloth = sheet(41, 1.2f, 0);
+    pin_border(cloth, 1.2f);
+    scene.add(cloth);
+    Object pile = body(Sphere{.1f}, {0, 0.2f, 0}, 0.5f);
+    BodyOptions options;
+    for (int b = 0; b < 6; ++b) {
+      options.position = {0.2f * static_cast<float>(b % 3) - 0.2f, 0.5f + 0.2f * static_cast<float>(b), 0.05f};
+      add_body(pile, {{Box{{0.08f, 0.06f, 0.07f}}}}, options);
+    }
+    scene.add(pile);
+    World world(scene);
+    run(world, 60);
+    hashes[i] = world.state_hash();
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+}  // namespace
+}  // namespace pliant
