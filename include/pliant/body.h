@@ -27,6 +27,14 @@ Object make_body(const std::vector<Solid>& solids, const BodyOptions& options = 
 /// Adds a rigid body to an object, for example to a pile or a mechanism, and returns its index in Object::bodies.
 int add_body(Object& object, const std::vector<Solid>& solids, const BodyOptions& options = {});
 
+/// Ties particles of the object to a body, each to the place where it is: the end of a rope, the corner of a cloth. They do not touch
+/// that body. Throws an Error that names a particle or body that does not exist. Append rope or cloth to the body's object first.
+void attach(Object& object, const std::vector<int>& particles, int body, const Stiffness& stiffness = {});
+
+/// Adds the particles, frames, bodies, joints, constraints, triangles and pins of another object to an object, whose other
+/// properties stay. Returns the index of its first particle. Throws an Error if it has a volume.
+int append(Object& object, const Object& other);
+
 /// The pose of a body at time 0: of the frame in which it was described (BodyOptions::position, rotation), in the world.
 RigidPose pose_of(const Object& object, int body);
 

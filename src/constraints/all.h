@@ -3,6 +3,7 @@
 #pragma once
 
 #include "constraints/ball_joint.h"
+#include "constraints/body_anchor.h"
 #include "constraints/cylindrical_joint.h"
 #include "constraints/dihedral_bending.h"
 #include "constraints/distance.h"
@@ -28,9 +29,9 @@ namespace pliant {
 
 /// The types in the order in which a sweep visits them. Of joints, motors and friction come first, then limits, so that what
 /// holds parts together has the last word.
-using AllConstraints =
-    TypeList<Distance, DihedralBending, IsometricBending, JointAngleMotor, JointOffsetMotor, JointAngle, JointOffset,
-             JointSwing, JointDistance, PulleyJointRows, GearJointRows, RackJointRows, PlanarJointRows,
-             CylindricalJointRows, UniversalJointRows, SliderJointRows, BallJointRows, HingeJointRows, FixedJointRows>;
+using AllConstraints = TypeList<Distance, DihedralBending, IsometricBending, JointAngleMotor, JointOffsetMotor, JointAngle,
+                                JointOffset, JointSwing, JointDistance, PulleyJointRows, GearJointRows, RackJointRows,
+                                PlanarJointRows, CylindricalJointRows, UniversalJointRows, SliderJointRows, BallJointRows,
+                                HingeJointRows, FixedJointRows, BodyAnchor>;
 
 }  // namespace pliant

@@ -1,0 +1,87 @@
+// Puts objects together, and ties particles to bodies.
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "constraints/registry.h"
+#include "pliant/body.h"
+#include "pliant/error.h"
+
+namespace pliant {
+
+namespace {
+
+void require(const Object& object, const std::string& kind, int index, std::size_t count) {
+  if (index < 0 || static_cast<std::size_t>(index) >= count)
+    throw Error({"", 0, object.name, kind + ' ' + std::to_string(index)},
+                "does not exist; there are " + std::to_string(count), "indices count from 0");
+}
+
+/// Moves the slots of a group's stencils to the places of another object's particles and frames.
+ConstraintGroup shifted(ConstraintGroup group, int particles, int frames) {
+  const int number = find_constraint_type(group.type);
+  if (number < 0)
+    throw Error({"", 0, "", "constraint type '" + group.type + "'"}, "does not exist",
+                "use one of: " + constraint_type_names());
+  const std::vector<SlotKind>& slots = constraint_type(number).slots;
+  for (std::size_t i = 0; i < group.particles.size(); ++i)
+    group.particles[i] += slots[i % slots.size()] == SlotKind::frame ? frames : particles;
+  return group;
+}
+
+/// Joints list constraints by the number of their group.
+void append_joints(Object& object, const Object& other, int bodies, int groups) {
+  for (ObjectJoint joint : other.joints) {
+    joint.a += bodies;
+    joint.b += bodies;
+    for (std::array<int, 2>& constraint : joint.constraints) constraint[0] += groups;
+    object.joints.push_back(std::move(joint));
+  }
+}
+
+}  // namespace
+
+int append(Object& object, const Object& other) {
+  if (other.volume)
+    throw Error({"", 0, other.name, "volume"}, "cannot become part of an object", "add the object by itself");
+  const int particles = static_cast<int>(object.positions.size()), frames = static_cast<int>(object.frames.size()),
+            bodies = static_cast<int>(object.bodies.size()), groups = static_cast<int>(object.constraints.size());
+  if (!object.velocities.empty() || !other.velocities.empty()) {
+    object.velocities.resize(object.positions.size());
+    object.velocities.insert(object.velocities.end(), other.velocities.begin(), other.velocities.end());
+    object.velocities.resize(object.positions.size() + other.positions.size());
+  }
+  object.positions.insert(object.positions.end(), other.positions.begin(), other.positions.end());
+  object.masses.insert(object.masses.end(), other.masses.begin(), other.masses.end());
+  object.frames.insert(object.frames.end(), other.frames.begin(), other.frames.end());
+  for (ObjectBody body : other.bodies) {
+    body.particle += particles;
+    body.frame += frames;
+    object.bodies.push_back(std::move(body));
+  }
+  for (const ConstraintGroup& group : other.constraints) object.constraints.push_back(shifted(group, particles, frames));
+  append_joints(object, other, bodies, groups);
+  for (const auto& [a, b, c] : other.triangles) object.triangles.push_back({a + particles, b + particles, c + particles});
+  for (Pin pin : other.pins) {
+    pin.particle += particles;
+    object.pins.push_back(std::move(pin));
+  }
+  for (Attachment attachment : other.attachments) {
+    attachment.particle += particles;
+    object.attachments.push_back(std::move(attachment));
+  }
+  return particles;
+}
+
+void attach(Object& object, const std::vector<int>& particles, int body, const Stiffness& stiffness) {
+  require(object, "body", body, object.bodies.size());
+  for (const int particle : particles) require(object, "particle", particle, object.positions.size());
+  const ObjectBody& to = object.bodies[static_cast<std::size_t>(body)];
+  ConstraintGroup group;
+  group.type = "body_anchor";
+  group.stiffness = stiffness;
+  for (const int particle : particles) group.particles.insert(group.particles.end(), {to.particle, to.frame, particle});
+  object.constraints.push_back(std::move(group));
+}
+
+}  // namespace pliant
