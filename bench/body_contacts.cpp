@@ -63,9 +63,6 @@ Pyramid make_pyramid() {
       if (i > 0) touch(body - 1, body, right, right * 0.5f, right * -0.5f, 1, pyramid);
     }
   pyramid.colours.colour(pyramid.bodies_of, pyramid.is_fixed);
-  const std::vector<Manifold> as_found = pyramid.manifolds;
-  std::size_t next = 0;
-  for (const int i : pyramid.colours.order()) pyramid.manifolds[next++] = as_found[static_cast<std::size_t>(i)];
   return pyramid;
 }
 
@@ -87,10 +84,20 @@ class Run {
     for (BodyMotion& m : pyramid_.motions) m.displacement = m.rotation = {};
     const double before = seconds_;
     time(Part::colours, [&] { pyramid_.colours.colour(pyramid_.bodies_of, pyramid_.is_fixed); });
-    time(Part::fill, [&] { blocks_.fill(executor_, pyramid_.manifolds, pyramid_.colours, pyramid_.is_fixed); });
+    time(Part::fill, [&] {
+      blocks_.fill(executor_, pyramid_.colours, pyramid_.is_fixed,
+                   [&](int i) { return pyramid_.manifolds[static_cast<std::size_t>(i)]; });
+    });
     time(Part::prepare, [&] { blocks_.prepare(executor_, kernels_, pyramid_.motions); });
     for (int substep = 0; substep < 8; ++substep) this->substep();
-    time(Part::take, [&] { blocks_.take(executor_, pyramid_.manifolds); });
+    time(Part::take, [&] {
+      blocks_.take(executor_, pyramid_.colours, [&](int i, const Manifold& m) {
+        Manifold& to = pyramid_.manifolds[static_cast<std::size_t>(i)];
+        to.impulse = m.impulse;
+        to.friction_impulse = m.friction_impulse;
+        to.twist_impulse = m.twist_impulse;
+      });
+    });
     state.SetIterationTime((seconds_ - before) / (part_ >= Part::warm_start && part_ <= Part::velocity_pass ? 8 : 1));
   }
   std::int64_t manifolds() const { return static_cast<std::int64_t>(pyramid_.manifolds.size()); }

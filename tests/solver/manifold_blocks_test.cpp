@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "solver/kernels.h"
@@ -140,7 +141,12 @@ int solve_in_blocks(Pile& pile, const ManifoldKernels& kernels, int threads) {
   Executor executor(threads);
   ManifoldBlocks blocks;
   int bounces = 0;
-  blocks.fill(executor, pile.manifolds, pile.colours, pile.is_fixed);
+  std::vector<std::size_t> place_of(pile.manifolds.size());  // of a manifold's number in pile.manifolds
+  for (std::size_t i = 0; i < place_of.size(); ++i) place_of[static_cast<std::size_t>(pile.colours.order()[i])] = i;
+  const auto manifold = [&](int i) -> Manifold& { return pile.manifolds[place_of[static_cast<std::size_t>(i)]]; };
+  blocks.fill(executor, pile.colours, pile.is_fixed, [&](int i) { return manifold(i); });
+  EXPECT_EQ(blocks.bounces(),
+            std::any_of(pile.manifolds.begin(), pile.manifolds.end(), [](const Manifold& m) { return m.restitution > 0; }));
   blocks.prepare(executor, kernels, pile.motions);
   for (int substep = 0; substep < substeps; ++substep) {
     blocks.warm_start(executor, kernels, pile.motions);
@@ -149,7 +155,14 @@ int solve_in_blocks(Pile& pile, const ManifoldKernels& kernels, int threads) {
     advance(pile);
     blocks.velocity_pass(executor, kernels, pile.motions, step);
   }
-  blocks.take(executor, pile.manifolds);
+  blocks.take(executor, pile.colours, [&](int i, const Manifold& m) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(manifold(i).count); ++k) {
+      manifold(i).impulse[k] = m.impulse[k];
+      manifold(i).gap_now[k] = m.gap_now[k];
+    }
+    manifold(i).friction_impulse = m.friction_impulse;
+    manifold(i).twist_impulse = m.twist_impulse;
+  });
   return bounces;
 }
 

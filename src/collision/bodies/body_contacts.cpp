@@ -147,17 +147,32 @@ void take_impulses(const BodyContact& old, BodyContact& c) {
 
 auto solids_of(const BodyContact& c) { return std::tuple{c.a.owner, c.a.solid, c.b.owner, c.b.solid}; }
 
-/// The contacts of two parts in the frame before.
-std::span<const BodyContact> find_before(const std::vector<BodyContact>& before, const ContactPart& a,
-                                         const ContactPart& b) {
-  BodyContact wanted;
-  wanted.a = a;
-  wanted.b = b;
-  const auto [first, last] =
-      std::equal_range(before.begin(), before.end(), wanted,
-                       [](const BodyContact& one, const BodyContact& other) { return solids_of(one) < solids_of(other); });
-  return {first, last};
-}
+/// Finds the contacts of two parts in the frame before. Pairs are mostly asked for in ascending order, so the search begins where
+/// the last one ended.
+class ContactsBefore {
+ public:
+  explicit ContactsBefore(const std::vector<BodyContact>& before) : all_(before) {}
+
+  std::span<const BodyContact> find(const ContactPart& a, const ContactPart& b) {
+    const std::tuple wanted{a.owner, a.solid, b.owner, b.solid};
+    const auto is_before = [&](const BodyContact& c) { return solids_of(c) < wanted; };
+    std::size_t first = next_, steps = 0;
+    while (first < all_.size() && steps < most_steps && is_before(all_[first])) ++first, ++steps;
+    const bool is_found = steps < most_steps && first > 0 && is_before(all_[first - 1]);
+    if (!is_found)
+      first = static_cast<std::size_t>(std::partition_point(all_.begin(), all_.end(), is_before) - all_.begin());
+    std::size_t last = first;
+    while (last < all_.size() && solids_of(all_[last]) == wanted) ++last;
+    next_ = last;
+    return std::span(all_).subspan(first, last - first);
+  }
+
+ private:
+  static constexpr std::size_t most_steps = 8;  ///< beyond, a binary search is faster
+
+  const std::vector<BodyContact>& all_;
+  std::size_t next_ = 0;
+};
 
 /// The contact of the frame before with the same piece, or else the one whose normal agrees best; null if none is similar.
 const BodyContact* like(const BodyContact& c, std::span<const BodyContact> before) {
@@ -181,17 +196,37 @@ struct BodyContacts::Task {
   const std::vector<BodyContact>& before;
   float dt;
 
-  void run(const Pair& pair, std::vector<BodyContact>& found) const {
+  /// Finds the contacts of pairs [first, last).
+  void run(int first, int last, Found& found) const {
+    found.clear();
+    ContactsBefore contacts(before);
+    for (int i = first; i < last; ++i) {
+      const Pair& pair = of.pairs_[at(i)];
+      find(pair, contacts.find(of.parts_[at(pair.first)].id, of.parts_[at(pair.second)].id), found);
+    }
+  }
+
+  /// Copies the contacts that run has found to their places, and renews the gaps of those that stay.
+  static void place(const Found& found, const std::vector<BodyState>& bodies, BodyContact* to) {
+    auto made = found.made.begin();
+    for (const Piece& piece : found.pieces) {
+      if (piece.stays.empty()) *to++ = *made++;
+      for (const BodyContact& contact : piece.stays) {
+        *to = contact;
+        renew_gaps(bodies[at(piece.a)].pose, bodies[at(piece.b)].pose, *to++);
+      }
+    }
+  }
+
+  void find(const Pair& pair, std::span<const BodyContact> old, Found& found) const {
     const BodyPart &one = of.parts_[at(pair.first)], &other = of.parts_[at(pair.second)];
     const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
     const Posed relative = relative_pose(a.pose, b.pose);
     const double size = static_cast<double>(std::min(of.size_[at(pair.first)], of.size_[at(pair.second)]));
-    const std::span<const BodyContact> old = find_before(before, one.id, other.id);
     const auto stays = [&](const BodyContact& contact) { return hardly_moved(relative, contact, size); };
     if (!old.empty() && std::all_of(old.begin(), old.end(), stays)) {
-      found.insert(found.end(), old.begin(), old.end());
-      for (auto contact = found.end() - static_cast<std::ptrdiff_t>(old.size()); contact != found.end(); ++contact)
-        renew_gaps(a.pose, b.pose, *contact);
+      found.pieces.push_back({old, one.body, other.body});
+      found.count += old.size();
       return;
     }
     const float fast = of.speed_[at(pair.first)] + of.speed_[at(pair.second)];
@@ -206,7 +241,9 @@ struct BodyContacts::Task {
       contact.rotation = relative.rotation;
       set_points(touching, a.pose, b.pose, contact);
       if (const BodyContact* alike = like(contact, old)) take_impulses(*alike, contact);
-      found.push_back(contact);
+      found.pieces.emplace_back();
+      found.made.push_back(contact);
+      ++found.count;
     };
     if (one.mesh == nullptr) return add(touch_of(one, other, relative, reach), 0);
     std::vector<MeshTouch> touches;
@@ -276,12 +313,13 @@ void BodyContacts::update(Executor& executor, const std::vector<BodyState>& bodi
   if (static_cast<int>(found_.size()) < tasks) found_.resize(at(tasks));
   const Task task_of_pair{*this, bodies, before, dt};
   executor.parallel_for("bodies: contacts", tasks, [&](int task) {
-    found_[at(task)].clear();
-    for (int i = task * pairs_a_task; i < std::min(count, (task + 1) * pairs_a_task); ++i)
-      task_of_pair.run(pairs_[at(i)], found_[at(task)]);
+    task_of_pair.run(task * pairs_a_task, std::min(count, (task + 1) * pairs_a_task), found_[at(task)]);
   });
-  now.clear();
-  for (int task = 0; task < tasks; ++task) now.insert(now.end(), found_[at(task)].begin(), found_[at(task)].end());
+  std::vector<std::size_t> first(1, 0);
+  for (int task = 0; task < tasks; ++task) first.push_back(first.back() + found_[at(task)].count);
+  now.resize(first.back());
+  executor.parallel_for("bodies: contacts", tasks,
+                        [&](int task) { Task::place(found_[at(task)], bodies, now.data() + first[at(task)]); });
   if (!std::is_sorted(now.begin(), now.end(), in_order)) std::sort(now.begin(), now.end(), in_order);
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -57,6 +58,23 @@ class BodyContacts {
   /// Two parts that may touch, by index.
   using Pair = std::pair<int, int>;
   struct Task;
+  /// Contacts of the frame before that stay, of bodies a and b; or one that a task has made, if there are none.
+  struct Piece {
+    std::span<const BodyContact> stays;
+    int a = 0, b = 0;
+  };
+  /// What a task has found, in the order of pairs.
+  struct Found {
+    std::vector<Piece> pieces;
+    std::vector<BodyContact> made;
+    std::size_t count = 0;  ///< of contacts
+
+    void clear() {
+      pieces.clear();
+      made.clear();
+      count = 0;
+    }
+  };
 
   void find_boxes(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster);
   void find_pairs(const std::vector<BodyState>& bodies, FunctionRef<bool(int, int)> meet);
@@ -67,7 +85,7 @@ class BodyContacts {
   std::vector<Pair> pairs_;           ///< of parts whose boxes overlap, sorted
   std::vector<BoxBounds> boxes_;      ///< of convex parts
   std::vector<float> speed_;          ///< [part] an upper bound of what a point of it moves in a second [m/s]
-  std::vector<std::vector<BodyContact>> found_;
+  std::vector<Found> found_;          ///< [task]
   Tree<BoxBounds> tree_;
 };
 

@@ -18,6 +18,17 @@ using namespace bodies;
 
 /// Most rounds in which impacts are passed on from body to body in a substep.
 constexpr int most_rounds_of_impacts = 32;
+/// Bodies, or contacts, in a task.
+constexpr int a_task = 256;
+
+/// Calls body(i) for each i < count on all threads.
+template <class Body>
+void for_each(Executor& executor, std::size_t count, const Body& body) {
+  const int n = static_cast<int>(count);
+  executor.parallel_for(nullptr, (n + a_task - 1) / a_task, [&](int task) {
+    for (int i = task * a_task; i < std::min(n, (task + 1) * a_task); ++i) body(i);
+  });
+}
 
 /// The inverse inertia in world axes of a body with the given principal values.
 std::array<float, 6> world_inertia(const Quatf& q, const Vec3f& inverse) {
@@ -68,6 +79,9 @@ BodySolver::BodySolver(const Model& model, const std::vector<int>* objects, Body
   of_colliders.insert(of_colliders.end(), parts.begin(), parts.end());
   for (const BodyPart& part : of_colliders) body_of_part_.emplace_back(part.id, part.body);
   std::sort(body_of_part_.begin(), body_of_part_.end());
+  first_part_.assign(model.objects.size(), 0);
+  for (std::size_t i = body_of_part_.size(); i-- > 0;)
+    if (const int owner = body_of_part_[i].first.owner; owner >= 0) first_part_[at(owner)] = i;
   finder_ = BodyContacts(std::move(of_colliders));
 }
 
@@ -191,23 +205,29 @@ BodyState BodySolver::state_at_start(const Substep& s, int body) {
           is_fixed};
 }
 
-void BodySolver::make_manifolds(const Substep& s) {
-  manifolds_.clear();
-  bounces_ = false;
-  const auto body_of = [&](ContactPart id) {
-    id.piece = 0;
-    return std::lower_bound(body_of_part_.begin(), body_of_part_.end(), std::pair{id, 0})->second;
-  };
-  bodies_of_.clear();
-  for (const BodyContact& contact : contacts_) bodies_of_.emplace_back(body_of(contact.a), body_of(contact.b));
-  colours_.colour(bodies_of_, is_fixed_);
-  for (const int i : colours_.order()) {
-    const auto& [a, b] = bodies_of_[at(i)];
-    manifolds_.push_back(manifold_of(contacts_[at(i)], a, b, material(s.model, a, b), s.h));
-    bounces_ = bounces_ || manifolds_.back().restitution > 0;
+/// Solids of an object are numbered without gaps, so the place of a part is known; those of colliders are searched for.
+int BodySolver::body_of(const ContactPart& part) const {
+  const ContactPart solid{part.owner, part.solid, 0};
+  if (part.owner >= 0) {
+    const std::size_t place = first_part_[at(part.owner)] + at(part.solid);
+    if (place < body_of_part_.size() && body_of_part_[place].first == solid) return body_of_part_[place].second;
   }
-  blocks_.fill(s.context.executor, manifolds_, colours_, is_fixed_);
-  blocks_.prepare(s.context.executor, s.kernels.manifolds, motions_);
+  return std::lower_bound(body_of_part_.begin(), body_of_part_.end(), std::pair{solid, 0})->second;
+}
+
+void BodySolver::make_manifolds(const Substep& s) {
+  Executor& executor = s.context.executor;
+  const Stopwatch stopwatch(executor.timings(), "bodies: manifolds");
+  bodies_of_.resize(contacts_.size());
+  for_each(executor, contacts_.size(), [&](int i) {
+    bodies_of_[at(i)] = {body_of(contacts_[at(i)].a), body_of(contacts_[at(i)].b)};
+  });
+  colours_.colour(bodies_of_, is_fixed_);
+  blocks_.fill(executor, colours_, is_fixed_, [&](int i) {
+    const auto& [a, b] = bodies_of_[at(i)];
+    return manifold_of(contacts_[at(i)], a, b, material(s.model, a, b), s.h);
+  });
+  blocks_.prepare(executor, s.kernels.manifolds, motions_);
 }
 
 void BodySolver::begin_frame(Substep& s) {
@@ -246,19 +266,26 @@ void BodySolver::move_with_collider(const Substep& s, int body) {
   motion.spin = turn_between(convert<float>(before).rotation, convert<float>(after).rotation) * (1 / s.h);
 }
 
-void BodySolver::load_predicted(const Substep& s) {
+void BodySolver::load_predicted(const Substep& s, int body) {
+  const Place& place = places_[at(body)];
+  if (!place.is_body()) return move_with_collider(s, body);
   const float rate = 1 / s.h;
-  for (int body = 0; body < static_cast<int>(places_.size()); ++body) {
-    const Place& place = places_[at(body)];
-    if (!place.is_body()) {
-      move_with_collider(s, body);
-      continue;
-    }
-    BodyMotion& motion = motions_[at(body)];
-    const std::size_t p = at(place.particle), f = at(place.frame);
-    motion.velocity = (xyz(s.work.displacements[p]) - xyz(s.state.remainders[p])) * rate;
-    motion.spin = (xyz(s.work.frames.predicted[f]) + xyz(s.work.frames.corrections[f])) * rate;
-  }
+  BodyMotion& motion = motions_[at(body)];
+  const std::size_t p = at(place.particle), f = at(place.frame);
+  motion.velocity = (xyz(s.work.displacements[p]) - xyz(s.state.remainders[p])) * rate;
+  motion.spin = (xyz(s.work.frames.predicted[f]) + xyz(s.work.frames.corrections[f])) * rate;
+}
+
+/// Adds what contact has changed to the predicted motion of a body.
+void BodySolver::store_predicted(const Substep& s, int body) {
+  const Place& place = places_[at(body)];
+  const BodyMotion& motion = motions_[at(body)];
+  const KeptMotion& before = kept_[at(body)];
+  const std::size_t p = at(place.particle), f = at(place.frame);
+  const Vec3f moved = (motion.velocity - before.velocity) * s.h, turned = (motion.spin - before.spin) * s.h;
+  s.work.displacements[p] = plus(s.work.displacements[p], moved);
+  s.work.frames.corrections[f] = plus(s.work.frames.corrections[f], turned);
+  turn(turned, s.state.frames.orientations[f]);
 }
 
 void BodySolver::start_substep(const Substep& s) {
@@ -268,7 +295,7 @@ void BodySolver::start_substep(const Substep& s) {
   last_h_ = s.h;
   blocks_.warm_start(executor, kernels, motions_);
   const float slow = 2 * s.h * length(s.model.gravity);
-  bool goes_on = bounces_;
+  bool goes_on = blocks_.bounces();
   for (int round = 0; goes_on && round < most_rounds_of_impacts; ++round)
     goes_on = blocks_.bounce(executor, kernels, motions_, s.h, slow);
 }
@@ -278,87 +305,77 @@ void BodySolver::collide(Substep& s) {
 }
 
 void BodySolver::project(Substep& s, bool is_first) {
-  const Stopwatch stopwatch(s.context.executor.timings(), "solve: bodies");
-  load_predicted(s);
-  if (!manifolds_.empty()) project_manifolds(s, is_first);
+  Executor& executor = s.context.executor;
+  const Stopwatch stopwatch(executor.timings(), "solve: bodies");
+  for_each(executor, places_.size(), [&](int body) { load_predicted(s, body); });
+  if (!contacts_.empty()) {
+    keep_motions();
+    if (is_first) start_substep(s);
+    blocks_.position_pass(executor, s.kernels.manifolds, motions_, s.h, {});
+    for_each(executor, kept_.size(), [&](int body) { store_predicted(s, body); });
+  }
   points_.project(s, motions_);
 }
 
-void BodySolver::project_manifolds(Substep& s, bool is_first) {
-  const std::vector<BodyMotion>& before = keep_motions();
-  if (is_first) start_substep(s);
-  blocks_.position_pass(s.context.executor, s.kernels.manifolds, motions_, s.h, {});
-  for (int body = 0; body < dynamic_; ++body) {
-    const Place& place = places_[at(body)];
-    const BodyMotion& motion = motions_[at(body)];
-    const std::size_t p = at(place.particle), f = at(place.frame);
-    const Vec3f moved = (motion.velocity - before[at(body)].velocity) * s.h,
-                turned = (motion.spin - before[at(body)].spin) * s.h;
-    s.work.displacements[p] = plus(s.work.displacements[p], moved);
-    s.work.frames.corrections[f] = plus(s.work.frames.corrections[f], turned);
-    turn(turned, s.state.frames.orientations[f]);
+void BodySolver::load_velocities(const Substep& s, FunctionRef<Vec3f(int object)> gravity, int body) {
+  const Place& place = places_[at(body)];
+  BodyMotion& motion = motions_[at(body)];
+  if (!place.is_body()) {
+    motion.displacement += motion.velocity * s.h;
+    motion.rotation += motion.spin * s.h;
+    return;
   }
+  const std::size_t p = at(place.particle), f = at(place.frame);
+  const auto& [position, remainder] = starts_[at(body)];
+  motion.displacement = (xyz(s.state.positions[p]) - position) + (xyz(s.state.remainders[p]) - remainder);
+  motion.rotation += xyz(s.work.frames.predicted[f]) + xyz(s.work.frames.corrections[f]);
+  motion.velocity = xyz(s.state.velocities[p]) + (motion.inverse_mass > 0 ? gravity(place.object) : Vec3f{});
+  motion.spin = rotate(quaternion(s.state.frames.orientations[f]), xyz(s.state.frames.angular_velocities[f]));
 }
 
-void BodySolver::load_velocities(const Substep& s, FunctionRef<Vec3f(int object)> gravity) {
-  for (int body = 0; body < static_cast<int>(places_.size()); ++body) {
-    const Place& place = places_[at(body)];
-    BodyMotion& motion = motions_[at(body)];
-    if (!place.is_body()) {
-      motion.displacement += motion.velocity * s.h;
-      motion.rotation += motion.spin * s.h;
-      continue;
-    }
-    const std::size_t p = at(place.particle), f = at(place.frame);
-    const auto& [position, remainder] = starts_[at(body)];
-    motion.displacement = (xyz(s.state.positions[p]) - position) + (xyz(s.state.remainders[p]) - remainder);
-    motion.rotation += xyz(s.work.frames.predicted[f]) + xyz(s.work.frames.corrections[f]);
-    motion.velocity = xyz(s.state.velocities[p]) + (motion.inverse_mass > 0 ? gravity(place.object) : Vec3f{});
-    motion.spin = rotate(quaternion(s.state.frames.orientations[f]), xyz(s.state.frames.angular_velocities[f]));
-  }
+/// Adds what contact has changed to the velocities of a body.
+void BodySolver::store_velocities(const Substep& s, int body) {
+  const Place& place = places_[at(body)];
+  const BodyMotion& motion = motions_[at(body)];
+  const KeptMotion& before = kept_[at(body)];
+  const std::size_t p = at(place.particle), f = at(place.frame);
+  s.state.velocities[p] = plus(s.state.velocities[p], motion.velocity - before.velocity);
+  const Quatf q = quaternion(s.state.frames.orientations[f]);
+  const Vec3f spun = rotate(conjugate(q), motion.spin - before.spin);
+  s.state.frames.angular_velocities[f] = plus(s.state.frames.angular_velocities[f], spun);
 }
 
 void BodySolver::respond(Substep& s, FunctionRef<Vec3f(int object)> gravity) {
-  const Stopwatch stopwatch(s.context.executor.timings(), "respond: bodies");
-  load_velocities(s, gravity);
-  if (!manifolds_.empty()) respond_manifolds(s);
+  Executor& executor = s.context.executor;
+  const Stopwatch stopwatch(executor.timings(), "respond: bodies");
+  for_each(executor, places_.size(), [&](int body) { load_velocities(s, gravity, body); });
+  if (!contacts_.empty()) {
+    keep_motions();
+    blocks_.velocity_pass(executor, s.kernels.manifolds, motions_, s.h);
+    for_each(executor, kept_.size(), [&](int body) { store_velocities(s, body); });
+  }
   points_.respond(s, motions_, gravity);
   points_.keep_poses(s);
 }
 
-void BodySolver::respond_manifolds(Substep& s) {
-  const std::vector<BodyMotion>& before = keep_motions();
-  blocks_.velocity_pass(s.context.executor, s.kernels.manifolds, motions_, s.h);
-  for (int body = 0; body < dynamic_; ++body) {
-    const Place& place = places_[at(body)];
-    const BodyMotion& motion = motions_[at(body)];
-    const std::size_t p = at(place.particle), f = at(place.frame);
-    s.state.velocities[p] = plus(s.state.velocities[p], motion.velocity - before[at(body)].velocity);
-    const Quatf q = quaternion(s.state.frames.orientations[f]);
-    const Vec3f spun = rotate(conjugate(q), motion.spin - before[at(body)].spin);
-    s.state.frames.angular_velocities[f] = plus(s.state.frames.angular_velocities[f], spun);
-  }
-}
-
-const std::vector<BodyMotion>& BodySolver::keep_motions() {
-  kept_.assign(motions_.begin(), motions_.begin() + dynamic_);
-  return kept_;
+void BodySolver::keep_motions() {
+  kept_.resize(at(dynamic_));
+  for (std::size_t body = 0; body < kept_.size(); ++body) kept_[body] = {motions_[body].velocity, motions_[body].spin};
 }
 
 void BodySolver::end_frame(const Substep& s) {
-  blocks_.take(s.context.executor, manifolds_);
-  for (std::size_t i = 0; i < manifolds_.size(); ++i) keep_impulses(manifolds_[i], s.h, contacts_[at(colours_.order()[i])]);
+  blocks_.take(s.context.executor, colours_, [&](int i, const Manifold& m) { keep_impulses(m, s.h, contacts_[at(i)]); });
 }
 
 void BodySolver::log_contacts(const Substep& s, ContactLog& log) {
-  blocks_.take(s.context.executor, manifolds_);
-  for (std::size_t i = 0; i < manifolds_.size(); ++i) {
-    const Manifold& m = manifolds_[i];
-    const double impulse = static_cast<double>((m.impulse[0] + m.impulse[1]) + (m.impulse[2] + m.impulse[3]));
+  end_frame(s);
+  for (const int i : colours_.order()) {
+    const BodyContact& c = contacts_[at(i)];
+    const double impulse = static_cast<double>((c.impulse[0] + c.impulse[1]) + (c.impulse[2] + c.impulse[3]));
     if (!(impulse > 0)) continue;
-    const BodyContact& contact = contacts_[at(colours_.order()[i])];
-    const Vec3d place = states_[at(m.b)].pose.position + convert<double>(motions_[at(m.b)].displacement + m.arm_b);
-    add_push({contact.a.owner, contact.b.owner, impulse, -m.normal, place}, log);
+    const std::size_t b = at(bodies_of_[at(i)].second);
+    const Vec3d place = states_[b].pose.position + convert<double>(motions_[b].displacement + c.arm_b);
+    add_push({c.a.owner, c.b.owner, impulse, -c.normal, place}, log);
   }
   points_.log_contacts(s, log);
   finish_substep(log);

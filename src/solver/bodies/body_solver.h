@@ -55,8 +55,8 @@ class BodySolver {
   /// Puts the impulses of the last substep into contacts().
   void end_frame(const Substep& s);
 
-  /// In ascending order of parts.
-  const std::vector<BodyContact>& contacts() const { return contacts_; }
+  /// In ascending order of parts. The State takes them at a frame's end; the next frame makes them anew.
+  std::vector<BodyContact>& contacts() { return contacts_; }
   int contacts_that_press() const;
   /// Adds the impulses of the current substep, after respond. Those of impacts with restitution are left out.
   void log_contacts(const Substep& s, ContactLog& log);
@@ -76,6 +76,10 @@ class BodySolver {
     Vec3f position{}, remainder{};
   };
 
+  struct KeptMotion {
+    Vec3f velocity{}, spin{};
+  };
+
   void add_object(const Model& model, int object, std::vector<BodyPart>& parts);
   void add_collider(const Model& model, int collider, std::vector<BodyPart>& parts);
   void add_mesh(const Model& model, int object, BodyMeshes& meshes, std::vector<BodyPart>& parts);
@@ -88,15 +92,15 @@ class BodySolver {
   bool meet(const Model& model, int a, int b) const;
   BodyMaterial material(const Model& model, int a, int b) const;
   BodyState state_at_start(const Substep& s, int body);
+  int body_of(const ContactPart& part) const;
   void make_manifolds(const Substep& s);
   void move_with_collider(const Substep& s, int body);
-  void load_predicted(const Substep& s);
-  void load_velocities(const Substep& s, FunctionRef<Vec3f(int object)> gravity);
+  void load_predicted(const Substep& s, int body);
+  void store_predicted(const Substep& s, int body);
+  void load_velocities(const Substep& s, FunctionRef<Vec3f(int object)> gravity, int body);
+  void store_velocities(const Substep& s, int body);
   void start_substep(const Substep& s);
-  const std::vector<BodyMotion>& keep_motions();
-
-  void project_manifolds(Substep& s, bool is_first);
-  void respond_manifolds(Substep& s);
+  void keep_motions();
 
   ContactRules rules_;
   std::vector<Place> places_;  ///< bodies of objects, then colliders
@@ -108,16 +112,16 @@ class BodySolver {
   std::vector<MovingCollider> colliders_at_start_;  ///< their poses are those at the frame's start and end
   std::vector<BodyState> states_;
   std::vector<std::pair<ContactPart, int>> body_of_part_;  ///< the place of each part, sorted
+  std::vector<std::size_t> first_part_;                    ///< [object] in body_of_part_
   std::vector<char> is_fixed_;                             ///< [place]
   std::vector<std::pair<int, int>> bodies_of_;             ///< the bodies of contacts_
   std::vector<Start> starts_;
   std::vector<BodyContact> contacts_;
-  ManifoldColours colours_;                 ///< of contacts_
-  std::vector<Manifold> manifolds_;         ///< of contacts_, in the order of colours_; impulses as the frame began
-  ManifoldBlocks blocks_;                   ///< of manifolds_
-  std::vector<BodyMotion> motions_, kept_;  ///< of places_; before a pass
-  float last_h_ = 0;                        ///< length of the last substep [s]
-  bool bounces_ = false;                    ///< true: some manifold has restitution
+  ManifoldColours colours_;          ///< of contacts_
+  ManifoldBlocks blocks_;            ///< the manifolds of contacts_ in a frame
+  std::vector<BodyMotion> motions_;  ///< of places_
+  std::vector<KeptMotion> kept_;     ///< of dynamic bodies, before a pass
+  float last_h_ = 0;                 ///< length of the last substep [s]
 };
 
 }  // namespace pliant

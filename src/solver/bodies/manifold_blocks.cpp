@@ -28,29 +28,32 @@ void for_each(Executor& executor, const char* name, int n, int a_task, const Bod
 
 }  // namespace
 
-void ManifoldBlocks::fill_block(int number, std::span<const Manifold> manifolds, std::span<const char> is_fixed) {
+void ManifoldBlocks::fill_block(int number, const ManifoldColours& colours, std::span<const char> is_fixed,
+                                FunctionRef<Manifold(int)> manifold) {
   ManifoldBlock& block = blocks_[at(number)];
   block = {};
   const int first = first_[at(number)];
   block.lanes = first_[at(number + 1)] - first;
   for (int lane = 0; lane < block_width; ++lane) {
-    const bool is_free = lane >= block.lanes;
-    const Manifold& m = manifolds[at(first + (is_free ? 0 : lane))];
-    block.a[lane] = records_a_motion * m.a;
-    block.b[lane] = records_a_motion * m.b;
-    if (is_free) {
+    if (lane >= block.lanes) {
+      block.a[lane] = block.a[0];
+      block.b[lane] = block.b[0];
       for (auto& gap : block.rows.gap) gap[lane] = no_point;
       for (auto& gap : block.rows.gap_now) gap[lane] = no_point;
       continue;
     }
+    const Manifold m = manifold(colours.order()[at(first + lane)]);
+    block.a[lane] = records_a_motion * m.a;
+    block.b[lane] = records_a_motion * m.b;
     put_manifold(m, block.rows, lane);
     if (is_fixed[at(m.a)] == 0) block.moves_a |= 1u << lane;
     if (is_fixed[at(m.b)] == 0) block.moves_b |= 1u << lane;
+    if (m.restitution > 0) block.bounces = 1;
   }
 }
 
-void ManifoldBlocks::fill(Executor& executor, std::span<const Manifold> manifolds, const ManifoldColours& colours,
-                          std::span<const char> is_fixed) {
+void ManifoldBlocks::fill(Executor& executor, const ManifoldColours& colours, std::span<const char> is_fixed,
+                          FunctionRef<Manifold(int)> manifold) {
   first_.clear();
   for (int c = 0; c <= manifold_colours; ++c) {
     start_[at(c)] = static_cast<int>(first_.size());
@@ -59,13 +62,19 @@ void ManifoldBlocks::fill(Executor& executor, std::span<const Manifold> manifold
   const int count = start_.back() = static_cast<int>(first_.size());
   first_.push_back(colours.start().back());
   blocks_.resize(at(count));
-  for_each(executor, "fill body contacts", count, blocks_a_fill, [&](int i) { fill_block(i, manifolds, is_fixed); });
+  for_each(executor, nullptr, count, blocks_a_fill, [&](int i) { fill_block(i, colours, is_fixed, manifold); });
 }
 
-void ManifoldBlocks::take(Executor& executor, std::span<Manifold> manifolds) const {
-  for_each(executor, "fill body contacts", static_cast<int>(blocks_.size()), blocks_a_fill, [&](int i) {
-    for (int lane = 0; lane < blocks_[at(i)].lanes; ++lane)
-      take_impulses(blocks_[at(i)].rows, lane, manifolds[at(first_[at(i)] + lane)]);
+void ManifoldBlocks::take(Executor& executor, const ManifoldColours& colours,
+                          FunctionRef<void(int, const Manifold&)> keep) const {
+  for_each(executor, nullptr, static_cast<int>(blocks_.size()), blocks_a_fill, [&](int i) {
+    const ManifoldBlock& block = blocks_[at(i)];
+    for (int lane = 0; lane < block.lanes; ++lane) {
+      Manifold m;
+      m.count = 4;
+      take_impulses(block.rows, lane, m);
+      keep(colours.order()[at(first_[at(i)] + lane)], m);
+    }
   });
 }
 
@@ -78,6 +87,10 @@ void ManifoldBlocks::scale_impulses(Executor& executor, float factor) {
       rows.twist_impulse[lane] *= factor;
     }
   });
+}
+
+bool ManifoldBlocks::bounces() const {
+  return std::any_of(blocks_.begin(), blocks_.end(), [](const ManifoldBlock& block) { return block.bounces != 0; });
 }
 
 int ManifoldBlocks::pressing() const {

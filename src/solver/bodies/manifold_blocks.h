@@ -15,12 +15,16 @@ namespace pliant {
 
 class ManifoldBlocks {
  public:
-  /// Copies manifolds, which are in the order of their colours. `is_fixed` is by body: nonzero where a body is fixed.
-  void fill(Executor& executor, std::span<const Manifold> manifolds, const ManifoldColours& colours,
-            std::span<const char> is_fixed);
+  /// Asks for each manifold by its number in colours.order(), on any thread. `is_fixed` is by body: nonzero where a body is
+  /// fixed.
+  void fill(Executor& executor, const ManifoldColours& colours, std::span<const char> is_fixed,
+            FunctionRef<Manifold(int)> manifold);
 
-  /// Copies impulses and present gaps back to the manifolds of `fill`.
-  void take(Executor& executor, std::span<Manifold> manifolds) const;
+  /// Calls keep(number, manifold) for each manifold of `fill`, on any thread, with impulses and present gaps alone.
+  void take(Executor& executor, const ManifoldColours& colours, FunctionRef<void(int, const Manifold&)> keep) const;
+
+  /// True if some manifold has restitution.
+  bool bounces() const;
 
   /// Multiplies all impulses, where the next substep is longer or shorter by that factor.
   void scale_impulses(Executor& executor, float factor);
@@ -40,7 +44,8 @@ class ManifoldBlocks {
   using Pass = FunctionRef<void(const ManifoldKernels&, const BlockRange&)>;
   /// Calls pass for ranges of each colour, on all threads if the colour is large; then for the tail.
   void run(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions, const Pass& pass);
-  void fill_block(int number, std::span<const Manifold> manifolds, std::span<const char> is_fixed);
+  void fill_block(int number, const ManifoldColours& colours, std::span<const char> is_fixed,
+                  FunctionRef<Manifold(int)> manifold);
 
   std::vector<ManifoldBlock> blocks_;
   std::vector<int> start_ =

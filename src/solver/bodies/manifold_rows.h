@@ -38,6 +38,7 @@ struct alignas(64) ManifoldBlock {
   std::int32_t a[16], b[16];       ///< bodies, as indices of their first Record; free lanes repeat those of lane 0
   std::uint32_t moves_a, moves_b;  ///< bit l: body a or b of lane l is dynamic; clear in free lanes
   std::int32_t lanes;              ///< number of manifolds, in the first lanes
+  std::int32_t bounces;            ///< 1: some manifold has restitution
 };
 
 /// Sets lane `lane` to manifold `m` as prepare needs it, without what prepare computes.

@@ -129,13 +129,20 @@ void add(Substep& s, Report& sum) {
 /// Puts the contacts of rigid bodies of all groups into the State.
 void keep_body_contacts(std::vector<Substep>& groups) {
   std::vector<BodyContact>& all = groups.front().state.body_contacts;
-  all.clear();
+  bool is_first = true;
   for (Substep& s : groups) {
     if (s.bodies == nullptr) continue;
     s.bodies->end_frame(s);
-    all.insert(all.end(), s.bodies->contacts().begin(), s.bodies->contacts().end());
+    std::vector<BodyContact>& own = s.bodies->contacts();
+    if (is_first) {
+      all.swap(own);  // usually the only group
+    } else {
+      all.insert(all.end(), own.begin(), own.end());
+    }
+    is_first = false;
   }
-  std::sort(all.begin(), all.end(), in_order);
+  if (is_first) all.clear();
+  if (!std::is_sorted(all.begin(), all.end(), in_order)) std::sort(all.begin(), all.end(), in_order);
 }
 
 /// Puts the broken joints of all objects into the State, and orders those that the Report names.
