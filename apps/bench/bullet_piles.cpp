@@ -51,6 +51,7 @@ class BulletPile final : public PileEngine {
     for (const PilePlane& plane : pile.planes)
       add(std::make_unique<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0)), 0,
           to_bullet(plane.position, plane.rotation), pile.friction);
+    if (!pile.bowl.triangles.empty()) add_bowl(pile);
   }
 
   ~BulletPile() override {
@@ -74,6 +75,15 @@ class BulletPile final : public PileEngine {
   int substeps() const override { return substeps_; }
 
  private:
+  void add_bowl(const Pile& pile) {
+    bowl_ = std::make_unique<btTriangleMesh>();
+    for (const auto& [a, b, c] : pile.bowl.triangles)
+      bowl_->addTriangle(to_bullet(pile.bowl.positions[static_cast<std::size_t>(a)]),
+                         to_bullet(pile.bowl.positions[static_cast<std::size_t>(b)]),
+                         to_bullet(pile.bowl.positions[static_cast<std::size_t>(c)]));
+    add(std::make_unique<btBvhTriangleMeshShape>(bowl_.get(), true), 0, btTransform::getIdentity(), pile.friction);
+  }
+
   /// Bullet multiplies the friction of both sides, so each gets the square root.
   void add(std::unique_ptr<btCollisionShape> shape, float mass, const btTransform& pose, float friction) {
     btVector3 inertia(0, 0, 0);
@@ -92,6 +102,7 @@ class BulletPile final : public PileEngine {
   btDbvtBroadphase broadphase_;
   btSequentialImpulseConstraintSolver solver_;
   btDiscreteDynamicsWorld world_;
+  std::unique_ptr<btTriangleMesh> bowl_;
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btRigidBody>> added_;
   std::size_t bodies_ = 0;

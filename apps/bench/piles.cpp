@@ -49,26 +49,39 @@ decltype(PileBody::shape) poured_shape(int number) {
   return Cylinder{0.1f, 0.1f};
 }
 
-/// Bodies of 0.2 m in layers above a bowl of eight walls at 45 degrees around a level floor. The bowl grows with their
-/// volume, so that piles of all sizes have the same shape.
+/// A round bowl of 2 256 triangles whose height is r^2 / size.
+TriangleMesh bowl_of(float size) {
+  constexpr int rings = 24, around = 48;
+  TriangleMesh mesh;
+  mesh.positions.push_back({});
+  for (int ring = 1; ring <= rings; ++ring)
+    for (int i = 0; i < around; ++i) {
+      const float r = 1.3f * size * static_cast<float>(ring) / rings, angle = 6.2831853f * static_cast<float>(i) / around;
+      mesh.positions.push_back({r * std::cos(angle), r * r / size, r * std::sin(angle)});
+    }
+  const auto vertex = [](int ring, int i) { return ring == 0 ? 0 : 1 + (ring - 1) * around + i % around; };
+  for (int ring = 0; ring < rings; ++ring)
+    for (int i = 0; i < around; ++i) {
+      mesh.triangles.push_back({vertex(ring, i), vertex(ring + 1, i + 1), vertex(ring + 1, i)});
+      if (ring > 0) mesh.triangles.push_back({vertex(ring, i), vertex(ring, i + 1), vertex(ring + 1, i + 1)});
+    }
+  return mesh;
+}
+
+/// Bodies of 0.2 m in layers above a bowl that grows with their volume, so that piles of all sizes have the same shape.
 Pile pour(int bodies) {
   Pile pile{"pour", bodies};
-  const float side = 0.2f * std::cbrt(static_cast<float>(bodies)), quarter = 0.78539816f;
-  pile.planes.push_back({});
-  for (int wall = 0; wall < 8; ++wall) {
-    const float angle = quarter * static_cast<float>(wall);
-    const Quatf rotation = product(turned_about_y(angle), turned_about_x(-quarter));
-    pile.planes.push_back({{0.6f * side * std::sin(angle), 0, 0.6f * side * std::cos(angle)}, rotation});
-  }
+  const float side = 0.2f * std::cbrt(static_cast<float>(bodies));
+  pile.bowl = bowl_of(side);
   const int across = std::max(1, static_cast<int>(side / 0.3f));
   for (int i = 0; i < bodies; ++i) {
     const int layer = i / (across * across), place = i % (across * across);
     const auto along = [&](int n) { return 0.3f * (static_cast<float>(n) - 0.5f * static_cast<float>(across - 1)); };
     const float jitter = 0.02f * static_cast<float>((i * 37) % 11 - 5) / 5;
-    pile.bodies.push_back(
-        {poured_shape(i),
-         {along(place % across) + jitter, 0.3f + 0.3f * static_cast<float>(layer), along(place / across) - jitter},
-         product(turned_about_x(static_cast<float>(i % 7)), turned_about_y(static_cast<float>(i % 5)))});
+    pile.bodies.push_back({poured_shape(i),
+                           {along(place % across) + jitter, 0.3f + 0.6f * side + 0.3f * static_cast<float>(layer),
+                            along(place / across) - jitter},
+                           product(turned_about_x(static_cast<float>(i % 7)), turned_about_y(static_cast<float>(i % 5)))});
   }
   return pile;
 }
@@ -108,6 +121,13 @@ class PliantPile final : public PileEngine {
       collider.rotation = plane.rotation;
       collider.static_friction = collider.kinetic_friction = pile.friction;
       scene.add(collider);
+    }
+    if (!pile.bowl.triangles.empty()) {
+      MeshCollider bowl;
+      bowl.name = "bowl";
+      bowl.mesh = pile.bowl;
+      bowl.static_friction = bowl.kinetic_friction = pile.friction;
+      scene.add(bowl);
     }
     return scene;
   }

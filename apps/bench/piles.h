@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "pliant/mesh.h"
 #include "pliant/shape.h"
 
 namespace pliant::bench {
@@ -31,6 +32,7 @@ struct Pile {
   float friction = 0.6f;
   std::vector<PileBody> bodies{};
   std::vector<PilePlane> planes{};
+  TriangleMesh bowl{};  ///< static; empty: none
 };
 
 /// Makes a pile. Throws an Error for unknown names.

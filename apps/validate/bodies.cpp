@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "apps/validate/rows.h"
 #include "pliant/body.h"
@@ -99,6 +102,30 @@ Vec3f slid(double degrees, double speed, int frames) {
   World world(scene);
   run(world, frames);
   return world.object(0).positions()[0];
+}
+
+/// Where a solid is after it has been pushed along x for 2 s, on a plane or on a flat mesh with edges every 0.3 m.
+Vec3f pushed(const SolidShape& shape, bool is_on_mesh) {
+  Scene scene = with_ground(0.1);
+  if (is_on_mesh) {
+    scene.colliders.clear();
+    MeshCollider ground;
+    ground.mesh = grid_mesh(61, 21, 18, 6);
+    ground.static_friction = ground.kinetic_friction = 0.1f;
+    scene.add(ground);
+  }
+  scene.add(with_friction(make_body({{shape}}, at({0.07f, 0.5f, 0.05f}, {3, 0, 0.2f})), 0.1));
+  World world(scene);
+  run(world, 120);
+  return world.object(0).positions()[0];
+}
+
+void mesh_rows(Result& result) {
+  const std::vector<std::pair<std::string, SolidShape>> solids{{"box", Box{}}, {"ball", Sphere{}}};
+  for (const auto& [name, shape] : solids)
+    result.rows.push_back(at_most("bodies: engine, " + name + " on a flat mesh, from where it would be on a plane", 1e-3,
+                                  length_of(pushed(shape, true) - pushed(shape, false)), "m",
+                                  "3 m/s, friction 0.1, after 4 m, edges every 0.3 m"));
 }
 
 void friction_rows(Result& result) {
@@ -260,6 +287,7 @@ void rest_rows(Result& result) {
 void body_rows(Result& result, bool) {
   tumbling_rows(result);
   friction_rows(result);
+  mesh_rows(result);
   impact_rows(result);
   rest_rows(result);
 }
