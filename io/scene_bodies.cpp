@@ -242,7 +242,10 @@ class Bodies {
  private:
   std::string name_of(const JsonValue& at) {
     std::string name = "body";
-    if (set(at, "name", name)) return name;
+    if (set(at, "name", name)) {
+      if (name == "world") reader_.document.fail(*at.find("name"), "no body can be called 'world'", "joints use that name");
+      return name;
+    }
     for (int number = 2; !unnamed_.insert(name).second; ++number) name = "body_" + std::to_string(number);
     return name;
   }

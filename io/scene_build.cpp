@@ -155,8 +155,9 @@ const JsonValue& one_of(const JsonValue& at, std::initializer_list<const char*> 
 
 Object object_of(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, Names& names,
                  std::vector<std::string>& repairs) {
-  const JsonValue& what = one_of(at, {"cloth", "rope", "particles", "bodies"});
+  const JsonValue& what = one_of(at, {"cloth", "rope", "particles", "bodies", "urdf"});
   BuiltObject built = build_matter(document, what, names.of(document, at, what.key), folder, repairs);
+  set_joints(document, at, built.object);
   set_properties(document, at, built.object);
   set_pins(document, at, built);
   set_attachments(document, at, built);

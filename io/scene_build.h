@@ -17,13 +17,20 @@ struct BuiltObject {
   int columns = 0, rows = 0;  ///< number of vertices along a grid; 0: no grid
 };
 
-/// Builds an object without pins and attachments. `what` is the member "cloth", "rope", "particles" or "bodies".
+/// Builds an object without pins and attachments. `what` is the member "cloth", "rope", "particles", "bodies" or "urdf".
 BuiltObject build_matter(const JsonDocument& document, const JsonValue& what, const std::string& name,
                          const MeshFolder& folder, std::vector<std::string>& repairs);
 
 /// Builds an object of rigid bodies. `list` is the member "bodies".
 Object build_bodies(const JsonDocument& document, const JsonValue& list, const std::string& name, const MeshFolder& folder,
                     std::vector<std::string>& repairs);
+
+/// Builds an object from a robot description. `at` is the member "urdf".
+Object build_robot(const JsonDocument& document, const JsonValue& at, const std::string& name, const MeshFolder& folder,
+                   std::vector<std::string>& repairs);
+
+/// Adds the joints of an object's record `at`, if it has any.
+void set_joints(const JsonDocument& document, const JsonValue& at, Object& object);
 
 /// The particles that a checked selection denotes, each once.
 std::vector<int> selected(const JsonDocument& document, const JsonValue& at, const BuiltObject& built);

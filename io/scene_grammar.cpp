@@ -160,12 +160,14 @@ std::vector<std::string> sweep_names() {
 const Record& object_record() {
   static const Record result{
       "object",
-      "A cloth, a rope, particles with constraints, or rigid bodies.",
+      "A cloth, a rope, particles with constraints, rigid bodies, or a robot.",
       {field("name", string(), "the kind, with a number if it is taken", "Unique name, used in messages and files."),
        either("cloth", record(cloth_record()), "A cloth, garment or balloon."),
        either("rope", record(rope_record()), "A rope."),
        either("particles", record(particles_record()), "Particles with constraints."),
        either("bodies", list(record(body_record()), 1), "Rigid bodies: one, a pile, or the parts of a mechanism."),
+       either("urdf", record(urdf_record()), "A robot description."),
+       field("joints", list(record(joint_record())), "none", "Joints between its bodies."),
        field("velocity", vector("m/s", largest_velocity), Vec3f{}, "Initial velocity of all its particles."),
        field("pins", list(record(pin_record())), "none", "Kinematic particles."),
        field("attachments", list(record(attachment_record())), "none", "Particles tied to targets."),
@@ -193,7 +195,7 @@ const Record& object_record() {
        field("damping", number("1/s", 0, 1e6), Object{}.damping,
              "Velocity damping: in a second a share of 1 - exp(-damping) is lost."),
        field("colour", colour(), Object{}.colour, "Colour as linear red, green and blue.")},
-      {"cloth", "rope", "particles", "bodies"}};
+      {"cloth", "rope", "particles", "bodies", "urdf"}};
   return result;
 }
 

@@ -23,4 +23,8 @@ const Record& pair_record();
 // Defined in scene_grammar_bodies.cpp.
 const Record& body_record();
 
+// Defined in scene_grammar_joints.cpp.
+const Record& joint_record();
+const Record& urdf_record();
+
 }  // namespace pliant::scene_file

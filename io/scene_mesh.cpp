@@ -29,8 +29,9 @@ bool leaves_folder(const fs::path& path) {
   return path.is_absolute() || std::find(path.begin(), path.end(), fs::path("..")) != path.end();
 }
 
-/// True if `path` is below `folder` after links are resolved.
-bool lies_below(const fs::path& path, const fs::path& folder) {
+}  // namespace
+
+bool lies_below(const std::string& path, const std::string& folder) {
   std::error_code no_path, no_folder;
   const fs::path inner = fs::canonical(path, no_path);
   const fs::path outer = fs::canonical(folder, no_folder);
@@ -42,17 +43,20 @@ std::string allowed_path(const JsonDocument& document, const JsonValue& at, cons
   if (is_url(at.text)) document.fail(at, "this is a URL", "name a file beside the scene");
   const fs::path home = folder.path.empty() ? fs::path(".") : fs::path(folder.path);
   const fs::path path = folder.path.empty() ? fs::path(at.text) : home / at.text;
-  const char* advice = "put the mesh into the scene's folder, or permit files outside it";
+  const char* advice = "put the file into the scene's folder, or permit files outside it";
   if (!folder.allow_outside && leaves_folder(at.text)) document.fail(at, "this path leaves the scene's folder", advice);
   std::error_code unknown;
   const fs::file_status status = fs::status(path, unknown);
   if (!fs::exists(status))
     document.fail(at, "there is no file " + printable(path.string()), "the path is relative to the scene");
   if (!fs::is_regular_file(status))
-    document.fail(at, printable(path.string()) + " is not a regular file", "name a mesh file");
-  if (!folder.allow_outside && !lies_below(path, home)) document.fail(at, "this link leaves the scene's folder", advice);
+    document.fail(at, printable(path.string()) + " is not a regular file", "name a regular file");
+  if (!folder.allow_outside && !lies_below(path.string(), home.string()))
+    document.fail(at, "this link leaves the scene's folder", advice);
   return path.string();
 }
+
+namespace {
 
 TriangleMesh grid_of(const JsonValue& at, SceneMesh& result) {
   float width = 0, depth = 0;

@@ -17,6 +17,12 @@ struct MeshFolder {
   std::map<std::string, std::string> instead{};  ///< replacement mesh files, by name of object or collider
 };
 
+/// Returns the path of the file that a scene names. Throws an Error if it is no regular file, or is not allowed.
+std::string allowed_path(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder);
+
+/// True if `path` is below `folder` after links are resolved.
+bool lies_below(const std::string& path, const std::string& folder);
+
 /// Scale, rotation and position of a mesh in the scene.
 struct Placement {
   float fit = 1;

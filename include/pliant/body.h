@@ -2,12 +2,21 @@
 // constraints act on it like on any other (ObjectBody, ObjectFrame).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "pliant/scene.h"
 
 namespace pliant {
+
+/// Mass and inertia that are known otherwise than from solids, in the frame in which these are described.
+struct BodyInertia {
+  float mass = 1;           ///< > 0 [kg]
+  Vec3f centre{};           ///< centre of mass [m]
+  Vec3f moments{1, 1, 1};   ///< Ixx, Iyy, Izz about the centre, > 0 [kg m^2]
+  Vec3f products{0, 0, 0};  ///< Iyz, Izx, Ixy: elements of the inertia tensor, negative integrals of y z, z x, x y [kg m^2]
+};
 
 /// Options of make_body.
 struct BodyOptions {
@@ -17,6 +26,8 @@ struct BodyOptions {
   Vec3f velocity{};          ///< of the centre of mass [m/s]
   Vec3f angular_velocity{};  ///< in world axes [rad/s]
   float mass = 0;            ///< replaces the mass that densities give, > 0 [kg]; 0: by density; infinity: fixed
+  std::optional<BodyInertia>
+      inertia{};  ///< replaces mass, centre and inertia of the solids, of which there may then be none
 };
 
 /// Makes an object of one rigid body of solids, which may overlap: each counts with its own mass. Its particle is the centre of

@@ -67,6 +67,24 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::s
 /// Returns the JSON Schema (2020-12) of the scene format as text.
 std::string scene_schema();
 
+/// Options of read_urdf.
+struct UrdfOptions {
+  Vec3f position{};                      ///< of the root link [m]
+  Quatf rotation{};                      ///< of the root link
+  bool z_up = true;                      ///< the file's z-axis points up, and becomes the y-axis
+  bool fixed_base = false;               ///< joins a root link with mass to the world
+  bool self_collision = false;           ///< links that no joint connects collide with each other
+  bool motors = false;                   ///< revolute and prismatic joints with an effort limit hold their position
+  std::map<std::string, float> targets;  ///< positions to which motors move joints, by name [rad or m]
+  bool allow_outside = true;             ///< false: meshes outside the file's folder are refused
+  std::string packages;                  ///< folder of the packages of "package://" paths; empty: searched above the file
+};
+
+/// Reads a robot description in URDF as one object: links become rigid bodies, joints joints. Collision shapes, or else visual
+/// ones, become solids; meshes (.obj, .ply, .stl) their convex hulls. What is not supported is named in `warnings` with its
+/// line. Throws an Error with file and line if the file is no URDF or its links form no tree.
+Object read_urdf(const std::string& path, const UrdfOptions& options = {}, std::vector<std::string>* warnings = nullptr);
+
 /// Returns measure_distances(mesh, spacing) from a cache: reads it from `folder`, or measures it and writes it there.
 /// Makes the folder. The file name is a hash of mesh and spacing; a damaged file is replaced. Throws as
 /// measure_distances does, and an Error with the path if the folder cannot be made, read or written.

@@ -74,8 +74,31 @@ Moments moments_of(const Solid& solid, const std::string& body, std::size_t numb
 
 namespace {
 
+/// Moments that give the same mass, centre and inertia. The integral of x x^T about the centre is tr(I) / 2 - I.
+Moments moments_of(const BodyInertia& inertia, const std::string& body) {
+  const Vec3d own = convert<double>(inertia.moments), off = convert<double>(inertia.products),
+              c = convert<double>(inertia.centre);
+  const double m = static_cast<double>(inertia.mass), half = (own.x + own.y + own.z) / 2;
+  const bool is_positive = m > 0 && own.x > 0 && own.y > 0 && own.z > 0;
+  if (!is_positive || !std::isfinite(m + half + length_squared(off) + length_squared(c)))
+    throw Error({"", 0, body, "inertia"}, "has a mass or a moment of inertia that is not positive and finite",
+                "give positive numbers in kg and kg m^2");
+  return {m,
+          m * c,
+          {half - own.x + m * c.x * c.x, half - own.y + m * c.y * c.y, half - own.z + m * c.z * c.z, m * c.y * c.z - off.x,
+           m * c.z * c.x - off.y, m * c.x * c.y - off.z}};
+}
+
+/// Refuses an inertia tensor that is not positive definite.
+MassProperties checked(const MassProperties& own, const std::string& body) {
+  if (own.inertia.x > 0 && own.inertia.y > 0 && own.inertia.z > 0) return own;
+  throw Error({"", 0, body, "inertia"}, "has a principal moment of inertia that is not positive",
+              "make the products of inertia smaller than the moments");
+}
+
 /// Moments of all solids in the frame in which they are described, with the mass that the options give.
 Moments moments_of_all(const std::vector<Solid>& solids, const BodyOptions& options) {
+  if (options.inertia) return moments_of(*options.inertia, options.name);
   if (solids.empty()) throw Error({"", 0, options.name, ""}, "is a body of no solid", "give it one at least");
   Moments all;
   for (std::size_t i = 0; i < solids.size(); ++i) all += moments_of(solids[i], options.name, i);
@@ -106,7 +129,7 @@ void append_velocity(Object& object, const Vec3f& velocity) {
 }  // namespace
 
 int add_body(Object& object, const std::vector<Solid>& solids, const BodyOptions& options) {
-  const MassProperties own = mass_properties(moments_of_all(solids, options));
+  const MassProperties own = checked(mass_properties(moments_of_all(solids, options)), options.name);
   const Posed pose{convert<double>(options.position), normalise(convert<double>(options.rotation))};
   const bool is_fixed = std::isinf(options.mass);
   const float infinity = std::numeric_limits<float>::infinity();

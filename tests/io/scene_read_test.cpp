@@ -201,13 +201,15 @@ TEST_F(FullScene, HasItsParticles) {
 
 TEST(SceneRead, TakesAnyConstraintTypeTheLibraryHas) {
   for (const ConstraintType& type : constraint_types()) {
-    nlohmann::json stencil, positions;
+    nlohmann::json stencil, positions, frames;
     for (int i = 0; i < type.stencil_size; ++i) {
       stencil.push_back(i);
       positions.push_back({i, i * i, i % 2});
+      frames.push_back({{"inertia", {1, 2, 3}}});
     }
     const nlohmann::json constraint{{"type", type.name}, {"particles", {stencil}}};
-    const nlohmann::json particles{{"positions", positions}, {"masses", 1}, {"constraints", {constraint}}};
+    const nlohmann::json particles{
+        {"positions", positions}, {"masses", 1}, {"frames", frames}, {"constraints", {constraint}}};
     const Scene scene = parse_scene(nlohmann::json{{"objects", {{{"particles", particles}}}}}.dump(), "x.json", ".");
     EXPECT_EQ(scene.objects.at(0).constraints.at(0).type, type.name);
   }
@@ -293,7 +295,7 @@ TEST(SceneSchema, HoldsEveryFieldWithItsRange) {
   EXPECT_EQ(settings.at("properties").at("substeps").at("maximum"), 10000);
   EXPECT_EQ(schema.at("$defs").at("sphere").at("properties").at("radius").at("exclusiveMinimum"), 0);
   EXPECT_EQ(schema.at("$defs").at("scene").at("required"), nlohmann::json({"objects"}));
-  EXPECT_EQ(schema.at("$defs").at("object").at("oneOf").size(), 4U);
+  EXPECT_EQ(schema.at("$defs").at("object").at("oneOf").size(), 5U);
 }
 
 TEST(SceneSchema, NamesEveryConstraintType) {

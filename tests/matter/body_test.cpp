@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -49,6 +50,29 @@ std::string refused(const Solid& solid, const BodyOptions& options = {}) {
     return error.what();
   }
   return {};
+}
+
+/// The inertia of a turned box about its centre, given as a tensor, makes the same body as the box itself.
+TEST(Body, OfGivenInertiaIsThatOfItsSolid) {
+  const Solid box{Box{{0.5f, 1, 1.5f}}, {0.25f, 2, 0}, rotation({0, 0, 1}, 90), 2};
+  const Object solid = make_body({box});
+  BodyOptions options;
+  options.inertia = BodyInertia{12, {0.25f, 2, 0}, {10, 13, 5}, {}};
+  const Object given = make_body({box}, options);
+  EXPECT_FLOAT_EQ(given.masses[0], solid.masses[0]);
+  EXPECT_NEAR(given.positions[0].y, 2, 1e-6);
+  EXPECT_NEAR(given.frames[0].inertia.x + given.frames[0].inertia.y + given.frames[0].inertia.z, 28, 1e-4);
+  options.inertia =
+      BodyInertia{12, {}, {11.5f, 11.5f, 5}, {0, 0, 1.5f}};  // the box turned by 45 degrees: Ixy = (13 - 10) / 2
+  const Object turned = make_body({}, options);
+  const Vec3f inertia = turned.frames[0].inertia;
+  EXPECT_NEAR(std::max({inertia.x, inertia.y, inertia.z}), 13, 1e-4);
+  EXPECT_NEAR(std::min({inertia.x, inertia.y, inertia.z}), 5, 1e-4);
+  EXPECT_TRUE(turned.bodies[0].solids.empty());
+  options.inertia->moments.y = 0;
+  EXPECT_THROW(static_cast<void>(make_body({}, options)), Error);
+  options.inertia = BodyInertia{12, {}, {1, 1, 1}, {0, 0, 2}};
+  EXPECT_THROW(static_cast<void>(make_body({}, options)), Error) << "not positive definite";
 }
 
 TEST(Body, OfNoSizeDensityOrVolumeIsRefused) {
