@@ -10,7 +10,7 @@
 
 namespace pliant {
 
-constexpr int most_of_block = 12;  ///< unknowns of a block: a body's six, and those of its joint with the ground
+constexpr int most_of_block = 16;  ///< unknowns of a block: a body's six, and those of its joint with the ground
 
 /// One block: its part of the matrix and of the right-hand side, which the solution replaces.
 template <class R>
@@ -18,7 +18,7 @@ struct TreeBlock {
   using Matrix = std::array<std::array<R, most_of_block>, most_of_block>;
 
   int parent = -1;                   ///< a later block; -1: a root
-  int size = 0;                      ///< unknowns, 1 to 12
+  int size = 0;                      ///< unknowns, 1 to most_of_block
   Matrix diagonal{};                 ///< symmetric; only the lower half is read
   Matrix to_parent{};                ///< rows of this block, columns of its parent
   std::array<R, most_of_block> x{};  ///< right-hand side, then solution
@@ -52,17 +52,32 @@ std::array<bool, most_of_block> factorise(TreeBlock<R>& block) {
   return lost;
 }
 
+/// Replaces the right-hand sides in columns [0, columns) of b by their solutions, with the factors of a block. Columns are the
+/// inner loop, so that a compiler can handle several at once.
+template <class R, std::size_t width>
+void solve_columns(const TreeBlock<R>& block, const std::array<bool, most_of_block>& lost, int columns,
+                   std::array<std::array<R, width>, most_of_block>& b) {
+  const auto& m = block.diagonal;
+  for (int i = 0; i < block.size; ++i)
+    for (int j = 0; j < i; ++j)
+      for (int c = 0; c < columns; ++c) b[i][c] = b[i][c] - m[i][j] * b[j][c];
+  for (int i = 0; i < block.size; ++i)
+    for (int c = 0; c < columns; ++c) b[i][c] = lost[i] ? R(0) : b[i][c] / m[i][i];
+  for (int i = block.size; i-- > 0;)
+    for (int j = i + 1; j < block.size; ++j)
+      for (int c = 0; c < columns; ++c) b[i][c] = b[i][c] - m[j][i] * b[j][c];
+}
+
 /// Solves with the factors of a block.
 template <class R>
 std::array<R, most_of_block> solved(const TreeBlock<R>& block, const std::array<bool, most_of_block>& lost,
-                                    std::array<R, most_of_block> b) {
-  const auto& m = block.diagonal;
-  for (int i = 0; i < block.size; ++i)
-    for (int j = 0; j < i; ++j) b[i] = b[i] - m[i][j] * b[j];
-  for (int i = 0; i < block.size; ++i) b[i] = lost[i] ? R(0) : b[i] / m[i][i];
-  for (int i = block.size; i-- > 0;)
-    for (int j = i + 1; j < block.size; ++j) b[i] = b[i] - m[j][i] * b[j];
-  return b;
+                                    const std::array<R, most_of_block>& right) {
+  std::array<std::array<R, 1>, most_of_block> b;
+  for (int i = 0; i < most_of_block; ++i) b[i][0] = right[i];
+  solve_columns(block, lost, 1, b);
+  std::array<R, most_of_block> x;
+  for (int i = 0; i < most_of_block; ++i) x[i] = b[i][0];
+  return x;
 }
 
 /// Subtracts what eliminating a block leaves in its parent, and replaces its coupling by that times the inverse diagonal.
@@ -70,19 +85,16 @@ template <class R>
 void eliminate(TreeBlock<R>& block, TreeBlock<R>& parent) {
   const std::array<bool, most_of_block> lost = factorise(block);
   block.x = solved(block, lost, block.x);
-  typename TreeBlock<R>::Matrix through{};
-  for (int c = 0; c < parent.size; ++c) {
-    std::array<R, most_of_block> column{};
-    for (int r = 0; r < block.size; ++r) column[r] = block.to_parent[r][c];
-    column = solved(block, lost, column);
-    for (int r = 0; r < block.size; ++r) through[r][c] = column[r];
-  }
+  typename TreeBlock<R>::Matrix coupling;
+  for (int r = 0; r < block.size; ++r)
+    for (int c = 0; c < parent.size; ++c) coupling[r][c] = block.to_parent[r][c];
+  solve_columns(block, lost, parent.size, block.to_parent);
   for (int c = 0; c < parent.size; ++c)
     for (int r = 0; r < block.size; ++r) {
-      parent.x[c] = parent.x[c] - block.to_parent[r][c] * block.x[r];
-      for (int d = 0; d <= c; ++d) parent.diagonal[c][d] = parent.diagonal[c][d] - block.to_parent[r][c] * through[r][d];
+      if (coupling[r][c] == R(0)) continue;  // half of a joint's gradients are, as those by displacements
+      parent.x[c] = parent.x[c] - coupling[r][c] * block.x[r];
+      for (int d = 0; d <= c; ++d) parent.diagonal[c][d] = parent.diagonal[c][d] - coupling[r][c] * block.to_parent[r][d];
     }
-  block.to_parent = through;
 }
 
 }  // namespace block_tree

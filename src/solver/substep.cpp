@@ -14,7 +14,7 @@ SweepArguments arguments(const Substep& s, int object, bool first_pass) {
   a.remainders = s.state.remainders.data() + first;
   const bool is_stored = !s.work.multiplier_pointers[object].empty() && (s.is_last() || s.work.stores_in_last[object] == 0);
   a.multipliers = is_stored ? s.work.multiplier_pointers[object].data() : nullptr;
-  const auto& skipped = s.work.joints[object].forest.skipped;
+  const auto& skipped = s.work.joints[object].skipped;
   a.skipped = skipped.empty() ? nullptr : skipped.data();
   a.h = s.h;
   a.inverse_h = 1 / s.h;

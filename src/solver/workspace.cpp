@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solver/bodies/joint_forest.h"
 #include "solver/sweeps/chebyshev.h"
 
 namespace pliant {
@@ -75,7 +76,7 @@ void prepare(const Model& model, int object, Multipliers kept, Workspace& worksp
   workspace.stores_in_last[object] = kept == Multipliers::lengths_in_last && !has_stencils ? 1 : 0;
   workspace.volume_multipliers[object] = 0;
   workspace.joints[object] = {};
-  prepare_joints(from, {}, workspace.joints[object].forest);
+  prepare_joints(from, workspace.joints[object]);
   workspace.last_h[object] = 0;
   workspace.triangle_forces[object] = {};
   workspace.anchors[object].resize(2 * from.tethers.anchors.size());

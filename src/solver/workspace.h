@@ -11,7 +11,7 @@
 #include "model/control.h"
 #include "model/model.h"
 #include "pliant/state.h"
-#include "solver/bodies/joint_forest.h"
+#include "solver/bodies/object_joints.h"
 #include "solver/contact_log.h"
 #include "solver/contact_solver.h"
 #include "solver/limit.h"

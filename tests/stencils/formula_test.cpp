@@ -111,7 +111,7 @@ TYPED_TEST(Stencil, GradientIsTheDerivativeOfPlacesAndRotations) {
           if (std::fabs(high.c[row] - low.c[row]) > 1) continue;  // an angle that wraps around
           const double numeric = (high.c[row] - low.c[row]) / (2 * h);
           // Near the singularity of an angle, third derivatives grow as the cube of the gradient.
-          const double steep = 1 + std::fabs(numeric) * std::fmax(1, numeric * numeric / 100);
+          const double steep = 1 + std::fabs(numeric) * std::fmax(1, numeric * numeric / 20);
           ASSERT_NEAR(part(here.gradient[row][slot], axis), numeric, 2e-8 * steep)
               << "row " << row << ", slot " << slot << ", axis " << axis;
           ++compared;

@@ -3,7 +3,10 @@
 // C is that of the present positions, its gradients are those of the substep's start, which keeps energy (SHAKE; Ryckaert,
 // Ciccotti, Berendsen 1977). Where joints pull so hard that a body would oscillate faster than substeps can follow, gradients
 // are those of the present, and the geometric stiffness of the joint forces is added to the body's inertia (Tournier, Nesme,
-// Gilles, Faure 2015). Limits, motors, and joints that close loops remain with the stencil driver.
+// Gilles, Faure 2015).
+//
+// Limits, motors and friction of a joint in a tree are further rows of that joint. Which of them act at a bound is found by
+// repeated solves (an active set). Joints that close loops remain with the stencil driver.
 #pragma once
 
 #include <array>
@@ -12,6 +15,7 @@
 #include <vector>
 
 #include "solver/bodies/joint_tree.h"
+#include "solver/bodies/object_joints.h"
 
 namespace pliant {
 
@@ -20,41 +24,48 @@ struct Substep;
 
 /// The joints of one object that are solved directly, and scratch data for them.
 struct JointForest {
-  /// A constraint, and its slots: point and frame of a, then of b. Indices of frames count from the object's first one.
-  struct Joint {
+  /// A constraint: of a joint, or a limit, motor or friction of it.
+  struct Part {
     int pool = 0;
     std::int64_t batch = 0;
     int lane = 0;
+  };
+  /// The slots: point and frame of a, then of b. Indices of frames count from the object's first one. The first part is
+  /// bilateral, the others have bounds.
+  struct Joint {
     std::array<std::int32_t, 4> slots{};
+    std::vector<Part> parts;
+    int rows = 0;         ///< of all parts
+    bool in_tree = true;  ///< false: closes a loop
   };
   struct Body {
     std::int32_t point = 0, frame = 0;
+  };
+  /// A row whose change of the multiplier has bounds.
+  struct BoundedRow {
+    enum class State : char { free, low, high };
+    std::size_t joint = 0, row = 0;
+    float low = 0, high = 0;          ///< bounds of the change
+    float value = 0, compliance = 0;  ///< of the row while it is free
+    float inverse_mass = 0;           ///< J M^-1 J^T of its two bodies
+    State state = State::free;        ///< at which bound the change is held
   };
 
   std::vector<Joint> joints;  ///< in the order of the schedule
   std::vector<JointEnds> ends;
   std::vector<Body> bodies;
   std::optional<JointTree> tree;
-  std::vector<std::vector<char>> is_skipped;  ///< [pool][16 batch + lane] 1: the stencil driver leaves the constraint out
-  std::vector<const char*> skipped;           ///< pointers to the same; null: none of the pool. Empty: none at all
 
   std::vector<BodyMass> masses;
   std::vector<JointRows> rows;
+  std::vector<BoundedRow> bounded;
   std::vector<BodyCorrection> corrections;
   std::vector<std::array<float, most_joint_rows>> multipliers;
-  std::vector<std::array<float, 6>> stiffness;  ///< [body] geometric stiffness times h^2 [kg m^2]
-  std::vector<char> in_tree;                    ///< [joint]
+  std::vector<std::array<float, 6>> stiffness;  ///< [body] geometric stiffness times h^2: xx, yy, zz, yz, zx, xy [kg m^2]
 };
 
-/// The joints of an object in a World: those that are broken, and the trees of the others.
-struct ObjectJoints {
-  std::vector<int> broken;                   ///< indices in CompiledObject::joints, ascending
-  std::vector<std::vector<char>> is_broken;  ///< [pool][16 batch + lane] 1: part of a broken joint; empty: none
-  JointForest forest;
-};
-
-/// Finds the trees of an object. `is_broken` is by pool and lane as JointForest::is_skipped; empty: none is.
-void prepare_joints(const CompiledObject& object, const std::vector<std::vector<char>>& is_broken, JointForest& forest);
+/// Finds the trees of an object, of its joints that are not broken.
+void prepare_joints(const CompiledObject& object, ObjectJoints& joints);
 
 /// Solves the trees of all objects that take part.
 void solve_joint_trees(Substep& s, bool first_pass);

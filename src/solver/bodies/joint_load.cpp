@@ -4,6 +4,7 @@
 
 #include "constraints/registry.h"
 #include "math/quat.h"
+#include "solver/bodies/joint_forest.h"
 #include "solver/substep.h"
 #include "solver/visit.h"
 
@@ -68,7 +69,7 @@ void set_broken(const CompiledObject& object, const std::vector<int>& joints, Ob
       marks.resize(static_cast<std::size_t>(object.pools[static_cast<std::size_t>(part.pool)].batches) * batch_width);
       marks[static_cast<std::size_t>(part.batch * batch_width + part.lane)] = 1;
     }
-  prepare_joints(object, into.is_broken, into.forest);
+  prepare_joints(object, into);
 }
 
 void break_joints(Substep& s) {

@@ -23,7 +23,7 @@ std::array<float, 6> six(const std::array<Vec3f, 2>& g) { return {g[0].x, g[0].y
 
 void set_inertia(const BodyMass& body, TreeBlock<float>& block) {
   block.size = body_unknowns;
-  block.diagonal = {};
+  for (std::size_t i = 0; i < body_unknowns; ++i) block.diagonal[i] = {};
   for (std::size_t i = 0; i < 3; ++i) block.diagonal[i][i] = body.mass;
   const auto& i = body.inertia;
   block.diagonal[3][3] = i[0];
@@ -81,35 +81,41 @@ JointTree::JointTree(int bodies, const std::vector<JointEnds>& joints) : ends_(j
   blocks_.resize(nodes_.size());
 }
 
-/// From each tree's first body outward; reversed, children come before parents.
+/// From each tree's root outward; reversed, children come before parents. The root is the first body that has a joint with the
+/// ground, else the first body: seen from a body that the ground holds, a joint may have no inverse mass along some direction.
 void JointTree::order(const std::vector<JointEnds>& joints, const std::vector<std::vector<int>>& joints_of) {
   std::vector<char> seen(joints_of.size(), 0);
-  const auto add_body = [&](int body, int parent, bool at_b) {
-    seen[static_cast<std::size_t>(body)] = 1;
-    nodes_.push_back({true, body, parent, at_b, ground_[static_cast<std::size_t>(body)], false});
-  };
-  for (std::size_t root = 0; root < joints_of.size(); ++root) {
-    if (seen[root] != 0 || (joints_of[root].empty() && ground_[root] < 0)) continue;
-    std::size_t next = nodes_.size();
-    add_body(static_cast<int>(root), -1, false);
-    for (; next < nodes_.size(); ++next) {
-      const Node node = nodes_[next];
-      const auto here = static_cast<int>(next);
-      if (!node.is_body) {
-        const auto [a, b] = joints[static_cast<std::size_t>(node.index)];
-        add_body(node.at_b ? a : b, here, !node.at_b);  // the parent is at the other end
-        continue;
-      }
-      for (const int j : joints_of[static_cast<std::size_t>(node.index)])
-        if (node.parent < 0 || nodes_[static_cast<std::size_t>(node.parent)].index != j)
-          nodes_.push_back({false, j, here, joints[static_cast<std::size_t>(j)].b == node.index, -1,
-                            held_[static_cast<std::size_t>(node.index)] != 0});
-    }
-  }
+  for (std::size_t root = 0; root < joints_of.size(); ++root)
+    if (seen[root] == 0 && ground_[root] >= 0) order_tree(static_cast<int>(root), joints, joints_of, seen);
+  for (std::size_t root = 0; root < joints_of.size(); ++root)
+    if (seen[root] == 0 && !joints_of[root].empty()) order_tree(static_cast<int>(root), joints, joints_of, seen);
   std::reverse(nodes_.begin(), nodes_.end());
   const auto count = static_cast<int>(nodes_.size());
   for (Node& node : nodes_)
     if (node.parent >= 0) node.parent = count - 1 - node.parent;
+}
+
+void JointTree::order_tree(int root, const std::vector<JointEnds>& joints, const std::vector<std::vector<int>>& joints_of,
+                           std::vector<char>& seen) {
+  const auto add_body = [&](int body, int parent, bool at_b) {
+    seen[static_cast<std::size_t>(body)] = 1;
+    nodes_.push_back({true, body, parent, at_b, ground_[static_cast<std::size_t>(body)], false});
+  };
+  std::size_t next = nodes_.size();
+  add_body(root, -1, false);
+  for (; next < nodes_.size(); ++next) {
+    const Node node = nodes_[next];
+    const auto here = static_cast<int>(next);
+    if (!node.is_body) {
+      const auto [a, b] = joints[static_cast<std::size_t>(node.index)];
+      add_body(node.at_b ? a : b, here, !node.at_b);  // the parent is at the other end
+      continue;
+    }
+    for (const int j : joints_of[static_cast<std::size_t>(node.index)])
+      if (node.parent < 0 || nodes_[static_cast<std::size_t>(node.parent)].index != j)
+        nodes_.push_back({false, j, here, joints[static_cast<std::size_t>(j)].b == node.index, -1,
+                          held_[static_cast<std::size_t>(node.index)] != 0});
+  }
 }
 
 /// The diagonal block and the right-hand side of a node. A joint with the ground comes after its body's unknowns, since it has
@@ -118,17 +124,15 @@ void JointTree::fill(std::size_t n, const std::vector<BodyMass>& masses, const s
   const Node& node = nodes_[n];
   TreeBlock<float>& block = blocks_[n];
   block.x = {};
-  block.to_parent = {};
   std::size_t first = 0;
   if (node.is_body) {
     set_inertia(masses[static_cast<std::size_t>(node.index)], block);
     if (node.ground < 0) return;
     first = body_unknowns;
-  } else {
-    block.diagonal = {};
   }
   const JointRows& rows = joints[static_cast<std::size_t>(node.is_body ? node.ground : node.index)];
   block.size = static_cast<int>(first) + rows.rows;
+  for (std::size_t i = first; i < static_cast<std::size_t>(block.size); ++i) block.diagonal[i] = {};
   for (std::size_t r = 0; r < static_cast<std::size_t>(rows.rows); ++r) {
     block.diagonal[first + r][first + r] = -rows.compliance[r];
     block.x[first + r] = -rows.value[r];
@@ -153,6 +157,7 @@ void JointTree::couple(std::size_t n, const std::vector<JointRows>& joints) {
   const Node& parent = nodes_[static_cast<std::size_t>(node.parent)];
   const Node& joint = node.is_body ? parent : node;
   const JointRows& rows = joints[static_cast<std::size_t>(joint.index)];
+  for (std::size_t i = 0; i < static_cast<std::size_t>(block.size); ++i) block.to_parent[i] = {};
   for (std::size_t r = 0; r < static_cast<std::size_t>(rows.rows); ++r) {
     const std::array<float, 6> g = six(node.at_b ? rows.of_b[r] : rows.of_a[r]);
     for (std::size_t c = 0; c < body_unknowns; ++c) (node.is_body ? block.to_parent[c][r] : block.to_parent[r][c]) = g[c];

@@ -14,7 +14,7 @@ struct JointEnds {
   int a = -1, b = -1;
 };
 
-constexpr int most_joint_rows = 6;
+constexpr int most_joint_rows = 10;  ///< of a joint with its limits and motors
 
 /// One joint's rows at the start of a solve: gradients for displacement and rotation of both bodies, and the value that the
 /// corrections shall take away.
@@ -62,6 +62,8 @@ class JointTree {
   };
 
   void order(const std::vector<JointEnds>& joints, const std::vector<std::vector<int>>& joints_of);
+  void order_tree(int root, const std::vector<JointEnds>& joints, const std::vector<std::vector<int>>& joints_of,
+                  std::vector<char>& seen);
   void fill(std::size_t node, const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints);
   void couple(std::size_t node, const std::vector<JointRows>& joints);
 

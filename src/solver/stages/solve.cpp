@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "solver/bodies/body_solver.h"
+#include "solver/bodies/joint_forest.h"
 #include "solver/bodies/joint_load.h"
 #include "solver/drivers/driver.h"
 #include "solver/momentum.h"
