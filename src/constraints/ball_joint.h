@@ -1,4 +1,4 @@
-// A ball joint: two bodies share a point.   C_k = u_k . d (joint_rows.h)   Compliance in m/N.
+// A ball joint: two bodies share a point.   C = d in world axes (joint_rows.h)   Compliance in m/N.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct BallJointRows {
   template <class R>
   PLIANT_HD static void evaluate(const SlotValues<slots, R>& at, const Params<R>& p, Rows<slots, rows, R>& out) {
     const joint::Posed<R> posed = joint::pose(at, p);
-    for (int axis = 0; axis < 3; ++axis) joint::displacement(posed, axis, axis, out);
+    joint::coincidence(posed, out);
   }
 
   template <class R>

@@ -22,10 +22,8 @@ struct FixedJointRows {
   PLIANT_HD static void evaluate(const SlotValues<slots, R>& at, const Params<R>& p, Rows<slots, rows, R>& out) {
     const joint::Posed<R> posed = joint::pose(at, p);
     const Quat<R> turned = joint::relative(posed.frame_a, posed.frame_b);
-    for (int axis = 0; axis < 3; ++axis) {
-      joint::displacement(posed, axis, axis, out);
-      joint::rotation(posed, turned, axis, 3 + axis, out);
-    }
+    joint::coincidence(posed, out);
+    for (int axis = 0; axis < 3; ++axis) joint::rotation(posed, turned, axis, 3 + axis, out);
   }
 
   template <class R>

@@ -21,7 +21,7 @@ struct HingeJointRows {
   template <class R>
   PLIANT_HD static void evaluate(const SlotValues<slots, R>& at, const Params<R>& p, Rows<slots, rows, R>& out) {
     const joint::Posed<R> posed = joint::pose(at, p);
-    for (int axis = 0; axis < 3; ++axis) joint::displacement(posed, axis, axis, out);
+    joint::coincidence(posed, out);
     joint::alignment(posed, 1, 0, 3, out);
     joint::alignment(posed, 2, 0, 4, out);
   }

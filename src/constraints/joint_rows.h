@@ -5,7 +5,7 @@
 //   alignment of i and k:  C = u_i . v_k        zero while the two are perpendicular
 //   twist about x:         C = 2 atan2(p_x, p_w), p the rotation from the joint frame of a to that of b
 //
-// C is measured in the joint frame of a, so rigid motion does not change it.
+// C is measured in the joint frame of a, so rigid motion does not change it; where anchors coincide, in world axes.
 #pragma once
 
 #include <array>
@@ -86,6 +86,19 @@ PLIANT_HD void displacement(const Posed<R>& joint, int axis, int row, Rows<Bodie
   out.gradient[row][1] = -cross(joint.arm_a + joint.gap, u);
   out.gradient[row][2] = u;
   out.gradient[row][3] = cross(joint.arm_b, u);
+}
+
+/// Rows 0 to 2: the anchors coincide. C is d in world axes, so gradients do not depend on the gap.
+template <int rows, class R>
+PLIANT_HD void coincidence(const Posed<R>& joint, Rows<Bodies, rows, R>& out) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3<R> e = unit<R>(axis);
+    out.c[axis] = component(joint.gap, axis);
+    out.gradient[axis][0] = -e;
+    out.gradient[axis][1] = -cross(joint.arm_a, e);
+    out.gradient[axis][2] = e;
+    out.gradient[axis][3] = cross(joint.arm_b, e);
+  }
 }
 
 /// Sets the gradients of a row that only depends on rotations; `g` is that of the frame of b.

@@ -307,8 +307,12 @@ float find_stiffness(Work& work) {
       if (body < 0) continue;
       const auto& gradients = side == 0 ? rows.of_a : rows.of_b;
       Vec3f force{};
-      for (std::size_t row = 0; row < static_cast<std::size_t>(rows.rows); ++row)
-        force = force - gradients[row][0] * forest.multipliers[j][row];
+      const float* before = work.points.first_pass ? nullptr : multipliers_of(work, at);
+      for (std::size_t row = 0; row < static_cast<std::size_t>(rows.rows); ++row) {
+        const bool has_before = before != nullptr && static_cast<int>(row) < at.pool.components;
+        const float earlier = has_before ? before[row * batch_width] : 0;  // in earlier passes of the substep
+        force = force + gradients[row][0] * (earlier - forest.multipliers[j][row]);
+      }
       const Vec3f anchor{at.value(3 * side), at.value(3 * side + 1), at.value(3 * side + 2)};
       const std::int32_t frame = joint.slots[static_cast<std::size_t>(2 * side + 1)];
       const auto b = static_cast<std::size_t>(body);
