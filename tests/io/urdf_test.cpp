@@ -247,6 +247,9 @@ TEST_F(Urdf, RefusesWhatIsNoTreeOrNoRobot) {
       {R"(<link name="a"><visual><geometry><sphere radius="x"/></geometry></visual></link>)", "a.urdf:2: sphere, radius: "},
       {R"(<link name="a"><visual><geometry><box size="1 1"/></geometry></visual></link>)", "a.urdf:2: box, size: "},
       {R"(<link name="a"><inertial><mass value="1"/><inertia ixx="-1" iyy="1" izz="1"/></inertial></link>)", "a.urdf:2: "},
+      {link + R"(<link name="b"/><link name="c"/><joint name="j" type="fixed"><parent link="b"/><child link="c"/></joint>
+<joint name="k" type="fixed"><parent link="c"/><child link="b"/></joint>)",
+       "a.urdf:3: object 'r': some joints form a loop"},
       {R"(<link name="a"/>)", "no link with mass or geometry"},
       {"", "has no links"}};
   for (const auto& [elements, message] : cases) {
