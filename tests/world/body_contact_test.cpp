@@ -191,6 +191,27 @@ TEST(BodyContact, OfARemovedObjectOrColliderIsForgotten) {
   EXPECT_LT(world.object(1).positions()[0].y, -0.5f);
 }
 
+/// 5 000 bodies in one place come apart, and the Report says that not all touch at once.
+TEST(BodyContact, BodiesInOnePlaceSeparate) {
+  Scene scene;
+  scene.gravity = {};
+  Object pile;
+  const int count = 5000;
+  for (int i = 0; i < count; ++i) add_body(pile, {{Sphere{0.1f}}});
+  scene.add(pile);
+  World world(scene);
+  const Report first = world.step(dt);
+  ASSERT_TRUE(first.ok());
+  ASSERT_FALSE(first.warnings.empty());
+  EXPECT_NE(first.warnings[0].find("left to later frames"), std::string::npos) << first.warnings[0];
+  run(world, 20);
+  const std::vector<Vec3f> at = world.object(0).positions();
+  float farthest = 0;
+  for (const Vec3f& p : at) farthest = std::max(farthest, std::sqrt(length_squared(p)));
+  EXPECT_GT(farthest, 0.1f);
+  EXPECT_LT(farthest, 10.f);
+}
+
 TEST(BodyContact, EventsNameBothAndTheImpulseOfAStep) {
   Scene scene = with_ground();
   BodyOptions options;

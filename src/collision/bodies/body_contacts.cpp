@@ -53,11 +53,16 @@ float size_of(const ConvexShape& shape) {
   return static_cast<float>(0.5 * std::min({high.x - low.x, high.y - low.y, high.z - low.z}));
 }
 
-/// An upper bound of the speed of a part's points: what a box of it can move in a second.
-float speed_of(const BodyState& body, const BoxBounds& box) {
+/// An upper bound of the speed of a part's points against the body's centre: a box of it lies around them [m/s].
+float turning_speed(const BodyState& body, const BoxBounds& box) {
   const Vec3f centre = convert<float>(body.pose.position);
   const Vec3f reach = max(abs(box.high - centre), abs(box.low - centre));
-  return length(body.velocity) + length(body.spin) * length(reach);
+  return length(body.spin) * length(reach);
+}
+
+/// A box around a box on its way along a path.
+BoxBounds swept(const BoxBounds& box, const Vec3f& path) {
+  return {box.low + min(path, Vec3f{}), box.high + max(path, Vec3f{})};
 }
 
 /// A box in the world around a mesh.
@@ -72,9 +77,16 @@ BoxBounds world_box(const BodyMesh& mesh, const Posed& pose) {
   return BoxBounds{centre - reach, centre + reach}.grown(grown);
 }
 
-/// The same for a half-space or a mesh. A half-space that turns is as fast as its origin.
-float speed_of_other(const BodyPart& part, const BodyState& body) {
-  return part.mesh == nullptr ? length(body.velocity) : speed_of(body, world_box(*part.mesh, body.pose));
+/// The turning speed of a half-space, which counts as none, or a mesh.
+float turning_of_other(const BodyPart& part, const BodyState& body) {
+  return part.mesh == nullptr ? 0 : turning_speed(body, world_box(*part.mesh, body.pose));
+}
+
+/// True if a box comes within `margin` of a half-space y <= 0.
+bool reaches(const BoxBounds& box, const Posef& half_space, float margin) {
+  const Vec3f up = rotate(half_space.rotation, Vec3f{0, 1, 0}), centre = (box.low + box.high) * 0.5f,
+              half = (box.high - box.low) * 0.5f;
+  return dot(up, centre - half_space.position) - dot(abs(up), half) <= margin + 1e-5f * (largest(centre) + largest(half));
 }
 
 bool hardly_moved(const Posed& now, const BodyContact& contact, double size) {
@@ -229,7 +241,7 @@ struct BodyContacts::Task {
       found.count += old.size();
       return;
     }
-    const float fast = of.speed_[at(pair.first)] + of.speed_[at(pair.second)];
+    const float fast = length(a.velocity - b.velocity) + of.turning_[at(pair.first)] + of.turning_[at(pair.second)];
     const double reach = margin_share * size + static_cast<double>(dt * fast);
     const auto add = [&](const Touch& touching, int piece) {
       if (touching.count == 0) return;
@@ -268,21 +280,37 @@ BodyContacts::BodyContacts(std::vector<BodyPart> parts) : parts_(std::move(parts
 void BodyContacts::find_boxes(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster) {
   const int count = static_cast<int>(convex_.size());
   boxes_.resize(convex_.size());
-  speed_.resize(parts_.size());
-  for (const int part : others_) speed_[at(part)] = speed_of_other(parts_[at(part)], bodies[at(parts_[at(part)].body)]);
+  turning_.resize(parts_.size());
+  for (const int part : others_) turning_[at(part)] = turning_of_other(parts_[at(part)], bodies[at(parts_[at(part)].body)]);
   executor.parallel_for("bodies: boxes", (count + parts_a_task - 1) / parts_a_task, [&](int task) {
     for (int i = task * parts_a_task; i < std::min(count, (task + 1) * parts_a_task); ++i) {
       const int number = convex_[at(i)];
       const BodyPart& part = parts_[at(number)];
       const BodyState& body = bodies[at(part.body)];
       const BoxBounds box = box_of(part, body.pose);
-      speed_[at(number)] = speed_of(body, box) + (body.is_fixed ? 0 : faster);
-      boxes_[at(i)] = box.grown(0.5f * static_cast<float>(margin_share) * size_[at(number)] + dt * speed_[at(number)]);
+      turning_[at(number)] = turning_speed(body, box) + (body.is_fixed ? 0 : faster);
+      boxes_[at(i)] = swept(box, body.velocity * dt)
+                          .grown(0.5f * static_cast<float>(margin_share) * size_[at(number)] + dt * turning_[at(number)]);
     }
   });
 }
 
-void BodyContacts::find_pairs(const std::vector<BodyState>& bodies, FunctionRef<bool(int, int)> meet) {
+void BodyContacts::thin_crowd() {
+  left_out_ = 0;
+  if (pairs_.size() <= most_of_crowded * convex_.size()) return;
+  std::vector<std::size_t> met(parts_.size());
+  const auto is_left_out = [&](const Pair& pair) {
+    if (met[at(pair.first)] >= most_of_crowded || met[at(pair.second)] >= most_of_crowded) return true;
+    ++met[at(pair.first)];
+    ++met[at(pair.second)];
+    return false;
+  };
+  const auto end = std::remove_if(pairs_.begin(), pairs_.end(), is_left_out);
+  left_out_ = pairs_.end() - end;
+  pairs_.erase(end, pairs_.end());
+}
+
+void BodyContacts::find_pairs(const std::vector<BodyState>& bodies, float dt, FunctionRef<bool(int, int)> meet) {
   pairs_.clear();
   const auto add = [&](int i, int j) {
     const int a = parts_[at(i)].body, b = parts_[at(j)].body;
@@ -293,12 +321,19 @@ void BodyContacts::find_pairs(const std::vector<BodyState>& bodies, FunctionRef<
   tree_.self_pairs([&](int i, int j) { add(convex_[at(std::min(i, j))], convex_[at(std::max(i, j))]); });
   for (const int other : others_) {
     const BodyPart& part = parts_[at(other)];
-    if (part.is_half_space)
-      for (const int i : convex_) add(other, i);
-    else
-      tree_.query(world_box(*part.mesh, bodies[at(part.body)].pose), [&](int i) { add(other, convex_[at(i)]); });
+    const BodyState& body = bodies[at(part.body)];
+    if (part.is_half_space) {
+      const Posef plane = convert<float>(compose(body.pose, part.pose));
+      const float grown = dt * length(body.velocity);
+      for (std::size_t i = 0; i < boxes_.size(); ++i)
+        if (reaches(boxes_[i], plane, grown)) add(other, convex_[i]);
+    } else {
+      const BoxBounds box = swept(world_box(*part.mesh, body.pose), body.velocity * dt).grown(dt * turning_[at(other)]);
+      tree_.query(box, [&](int i) { add(other, convex_[at(i)]); });
+    }
   }
   std::sort(pairs_.begin(), pairs_.end());
+  thin_crowd();
 }
 
 void BodyContacts::update(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
@@ -307,7 +342,7 @@ void BodyContacts::update(Executor& executor, const std::vector<BodyState>& bodi
   find_boxes(executor, bodies, dt, faster);
   {
     const Stopwatch stopwatch(executor.timings(), "bodies: pairs");
-    find_pairs(bodies, meet);
+    find_pairs(bodies, dt, meet);
   }
   const int count = static_cast<int>(pairs_.size()), tasks = (count + pairs_a_task - 1) / pairs_a_task;
   if (static_cast<int>(found_.size()) < tasks) found_.resize(at(tasks));

@@ -4,6 +4,7 @@
 // are renewed: fresh arms let tall stacks of soft contacts buckle (Catto, box2d 3, recycles manifolds for the same reason).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -54,6 +55,11 @@ class BodyContacts {
 
   const std::vector<BodyPart>& parts() const { return parts_; }
 
+  /// Where parts overlap more than this many others on average, as thousands of bodies in one place do, each meets at most so many.
+  static constexpr std::size_t most_of_crowded = 48;
+  /// The number of pairs that the last update left out for that.
+  std::ptrdiff_t left_out() const { return left_out_; }
+
  private:
   /// Two parts that may touch, by index.
   using Pair = std::pair<int, int>;
@@ -77,15 +83,17 @@ class BodyContacts {
   };
 
   void find_boxes(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster);
-  void find_pairs(const std::vector<BodyState>& bodies, FunctionRef<bool(int, int)> meet);
+  void find_pairs(const std::vector<BodyState>& bodies, float dt, FunctionRef<bool(int, int)> meet);
+  void thin_crowd();
 
   std::vector<BodyPart> parts_;
   std::vector<int> convex_, others_;  ///< parts: convex ones; half-spaces and meshes; ascending
   std::vector<float> size_;           ///< of each part: half of its smallest extent [m]
   std::vector<Pair> pairs_;           ///< of parts whose boxes overlap, sorted
   std::vector<BoxBounds> boxes_;      ///< of convex parts
-  std::vector<float> speed_;          ///< [part] an upper bound of what a point of it moves in a second [m/s]
-  std::vector<Found> found_;          ///< [task]
+  std::vector<float> turning_;  ///< [part] an upper bound of the speed of its points against the centre of its body [m/s]
+  std::ptrdiff_t left_out_ = 0;
+  std::vector<Found> found_;  ///< [task]
   Tree<BoxBounds> tree_;
 };
 

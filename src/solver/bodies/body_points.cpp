@@ -145,6 +145,7 @@ bool BodyPoints::meets(const Model& model, const Contact& contact) const {
 }
 
 void BodyPoints::keep_poses(const Substep& s) {
+  if (!has_any()) return;
   poses_.clear();
   for (const TouchedBody& body : bodies_)
     poses_.push_back(pose_of(s.state.positions[at(body.particle)], s.state.frames.orientations[at(body.frame)]));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <string>
 
 #include "collision/proxies/contact_tables.h"
 #include "math/motion.h"
@@ -252,6 +253,10 @@ void BodySolver::begin_frame(Substep& s) {
   finder_.update(
       s.context.executor, states_, static_cast<float>(s.dt), gravity, [&](int a, int b) { return meet(s.model, a, b); },
       s.state.body_contacts, contacts_);
+  if (finder_.left_out() > 0)
+    s.report.warnings.push_back(std::to_string(finder_.left_out()) +
+                                " pairs of bodies that overlap are left to later frames, because each body has " +
+                                std::to_string(BodyContacts::most_of_crowded) + " others in its place");
   last_h_ = s.h;
   make_manifolds(s);
   points_.keep_poses(s);

@@ -165,6 +165,7 @@ bool end_frame(std::vector<Substep>& groups, Report& report) {
   for (const Substep& s : groups) {
     if (s.failed_in < 0) continue;
     report.nonfinite = diagnose(s);
+    s.state.body_contacts.clear();  // impulses may not be finite either
     report.nonfinite->frame = s.state.frame;
     report.nonfinite->substep = s.failed_in;
     report.substeps = std::max(report.substeps, s.failed_in + 1);
