@@ -23,7 +23,9 @@ Object hung_box(float mass) {
   Object object = make_body({{Box{{0.1f, 0.1f, 0.1f}}}}, options);
   std::vector<Vec3f> points;
   for (int i = 0; i <= 20; ++i) points.push_back({0, -0.05f * static_cast<float>(i), 0});
-  const int first = append(object, make_rope(points));
+  RopeOptions rope;
+  rope.linear_density = 1;
+  const int first = append(object, make_rope(points, rope));
   object.pins.push_back({first, {}});
   attach(object, {first + 20}, 0);
   return object;

@@ -89,6 +89,19 @@ bool reaches(const BoxBounds& box, const Posef& half_space, float margin) {
   return dot(up, centre - half_space.position) - dot(abs(up), half) <= margin + 1e-5f * (largest(centre) + largest(half));
 }
 
+/// Where two bodies are in one place, no direction separates them. They count as a little apart, each pair in a direction of its own.
+Posed apart(Posed relative, int a, int b, double size) {
+  if (!(length(relative.position) < 1e-4 * size)) return relative;
+  std::uint32_t mixed = static_cast<std::uint32_t>(a) * 2654435761u ^ static_cast<std::uint32_t>(b) * 2246822519u;
+  const auto next = [&] {
+    mixed ^= mixed << 13, mixed ^= mixed >> 17, mixed ^= mixed << 5;
+    return static_cast<double>(mixed) / 2147483648.0 - 1;
+  };
+  const double x = next(), y = next(), z = next();
+  relative.position += unit_or(Vec3d{x, y, z}, Vec3d{0, 1, 0}) * (1e-3 * size);
+  return relative;
+}
+
 bool hardly_moved(const Posed& now, const BodyContact& contact, double size) {
   return length(now.position - contact.position) < still_share * size &&
          std::fabs(dot(now.rotation, contact.rotation)) > straight;
@@ -257,7 +270,7 @@ struct BodyContacts::Task {
       found.made.push_back(contact);
       ++found.count;
     };
-    if (one.mesh == nullptr) return add(touch_of(one, other, relative, reach), 0);
+    if (one.mesh == nullptr) return add(touch_of(one, other, apart(relative, one.body, other.body, size), reach), 0);
     std::vector<MeshTouch> touches;
     touch_mesh(other.shape, compose(relative, other.pose), *one.mesh, reach, touches);
     for (const MeshTouch& touching : touches) add(touching.touch, touching.piece);

@@ -250,11 +250,13 @@ void BodyPoints::project(Substep& s, const BodyMotion& motion, Contact& c) {
   p.turned -= times(motion.inverse_inertia, cross(arm, impulse));
 }
 
-void BodyPoints::project(Substep& s, const std::vector<BodyMotion>& motions) {
+void BodyPoints::project(Substep& s, const std::vector<BodyMotion>& motions, const std::vector<char>* of) {
   if (contacts_.empty()) return;
   const Stopwatch stopwatch(s.context.executor.timings(), "solve: bodies and points");
   begin_pass(s);
-  for (Contact& contact : contacts_) project(s, motions[at(solids_[at(contact.collider)].body)], contact);
+  for (Contact& contact : contacts_)
+    if (of == nullptr || (*of)[at(s.model.object_of(contact.point[0]))] != 0)
+      project(s, motions[at(solids_[at(contact.collider)].body)], contact);
   end_pass(s);
 }
 

@@ -40,8 +40,10 @@ class BodyPoints {
   void keep_poses(const Substep& s);
   /// Finds the contacts of a substep, after the prediction.
   void detect(Substep& s);
-  /// Projects each contact once. `motions` have the bodies' inverse masses and inertias, in the order of the bodies.
-  void project(Substep& s, const std::vector<BodyMotion>& motions);
+  /// Projects each contact once, or those with points of the objects for which `of` is not zero. `motions` have the bodies' inverse masses and inertias, in the order of the bodies.
+  void project(Substep& s, const std::vector<BodyMotion>& motions, const std::vector<char>* of = nullptr);
+  /// All contacts of the substep.
+  const std::vector<Contact>& contacts() const { return contacts_; }
   /// Applies restitution to velocities. `gravity` is what the velocities of an object lack of this frame's gravity [m/s].
   void respond(Substep& s, const std::vector<BodyMotion>& motions, FunctionRef<Vec3f(int object)> gravity);
   int contacts_that_press() const;

@@ -50,6 +50,9 @@ class BodySolver {
   /// Corrects displacements and rotations of bodies, and of points that touch them. In the first iteration of a substep, starts from the impulses of the last
   /// one, and makes bodies bounce.
   void project(Substep& s, bool is_first);
+  /// Projects the contacts of points of the objects for which `of` is not zero once more.
+  void project_points(Substep& s, const std::vector<char>& of) { points_.project(s, motions_, &of); }
+  const std::vector<Contact>& point_contacts() const { return points_.contacts(); }
   /// The pass over velocities. `gravity` is what the velocities of an object lack of this frame's gravity [m/s].
   void respond(Substep& s, FunctionRef<Vec3f(int object)> gravity);
   /// Puts the impulses of the last substep into contacts().

@@ -1,4 +1,5 @@
 #include "solver/drivers/contacts.h"
+#include "solver/bodies/body_solver.h"
 
 #include <algorithm>
 #include <utility>
@@ -129,6 +130,7 @@ void project_contacts_of(Substep& s, const char* name, const std::vector<char>& 
     if (all) return solver.project(s.context.executor, name, contacts, displacements, left);
     solver.only(contacts, concerns).project(s.context.executor, name, contacts, displacements, left);
   };
+  if (s.bodies != nullptr) s.bodies->project_points(s, has);
   if (s.has_pairs()) project(s.own->contact_solver, s.pairs->contacts(), yield);
   if (s.own->colliders.empty()) return;
   project(s.own->shape_contact_solver, s.own->shape_contacts, 0);
@@ -146,6 +148,7 @@ void for_touching_points(const Substep& s, FunctionRef<void(int)> visit) {
         if (contact.push > 0 && contact.weight[i] != 0) visit(contact.point[i]);
   };
   if (!s.own->colliders.empty()) visit_points(s.own->shape_contacts);
+  if (s.bodies != nullptr) visit_points(s.bodies->point_contacts());
   if (s.has_pairs()) visit_points(s.pairs->contacts());
 }
 
