@@ -61,7 +61,7 @@ TEST(BodyPoints, EachShapeLiesInAHammock) {
     EXPECT_LT(std::hypot(at.x, at.z), 0.6f) << "shape " << i;
     float lowest = 0;
     for (const Vec3f& p : world.object(0).positions()) lowest = std::min(lowest, p.y);
-    EXPECT_LT(lowest, -0.02f) << "shape " << i << ": the body presses the cloth down";
+    EXPECT_LT(lowest, -0.01f) << "shape " << i << ": the body presses the cloth down";
   }
 }
 
@@ -108,6 +108,25 @@ TEST(BodyPoints, ALightBallUnderHeavyClothStaysCalm) {
     EXPECT_LT(fastest, 3.f) << mass;
     EXPECT_GT(world.object(1).positions()[0].y, 0.05f) << mass;
   }
+}
+
+/// What is not solved in an impact may not come back as more energy than there was.
+TEST(BodyPoints, ABallOnClothBouncesLessEachTime) {
+  Scene scene;
+  Object cloth = sheet(41, 1.2f, 0);
+  pin_border(cloth, 1.2f);
+  scene.add(cloth);
+  scene.add(body(Sphere{.15f}, {-0.1f, 0.35f, 0.05f}, 1));
+  World world(scene);
+  float highest = 0, later = 0;
+  for (int frame = 0; frame < 180; ++frame) {
+    ASSERT_TRUE(world.step(dt).ok());
+    const float y = world.object(1).positions()[0].y;
+    if (frame > 20) highest = std::max(highest, y);
+    if (frame > 90) later = std::max(later, y);
+  }
+  EXPECT_LT(highest, 0.33f);
+  EXPECT_LT(later, 0.26f);
 }
 
 TEST(BodyPoints, HasTheSameBitsOnAnyNumberOfThreads) {
