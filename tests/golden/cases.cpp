@@ -65,10 +65,11 @@ Scene scene_of(const SweepWay& way) {
 
 namespace {
 
-/// Scenes in scenes/contact that run code of their own: edges on primitives, heightfields, a deforming collider,
-/// distance grids, untangling.
-const char* const contact_scenes[] = {"contact/corners", "contact/heightfield", "contact/sleeve", "contact/solids",
-                                      "contact/untangle"};
+/// Scenes in folders of scenes/ that run code of their own: rigid bodies on meshes, on cloth, in piles and with joints, edges on
+/// primitives, heightfields, a deforming collider, distance grids, untangling.
+const char* const contact_scenes[] = {"bodies/bowl",    "bodies/hammock",  "bodies/pyramid",
+                                      "bodies/ragdoll", "contact/corners", "contact/heightfield",
+                                      "contact/sleeve", "contact/solids",  "contact/untangle"};
 constexpr int contact_frames = 16;
 
 /// Upper limit of grid nodes along a side: grids as fine as those of the scenes would take seconds to make.
