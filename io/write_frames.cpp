@@ -152,6 +152,7 @@ void check_frame(const std::string& path, const std::vector<FrameObject>& object
 
 std::vector<std::string> identifiers(const std::vector<FrameObject>& objects) {
   std::vector<std::string> names;
+  names.reserve(objects.size());
   for (const FrameObject& object : objects) names.push_back(object.name);
   return identifiers(names);
 }

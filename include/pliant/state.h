@@ -28,7 +28,7 @@ struct Id {
   Id(int slot_number, int slot_generation = 0)  // NOLINT(google-explicit-constructor): an index of a Scene is an id
       : slot(slot_number), generation(slot_generation) {}
   friend bool operator==(const Id&, const Id&) = default;
-  friend auto operator<=>(const Id&, const Id&) = default;
+  friend auto operator<=>(const Id&, const Id&) = default;  // NOLINT(modernize-use-nullptr)
 };
 using ObjectId = Id<Object>;
 using ColliderId = Id<Collider>;
@@ -90,7 +90,7 @@ struct ContactPart {
   int owner = 0;  ///< an object or mesh collider: its index in State::blocks; a primitive collider: -1 - its index
   int solid = 0;  ///< of an object: its solids are numbered body after body; else 0
   int piece = 0;  ///< of a mesh collider: a triangle; else 0
-  friend auto operator<=>(const ContactPart&, const ContactPart&) = default;
+  friend auto operator<=>(const ContactPart&, const ContactPart&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// Contact of rigid bodies a and b in up to four points that share a normal. What the next step needs to know of it: arms and
@@ -100,6 +100,7 @@ struct BodyContact {
   std::array<Vec3d, 4> anchor_a{}, anchor_b{};  ///< the points on each surface, in the frame of each body [m]
   Vec3d position{};                             ///< of b in the frame of a when it began [m]
   Quat<double> rotation{};                      ///< likewise
+  Quatf turned{};                               ///< from the frame of a to the world when it began
   ContactPart a, b;                             ///< a < b
   std::array<std::uint32_t, 4> feature{};       ///< what makes each point: corners and edges
   int count = 0;                                ///< of points, 1 to 4
@@ -112,7 +113,7 @@ struct BodyContact {
   std::array<float, 2> friction_impulse{};      ///< along the tangents, at the centre [N s]
   float twist_impulse = 0, unused = 0;          ///< about the normal [N m s]; zero
 };
-static_assert(sizeof(BodyContact) == 440);
+static_assert(sizeof(BodyContact) == 456);
 
 /// A joint of an object that has broken.
 struct BrokenJoint {

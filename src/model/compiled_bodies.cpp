@@ -113,7 +113,9 @@ CompiledBodies compile_bodies(const Object& object, const std::vector<int>& plac
       ConvexShape shape = found != known.end() ? found->second : convex_shape_of(solid.shape, *polyhedra);
       if (const Hull* hull = std::get_if<Hull>(&solid.shape)) shape.radius = hull->margin;
       if (!key.empty() && found == known.end()) known.emplace(std::move(key), shape);
-      out.solids.push_back({number, shape, {convert<double>(solid.position), normalise(convert<double>(solid.rotation))}});
+      out.solids.push_back(
+          {number, shape, {convert<double>(solid.position), normalise(convert<double>(solid.rotation))}, {}});
+      if (const Box* box = std::get_if<Box>(&solid.shape)) out.solids.back().half_extents = box->half_extents;
     }
   }
   find_ties(object, place, out);

@@ -67,6 +67,7 @@ bool is_finite(const BodyContact& c) {
   for (const Vec3d* list : {c.anchor_a.data(), c.anchor_b.data()})
     for (std::size_t i = 0; i < 4; ++i) more += list[i].x + list[i].y + list[i].z;
   more += c.position.x + c.position.y + c.position.z + c.rotation.x + c.rotation.y + c.rotation.z + c.rotation.w;
+  more += static_cast<double>((c.turned.x + c.turned.y) + (c.turned.z + c.turned.w));
   return std::isfinite(more);
 }
 
@@ -74,7 +75,8 @@ void require_body_contacts(const State& state) {
   const BodyContact* before = nullptr;
   for (const BodyContact& contact : state.body_contacts) {
     const std::string element = "contact " + std::to_string(&contact - state.body_contacts.data());
-    if (contact.count < 1 || contact.count > 4 || !is_finite(contact))
+    const bool has_substep = contact.substep == 0 || contact.substep >= 1e-12f;
+    if (contact.count < 1 || contact.count > 4 || !has_substep || !is_finite(contact))
       throw Error({.element = element}, "has a number of points outside 1 to 4, or a value that is not finite",
                   "restore a state of this world");
     if (before != nullptr && !in_order(*before, contact))

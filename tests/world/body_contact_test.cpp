@@ -5,6 +5,7 @@
 #include <string>
 
 #include "pliant/body.h"
+#include "pliant/mesh.h"
 #include "pliant/world.h"
 
 namespace pliant {
@@ -189,6 +190,51 @@ TEST(BodyContact, OfARemovedObjectOrColliderIsForgotten) {
   EXPECT_EQ(world.state().body_contacts.size(), 0U);
   run(world, 30);
   EXPECT_LT(world.object(1).positions()[0].y, -0.5f);
+}
+
+/// Friction of 0.3 holds up to 16.7 degrees also where the box has lain still on what turns.
+TEST(BodyContact, ABoxSlidesOffAPlateThatTilts) {
+  Scene scene = with_ground();
+  scene.colliders[0].shape = Box{{3, 0.1f, 3}};
+  scene.colliders[0].motion.keyframes = {{0, {}, {}}, {1, {}, {}}, {4, {}, rotation({0, 0, 1}, 30)}};
+  scene.colliders[0].motion.pivot = {};
+  BodyOptions options;
+  options.position = {0, 0.301f, 0};
+  Object box = make_body({{Box{{0.2f, 0.2f, 0.2f}}}}, options);
+  set_friction(box, 0.15f);  // the plate has 0.6
+  scene.add(box);
+  World world(scene);
+  run(world, 60 + 84);  // 14 degrees
+  EXPECT_NEAR(world.object(0).positions()[0].x, 0, 0.12);
+  run(world, 66);  // 25 degrees: -0.13 without sliding
+  EXPECT_LT(world.object(0).positions()[0].x, -0.22f);
+}
+
+/// A mesh whose vertices the user moves carries what lies on it, also after the State is restored.
+TEST(BodyContact, AMeshThatTheUserMovesCarriesABox) {
+  Scene scene;
+  MeshCollider floor;
+  floor.mesh = grid_mesh(3, 3, 4, 4);
+  const std::vector<Vec3f> rest = floor.mesh.positions;
+  scene.add(floor);
+  BodyOptions options;
+  options.position = {0.1f, 0.1f, 0.1f};
+  scene.add(make_body({{Box{{0.1f, 0.1f, 0.1f}}}}, options));
+  World world(scene);
+  run(world, 30);
+  for (int frame = 0; frame < 60; ++frame) {
+    std::vector<Vec3f> moved = rest;
+    for (Vec3f& p : moved) p.y += 0.2f * static_cast<float>(frame + 1) / 60;
+    world.mesh_collider(0).set_positions(moved);
+    run(world, 1);
+  }
+  EXPECT_NEAR(world.object(0).positions()[0].y, 0.3, 0.02);
+  World other(scene);
+  other.restore(world.state());
+  run(world, 30);
+  run(other, 30);
+  EXPECT_EQ(world.state_hash(), other.state_hash());
+  EXPECT_NEAR(other.object(0).positions()[0].y, 0.3, 0.01);
 }
 
 /// 5 000 bodies in one place come apart, and the Report says that not all touch at once.

@@ -107,6 +107,11 @@ bool hardly_moved(const Posed& now, const BodyContact& contact, double size) {
          std::fabs(dot(now.rotation, contact.rotation)) > straight;
 }
 
+/// Normal and arms are those of the world, so a contact does not stay where both bodies turn together.
+bool hardly_turned(const Quatd& now, const BodyContact& contact) {
+  return std::fabs(dot(now, convert<double>(contact.turned))) > straight;
+}
+
 void renew_gaps(const Posed& a, const Posed& b, BodyContact& c) {
   for (std::size_t i = 0; i < at(c.count); ++i)
     c.gap[i] = static_cast<float>(dot(convert<double>(c.normal), to_world(b, c.anchor_b[i]) - to_world(a, c.anchor_a[i])));
@@ -248,8 +253,10 @@ struct BodyContacts::Task {
     const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
     const Posed relative = relative_pose(a.pose, b.pose);
     const double size = static_cast<double>(std::min(of.size_[at(pair.first)], of.size_[at(pair.second)]));
-    const auto stays = [&](const BodyContact& contact) { return hardly_moved(relative, contact, size); };
-    if (!old.empty() && std::all_of(old.begin(), old.end(), stays)) {
+    const auto stays = [&](const BodyContact& contact) {
+      return hardly_moved(relative, contact, size) && hardly_turned(a.pose.rotation, contact);
+    };
+    if (!old.empty() && !a.deforms && std::all_of(old.begin(), old.end(), stays)) {
       found.pieces.push_back({old, one.body, other.body});
       found.count += old.size();
       return;
@@ -264,6 +271,7 @@ struct BodyContacts::Task {
       contact.b = other.id;
       contact.position = relative.position;
       contact.rotation = relative.rotation;
+      contact.turned = convert<float>(a.pose.rotation);
       set_points(touching, a.pose, b.pose, contact);
       if (const BodyContact* alike = like(contact, old)) take_impulses(*alike, contact);
       found.pieces.emplace_back();
@@ -308,11 +316,12 @@ void BodyContacts::find_boxes(Executor& executor, const std::vector<BodyState>& 
   });
 }
 
-void BodyContacts::thin_crowd() {
+void BodyContacts::thin_crowd(const std::vector<BodyState>& bodies) {
   left_out_ = 0;
   if (pairs_.size() <= most_of_crowded * convex_.size()) return;
   std::vector<std::size_t> met(parts_.size());
   const auto is_left_out = [&](const Pair& pair) {
+    if (bodies[at(parts_[at(pair.first)].body)].is_fixed || bodies[at(parts_[at(pair.second)].body)].is_fixed) return false;
     if (met[at(pair.first)] >= most_of_crowded || met[at(pair.second)] >= most_of_crowded) return true;
     ++met[at(pair.first)];
     ++met[at(pair.second)];
@@ -346,7 +355,7 @@ void BodyContacts::find_pairs(const std::vector<BodyState>& bodies, float dt, Fu
     }
   }
   std::sort(pairs_.begin(), pairs_.end());
-  thin_crowd();
+  thin_crowd(bodies);
 }
 
 void BodyContacts::update(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,

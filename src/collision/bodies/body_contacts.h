@@ -38,6 +38,7 @@ struct BodyState {
   Posed pose{};              ///< from the body's frame to the world
   Vec3f velocity{}, spin{};  ///< [m/s], [rad/s], in world axes
   bool is_fixed = false;     ///< two fixed bodies do not touch
+  bool deforms = false;      ///< a mesh that moves by its vertices, so that no contact with it stays
 };
 
 class BodyContacts {
@@ -84,7 +85,7 @@ class BodyContacts {
 
   void find_boxes(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster);
   void find_pairs(const std::vector<BodyState>& bodies, float dt, FunctionRef<bool(int, int)> meet);
-  void thin_crowd();
+  void thin_crowd(const std::vector<BodyState>& bodies);
 
   std::vector<BodyPart> parts_;
   std::vector<int> convex_, others_;  ///< parts: convex ones; half-spaces and meshes; ascending

@@ -6,6 +6,7 @@
 #include "constraints/contact.h"
 #include "geometry/convex_hull.h"
 #include "math/functions.h"
+#include "pliant/error.h"
 #include "pliant/mesh.h"
 #include "solver/bodies/body_math.h"
 #include "solver/substep.h"
@@ -71,6 +72,26 @@ LocalShape primitive_of(const CompiledSolid& solid) {
   return {};
 }
 
+/// A distance grid of a solid; null where it is too thin for one.
+std::shared_ptr<const SolidField> field_of(const ConvexShape& shape) {
+  try {
+    return std::make_shared<SolidField>(DistanceGrid(measure_distances(mesh_of(shape), 0)));
+  } catch (const Error&) {
+    return nullptr;
+  }
+}
+
+/// A primitive in the place of a solid that is too thin for a distance grid: a capsule if it is long, else the box around it.
+LocalShape primitive_around(const ConvexShape& shape) {
+  const float radius = shape.core_radius, half = shape.half_length;
+  if (shape.kind != ConvexShape::Kind::polyhedron)
+    return half > radius ? LocalShape{ShapeKind::capsule, radius, half - radius}
+                         : LocalShape{ShapeKind::box, radius, half, radius};
+  Vec3f reach{};
+  for (const Vec3f& corner : shape.polyhedron->corners) reach = max(reach, abs(corner));
+  return {ShapeKind::box, reach.x, reach.y, reach.z};
+}
+
 BoundingBox<float> box_around(const BoxBounds& box, const Posef& pose) {
   const Vec3f centre = to_world(pose, (box.low + box.high) * 0.5f), half = (box.high - box.low) * 0.5f;
   const Vec3f reach = abs(rotate(pose.rotation, Vec3f{half.x, 0, 0})) + abs(rotate(pose.rotation, Vec3f{0, half.y, 0})) +
@@ -122,10 +143,10 @@ void BodyPoints::add_solids(const Model& model) {
         auto same =
             std::find_if(known.begin(), known.end(), [&](const Known& k) { return are_alike(k.shape, from.shape); });
         if (same == known.end()) {
-          const auto field = measure_distances(mesh_of(from.shape), 0);
-          same = known.insert(same, {from.shape, std::make_shared<SolidField>(DistanceGrid(field))});
+          same = known.insert(same, {from.shape, field_of(from.shape)});
         }
         solid.field = same->field;
+        if (solid.field == nullptr) solid.shape = primitive_around(from.shape);
         solid.margin = from.shape.radius;
       }
       solids_.push_back(solid);

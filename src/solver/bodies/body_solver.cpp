@@ -150,24 +150,46 @@ bool BodySolver::meets_mesh(const Model& model, const Place& body, const Place& 
   return (object.groups & mask) != 0 && (groups & object.mask) != 0;
 }
 
+/// True if a vertex of a mesh is not where the mesh's pose puts it, so that the user or frames have moved it.
+bool BodySolver::is_deformed(const Substep& s, const Place& place) const {
+  const CompiledObject& object = s.model.objects[at(place.object)];
+  if (object.groups == 0) return false;  // terrain or a grid, which is rigid
+  const ObjectControl* control = s.work.control.object(place.object);
+  if (object.carrier.deforms() || (control != nullptr && !control->targets.empty())) return true;
+  const Posed pose = rigid_poses(s, place, s.frame_start, s.frame_start).first;
+  for (int i = 0; i < object.particles; ++i) {
+    const Vec3d expected = to_world(pose, convert<double>(object.carrier.rest[at(i)]));
+    const Vec3d there = convert<double>(xyz(s.state.positions[at(s.model.first[at(place.object)] + i)]));
+    if (length(there - expected) > 1e-5 * (1 + length(expected))) return true;
+  }
+  return false;
+}
+
 void BodySolver::move_vertices(const Substep& s, const Place& place) {
   const CompiledObject& object = s.model.objects[at(place.object)];
-  const ObjectControl* control = s.work.control.object(place.object);
   BodyMeshes::Entry& entry = meshes_->of_object.at(place.object);
-  entry.is_deformed = entry.is_deformed || object.carrier.deforms() || (control != nullptr && !control->targets.empty());
-  if (!entry.is_deformed) return;
+  const bool was_deformed = std::exchange(entry.is_deformed, is_deformed(s, place));
+  if (!entry.is_deformed) {
+    if (was_deformed) entry.mesh->move(object.carrier.rest);
+    return;
+  }
   std::vector<Vec3f> positions;
+  positions.reserve(at(object.particles));
   for (int i = 0; i < object.particles; ++i)
     positions.push_back(xyz(s.state.positions[at(s.model.first[at(place.object)] + i)]));
   entry.mesh->move(positions);
 }
 
-std::pair<Posed, Posed> BodySolver::poses_of_mesh(const Substep& s, const Place& place, double before, double after) const {
-  if (meshes_->of_object.at(place.object).is_deformed) return {};
+std::pair<Posed, Posed> BodySolver::rigid_poses(const Substep& s, const Place& place, double before, double after) const {
   const PoseDrive* drive = s.work.control.mesh(place.object);
   const Motion& motion = s.model.objects[at(place.object)].carrier.motion;
   if (drive != nullptr) return {drive->at(before), drive->at(after)};
   return {pose_at(motion, before), pose_at(motion, after)};
+}
+
+std::pair<Posed, Posed> BodySolver::poses_of_mesh(const Substep& s, const Place& place, double before, double after) const {
+  if (meshes_->of_object.at(place.object).is_deformed) return {};
+  return rigid_poses(s, place, before, after);
 }
 
 BodyMaterial BodySolver::material(const Model& model, int a, int b) const {
@@ -190,7 +212,8 @@ BodyState BodySolver::collider_at_start(const Substep& s, const Place& place) {
   const Posef start = convert<float>(before), end = convert<float>(after);
   const float rate = static_cast<float>(1 / s.dt);
   return {before, convert<float>(after.position - before.position) * rate,
-          turn_between(start.rotation, end.rotation) * rate, true};
+          turn_between(start.rotation, end.rotation) * rate, true,
+          place.mesh != nullptr && meshes_->of_object.at(place.object).is_deformed};
 }
 
 BodyState BodySolver::state_at_start(const Substep& s, int body) {
@@ -279,6 +302,9 @@ void BodySolver::load_predicted(const Substep& s, int body) {
   const std::size_t p = at(place.particle), f = at(place.frame);
   motion.velocity = (xyz(s.work.displacements[p]) - xyz(s.state.remainders[p])) * rate;
   motion.spin = (xyz(s.work.frames.predicted[f]) + xyz(s.work.frames.corrections[f])) * rate;
+  // Of the substep, not of the frame: a body that spins fast would lose angular momentum.
+  motion.inverse_inertia =
+      world_inertia(quaternion(s.state.frames.orientations[f]), xyz(s.state.frames.inverse_inertias[f]));
 }
 
 /// Adds what contact has changed to the predicted motion of a body.

@@ -89,7 +89,9 @@ class BodySolver {
   bool meets_mesh(const Model& model, const Place& body, const Place& mesh) const;
   /// Moves the vertices of a mesh that deforms to where they are at the frame's start.
   void move_vertices(const Substep& s, const Place& place);
-  /// The poses of a mesh collider at two times.
+  bool is_deformed(const Substep& s, const Place& place) const;
+  std::pair<Posed, Posed> rigid_poses(const Substep& s, const Place& place, double before, double after) const;
+  /// The poses of a mesh collider at two times; identities if its vertices are in the world.
   std::pair<Posed, Posed> poses_of_mesh(const Substep& s, const Place& place, double before, double after) const;
   BodyState collider_at_start(const Substep& s, const Place& place);
   bool meet(const Model& model, int a, int b) const;

@@ -314,7 +314,7 @@ float find_stiffness(Work& work) {
         force = force + gradients[row][0] * (earlier - forest.multipliers[j][row]);
       }
       const Vec3f anchor{at.value(3 * side), at.value(3 * side + 1), at.value(3 * side + 2)};
-      const std::int32_t frame = joint.slots[static_cast<std::size_t>(2 * side + 1)];
+      const std::int32_t frame = joint.slots[2 * static_cast<std::size_t>(side) + 1];
       const auto b = static_cast<std::size_t>(body);
       const Vec3f arm = rotate(quaternion(work.frames.orientations[frame]), anchor);
       sizes[b] = sizes[b] + add_stiffness(force, arm, forest.stiffness[b]);
