@@ -119,6 +119,7 @@ static_assert(sizeof(BodyContact) == 456);
 struct BrokenJoint {
   int block = 0;  ///< of the object: its index in State::blocks
   int joint = 0;  ///< index in Object::joints
+  // NOLINTNEXTLINE(modernize-use-nullptr)
   friend auto operator<=>(const BrokenJoint&, const BrokenJoint&) = default;
 };
 
