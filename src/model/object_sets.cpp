@@ -225,7 +225,7 @@ bool is_meant_to_stretch(const Object& object, double gravity) {
 
 SubstepRule substep_rule(const Object& object, Sweep sweep, double gravity) {
   if (has_converted(object)) return SubstepRule::fixed;
-  if (!object.bodies.empty()) return SubstepRule::steady;
+  if (!object.bodies.empty()) return SubstepRule::constant;
   if (object.volume) return SubstepRule::any;  // chosen by measurements of volumes, not of strain
   if (!solves_chains(sweep)) return SubstepRule::any;
   const std::optional<double> strain = strain_by_weight(object, gravity);
@@ -272,7 +272,7 @@ std::vector<SetSubsteps> substeps_of_sets(const std::vector<SetMember>& members)
   std::vector<SetSubsteps> out;
   out.reserve(sets.size());
   for (const int set : sets) {
-    const bool is_coupled = rule[set] == SubstepRule::steady && most[set] > substeps_of_bodies;
+    const bool is_coupled = rule[set] == SubstepRule::constant && most[set] > substeps_of_bodies;
     const int wanted = is_coupled ? std::max(most[set], substeps_of_coupled) : most[set];
     const int substeps = rule[set] == SubstepRule::fixed ? substeps_of_others : wanted;
     out.push_back({set, substeps, rule[set] == SubstepRule::by_state, least[set]});

@@ -60,7 +60,7 @@ enum class SubstepRule {
   by_state,  ///< by the State of each quarter of a frame (solver/substep_law.h), unless one of the set needs a fixed number
   /// The same in every frame, where rigid bodies can meet what deforms: contact stores energy in proportion to 1 / h^2, so a smaller h
   /// in the middle of an impact would increase it.
-  steady,
+  constant,
   fixed,  ///< own_substeps, because PBD stiffness is converted for that number
 };
 

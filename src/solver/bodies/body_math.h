@@ -26,4 +26,11 @@ inline void turn(const Vec3f& theta, Record& orientation) {
   orientation = {now.x, now.y, now.z, now.w};
 }
 
+/// The rotation vector between two close orientations.
+inline Vec3f turn_between(const Quatf& from, const Quatf& to) {
+  const Quatf turn = multiply(to, conjugate(from));
+  const float sign = turn.w < 0 ? -2.f : 2.f;
+  return {sign * turn.x, sign * turn.y, sign * turn.z};
+}
+
 }  // namespace pliant::bodies

@@ -5,16 +5,14 @@
 // State for a pass and scattered after it, so constraints, chains and other contact act on bodies as on any particle and frame.
 #pragma once
 
-#include <map>
-#include <memory>
 #include <utility>
 #include <vector>
 
 #include "collision/bodies/body_contacts.h"
 #include "collision/narrow/contact.h"
-#include "collision/proxies/contact_rules.h"
 #include "model/model.h"
 #include "solver/bodies/body_points.h"
+#include "solver/bodies/contact_bodies.h"
 #include "solver/bodies/manifold_blocks.h"
 #include "solver/bodies/manifolds.h"
 #include "solver/contact_log.h"
@@ -23,17 +21,6 @@ namespace pliant {
 
 struct Substep;
 
-/// The meshes of a World's mesh colliders as bodies touch them, by object and generation. They are kept, because to make one takes
-/// longer than a frame.
-struct BodyMeshes {
-  struct Entry {
-    int generation = 0;
-    bool is_deformed = false;  ///< true: moved to places in the world, so its pose is the identity
-    std::unique_ptr<BodyMesh> mesh;
-  };
-  std::map<int, Entry> of_object;
-};
-
 /// Over fifteen members: the bodies of a group, their contacts, and the memory of a frame.
 class BodySolver {
  public:
@@ -41,7 +28,7 @@ class BodySolver {
   BodySolver(const Model& model, const std::vector<int>* objects, BodyMeshes& meshes);
 
   /// False if there are no bodies, so that no stage need be called.
-  bool has_bodies() const { return dynamic_ > 0; }
+  bool has_bodies() const { return bodies_.dynamic() > 0; }
 
   /// Finds the contacts of a frame. Kept ones come from the State.
   void begin_frame(Substep& s);
@@ -58,22 +45,13 @@ class BodySolver {
   /// Puts the impulses of the last substep into contacts().
   void end_frame(const Substep& s);
 
-  /// In ascending order of parts. The State takes them at a frame's end; the next frame makes them anew.
+  /// In ascending order of parts. The State takes them at a frame's end; the next frame makes new ones.
   std::vector<BodyContact>& contacts() { return contacts_; }
   int contacts_that_press() const;
   /// Adds the impulses of the current substep, after respond. Those of impacts with restitution are left out.
   void log_contacts(const Substep& s, ContactLog& log);
 
  private:
-  /// Where a body is in the State; or a collider.
-  struct Place {
-    int object = -1, body = -1;   ///< index in Model::objects, and among the object's bodies
-    int particle = 0, frame = 0;  ///< indices in the State
-    int collider = -1;            ///< >= 0: a primitive collider instead: index in SubstepScratch::colliders
-    BodyMesh* mesh = nullptr;     ///< or that of mesh collider `object`
-
-    bool is_body() const { return collider < 0 && mesh == nullptr; }
-  };
   /// Position and remainder of a body at the frame's start [m].
   struct Start {
     Vec3f position{}, remainder{};
@@ -83,21 +61,6 @@ class BodySolver {
     Vec3f velocity{}, spin{};
   };
 
-  void add_object(const Model& model, int object, std::vector<BodyPart>& parts);
-  void add_collider(const Model& model, int collider, std::vector<BodyPart>& parts);
-  void add_mesh(const Model& model, int object, BodyMeshes& meshes, std::vector<BodyPart>& parts);
-  bool meets_mesh(const Model& model, const Place& body, const Place& mesh) const;
-  /// Moves the vertices of a mesh that deforms to where they are at the frame's start.
-  void move_vertices(const Substep& s, const Place& place);
-  bool is_deformed(const Substep& s, const Place& place) const;
-  std::pair<Posed, Posed> rigid_poses(const Substep& s, const Place& place, double before, double after) const;
-  /// The poses of a mesh collider at two times; identities if its vertices are in the world.
-  std::pair<Posed, Posed> poses_of_mesh(const Substep& s, const Place& place, double before, double after) const;
-  BodyState collider_at_start(const Substep& s, const Place& place);
-  bool meet(const Model& model, int a, int b) const;
-  BodyMaterial material(const Model& model, int a, int b) const;
-  BodyState state_at_start(const Substep& s, int body);
-  int body_of(const ContactPart& part) const;
   void make_manifolds(const Substep& s);
   void move_with_collider(const Substep& s, int body);
   void load_predicted(const Substep& s, int body);
@@ -107,24 +70,17 @@ class BodySolver {
   void start_substep(const Substep& s);
   void keep_motions();
 
-  ContactRules rules_;
-  std::vector<Place> places_;  ///< bodies of objects, then colliders
-  int dynamic_ = 0;            ///< bodies of objects
+  ContactBodies bodies_;
   BodyContacts finder_;
   BodyPoints points_;
-  BodyMeshes* meshes_ = nullptr;
-  std::vector<Polyhedron> collider_shapes_;
-  std::vector<MovingCollider> colliders_at_start_;  ///< their poses are those at the frame's start and end
   std::vector<BodyState> states_;
-  std::vector<std::pair<ContactPart, int>> body_of_part_;  ///< the place of each part, sorted
-  std::vector<std::size_t> first_part_;                    ///< [object] in body_of_part_
-  std::vector<char> is_fixed_;                             ///< [place]
-  std::vector<std::pair<int, int>> bodies_of_;             ///< the bodies of contacts_
+  std::vector<char> is_fixed_;                  ///< [place of bodies_]
+  std::vector<std::pair<int, int>> bodies_of_;  ///< the bodies of contacts_
   std::vector<Start> starts_;
   std::vector<BodyContact> contacts_;
   ManifoldColours colours_;          ///< of contacts_
   ManifoldBlocks blocks_;            ///< the manifolds of contacts_ in a frame
-  std::vector<BodyMotion> motions_;  ///< of places_
+  std::vector<BodyMotion> motions_;  ///< of the places of bodies_
   std::vector<KeptMotion> kept_;     ///< of dynamic bodies, before a pass
   float last_h_ = 0;                 ///< length of the last substep [s]
 };

@@ -1,0 +1,215 @@
+#include "solver/bodies/contact_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+#include "collision/proxies/contact_tables.h"
+#include "solver/bodies/body_math.h"
+#include "solver/substep.h"
+
+namespace pliant {
+
+namespace {
+
+using namespace bodies;
+
+std::pair<Posed, Posed> poses_between(const MovingCollider& collider) {
+  return {convert<double>(collider.before), convert<double>(collider.after)};
+}
+
+ConvexShape shape_of_collider(const Shape& shape, std::vector<Polyhedron>& polyhedra) {
+  if (const Box* box = std::get_if<Box>(&shape)) return convex_shape_of(*box, polyhedra);
+  if (const Capsule* capsule = std::get_if<Capsule>(&shape)) return convex_shape_of(*capsule, polyhedra);
+  if (const Sphere* sphere = std::get_if<Sphere>(&shape)) return convex_shape_of(*sphere, polyhedra);
+  return {};
+}
+
+}  // namespace
+
+ContactBodies::ContactBodies(const Model& model, const std::vector<int>* objects, BodyMeshes& meshes)
+    : rules_(contact_rules(model)), meshes_(&meshes) {
+  std::vector<BodyPart> of_bodies;
+  const int count = objects == nullptr ? static_cast<int>(model.objects.size()) : static_cast<int>(objects->size());
+  for (int i = 0; i < count; ++i) add_object(model, objects == nullptr ? i : (*objects)[at(i)], of_bodies);
+  dynamic_ = static_cast<int>(places_.size());
+  if (dynamic_ == 0) return;
+  collider_shapes_.reserve(model.colliders.size());  // shapes point into it
+  for (int c = static_cast<int>(model.colliders.size()); c-- > 0;) add_collider(model, c);
+  for (int o = 0; o < static_cast<int>(model.objects.size()); ++o)
+    if (model.objects[at(o)].is_collider && model.objects[at(o)].particles > 0) add_mesh(model, o);
+  parts_.insert(parts_.end(), of_bodies.begin(), of_bodies.end());
+  for (const BodyPart& part : parts_) place_of_part_.emplace_back(part.id, part.body);
+  std::sort(place_of_part_.begin(), place_of_part_.end());
+  first_part_.assign(model.objects.size(), 0);
+  for (std::size_t i = place_of_part_.size(); i-- > 0;)
+    if (const int owner = place_of_part_[i].first.owner; owner >= 0) first_part_[at(owner)] = i;
+}
+
+void ContactBodies::add_object(const Model& model, int object, std::vector<BodyPart>& parts) {
+  const CompiledObject& from = model.objects[at(object)];
+  const int first = static_cast<int>(places_.size());
+  for (std::size_t b = 0; b < from.bodies.bodies.size(); ++b) {
+    const auto& [particle, frame] = from.bodies.bodies[b];
+    places_.push_back(
+        {object, static_cast<int>(b), model.first[at(object)] + particle, model.first_frame[at(object)] + frame});
+  }
+  for (int i = 0; i < static_cast<int>(from.bodies.solids.size()); ++i) {
+    const CompiledSolid& solid = from.bodies.solids[at(i)];
+    parts.push_back({{object, i, 0}, first + solid.body, solid.shape, false, solid.pose});
+  }
+}
+
+void ContactBodies::add_collider(const Model& model, int collider) {
+  const Shape& shape = model.colliders[at(collider)].shape;
+  parts_.push_back({{-1 - collider, 0, 0},
+                    static_cast<int>(places_.size()),
+                    shape_of_collider(shape, collider_shapes_),
+                    std::holds_alternative<Plane>(shape),
+                    {}});
+  BodyPlace place;
+  place.collider = collider;
+  places_.push_back(place);
+}
+
+void ContactBodies::add_mesh(const Model& model, int object) {
+  const CompiledObject& from = model.objects[at(object)];
+  const auto field = std::find_if(model.fields.begin(), model.fields.end(),
+                                  [&](const FieldCollider& one) { return one.object == object; });
+  const bool is_terrain = field != model.fields.end() && field->field->is_ground();
+  BodyMeshes::Entry& entry = meshes_->of_object[object];
+  if (entry.mesh == nullptr || entry.generation != model.generation[at(object)])
+    entry = {model.generation[at(object)], false,
+             std::make_unique<BodyMesh>(from.carrier.rest, from.surface.triangles,
+                                        is_terrain ? BodyMesh::Kind::terrain : BodyMesh::Kind::surface, from.thickness)};
+  BodyPlace place;
+  place.object = object;
+  place.mesh = entry.mesh.get();
+  parts_.push_back({{object, 0, 0}, static_cast<int>(places_.size()), {}, false, {}, place.mesh});
+  places_.push_back(place);
+}
+
+bool ContactBodies::meet(const Model& model, int a, int b) const {
+  const BodyPlace &one = places_[at(a)], &other = places_[at(b)];
+  if (one.collider >= 0 || other.collider >= 0) return true;
+  if (!one.is_body() || !other.is_body())
+    return meets_mesh(model, one.is_body() ? one : other, one.is_body() ? other : one);
+  if (!rules_.meet(one.object, other.object)) return false;
+  if (one.object != other.object) return true;
+  const std::vector<std::pair<int, int>>& jointed = model.objects[at(one.object)].bodies.jointed;
+  const std::pair<int, int> both = std::minmax(one.body, other.body);
+  return jointed.empty() || !std::binary_search(jointed.begin(), jointed.end(), both);
+}
+
+bool ContactBodies::meets_mesh(const Model& model, const BodyPlace& body, const BodyPlace& mesh) const {
+  const CompiledObject &object = model.objects[at(body.object)], &collider = model.objects[at(mesh.object)];
+  const auto field = std::find_if(model.fields.begin(), model.fields.end(),
+                                  [&](const FieldCollider& one) { return one.object == mesh.object; });
+  const bool has_field = field != model.fields.end();
+  const std::uint32_t groups = has_field ? field->groups : collider.groups, mask = has_field ? field->mask : collider.mask;
+  return (object.groups & mask) != 0 && (groups & object.mask) != 0;
+}
+
+/// True if a vertex of a mesh is not where the mesh's pose puts it, so that the user or frames have moved it.
+bool ContactBodies::is_deformed(const Substep& s, const BodyPlace& place) const {
+  const CompiledObject& object = s.model.objects[at(place.object)];
+  if (object.groups == 0) return false;  // terrain or a grid, which is rigid
+  const ObjectControl* control = s.work.control.object(place.object);
+  if (object.carrier.deforms() || (control != nullptr && !control->targets.empty())) return true;
+  const Posed pose = rigid_poses(s, place, s.frame_start, s.frame_start).first;
+  for (int i = 0; i < object.particles; ++i) {
+    const Vec3d expected = to_world(pose, convert<double>(object.carrier.rest[at(i)]));
+    const Vec3d there = convert<double>(xyz(s.state.positions[at(s.model.first[at(place.object)] + i)]));
+    if (length(there - expected) > 1e-5 * (1 + length(expected))) return true;
+  }
+  return false;
+}
+
+void ContactBodies::move_vertices(const Substep& s, const BodyPlace& place) {
+  const CompiledObject& object = s.model.objects[at(place.object)];
+  BodyMeshes::Entry& entry = meshes_->of_object.at(place.object);
+  const bool was_deformed = std::exchange(entry.is_deformed, is_deformed(s, place));
+  if (!entry.is_deformed) {
+    if (was_deformed) entry.mesh->move(object.carrier.rest);
+    return;
+  }
+  std::vector<Vec3f> positions;
+  positions.reserve(at(object.particles));
+  for (int i = 0; i < object.particles; ++i)
+    positions.push_back(xyz(s.state.positions[at(s.model.first[at(place.object)] + i)]));
+  entry.mesh->move(positions);
+}
+
+std::pair<Posed, Posed> ContactBodies::rigid_poses(const Substep& s, const BodyPlace& place, double before,
+                                                   double after) const {
+  const PoseDrive* drive = s.work.control.mesh(place.object);
+  const Motion& motion = s.model.objects[at(place.object)].carrier.motion;
+  if (drive != nullptr) return {drive->at(before), drive->at(after)};
+  return {pose_at(motion, before), pose_at(motion, after)};
+}
+
+std::pair<Posed, Posed> ContactBodies::poses_of_mesh(const Substep& s, const BodyPlace& place, double before,
+                                                     double after) const {
+  if (meshes_->of_object.at(place.object).is_deformed) return {};
+  return rigid_poses(s, place, before, after);
+}
+
+BodyMaterial ContactBodies::material(const Model& model, int a, int b) const {
+  const BodyPlace &one = places_[at(a)], &other = places_[at(b)];
+  if (one.collider < 0 && other.collider < 0) {  // rules_ has mesh colliders too
+    const PairMaterial both = rules_.material(one.object, other.object);
+    return {both.static_friction, both.kinetic_friction, both.restitution};
+  }
+  const CompiledObject& object = model.objects[at(one.collider < 0 ? one.object : other.object)];
+  const Collider& collider = model.colliders[at(std::max(one.collider, other.collider))];
+  return {std::sqrt(object.static_friction * collider.static_friction),
+          std::sqrt(object.kinetic_friction * collider.kinetic_friction),
+          std::max(object.restitution, collider.restitution)};
+}
+
+BodyState ContactBodies::collider_at_start(const Substep& s, const BodyPlace& place) {
+  if (place.mesh != nullptr) move_vertices(s, place);
+  const auto [before, after] = place.mesh == nullptr ? poses_between(colliders_at_start_[at(place.collider)])
+                                                     : poses_of_mesh(s, place, s.frame_start, s.frame_start + s.dt);
+  const Posef start = convert<float>(before), end = convert<float>(after);
+  const float rate = static_cast<float>(1 / s.dt);
+  return {before, convert<float>(after.position - before.position) * rate,
+          turn_between(start.rotation, end.rotation) * rate, true,
+          place.mesh != nullptr && meshes_->of_object.at(place.object).is_deformed};
+}
+
+void ContactBodies::begin_frame(const Substep& s) {
+  move_colliders(s.model, s.work.control, s.frame_start, s.frame_start + s.dt, colliders_at_start_);
+}
+
+std::pair<Posed, Posed> ContactBodies::poses_of_collider(const Substep& s, int index) const {
+  const BodyPlace& place = places_[at(index)];
+  return place.mesh == nullptr ? poses_between(s.own->colliders[at(place.collider)])
+                               : poses_of_mesh(s, place, time_of(s, s.number), s.time_after);
+}
+
+BodyState ContactBodies::state_at_start(const Substep& s, int index) {
+  const BodyPlace& place = places_[at(index)];
+  if (!place.is_body()) return collider_at_start(s, place);
+  const Record& x = s.state.positions[at(place.particle)];
+  const Quatf q = quaternion(s.state.frames.orientations[at(place.frame)]);
+  const Vec3f inverse = xyz(s.state.frames.inverse_inertias[at(place.frame)]);
+  const bool is_fixed = x.w == 0 && inverse.x == 0 && inverse.y == 0 && inverse.z == 0;
+  return {{convert<double>(xyz(x)), convert<double>(q)},
+          xyz(s.state.velocities[at(place.particle)]),
+          rotate(q, xyz(s.state.frames.angular_velocities[at(place.frame)])),
+          is_fixed};
+}
+
+/// Solids of an object are numbered without gaps, so the place of a part is known; those of colliders are searched for.
+int ContactBodies::place_of(const ContactPart& part) const {
+  const ContactPart solid{part.owner, part.solid, 0};
+  if (part.owner >= 0) {
+    const std::size_t place = first_part_[at(part.owner)] + at(part.solid);
+    if (place < place_of_part_.size() && place_of_part_[place].first == solid) return place_of_part_[place].second;
+  }
+  return std::lower_bound(place_of_part_.begin(), place_of_part_.end(), std::pair{solid, 0})->second;
+}
+
+}  // namespace pliant
