@@ -99,11 +99,11 @@ void fields(A& a, Is<WorldLayout> auto& of) {
 template <class A>
 void fields(A& a, Is<Object> auto& of) {
   auto& [name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, pins, attachments,
-         thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift,
-         sweep, damping, colour] = of;
+         thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution,
+         rolling_friction, spinning_friction, drag, lift, sweep, damping, colour] = of;
   a(name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, pins, attachments,
-    thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution, drag, lift, sweep,
-    damping);
+    thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution, rolling_friction,
+    spinning_friction, drag, lift, sweep, damping);
   a.aside(colour);
 }
 template <class A>
@@ -140,8 +140,10 @@ void fields(A& a, Is<Hull> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<Collider> auto& of) {
-  auto& [name, shape, position, rotation, motion, thickness, static_friction, kinetic_friction, restitution, colour] = of;
-  a(name, shape, position, rotation, motion, thickness, static_friction, kinetic_friction, restitution);
+  auto& [name, shape, position, rotation, motion, thickness, static_friction, kinetic_friction, restitution,
+         rolling_friction, spinning_friction, colour] = of;
+  a(name, shape, position, rotation, motion, thickness, static_friction, kinetic_friction, restitution, rolling_friction,
+    spinning_friction);
   a.aside(colour);
 }
 template <class A>
@@ -162,10 +164,10 @@ void fields(A& a, Is<DistanceField> auto& of) {
 template <class A>
 void fields(A& a, Is<MeshCollider> auto& of) {
   auto& [name, mesh, motion, frames, repeat_frames, as, grid_spacing, field, thickness, static_friction, kinetic_friction,
-         restitution, groups, mask, colour] = of;
+         restitution, rolling_friction, spinning_friction, groups, mask, colour] = of;
   a(name, mesh, motion, frames, repeat_frames, as, grid_spacing);
   a.aside(field);
-  a(thickness, static_friction, kinetic_friction, restitution, groups, mask);
+  a(thickness, static_friction, kinetic_friction, restitution, rolling_friction, spinning_friction, groups, mask);
   a.aside(colour);
 }
 template <class A>

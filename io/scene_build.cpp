@@ -131,6 +131,8 @@ void set_properties(const JsonDocument& document, const JsonValue& at, Object& o
   set(at, "mask", object.mask);
   set_friction(document, at, object.static_friction, object.kinetic_friction);
   set(at, "restitution", object.restitution);
+  set(at, "rolling_friction", object.rolling_friction);
+  set(at, "spinning_friction", object.spinning_friction);
   std::string sweep;
   set(at, "sweep", sweep);
   if (!sweep.empty()) object.sweep = sweep_of(sweep);
@@ -193,6 +195,8 @@ Collider collider_of(const JsonDocument& document, const JsonValue& at, Names& n
   set(at, "thickness", collider.thickness);
   set_friction(document, at, collider.static_friction, collider.kinetic_friction);
   set(at, "restitution", collider.restitution);
+  set(at, "rolling_friction", collider.rolling_friction);
+  set(at, "spinning_friction", collider.spinning_friction);
   set(at, "colour", collider.colour);
   return collider;
 }
@@ -250,6 +254,8 @@ MeshCollider mesh_collider_of(const JsonDocument& document, const JsonValue& at,
   set(at, "thickness", collider.thickness);
   set_friction(document, at, collider.static_friction, collider.kinetic_friction);
   set(at, "restitution", collider.restitution);
+  set(at, "rolling_friction", collider.rolling_friction);
+  set(at, "spinning_friction", collider.spinning_friction);
   set(at, "groups", collider.groups);
   set(at, "mask", collider.mask);
   set(at, "colour", collider.colour);

@@ -187,6 +187,10 @@ const Record& object_record() {
              "Coefficient of kinetic friction, at most the static one."),
        field("restitution", share(), Object{}.restitution,
              "Coefficient of restitution: the share of the normal speed kept in a bounce."),
+       field("rolling_friction", number("m", 0, largest_place), Object{}.rolling_friction,
+             "Of bodies: greatest torque against rolling, per normal force."),
+       field("spinning_friction", number("m", 0, largest_place), Object{}.spinning_friction,
+             "Of bodies: greatest torque about the contact normal, per normal force, in addition to that of friction."),
        field("sweep", choice(sweep_names()), "automatic",
              "The sweep that solves its constraints. `automatic`: the sweep of `settings`, or if that is automatic too, "
              "the one that measured best on such objects."),

@@ -92,6 +92,12 @@ const Record& collider_record() {
              "Coefficient of kinetic friction, at most the static one."),
        field("restitution", share(), Collider{}.restitution,
              "Coefficient of restitution: the share of the normal speed kept in a bounce. A pair has the larger one."),
+       field("rolling_friction", number("m", 0, largest_place), Collider{}.rolling_friction,
+             "For bodies: greatest torque against rolling, per normal force. A pair has the larger one."),
+       field("spinning_friction", number("m", 0, largest_place), Collider{}.spinning_friction,
+             "For bodies: greatest torque about the contact normal, per normal force, in addition to that of friction. A "
+             "pair has "
+             "the larger one."),
        field("frames", list(record(mesh_frame_record())), "none",
              "Only for a mesh: its deformation, linear between frames; `motion` is applied after it."),
        field("repeat_frames", boolean(), MeshCollider{}.repeat_frames, "Only for a mesh: restart after the last frame."),

@@ -134,6 +134,8 @@ struct Object {
   float static_friction = 0.4f;       ///< coefficient of friction at rest [-]
   float kinetic_friction = 0.3f;      ///< coefficient of friction while sliding, <= static_friction [-]
   float restitution = 0;              ///< ratio of speeds after and before an impact, 0..1 [-]
+  float rolling_friction = 0;         ///< of its bodies: greatest torque against rolling, per normal force [m]
+  float spinning_friction = 0;        ///< likewise about the contact normal, at a single point too [m]
   float drag = 1.2f;                  ///< drag coefficient of a triangle perpendicular to the wind [-]
   float lift = 0.8f;                  ///< lift coefficient of a triangle [-]
   Sweep sweep = Sweep::automatic;     ///< how its constraints are projected
@@ -183,7 +185,8 @@ struct Collider {
   float thickness = 0;           ///< distance that it adds to the thickness of objects [m]
   float static_friction = 0.4f;  ///< a contact uses the geometric mean of both sides
   float kinetic_friction = 0.3f;
-  float restitution = 0;  ///< a contact uses the larger value of both sides
+  float restitution = 0;                              ///< a contact uses the larger value of both sides
+  float rolling_friction = 0, spinning_friction = 0;  ///< as in Object; a contact uses the larger value of both sides [m]
   Vec3f colour{0.45f, 0.48f, 0.52f};
 };
 
@@ -222,8 +225,9 @@ struct MeshCollider {
   float thickness = 0;                           ///< distance that it adds to the thickness of objects [m]
   float static_friction = 0.4f;                  ///< a contact uses the geometric mean of both sides
   float kinetic_friction = 0.3f;
-  float restitution = 0;                 ///< a contact uses the larger value of both sides
-  std::uint32_t groups = 1, mask = ~0u;  ///< bit masks, as in Object
+  float restitution = 0;                              ///< a contact uses the larger value of both sides
+  float rolling_friction = 0, spinning_friction = 0;  ///< as in Object; a contact uses the larger value of both sides [m]
+  std::uint32_t groups = 1, mask = ~0u;               ///< bit masks, as in Object
   Vec3f colour{0.45f, 0.48f, 0.52f};
 };
 

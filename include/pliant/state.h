@@ -97,23 +97,24 @@ struct ContactPart {
 /// normal stay as they were when it began, as long as the bodies hardly move against each other; impulses are where the
 /// solver starts. Over fifteen members, without padding, because it is saved and hashed as it is.
 struct BodyContact {
-  std::array<Vec3d, 4> anchor_a{}, anchor_b{};  ///< the points on each surface, in the frame of each body [m]
-  Vec3d position{};                             ///< of b in the frame of a when it began [m]
-  Quat<double> rotation{};                      ///< likewise
-  Quatf turned{};                               ///< from the frame of a to the world when it began
   ContactPart a, b;                             ///< a < b
-  std::array<std::uint32_t, 4> feature{};       ///< what makes each point: corners and edges
   int count = 0;                                ///< of points, 1 to 4
   float substep = 0;                            ///< length of the substep of the impulses [s]
+  std::array<Vec3f, 4> anchor_a{}, anchor_b{};  ///< the points on each surface, in the frame of each body [m]
+  Vec3f position{};                             ///< of b in the frame of a when it began [m]
+  Quatf rotation{};                             ///< likewise
+  Quatf turned{};                               ///< from the frame of a to the world when it began
   Vec3f normal{}, tangent1{}, tangent2{};       ///< unit vectors, the normal from a to b
   Vec3f arm_a{}, arm_b{};                       ///< from the centres of mass to the centre of the points [m]
   std::array<float, 4> x{}, y{};                ///< places of the points along the tangents, from that centre [m]
   std::array<float, 4> gap{};                   ///< separation at each point when the last step began [m]
+  std::array<std::uint32_t, 4> feature{};       ///< what makes each point: corners and edges
   std::array<float, 4> impulse{};               ///< at each point along the normal, in the last substep [N s]
   std::array<float, 2> friction_impulse{};      ///< along the tangents, at the centre [N s]
-  float twist_impulse = 0, unused = 0;          ///< about the normal [N m s]; zero
+  float twist_impulse = 0;                      ///< about the normal [N m s]
+  std::array<float, 2> rolling_impulse{};       ///< about the tangents [N m s]
 };
-static_assert(sizeof(BodyContact) == 456);
+static_assert(sizeof(BodyContact) == 332);
 
 /// A joint of an object that has broken.
 struct BrokenJoint {

@@ -260,6 +260,7 @@ void check_object(Problems& problems, const Object& object) {
   check_control(problems, object);
   require_range(problems, "thickness", object.thickness, 0, largest_place);
   check_friction(problems, object.static_friction, object.kinetic_friction, object.restitution);
+  check_rolling(problems, object.rolling_friction, object.spinning_friction);
   require_range(problems, "drag", object.drag, 0, largest_place);
   require_range(problems, "lift", object.lift, 0, largest_place);
   require_range(problems, "damping", object.damping, 0, largest_place);

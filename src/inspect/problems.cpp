@@ -101,6 +101,11 @@ void check_motion(Problems& problems, const std::string& element, const Motion& 
     problems.doubtful(element, "repeats " + std::to_string(motion.keyframes.size()) + " keyframes", "give two or more");
 }
 
+void check_rolling(Problems& problems, float rolling_friction, float spinning_friction) {
+  require_range(problems, "rolling_friction", rolling_friction, 0, largest_place);
+  require_range(problems, "spinning_friction", spinning_friction, 0, largest_place);
+}
+
 void check_friction(Problems& problems, float static_friction, float kinetic_friction, float restitution) {
   require_range(problems, "static_friction", static_friction, 0, largest_place);
   require_range(problems, "kinetic_friction", kinetic_friction, 0, largest_place);

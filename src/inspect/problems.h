@@ -69,6 +69,7 @@ void check_stiffness(Problems& problems, const std::string& element, const Stiff
 void check_motion(Problems& problems, const std::string& element, const Motion& motion);
 void check_rotation(Problems& problems, const std::string& element, const Quatf& rotation);
 void check_friction(Problems& problems, float static_friction, float kinetic_friction, float restitution);
+void check_rolling(Problems& problems, float rolling_friction, float spinning_friction);
 
 /// Reports as grave what is wrong with the rigid bodies of an object.
 void check_bodies(Problems& problems, const Object& object);

@@ -448,6 +448,8 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   out.static_friction = object.static_friction;
   out.kinetic_friction = object.kinetic_friction;
   out.restitution = object.restitution;
+  out.rolling_friction = object.rolling_friction;
+  out.spinning_friction = object.spinning_friction;
   out.drag = object.drag;
   out.lift = object.lift;
   out.damping = object.damping;
@@ -501,6 +503,8 @@ CompiledObject compile(const MeshCollider& collider) {
   object.groups = meets ? collider.groups : 0;
   object.mask = meets ? collider.mask : 0;
   object.restitution = collider.restitution;
+  object.rolling_friction = collider.rolling_friction;
+  object.spinning_friction = collider.spinning_friction;
   object.drag = object.lift = 0;
   CompiledObject out = compile(object, CompileOptions{});
   out.is_collider = true;

@@ -116,6 +116,7 @@ struct CompiledObject {
   SubstepRule substep_rule = SubstepRule::any;
   std::uint32_t groups = 1, mask = 0xffffffffu;
   float thickness = 0, static_friction = 0, kinetic_friction = 0, restitution = 0, drag = 0, lift = 0, damping = 0;
+  float rolling_friction = 0, spinning_friction = 0;  ///< of bodies [m]
 };
 
 /// Data apart from the object on which its schedule depends.

@@ -21,6 +21,7 @@ struct MultigridKernels;  // solver/sweeps/multigrid_kernels.h
 struct ContactKernels;    // solver/contact_kernels.h
 struct LengthKernels;     // solver/length_kernels.h
 struct ManifoldKernels;   // solver/bodies/manifold_kernels.h
+struct MotionKernels;     // solver/motion_kernels.h
 struct PairKernels;       // collision/proxies/pair_kernels.h
 
 struct StepKernels {
@@ -60,6 +61,7 @@ struct Kernels : StepKernels {
   const LengthKernels& lengths;
   const PairKernels& pairs;
   const ManifoldKernels& manifolds;
+  const MotionKernels& motions;
 };
 
 /// The readable reference in plain floats. Kernels without a scalar version (multigrid, pairs) use the generic level.

@@ -7,6 +7,7 @@
 #include "solver/contact_kernels.h"
 #include "solver/kernels.h"
 #include "solver/length_kernels.h"
+#include "solver/motion_kernels.h"
 #include "solver/sweeps/chain_kernels.h"
 #include "solver/sweeps/multigrid_kernels.h"
 
@@ -32,7 +33,8 @@ bool runs_generic() { return true; }
     static const Kernels table{step_kernels_##suffix(),    isa,                          \
                                chain_kernels_##suffix(),   multigrid_kernels_##suffix(), \
                                contact_kernels_##suffix(), length_kernels_##suffix(),    \
-                               pair_kernels_##suffix(),    manifold_kernels_##suffix()}; \
+                               pair_kernels_##suffix(),    manifold_kernels_##suffix(),  \
+                               motion_kernels_##suffix()};                               \
     return table;                                                                        \
   }
 PLIANT_FOR_EACH_LEVEL(PLIANT_LEVEL_TABLE, )
@@ -56,7 +58,8 @@ const Kernels& kernels_sequential() {
   static const Kernels table{step_kernels_sequential(),    "sequential",
                              chain_kernels_sequential(),   multigrid_kernels_generic(),
                              contact_kernels_sequential(), length_kernels_sequential(),
-                             pair_kernels_generic(),       manifold_kernels_sequential()};
+                             pair_kernels_generic(),       manifold_kernels_sequential(),
+                             motion_kernels_sequential()};
   return table;
 }
 

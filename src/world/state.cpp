@@ -63,12 +63,12 @@ bool is_finite(const BodyContact& c) {
   float sum = c.substep + c.twist_impulse;
   for (const Vec3f& v : {c.normal, c.tangent1, c.tangent2, c.arm_a, c.arm_b}) sum += v.x + v.y + v.z;
   for (std::size_t i = 0; i < 4; ++i) sum += c.x[i] + c.y[i] + c.gap[i] + c.impulse[i];
-  double more = static_cast<double>(sum + c.friction_impulse[0] + c.friction_impulse[1]);
-  for (const Vec3d* list : {c.anchor_a.data(), c.anchor_b.data()})
-    for (std::size_t i = 0; i < 4; ++i) more += list[i].x + list[i].y + list[i].z;
-  more += c.position.x + c.position.y + c.position.z + c.rotation.x + c.rotation.y + c.rotation.z + c.rotation.w;
-  more += static_cast<double>((c.turned.x + c.turned.y) + (c.turned.z + c.turned.w));
-  return std::isfinite(more);
+  for (const std::array<float, 2>& pair : {c.friction_impulse, c.rolling_impulse}) sum += pair[0] + pair[1];
+  for (const std::array<Vec3f, 4>& list : {c.anchor_a, c.anchor_b})
+    for (const Vec3f& v : list) sum += v.x + v.y + v.z;
+  sum += c.position.x + c.position.y + c.position.z;
+  for (const Quatf& q : {c.rotation, c.turned}) sum += (q.x + q.y) + (q.z + q.w);
+  return std::isfinite(sum);
 }
 
 void require_body_contacts(const State& state) {

@@ -10,9 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "collision/bodies/body_mesh.h"
-#include "collision/broad/tree.h"
-#include "geometry/convex_shape.h"
+#include "collision/bodies/body_pairs.h"
 #include "parallel/executor.h"
 #include "pliant/state.h"
 
@@ -21,24 +19,11 @@ namespace pliant {
 /// The order of contacts: by owners and solids of both sides, then by pieces.
 bool in_order(const BodyContact& a, const BodyContact& b);
 
-/// A convex part of a body, a half-space or a mesh.
-struct BodyPart {
-  ContactPart id;
-  int body = 0;
-  ConvexShape shape;
-  bool is_half_space = false;      ///< y <= 0 of its frame, instead of the shape
-  Posed pose{};                    ///< of the shape in the body's frame
-  const BodyMesh* mesh = nullptr;  ///< instead of the shape
-
-  bool is_convex() const { return !is_half_space && mesh == nullptr; }
-};
-
-/// Where a body is and how it moves at a frame's start.
-struct BodyState {
-  Posed pose{};              ///< from the body's frame to the world
-  Vec3f velocity{}, spin{};  ///< [m/s], [rad/s], in world axes
-  bool is_fixed = false;     ///< two fixed bodies do not touch
-  bool deforms = false;      ///< a mesh that moves by its vertices, so that no contact with it stays
+/// How deep two bodies overlap.
+struct BodyOverlap {
+  int a = -1, b = -1;  ///< bodies
+  float depth = 0;     ///< [m]
+  float share = 0;     ///< of the smaller part's size (BodyPairs::size)
 };
 
 class BodyContacts {
@@ -49,21 +34,20 @@ class BodyContacts {
   explicit BodyContacts(std::vector<BodyPart> parts);
 
   /// Finds all contacts of a frame of `dt` seconds, in ascending order of parts. Parts may touch if `meet` is true for their bodies,
-  /// and they may come within reach in the frame, in which speeds may increase by `faster` [m/s]. `before` are the contacts of the
-  /// frame before, in the same order.
+  /// always with the same answer, and they may come within reach in the frame, in which speeds may increase by `faster` [m/s].
+  /// `before` are the contacts of the frame before, in the same order; it may be the same list as `now`.
   void update(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
               FunctionRef<bool(int, int)> meet, const std::vector<BodyContact>& before, std::vector<BodyContact>& now);
 
   const std::vector<BodyPart>& parts() const { return parts_; }
 
-  /// Where parts overlap more than this many others on average, as thousands of bodies in one place do, each meets at most so many.
-  static constexpr std::size_t most_of_crowded = 48;
-  /// The number of pairs that the last update left out for that.
-  std::ptrdiff_t left_out() const { return left_out_; }
+  /// The deepest contact of a frame, relative to the size of its bodies: of those that stay, when the frame before began.
+  BodyOverlap deepest() const;
+  /// The number of pairs that the last update left out (BodyPairs::most_of_crowded).
+  std::ptrdiff_t left_out() const { return pairs_.left_out(); }
 
  private:
-  /// Two parts that may touch, by index.
-  using Pair = std::pair<int, int>;
+  using Pair = BodyPairs::Pair;
   struct Task;
   /// Contacts of the frame before that stay, of bodies a and b; or one that a task has made, if there are none.
   struct Piece {
@@ -75,27 +59,25 @@ class BodyContacts {
     std::vector<Piece> pieces;
     std::vector<BodyContact> made;
     std::size_t count = 0;  ///< of contacts
+    BodyOverlap deepest{};
 
     void clear() {
       pieces.clear();
       made.clear();
       count = 0;
+      deepest = {};
     }
   };
 
-  void find_boxes(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster);
-  void find_pairs(const std::vector<BodyState>& bodies, float dt, FunctionRef<bool(int, int)> meet);
-  void thin_crowd(const std::vector<BodyState>& bodies);
+  void find(Executor& executor, const std::vector<BodyState>& bodies, float dt, const std::vector<BodyContact>& before);
+  bool all_stay(const std::vector<BodyContact>& before) const;
 
   std::vector<BodyPart> parts_;
-  std::vector<int> convex_, others_;  ///< parts: convex ones; half-spaces and meshes; ascending
-  std::vector<float> size_;           ///< of each part: half of its smallest extent [m]
-  std::vector<Pair> pairs_;           ///< of parts whose boxes overlap, sorted
-  std::vector<BoxBounds> boxes_;      ///< of convex parts
-  std::vector<float> turning_;  ///< [part] an upper bound of the speed of its points against the centre of its body [m/s]
-  std::ptrdiff_t left_out_ = 0;
-  std::vector<Found> found_;  ///< [task]
-  Tree<BoxBounds> tree_;
+  bool are_ordered_ = false;  ///< true: contacts in the order of pairs are in order
+  BodyPairs pairs_;
+  std::vector<Found> found_;        ///< [task]
+  std::vector<std::size_t> first_;  ///< [task] its first contact
+  std::vector<BodyContact> next_;
 };
 
 }  // namespace pliant

@@ -18,17 +18,19 @@ struct Manifold {
   std::array<float, 4> gap{};              ///< separations at the frame's start [m]
   float friction = 0, restitution = 0;     ///< coefficients [-]
   float sliding = 1;                       ///< kinetic over static friction [-]
+  float rolling = 0, spinning = 0;         ///< greatest torque against rolling and spinning, per normal force [m]
 
   std::array<float, 4> impulse{};           ///< of the points along the normal, in a substep [N s]
   std::array<float, 2> friction_impulse{};  ///< along the tangents, at the centre [N s]
   float twist_impulse = 0;                  ///< about the normal [N m s]
+  std::array<float, 2> rolling_impulse{};   ///< about the tangents [N m s]
   std::array<float, 4> gap_now{};           ///< separations at the substep's start [m]
 
   std::array<float, 6> mobility{};  ///< K of normal force and moments about tangents: NN, 11, 22, 12, 2N, N1
   std::array<float, 4> mass{};      ///< that the points oppose to impulses along the normal [kg]
   std::array<float, 3> slide{};     ///< the same of the centre along the tangents, a matrix: 11, 22, 12 [kg]
   float twist_mass = 0;             ///< inertia about the normal [kg m^2]
-  float radius = 0;                 ///< mean distance of the points from the centre [m]
+  float twist_arm = 0;              ///< greatest torque about the normal, per normal force [m]
 };
 
 }  // namespace pliant

@@ -11,6 +11,7 @@
 #include "collision/bodies/body_contacts.h"
 #include "collision/narrow/contact.h"
 #include "model/model.h"
+#include "solver/bodies/body_motions.h"
 #include "solver/bodies/body_points.h"
 #include "solver/bodies/contact_bodies.h"
 #include "solver/bodies/manifold_blocks.h"
@@ -38,7 +39,7 @@ class BodySolver {
   /// one, and makes bodies bounce.
   void project(Substep& s, bool is_first);
   /// Projects the contacts of points of the objects for which `of` is not zero once more.
-  void project_points(Substep& s, const std::vector<char>& of) { points_.project(s, motions_, &of); }
+  void project_points(Substep& s, const std::vector<char>& of) { points_.project(s, motions_.all(), &of); }
   const std::vector<Contact>& point_contacts() const { return points_.contacts(); }
   /// The pass over velocities. `gravity` is what the velocities of an object lack of this frame's gravity [m/s].
   void respond(Substep& s, FunctionRef<Vec3f(int object)> gravity);
@@ -52,37 +53,23 @@ class BodySolver {
   void log_contacts(const Substep& s, ContactLog& log);
 
  private:
-  /// Position and remainder of a body at the frame's start [m].
-  struct Start {
-    Vec3f position{}, remainder{};
-  };
-
-  struct KeptMotion {
-    Vec3f velocity{}, spin{};
-  };
-
+  void find_contacts(Substep& s);
+  void warn_of_overlap(Substep& s) const;
   void make_manifolds(const Substep& s);
-  void move_with_collider(const Substep& s, int body);
-  void load_predicted(const Substep& s, int body);
-  void store_predicted(const Substep& s, int body);
-  void load_velocities(const Substep& s, FunctionRef<Vec3f(int object)> gravity, int body);
-  void store_velocities(const Substep& s, int body);
   void start_substep(const Substep& s);
-  void keep_motions();
 
   ContactBodies bodies_;
   BodyContacts finder_;
   BodyPoints points_;
+  BodyMotions motions_;
   std::vector<BodyState> states_;
   std::vector<char> is_fixed_;                  ///< [place of bodies_]
   std::vector<std::pair<int, int>> bodies_of_;  ///< the bodies of contacts_
-  std::vector<Start> starts_;
   std::vector<BodyContact> contacts_;
-  ManifoldColours colours_;          ///< of contacts_
-  ManifoldBlocks blocks_;            ///< the manifolds of contacts_ in a frame
-  std::vector<BodyMotion> motions_;  ///< of the places of bodies_
-  std::vector<KeptMotion> kept_;     ///< of dynamic bodies, before a pass
-  float last_h_ = 0;                 ///< length of the last substep [s]
+  ManifoldColours colours_;        ///< of contacts_
+  ManifoldBlocks blocks_;          ///< the manifolds of contacts_ in a frame
+  bool pushes_are_known_ = false;  ///< false in the first substep of a frame
+  float last_h_ = 0;               ///< length of the last substep [s]
 };
 
 }  // namespace pliant

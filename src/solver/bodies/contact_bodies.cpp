@@ -90,6 +90,13 @@ void ContactBodies::add_mesh(const Model& model, int object) {
   places_.push_back(place);
 }
 
+std::string ContactBodies::name(const Model& model, int index) const {
+  const BodyPlace& place = places_[at(index)];
+  if (place.collider >= 0) return "'" + model.colliders[at(place.collider)].name + "'";
+  const std::string object = "'" + model.objects[at(place.object)].name + "'";
+  return place.is_body() ? "body " + std::to_string(place.body) + " of " + object : object;
+}
+
 bool ContactBodies::meet(const Model& model, int a, int b) const {
   const BodyPlace &one = places_[at(a)], &other = places_[at(b)];
   if (one.collider >= 0 || other.collider >= 0) return true;
@@ -155,7 +162,26 @@ std::pair<Posed, Posed> ContactBodies::poses_of_mesh(const Substep& s, const Bod
   return rigid_poses(s, place, before, after);
 }
 
+/// Greatest torques against rolling and spinning of one side, per normal force [m].
+std::pair<float, float> ContactBodies::rolling(const Model& model, const BodyPlace& place) const {
+  if (place.collider < 0) {
+    const CompiledObject& object = model.objects[at(place.object)];
+    return {object.rolling_friction, object.spinning_friction};
+  }
+  const Collider& collider = model.colliders[at(place.collider)];
+  return {collider.rolling_friction, collider.spinning_friction};
+}
+
 BodyMaterial ContactBodies::material(const Model& model, int a, int b) const {
+  BodyMaterial material = sliding(model, a, b);
+  const auto [roll_a, spin_a] = rolling(model, places_[at(a)]);
+  const auto [roll_b, spin_b] = rolling(model, places_[at(b)]);
+  material.rolling_friction = std::max(roll_a, roll_b);
+  material.spinning_friction = std::max(spin_a, spin_b);
+  return material;
+}
+
+BodyMaterial ContactBodies::sliding(const Model& model, int a, int b) const {
   const BodyPlace &one = places_[at(a)], &other = places_[at(b)];
   if (one.collider < 0 && other.collider < 0) {  // rules_ has mesh colliders too
     const PairMaterial both = rules_.material(one.object, other.object);

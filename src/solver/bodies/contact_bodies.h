@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -52,6 +53,8 @@ class ContactBodies {
   /// The place of a part.
   int place_of(const ContactPart& part) const;
 
+  /// "body 3 of 'pile'", or the name of a collider.
+  std::string name(const Model& model, int place) const;
   bool meet(const Model& model, int a, int b) const;
   BodyMaterial material(const Model& model, int a, int b) const;
 
@@ -67,6 +70,8 @@ class ContactBodies {
   void add_collider(const Model& model, int collider);
   void add_mesh(const Model& model, int object);
   bool meets_mesh(const Model& model, const BodyPlace& body, const BodyPlace& mesh) const;
+  BodyMaterial sliding(const Model& model, int a, int b) const;
+  std::pair<float, float> rolling(const Model& model, const BodyPlace& place) const;
   void move_vertices(const Substep& s, const BodyPlace& place);
   bool is_deformed(const Substep& s, const BodyPlace& place) const;
   std::pair<Posed, Posed> rigid_poses(const Substep& s, const BodyPlace& place, double before, double after) const;

@@ -49,6 +49,7 @@ void ManifoldBlocks::fill_block(int number, const ManifoldColours& colours, std:
     if (is_fixed[at(m.a)] == 0) block.moves_a |= 1u << lane;
     if (is_fixed[at(m.b)] == 0) block.moves_b |= 1u << lane;
     if (m.restitution > 0) block.bounces = 1;
+    if (m.rolling > 0) block.rolls = 1;
   }
 }
 
@@ -85,6 +86,7 @@ void ManifoldBlocks::scale_impulses(Executor& executor, float factor) {
       for (auto& impulse : rows.impulse) impulse[lane] *= factor;
       for (auto& impulse : rows.friction_impulse) impulse[lane] *= factor;
       rows.twist_impulse[lane] *= factor;
+      for (auto& impulse : rows.rolling_impulse) impulse[lane] *= factor;
     }
   });
 }

@@ -132,8 +132,15 @@ PLIANT_HD PointImpulses<R> impulses_of(const ManifoldRows<lanes>& m) {
   return {{get<R>(m.impulse[0]), get<R>(m.impulse[1]), get<R>(m.impulse[2]), get<R>(m.impulse[3])}};
 }
 
-/// Friction at the centre: inside of a disc of the normal impulse times the coefficient, and a twist within that times the
-/// mean radius.
+/// The sum of the normal impulses.
+template <class R, int lanes>
+PLIANT_HD R pressing(const ManifoldRows<lanes>& m) {
+  const PointImpulses<R> impulse = impulses_of<R>(m);
+  return (impulse.at[0] + impulse.at[1]) + (impulse.at[2] + impulse.at[3]);
+}
+
+/// Friction at the centre: inside of a disc of the normal impulse times the coefficient, and a twist within the normal impulse
+/// times an arm.
 template <class R, int lanes>
 PLIANT_HD void rub(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b) {
   const Vec3<R> velocity = approach(m, a, b), spin = b.spin - a.spin;
@@ -142,17 +149,50 @@ PLIANT_HD void rub(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b) {
   const R before[2] = {get<R>(m.friction_impulse[0]), get<R>(m.friction_impulse[1])};
   const R both = get<R>(m.slide[2]);
   const R wanted[2] = {before[0] - (get<R>(m.slide[0]) * u + both * v), before[1] - (get<R>(m.slide[1]) * v + both * u)};
-  const PointImpulses<R> pressing = impulses_of<R>(m);
-  const R limit = get<R>(m.friction) * ((pressing.at[0] + pressing.at[1]) + (pressing.at[2] + pressing.at[3]));
+  const R pressed = pressing<R>(m), limit = get<R>(m.friction) * pressed;
   const R size = sqrt(wanted[0] * wanted[0] + wanted[1] * wanted[1]);
   const R scale = select(size <= limit, R(1.f), get<R>(m.sliding) * limit / max(size, R(tiny)));
   const R after[2] = {wanted[0] * scale, wanted[1] * scale};
-  const R twist_limit = limit * get<R>(m.radius), old_twist = get<R>(m.twist_impulse);
+  const R twist_limit = pressed * get<R>(m.twist_arm), old_twist = get<R>(m.twist_impulse);
   const R twist = min(max(old_twist - dot(spin, normal) * get<R>(m.twist_mass), -twist_limit), twist_limit);
   store_row(m.friction_impulse[0], after[0]);
   store_row(m.friction_impulse[1], after[1]);
   store_row(m.twist_impulse, twist);
   add(m, first * (after[0] - before[0]) + second * (after[1] - before[1]), normal * (twist - old_twist), a, b);
+}
+
+/// Adds a moment to b, and the opposite to a, where there is rolling friction: elsewhere not even the sign of a zero may change.
+template <class R, int lanes>
+PLIANT_HD void add_moment(const ManifoldRows<lanes>& m, const Vec3<R>& moment, Motion<R>& a, Motion<R>& b) {
+  const auto rolls = get<R>(m.rolling) > R(0.f);
+  a.spin = select(rolls, a.spin - turned(a, moment), a.spin);
+  b.spin = select(rolls, b.spin + turned(b, moment), b.spin);
+}
+
+/// Friction against rolling: a moment about the tangents, inside of a disc of the normal impulse times an arm.
+template <class R, int lanes>
+PLIANT_HD void resist_rolling(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b) {
+  const Vec3<R> spin = b.spin - a.spin, normal = get<R>(m.normal), first = get<R>(m.tangent), second = cross(normal, first);
+  const R u = dot(spin, first), v = dot(spin, second);
+  const R uu = get<R>(m.mobility[1]), vv = get<R>(m.mobility[2]), uv = get<R>(m.mobility[3]);
+  const R scale = R(1.f) / max(uu * vv - uv * uv, R(tiny));
+  const R before[2] = {get<R>(m.rolling_impulse[0]), get<R>(m.rolling_impulse[1])};
+  const R wanted[2] = {before[0] - scale * (vv * u - uv * v), before[1] - scale * (uu * v - uv * u)};
+  const R limit = pressing<R>(m) * get<R>(m.rolling);
+  const R size = sqrt(wanted[0] * wanted[0] + wanted[1] * wanted[1]);
+  const R share = select(size <= limit, R(1.f), limit / max(size, R(tiny)));
+  const auto rolls = get<R>(m.rolling) > R(0.f);
+  const R after[2] = {select(rolls, wanted[0] * share, before[0]), select(rolls, wanted[1] * share, before[1])};
+  store_row(m.rolling_impulse[0], after[0]);
+  store_row(m.rolling_impulse[1], after[1]);
+  add_moment(m, first * (after[0] - before[0]) + second * (after[1] - before[1]), a, b);
+}
+
+/// Applies the kept moments against rolling, at the start of a substep.
+template <class R, int lanes>
+PLIANT_HD void warm_start_rolling(const ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b) {
+  const Vec3<R> normal = get<R>(m.normal), first = get<R>(m.tangent);
+  add_moment(m, first * get<R>(m.rolling_impulse[0]) + cross(normal, first) * get<R>(m.rolling_impulse[1]), a, b);
 }
 
 /// What a point goes for: the velocity -bias, while the share 1 - `kept` of its impulse leaks.
@@ -276,7 +316,7 @@ PLIANT_HD void prepare(ManifoldRows<lanes>& m, const Motion<R>& a, const Motion<
     const R x = get<R>(m.x[i]), y = get<R>(m.y[i]);
     radius += sqrt(x * x + y * y);
   }
-  store_row(m.radius, radius * get<R>(m.point_share));
+  store_row(m.twist_arm, get<R>(m.friction) * (radius * get<R>(m.point_share)) + get<R>(m.spinning));
   store_row(m.twist_mass, one / max(dot(normal, turned(a, normal) + turned(b, normal)), least));
   const Vec3<R> ua = cross(arm_a, first), ub = cross(arm_b, first), va = cross(arm_a, second), vb = cross(arm_b, second);
   const Vec3<R> of_va = turned(a, va), of_vb = turned(b, vb);

@@ -79,8 +79,10 @@ void prepare_blocks(const BlockRange& range) {
 
 void warm_start_blocks(const BlockRange& range) {
   for_blocks(
-      range, [](ManifoldBlock & block, Motion<Wide> & a, Motion<Wide> & b)
-                 __attribute__((always_inline)) { warm_start(block.rows, a, b); });
+      range, [](ManifoldBlock & block, Motion<Wide> & a, Motion<Wide> & b) __attribute__((always_inline)) {
+        warm_start(block.rows, a, b);
+        if (block.rolls != 0) warm_start_rolling(block.rows, a, b);
+      });
 }
 
 bool bounce_blocks(const BlockRange& range, float h, float slow) {
@@ -96,14 +98,17 @@ bool bounce_blocks(const BlockRange& range, float h, float slow) {
 void position_pass_blocks(const BlockRange& range, const PassNumbers& numbers) {
   for_blocks(
       range, [&](ManifoldBlock & block, Motion<Wide> & a, Motion<Wide> & b) __attribute__((always_inline)) {
+        if (block.rolls != 0) resist_rolling(block.rows, a, b);
         position_pass(block.rows, a, b, load_moved(range.motions, block.a), load_moved(range.motions, block.b), numbers);
       });
 }
 
 void velocity_pass_blocks(const BlockRange& range, const PassNumbers& numbers) {
   for_blocks(
-      range, [&](ManifoldBlock & block, Motion<Wide> & a, Motion<Wide> & b)
-                 __attribute__((always_inline)) { velocity_pass(block.rows, a, b, numbers); });
+      range, [&](ManifoldBlock & block, Motion<Wide> & a, Motion<Wide> & b) __attribute__((always_inline)) {
+        if (block.rolls != 0) resist_rolling(block.rows, a, b);
+        velocity_pass(block.rows, a, b, numbers);
+      });
 }
 
 }  // namespace

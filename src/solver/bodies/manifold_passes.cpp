@@ -41,7 +41,10 @@ struct Prepare {
   void operator()(Row& row, Pair& p) const { formulas::prepare(row, p.a, p.b); }
 };
 struct WarmStart {
-  void operator()(Row& row, Pair& p) const { formulas::warm_start(row, p.a, p.b); }
+  void operator()(Row& row, Pair& p) const {
+    formulas::warm_start(row, p.a, p.b);
+    if (row.rolling[0] > 0) formulas::warm_start_rolling(row, p.a, p.b);
+  }
 };
 struct Bounce {
   float h, slow;
@@ -52,11 +55,17 @@ struct Bounce {
 };
 struct PositionPass {
   PassNumbers numbers;
-  void operator()(Row& row, Pair& p) const { formulas::position_pass(row, p.a, p.b, p.moved_a, p.moved_b, numbers); }
+  void operator()(Row& row, Pair& p) const {
+    if (row.rolling[0] > 0) formulas::resist_rolling(row, p.a, p.b);
+    formulas::position_pass(row, p.a, p.b, p.moved_a, p.moved_b, numbers);
+  }
 };
 struct VelocityPass {
   PassNumbers numbers;
-  void operator()(Row& row, Pair& p) const { formulas::velocity_pass(row, p.a, p.b, numbers); }
+  void operator()(Row& row, Pair& p) const {
+    if (row.rolling[0] > 0) formulas::resist_rolling(row, p.a, p.b);
+    formulas::velocity_pass(row, p.a, p.b, numbers);
+  }
 };
 
 // ---------------------------------------------------------------- one manifold
@@ -68,7 +77,7 @@ Row row_of(const Manifold& m) {
   std::memcpy(row.mass, m.mass.data(), sizeof row.mass);
   std::memcpy(row.slide, m.slide.data(), sizeof row.slide);
   row.twist_mass[0] = m.twist_mass;
-  row.radius[0] = m.radius;
+  row.twist_arm[0] = m.twist_arm;
   return row;
 }
 
@@ -128,7 +137,7 @@ void prepare(Manifold& m, const BodyMotion& a, const BodyMotion& b) {
   std::memcpy(m.mass.data(), row.mass, sizeof row.mass);
   std::memcpy(m.slide.data(), row.slide, sizeof row.slide);
   m.twist_mass = row.twist_mass[0];
-  m.radius = row.radius[0];
+  m.twist_arm = row.twist_arm[0];
 }
 
 void warm_start(const Manifold& m, BodyMotion& a, BodyMotion& b) { run(m, a, b, WarmStart{}); }

@@ -26,6 +26,10 @@ struct alignas(64) BodyMotion {
   float unused_by_displacement = 0;
   Vec3f rotation{};  ///< since the frame's start, as a vector in world axes [rad]
   float unused_by_rotation = 0;
+  Vec3f kept_velocity{};  ///< velocity and spin before a pass
+  float unused_by_kept_velocity = 0;
+  Vec3f kept_spin{};
+  float unused_by_kept_spin = 0;
 };
 static_assert(sizeof(BodyMotion) == 128, "eight Records (records_a_motion)");
 

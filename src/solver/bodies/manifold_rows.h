@@ -21,12 +21,14 @@ struct ManifoldRows {
   float arm_a[3][lanes], arm_b[3][lanes];
   float x[4][lanes], y[4][lanes];
   float friction[lanes], sliding[lanes];
-  float mobility[6][lanes], mass[4][lanes], slide[3][lanes], twist_mass[lanes], radius[lanes];
+  float mobility[6][lanes], mass[4][lanes], slide[3][lanes], twist_mass[lanes], twist_arm[lanes];
   float impulse[4][lanes], friction_impulse[2][lanes], twist_impulse[lanes];
   float gap_now[4][lanes];
   float gap[4][lanes];
   float restitution[lanes];
   float point_share[lanes];  ///< 1 / number of points
+  float spinning[lanes];
+  float rolling[lanes], rolling_impulse[2][lanes];  ///< used only where some manifold of the block has rolling friction
 };
 
 /// A BodyMotion consists of so many Records.
@@ -39,6 +41,7 @@ struct alignas(64) ManifoldBlock {
   std::uint32_t moves_a, moves_b;  ///< bit l: body a or b of lane l is dynamic; clear in free lanes
   std::int32_t lanes;              ///< number of manifolds, in the first lanes
   std::int32_t bounces;            ///< 1: some manifold has restitution
+  std::int32_t rolls;              ///< 1: some manifold has rolling friction
 };
 
 /// Sets lane `lane` to manifold `m` as prepare needs it, without what prepare computes.
@@ -65,6 +68,10 @@ void put_manifold(const Manifold& m, ManifoldRows<lanes>& rows, int lane) {
   rows.friction_impulse[0][lane] = m.friction_impulse[0];
   rows.friction_impulse[1][lane] = m.friction_impulse[1];
   rows.twist_impulse[lane] = m.twist_impulse;
+  rows.rolling_impulse[0][lane] = m.rolling_impulse[0];
+  rows.rolling_impulse[1][lane] = m.rolling_impulse[1];
+  rows.rolling[lane] = m.rolling;
+  rows.spinning[lane] = m.spinning;
   rows.friction[lane] = m.friction;
   rows.sliding[lane] = m.sliding;
   rows.restitution[lane] = m.restitution;
@@ -80,6 +87,7 @@ void take_impulses(const ManifoldRows<lanes>& rows, int lane, Manifold& m) {
   }
   m.friction_impulse = {rows.friction_impulse[0][lane], rows.friction_impulse[1][lane]};
   m.twist_impulse = rows.twist_impulse[lane];
+  m.rolling_impulse = {rows.rolling_impulse[0][lane], rows.rolling_impulse[1][lane]};
 }
 
 }  // namespace pliant

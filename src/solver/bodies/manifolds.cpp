@@ -6,6 +6,7 @@ void scale_impulses(float factor, Manifold& m) {
   for (float& impulse : m.impulse) impulse *= factor;
   for (float& impulse : m.friction_impulse) impulse *= factor;
   m.twist_impulse *= factor;
+  for (float& impulse : m.rolling_impulse) impulse *= factor;
 }
 
 Manifold manifold_of(const BodyContact& contact, int a, int b, const BodyMaterial& material, float h) {
@@ -24,9 +25,12 @@ Manifold manifold_of(const BodyContact& contact, int a, int b, const BodyMateria
   m.friction = material.static_friction;
   m.sliding = material.static_friction > 0 ? material.kinetic_friction / material.static_friction : 0;
   m.restitution = material.restitution;
+  m.rolling = material.rolling_friction;
+  m.spinning = material.spinning_friction;
   m.impulse = contact.impulse;
   m.friction_impulse = contact.friction_impulse;
   m.twist_impulse = contact.twist_impulse;
+  m.rolling_impulse = contact.rolling_impulse;
   if (contact.substep > 0 && contact.substep != h) scale_impulses(h / contact.substep, m);
   return m;
 }
@@ -35,6 +39,7 @@ void keep_impulses(const Manifold& manifold, float h, BodyContact& contact) {
   contact.impulse = manifold.impulse;
   contact.friction_impulse = manifold.friction_impulse;
   contact.twist_impulse = manifold.twist_impulse;
+  contact.rolling_impulse = manifold.rolling_impulse;
   contact.substep = h;
 }
 

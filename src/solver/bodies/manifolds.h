@@ -6,9 +6,10 @@
 
 namespace pliant {
 
-/// Coefficients of two bodies in contact [-].
+/// Coefficients of two bodies in contact, most of them [-].
 struct BodyMaterial {
   float static_friction = 0, kinetic_friction = 0, restitution = 0;
+  float rolling_friction = 0, spinning_friction = 0;  ///< [m]
 };
 
 /// The manifold of a contact between bodies `a` and `b` in a frame that begins with substeps of length h [s].

@@ -142,6 +142,7 @@ void keep_body_contacts(std::vector<Substep>& groups) {
     is_first = false;
   }
   if (is_first) all.clear();
+  if (groups.size() == 1) return;  // its contacts are in order
   if (!std::is_sorted(all.begin(), all.end(), in_order)) std::sort(all.begin(), all.end(), in_order);
 }
 

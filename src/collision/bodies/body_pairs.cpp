@@ -1,0 +1,196 @@
+#include "collision/bodies/body_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pliant {
+
+namespace {
+
+constexpr int parts_a_task = 256;
+/// Boxes are larger by this share of their part's size than they need be, so that pairs last for more than a frame.
+constexpr float spare_share = 0.1f;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// How far a part reaches from its frame's origin in six directions of some frame.
+struct Extent {
+  Vec3d low{}, high{};
+};
+
+Extent extent_of(const ConvexShape& shape, const Posed& pose) {
+  const auto farthest = [&](const Vec3d& direction) {
+    const Vec3d local = rotate(conjugate(pose.rotation), direction);
+    return dot(direction, to_world(pose, support(shape, local))) + static_cast<double>(shape.radius);
+  };
+  return {{-farthest({-1, 0, 0}), -farthest({0, -1, 0}), -farthest({0, 0, -1})},
+          {farthest({1, 0, 0}), farthest({0, 1, 0}), farthest({0, 0, 1})}};
+}
+
+/// The box of a part in the world. Supports are exact up to rounding.
+BoxBounds box_of(const BodyPart& part, const Posed& body) {
+  const auto [low, high] = extent_of(part.shape, compose(body, part.pose));
+  return {{detail::float_below(low.x), detail::float_below(low.y), detail::float_below(low.z)},
+          {detail::float_above(high.x), detail::float_above(high.y), detail::float_above(high.z)}};
+}
+
+float size_of(const ConvexShape& shape) {
+  const auto [low, high] = extent_of(shape, {});
+  return static_cast<float>(0.5 * std::min({high.x - low.x, high.y - low.y, high.z - low.z}));
+}
+
+/// An upper bound of the speed of a part's points against the body's centre: a box of it lies around them [m/s].
+float turning_speed(const BodyState& body, const BoxBounds& box) {
+  const Vec3f centre = convert<float>(body.pose.position);
+  const Vec3f reach = max(abs(box.high - centre), abs(box.low - centre));
+  return length(body.spin) * length(reach);
+}
+
+/// A box around a box on its way along a path.
+BoxBounds swept(const BoxBounds& box, const Vec3f& path) {
+  return {box.low + min(path, Vec3f{}), box.high + max(path, Vec3f{})};
+}
+
+/// A box in the world around a mesh.
+BoxBounds world_box(const BodyMesh& mesh, const Posed& pose) {
+  const BoxBounds local = mesh.bounds();
+  const Posef at = convert<float>(pose);
+  const Vec3f centre = to_world(at, (local.low + local.high) * 0.5f), half = (local.high - local.low) * 0.5f;
+  const Vec3f x = abs(rotate(at.rotation, Vec3f{half.x, 0, 0})), y = abs(rotate(at.rotation, Vec3f{0, half.y, 0})),
+              z = abs(rotate(at.rotation, Vec3f{0, 0, half.z}));
+  const Vec3f reach = x + y + z;
+  const float grown = static_cast<float>(mesh.thickness()) + 1e-5f * (largest(centre) + largest(reach));
+  return BoxBounds{centre - reach, centre + reach}.grown(grown);
+}
+
+/// The turning speed of a half-space, which counts as none, or a mesh.
+float turning_of_other(const BodyPart& part, const BodyState& body) {
+  return part.mesh == nullptr ? 0 : turning_speed(body, world_box(*part.mesh, body.pose));
+}
+
+/// True if a box comes within `margin` of a half-space y <= 0.
+bool reaches(const BoxBounds& box, const Posef& half_space, float margin) {
+  const Vec3f up = rotate(half_space.rotation, Vec3f{0, 1, 0}), centre = (box.low + box.high) * 0.5f,
+              half = (box.high - box.low) * 0.5f;
+  return dot(up, centre - half_space.position) - dot(abs(up), half) <= margin + 1e-5f * (largest(centre) + largest(half));
+}
+
+bool is_inside(const BoxBounds& box, const BoxBounds& larger) {
+  return (box.low.x >= larger.low.x) & (box.low.y >= larger.low.y) & (box.low.z >= larger.low.z) &
+         (box.high.x <= larger.high.x) & (box.high.y <= larger.high.y) & (box.high.z <= larger.high.z);
+}
+
+}  // namespace
+
+BodyPairs::BodyPairs(const std::vector<BodyPart>& parts) {
+  size_.reserve(parts.size());
+  for (int i = 0; i < static_cast<int>(parts.size()); ++i) {
+    const BodyPart& part = parts[at(i)];
+    (part.is_convex() ? convex_ : others_).push_back(i);
+    size_.push_back(part.is_convex() ? size_of(part.shape) : 1e30f);
+  }
+}
+
+void BodyPairs::find_boxes(Executor& executor, const Frame& frame, float faster) {
+  const int count = static_cast<int>(convex_.size());
+  boxes_.resize(convex_.size());
+  turning_.resize(frame.parts.size());
+  for (const int part : others_)
+    turning_[at(part)] = turning_of_other(frame.parts[at(part)], frame.bodies[at(frame.parts[at(part)].body)]);
+  executor.parallel_for("bodies: boxes", (count + parts_a_task - 1) / parts_a_task, [&](int task) {
+    for (int i = task * parts_a_task; i < std::min(count, (task + 1) * parts_a_task); ++i) {
+      const int number = convex_[at(i)];
+      const BodyPart& part = frame.parts[at(number)];
+      const BodyState& body = frame.bodies[at(part.body)];
+      const BoxBounds box = box_of(part, body.pose);
+      turning_[at(number)] = turning_speed(body, box) + (body.is_fixed ? 0 : faster);
+      boxes_[at(i)] = swept(box, body.velocity * frame.dt)
+                          .grown(0.5f * margin_share * size_[at(number)] + frame.dt * turning_[at(number)]);
+    }
+  });
+}
+
+/// True if each box is still in its larger one, so that near_ has all pairs that overlap.
+bool BodyPairs::fits() const {
+  if (larger_.size() != boxes_.size()) return false;
+  for (std::size_t i = 0; i < boxes_.size(); ++i)
+    if (!is_inside(boxes_[i], larger_[i])) return false;
+  return true;
+}
+
+void BodyPairs::find_near(const Frame& frame) {
+  larger_.clear();
+  for (std::size_t i = 0; i < boxes_.size(); ++i) larger_.push_back(boxes_[i].grown(spare_share * size_[at(convex_[i])]));
+  tree_.build(larger_);
+  near_.clear();
+  tree_.self_pairs([&](int i, int j) {
+    const int a = frame.parts[at(convex_[at(i)])].body, b = frame.parts[at(convex_[at(j)])].body;
+    if (a != b && frame.meet(std::min(a, b), std::max(a, b))) near_.emplace_back(std::min(i, j), std::max(i, j));
+  });
+  std::sort(near_.begin(), near_.end());
+}
+
+/// Pairs of half-spaces and meshes with convex parts.
+void BodyPairs::find_pairs_of_others(const Frame& frame) {
+  of_others_.clear();
+  for (const int other : others_) {
+    const BodyPart& part = frame.parts[at(other)];
+    const BodyState& body = frame.bodies[at(part.body)];
+    const auto add = [&](int i) {
+      const int convex = convex_[at(i)], of = frame.parts[at(convex)].body;
+      if (!(body.is_fixed && frame.bodies[at(of)].is_fixed) && frame.meet(part.body, of))
+        of_others_.emplace_back(other, convex);
+    };
+    if (part.is_half_space) {
+      const Posef plane = convert<float>(compose(body.pose, part.pose));
+      const float grown = frame.dt * length(body.velocity);
+      for (int i = 0; i < static_cast<int>(boxes_.size()); ++i)
+        if (reaches(boxes_[at(i)], plane, grown)) add(i);
+    } else {
+      const BoxBounds box =
+          swept(world_box(*part.mesh, body.pose), body.velocity * frame.dt).grown(frame.dt * turning_[at(other)]);
+      tree_.query(box, [&](int i) {
+        if (overlap(boxes_[at(i)], box)) add(i);
+      });
+    }
+  }
+  std::sort(of_others_.begin(), of_others_.end());
+}
+
+void BodyPairs::thin_crowd(const Frame& frame) {
+  left_out_ = 0;
+  if (pairs_.size() <= most_of_crowded * convex_.size()) return;
+  std::vector<std::size_t> met(frame.parts.size());
+  const auto is_left_out = [&](const Pair& pair) {
+    if (frame.bodies[at(frame.parts[at(pair.first)].body)].is_fixed ||
+        frame.bodies[at(frame.parts[at(pair.second)].body)].is_fixed)
+      return false;
+    if (met[at(pair.first)] >= most_of_crowded || met[at(pair.second)] >= most_of_crowded) return true;
+    ++met[at(pair.first)];
+    ++met[at(pair.second)];
+    return false;
+  };
+  const auto end = std::remove_if(pairs_.begin(), pairs_.end(), is_left_out);
+  left_out_ = pairs_.end() - end;
+  pairs_.erase(end, pairs_.end());
+}
+
+void BodyPairs::update(Executor& executor, const std::vector<BodyPart>& parts, const std::vector<BodyState>& bodies,
+                       float dt, float faster, FunctionRef<bool(int, int)> meet) {
+  const Frame frame{parts, bodies, dt, meet};
+  find_boxes(executor, frame, faster);
+  const Stopwatch stopwatch(executor.timings(), "bodies: pairs");
+  if (!fits()) find_near(frame);
+  find_pairs_of_others(frame);
+  pairs_ = of_others_;
+  const auto first = static_cast<std::ptrdiff_t>(pairs_.size());
+  for (const auto& [i, j] : near_) {
+    if (!overlap(boxes_[at(i)], boxes_[at(j)])) continue;
+    const int a = convex_[at(i)], b = convex_[at(j)];
+    if (!(bodies[at(parts[at(a)].body)].is_fixed && bodies[at(parts[at(b)].body)].is_fixed)) pairs_.emplace_back(a, b);
+  }
+  std::inplace_merge(pairs_.begin(), pairs_.begin() + first, pairs_.end());
+  thin_crowd(frame);
+}
+
+}  // namespace pliant

@@ -1,0 +1,69 @@
+// Pairs of parts of bodies that may touch within a frame, by their boxes.
+//
+// A tree of boxes a little larger than needed yields pairs that serve for many frames, as long as no box leaves its larger one. Which
+// of them overlap in a frame does not depend on when the tree was built.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "collision/bodies/body_part.h"
+#include "collision/broad/tree.h"
+#include "parallel/executor.h"
+
+namespace pliant {
+
+class BodyPairs {
+ public:
+  /// Two parts that may touch, by index, the smaller one first.
+  using Pair = std::pair<int, int>;
+
+  BodyPairs() = default;
+  /// `parts` are in the order of BodyContacts.
+  explicit BodyPairs(const std::vector<BodyPart>& parts);
+
+  /// Finds the pairs of a frame (BodyContacts::update). `meet` must not change as long as this object lives.
+  void update(Executor& executor, const std::vector<BodyPart>& parts, const std::vector<BodyState>& bodies, float dt,
+              float faster, FunctionRef<bool(int, int)> meet);
+
+  /// The pairs whose boxes overlap, ascending.
+  const std::vector<Pair>& pairs() const { return pairs_; }
+  /// Half of the smallest extent of a part [m].
+  float size(int part) const { return size_[static_cast<std::size_t>(part)]; }
+  /// An upper bound of the speed of a part's points against the centre of its body [m/s].
+  float turning(int part) const { return turning_[static_cast<std::size_t>(part)]; }
+
+  /// Parts nearer than this share of the smaller one's size have a contact.
+  static constexpr float margin_share = 0.04f;
+  /// Where parts overlap more than this many others on average, as thousands of bodies in one place do, each meets at most so many.
+  static constexpr std::size_t most_of_crowded = 48;
+  /// The number of pairs that the last update left out for that.
+  std::ptrdiff_t left_out() const { return left_out_; }
+
+ private:
+  /// What a search needs of a frame.
+  struct Frame {
+    const std::vector<BodyPart>& parts;
+    const std::vector<BodyState>& bodies;
+    float dt;
+    FunctionRef<bool(int, int)> meet;
+  };
+
+  void find_boxes(Executor& executor, const Frame& frame, float faster);
+  bool fits() const;
+  void find_near(const Frame& frame);
+  void find_pairs_of_others(const Frame& frame);
+  void thin_crowd(const Frame& frame);
+
+  std::vector<int> convex_, others_;  ///< parts: convex ones; half-spaces and meshes; ascending
+  std::vector<float> size_, turning_;
+  std::vector<BoxBounds> boxes_;   ///< of convex parts in this frame
+  std::vector<BoxBounds> larger_;  ///< of convex parts when the tree was built
+  Tree<BoxBounds> tree_;           ///< of larger_
+  std::vector<Pair> near_;         ///< indices in convex_ whose larger boxes overlap, ascending
+  std::vector<Pair> pairs_, of_others_;
+  std::ptrdiff_t left_out_ = 0;
+};
+
+}  // namespace pliant

@@ -1,0 +1,30 @@
+// The parts of bodies that touch, and where bodies are.
+#pragma once
+
+#include "collision/bodies/body_mesh.h"
+#include "geometry/convex_shape.h"
+#include "pliant/state.h"
+
+namespace pliant {
+
+/// A convex part of a body, a half-space or a mesh.
+struct BodyPart {
+  ContactPart id;
+  int body = 0;
+  ConvexShape shape;
+  bool is_half_space = false;      ///< y <= 0 of its frame, instead of the shape
+  Posed pose{};                    ///< of the shape in the body's frame
+  const BodyMesh* mesh = nullptr;  ///< instead of the shape
+
+  bool is_convex() const { return !is_half_space && mesh == nullptr; }
+};
+
+/// Where a body is and how it moves at a frame's start.
+struct BodyState {
+  Posed pose{};              ///< from the body's frame to the world
+  Vec3f velocity{}, spin{};  ///< [m/s], [rad/s], in world axes
+  bool is_fixed = false;     ///< two fixed bodies do not touch
+  bool deforms = false;      ///< a mesh that moves by its vertices, so that no contact with it stays
+};
+
+}  // namespace pliant

@@ -1,0 +1,121 @@
+#include "solver/bodies/body_motions.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "solver/bodies/body_math.h"
+#include "solver/rotation.h"
+#include "solver/substep.h"
+
+namespace pliant {
+
+namespace {
+
+using namespace bodies;
+
+constexpr int bodies_a_task = 256;
+
+/// Calls body(first, last) for ranges of `count` bodies on all threads.
+template <class Body>
+void for_ranges(Executor& executor, int count, const Body& body) {
+  executor.parallel_for(nullptr, (count + bodies_a_task - 1) / bodies_a_task,
+                        [&](int task) { body(task * bodies_a_task, std::min(count, (task + 1) * bodies_a_task)); });
+}
+
+/// Moves with a collider: its velocities in the substep.
+void follow(const std::pair<Posed, Posed>& poses, float h, BodyMotion& motion) {
+  const auto& [before, after] = poses;
+  motion.velocity = convert<float>(after.position - before.position) * (1 / h);
+  motion.spin = turn_between(convert<float>(before).rotation, convert<float>(after).rotation) * (1 / h);
+}
+
+}  // namespace
+
+BodyMotions::BodyMotions(const ContactBodies& bodies) : motions_(bodies.places().size()) {
+  for (int i = 0; i < bodies.dynamic(); ++i) {
+    const BodyPlace& place = bodies.places()[at(i)];
+    particles_.push_back(place.particle);
+    frames_.push_back(place.frame);
+    if (ranges_.empty() || ranges_.back().object != place.object || i - ranges_.back().first == bodies_a_task)
+      ranges_.push_back({place.object, i, i});
+    ranges_.back().last = i + 1;
+  }
+  for (Records* list : {&start_positions_, &start_remainders_, &pushed_, &pushed_spin_, &pushed_at_})
+    list->resize(particles_.size());
+}
+
+BodyArrays BodyMotions::arrays(const Substep& s) {
+  return {motions_.data(),
+          particles_.data(),
+          frames_.data(),
+          start_positions_.data(),
+          start_remainders_.data(),
+          pushed_.data(),
+          pushed_spin_.data(),
+          pushed_at_.data(),
+          s.state.positions.data(),
+          s.state.remainders.data(),
+          s.work.displacements.data(),
+          s.state.velocities.data(),
+          frame_arrays(s)};
+}
+
+void BodyMotions::begin_frame(const Substep& s) {
+  std::fill(motions_.begin(), motions_.end(), BodyMotion{});
+  for (int i = 0; i < bodies(); ++i) {
+    const std::size_t particle = at(particles_[at(i)]);
+    start_positions_[at(i)] = s.state.positions[particle];
+    start_remainders_[at(i)] = s.state.remainders[particle];
+  }
+  const BodyArrays all = arrays(s);
+  for_ranges(s.context.executor, bodies(), [&](int first, int last) { s.kernels.motions.load_inertia(all, first, last); });
+}
+
+void BodyMotions::load_predicted(const Substep& s, const ContactBodies& bodies_and_colliders, bool is_first, float share) {
+  for (int i = bodies(); i < static_cast<int>(motions_.size()); ++i)
+    follow(bodies_and_colliders.poses_of_collider(s, i), s.h, motions_[at(i)]);
+  const BodyArrays all = arrays(s);
+  for_ranges(s.context.executor, bodies(),
+             [&](int first, int last) { s.kernels.motions.load_predicted(all, first, last, s.h, is_first, share); });
+}
+
+void BodyMotions::store_predicted(const Substep& s) {
+  const BodyArrays all = arrays(s);
+  for_ranges(s.context.executor, bodies(),
+             [&](int first, int last) { s.kernels.motions.store_predicted(all, first, last, s.h); });
+}
+
+void BodyMotions::load_velocities(const Substep& s, FunctionRef<Vec3f(int object)> gravity) {
+  for (int i = bodies(); i < static_cast<int>(motions_.size()); ++i) {
+    BodyMotion& collider = motions_[at(i)];
+    collider.displacement += collider.velocity * s.h;
+    collider.rotation += collider.spin * s.h;
+  }
+  const BodyArrays all = arrays(s);
+  s.context.executor.parallel_for(nullptr, static_cast<int>(ranges_.size()), [&](int task) {
+    const Range& range = ranges_[at(task)];
+    s.kernels.motions.load_velocities(all, range.first, range.last, gravity(range.object));
+  });
+}
+
+void BodyMotions::store_velocities(const Substep& s) {
+  const BodyArrays all = arrays(s);
+  for_ranges(s.context.executor, bodies(),
+             [&](int first, int last) { s.kernels.motions.store_velocities(all, first, last); });
+}
+
+void BodyMotions::change_once(FunctionRef<void()> change) {
+  before_velocity_.clear();
+  before_spin_.clear();
+  for (int i = 0; i < bodies(); ++i) {
+    before_velocity_.push_back(motions_[at(i)].velocity);
+    before_spin_.push_back(motions_[at(i)].spin);
+  }
+  change();
+  for (int i = 0; i < bodies(); ++i) {
+    pushed_[at(i)] = plus(pushed_[at(i)], before_velocity_[at(i)] - motions_[at(i)].velocity);
+    pushed_spin_[at(i)] = plus(pushed_spin_[at(i)], before_spin_[at(i)] - motions_[at(i)].spin);
+  }
+}
+
+}  // namespace pliant

@@ -1,0 +1,56 @@
+// The motions of the rigid bodies of a substep group, gathered from the State for a pass over their contacts and scattered after it, so
+// that constraints, chains and other contact act on bodies as on any particle and frame.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/bodies/contact_bodies.h"
+#include "solver/motion_kernels.h"
+
+namespace pliant {
+
+struct Substep;
+
+class BodyMotions {
+ public:
+  BodyMotions() = default;
+  explicit BodyMotions(const ContactBodies& bodies);
+
+  /// Of the places of ContactBodies.
+  std::vector<BodyMotion>& all() { return motions_; }
+  const std::vector<BodyMotion>& all() const { return motions_; }
+
+  /// Reads where bodies are at the frame's start, and their masses.
+  void begin_frame(const Substep& s);
+
+  /// Gathers predicted motions. If `is_first` in the substep, they start with `share` times what contacts did in the last one.
+  void load_predicted(const Substep& s, const ContactBodies& bodies, bool is_first, float share);
+  /// Adds what contacts have changed to the prediction.
+  void store_predicted(const Substep& s);
+  /// Gathers velocities. `gravity` is what those of an object lack of this frame's gravity [m/s].
+  void load_velocities(const Substep& s, FunctionRef<Vec3f(int object)> gravity);
+  /// Adds what contacts have changed to velocities.
+  void store_velocities(const Substep& s);
+
+  /// Calls change(), whose effect on velocities the next substep does not start with.
+  void change_once(FunctionRef<void()> change);
+
+ private:
+  /// Bodies [first, last) of an object.
+  struct Range {
+    int object = 0, first = 0, last = 0;
+  };
+
+  BodyArrays arrays(const Substep& s);
+  int bodies() const { return static_cast<int>(particles_.size()); }
+
+  std::vector<BodyMotion> motions_;
+  std::vector<std::int32_t> particles_, frames_;      ///< of each body: indices in the State
+  std::vector<Range> ranges_;                         ///< of at most a task's length
+  Records start_positions_, start_remainders_;        ///< of each body, at the frame's start [m]
+  Records pushed_, pushed_spin_, pushed_at_;          ///< of each body (BodyArrays)
+  std::vector<Vec3f> before_velocity_, before_spin_;  ///< of change_once
+};
+
+}  // namespace pliant

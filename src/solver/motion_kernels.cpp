@@ -1,0 +1,15 @@
+#include "solver/motion_kernels.h"
+
+#include "math/scalar.h"
+
+namespace pliant::motion_formulas {
+PLIANT_HD bool all_zero(float sum) { return sum == 0; }
+}  // namespace pliant::motion_formulas
+
+#include "solver/motion_loops.h"  // after what it uses for floats
+
+namespace pliant {
+
+const MotionKernels& motion_kernels_sequential() { return motion_formulas::Loops<float, 1>::table; }
+
+}  // namespace pliant
