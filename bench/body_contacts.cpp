@@ -85,18 +85,21 @@ class Run {
     const double before = seconds_;
     time(Part::colours, [&] { pyramid_.colours.colour(pyramid_.bodies_of, pyramid_.is_fixed); });
     time(Part::fill, [&] {
-      blocks_.fill(executor_, pyramid_.colours, pyramid_.is_fixed,
-                   [&](int i) { return pyramid_.manifolds[static_cast<std::size_t>(i)]; });
+      blocks_.fill(
+          executor_, pyramid_.colours, pyramid_.is_fixed, [](int) {},
+          [&](int i) { return pyramid_.manifolds[static_cast<std::size_t>(i)]; });
     });
     time(Part::prepare, [&] { blocks_.prepare(executor_, kernels_, pyramid_.motions); });
     for (int substep = 0; substep < 8; ++substep) this->substep();
     time(Part::take, [&] {
-      blocks_.take(executor_, pyramid_.colours, [&](int i, const Manifold& m) {
-        Manifold& to = pyramid_.manifolds[static_cast<std::size_t>(i)];
-        to.impulse = m.impulse;
-        to.friction_impulse = m.friction_impulse;
-        to.twist_impulse = m.twist_impulse;
-      });
+      blocks_.take(
+          executor_, pyramid_.colours, [](int) {},
+          [&](int i, const Manifold& m) {
+            Manifold& to = pyramid_.manifolds[static_cast<std::size_t>(i)];
+            to.impulse = m.impulse;
+            to.friction_impulse = m.friction_impulse;
+            to.twist_impulse = m.twist_impulse;
+          });
     });
     state.SetIterationTime((seconds_ - before) / (part_ >= Part::warm_start && part_ <= Part::velocity_pass ? 8 : 1));
   }

@@ -98,17 +98,17 @@ struct ContactPart {
 /// solver starts. Over fifteen members, without padding, because it is saved and hashed as it is.
 struct BodyContact {
   ContactPart a, b;                             ///< a < b
-  int count = 0;                                ///< of points, 1 to 4
-  float substep = 0;                            ///< length of the substep of the impulses [s]
-  std::array<Vec3f, 4> anchor_a{}, anchor_b{};  ///< the points on each surface, in the frame of each body [m]
+  std::array<std::uint32_t, 4> feature{};       ///< what makes each point: corners and edges
   Vec3f position{};                             ///< of b in the frame of a when it began [m]
   Quatf rotation{};                             ///< likewise
   Quatf turned{};                               ///< from the frame of a to the world when it began
+  std::array<Vec3f, 4> anchor_a{}, anchor_b{};  ///< the points on each surface, in the frame of each body [m]
+  int count = 0;                                ///< of points, 1 to 4
   Vec3f normal{}, tangent1{}, tangent2{};       ///< unit vectors, the normal from a to b
+  std::array<float, 4> gap{};                   ///< separation at each point when the last step began [m]
   Vec3f arm_a{}, arm_b{};                       ///< from the centres of mass to the centre of the points [m]
   std::array<float, 4> x{}, y{};                ///< places of the points along the tangents, from that centre [m]
-  std::array<float, 4> gap{};                   ///< separation at each point when the last step began [m]
-  std::array<std::uint32_t, 4> feature{};       ///< what makes each point: corners and edges
+  float substep = 0;                            ///< length of the substep of the impulses [s]
   std::array<float, 4> impulse{};               ///< at each point along the normal, in the last substep [N s]
   std::array<float, 2> friction_impulse{};      ///< along the tangents, at the centre [N s]
   float twist_impulse = 0;                      ///< about the normal [N m s]

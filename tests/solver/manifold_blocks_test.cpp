@@ -144,7 +144,8 @@ int solve_in_blocks(Pile& pile, const ManifoldKernels& kernels, int threads) {
   std::vector<std::size_t> place_of(pile.manifolds.size());  // of a manifold's number in pile.manifolds
   for (std::size_t i = 0; i < place_of.size(); ++i) place_of[static_cast<std::size_t>(pile.colours.order()[i])] = i;
   const auto manifold = [&](int i) -> Manifold& { return pile.manifolds[place_of[static_cast<std::size_t>(i)]]; };
-  blocks.fill(executor, pile.colours, pile.is_fixed, [&](int i) { return manifold(i); });
+  blocks.fill(
+      executor, pile.colours, pile.is_fixed, [](int) {}, [&](int i) { return manifold(i); });
   EXPECT_EQ(blocks.bounces(),
             std::any_of(pile.manifolds.begin(), pile.manifolds.end(), [](const Manifold& m) { return m.restitution > 0; }));
   blocks.prepare(executor, kernels, pile.motions);
@@ -155,14 +156,16 @@ int solve_in_blocks(Pile& pile, const ManifoldKernels& kernels, int threads) {
     advance(pile);
     blocks.velocity_pass(executor, kernels, pile.motions, step);
   }
-  blocks.take(executor, pile.colours, [&](int i, const Manifold& m) {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(manifold(i).count); ++k) {
-      manifold(i).impulse[k] = m.impulse[k];
-      manifold(i).gap_now[k] = m.gap_now[k];
-    }
-    manifold(i).friction_impulse = m.friction_impulse;
-    manifold(i).twist_impulse = m.twist_impulse;
-  });
+  blocks.take(
+      executor, pile.colours, [](int) {},
+      [&](int i, const Manifold& m) {
+        for (std::size_t k = 0; k < static_cast<std::size_t>(manifold(i).count); ++k) {
+          manifold(i).impulse[k] = m.impulse[k];
+          manifold(i).gap_now[k] = m.gap_now[k];
+        }
+        manifold(i).friction_impulse = m.friction_impulse;
+        manifold(i).twist_impulse = m.twist_impulse;
+      });
   return bounces;
 }
 

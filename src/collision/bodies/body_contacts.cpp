@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -176,13 +177,17 @@ struct BodyContacts::Task {
   }
 
   /// Copies the contacts that run has found to their places, and renews the gaps of those that stay.
-  static void place(const Found& found, const std::vector<BodyState>& bodies, BodyContact* to) {
+  static void place(const Found& found, const std::vector<BodyState>& bodies, BodyContact* to, std::pair<int, int>* of) {
     auto made = found.made.begin();
     for (const Piece& piece : found.pieces) {
-      if (piece.stays.empty()) *to++ = *made++;
+      if (piece.stays.empty()) {
+        *to++ = *made++;
+        *of++ = {piece.a, piece.b};
+      }
       for (const BodyContact& contact : piece.stays) {
         if (to != &contact) *to = contact;
         renew_gaps(bodies[at(piece.a)].pose, bodies[at(piece.b)].pose, *to++);
+        *of++ = {piece.a, piece.b};
       }
     }
   }
@@ -220,7 +225,7 @@ struct BodyContacts::Task {
       set_points(touching, a.pose, b.pose, contact);
       if (const BodyContact* alike = like(contact, old)) take_impulses(*alike, contact);
       note_depth(contact);
-      found.pieces.emplace_back();
+      found.pieces.push_back({{}, one.body, other.body});
       found.made.push_back(contact);
       ++found.count;
     };
@@ -274,18 +279,34 @@ bool BodyContacts::all_stay(const std::vector<BodyContact>& before) const {
   return true;
 }
 
+void BodyContacts::sort(std::vector<BodyContact>& contacts) {
+  std::vector<std::size_t> order(contacts.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return in_order(contacts[i], contacts[j]); });
+  next_.clear();
+  bodies_sorted_.clear();
+  for (const std::size_t i : order) {
+    next_.push_back(contacts[i]);
+    bodies_sorted_.push_back(bodies_[i]);
+  }
+  contacts.swap(next_);
+  bodies_.swap(bodies_sorted_);
+}
+
 void BodyContacts::update(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
                           FunctionRef<bool(int, int)> meet, const std::vector<BodyContact>& before,
                           std::vector<BodyContact>& now) {
   pairs_.update(executor, parts_, bodies, dt, faster, meet);
   find(executor, bodies, dt, before);
   const bool stay = &before == &now && all_stay(before);
+  bodies_.resize(first_.back());
   if (!stay) next_.resize(first_.back());
   BodyContact* const to = stay ? now.data() : next_.data();  // in place where all stay, because a copy takes many bytes
-  executor.parallel_for("bodies: contacts", static_cast<int>(found_.size()),
-                        [&](int task) { Task::place(found_[at(task)], bodies, to + first_[at(task)]); });
+  executor.parallel_for("bodies: contacts", static_cast<int>(found_.size()), [&](int task) {
+    Task::place(found_[at(task)], bodies, to + first_[at(task)], bodies_.data() + first_[at(task)]);
+  });
   if (!stay) now.swap(next_);
-  if (!are_ordered_ && !std::is_sorted(now.begin(), now.end(), in_order)) std::sort(now.begin(), now.end(), in_order);
+  if (!are_ordered_ && !std::is_sorted(now.begin(), now.end(), in_order)) sort(now);
 }
 
 }  // namespace pliant

@@ -39,6 +39,8 @@ class BodyContacts {
   void update(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
               FunctionRef<bool(int, int)> meet, const std::vector<BodyContact>& before, std::vector<BodyContact>& now);
 
+  /// The bodies of each contact of the last update.
+  const std::vector<std::pair<int, int>>& bodies() const { return bodies_; }
   const std::vector<BodyPart>& parts() const { return parts_; }
 
   /// The deepest contact of a frame, relative to the size of its bodies: of those that stay, when the frame before began.
@@ -49,7 +51,7 @@ class BodyContacts {
  private:
   using Pair = BodyPairs::Pair;
   struct Task;
-  /// Contacts of the frame before that stay, of bodies a and b; or one that a task has made, if there are none.
+  /// Contacts of bodies a and b of the frame before that stay; or one that a task has made, if there are none.
   struct Piece {
     std::span<const BodyContact> stays;
     int a = 0, b = 0;
@@ -70,6 +72,7 @@ class BodyContacts {
   };
 
   void find(Executor& executor, const std::vector<BodyState>& bodies, float dt, const std::vector<BodyContact>& before);
+  void sort(std::vector<BodyContact>& contacts);
   bool all_stay(const std::vector<BodyContact>& before) const;
 
   std::vector<BodyPart> parts_;
@@ -78,6 +81,7 @@ class BodyContacts {
   std::vector<Found> found_;        ///< [task]
   std::vector<std::size_t> first_;  ///< [task] its first contact
   std::vector<BodyContact> next_;
+  std::vector<std::pair<int, int>> bodies_, bodies_sorted_;
 };
 
 }  // namespace pliant

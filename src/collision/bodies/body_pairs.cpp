@@ -1,6 +1,7 @@
 #include "collision/bodies/body_pairs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pliant {
@@ -18,13 +19,24 @@ struct Extent {
   Vec3d low{}, high{};
 };
 
+/// The least and greatest coordinate of a core along a direction.
+std::pair<double, double> range_along(const ConvexShape& shape, const Vec3d& direction) {
+  if (shape.kind != ConvexShape::Kind::polyhedron)
+    return {dot(direction, support(shape, -direction)), dot(direction, support(shape, direction))};
+  std::pair<double, double> range{1e300, -1e300};
+  for (const Vec3f& corner : shape.polyhedron->corners) {
+    const double place = dot(direction, convert<double>(corner));
+    range = {std::min(range.first, place), std::max(range.second, place)};
+  }
+  return range;
+}
+
 Extent extent_of(const ConvexShape& shape, const Posed& pose) {
-  const auto farthest = [&](const Vec3d& direction) {
-    const Vec3d local = rotate(conjugate(pose.rotation), direction);
-    return dot(direction, to_world(pose, support(shape, local))) + static_cast<double>(shape.radius);
-  };
-  return {{-farthest({-1, 0, 0}), -farthest({0, -1, 0}), -farthest({0, 0, -1})},
-          {farthest({1, 0, 0}), farthest({0, 1, 0}), farthest({0, 0, 1})}};
+  const auto range = [&](const Vec3d& axis) { return range_along(shape, rotate(conjugate(pose.rotation), axis)); };
+  const auto [x, y, z] = std::array{range({1, 0, 0}), range({0, 1, 0}), range({0, 0, 1})};
+  const double r = static_cast<double>(shape.radius);
+  return {pose.position + Vec3d{x.first - r, y.first - r, z.first - r},
+          pose.position + Vec3d{x.second + r, y.second + r, z.second + r}};
 }
 
 /// The box of a part in the world. Supports are exact up to rounding.

@@ -32,6 +32,13 @@ void for_each(Executor& executor, std::size_t count, const Body& body) {
   });
 }
 
+/// Reads the part of a contact that manifold_of needs into the cache.
+void fetch(const BodyContact& contact) {
+  const char* const first = reinterpret_cast<const char*>(&contact.count);
+  for (std::size_t byte = 0; byte < sizeof(BodyContact) - offsetof(BodyContact, count); byte += 64)
+    __builtin_prefetch(first + byte);
+}
+
 }  // namespace
 
 BodySolver::BodySolver(const Model& model, const std::vector<int>* objects, BodyMeshes& meshes)
@@ -50,13 +57,11 @@ BodySolver::BodySolver(const Model& model, const std::vector<int>* objects, Body
 void BodySolver::make_manifolds(const Substep& s) {
   Executor& executor = s.context.executor;
   const Stopwatch stopwatch(executor.timings(), "bodies: manifolds");
-  bodies_of_.resize(contacts_.size());
-  for_each(executor, contacts_.size(), [&](int i) {
-    bodies_of_[at(i)] = {bodies_.place_of(contacts_[at(i)].a), bodies_.place_of(contacts_[at(i)].b)};
-  });
-  colours_.colour(bodies_of_, is_fixed_);
-  blocks_.fill(executor, colours_, is_fixed_, [&](int i) {
-    const auto& [a, b] = bodies_of_[at(i)];
+  const std::vector<std::pair<int, int>>& bodies_of = finder_.bodies();
+  colours_.colour(bodies_of, is_fixed_);
+  const auto prefetch = [&](int i) { fetch(contacts_[at(i)]); };
+  blocks_.fill(executor, colours_, is_fixed_, prefetch, [&](int i) {
+    const auto& [a, b] = bodies_of[at(i)];
     return manifold_of(contacts_[at(i)], a, b, bodies_.material(s.model, a, b), s.h);
   });
   blocks_.prepare(executor, s.kernels.manifolds, motions_.all());
@@ -158,7 +163,9 @@ void BodySolver::respond(Substep& s, FunctionRef<Vec3f(int object)> gravity) {
 }
 
 void BodySolver::end_frame(const Substep& s) {
-  blocks_.take(s.context.executor, colours_, [&](int i, const Manifold& m) { keep_impulses(m, s.h, contacts_[at(i)]); });
+  const auto prefetch = [&](int i) { __builtin_prefetch(&contacts_[at(i)].impulse, 1); };
+  blocks_.take(s.context.executor, colours_, prefetch,
+               [&](int i, const Manifold& m) { keep_impulses(m, s.h, contacts_[at(i)]); });
 }
 
 void BodySolver::log_contacts(const Substep& s, ContactLog& log) {
@@ -167,7 +174,7 @@ void BodySolver::log_contacts(const Substep& s, ContactLog& log) {
     const BodyContact& c = contacts_[at(i)];
     const double impulse = static_cast<double>((c.impulse[0] + c.impulse[1]) + (c.impulse[2] + c.impulse[3]));
     if (!(impulse > 0)) continue;
-    const std::size_t b = at(bodies_of_[at(i)].second);
+    const std::size_t b = at(finder_.bodies()[at(i)].second);
     const Vec3d place = states_[b].pose.position + convert<double>(motions_.all()[b].displacement + c.arm_b);
     add_push({c.a.owner, c.b.owner, impulse, -c.normal, place}, log);
   }

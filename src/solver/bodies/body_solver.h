@@ -63,8 +63,7 @@ class BodySolver {
   BodyPoints points_;
   BodyMotions motions_;
   std::vector<BodyState> states_;
-  std::vector<char> is_fixed_;                  ///< [place of bodies_]
-  std::vector<std::pair<int, int>> bodies_of_;  ///< the bodies of contacts_
+  std::vector<char> is_fixed_;  ///< [place of bodies_]
   std::vector<BodyContact> contacts_;
   ManifoldColours colours_;        ///< of contacts_
   ManifoldBlocks blocks_;          ///< the manifolds of contacts_ in a frame

@@ -40,11 +40,6 @@ ContactBodies::ContactBodies(const Model& model, const std::vector<int>* objects
   for (int o = 0; o < static_cast<int>(model.objects.size()); ++o)
     if (model.objects[at(o)].is_collider && model.objects[at(o)].particles > 0) add_mesh(model, o);
   parts_.insert(parts_.end(), of_bodies.begin(), of_bodies.end());
-  for (const BodyPart& part : parts_) place_of_part_.emplace_back(part.id, part.body);
-  std::sort(place_of_part_.begin(), place_of_part_.end());
-  first_part_.assign(model.objects.size(), 0);
-  for (std::size_t i = place_of_part_.size(); i-- > 0;)
-    if (const int owner = place_of_part_[i].first.owner; owner >= 0) first_part_[at(owner)] = i;
 }
 
 void ContactBodies::add_object(const Model& model, int object, std::vector<BodyPart>& parts) {
@@ -226,16 +221,6 @@ BodyState ContactBodies::state_at_start(const Substep& s, int index) {
           xyz(s.state.velocities[at(place.particle)]),
           rotate(q, xyz(s.state.frames.angular_velocities[at(place.frame)])),
           is_fixed};
-}
-
-/// Solids of an object are numbered without gaps, so the place of a part is known; those of colliders are searched for.
-int ContactBodies::place_of(const ContactPart& part) const {
-  const ContactPart solid{part.owner, part.solid, 0};
-  if (part.owner >= 0) {
-    const std::size_t place = first_part_[at(part.owner)] + at(part.solid);
-    if (place < place_of_part_.size() && place_of_part_[place].first == solid) return place_of_part_[place].second;
-  }
-  return std::lower_bound(place_of_part_.begin(), place_of_part_.end(), std::pair{solid, 0})->second;
 }
 
 }  // namespace pliant

@@ -50,8 +50,6 @@ class ContactBodies {
   const ContactRules& rules() const { return rules_; }
   /// The parts of all places, in ascending order of owners. They point to shapes that are kept here.
   std::vector<BodyPart> take_parts() { return std::move(parts_); }
-  /// The place of a part.
-  int place_of(const ContactPart& part) const;
 
   /// "body 3 of 'pile'", or the name of a collider.
   std::string name(const Model& model, int place) const;
@@ -84,9 +82,7 @@ class ContactBodies {
   int dynamic_ = 0;
   std::vector<BodyPart> parts_;
   std::vector<Polyhedron> collider_shapes_;
-  std::vector<MovingCollider> colliders_at_start_;          ///< their poses are those at the frame's start and end
-  std::vector<std::pair<ContactPart, int>> place_of_part_;  ///< sorted
-  std::vector<std::size_t> first_part_;                     ///< [object] in place_of_part_
+  std::vector<MovingCollider> colliders_at_start_;  ///< their poses are those at the frame's start and end
 };
 
 }  // namespace pliant

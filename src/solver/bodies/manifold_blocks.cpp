@@ -28,6 +28,13 @@ void for_each(Executor& executor, const char* name, int n, int a_task, const Bod
 
 }  // namespace
 
+/// Prefetches what the next block needs, and if it is the first one of a task, what this one needs.
+void ManifoldBlocks::prefetch_block(int number, const ManifoldColours& colours, FunctionRef<void(int)> prefetch) const {
+  const int last = std::min(number + 2, static_cast<int>(first_.size()) - 1);
+  const int from = number % blocks_a_fill == 0 ? number : number + 1;
+  for (int i = first_[at(std::min(from, last))]; i < first_[at(last)]; ++i) prefetch(colours.order()[at(i)]);
+}
+
 void ManifoldBlocks::fill_block(int number, const ManifoldColours& colours, std::span<const char> is_fixed,
                                 FunctionRef<Manifold(int)> manifold) {
   ManifoldBlock& block = blocks_[at(number)];
@@ -54,7 +61,7 @@ void ManifoldBlocks::fill_block(int number, const ManifoldColours& colours, std:
 }
 
 void ManifoldBlocks::fill(Executor& executor, const ManifoldColours& colours, std::span<const char> is_fixed,
-                          FunctionRef<Manifold(int)> manifold) {
+                          FunctionRef<void(int)> prefetch, FunctionRef<Manifold(int)> manifold) {
   first_.clear();
   for (int c = 0; c <= manifold_colours; ++c) {
     start_[at(c)] = static_cast<int>(first_.size());
@@ -63,12 +70,16 @@ void ManifoldBlocks::fill(Executor& executor, const ManifoldColours& colours, st
   const int count = start_.back() = static_cast<int>(first_.size());
   first_.push_back(colours.start().back());
   blocks_.resize(at(count));
-  for_each(executor, nullptr, count, blocks_a_fill, [&](int i) { fill_block(i, colours, is_fixed, manifold); });
+  for_each(executor, nullptr, count, blocks_a_fill, [&](int i) {
+    prefetch_block(i, colours, prefetch);
+    fill_block(i, colours, is_fixed, manifold);
+  });
 }
 
-void ManifoldBlocks::take(Executor& executor, const ManifoldColours& colours,
+void ManifoldBlocks::take(Executor& executor, const ManifoldColours& colours, FunctionRef<void(int)> prefetch,
                           FunctionRef<void(int, const Manifold&)> keep) const {
   for_each(executor, nullptr, static_cast<int>(blocks_.size()), blocks_a_fill, [&](int i) {
+    prefetch_block(i, colours, prefetch);
     const ManifoldBlock& block = blocks_[at(i)];
     for (int lane = 0; lane < block.lanes; ++lane) {
       Manifold m;

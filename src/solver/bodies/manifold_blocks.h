@@ -15,13 +15,14 @@ namespace pliant {
 
 class ManifoldBlocks {
  public:
-  /// Asks for each manifold by its number in colours.order(), on any thread. `is_fixed` is by body: nonzero where a body is
-  /// fixed.
+  /// Asks for each manifold by its number in colours.order(), on any thread, after prefetch(number), since these are far apart in memory.
+  /// `is_fixed` is by body: nonzero where a body is fixed.
   void fill(Executor& executor, const ManifoldColours& colours, std::span<const char> is_fixed,
-            FunctionRef<Manifold(int)> manifold);
+            FunctionRef<void(int)> prefetch, FunctionRef<Manifold(int)> manifold);
 
   /// Calls keep(number, manifold) for each manifold of `fill`, on any thread, with impulses and present gaps alone.
-  void take(Executor& executor, const ManifoldColours& colours, FunctionRef<void(int, const Manifold&)> keep) const;
+  void take(Executor& executor, const ManifoldColours& colours, FunctionRef<void(int)> prefetch,
+            FunctionRef<void(int, const Manifold&)> keep) const;
 
   /// True if some manifold has restitution.
   bool bounces() const;
@@ -44,6 +45,7 @@ class ManifoldBlocks {
   using Pass = FunctionRef<void(const ManifoldKernels&, const BlockRange&)>;
   /// Calls pass for ranges of each colour, on all threads if the colour is large; then for the tail.
   void run(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions, const Pass& pass);
+  void prefetch_block(int number, const ManifoldColours& colours, FunctionRef<void(int)> prefetch) const;
   void fill_block(int number, const ManifoldColours& colours, std::span<const char> is_fixed,
                   FunctionRef<Manifold(int)> manifold);
 
