@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "solver/bodies/body_solver.h"
 #include "solver/motion_kernels.h"
 
 namespace pliant {
@@ -47,7 +48,11 @@ void update_frames(Substep& s) {
   if (s.model.frames() == 0) return;
   for_objects(s, [&](int o) {  // w is the factor by which damping reduces the velocity
     const float kept = 1 / (1 + s.h * s.model.objects[o].damping);
-    for (int i = s.model.first_frame[o]; i < s.model.end_of_frames(o); ++i) s.work.frames.corrections[i].w = kept;
+    const float share = s.bodies != nullptr ? s.bodies->velocity_share(o) : 1;
+    for (int i = s.model.first_frame[o]; i < s.model.end_of_frames(o); ++i) {
+      Record& correction = s.work.frames.corrections[i];
+      correction = {correction.x * share, correction.y * share, correction.z * share, kept};
+    }
   });
   const FrameArrays arrays = frame_arrays(s);
   std::atomic<bool> are_finite{true};

@@ -22,6 +22,7 @@
 #include <chrono>
 #include <cstdint>
 
+#include "solver/bodies/body_solver.h"
 #include "solver/stages/stages.h"
 #include "solver/substep_law.h"
 
@@ -56,10 +57,12 @@ bool make_substep(Substep& s, FunctionRef<bool()> stops) {
   solve(s);
   solve_again(s);
   limit(s);
+  if (s.bodies != nullptr) s.bodies->stop_passing(s);
   if (stops()) s.substeps = s.number + 1;
   filter(s);
   if (s.work.contact_log != nullptr) log_contacts(s, *s.work.contact_log);
   guard_energy(s);
+  guard_bodies(s);
   if (!update(s)) return false;
   respond(s);
   count_contacts(s);

@@ -32,16 +32,22 @@ FrameArguments frame_arguments(const Substep& s, int object) {
 }
 
 AdvanceArguments particles(const Substep& s, int task) {
-  const int object = s.model.tiles()[task].object, first = s.model.first[object];
+  AdvanceArguments a = object_particles(s, s.model.tiles()[task].object);
   const Tile& tile = tile_of(s, task);
+  a.first = tile.first_particle;
+  a.last = tile.last_particle;
+  return a;
+}
+
+AdvanceArguments object_particles(const Substep& s, int object) {
+  const int first = s.model.first[object];
   const FrameGravity& gravity = s.work.gravity[object];
   AdvanceArguments a;
   a.positions = s.state.positions.data() + first;
   a.displacements = s.work.displacements.data() + first;
   a.remainders = s.state.remainders.data() + first;
   a.velocities = s.state.velocities.data() + first;
-  a.first = tile.first_particle;
-  a.last = tile.last_particle;
+  a.last = s.model.objects[object].particles;
   a.h = s.h;
   a.inverse_h = 1 / s.h;
   a.velocity_kept = gravity.kept;

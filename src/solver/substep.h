@@ -68,6 +68,8 @@ FrameArguments frame_arguments(const Substep& s, int object);
 
 /// The arrays of a tile's particles, for prediction and update.
 AdvanceArguments particles(const Substep& s, int task);
+/// All particles of an object, likewise.
+AdvanceArguments object_particles(const Substep& s, int object);
 
 /// The arrays of the particles of all objects, for contact between surfaces.
 PairParticles all_particles(const Substep& s);

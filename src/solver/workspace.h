@@ -23,6 +23,7 @@ namespace pliant {
 
 /// Sums over the particles of a tile for the guard of energy (stages/guard_energy.cpp) [J].
 struct CorrectionEnergy {
+  double kinetic = 0;             ///< kinetic energy at the substep's start
   double predicted = 0;           ///< change of energy in a substep without its corrections
   double linear = 0;              ///< energy that corrections add, the part that is linear in their velocities
   double quadratic = 0;           ///< the quadratic part

@@ -36,6 +36,9 @@ Vec3f place_of(const Contact& c, const Record* positions, const Record* displace
   return relative(c, positions) + relative(c, displacements);
 }
 
+/// A ball that slides along cloth meets a few triangles in a substep.
+constexpr int most_rounds_of_passing = 12;
+
 constexpr int sides_of_round_solids = 32;
 
 /// A closed mesh of a solid that is no primitive: its polyhedron, or a prism or pyramid of many sides.
@@ -120,6 +123,8 @@ BodyPoints::BodyPoints(const Model& model, const std::vector<int>& objects, cons
     if (std::binary_search(objects_.begin(), objects_.end(), model.tiles()[at(task)].object)) tasks_.push_back(task);
   of_task_.resize(tasks_.size());
   add_solids(model);
+  for (const Solid& solid : solids_) body_of_solid_.push_back(solid.body);
+  loads_ = PointLoads(model, bodies_);
   std::vector<LocalShape> primitives;
   for (const Solid& solid : solids_)
     if (solid.field == nullptr) primitives.push_back(solid.shape);
@@ -200,6 +205,7 @@ void BodyPoints::place_solids(const Substep& s) {
 
 void BodyPoints::detect(Substep& s) {
   place_solids(s);
+  loads_.note_pressed(s, {contacts_, impulses_, body_of_solid_});
   s.context.executor.parallel_for("bodies: points", static_cast<int>(tasks_.size()), [&](int i) {
     const int task = tasks_[at(i)], number = s.model.tiles()[at(task)].object;
     std::vector<Contact>& found = of_task_[at(i)];
@@ -219,13 +225,43 @@ void BodyPoints::detect(Substep& s) {
                   [&](int task) -> const PointBounds& { return s.work.tiles[at(task)].bounds; }, &tasks_},
                  of_shapes_);
   contacts_.insert(contacts_.end(), of_shapes_.begin(), of_shapes_.end());
+  find_swept(s, contacts_);
   std::erase_if(contacts_, [&](const Contact& c) { return !meets(s.model, c); });
   impulses_.assign(contacts_.size(), 0.f);
+  note_progress(s);
+}
+
+void BodyPoints::note_progress(const Substep& s) {
   progress_.assign(bodies_.size(), {});
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     progress_[b].displacement = xyz(s.work.displacements[at(bodies_[b].particle)]);
     const std::size_t frame = at(bodies_[b].frame);
     progress_[b].rotation = xyz(s.work.frames.predicted[frame]) + xyz(s.work.frames.corrections[frame]);
+  }
+}
+
+void BodyPoints::find_swept(const Substep& s, std::vector<Contact>& contacts) {
+  const auto may_meet = [&](int object, int solid) {
+    return rules_->meet(object, bodies_[at(solids_[at(solid)].body)].object);
+  };
+  swept_.detect(s, objects_, moving_, may_meet, contacts);
+}
+
+void BodyPoints::stop_passing(Substep& s, const std::vector<BodyMotion>& motions) {
+  for (int round = 0; round < most_rounds_of_passing && swept_.has_fast(); ++round) {
+    place_solids(s);
+    note_progress(s);
+    std::vector<Contact> more;
+    find_swept(s, more);
+    std::erase_if(more, [&](const Contact& c) { return !meets(s.model, c); });
+    if (more.empty()) return;
+    const std::size_t first = contacts_.size();
+    contacts_.insert(contacts_.end(), more.begin(), more.end());
+    impulses_.resize(contacts_.size());
+    begin_pass(s);
+    for (std::size_t i = first; i < contacts_.size(); ++i)
+      project(s, motions[at(solids_[at(contacts_[i].collider)].body)], contacts_[i]);
+    end_pass(s);
   }
 }
 

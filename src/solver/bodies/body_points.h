@@ -14,17 +14,13 @@
 #include "collision/proxies/contact_rules.h"
 #include "model/model.h"
 #include "solver/bodies/manifold_passes.h"
+#include "solver/bodies/point_loads.h"
+#include "solver/bodies/swept_contacts.h"
 #include "solver/contact_log.h"
 
 namespace pliant {
 
 struct Substep;
-
-/// A body as points touch it.
-struct TouchedBody {
-  int object = 0, body = 0;     ///< index in Model::objects, and among the object's bodies
-  int particle = 0, frame = 0;  ///< indices in the State
-};
 
 class BodyPoints {
  public:
@@ -42,6 +38,29 @@ class BodyPoints {
   void detect(Substep& s);
   /// Projects each contact once, or those with points of the objects for which `of` is not zero. `motions` have the bodies' inverse masses and inertias, in the order of the bodies.
   void project(Substep& s, const std::vector<BodyMotion>& motions, const std::vector<char>* of = nullptr);
+  /// After the iterations: keeps fast solids from passing triangles that they hit on the way which these have given them.
+  void stop_passing(Substep& s, const std::vector<BodyMotion>& motions);
+  /// Finds the particles that carry bodies. `begins`: at a substep's start, after detect.
+  void find_loads(const Substep& s, const std::vector<BodyMotion>& motions, bool begins) {
+    loads_.find(s, {contacts_, impulses_, body_of_solid_}, motions, begins);
+  }
+  PointLoads& loads() { return loads_; }
+  /// After a phase of chains: gives the bodies the impulses of the particles that carry them.
+  void end_chains(Substep& s, const std::vector<BodyMotion>& motions) { loads_.end_chains(s, motions, impulses_); }
+  const std::vector<TouchedBody>& bodies() const { return bodies_; }
+  /// The object of a contact's solid: index in Model::objects.
+  int object_of_solid(int solid) const {
+    return bodies_[static_cast<std::size_t>(body_of_solid_[static_cast<std::size_t>(solid)])].object;
+  }
+  /// The State's particle that is the centre of a solid's body.
+  int particle_of_solid(int solid) const {
+    return bodies_[static_cast<std::size_t>(body_of_solid_[static_cast<std::size_t>(solid)])].particle;
+  }
+  /// Share of the corrections that becomes velocity, for each object; empty: 1 for all.
+  std::vector<float>& velocity_shares() { return velocity_shares_; }
+  float velocity_share(int object) const {
+    return velocity_shares_.empty() ? 1 : velocity_shares_[static_cast<std::size_t>(object)];
+  }
   /// All contacts of the substep.
   const std::vector<Contact>& contacts() const { return contacts_; }
   /// Applies restitution to velocities. `gravity` is what the velocities of an object lack of this frame's gravity [m/s].
@@ -67,6 +86,8 @@ class BodyPoints {
 
   void add_solids(const Model& model);
   void place_solids(const Substep& s);
+  void note_progress(const Substep& s);
+  void find_swept(const Substep& s, std::vector<Contact>& contacts);
   void begin_pass(const Substep& s);
   void end_pass(Substep& s);
   bool meets(const Model& model, const Contact& contact) const;
@@ -76,12 +97,16 @@ class BodyPoints {
   const ContactRules* rules_ = nullptr;
   std::vector<TouchedBody> bodies_;
   std::vector<Solid> solids_;
+  std::vector<int> body_of_solid_;
+  PointLoads loads_;
+  std::vector<float> velocity_shares_;
   std::vector<int> objects_, tasks_;    ///< objects with surfaces or particles, and their tiles, ascending
   std::vector<Posef> poses_;            ///< of bodies at the substep's start
   std::vector<MovingCollider> moving_;  ///< solids in the substep
   std::vector<std::vector<Contact>> of_task_;
   std::vector<Contact> contacts_, of_shapes_;  ///< `collider` is a solid; points are indices in the State
   ShapeContacts shapes_;
+  SweptContacts swept_;
   std::vector<Progress> progress_;
 };
 

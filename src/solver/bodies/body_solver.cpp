@@ -132,7 +132,9 @@ void BodySolver::start_substep(const Substep& s) {
 }
 
 void BodySolver::collide(Substep& s) {
-  if (points_.has_any()) points_.detect(s);
+  if (!points_.has_any()) return;
+  points_.detect(s);
+  points_.find_loads(s, motions_.all(), true);
 }
 
 void BodySolver::project(Substep& s, bool is_first) {

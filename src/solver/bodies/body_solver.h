@@ -40,6 +40,22 @@ class BodySolver {
   void project(Substep& s, bool is_first);
   /// Projects the contacts of points of the objects for which `of` is not zero once more.
   void project_points(Substep& s, const std::vector<char>& of) { points_.project(s, motions_.all(), &of); }
+  /// Keeps fast bodies from passing cloth on the way that the iterations have given them.
+  void stop_passing(Substep& s) { points_.stop_passing(s, motions_.all()); }
+  /// Finds the particles that carry bodies, for the next solve of chains.
+  void find_loads(const Substep& s) {
+    if (points_.has_any()) points_.find_loads(s, motions_.all(), false);
+  }
+  /// What particles carry of bodies in the solve of chains.
+  PointLoads& loads() { return points_.loads(); }
+  /// After a phase of chains: gives the bodies the impulses of the particles that carry them.
+  void end_chains(Substep& s) { points_.end_chains(s, motions_.all()); }
+  const std::vector<TouchedBody>& touched_bodies() const { return points_.bodies(); }
+  int object_of_solid(int solid) const { return points_.object_of_solid(solid); }
+  int particle_of_solid(int solid) const { return points_.particle_of_solid(solid); }
+  /// Share of the corrections that becomes velocity, for each object; empty: 1 for all.
+  std::vector<float>& velocity_shares() { return points_.velocity_shares(); }
+  float velocity_share(int object) const { return points_.velocity_share(object); }
   const std::vector<Contact>& point_contacts() const { return points_.contacts(); }
   /// The pass over velocities. `gravity` is what the velocities of an object lack of this frame's gravity [m/s].
   void respond(Substep& s, FunctionRef<Vec3f(int object)> gravity);

@@ -11,6 +11,7 @@
 #include "solver/drivers/lanes.h"
 #include "solver/forces.h"
 #include "solver/rotation.h"
+#include "solver/stages/energy_share.h"
 #include "solver/stages/stages.h"
 #include "solver/substep_law.h"
 
@@ -74,7 +75,7 @@ void update_tile(const Substep& s, int task, bool ends_frame) {
   const Vec3f settled = gravity_for(s, s.work.gravity[s.model.tiles()[task].object].settled);
   if (ends_frame) a.gravity_settled = settled;
   const float inverse_h = a.inverse_h;
-  a.inverse_h *= s.velocity_share;  // of the corrections alone: the kernel predicts with h
+  a.inverse_h *= velocity_share(s, s.model.tiles()[task].object);  // of the corrections alone: the kernel predicts with h
   s.kernels.update(a);
   a.inverse_h = inverse_h;
   const std::vector<Contact>& contacts = s.work.tiles[task].contacts;

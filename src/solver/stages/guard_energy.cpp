@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "math/vector.h"
+#include "solver/stages/energy_share.h"
 #include "solver/stages/stages.h"
 
 namespace pliant {
@@ -19,50 +20,63 @@ namespace {
 
 Vec3d as_double(const Record& r) { return {r.x, r.y, r.z}; }
 
-/// The energies of a tile's particles at the substep's end, as a polynomial of the share.
-CorrectionEnergy energy_of(const Substep& s, int task) {
-  const FrameGravity& of = s.work.gravity[s.model.tiles()[task].object];
-  const Vec3d gravity = convert<double>(s.model.gravity), settled = gravity * of.settled, begun = gravity * of.begun;
-  const AdvanceArguments a = particles(s, task);
-  const double inverse_h = 1 / static_cast<double>(s.h);
+}  // namespace
+
+CorrectionEnergy correction_energy(const Substep& s, int task) {
   CorrectionEnergy sum;
   if (object_of(s, task).is_collider) return sum;  // it does work where it pushes: is_pushed_by_what_moves
-  for (int i = a.first; i < a.last; ++i) {
-    const Vec3d moved = as_double(a.displacements[i]), carried = as_double(a.remainders[i]);
-    const double w = static_cast<double>(a.positions[i].w);
-    if (!(w > 0)) {
-      sum.has_outside_work = sum.has_outside_work || length(moved - carried) > 0;
-      continue;
-    }
-    const Vec3d velocity = as_double(a.velocities[i]), before = velocity + settled, predicted = velocity + begun;
-    const Vec3d correction = (moved - carried) * inverse_h - predicted;
-    sum.predicted += (0.5 * (dot(predicted, predicted) - dot(before, before)) - dot(gravity, moved)) / w;
-    sum.linear += dot(predicted, correction) / w;
-    sum.quadratic += 0.5 * dot(correction, correction) / w;
+  const AdvanceArguments a = particles(s, task);
+  const PredictedGravity gravity(s, s.model.tiles()[task].object);
+  for (int i = a.first; i < a.last; ++i) add_correction_energy(s, gravity, a, i, sum);
+  return sum;
+}
+
+PredictedGravity::PredictedGravity(const Substep& s, int object) : acceleration(convert<double>(s.model.gravity)) {
+  const FrameGravity& of = s.work.gravity[object];
+  settled = acceleration * of.settled;
+  begun = acceleration * of.begun;
+}
+
+void add_correction_energy(const Substep& s, const PredictedGravity& gravity, const AdvanceArguments& a, int i,
+                           CorrectionEnergy& sum) {
+  const Vec3d moved = as_double(a.displacements[i]), carried = as_double(a.remainders[i]);
+  const double w = static_cast<double>(a.positions[i].w);
+  if (!(w > 0)) {
+    sum.has_outside_work = sum.has_outside_work || length(moved - carried) > 0;
+    return;
   }
-  return sum;
+  const Vec3d velocity = as_double(a.velocities[i]), before = velocity + gravity.settled,
+              predicted = velocity + gravity.begun;
+  const Vec3d correction = (moved - carried) * (1 / static_cast<double>(s.h)) - predicted;
+  sum.kinetic += 0.5 * dot(before, before) / w;
+  sum.predicted += (0.5 * (dot(predicted, predicted) - dot(before, before)) - dot(gravity.acceleration, moved)) / w;
+  sum.linear += dot(predicted, correction) / w;
+  sum.quadratic += 0.5 * dot(correction, correction) / w;
 }
 
-CorrectionEnergy energy_of_group(Substep& s) {
-  for_tiles(s, "guard energy", [&](int task) { s.work.tiles[task].energy = energy_of(s, task); });
-  CorrectionEnergy sum;
-  for_each_tile(s, [&](int task) {
-    const CorrectionEnergy& tile = s.work.tiles[task].energy;
-    sum.predicted += tile.predicted;
-    sum.linear += tile.linear;
-    sum.quadratic += tile.quadratic;
-    sum.has_outside_work = sum.has_outside_work || tile.has_outside_work;
-  });
-  return sum;
+void add(const CorrectionEnergy& of, CorrectionEnergy& sum) {
+  sum.kinetic += of.kinetic;
+  sum.predicted += of.predicted;
+  sum.linear += of.linear;
+  sum.quadratic += of.quadratic;
+  sum.has_outside_work = sum.has_outside_work || of.has_outside_work;
 }
 
-/// The largest share in [0, 1] with which energy does not increase; if there is none, the share with which it increases least.
 double largest_share(const CorrectionEnergy& e) {
   if (!(e.predicted + e.linear + e.quadratic > 0) || !(e.quadratic > 0)) return 1;
   const double discriminant = e.linear * e.linear - 4 * e.quadratic * e.predicted;
   const double root = discriminant > 0 ? std::sqrt(discriminant) : 0;
   const double share = (root - e.linear) / (2 * e.quadratic);
   return std::isfinite(share) ? std::clamp(share, 0., 1.) : 1;
+}
+
+namespace {
+
+CorrectionEnergy energy_of_group(Substep& s) {
+  for_tiles(s, "guard energy", [&](int task) { s.work.tiles[task].energy = correction_energy(s, task); });
+  CorrectionEnergy sum;
+  for_each_tile(s, [&](int task) { add(s.work.tiles[task].energy, sum); });
+  return sum;
 }
 
 /// True if the point of a contact is kinematic and moves.

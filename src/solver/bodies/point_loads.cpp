@@ -1,0 +1,194 @@
+#include "solver/bodies/point_loads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/bodies/body_math.h"
+#include "solver/substep.h"
+#include "solver/sweeps/sweep.h"
+
+namespace pliant {
+
+namespace {
+
+using namespace bodies;
+
+/// A point of an edge or triangle with a smaller weight in the contact hardly feels the body.
+constexpr float least_weight = 0.3f;
+
+/// A body that presses on a particle by less than this many of its weights is moved well enough by contacts alone.
+constexpr float least_weights = 20;
+
+/// True if a contact presses so much that its points should carry the body.
+bool is_heavy(const Substep& s, const Contact& c, float impulse) {
+  return c.push > 0 &&
+         impulse * inverse_mass_of(c, s.state.positions.data()) > least_weights * length(s.model.gravity) * s.h;
+}
+
+/// Inverse mass of a body at an arm for an impulse along a direction [1/kg].
+float mobility(const BodyMotion& body, const Vec3f& arm, const Vec3f& direction) {
+  const Vec3f turning = cross(arm, direction);
+  return body.inverse_mass + dot(turning, times(body.inverse_inertia, turning));
+}
+
+/// The mean of the mobilities across an axis along which the body only translates.
+float mobility_across(const BodyMotion& body, const Vec3f& arm) {
+  const std::array<float, 6>& m = body.inverse_inertia;
+  return body.inverse_mass + 0.5f * (length_squared(arm) * (m[0] + m[1] + m[2]) - dot(arm, times(m, arm)));
+}
+
+/// A body's inertia for each of `carriers` particles. All together they may not exceed its mass; where they turn it, a particle
+/// moves it more easily than by its mass, and others share in the turn.
+float share_of(float inverse_mass, float mobility, int carriers) {
+  const auto n = static_cast<float>(carriers);
+  return min(1 / (inverse_mass * n), 1 / (mobility * max(1.f, 0.5f * n)));
+}
+
+}  // namespace
+
+PointLoads::PointLoads(const Model& model, const std::vector<TouchedBody>& bodies) : bodies_(bodies) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const int object = bodies_[b].object;
+    if (!solves_chains(model.objects[at(object)].sweep)) continue;
+    for (const auto& [point, body] : model.objects[at(object)].bodies.attached)
+      if (body == bodies_[b].body) ties_.emplace_back(point + model.first[at(object)], static_cast<int>(b));
+  }
+  std::sort(ties_.begin(), ties_.end());
+}
+
+void PointLoads::note_pressed(const Substep& s, const Contacts& contacts) {
+  for (const int particle : pressed_) pressed_by_[at(particle)] = 0;
+  pressed_.clear();
+  for (std::size_t n = 0; n < contacts.all.size(); ++n) {
+    const Contact& c = contacts.all[n];
+    if (!is_heavy(s, c, contacts.impulses[n])) continue;
+    for (std::size_t i = 0; i < c.point.size(); ++i) {
+      if (!(c.weight[i] > least_weight)) continue;
+      if (pressed_by_.size() <= at(c.point[i])) pressed_by_.resize(at(c.point[i]) + 1);
+      pressed_by_[at(c.point[i])] = 1 + contacts.body_of_solid[at(c.collider)];
+      pressed_.push_back(c.point[i]);
+    }
+  }
+}
+
+void PointLoads::add(int particle, int body, int contact, const Vec3f& axis) {
+  const std::int32_t known = of_particle_[at(particle)];
+  if (known >= 0) {
+    Load& load = loads_[at(known)];
+    if (load.contact >= 0 && load.body == body) load.axis += axis;
+    return;
+  }
+  of_particle_[at(particle)] = static_cast<std::int32_t>(loads_.size());
+  loads_.push_back({particle, body, contact, axis});
+}
+
+void PointLoads::add_ties(const Substep& s) {
+  for (const auto& [particle, body] : ties_) {
+    const Vec3f arm = (xyz(s.state.positions[at(particle)]) + xyz(s.work.displacements[at(particle)])) -
+                      (xyz(s.state.positions[at(bodies_[at(body)].particle)]) +
+                       xyz(s.work.displacements[at(bodies_[at(body)].particle)]));
+    add(particle, body, -1, arm);
+  }
+}
+
+void PointLoads::add_contacts(const Substep& s, const Contacts& contacts, bool begins) {
+  const Model& model = s.model;
+  for (std::size_t n = 0; n < contacts.all.size(); ++n) {
+    const Contact& c = contacts.all[n];
+    if (!begins && !is_heavy(s, c, contacts.impulses[n])) continue;
+    const int body = contacts.body_of_solid[at(c.collider)];
+    for (std::size_t i = 0; i < c.point.size(); ++i) {
+      if (!(c.weight[i] > least_weight)) continue;
+      const std::size_t particle = at(c.point[i]);
+      if (begins && (particle >= pressed_by_.size() || pressed_by_[particle] != 1 + body)) continue;
+      if (solves_chains(model.objects[at(model.object_of(c.point[i]))].sweep))
+        add(c.point[i], body, static_cast<int>(n), c.normal * c.weight[i]);
+    }
+  }
+}
+
+void PointLoads::share_inertia(const Substep& s, const std::vector<BodyMotion>& motions) {
+  carriers_.assign(bodies_.size(), 0);
+  for (const Load& load : loads_) ++carriers_[at(load.body)];
+  inertias_.clear();
+  for (Load& load : loads_) {
+    const TouchedBody& body = bodies_[at(load.body)];
+    const BodyMotion& motion = motions[at(load.body)];
+    const Record& x = s.state.positions[at(load.particle)];
+    const Vec3f arm = (xyz(x) + xyz(s.work.displacements[at(load.particle)])) -
+                      (xyz(s.state.positions[at(body.particle)]) + xyz(s.work.displacements[at(body.particle)]));
+    const float size = length(load.axis);
+    load.axis = size > 0 ? load.axis * (1 / size) : Vec3f{0, 1, 0};
+    LoadedInertia inertia{load.axis, 0, load.contact < 0 ? 0 : std::sqrt(x.w)};
+    if (motion.inverse_mass > 0 && x.w > 0) {
+      const int carriers = carriers_[at(load.body)];
+      load.along = share_of(motion.inverse_mass, mobility(motion, arm, load.axis), carriers);
+      inertia.root_along = 1 / std::sqrt(1 / x.w + load.along);
+      if (load.contact < 0) {
+        load.across = share_of(motion.inverse_mass, mobility_across(motion, arm), carriers);
+        inertia.root_across = 1 / std::sqrt(1 / x.w + load.across);
+      }
+    }
+    inertias_.push_back(inertia);
+  }
+}
+
+void PointLoads::find(const Substep& s, const Contacts& contacts, const std::vector<BodyMotion>& motions, bool begins) {
+  is_loaded_.assign(s.model.objects.size(), 0);
+  if (of_particle_.size() != s.state.positions.size()) of_particle_.assign(s.state.positions.size(), -1);
+  for (const Load& load : loads_) of_particle_[at(load.particle)] = -1;
+  kept_.swap(loads_);
+  loads_.clear();
+  add_ties(s);
+  add_contacts(s, contacts, begins);
+  share_inertia(s, motions);
+  for (const Load& load : loads_) is_loaded_[at(s.model.object_of(load.particle))] = 1;
+  if (begins) return;
+  for (const Load& old : kept_) {
+    const std::int32_t now = of_particle_[at(old.particle)];
+    if (now >= 0 && loads_[at(now)].body == old.body) loads_[at(now)].given = old.given;
+  }
+}
+
+void PointLoads::begin_chains(const Substep& s) {
+  is_released_.assign(loads_.size(), 0);
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    Load& load = loads_[i];
+    load.before = xyz(s.work.displacements[at(load.particle)]);
+    inertias_[i].farthest = load.contact < 0 ? std::numeric_limits<float>::infinity()
+                            : load.along > 0 ? load.given / load.along
+                                             : 0;
+  }
+}
+
+Vec3f PointLoads::impulse_of(Load& load, const Vec3f& moved) const {
+  const float along = dot(load.axis, moved);
+  if (load.contact < 0) return load.axis * (along * load.along) + (moved - load.axis * along) * load.across;
+  const float push = -along * load.along;
+  load.given = max(load.given + push, 0.f);
+  return load.axis * -push;
+}
+
+void PointLoads::end_chains(Substep& s, const std::vector<BodyMotion>& motions, std::vector<float>& impulses) {
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    Load& load = loads_[i];
+    const BodyMotion& motion = motions[at(load.body)];
+    if (is_released_[i] != 0 || !(motion.inverse_mass > 0)) continue;
+    const Record& d = s.work.displacements[at(load.particle)];
+    const Vec3f impulse = impulse_of(load, xyz(d) - load.before);
+    if (impulse == Vec3f{}) continue;
+    if (load.contact >= 0) impulses[at(load.contact)] -= dot(load.axis, impulse) / s.h;
+    const TouchedBody& body = bodies_[at(load.body)];
+    Record& of_body = s.work.displacements[at(body.particle)];
+    const Vec3f arm =
+        (xyz(s.state.positions[at(load.particle)]) + xyz(d)) - (xyz(s.state.positions[at(body.particle)]) + xyz(of_body));
+    of_body = plus(of_body, impulse * motion.inverse_mass);
+    const Vec3f turned = times(motion.inverse_inertia, cross(arm, impulse));
+    Record& corrections = s.work.frames.corrections[at(body.frame)];
+    corrections = plus(corrections, turned);
+    turn(turned, s.state.frames.orientations[at(body.frame)]);
+  }
+}
+
+}  // namespace pliant

@@ -1,0 +1,149 @@
+#include "solver/bodies/swept_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "solver/bodies/body_math.h"
+#include "solver/substep.h"
+
+namespace pliant {
+
+namespace {
+
+using namespace bodies;
+
+/// A motion below this share of a solid's smallest half side is seen by contacts at the substep's end.
+constexpr float share_of_size = 0.5f;
+/// Room for rounding at the edges of a triangle, in barycentric coordinates.
+constexpr float beside = 1e-3f;
+/// Hits of neighbouring triangles at an edge are taken together if they are this near in time.
+constexpr float same_time = 1e-3f;
+
+/// Half sides of the box about a solid's centre, without its margin.
+Vec3f half_sides_of(const MovingCollider& solid) {
+  if (solid.field != nullptr) return (solid.field->bounds().high - solid.field->bounds().low) * 0.5f;
+  const LocalShape& shape = solid.shape;
+  if (shape.kind == ShapeKind::sphere) return {shape.a, shape.a, shape.a};
+  if (shape.kind == ShapeKind::capsule) return {shape.a, shape.a + shape.b, shape.a};
+  return {shape.a, shape.b, shape.c};
+}
+
+Vec3f centre_of(const MovingCollider& solid, const Pose<float>& pose) {
+  if (solid.field == nullptr) return pose.position;
+  return to_world(pose, (solid.field->bounds().low + solid.field->bounds().high) * 0.5f);
+}
+
+/// How far the solid reaches from its centre along a direction at the substep's end [m].
+float reach_along(const MovingCollider& solid, const Vec3f& direction) {
+  const Vec3f half = half_sides_of(solid), local = abs(rotate(conjugate(solid.after.rotation), direction));
+  if (solid.field == nullptr && solid.shape.kind == ShapeKind::sphere) return half.x + solid.thickness;
+  if (solid.field == nullptr && solid.shape.kind == ShapeKind::capsule)
+    return solid.shape.a + solid.shape.b * local.y + solid.thickness;
+  return dot(half, local) + solid.thickness;
+}
+
+float smallest(const Vec3f& v) { return min(v.x, min(v.y, v.z)); }
+
+struct Corners {
+  Vec3f at[3];
+  Vec3f normal() const { return cross(at[1] - at[0], at[2] - at[0]); }
+};
+
+/// Barycentric coordinates of a point in the plane of a triangle.
+Vec3f coordinates(const Corners& t, const Vec3f& p) {
+  const Vec3f n = t.normal();
+  const float inverse = 1 / max(dot(n, n), 1e-30f);
+  const float v = dot(n, cross(p - t.at[0], t.at[2] - t.at[0])) * inverse,
+              w = dot(n, cross(t.at[1] - t.at[0], p - t.at[0])) * inverse;
+  return {1 - v - w, v, w};
+}
+
+}  // namespace
+
+void SweptContacts::find_hits(const Substep& s, int object, const MovingCollider& solid) {
+  const Record* const positions = s.state.positions.data() + s.model.first[at(object)];
+  const Record* const displacements = s.work.displacements.data() + s.model.first[at(object)];
+  const Vec3f from = centre_of(solid, solid.before), to = centre_of(solid, solid.after);
+  const Vec3f low = min(from, to) - Vec3f{1, 1, 1} * fastest_[at(object)],
+              high = max(from, to) + Vec3f{1, 1, 1} * fastest_[at(object)];
+  const std::vector<std::array<int, 3>>& triangles = s.model.objects[at(object)].surface.triangles;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    Corners start, end;
+    for (std::size_t i = 0; i < 3; ++i) start.at[i] = xyz(positions[triangles[t][i]]);
+    const Vec3f least = min(start.at[0], min(start.at[1], start.at[2])),
+                most = max(start.at[0], max(start.at[1], start.at[2]));
+    if (least.x > high.x || least.y > high.y || least.z > high.z || most.x < low.x || most.y < low.y || most.z < low.z)
+      continue;
+    for (std::size_t i = 0; i < 3; ++i) end.at[i] = start.at[i] + xyz(displacements[triangles[t][i]]);
+    const Vec3f n = start.normal();
+    const float before = dot(n, from - start.at[0]), after = dot(end.normal(), to - end.at[0]);
+    if (!(before * after < 0) && after != 0) continue;
+    const float time = before / (before - after);
+    Corners middle;
+    for (std::size_t i = 0; i < 3; ++i) middle.at[i] = start.at[i] + (end.at[i] - start.at[i]) * time;
+    const Vec3f weights = coordinates(middle, from + (to - from) * time);
+    if (!(smallest(weights) > -beside)) continue;
+    const float size = length(n);
+    if (size > 0) hits_.push_back({object, static_cast<int>(t), time, weights, n * ((before > 0 ? -1.f : 1.f) / size)});
+  }
+}
+
+void SweptContacts::detect(const Substep& s, const std::vector<int>& objects, const std::vector<MovingCollider>& solids,
+                           FunctionRef<bool(int object, int solid)> meets, std::vector<Contact>& contacts) {
+  fastest_.assign(s.model.objects.size(), 0);
+  for (const int o : objects) {
+    float squared = 0;
+    const int first = s.model.first[at(o)];
+    for (int i = first; i < first + s.model.objects[at(o)].particles; ++i)
+      squared = max(squared, length_squared(xyz(s.work.displacements[at(i)])));
+    fastest_[at(o)] = std::sqrt(squared);
+  }
+  is_swept_.assign(solids.size(), 0);
+  has_fast_ = false;
+  std::vector<Contact> swept;
+  for (int number = 0; number < static_cast<int>(solids.size()); ++number) {
+    const MovingCollider& solid = solids[at(number)];
+    const float path = length(centre_of(solid, solid.after) - centre_of(solid, solid.before)),
+                size = share_of_size * smallest(half_sides_of(solid));
+    hits_.clear();
+    for (const int o : objects) {
+      const bool is_fast = path + fastest_[at(o)] > size && !s.model.objects[at(o)].surface.triangles.empty();
+      if (!is_fast || !meets(o, number)) continue;
+      has_fast_ = true;
+      find_hits(s, o, solid);
+    }
+    if (hits_.empty()) continue;
+    is_swept_[at(number)] = 1;
+    float first = 2;
+    for (const Hit& hit : hits_) first = min(first, hit.time);
+    for (const Hit& hit : hits_)
+      if (hit.time <= first + same_time) swept.push_back(contact_of(s, hit, solid, number));
+  }
+  if (swept.empty()) return;
+  std::erase_if(contacts, [&](const Contact& c) { return c.weight[1] != 0 && is_swept_[at(c.collider)] != 0; });
+  contacts.insert(contacts.end(), swept.begin(), swept.end());
+}
+
+Contact SweptContacts::contact_of(const Substep& s, const Hit& hit, const MovingCollider& solid, int number) {
+  const CompiledObject& object = s.model.objects[at(hit.object)];
+  const std::array<int, 3>& corners = object.surface.triangles[at(hit.triangle)];
+  const int first = s.model.first[at(hit.object)];
+  Contact c;
+  c.point = {corners[0] + first, corners[1] + first, corners[2] + first, corners[0] + first};
+  c.weight = {hit.weights.x, hit.weights.y, hit.weights.z, 0};
+  c.normal = hit.normal;
+  c.thickness = object.thickness + solid.thickness;
+  c.collider = number;
+  c.static_friction = std::sqrt(object.static_friction * solid.static_friction);
+  c.kinetic_friction = std::sqrt(object.kinetic_friction * solid.kinetic_friction);
+  c.restitution = max(object.restitution, solid.restitution);
+  const Vec3f centre = centre_of(solid, solid.after), moved = centre - centre_of(solid, solid.before);
+  c.surface_motion = moved;
+  c.gap = dot(c.normal, relative(c, s.state.positions.data()) - centre) - reach_along(solid, c.normal) - object.thickness;
+  complete_contact(c, s.state.positions.data(), s.state.remainders.data());
+  c.approach = dot(c.normal, relative(c, s.work.displacements.data()) - moved) / s.h;
+  return c;
+}
+
+}  // namespace pliant

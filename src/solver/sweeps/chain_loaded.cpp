@@ -1,0 +1,210 @@
+#include "solver/sweeps/chain_loaded.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "solver/sweeps/chain_link.h"
+
+namespace pliant {
+
+namespace {
+
+/// The square root of a particle's inverse mass tensor.
+struct RootInertia {
+  Vec3f axis{};
+  float along = 0, across = 0;
+
+  Vec3f operator()(const Vec3f& v) const { return v * across + axis * ((along - across) * dot(axis, v)); }
+};
+
+/// What back substitution needs of a link, and what it finds.
+struct LoadedLink {
+  Vec3f direction{};
+  float change = 0;    ///< dlambda, after elimination as if no link followed
+  float coupling = 0;  ///< factor by which this link's dlambda changes that of the previous one
+  Vec3f move{};        ///< of the link's second particle [m]
+};
+
+/// What link k + 1 needs of link k, as ChainEnd.
+struct LoadedEnd {
+  Vec3f direction{};
+  RootInertia root{};  ///< of the particle between the links
+  float mobility = 0, added = 0, inverse_pivot = 0, change = 0;
+};
+
+class LoadedLane {
+ public:
+  LoadedLane(const Pool& pool, const Segment* links, int steps, int lane, const SweepArguments& a, const ChainLoads& loads,
+             float* multipliers)
+      : pool_(pool), links_(links), lane_(lane), a_(a), loads_(loads), multipliers_(multipliers) {
+    while (steps_ < steps && lane < links[steps_].last_count) ++steps_;  // longer paths come first
+  }
+
+  /// Solves the path, without the bodies from which it would pull particles away.
+  void solve(float softness, float* scratch) const {
+    for (int attempt = 0; attempt <= most_attempts; ++attempt) {
+      eliminate_all(softness, scratch);
+      const Vec3f first = substitute(scratch);
+      if (!release(first, scratch, attempt == most_attempts)) return apply(first, scratch);
+    }
+    eliminate_all(softness, scratch);
+    apply(substitute(scratch), scratch);
+  }
+
+ private:
+  static constexpr int most_attempts = 3;
+
+  void eliminate_all(float softness, float* scratch) const {
+    LoadedEnd end;
+    end.root = root_of(particle(0, 0));
+    for (int k = 0; k < steps_; ++k) put(scratch, k, eliminate(k, softness, end));
+  }
+
+  /// Returns the displacement of the path's first particle; puts those of the others into the links.
+  Vec3f substitute(float* scratch) const {
+    Vec3f pull{};
+    float change = 0, coupling = 0;
+    for (int k = steps_ - 1; k >= 0; --k) {
+      LoadedLink link = get(scratch, k);
+      link.change += coupling * change;
+      change = link.change;
+      coupling = link.coupling;
+      const Vec3f own = link.direction * change;
+      const RootInertia root = root_of(particle(k, 1));
+      link.move = root(root(own - pull));
+      pull = own;
+      put(scratch, k, link);
+    }
+    const RootInertia root = root_of(particle(0, 0));
+    return root(root(-pull));
+  }
+
+  /// Releases particles that would leave their bodies, or all. Returns true if there are any.
+  bool release(const Vec3f& first, const float* scratch, bool all) const {
+    bool any = release(particle(0, 0), first, all);
+    for (int k = 0; k < steps_; ++k) any = release(particle(k, 1), get(scratch, k).move, all && any) || any;
+    return any;
+  }
+  bool release(int particle, const Vec3f& move, bool always) const {
+    const std::int32_t load = loads_.of_particle[particle];
+    if (load < 0 || loads_.is_released[load] != 0) return false;
+    if (!always && !(dot(loads_.inertias[load].axis, move) > loads_.inertias[load].farthest)) return false;
+    loads_.is_released[load] = 1;
+    return true;
+  }
+
+  void apply(const Vec3f& first, const float* scratch) const {
+    move(particle(0, 0), first);
+    for (int k = 0; k < steps_; ++k) {
+      const LoadedLink link = get(scratch, k);
+      move(particle(k, 1), link.move);
+      if (multipliers_ != nullptr) *multiplier(k) = a_.first_pass ? link.change : *multiplier(k) + link.change;
+    }
+  }
+
+  static LoadedLink get(const float* scratch, int k) {
+    LoadedLink link;
+    std::memcpy(static_cast<void*>(&link), scratch + k * floats_per_link, sizeof link);
+    return link;
+  }
+  static void put(float* scratch, int k, const LoadedLink& link) {
+    std::memcpy(scratch + k * floats_per_link, &link, sizeof link);
+  }
+  static constexpr int floats_per_link = sizeof(LoadedLink) / sizeof(float);
+  static_assert(floats_per_link * static_cast<int>(sizeof(float)) == sizeof(LoadedLink));
+
+  LoadedLink eliminate(int k, float softness, LoadedEnd& end) const {
+    const int from = particle(k, 0), to = particle(k, 1);
+    const Record &p = a_.positions[from], &q = a_.positions[to];
+    const Record &d = a_.displacements[from], &e = a_.displacements[to];
+    const Vec3f across{(q.x - p.x) + (e.x - d.x), (q.y - p.y) + (e.y - d.y), (q.z - p.z) + (e.z - d.z)};
+    const float length = std::sqrt(dot(across, across));
+    const Vec3f n = across * (1 / max(length, smallest_denominator));
+    const std::int64_t batch = links_[k].first_batch;
+    const float compliance = min(pool_.row(1, batch)[lane_] * a_.inverse_h2, largest_compliance);
+    const float before = multipliers_ != nullptr && !a_.first_pass ? *multiplier(k) : 0.f;
+    const Vec3f u = end.root(end.direction), v = end.root(n);
+    float mobility = length_squared(v), coupled = 0, coupling = 0;
+    if (k > 0) {
+      mobility = (mobility * (end.mobility + end.added) + length_squared(cross(u, v))) * end.inverse_pivot;
+      coupled = dot(u, v);
+      coupling = coupled * end.inverse_pivot;
+    }
+    const RootInertia root = root_of(to);
+    const float added = softness + compliance;
+    const float inverse_pivot = 1 / max(mobility + length_squared(root(n)) + added, smallest_denominator);
+    const float missing = length > smallest_denominator ? pool_.row(0, batch)[lane_] - length : 0;
+    const float change = ((missing - compliance * before) + coupled * end.change) * inverse_pivot;
+    end = {n, root, mobility, added, inverse_pivot, change};
+    return {n, change, coupling, {}};
+  }
+
+  int particle(int k, int slot) const {
+    return pool_
+        .indices[static_cast<std::size_t>(links_[k].index_offset) + static_cast<std::size_t>(slot * batch_width + lane_)];
+  }
+  float* multiplier(int k) const {
+    return multipliers_ + static_cast<std::int64_t>(links_[k].first_batch) * batch_width + lane_;
+  }
+  RootInertia root_of(int particle) const {
+    const std::int32_t load = loads_.of_particle[particle];
+    if (load < 0 || loads_.is_released[load] != 0) {
+      const float root = std::sqrt(a_.positions[particle].w);
+      return {{}, root, root};
+    }
+    const LoadedInertia& of = loads_.inertias[load];
+    return {of.axis, of.root_along, of.root_across};
+  }
+  void move(int particle, const Vec3f& by) const {
+    Record& d = a_.displacements[particle];
+    d = {d.x + by.x, d.y + by.y, d.z + by.z, 0};
+  }
+
+  const Pool& pool_;
+  const Segment* links_;
+  int lane_, steps_ = 0;
+  const SweepArguments& a_;
+  const ChainLoads& loads_;
+  float* multipliers_;
+};
+
+}  // namespace
+
+std::uint32_t loaded_lanes(const ChainTask& task, const std::int32_t* of_particle) {
+  std::uint32_t lanes = 0;
+  for (int k = 0; k < task.steps; ++k) {
+    const std::int32_t* const points = task.pool.indices.data() + task.links[k].index_offset;
+    for (int lane = 0; lane < task.links[k].last_count; ++lane)
+      if (of_particle[points[lane]] >= 0 || of_particle[points[batch_width + lane]] >= 0) lanes |= 1u << lane;
+  }
+  return lanes;
+}
+
+void solve_loaded_chains(const ChainTask& task, std::uint32_t lanes, const SweepArguments& a, const ChainLoads& loads,
+                         float* scratch) {
+  for (int i = 0; i < task.links->last_count; ++i)
+    if ((lanes >> i & 1u) != 0)
+      LoadedLane(task.pool, task.links, task.steps, i, a, loads, task.multipliers).solve(task.softness[i], scratch);
+}
+
+KeptLanes::KeptLanes(const ChainTask& task, std::uint32_t lanes, const SweepArguments& a) : task_(task), arguments_(a) {
+  for (int k = 0; k < task.steps; ++k) {
+    const Segment& link = task.links[k];
+    const std::int32_t* const points = task.pool.indices.data() + link.index_offset;
+    for (int lane = 0; lane < link.last_count; ++lane) {
+      if ((lanes >> lane & 1u) == 0) continue;
+      const int to = points[batch_width + lane];
+      if (k == 0) displacements_.emplace_back(points[lane], a.displacements[points[lane]]);
+      displacements_.emplace_back(to, a.displacements[to]);
+      const std::int64_t row = static_cast<std::int64_t>(link.first_batch) * batch_width + lane;
+      if (task.multipliers != nullptr) multipliers_.emplace_back(row, task.multipliers[row]);
+    }
+  }
+}
+
+void KeptLanes::restore() const {
+  for (const auto& [particle, displacement] : displacements_) arguments_.displacements[particle] = displacement;
+  for (const auto& [row, value] : multipliers_) task_.multipliers[row] = value;
+}
+
+}  // namespace pliant
