@@ -37,7 +37,9 @@ Vec3f place_of(const Contact& c, const Record* positions, const Record* displace
 }
 
 /// A ball that slides along cloth meets a few triangles in a substep.
-constexpr int most_rounds_of_passing = 12;
+constexpr int most_rounds_of_passing = 16;
+/// After so many of them the points stay and the body alone moves, so that it stops before light cloth too. Momentum is not kept then.
+constexpr int rounds_of_both_sides = 8;
 
 constexpr int sides_of_round_solids = 32;
 
@@ -170,6 +172,12 @@ bool BodyPoints::meets(const Model& model, const Contact& contact) const {
   });
 }
 
+void BodyPoints::begin_frame(const Substep& s) {
+  contacts_.clear();
+  impulses_.clear();
+  keep_poses(s);
+}
+
 void BodyPoints::keep_poses(const Substep& s) {
   if (!has_any()) return;
   poses_.clear();
@@ -260,7 +268,7 @@ void BodyPoints::stop_passing(Substep& s, const std::vector<BodyMotion>& motions
     impulses_.resize(contacts_.size());
     begin_pass(s);
     for (std::size_t i = first; i < contacts_.size(); ++i)
-      project(s, motions[at(solids_[at(contacts_[i].collider)].body)], contacts_[i]);
+      project(s, motions[at(solids_[at(contacts_[i].collider)].body)], contacts_[i], round < rounds_of_both_sides);
     end_pass(s);
   }
 }
@@ -287,7 +295,8 @@ void BodyPoints::end_pass(Substep& s) {
   }
 }
 
-void BodyPoints::project(Substep& s, const BodyMotion& motion, Contact& c) {
+/// `yields`: the points move too; else only a body that is not fixed.
+void BodyPoints::project(Substep& s, const BodyMotion& motion, Contact& c, bool yields) {
   const int number = solids_[at(c.collider)].body;
   const Record *positions = s.state.positions.data(), *displacements = s.work.displacements.data();
   Progress& p = progress_[at(number)];
@@ -299,7 +308,7 @@ void BodyPoints::project(Substep& s, const BodyMotion& motion, Contact& c) {
   if (!(sums.push > 0)) return;
   c.friction = sums.friction;
   c.push = sums.push;
-  const float w = inverse_mass_of(c, positions);
+  const float w = yields || !(motion.inverse_mass > 0) ? inverse_mass_of(c, positions) : 0;
   const Vec3f impulse = impulse_for(along + across, motion, arm, w);
   move_sides(c, impulse * w, s.work.displacements.data());
   impulses_[static_cast<std::size_t>(&c - contacts_.data())] += dot(c.normal, impulse) / s.h;

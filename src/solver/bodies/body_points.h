@@ -32,6 +32,8 @@ class BodyPoints {
   /// False if no particle can touch a body.
   bool has_any() const { return !tasks_.empty() && !solids_.empty(); }
 
+  /// Starts a frame: forgets contacts, because a State does not have them.
+  void begin_frame(const Substep& s);
   /// Keeps where bodies are, before the next prediction.
   void keep_poses(const Substep& s);
   /// Finds the contacts of a substep, after the prediction.
@@ -91,7 +93,7 @@ class BodyPoints {
   void begin_pass(const Substep& s);
   void end_pass(Substep& s);
   bool meets(const Model& model, const Contact& contact) const;
-  void project(Substep& s, const BodyMotion& motion, Contact& contact);
+  void project(Substep& s, const BodyMotion& motion, Contact& contact, bool yields = true);
 
   std::vector<float> impulses_;  ///< of contacts_ along their normals in this pass [N s]
   const ContactRules* rules_ = nullptr;

@@ -80,7 +80,7 @@ void BodySolver::begin_frame(Substep& s) {
   pushes_are_known_ = false;
   last_h_ = s.h;
   make_manifolds(s);
-  points_.keep_poses(s);
+  points_.begin_frame(s);
 }
 
 void BodySolver::find_contacts(Substep& s) {

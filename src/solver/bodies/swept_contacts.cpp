@@ -17,6 +17,8 @@ using namespace bodies;
 constexpr float share_of_size = 0.5f;
 /// Room for rounding at the edges of a triangle, in barycentric coordinates.
 constexpr float beside = 1e-3f;
+/// Times are found to 1e-6 of a substep.
+constexpr int halvings = 20;
 /// Hits of neighbouring triangles at an edge are taken together if they are this near in time.
 constexpr float same_time = 1e-3f;
 
@@ -50,6 +52,34 @@ struct Corners {
   Vec3f normal() const { return cross(at[1] - at[0], at[2] - at[0]); }
 };
 
+/// Corners and a point that move steadily from time 0 to 1.
+struct Passing {
+  Corners start, end;
+  Vec3f from{}, to{};
+
+  Corners corners(float time) const {
+    Corners out;
+    for (std::size_t i = 0; i < 3; ++i) out.at[i] = start.at[i] + (end.at[i] - start.at[i]) * time;
+    return out;
+  }
+  Vec3f point(float time) const { return from + (to - from) * time; }
+  /// Zero where the point lies in the triangle's plane, of different signs on both sides.
+  float side(float time) const {
+    const Corners there = corners(time);
+    return dot(there.normal(), point(time) - there.at[0]);
+  }
+  /// When the point passes the plane, if it does. A triangle that turns on its way makes side() a cubic, so the root is bracketed.
+  float time() const {
+    float low = 0, high = 1;
+    const float before = side(0);
+    for (int i = 0; i < halvings; ++i) {
+      const float middle = 0.5f * (low + high);
+      (side(middle) * before > 0 ? low : high) = middle;
+    }
+    return 0.5f * (low + high);
+  }
+};
+
 /// Barycentric coordinates of a point in the plane of a triangle.
 Vec3f coordinates(const Corners& t, const Vec3f& p) {
   const Vec3f n = t.normal();
@@ -69,7 +99,8 @@ void SweptContacts::find_hits(const Substep& s, int object, const MovingCollider
               high = max(from, to) + Vec3f{1, 1, 1} * fastest_[at(object)];
   const std::vector<std::array<int, 3>>& triangles = s.model.objects[at(object)].surface.triangles;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    Corners start, end;
+    Passing passing{{}, {}, from, to};
+    Corners &start = passing.start, &end = passing.end;
     for (std::size_t i = 0; i < 3; ++i) start.at[i] = xyz(positions[triangles[t][i]]);
     const Vec3f least = min(start.at[0], min(start.at[1], start.at[2])),
                 most = max(start.at[0], max(start.at[1], start.at[2]));
@@ -79,10 +110,8 @@ void SweptContacts::find_hits(const Substep& s, int object, const MovingCollider
     const Vec3f n = start.normal();
     const float before = dot(n, from - start.at[0]), after = dot(end.normal(), to - end.at[0]);
     if (!(before * after < 0) && after != 0) continue;
-    const float time = before / (before - after);
-    Corners middle;
-    for (std::size_t i = 0; i < 3; ++i) middle.at[i] = start.at[i] + (end.at[i] - start.at[i]) * time;
-    const Vec3f weights = coordinates(middle, from + (to - from) * time);
+    const float time = passing.time();
+    const Vec3f weights = coordinates(passing.corners(time), passing.point(time));
     if (!(smallest(weights) > -beside)) continue;
     const float size = length(n);
     if (size > 0) hits_.push_back({object, static_cast<int>(t), time, weights, n * ((before > 0 ? -1.f : 1.f) / size)});
