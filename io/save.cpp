@@ -27,10 +27,12 @@ constexpr std::string_view time_block = "state.time", frame_block = "state.frame
 constexpr std::string_view orientations_block = "state.orientations", spins_block = "state.angular_velocities",
                            inertias_block = "state.inverse_inertias", channels_block = "state.channels",
                            poses_block = "state.held_poses", substeps_block = "state.substeps",
-                           contacts_block = "state.body_contacts", breaks_block = "state.broken_joints";
-const std::vector<std::string_view> state_blocks{
-    time_block,  frame_block,    blocks_block,   positions_block, remainders_block, velocities_block, orientations_block,
-    spins_block, inertias_block, channels_block, poses_block,     substeps_block,   contacts_block,   breaks_block};
+                           contacts_block = "state.body_contacts", breaks_block = "state.broken_joints",
+                           motors_block = "state.motors";
+const std::vector<std::string_view> state_blocks{time_block,       frame_block,      blocks_block,       positions_block,
+                                                 remainders_block, velocities_block, orientations_block, spins_block,
+                                                 inertias_block,   channels_block,   poses_block,        substeps_block,
+                                                 contacts_block,   breaks_block,     motors_block};
 constexpr std::string_view fingerprint_blocks[] = {"fingerprint.scene", "fingerprint.settings"};
 constexpr std::string_view scene_block = "scene", settings_block = "settings", layout_block = "layout";
 
@@ -62,7 +64,7 @@ struct Columns {
 /// written.
 std::vector<Block> blocks_of(const State& state, Columns& columns) {
   const auto& [time, frame, object_blocks, positions, remainders, velocities, frames, channels, held_poses, substeps,
-               broken_joints, body_contacts] = state;
+               broken_joints, motors, body_contacts] = state;
   const auto bytes = [](std::string_view name, const std::string& column) {
     return Block{name, Type::bytes, 1, column.size(), column.data()};
   };
@@ -87,6 +89,8 @@ std::vector<Block> blocks_of(const State& state, Columns& columns) {
   if (!substeps.empty()) blocks.push_back({substeps_block, Type::float32, sizeof(float), substeps.size(), substeps.data()});
   if (!broken_joints.empty())
     blocks.push_back({breaks_block, Type::bytes, 1, broken_joints.size() * sizeof(BrokenJoint), broken_joints.data()});
+  if (!motors.empty())
+    blocks.push_back({motors_block, Type::bytes, 1, motors.size() * sizeof(MotorSetting), motors.data()});
   if (!body_contacts.empty())
     blocks.push_back({contacts_block, Type::bytes, 1, body_contacts.size() * sizeof(BodyContact), body_contacts.data()});
   return blocks;
@@ -125,7 +129,7 @@ void read_list(const Contents& from, std::string_view name, std::vector<T>& list
 State state_in(const Contents& from) {
   State state;
   auto& [time, frame, blocks, positions, remainders, velocities, frames, channels, held_poses, substeps, broken_joints,
-         body_contacts] = state;
+         motors, body_contacts] = state;
   read(from, time_block, Type::float64, time);
   read(from, frame_block, Type::int64, frame);
   blocks = read_bytes<std::vector<StateBlock>>(from, blocks_block);
@@ -143,6 +147,7 @@ State state_in(const Contents& from) {
   if (from.has(poses_block)) held_poses = read_bytes<std::vector<HeldPose>>(from, poses_block);
   if (from.has(substeps_block)) read(from, substeps_block, substeps);
   if (from.has(breaks_block)) read_list(from, breaks_block, broken_joints);
+  if (from.has(motors_block)) read_list(from, motors_block, motors);
   if (from.has(contacts_block)) read_list(from, contacts_block, body_contacts);
   return state;
 }

@@ -67,9 +67,14 @@ void fields(A& a, Is<ObjectBody> auto& of) {
   a(name, particle, frame, solids, origin, axes);
 }
 template <class A>
+void fields(A& a, Is<ObjectJointMotor> auto& of) {
+  auto& [name, constraint, to_position] = of;
+  a(name, constraint, to_position);
+}
+template <class A>
 void fields(A& a, Is<ObjectJoint> auto& of) {
-  auto& [name, kind, joint_a, joint_b, anchor, constraints, break_force, break_torque] = of;
-  a(name, kind, joint_a, joint_b, anchor, constraints, break_force, break_torque);
+  auto& [name, kind, joint_a, joint_b, anchor, constraints, break_force, break_torque, motors] = of;
+  a(name, kind, joint_a, joint_b, anchor, constraints, break_force, break_torque, motors);
 }
 template <class A>
 void fields(A& a, Is<Channel> auto& of) {

@@ -128,12 +128,19 @@ const Record& cylindrical_record() {
 }
 
 const Record& universal_record() {
-  static const Record result{"universal joint",
-                             "Two axes, one of each body, that cross at the anchor and stay perpendicular.",
-                             {needed("anchor", place(), anchor_meaning),
-                              field("axis_a", axis(), UniversalJoint{}.axis_a, "The axis fixed in the first body."),
-                              field("axis_b", axis(), UniversalJoint{}.axis_b, "The axis fixed in the second body.")},
-                             {}};
+  static const Record result{
+      "universal joint",
+      "Two axes, one of each body, that cross at the anchor and stay perpendicular.",
+      {needed("anchor", place(), anchor_meaning),
+       field("axis_a", axis(), UniversalJoint{}.axis_a, "The axis fixed in the first body."),
+       field("axis_b", axis(), UniversalJoint{}.axis_b, "The axis fixed in the second body."),
+       field("limit_a", record(turn_range_record()), "no limit", "Range of the angle about axis_a."),
+       field("limit_b", record(turn_range_record()), "no limit", "Range of the angle about axis_b."),
+       field("motor_a", record(turn_motor_record()), "none", "Drives the angle about axis_a."),
+       field("motor_b", record(turn_motor_record()), "none", "Drives the angle about axis_b."),
+       field("friction_a", number("N m", 0), UniversalJoint{}.friction_a, "Greatest torque of friction about axis_a."),
+       field("friction_b", number("N m", 0), UniversalJoint{}.friction_b, "Greatest torque of friction about axis_b.")},
+      {}};
   return result;
 }
 
@@ -141,7 +148,18 @@ const Record& planar_record() {
   static const Record result{
       "planar joint",
       "The second body slides in a plane of the first, and rotates about its normal.",
-      {needed("anchor", place(), anchor_meaning), field("normal", axis(), PlanarJoint{}.normal, "Normal of the plane.")},
+      {needed("anchor", place(), anchor_meaning), field("normal", axis(), PlanarJoint{}.normal, "Normal of the plane."),
+       field("axis_x", axis(), "none",
+             "Direction x in the plane; y is the normal times x. Needed for limits and motors of displacements."),
+       field("x_limit", record(slide_range_record()), "no limit", "Range of the displacement along x."),
+       field("y_limit", record(slide_range_record()), "no limit", "Range of the displacement along y."),
+       field("turn_limit", record(turn_range_record()), "no limit", "Range of the angle about the normal."),
+       field("x_motor", record(slide_motor_record()), "none", "Drives the displacement along x."),
+       field("y_motor", record(slide_motor_record()), "none", "Drives the displacement along y."),
+       field("turn_motor", record(turn_motor_record()), "none", "Drives the angle about the normal."),
+       field("slide_friction", number("N", 0), PlanarJoint{}.slide_friction,
+             "Greatest force of friction along x, and along y."),
+       field("turn_friction", number("N m", 0), PlanarJoint{}.turn_friction, "Greatest torque of friction.")},
       {}};
   return result;
 }

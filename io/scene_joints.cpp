@@ -128,12 +128,27 @@ UniversalJoint universal_of(const JointSource& from) {
   auto joint = from.start<UniversalJoint>();
   set(from.at, "axis_a", joint.axis_a);
   set(from.at, "axis_b", joint.axis_b);
+  set(from.at, "limit_a", radian, joint.limit_a);
+  set(from.at, "limit_b", radian, joint.limit_b);
+  set(from.document, from.at, "motor_a", radian, joint.motor_a);
+  set(from.document, from.at, "motor_b", radian, joint.motor_b);
+  set(from.at, "friction_a", joint.friction_a);
+  set(from.at, "friction_b", joint.friction_b);
   return joint;
 }
 
 PlanarJoint planar_of(const JointSource& from) {
   auto joint = from.start<PlanarJoint>();
   set(from.at, "normal", joint.normal);
+  if (Vec3f axis; set(from.at, "axis_x", axis)) joint.axis_x = axis;
+  set(from.at, "x_limit", 1, joint.x_limit);
+  set(from.at, "y_limit", 1, joint.y_limit);
+  set(from.at, "turn_limit", radian, joint.turn_limit);
+  set(from.document, from.at, "x_motor", 1, joint.x_motor);
+  set(from.document, from.at, "y_motor", 1, joint.y_motor);
+  set(from.document, from.at, "turn_motor", radian, joint.turn_motor);
+  set(from.at, "slide_friction", joint.slide_friction);
+  set(from.at, "turn_friction", joint.turn_friction);
   return joint;
 }
 

@@ -259,7 +259,7 @@ class RobotBuilder {
         add_joint(object_,
                   SliderJoint{a, b, pose.position, axis, limit_of(joint, 1e6f), motor_of(joint), joint.friction, named});
       } else if (joint.type == "planar") {
-        add_joint(object_, PlanarJoint{a, b, pose.position, axis, named});
+        add_joint(object_, PlanarJoint{.a = a, .b = b, .anchor = pose.position, .normal = axis, .options = named});
       } else if (joint.type != "floating") {
         fail(joint.line, "joint '" + joint.name + "' has the unknown type '" + joint.type + "'",
              "known are fixed, revolute, continuous, prismatic, planar and floating");

@@ -15,7 +15,8 @@ struct Edit {
   /// For each particle of `object`: the old particle whose position and velocity it takes, or -1 for a new one, which
   /// starts at its position in `object`. Several particles may have the same origin.
   std::vector<int> from;
-  // Frames are matched by index: those that exist before and after keep orientation and angular velocity.
+  // The frame of a body follows the body's particle. Other frames are matched by index. Those that exist before and after keep
+  // orientation and angular velocity.
 };
 
 /// An Edit that changes nothing, as a start for changes of your own.

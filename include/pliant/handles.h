@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -31,6 +32,13 @@ struct ObjectInfo {
 struct JointLoad {
   Vec3f force{};   ///< [N]
   Vec3f torque{};  ///< about the joint's anchor [N m]
+};
+
+/// What a motor of a joint is to do.
+struct MotorCommand {
+  float target = 0;             ///< an angle [rad], displacement [m] or speed [rad/s or m/s], as the motor's kind says
+  std::optional<float> most{};  ///< greatest torque [N m] or force [N], > 0; left out: as before
+  std::string motor{};          ///< its name in ObjectJoint::motors; may be empty if the joint has only one
 };
 
 /// Reads an object.
@@ -92,6 +100,9 @@ class ObjectHandle : public ObjectView {
   void add_impulses(std::span<const Vec3f> impulses);
   /// Applies a constant force to each particle during the next step [N]. Replaces the forces of an earlier call.
   void set_forces(std::span<const Vec3f> forces);
+  /// Gives a motor of the joint of that name a new target, which it keeps until the next call, restore() or edit. The kind of the
+  /// motor stays. Throws an Error if the object has no such joint, or the joint no such motor.
+  void set_motor(const std::string& joint, const MotorCommand& command);
 
  private:
   WorldData* world_;

@@ -98,11 +98,15 @@ struct CylindricalJoint {
   JointOptions options{};
 };
 
-/// Two axes that stay perpendicular and cross at the anchor: one fixed in a, one in b.
+/// Two axes that stay perpendicular and cross at the anchor: one fixed in a, one in b. The angle about each is that of the cross
+/// against a, and of b against the cross. Where one is half a turn, the other is not measured well.
 struct UniversalJoint {
   int a = -1, b = 0;
   Vec3f anchor{};
   Vec3f axis_a{1, 0, 0}, axis_b{0, 1, 0};
+  std::optional<JointRange> limit_a{}, limit_b{};  ///< of the angles about axis_a and axis_b [rad]
+  std::optional<JointMotor> motor_a{}, motor_b{};
+  float friction_a = 0, friction_b = 0;  ///< greatest torque about each axis [N m]
   JointOptions options{};
 };
 
@@ -111,6 +115,11 @@ struct PlanarJoint {
   int a = -1, b = 0;
   Vec3f anchor{};
   Vec3f normal{0, 1, 0};
+  std::optional<Vec3f>
+      axis_x{};  ///< direction x in the plane, needed for limits and motors of x and y; y is normal x axis_x
+  std::optional<JointRange> x_limit{}, y_limit{}, turn_limit{};  ///< of the displacements [m], of the angle [rad]
+  std::optional<JointMotor> x_motor{}, y_motor{}, turn_motor{};
+  float slide_friction = 0, turn_friction = 0;  ///< greatest force along x and along y [N], greatest torque [N m]
   JointOptions options{};
 };
 

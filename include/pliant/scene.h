@@ -102,14 +102,22 @@ struct ObjectBody {
   Quatf axes{};    ///< from that frame to the principal axes
 };
 
+/// A motor of a joint: one of its constraints, which ObjectHandle::set_motor can give another target.
+struct ObjectJointMotor {
+  std::string name;    ///< the member of the joint that describes it, as "motor" or "turn_motor"; of six axes "linear_x"
+  int constraint = 0;  ///< index in ObjectJoint::constraints
+  bool to_position = false;  ///< its target is an angle or a displacement; false: a speed
+};
+
 /// A joint between two bodies of an object: a name for some of its constraints (add_joint of pliant/joint.h makes both).
 struct ObjectJoint {
   std::string name;
   std::string kind;                             ///< "ball", "hinge", ...
   int a = 0, b = 0;                             ///< indices in Object::bodies
-  Vec3f anchor{};                               ///< in the frame of a's principal axes, about its centre of mass [m]
+  Vec3f anchor{};                               ///< in the frame of b's principal axes, about its centre of mass [m]
   std::vector<std::array<int, 2>> constraints;  ///< each a group of Object::constraints, and an index in it
   float break_force = 0, break_torque = 0;      ///< greatest force [N] and torque about the anchor [N m]; 0: no limit
+  std::vector<ObjectJointMotor> motors;
 };
 
 /// An object: particles and constraints. make_cloth and make_rope make one. Over fifteen members: its whole description.

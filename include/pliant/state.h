@@ -124,6 +124,16 @@ struct BrokenJoint {
   friend auto operator<=>(const BrokenJoint&, const BrokenJoint&) = default;
 };
 
+/// What ObjectHandle::set_motor set for a motor of a joint.
+struct MotorSetting {
+  int block = 0;             ///< of the object: its index in State::blocks
+  int joint = 0, motor = 0;  ///< indices in Object::joints and ObjectJoint::motors
+  float target = 0;          ///< [rad, m, rad/s or m/s]
+  float most = 0;            ///< greatest torque or force [N m or N]
+  // NOLINTNEXTLINE(modernize-use-nullptr)
+  friend auto operator<=>(const MotorSetting&, const MotorSetting&) = default;
+};
+
 /// All data of a World that change with time, as a plain value: copy, hash or restore it, and the next step gives the
 /// same bits. Each object has a block of particles in storage order, which ObjectView::storage_order relates to the user's
 /// order. Blocks of removed objects are filled with zeros.
@@ -141,12 +151,13 @@ struct State {
   /// State (chosen_substeps), else 0, as before the first frame. Empty if all are 0.
   std::vector<float> substeps;
   std::vector<BrokenJoint> broken_joints;  ///< ascending; usually none
+  std::vector<MotorSetting> motors;        ///< ascending by block, joint and motor; usually none
   std::vector<BodyContact> body_contacts;  ///< of rigid bodies, by owners and solids, then by pieces; usually none
 };
 
 /// The SHA-256 hash of a State as 64 hexadecimal digits. It includes blocks only after a removal or an edit, because
-/// contiguous blocks follow from the particles; frames, channels, held poses and substeps only if there
-/// are any.
+/// contiguous blocks follow from the particles; frames, channels, held poses, settings of motors and substeps
+/// only if there are any.
 std::string hash(const State& state);
 
 }  // namespace pliant

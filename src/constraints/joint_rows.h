@@ -43,6 +43,9 @@ constexpr std::array<const char*, 14 + n> place_fields_and(const std::array<cons
   return all;
 }
 
+/// Rest fields of joint_angle_motor and joint_offset_motor after the places.
+inline constexpr int motor_target = 14, motor_speed = 17, motor_most = 18;
+
 /// The places of a joint at the centre of b, with the world's axes as its frame.
 template <class R>
 PLIANT_HD Places<R> measure_places(const SlotValues<Bodies, R>& at) {

@@ -25,6 +25,28 @@ void set_axis(JointDraft& draft, const Vec3f& anchor, const Vec3f& axis, const c
   draft.set_frame(draft.place(anchor, "anchor"), rotation_from_x(draft.direction(axis, name)));
 }
 
+/// The rotation that takes x to `x`, and y to where `y` points beside it. Both are unit vectors.
+Quatd rotation_from_xy(const Vec3d& x, const Vec3d& y) {
+  const Quatd to_x = rotation_from_x(x);
+  const Vec3d local = rotate(conjugate(to_x), y);
+  const double half = atan2(local.z, local.y) / 2;
+  return multiply(to_x, Quatd{sin(half), 0, 0, cos(half)});
+}
+
+/// The joint frame of a planar joint: x is the normal, y is axis_x.
+void set_plane(JointDraft& draft, const PlanarJoint& joint) {
+  if (!joint.axis_x) {
+    if (joint.x_limit || joint.y_limit || joint.x_motor || joint.y_motor)
+      draft.refuse("has limits or motors in its plane, but no axis_x", "give the direction of x");
+    set_axis(draft, joint.anchor, joint.normal, "normal");
+    return;
+  }
+  const Vec3d normal = draft.direction(joint.normal, "normal"), x = draft.direction(*joint.axis_x, "axis_x");
+  if (std::fabs(dot(normal, x)) > 1e-3)
+    draft.refuse("has an axis_x that is not in its plane", "give one perpendicular to `normal`");
+  draft.set_frame(draft.place(joint.anchor, "anchor"), rotation_from_xy(normal, x));
+}
+
 std::vector<int> slots_of(const JointDraft& draft) {
   return {draft.a().point, draft.a().frame, draft.b().point, draft.b().frame};
 }
@@ -86,8 +108,8 @@ int add_joint(Object& object, const CylindricalJoint& joint) {
   draft.lock("cylindrical_joint");
   if (joint.slide_limit) draft.limit_offset(0, *joint.slide_limit);
   if (joint.turn_limit) draft.limit_angle(0, *joint.turn_limit);
-  draft.drive_offset(0, joint.slide_motor, joint.slide_friction);
-  draft.drive_angle(0, joint.turn_motor, joint.turn_friction);
+  draft.drive_offset(0, joint.slide_motor, joint.slide_friction, "slide_motor");
+  draft.drive_angle(0, joint.turn_motor, joint.turn_friction, "turn_motor");
   return draft.finish();
 }
 
@@ -95,18 +117,27 @@ int add_joint(Object& object, const UniversalJoint& joint) {
   JointDraft draft(object, "universal", joint.a, joint.b, joint.options);
   const Vec3d x = draft.direction(joint.axis_a, "axis_a"), y = draft.direction(joint.axis_b, "axis_b");
   if (std::fabs(dot(x, y)) > 1e-3) draft.refuse("has axes that are not perpendicular", "give two axes at a right angle");
-  const Quatd to_x = rotation_from_x(x);
-  const Vec3d local = rotate(conjugate(to_x), y);
-  const double half = atan2(local.z, local.y) / 2;
-  draft.set_frame(draft.place(joint.anchor, "anchor"), multiply(to_x, Quatd{sin(half), 0, 0, cos(half)}));
+  draft.set_frame(draft.place(joint.anchor, "anchor"), rotation_from_xy(x, y));
   draft.lock("universal_joint");
+  // x of a and y of b stay perpendicular, so the rotation of b against a is one about x and then one about y; the twists about x
+  // and y (joint_rows.h) are these two angles.
+  if (joint.limit_a) draft.limit_angle(0, *joint.limit_a);
+  if (joint.limit_b) draft.limit_angle(1, *joint.limit_b);
+  draft.drive_angle(0, joint.motor_a, joint.friction_a, "motor_a");
+  draft.drive_angle(1, joint.motor_b, joint.friction_b, "motor_b");
   return draft.finish();
 }
 
 int add_joint(Object& object, const PlanarJoint& joint) {
   JointDraft draft(object, "planar", joint.a, joint.b, joint.options);
-  set_axis(draft, joint.anchor, joint.normal, "normal");
+  set_plane(draft, joint);
   draft.lock("planar_joint");
+  if (joint.x_limit) draft.limit_offset(1, *joint.x_limit);
+  if (joint.y_limit) draft.limit_offset(2, *joint.y_limit);
+  if (joint.turn_limit) draft.limit_angle(0, *joint.turn_limit);
+  draft.drive_offset(1, joint.x_motor, joint.slide_friction, "x_motor");
+  draft.drive_offset(2, joint.y_motor, joint.slide_friction, "y_motor");
+  draft.drive_angle(0, joint.turn_motor, joint.turn_friction, "turn_motor");
   return draft.finish();
 }
 
@@ -211,14 +242,16 @@ int add_joint(Object& object, const SixAxisJoint& joint) {
   draft.set_frame(draft.place(joint.anchor, "anchor"), normalise(axes));
   const bool has_place = all_locked(joint.linear), has_rotation = all_locked(joint.angular);
   if (has_place) draft.lock(has_rotation ? "fixed_joint" : "ball_joint");
+  constexpr const char *linear_motors[3] = {"linear_x", "linear_y", "linear_z"},
+                       *angular_motors[3] = {"angular_x", "angular_y", "angular_z"};
   for (int axis = 0; axis < 3; ++axis) {
     const AxisFreedom &along = joint.linear[static_cast<std::size_t>(axis)],
                       &about = joint.angular[static_cast<std::size_t>(axis)];
     if (!has_place && along.kind != AxisFreedom::Kind::free) draft.limit_offset(axis, range_of(along, joint.options));
     if (!(has_place && has_rotation) && about.kind != AxisFreedom::Kind::free)
       draft.limit_angle(axis, range_of(about, joint.options));
-    draft.drive_offset(axis, along.motor, along.friction);
-    draft.drive_angle(axis, about.motor, about.friction);
+    draft.drive_offset(axis, along.motor, along.friction, linear_motors[axis]);
+    draft.drive_angle(axis, about.motor, about.friction, angular_motors[axis]);
   }
   return draft.finish();
 }

@@ -191,28 +191,32 @@ void JointDraft::limit_offset(int axis, const JointRange& range) {
   add("joint_offset", axis, {range.low, range.high, joint::no_limit}, range.compliance);
 }
 
-void JointDraft::drive(const char* type, int axis, const std::optional<JointMotor>& motor, float friction, bool is_angle) {
+void JointDraft::add_motor(const char* type, int axis, const JointMotor& motor, const char* name, bool is_angle) {
+  const bool to_position = motor.kind == JointMotor::Kind::position;
+  require(motor.target, "motor target", -joint::no_limit, joint::no_limit);
+  require(motor.most, "greatest motor torque or force", 0, unlimited, true);
+  require(motor.rate, "motor rate", 0);
+  require(motor.most_speed, "greatest motor speed", 0, unlimited, true);
+  const float target = is_angle ? static_cast<float>(principal_angle(static_cast<double>(motor.target))) : motor.target;
+  motors_.push_back({name, static_cast<int>(parts_.size()), to_position});
+  add(type, axis,
+      {to_position ? target : 0, to_position ? motor.rate : 0, to_position ? limited(motor.most_speed) : 0,
+       to_position ? 0 : motor.target, limited(motor.most)},
+      0);
+}
+
+void JointDraft::add_friction(const char* type, int axis, float friction) {
   require(friction, "friction", 0);
-  if (motor) {
-    const bool to_position = motor->kind == JointMotor::Kind::position;
-    require(motor->target, "motor target", -joint::no_limit, joint::no_limit);
-    require(motor->most, "greatest motor torque or force", 0, unlimited, true);
-    require(motor->rate, "motor rate", 0);
-    require(motor->most_speed, "greatest motor speed", 0, unlimited, true);
-    const float target = is_angle ? static_cast<float>(principal_angle(static_cast<double>(motor->target))) : motor->target;
-    add(type, axis,
-        {to_position ? target : 0, to_position ? motor->rate : 0, to_position ? limited(motor->most_speed) : 0,
-         to_position ? 0 : motor->target, limited(motor->most)},
-        0);
-  }
   if (friction > 0) add(type, axis, {0, 0, 0, 0, friction}, 0);
 }
 
-void JointDraft::drive_angle(int axis, const std::optional<JointMotor>& motor, float friction) {
-  drive("joint_angle_motor", axis, motor, friction, true);
+void JointDraft::drive_angle(int axis, const std::optional<JointMotor>& motor, float friction, const char* name) {
+  if (motor) add_motor("joint_angle_motor", axis, *motor, name, true);
+  add_friction("joint_angle_motor", axis, friction);
 }
-void JointDraft::drive_offset(int axis, const std::optional<JointMotor>& motor, float friction) {
-  drive("joint_offset_motor", axis, motor, friction, false);
+void JointDraft::drive_offset(int axis, const std::optional<JointMotor>& motor, float friction, const char* name) {
+  if (motor) add_motor("joint_offset_motor", axis, *motor, name, false);
+  add_friction("joint_offset_motor", axis, friction);
 }
 
 int JointDraft::finish() {
@@ -232,6 +236,7 @@ int JointDraft::finish() {
     group.particles.insert(group.particles.end(), part.slots.begin(), part.slots.end());
     group.rest.insert(group.rest.end(), part.rest.begin(), part.rest.end());
   }
+  joint.motors = motors_;
   object_.joints.push_back(std::move(joint));
   return static_cast<int>(object_.joints.size()) - 1;
 }

@@ -52,8 +52,9 @@ class JointDraft {
 
   void limit_angle(int axis, const JointRange& range);
   void limit_offset(int axis, const JointRange& range);
-  void drive_angle(int axis, const std::optional<JointMotor>& motor, float friction);
-  void drive_offset(int axis, const std::optional<JointMotor>& motor, float friction);
+  /// A motor and friction. `name` is that of the motor, by which users set its target.
+  void drive_angle(int axis, const std::optional<JointMotor>& motor, float friction, const char* name = "motor");
+  void drive_offset(int axis, const std::optional<JointMotor>& motor, float friction, const char* name = "motor");
 
   const JointOptions& options() const { return options_; }
   /// Adds everything to the object. Returns the index of the joint.
@@ -70,7 +71,8 @@ class JointDraft {
   JointBody world() const;
   void add_world();
   void require_range(const JointRange& range) const;
-  void drive(const char* type, int axis, const std::optional<JointMotor>& motor, float friction, bool is_angle);
+  void add_motor(const char* type, int axis, const JointMotor& motor, const char* name, bool is_angle);
+  void add_friction(const char* type, int axis, float friction);
 
   Object& object_;
   std::string kind_, name_;
@@ -79,6 +81,7 @@ class JointDraft {
   Vec3d anchor_{};
   Quatd axes_{};
   std::vector<Part> parts_;
+  std::vector<ObjectJointMotor> motors_;
   mutable bool needs_world_ = false;
 };
 

@@ -1,8 +1,10 @@
 #include "model/compiled_joints.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
+#include "constraints/joint_rows.h"
 #include "constraints/registry.h"
 #include "model/compiled_object.h"
 #include "pliant/error.h"
@@ -48,8 +50,36 @@ std::vector<std::pair<int, int>> first_numbers(const Object& object) {
   return first;
 }
 
+bool is_motor(const Pool& pool, const char* name) { return constraint_type(pool.type).name == name; }
+
+/// Where a rest field of a motor is stored.
+std::size_t place_of(const Pool& pool, const CompiledJoint::Part& part, int field) {
+  return static_cast<std::size_t>(part.batch * pool.block_floats + pool.row_offset[static_cast<std::size_t>(field)] +
+                                  part.lane);
+}
+
 [[noreturn]] void refuse(const Object& object, const ObjectJoint& joint, const std::string& problem) {
   throw Error({.object = object.name, .element = "joint '" + joint.name + "'"}, problem, "make joints by add_joint");
+}
+
+/// A motor as the description has it.
+CompiledJoint::Motor motor_of(const Object& object, const CompiledObject& compiled, const ObjectJoint& joint,
+                              const CompiledJoint& made, const ObjectJointMotor& motor) {
+  if (motor.constraint < 0 || static_cast<std::size_t>(motor.constraint) >= made.parts.size())
+    refuse(object, joint, "has a motor whose constraint does not exist");
+  const auto index = static_cast<std::size_t>(motor.constraint);
+  const CompiledJoint::Part& part = made.parts[index];
+  const Pool& pool = compiled.pools[static_cast<std::size_t>(part.pool)];
+  const bool is_angle = is_motor(pool, "joint_angle_motor");
+  if (!is_angle && !is_motor(pool, "joint_offset_motor"))
+    refuse(object, joint, "has a motor whose constraint is of another type");
+  const auto value = [&](int field) { return pool.blocks[place_of(pool, part, field)]; };
+  return {motor.name,
+          index,
+          is_angle,
+          motor.to_position,
+          value(motor.to_position ? joint::motor_target : joint::motor_speed),
+          value(joint::motor_most)};
 }
 
 }  // namespace
@@ -69,6 +99,7 @@ std::vector<CompiledJoint> compile_joints(const Object& object, const CompiledOb
                        joint.anchor,
                        joint.break_force,
                        joint.break_torque,
+                       {},
                        {}};
     for (const auto& [group, index] : joint.constraints) {
       if (group < 0 || static_cast<std::size_t>(group) >= first.size())
@@ -78,9 +109,20 @@ std::vector<CompiledJoint> compile_joints(const Object& object, const CompiledOb
       if (found == places.end()) refuse(object, joint, "has a constraint that does not exist");
       made.parts.push_back(found->second);
     }
+    for (const ObjectJointMotor& motor : joint.motors)
+      made.motors.push_back(motor_of(object, compiled, joint, made, motor));
     out.push_back(std::move(made));
   }
   return out;
+}
+
+void set_motor(CompiledObject& object, const CompiledJoint& joint, const CompiledJoint::Motor& motor, float target,
+               float most) {
+  const CompiledJoint::Part& part = joint.parts[motor.part];
+  Pool& pool = object.pools[static_cast<std::size_t>(part.pool)];
+  if (motor.is_angle && motor.to_position) target = joint::wrap_turns(target);
+  pool.blocks[place_of(pool, part, motor.to_position ? joint::motor_target : joint::motor_speed)] = target;
+  pool.blocks[place_of(pool, part, joint::motor_most)] = std::min(most, joint::no_limit);
 }
 
 }  // namespace pliant

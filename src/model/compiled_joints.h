@@ -20,11 +20,18 @@ struct CompiledJoint {
     int lane = 0;
     std::array<std::int32_t, 8> slots{};  ///< storage indices; frames come after all particles
   };
+  struct Motor {
+    std::string name;
+    std::size_t part = 0;  ///< index in `parts`
+    bool is_angle = false, to_position = false;
+    float target = 0, most = 0;  ///< as described: [rad, m, rad/s or m/s], [N m or N]
+  };
   std::string name;
   int point = 0, frame = 0;                 ///< of body b: storage index, and index among the object's frames
   Vec3f anchor{};                           ///< in the principal axes of b, about its centre of mass [m]
   float break_force = 0, break_torque = 0;  ///< [N], [N m]; 0: no limit
   std::vector<Part> parts;
+  std::vector<Motor> motors;
 
   bool may_break() const { return break_force > 0 || break_torque > 0; }
 };
@@ -32,5 +39,9 @@ struct CompiledJoint {
 /// Compiles the joints of an object whose constraints are compiled. Throws an Error if a joint names a body or a constraint that
 /// does not exist.
 std::vector<CompiledJoint> compile_joints(const Object& object, const CompiledObject& compiled);
+
+/// Sets the target and the greatest torque or force of a motor in the rest data. An angle counts modulo a full turn.
+void set_motor(CompiledObject& object, const CompiledJoint& joint, const CompiledJoint::Motor& motor, float target,
+               float most);
 
 }  // namespace pliant

@@ -15,6 +15,9 @@ void begin_control(WorldData& world, double dt);
 /// Stores poses that stay, and discards the rest, after a step. `was_stopped`: it ended before the frame was complete.
 void end_control(WorldData& world, bool was_stopped);
 
+/// True if a setting of a motor comes before another in State::motors.
+bool is_earlier(const MotorSetting& a, const MotorSetting& b);
+
 /// Discards the pose that the user set for a collider that is removed.
 void forget_pose(WorldData& world, bool is_mesh, int slot);
 

@@ -2,6 +2,7 @@
 #include "world/object_store.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "collision/fields/solid_fields.h"
@@ -68,11 +69,36 @@ ObjectState take_state(WorldData& world, int number) {
   return out;
 }
 
-/// Gives particle i of an object the kept state of particle origins[i], unless that is -1. All are in storage order.
-void give_back_state(WorldData& world, int number, const ObjectState& kept, const std::vector<int>& origins) {
-  for (std::size_t i = 0; i < origins.size(); ++i) {
-    if (origins[i] < 0) continue;
-    const auto from = static_cast<std::size_t>(origins[i]), at = static_cast<std::size_t>(world.model.first[number]) + i;
+/// For each particle and frame of an object, the one of the object before it whose state it takes; -1: none. Particles are in storage
+/// order.
+struct Origins {
+  std::vector<int> particles, frames;
+};
+
+/// The frame of a body follows the body's particle, others keep their index.
+std::vector<int> frame_origins(const CompiledObject& old, const CompiledObject& by, const std::vector<int>& particles) {
+  std::map<int, int> frame_of;  // [particle] of the bodies
+  std::vector<char> is_of_body(old.frames.size());
+  for (const CompiledBodies::Body& body : old.bodies.bodies) {
+    frame_of[body.particle] = body.frame;
+    is_of_body[static_cast<std::size_t>(body.frame)] = 1;
+  }
+  std::vector<int> from(by.frames.size(), -1);
+  for (std::size_t i = 0; i < std::min(from.size(), is_of_body.size()); ++i)
+    if (is_of_body[i] == 0) from[i] = static_cast<int>(i);
+  for (const CompiledBodies::Body& body : by.bodies.bodies) {
+    const auto found = frame_of.find(particles[static_cast<std::size_t>(body.particle)]);
+    from[static_cast<std::size_t>(body.frame)] = found == frame_of.end() ? -1 : found->second;
+  }
+  return from;
+}
+
+/// Gives each particle and frame of an object the kept state of its origin.
+void give_back_state(WorldData& world, int number, const ObjectState& kept, const Origins& origins) {
+  for (std::size_t i = 0; i < origins.particles.size(); ++i) {
+    if (origins.particles[i] < 0) continue;
+    const auto from = static_cast<std::size_t>(origins.particles[i]),
+               at = static_cast<std::size_t>(world.model.first[number]) + i;
     Record& x = world.state.positions[at];
     x = {kept.positions[from].x, kept.positions[from].y, kept.positions[from].z, x.w};
     world.state.remainders[at] = kept.remainders[from];
@@ -85,15 +111,17 @@ void give_back_state(WorldData& world, int number, const ObjectState& kept, cons
   }
   if (!world.state.substeps.empty()) world.state.substeps[static_cast<std::size_t>(number)] = kept.substeps;
   const auto first_frame = static_cast<std::size_t>(world.model.first_frame[number]);
-  const std::size_t frames = std::min(kept.orientations.size(), world.model.objects[number].frames.size());
-  for (std::size_t i = 0; i < frames; ++i) {
-    world.state.frames.orientations[first_frame + i] = kept.orientations[i];
-    world.state.frames.angular_velocities[first_frame + i] = kept.angular_velocities[i];
+  for (std::size_t i = 0; i < origins.frames.size(); ++i) {
+    if (origins.frames[i] < 0) continue;
+    const auto from = static_cast<std::size_t>(origins.frames[i]);
+    world.state.frames.orientations[first_frame + i] = kept.orientations[from];
+    world.state.frames.angular_velocities[first_frame + i] = kept.angular_velocities[from];
   }
 }
 
-/// Discards the contacts and broken joints of rigid bodies of an object.
+/// Discards the contacts, broken joints and targets of motors of an object's rigid bodies.
 void forget_contacts(WorldData& world, int number) {
+  std::erase_if(world.state.motors, [&](const MotorSetting& setting) { return setting.block == number; });
   std::erase_if(world.state.broken_joints, [&](const BrokenJoint& joint) { return joint.block == number; });
   std::erase_if(world.state.body_contacts,
                 [&](const BodyContact& contact) { return contact.a.owner == number || contact.b.owner == number; });
@@ -182,8 +210,9 @@ void replace_object(WorldData& world, int number, CompiledObject by, const std::
     const int at = user < by.user_particles ? from[user] : user - by.user_particles + old.user_particles;
     return at < 0 || at >= particles ? -1 : old.place[at];
   };
-  std::vector<int> origins;
-  for (const int user : by.order) origins.push_back(origin(user));
+  Origins origins;
+  for (const int user : by.order) origins.particles.push_back(origin(user));
+  origins.frames = frame_origins(old, by, origins.particles);
   const ObjectState kept = take_state(world, number);
   forget_control(world, number);
   forget_contacts(world, number);

@@ -6,6 +6,7 @@
 #include "core/sha256.h"
 #include "pliant/error.h"
 #include "solver/bodies/joint_load.h"
+#include "world/control.h"
 #include "world/world_data.h"
 
 namespace pliant {
@@ -108,6 +109,39 @@ void break_joints_of_state(WorldData& world) {
   }
 }
 
+const CompiledJoint::Motor* find_motor(const Model& model, const MotorSetting& setting) {
+  const auto at = [](const auto& list, int index) {
+    return index >= 0 && static_cast<std::size_t>(index) < list.size() ? &list[static_cast<std::size_t>(index)] : nullptr;
+  };
+  const CompiledObject* object = at(model.objects, setting.block);
+  const CompiledJoint* joint = object == nullptr ? nullptr : at(object->joints, setting.joint);
+  return joint == nullptr ? nullptr : at(joint->motors, setting.motor);
+}
+
+void require_motors(const Model& model, const State& state) {
+  const MotorSetting* before = nullptr;
+  for (const MotorSetting& setting : state.motors) {
+    const bool is_known = find_motor(model, setting) != nullptr && std::isfinite(setting.target) && setting.most > 0;
+    if (!is_known || (before != nullptr && !is_earlier(*before, setting)))
+      throw Error({.element = "motor " + std::to_string(&setting - state.motors.data())},
+                  "does not exist, is not in ascending order, or has a number that is not finite",
+                  "restore a state of this world");
+    before = &setting;
+  }
+}
+
+/// Gives all motors the targets of the State, or those of their description.
+void set_motors_of_state(WorldData& world) {
+  for (CompiledObject& object : world.model.objects)
+    for (const CompiledJoint& joint : object.joints)
+      for (const CompiledJoint::Motor& motor : joint.motors) set_motor(object, joint, motor, motor.target, motor.most);
+  for (const MotorSetting& setting : world.state.motors) {
+    CompiledObject& object = world.model.objects[static_cast<std::size_t>(setting.block)];
+    const CompiledJoint& joint = object.joints[static_cast<std::size_t>(setting.joint)];
+    set_motor(object, joint, joint.motors[static_cast<std::size_t>(setting.motor)], setting.target, setting.most);
+  }
+}
+
 /// True if blocks are contiguous and in order, as in a World in which nothing was removed or edited.
 bool follow_one_another(const std::vector<StateBlock>& blocks) {
   int first = 0;
@@ -177,11 +211,13 @@ void World::restore(const State& state) {
   require_substeps(state);
   require_body_contacts(state);
   require_broken_joints(data_->model, state);
+  require_motors(data_->model, state);
   if (!std::isfinite(state.time)) throw Error({}, "the state's time is not finite", "restore an earlier state");
   if (state.frame < 0 || state.frame > largest_frame)
     throw Error({}, "the state's frame is " + std::to_string(state.frame), "restore a state of this world");
   data_->state = state;
   break_joints_of_state(*data_);
+  set_motors_of_state(*data_);
   forget_multipliers(*data_, false);
   data_->workspace.look_for_tangles = true;
   data_->stopped = false;
@@ -220,6 +256,7 @@ std::string hash(const State& state) {
   }
   if (!state.substeps.empty()) sha.add(state.substeps.data(), state.substeps.size() * sizeof(float));
   if (!state.broken_joints.empty()) sha.add(state.broken_joints.data(), state.broken_joints.size() * sizeof(BrokenJoint));
+  if (!state.motors.empty()) sha.add(state.motors.data(), state.motors.size() * sizeof(MotorSetting));
   if (!state.body_contacts.empty()) sha.add(state.body_contacts.data(), state.body_contacts.size() * sizeof(BodyContact));
   return sha.finish();
 }

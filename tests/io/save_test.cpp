@@ -8,8 +8,10 @@
 
 #include "core/sha256.h"
 #include "io/save_file.h"
+#include "pliant/body.h"
 #include "pliant/error.h"
 #include "pliant/io.h"
+#include "pliant/joint.h"
 #include "pliant/save.h"
 #include "support/scenes.h"
 #include "write_support.h"
@@ -119,6 +121,25 @@ TEST(Save, OrientationsGoOnInTheSameBits) {
   }
   EXPECT_EQ(loaded.world.state_hash(), world.state_hash());
   EXPECT_NE(world.object(2).orientations()[0].x, before[0].x) << "they turn";
+}
+
+TEST(Save, TargetsOfMotorsAreKept) {
+  const Folder folder;
+  Scene scene = full_scene();
+  Object wheel = make_body({{Box{}}}, {.name = "wheel", .position = {50, 0, 0}});
+  add_joint(wheel, HingeJoint{.b = 0, .anchor = {50, 0, 0}, .motor = JointMotor{.target = 1, .most = 1e4f}});
+  const ObjectId id = scene.add(wheel);
+  World world(scene);
+  world.object(id).set_motor("hinge 0", {.target = -3, .most = 500});
+  save(folder / "world", world, scene);
+  LoadedWorld loaded = load_world(folder / "world");
+  ASSERT_EQ(loaded.world.state().motors, world.state().motors);
+  for (int frame = 0; frame < 3; ++frame) {
+    world.step(dt);
+    loaded.world.step(dt);
+  }
+  EXPECT_EQ(loaded.world.state_hash(), world.state_hash());
+  EXPECT_LT(loaded.world.object(id).angular_velocities()[0].z, 0) << "as commanded, not as described";
 }
 
 TEST(Save, ChannelsAreKept) {
@@ -299,7 +320,7 @@ TEST(Save, TheReasonIsNamed) {
   const std::string whole = test::read(path);
   std::string changed = whole;
   changed[8] = 2;
-  says(why(changed), "has format version 2, and this Pliant reads version 7; use the Pliant that wrote it");
+  says(why(changed), "has format version 2, and this Pliant reads version 8; use the Pliant that wrote it");
   says(why(""), "is empty");
   says(why("o cloth\nv 0 0 0\n"), "is not a file saved by Pliant");
   says(why(whole.substr(0, 100)),

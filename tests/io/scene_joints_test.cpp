@@ -34,6 +34,8 @@ class Rig : public testing::Test {
     EXPECT_EQ(found.anchor, expected.anchor);
     EXPECT_EQ(found.break_force, expected.break_force);
     EXPECT_EQ(found.break_torque, expected.break_torque);
+    ASSERT_EQ(found.motors.size(), expected.motors.size());
+    for (std::size_t m = 0; m < found.motors.size(); ++m) EXPECT_EQ(found.motors[m].name, expected.motors[m].name);
     ASSERT_EQ(found.constraints.size(), expected.constraints.size());
     for (std::size_t c = 0; c < found.constraints.size(); ++c)
       EXPECT_EQ(described(rig, found.constraints[c]), described(same, expected.constraints[c])) << found.name << " " << c;
@@ -85,9 +87,22 @@ TEST_F(Rig, HasTheJointsThatCodeMakes) {
   both.slide_friction = 0.5f, both.turn_friction = 0.25f;
   add_joint(same, both);
   expect_same(4);
-  add_joint(same, UniversalJoint{4, 5, {9, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}});
+  UniversalJoint cross{4, 5, {9, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  cross.limit_a = JointRange{-30 * degree, 60 * degree}, cross.limit_b = JointRange{-20 * degree, 20 * degree};
+  cross.motor_a = JointMotor{JointMotor::Kind::speed, 45 * degree};
+  cross.motor_b = JointMotor{JointMotor::Kind::position, 10 * degree};
+  cross.friction_a = 0.5f, cross.friction_b = 0.25f;
+  add_joint(same, cross);
   expect_same(5);
-  add_joint(same, PlanarJoint{5, 6, {11, 0, 0}, {0, 0, 1}, {}});
+  PlanarJoint plane{5, 6, {11, 0, 0}, {0, 0, 1}};
+  plane.axis_x = Vec3f{0, 1, 0};
+  plane.x_limit = JointRange{-1, 2}, plane.y_limit = JointRange{-3, 4};
+  plane.turn_limit = JointRange{-90 * degree, 45 * degree};
+  plane.x_motor = JointMotor{JointMotor::Kind::speed, 0.5f};
+  plane.y_motor = JointMotor{JointMotor::Kind::position, 0.25f};
+  plane.turn_motor = JointMotor{JointMotor::Kind::speed, 30 * degree};
+  plane.slide_friction = 0.5f, plane.turn_friction = 0.125f;
+  add_joint(same, plane);
   expect_same(6);
 }
 
