@@ -69,5 +69,7 @@ void prepare_joints(const CompiledObject& object, ObjectJoints& joints);
 
 /// Solves the trees of all objects that take part.
 void solve_joint_trees(Substep& s, bool first_pass);
+/// Solves them again where contact has opened joints since.
+void close_joint_trees(Substep& s);
 
 }  // namespace pliant

@@ -373,9 +373,25 @@ void apply(Work& work) {
   store_multipliers(work);
 }
 
-void solve_object(Work work) {
+/// The largest C of a rigid joint [m or rad].
+float largest_gap(const Work& work) {
+  float largest = 0;
+  for (std::size_t j = 0; j < work.forest.joints.size(); ++j) {
+    const JointForest::Joint& joint = work.forest.joints[j];
+    if (!joint.in_tree) continue;
+    const JointRows& rows = work.forest.rows[j];
+    const int own = work.object.pools[static_cast<std::size_t>(joint.parts.front().pool)].components;
+    for (std::size_t r = 0; r < static_cast<std::size_t>(own); ++r)
+      if (rows.compliance[r] == 0) largest = max(largest, abs(rows.value[r]));
+  }
+  return largest;
+}
+
+/// Solves the trees of an object. Returns false, and changes nothing, if no joint is off by more than a tolerance [m or rad].
+bool solve_object(Work& work, float tolerance) {
   fill_masses(work);
   fill_rows(work, true);
+  if (tolerance > 0 && !(largest_gap(work) > tolerance)) return false;
   solve(work.forest);
   if (find_stiffness(work) > largest_advance) {
     stiffen(work);
@@ -383,11 +399,11 @@ void solve_object(Work work) {
     solve(work.forest);
   }
   apply(work);
+  return true;
 }
 
-}  // namespace
-
-void solve_joint_trees(Substep& s, bool first_pass) {
+/// Calls a function for the trees of each object that takes part.
+void for_trees(Substep& s, bool first_pass, FunctionRef<void(Work&)> body) {
   std::vector<int> objects;
   for_objects(s, [&](int o) {
     if (s.work.joints[static_cast<std::size_t>(o)].forest != nullptr) objects.push_back(o);
@@ -395,8 +411,27 @@ void solve_joint_trees(Substep& s, bool first_pass) {
   if (objects.empty()) return;
   for_tasks(s, "solve: joints", static_cast<int>(objects.size()), [&](int task) {
     const int o = objects[static_cast<std::size_t>(task)];
-    solve_object({s.model.objects[static_cast<std::size_t>(o)], arguments(s, o, first_pass), frame_arguments(s, o),
-                  *s.work.joints[static_cast<std::size_t>(o)].forest});
+    Work work{s.model.objects[static_cast<std::size_t>(o)], arguments(s, o, first_pass), frame_arguments(s, o),
+              *s.work.joints[static_cast<std::size_t>(o)].forest};
+    body(work);
+  });
+}
+
+/// Contact moves one body of a tree at a time, so a joint is open by what an impact gives it in a substep; gaps above this are closed.
+constexpr float closed = 1e-6f;
+/// Each round leaves a gap of the order of the square of the last one over the length of a body.
+constexpr int most_closing_rounds = 3;
+
+}  // namespace
+
+void solve_joint_trees(Substep& s, bool first_pass) {
+  for_trees(s, first_pass, [](Work& work) { (void)solve_object(work, 0); });
+}
+
+void close_joint_trees(Substep& s) {
+  for_trees(s, false, [](Work& work) {
+    for (int round = 0; round < most_closing_rounds; ++round)
+      if (!solve_object(work, closed)) return;
   });
 }
 

@@ -52,7 +52,10 @@ void iterate(Substep& s, int iteration) {
   }
   s.group = nullptr;
   walk_stencils(s, iteration == 0);
-  if (s.bodies != nullptr) s.bodies->project(s, iteration == 0);
+  if (s.bodies != nullptr) {
+    s.bodies->project(s, iteration == 0);
+    close_joint_trees(s);
+  }
   walk(s, Turn::last, {});
 }
 
