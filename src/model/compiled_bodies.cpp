@@ -84,6 +84,10 @@ void find_ties(const Object& object, const std::vector<int>& place, CompiledBodi
     for (std::size_t first = 0; first + type.slots.size() <= group.particles.size(); first += type.slots.size())
       note_ties(type, &group.particles[first], body_of_frame, place, out);
   }
+  // A joint may act on a body's particle alone, as a rack and pinion does on the rack.
+  const auto exists = [&](int body) { return body >= 0 && static_cast<std::size_t>(body) < object.bodies.size(); };
+  for (const ObjectJoint& joint : object.joints)
+    if (exists(joint.a) && exists(joint.b) && joint.a != joint.b) out.jointed.emplace_back(std::minmax(joint.a, joint.b));
   sort_once(out.jointed);
   sort_once(out.attached);
 }

@@ -243,6 +243,24 @@ TEST(Joints, APinionMovesItsRackForManyTurns) {
   EXPECT_NEAR(m.pose(rack).position.x, 3, 0.05);
 }
 
+/// Bodies that a joint connects do not collide, whichever parts of them it acts on.
+TEST(Joints, APinionInItsRackDoesNotTouchIt) {
+  Mechanism m;
+  const int pinion = m.box({0, 0, 0}, 1, {0.1f, 0.1f, 0.1f}), rack = m.box({0, -0.15f, 0}, 1, {2, 0.1f, 0.1f});
+  HingeJoint driven{.b = pinion, .anchor = {0, 0, 0}, .axis = {0, 0, 1}};
+  driven.motor = JointMotor{.kind = JointMotor::Kind::speed, .target = 1, .most = 1000};
+  add_joint(m.object, driven);
+  add_joint(m.object, SliderJoint{.b = rack, .anchor = {0, -0.15f, 0}, .axis = {1, 0, 0}});
+  add_joint(m.object, RackJoint{.pinion = pinion, .rack = rack, .radius = 0.1f});
+  m.start();
+  m.scene.objects[0].collides = m.scene.objects[0].self_collision = true;
+  const Settings settings = m.world->settings();
+  m.world = std::make_unique<World>(m.scene, settings);
+  m.run(1);
+  EXPECT_TRUE(m.world->state().body_contacts.empty());
+  EXPECT_NEAR(m.pose(rack).position.x, 0.1, 2e-3);
+}
+
 TEST(Joints, SixAxesAreFreeLockedOrLimitedOneByOne) {
   using Kind = AxisFreedom::Kind;
   Mechanism m;
