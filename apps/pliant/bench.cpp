@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "apps/bench/bench.h"
+#include "apps/bench/chains.h"
 #include "apps/bench/contact.h"
 #include "apps/bench/draped_meshes.h"
 #include "apps/bench/landing.h"
@@ -120,6 +121,19 @@ std::string bench_bodies(const BenchOptions& options) {
   return to_json(pliant::bench::measure_piles(wanted));
 }
 
+std::string bench_joints(const BenchOptions& options) {
+  pliant::bench::ChainOptions wanted;
+  if (!options.sizes.empty()) wanted.sizes = options.sizes;
+  wanted.frames = options.frames.value_or(wanted.frames);
+  print("links  solver  substeps  ms/frame  drift, mm  ratio\n");
+  wanted.on_row = [](const pliant::bench::ChainRow& row) {
+    throw_if_interrupted();
+    print(fmt::format("{:5}  {:<6} {:9} {:9.4f} {:10.4f} {:6.3f}\n", row.links, row.solver, row.substeps, row.ms_per_frame,
+                      1000 * row.drift, row.ratio));
+  };
+  return to_json(pliant::bench::measure_chains(wanted));
+}
+
 std::string bench_default(const BenchOptions& options) {
   if (options.scenes.empty() && options.meshes.empty())
     throw Error({}, "'default' measures scene files", "name them: --scenes scenes/*.json, or --meshes FOLDER");
@@ -160,8 +174,8 @@ std::string bench_default(const BenchOptions& options) {
 void refuse_unknown(const std::string& workload) {
   std::vector<std::string> names;
   for (const pliant::bench::Workload& frames : pliant::bench::workloads()) names.push_back(frames.name);
-  for (const char* other : {"bodies", "bodies-pyramid", "bodies-tower", "bodies-pour", "contact", "default", "memory", "W3",
-                            "W3-ball", "W3-cloth"})
+  for (const char* other : {"bodies", "bodies-pyramid", "bodies-tower", "bodies-pour", "contact", "default", "joints",
+                            "memory", "W3", "W3-ball", "W3-cloth"})
     names.emplace_back(other);
   if (workload.empty() || std::find(names.begin(), names.end(), workload) != names.end()) return;
   const std::string near = scene_file::nearest_name(workload, names);
@@ -176,6 +190,7 @@ std::optional<std::string> bench_by_name(const BenchOptions& options) {
   if (options.workload.rfind("bodies", 0) == 0) return bench_bodies(options);
   if (options.workload == "contact") return bench_contact(options);
   if (options.workload == "default") return bench_default(options);
+  if (options.workload == "joints") return bench_joints(options);
   if (options.workload == "memory") return bench_memory(options);
   if (options.workload == "W3" || options.workload == "W3-ball" || options.workload == "W3-cloth")
     return bench_landings(options);
