@@ -24,6 +24,7 @@ void momentum_rows(Result& result, bool slow);
 void pendulum_rows(Result& result, bool slow);
 void contact_rows(Result& result, bool slow);
 void body_rows(Result& result, bool slow);
+void mechanism_rows(Result& result, bool slow);
 void collision_rows(Result& result, bool slow);
 void stiffness_rows(Result& result, bool slow);
 void balloon_rows(Result& result, bool slow);
