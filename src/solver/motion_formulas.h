@@ -74,13 +74,30 @@ PLIANT_HD Vec3<R> inertia_of(const Vec3<R>& inverse) {
   return {one / max(inverse.x, least), one / max(inverse.y, least), one / max(inverse.z, least)};
 }
 
+/// By how much the angular velocity w of a frame changes, in its axes, when it is turned by theta (in its axes) without torque:
+/// angular momentum L stays in the world, so in the frame it turns back, by 2 (s v x L + v x (v x L)) with the quaternion (v, s). An
+/// increment, so that what is not turned does not round. Zero if rotation about an axis is locked.
+template <class R>
+PLIANT_HD Vec3<R> turned_back(const Vec3<R>& inverse, const Vec3<R>& theta, const Vec3<R>& w) {
+  const R zero(0.f), half(0.5f);
+  const Vec3<R> inertia = inertia_of(inverse);
+  const auto turns = min(min(inverse.x, inverse.y), inverse.z) > zero;
+  const Quat<R> back = normalise(Quat<R>{-(half * theta.x), -(half * theta.y), -(half * theta.z), R(1.f)});
+  const Vec3<R> v{back.x, back.y, back.z}, across = cross(v, Vec3<R>{w.x * inertia.x, w.y * inertia.y, w.z * inertia.z});
+  const Vec3<R> change = (across * back.w + cross(v, across)) * R(2.f);
+  return select(turns, Vec3<R>{change.x * inverse.x, change.y * inverse.y, change.z * inverse.z},
+                Vec3<R>{zero, zero, zero});
+}
+
 template <class R, int lanes>
 PLIANT_HD void predict_frames(const FrameArrays& a, const Lanes<R, lanes>& at, float step) {
   const R h(step), half(0.5f), one(1.f);
   const Quat<R> q = at.rotation(a.orientations);
   const Vec3<R> w = at.vector(a.angular_velocities), inverse = at.vector(a.inverse_inertias), inertia = inertia_of(inverse);
-  Vec3<R> change{R(0.f), R(0.f), R(0.f)};
+  const Vec3<R> none{R(0.f), R(0.f), R(0.f)};
+  Vec3<R> change = none;
   for (int round = 0; round < 2; ++round) change = gyroscopic_rate(inverse, inertia, w + change * half) * h;
+  change = select(length_squared(w) * (h * h) < one, change, none);  // beyond a radian per substep the rounds diverge
   const Vec3<R> angle = (w + change * half) * h;
   // Taylor series of the quaternion exponential. The next terms are below a float's precision up to half a radian per
   // substep.
@@ -98,7 +115,9 @@ template <class R, int lanes>
 PLIANT_HD R update_frames(const FrameArrays& a, const Lanes<R, lanes>& at, float inverse_h) {
   const Quat<R> q = at.rotation(a.orientations);
   const RecordOf<R> correction = at.load(a.corrections);
-  const Vec3<R> w = (at.vector(a.angular_velocities) + rotate(conjugate(q), correction.xyz) * R(inverse_h)) * correction.w;
+  const Vec3<R> before = at.vector(a.angular_velocities), theta = rotate(conjugate(q), correction.xyz);
+  const Vec3<R> back = turned_back(at.vector(a.inverse_inertias), theta, before);
+  const Vec3<R> w = (before + (theta * R(inverse_h) + back)) * correction.w;
   at.store(a.angular_velocities, w, R(0.f));
   return ((w.x - w.x) + (w.y - w.y) + (w.z - w.z)) + ((q.x - q.x) + (q.y - q.y) + (q.z - q.z) + (q.w - q.w));
 }
