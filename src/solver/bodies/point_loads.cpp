@@ -20,9 +20,13 @@ constexpr float least_weight = 0.3f;
 /// A body that presses on a particle by less than this many of its weights is moved well enough by contacts alone.
 constexpr float least_weights = 20;
 
+/// A body under cloth bears it, instead of being borne, if the normal of contact is within 60 degrees of upward.
+constexpr float upward = 0.5f;
+
 /// True if a contact presses so much that its points should carry the body.
 bool is_heavy(const Substep& s, const Contact& c, float impulse) {
-  return c.push > 0 &&
+  const bool bears = dot(c.normal, s.model.gravity) < -upward * length(s.model.gravity);
+  return c.push > 0 && !bears &&
          impulse * inverse_mass_of(c, s.state.positions.data()) > least_weights * length(s.model.gravity) * s.h;
 }
 
