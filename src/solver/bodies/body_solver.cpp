@@ -105,10 +105,10 @@ void BodySolver::warn_of_overlap(Substep& s) const {
   const BodyOverlap deepest = finder_.deepest();
   if (deepest.share < deep_share) return;
   const auto name = [&](int place) { return bodies_.name(s.model, place); };
-  s.report.warnings.push_back(name(deepest.a) + " and " + name(deepest.b) + " overlap by " + std::to_string(deepest.depth) +
-                              " m: if they started apart, what lies on them is too heavy for " + std::to_string(s.planned) +
-                              " substeps; contacts give way by 1.04 h^2 F / m, so twice the "
-                              "substeps bear four times the weight");
+  s.report.warnings.push_back(
+      name(deepest.a) + " and " + name(deepest.b) + " overlap by " + std::to_string(deepest.depth) +
+      " m at rest: what lies on them is too heavy for " + std::to_string(s.planned) +
+      " substeps; contacts give way by 1.04 h^2 F / m, so twice the substeps bear four times the weight");
 }
 
 /// Gathers the prediction at the start of a substep, which begins with the impulses of the last one. What these do is known from it, but in
