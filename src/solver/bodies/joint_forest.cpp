@@ -76,15 +76,18 @@ bool acts_on_two_bodies(const ConstraintDefinition& type) {
   return type.slots == std::vector<SlotKind>{SlotKind::point, SlotKind::frame, SlotKind::point, SlotKind::frame};
 }
 
-/// Adds limits, motors and friction to the joints of trees whose bodies they act on, as far as there is room.
-void add_bounded_parts(const CompiledObject& object, const std::vector<std::vector<char>>& is_broken, JointForest& forest) {
+/// Adds the limits, or the motors and friction, to the joints of trees whose bodies they act on, as far as there is room.
+void add_bounded_parts(const CompiledObject& object, const std::vector<std::vector<char>>& is_broken, bool motors,
+                       JointForest& forest) {
   std::map<std::array<std::int32_t, 4>, std::size_t> joints;
   for (std::size_t j = 0; j < forest.joints.size(); ++j)
     if (forest.joints[j].in_tree) joints.try_emplace(forest.joints[j].slots, j);
   for (const Segment& segment : object.segments) {
     const Pool& pool = object.pools[static_cast<std::size_t>(segment.pool)];
     const ConstraintDefinition& type = constraint_type(pool.type);
-    if (type.evaluate_bounded == nullptr || !acts_on_two_bodies(type) || pool.law == Law::pbd) continue;
+    if (type.evaluate_bounded == nullptr || type.acts_on_motion != motors || !acts_on_two_bodies(type) ||
+        pool.law == Law::pbd)
+      continue;
     for_segment(object, segment, [&](const ConstraintPlace& at, const std::int32_t* number) {
       const auto found = joints.find(slots_of(object, number));
       if (found == joints.end() || is_marked(is_broken, at)) return;
@@ -127,7 +130,8 @@ void prepare_joints(const CompiledObject& object, ObjectJoints& joints) {
   if (!forest->joints.empty()) {
     forest->tree.emplace(static_cast<int>(forest->bodies.size()), forest->ends);
     for (const int loose : forest->tree->loose()) forest->joints[static_cast<std::size_t>(loose)].in_tree = false;
-    add_bounded_parts(object, joints.is_broken, *forest);
+    // Where a motor drives against a stop, both are rows of one direction, and the solve leaves out the later one.
+    for (const bool motors : {false, true}) add_bounded_parts(object, joints.is_broken, motors, *forest);
   }
   mark_skipped(object, *forest, joints);
   joints.forest = forest->tree ? std::move(forest) : nullptr;

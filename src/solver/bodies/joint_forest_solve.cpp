@@ -233,6 +233,12 @@ RowState next_state(const JointForest& forest, const BoundedRow& bounded, bool m
   return left < -tolerance && bounded.high < most_held ? RowState::high : RowState::free;
 }
 
+/// True if the solve left a row out because it depends on others, as a motor against a stop does, and it is not met.
+bool is_left_out(const JointForest& forest, const BoundedRow& bounded) {
+  if (bounded.state != RowState::free || forest.multipliers[bounded.joint][bounded.row] != 0) return false;
+  return abs(residual(forest, bounded, 0)) > 1e-7f + 1e-4f * abs(bounded.value);
+}
+
 void solve_once(JointForest& forest) {
   forest.tree->solve(forest.masses, forest.rows, forest.corrections, &forest.multipliers);
 }
@@ -246,7 +252,10 @@ void solve(JointForest& forest) {
   for (int round = 0; round < most_rounds; ++round) {
     solve_once(forest);
     bool changes = false;
+    const auto left_out = [&](const BoundedRow& bounded) { return is_left_out(forest, bounded); };
+    const bool is_partial = std::any_of(forest.bounded.begin(), forest.bounded.end(), left_out);
     for (BoundedRow& bounded : forest.bounded) {
+      if (is_partial && !left_out(bounded)) continue;  // what the others do follows from those that were left out
       const RowState next = next_state(forest, bounded, round < free_rounds);
       changes = changes || next != bounded.state;
       bounded.state = next;
