@@ -46,19 +46,18 @@ void predict_frames(Substep& s) {
 
 void update_frames(Substep& s) {
   if (s.model.frames() == 0) return;
-  for_objects(s, [&](int o) {  // w is the factor by which damping reduces the velocity
-    const float kept = 1 / (1 + s.h * s.model.objects[o].damping);
-    const float share = s.bodies != nullptr ? s.bodies->velocity_share(o) : 1;
-    for (int i = s.model.first_frame[o]; i < s.model.end_of_frames(o); ++i) {
-      Record& correction = s.work.frames.corrections[i];
-      correction = {correction.x * share, correction.y * share, correction.z * share, kept};
-    }
-  });
   const FrameArrays arrays = frame_arrays(s);
   std::atomic<bool> are_finite{true};
-  for_frames(s, "update: frames", [&](int first, int last) {
-    if (!s.kernels.motions.update_frames(arrays, first, last, s.velocity_share / s.h))
-      are_finite.store(false, std::memory_order_relaxed);
+  for_objects(s, [&](int o) {
+    const float kept = 1 / (1 + s.h * s.model.objects[o].damping);
+    // Corrections stay whole, because contacts and angular momentum follow what the frame has turned.
+    const float share = s.velocity_share * (s.bodies != nullptr ? s.bodies->velocity_share(o) : 1);
+    const int first_of_object = s.model.first_frame[o], end = s.model.end_of_frames(o);
+    for (int i = first_of_object; i < end; ++i) s.work.frames.corrections[i].w = kept;
+    for_range(s, "update: frames", first_of_object, end, [&](int first, int last) {
+      if (!s.kernels.motions.update_frames(arrays, first, last, share / s.h))
+        are_finite.store(false, std::memory_order_relaxed);
+    });
   });
   s.frames_are_finite = are_finite.load();
 }

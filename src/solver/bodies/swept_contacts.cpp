@@ -121,12 +121,18 @@ void SweptContacts::find_hits(const Substep& s, int object, const MovingCollider
 void SweptContacts::detect(const Substep& s, const std::vector<int>& objects, const std::vector<MovingCollider>& solids,
                            FunctionRef<bool(int object, int solid)> meets, std::vector<Contact>& contacts) {
   fastest_.assign(s.model.objects.size(), 0);
+  boxes_.resize(s.model.objects.size());
   for (const int o : objects) {
     float squared = 0;
+    BoxBounds box{Vec3f{1, 1, 1} * 1e30f, Vec3f{1, 1, 1} * -1e30f};
     const int first = s.model.first[at(o)];
-    for (int i = first; i < first + s.model.objects[at(o)].particles; ++i)
-      squared = max(squared, length_squared(xyz(s.work.displacements[at(i)])));
+    for (int i = first; i < first + s.model.objects[at(o)].particles; ++i) {
+      const Vec3f x = xyz(s.state.positions[at(i)]), d = xyz(s.work.displacements[at(i)]);
+      squared = max(squared, length_squared(d));
+      box = {min(box.low, min(x, x + d)), max(box.high, max(x, x + d))};
+    }
     fastest_[at(o)] = std::sqrt(squared);
+    boxes_[at(o)] = box;
   }
   is_swept_.assign(solids.size(), 0);
   has_fast_ = false;
@@ -135,10 +141,12 @@ void SweptContacts::detect(const Substep& s, const std::vector<int>& objects, co
     const MovingCollider& solid = solids[at(number)];
     const float path = length(centre_of(solid, solid.after) - centre_of(solid, solid.before)),
                 size = share_of_size * smallest(half_sides_of(solid));
+    const Vec3f from = centre_of(solid, solid.before), to = centre_of(solid, solid.after);
+    const BoxBounds of_path{min(from, to), max(from, to)};  // of the centre, which alone is tested
     hits_.clear();
     for (const int o : objects) {
       const bool is_fast = path + fastest_[at(o)] > size && !s.model.objects[at(o)].surface.triangles.empty();
-      if (!is_fast || !meets(o, number)) continue;
+      if (!is_fast || !overlap(boxes_[at(o)], of_path) || !meets(o, number)) continue;
       has_fast_ = true;
       find_hits(s, o, solid);
     }

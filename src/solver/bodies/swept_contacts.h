@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "collision/broad/bounds.h"
 #include "collision/narrow/contact.h"
 #include "model/model.h"
 #include "parallel/executor.h"
@@ -37,9 +38,10 @@ class SweptContacts {
   void find_hits(const Substep& s, int object, const MovingCollider& solid);
 
   bool has_fast_ = false;
-  std::vector<Hit> hits_;       ///< of one solid
-  std::vector<char> is_swept_;  ///< [solid]
-  std::vector<float> fastest_;  ///< [object] largest displacement [m]
+  std::vector<Hit> hits_;         ///< of one solid
+  std::vector<char> is_swept_;    ///< [solid]
+  std::vector<BoxBounds> boxes_;  ///< [object] of its particles on their way
+  std::vector<float> fastest_;    ///< [object] largest displacement [m]
 };
 
 }  // namespace pliant
