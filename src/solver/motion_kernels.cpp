@@ -10,6 +10,10 @@ PLIANT_HD bool all_zero(float sum) { return sum == 0; }
 
 namespace pliant {
 
-const MotionKernels& motion_kernels_sequential() { return motion_formulas::Loops<float, 1>::table; }
+namespace {
+struct ThisUnit {};
+}  // namespace
+
+const MotionKernels& motion_kernels_sequential() { return motion_formulas::Loops<float, 1, ThisUnit>::table; }
 
 }  // namespace pliant

@@ -15,8 +15,12 @@ PLIANT_HD void store_records(Record* base, const std::int32_t* index, const moti
 }
 PLIANT_HD bool all_zero(const Wide& sum) { return lane_bits(sum == Wide(0.f)) == 0xffff; }
 
+namespace {
+struct ThisUnit {};
+}  // namespace
+
 }  // namespace PLIANT_ISA
 
-const MotionKernels& PLIANT_OF_LEVEL(motion_kernels)() { return motion_formulas::Loops<Wide, 16>::table; }
+const MotionKernels& PLIANT_OF_LEVEL(motion_kernels)() { return motion_formulas::Loops<Wide, 16, ThisUnit>::table; }
 
 }  // namespace pliant

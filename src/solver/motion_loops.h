@@ -6,7 +6,8 @@
 
 namespace pliant::motion_formulas {
 
-template <class R, int lanes>
+/// `Unit` is a type of an unnamed namespace, so that the linker never mixes the code of two levels.
+template <class R, int lanes, class Unit>
 struct Loops {
   using At = Lanes<R, lanes>;
   using BodyAt = BodyLanes<R, lanes>;
