@@ -148,7 +148,7 @@ bool masks_allow(const A& a, const B& b) {
 
 /// Warns of an object that is set to collide but can meet nothing: it would pass through everything.
 void doubt_company(Problems& problems, const Object& object, const Scene& scene) {
-  if (!object.collides) return;
+  if (!object.collides || !object.bodies.empty()) return;  // bodies collide by default
   const auto is_met_by_object = [&](const Object& other) {
     return &other != &object && other.collides && masks_allow(object, other);
   };

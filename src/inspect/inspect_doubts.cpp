@@ -64,6 +64,7 @@ void doubt_masses(const Doubts& d) {
     if (lightest == d.count() || d.object.masses[i] < d.object.masses[lightest]) lightest = i;
     if (heaviest == d.count() || d.object.masses[i] > d.object.masses[heaviest]) heaviest = i;
   }
+  if (lightest == d.count() && !d.object.bodies.empty()) return;  // fixed bodies are scenery
   if (lightest == d.count())
     return d.problems.doubtful("", "all particles are pinned or fixed, so the object only moves with its pins",
                                "pin fewer particles");

@@ -35,6 +35,8 @@ TEST_F(Heap, HasItsProperties) {
   EXPECT_EQ(heap.static_friction, 0.75f);
   EXPECT_EQ(heap.kinetic_friction, 0.5f);
   EXPECT_EQ(heap.restitution, 0.125f);
+  EXPECT_EQ(heap.rolling_friction, 0.5f);
+  EXPECT_EQ(heap.spinning_friction, 0.75f);
   EXPECT_EQ(heap.groups, 8U);
   EXPECT_EQ(heap.mask, 8U);
   EXPECT_EQ(heap.colour, (Vec3f{0.125f, 0.25f, 0.5f}));

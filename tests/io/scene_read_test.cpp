@@ -91,6 +91,8 @@ TEST_F(FullScene, HasItsColliders) {
   EXPECT_EQ(floor.static_friction, 0.875f);
   EXPECT_EQ(floor.kinetic_friction, 0.75f);
   EXPECT_EQ(floor.restitution, 0.5f);
+  EXPECT_EQ(floor.rolling_friction, 0.125f);
+  EXPECT_EQ(floor.spinning_friction, 0.25f);
   EXPECT_EQ(floor.colour, (Vec3f{1, 0, 0.5f}));
   EXPECT_EQ(std::get<Sphere>(scene.colliders[1].shape).radius, 3.f);
   EXPECT_EQ(std::get<Sphere>(scene.colliders[2].shape).radius, Sphere{}.radius);
@@ -114,7 +116,9 @@ TEST_F(FullScene, HasItsSheetInPlace) {
   EXPECT_NEAR(mass, 6 * 1 * 0.5, 1e-5);  // area and density
   EXPECT_EQ(sheet.velocities, std::vector<Vec3f>(12, Vec3f{0, 0, 7}));
   EXPECT_EQ(sheet.thickness, 0.003f);
-  EXPECT_EQ(sheet.static_friction, 0.625f);
+  EXPECT_EQ(sheet.restitution, 0.375f);
+  EXPECT_EQ(sheet.rolling_friction, 0.0625f);
+  EXPECT_EQ(sheet.spinning_friction, 0.03125f);
   EXPECT_EQ(sheet.kinetic_friction, 0.25f);
   EXPECT_EQ(sheet.restitution, 0.375f);
   EXPECT_EQ(sheet.drag, 2.f);

@@ -224,6 +224,7 @@ struct BodyContacts::Task {
       contact.turned = convert<float>(a.pose.rotation);
       set_points(touching, a.pose, b.pose, contact);
       if (const BodyContact* alike = like(contact, old)) take_impulses(*alike, contact);
+      note_depth(contact);
       found.pieces.push_back({{}, one.body, other.body});
       found.made.push_back(contact);
       ++found.count;

@@ -18,8 +18,10 @@ using namespace bodies;
 
 /// Most rounds in which impacts are passed on from body to body in a substep.
 constexpr int most_rounds_of_impacts = 32;
-/// Contacts deeper than this share of half of a body's thickness are named in the Report.
+/// The deepest contact is named in the Report if it is deeper than this share of half of a body's thickness in so many frames one after
+/// another: impacts are over sooner.
 constexpr float deep_share = 0.2f;
+constexpr int frames_of_rest = 6;
 /// Bodies, or contacts, in a task.
 constexpr int a_task = 256;
 
@@ -101,13 +103,16 @@ void BodySolver::find_contacts(Substep& s) {
 }
 
 /// Warns of bodies that are pressed into one another.
-void BodySolver::warn_of_overlap(Substep& s) const {
+void BodySolver::warn_of_overlap(Substep& s) {
   const BodyOverlap deepest = finder_.deepest();
-  if (deepest.share < deep_share) return;
+  const bool goes_on = deepest.a == deepest_.a && deepest.b == deepest_.b;
+  deepest_ = deepest;
+  deep_frames_ = deepest.share < deep_share ? 0 : goes_on ? deep_frames_ + 1 : 1;
+  if (deep_frames_ < frames_of_rest) return;
   const auto name = [&](int place) { return bodies_.name(s.model, place); };
   s.report.warnings.push_back(
       name(deepest.a) + " and " + name(deepest.b) + " overlap by " + std::to_string(deepest.depth) +
-      " m at rest: what lies on them is too heavy for " + std::to_string(s.planned) +
+      " m: what lies on them is too heavy for " + std::to_string(s.planned) +
       " substeps; contacts give way by 1.04 h^2 F / m, so twice the substeps bear four times the weight");
 }
 

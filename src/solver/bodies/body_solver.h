@@ -70,7 +70,7 @@ class BodySolver {
 
  private:
   void find_contacts(Substep& s);
-  void warn_of_overlap(Substep& s) const;
+  void warn_of_overlap(Substep& s);
   void make_manifolds(const Substep& s);
   void start_substep(const Substep& s);
 
@@ -84,6 +84,8 @@ class BodySolver {
   ManifoldColours colours_;        ///< of contacts_
   ManifoldBlocks blocks_;          ///< the manifolds of contacts_ in a frame
   bool pushes_are_known_ = false;  ///< false in the first substep of a frame
+  BodyOverlap deepest_{};          ///< of the last frame, only for the Report
+  int deep_frames_ = 0;            ///< for how many frames it has been deep
   float last_h_ = 0;               ///< length of the last substep [s]
 };
 
