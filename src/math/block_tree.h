@@ -4,24 +4,50 @@
 // in (Baraff 1996, "Linear-time dynamics using Lagrange multipliers").
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace pliant {
 
 constexpr int most_of_block = 16;  ///< unknowns of a block: a body's six, and those of its joint with the ground
 
-/// One block: its part of the matrix and of the right-hand side, which the solution replaces.
+/// A system of blocks. Rows of all matrices are `stride()` numbers apart.
 template <class R>
-struct TreeBlock {
-  using Matrix = std::array<std::array<R, most_of_block>, most_of_block>;
+class BlockTree {
+ public:
+  struct Block {
+    int parent = -1;  ///< a later block; -1: a root
+    int size = 0;     ///< unknowns, 1 to most_of_block
 
-  int parent = -1;                   ///< a later block; -1: a root
-  int size = 0;                      ///< unknowns, 1 to most_of_block
-  Matrix diagonal{};                 ///< symmetric; only the lower half is read
-  Matrix to_parent{};                ///< rows of this block, columns of its parent
-  std::array<R, most_of_block> x{};  ///< right-hand side, then solution
+    bool operator==(const Block&) const = default;
+  };
+
+  /// Replaces the blocks. All numbers become zero.
+  void reset(std::vector<Block> blocks);
+  const std::vector<Block>& blocks() const { return blocks_; }
+  int stride() const { return stride_; }
+  void set_to_zero() { std::fill(values_.begin(), values_.end(), R(0)); }
+
+  /// The matrix of a block, which is symmetric; only its upper half is read.
+  R* diagonal(std::size_t block) { return values_.data() + first_[block]; }
+  /// Rows of this block, columns of its parent.
+  R* to_parent(std::size_t block) { return diagonal(block) + blocks_[block].size * stride_; }
+  /// The right-hand side, then the solution.
+  R* x(std::size_t block) { return diagonal(block) + 2 * blocks_[block].size * stride_; }
+
+  /// Solves in place. Children come before their parents; the order decides the bits.
+  void solve();
+
+ private:
+  template <int width>
+  void solve_rows();
+
+  std::vector<Block> blocks_;
+  std::vector<int> first_;  ///< [block] of its numbers in values_
+  std::vector<R> values_;
+  int stride_ = 4;  ///< 4, 8 or 16, so that a compiler handles rows by whole registers
 };
 
 namespace block_tree {
@@ -30,93 +56,104 @@ namespace block_tree {
 template <class R>
 constexpr R least_pivot = R(1e-6);
 
-/// L D L^T of a block in place. Returns which unknowns are lost.
+/// The factors L D L^T of a block: L^T above the diagonal of the matrix, and 1 / D, which is 0 where an unknown is lost.
 template <class R>
-std::array<bool, most_of_block> factorise(TreeBlock<R>& block) {
-  std::array<bool, most_of_block> lost{};
-  auto& m = block.diagonal;
-  for (int i = 0; i < block.size; ++i) {
-    R whole = m[i][i] < 0 ? -m[i][i] : m[i][i];
-    for (int j = 0; j <= i; ++j) {
-      R left = m[i][j];
-      for (int k = 0; k < j; ++k) {
-        const R term = m[i][k] * m[k][k] * m[j][k], size = term < 0 ? -term : term;
-        if (i == j && size > whole) whole = size;
-        left = left - term;
-      }
-      m[i][j] = i == j ? left : lost[j] ? R(0) : left / m[j][j];
+struct Pivots {
+  R inverse[most_of_block];
+};
+
+/// Factorises a block in place.
+template <int width, class R>
+Pivots<R> factorise(R* m, int size) {
+  Pivots<R> pivots;
+  R whole[width], row[width], scaled[width];
+  for (int i = 0; i < width; ++i) whole[i] = i < size ? std::max(m[i * width + i], -m[i * width + i]) : R(0);
+  for (int k = 0; k < size; ++k) {
+    R* const at = m + k * width;
+    const R pivot = at[k];
+    const bool is_lost = !(std::max(pivot, -pivot) > least_pivot<R> * whole[k]);
+    pivots.inverse[k] = is_lost ? R(0) : R(1) / pivot;
+    for (int i = 0; i < width; ++i) {
+      row[i] = at[i] * pivots.inverse[k];
+      scaled[i] = is_lost ? R(0) : at[i];
+      const R term = row[i] * scaled[i];
+      whole[i] = std::max(whole[i], std::max(term, -term));
+      at[i] = row[i];
     }
-    const R pivot = m[i][i] < 0 ? -m[i][i] : m[i][i];
-    lost[i] = !(pivot > least_pivot<R> * whole);
+    for (int j = k + 1; j < size; ++j)
+      for (int i = 0; i < width; ++i) m[j * width + i] = m[j * width + i] - scaled[i] * row[j];
   }
-  return lost;
+  return pivots;
 }
 
-/// Replaces the right-hand sides in columns [0, columns) of b by their solutions, with the factors of a block. Columns are the
-/// inner loop, so that a compiler can handle several at once.
-template <class R, std::size_t width>
-void solve_columns(const TreeBlock<R>& block, const std::array<bool, most_of_block>& lost, int columns,
-                   std::array<std::array<R, width>, most_of_block>& b) {
-  const auto& m = block.diagonal;
-  for (int i = 0; i < block.size; ++i)
+/// Replaces right-hand sides, one a column, by their solutions, with the factors of a block.
+template <int columns, int width, class R>
+void solve_columns(const R* m, const Pivots<R>& pivots, int size, R* b) {
+  for (int i = 1; i < size; ++i)
     for (int j = 0; j < i; ++j)
-      for (int c = 0; c < columns; ++c) b[i][c] = b[i][c] - m[i][j] * b[j][c];
-  for (int i = 0; i < block.size; ++i)
-    for (int c = 0; c < columns; ++c) b[i][c] = lost[i] ? R(0) : b[i][c] / m[i][i];
-  for (int i = block.size; i-- > 0;)
-    for (int j = i + 1; j < block.size; ++j)
-      for (int c = 0; c < columns; ++c) b[i][c] = b[i][c] - m[j][i] * b[j][c];
+      for (int c = 0; c < columns; ++c) b[i * columns + c] = b[i * columns + c] - m[j * width + i] * b[j * columns + c];
+  for (int i = 0; i < size; ++i)
+    for (int c = 0; c < columns; ++c) b[i * columns + c] = b[i * columns + c] * pivots.inverse[i];
+  for (int i = size - 1; i-- > 0;)
+    for (int j = i + 1; j < size; ++j)
+      for (int c = 0; c < columns; ++c) b[i * columns + c] = b[i * columns + c] - m[i * width + j] * b[j * columns + c];
 }
 
-/// Solves with the factors of a block.
-template <class R>
-std::array<R, most_of_block> solved(const TreeBlock<R>& block, const std::array<bool, most_of_block>& lost,
-                                    const std::array<R, most_of_block>& right) {
-  std::array<std::array<R, 1>, most_of_block> b;
-  for (int i = 0; i < most_of_block; ++i) b[i][0] = right[i];
-  solve_columns(block, lost, 1, b);
-  std::array<R, most_of_block> x;
-  for (int i = 0; i < most_of_block; ++i) x[i] = b[i][0];
-  return x;
-}
-
-/// Subtracts what eliminating a block leaves in its parent, and replaces its coupling by that times the inverse diagonal.
-template <class R>
-void eliminate(TreeBlock<R>& block, TreeBlock<R>& parent) {
-  const std::array<bool, most_of_block> lost = factorise(block);
-  block.x = solved(block, lost, block.x);
-  typename TreeBlock<R>::Matrix coupling;
-  for (int r = 0; r < block.size; ++r)
-    for (int c = 0; c < parent.size; ++c) coupling[r][c] = block.to_parent[r][c];
-  solve_columns(block, lost, parent.size, block.to_parent);
-  for (int c = 0; c < parent.size; ++c)
-    for (int r = 0; r < block.size; ++r) {
-      if (coupling[r][c] == R(0)) continue;  // half of a joint's gradients are, as those by displacements
-      parent.x[c] = parent.x[c] - coupling[r][c] * block.x[r];
-      for (int d = 0; d <= c; ++d) parent.diagonal[c][d] = parent.diagonal[c][d] - coupling[r][c] * block.to_parent[r][d];
+/// Subtracts what eliminating a block leaves in its parent, given the coupling before and after it was solved.
+template <int width, class R>
+void reduce(const R* coupling, const R* solved, const R* x, int size, R* parent, R* parent_x, int parent_size) {
+  for (int c = 0; c < parent_size; ++c)
+    for (int r = 0; r < size; ++r) {
+      const R factor = coupling[r * width + c];
+      parent_x[c] = parent_x[c] - factor * x[r];
+      for (int d = 0; d < width; ++d) parent[c * width + d] = parent[c * width + d] - factor * solved[r * width + d];
     }
 }
 
 }  // namespace block_tree
 
-/// Solves in place. Children come before their parents; the order decides the bits.
 template <class R>
-void solve_block_tree(std::vector<TreeBlock<R>>& blocks) {
-  for (TreeBlock<R>& block : blocks) {
-    if (block.parent >= 0) {
-      block_tree::eliminate(block, blocks[static_cast<std::size_t>(block.parent)]);
-      continue;
-    }
-    const std::array<bool, most_of_block> lost = block_tree::factorise(block);
-    block.x = block_tree::solved(block, lost, block.x);
+void BlockTree<R>::reset(std::vector<Block> blocks) {
+  blocks_ = std::move(blocks);
+  int largest = 1, count = 0;
+  for (const Block& block : blocks_) largest = std::max(largest, block.size);
+  stride_ = largest <= 4 ? 4 : largest <= 8 ? 8 : most_of_block;
+  first_.clear();
+  for (const Block& block : blocks_) {
+    first_.push_back(count);
+    count += (2 * block.size + 1) * stride_;
   }
-  for (std::size_t i = blocks.size(); i-- > 0;) {
-    TreeBlock<R>& block = blocks[i];
-    if (block.parent < 0) continue;
-    const TreeBlock<R>& parent = blocks[static_cast<std::size_t>(block.parent)];
-    for (int r = 0; r < block.size; ++r)
-      for (int c = 0; c < parent.size; ++c) block.x[r] = block.x[r] - block.to_parent[r][c] * parent.x[c];
+  values_.assign(static_cast<std::size_t>(count), R(0));
+}
+
+template <class R>
+template <int width>
+void BlockTree<R>::solve_rows() {
+  for (std::size_t n = 0; n < blocks_.size(); ++n) {
+    const auto [parent, size] = blocks_[n];
+    const block_tree::Pivots<R> pivots = block_tree::factorise<width>(diagonal(n), size);
+    block_tree::solve_columns<1, width>(diagonal(n), pivots, size, x(n));
+    if (parent < 0) continue;
+    const auto above = static_cast<std::size_t>(parent);
+    R coupling[most_of_block * width];
+    std::copy_n(to_parent(n), size * width, coupling);
+    block_tree::solve_columns<width, width>(diagonal(n), pivots, size, to_parent(n));
+    block_tree::reduce<width>(coupling, to_parent(n), x(n), size, diagonal(above), x(above), blocks_[above].size);
   }
+  for (std::size_t n = blocks_.size(); n-- > 0;) {
+    const auto [parent, size] = blocks_[n];
+    if (parent < 0) continue;
+    const auto above = static_cast<std::size_t>(parent);
+    for (int r = 0; r < size; ++r)
+      for (int c = 0; c < blocks_[above].size; ++c) x(n)[r] = x(n)[r] - to_parent(n)[r * width + c] * x(above)[c];
+  }
+}
+
+template <class R>
+void BlockTree<R>::solve() {
+  if (stride_ == 4) return solve_rows<4>();
+  if (stride_ == 8) return solve_rows<8>();
+  solve_rows<16>();
 }
 
 }  // namespace pliant

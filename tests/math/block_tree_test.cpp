@@ -4,20 +4,47 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
+#include <vector>
 
 namespace pliant {
 namespace {
 
-using Blocks = std::vector<TreeBlock<double>>;
+constexpr std::size_t most = most_of_block;
+
+/// A block as the test makes it; BlockTree has all numbers in one array.
+struct TestBlock {
+  int parent = -1, size = 0;
+  std::array<std::array<double, most>, most> diagonal{}, to_parent{};
+  std::array<double, most> x{};
+};
+using Blocks = std::vector<TestBlock>;
+
+void solve_block_tree(Blocks& blocks) {
+  std::vector<BlockTree<double>::Block> shape;
+  for (const TestBlock& block : blocks) shape.push_back({block.parent, block.size});
+  BlockTree<double> tree;
+  tree.reset(shape);
+  for (std::size_t n = 0; n < blocks.size(); ++n) {
+    const auto stride = std::size_t(tree.stride()), size = std::size_t(blocks[n].size);
+    for (std::size_t r = 0; r < size; ++r) {
+      for (std::size_t c = r; c < size; ++c) tree.diagonal(n)[r * stride + c] = blocks[n].diagonal[c][r];
+      std::copy_n(blocks[n].to_parent[r].begin(), stride, tree.to_parent(n) + r * stride);
+    }
+    std::copy_n(blocks[n].x.begin(), size, tree.x(n));
+  }
+  tree.solve();
+  for (std::size_t n = 0; n < blocks.size(); ++n) std::copy_n(tree.x(n), std::size_t(blocks[n].size), blocks[n].x.begin());
+}
 
 /// Bodies and joints in turn: a joint's diagonal is zero or slightly negative, as compliance makes it.
 Blocks random_forest(std::mt19937_64& random, int pairs, double compliance) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   Blocks blocks;
   for (int i = 0; i < pairs; ++i) {
-    TreeBlock<double> body, joint;
+    TestBlock body, joint;
     body.size = i % 3 == 0 ? 3 : 6;
     for (int r = 0; r < body.size; ++r) body.diagonal[r][r] = 1 + 50 * (uniform(random) + 1);
     joint.size = 1 + i % std::min(body.size, 5);
@@ -30,12 +57,12 @@ Blocks random_forest(std::mt19937_64& random, int pairs, double compliance) {
     blocks.push_back(body);
     blocks.push_back(joint);
   }
-  TreeBlock<double> root;
+  TestBlock root;
   root.size = 6;
   for (int r = 0; r < 6; ++r) root.diagonal[r][r] = 7 + r;
   for (double& x : root.x) x = uniform(random);
   for (int i = 0; i < pairs; ++i) {  // to any later body, or to none: a joint with the ground
-    TreeBlock<double>& joint = blocks[std::size_t(2 * i + 1)];
+    TestBlock& joint = blocks[std::size_t(2 * i + 1)];
     std::uniform_int_distribution<int> later(i + 1, pairs + 1);
     const int to = later(random);
     if (to > pairs) continue;

@@ -13,6 +13,8 @@ namespace {
 
 constexpr float g = 9.81f;
 
+BodyMass body_mass(float mass, const Symmetric& inertia) { return {mass, inertia, inverse_of(inertia)}; }
+
 struct Link {
   Vec3d place{};
   Quatd turned{};
@@ -107,9 +109,9 @@ class Chain {
     const auto element = [&](double Vec3d::*r, double Vec3d::*c) {
       return static_cast<float>(i.x * x.*r * x.*c + i.y * y.*r * y.*c + i.z * z.*r * z.*c);
     };
-    return {link.mass,
-            {element(&Vec3d::x, &Vec3d::x), element(&Vec3d::y, &Vec3d::y), element(&Vec3d::z, &Vec3d::z),
-             element(&Vec3d::y, &Vec3d::z), element(&Vec3d::z, &Vec3d::x), element(&Vec3d::x, &Vec3d::y)}};
+    return body_mass(link.mass,
+                     {element(&Vec3d::x, &Vec3d::x), element(&Vec3d::y, &Vec3d::y), element(&Vec3d::z, &Vec3d::z),
+                      element(&Vec3d::y, &Vec3d::z), element(&Vec3d::z, &Vec3d::x), element(&Vec3d::x, &Vec3d::y)});
   }
 
   Vec3d gap(std::size_t j) const {
@@ -217,7 +219,7 @@ TEST(JointTree, AStarIsSolvedAtOnce) {
   std::vector<JointEnds> ends;
   std::vector<BodyMass> masses;
   std::vector<JointRows> rows;
-  for (int i = 0; i < 9; ++i) masses.push_back({1.f + float(i), {0.1f, 0.2f, 0.3f, 0.01f, 0, 0.02f}});
+  for (int i = 0; i < 9; ++i) masses.push_back(body_mass(1.f + float(i), {0.1f, 0.2f, 0.3f, 0.01f, 0, 0.02f}));
   for (int i = 1; i < 9; ++i) {
     ends.push_back(i % 2 == 0 ? JointEnds{0, i} : JointEnds{i, 0});
     rows.push_back(ball_joint({0.01f * float(i), -0.02f, 0.005f}, {0.3f, 0.1f * float(i), 0}, {-0.2f, 0, 0.1f}));
@@ -238,7 +240,7 @@ TEST(JointTree, ABridgeIsSolvedAtOnce) {
     const auto arm = [](int body, float side) { return Vec3f{0.25f * side, 0.1f * float(body - 2) * side, 0}; };
     rows.push_back(ball_joint({0.01f, 0.02f * float(a), -0.01f}, arm(a, a < b || b < 0 ? 1 : -1), arm(b, b < a ? 1 : -1)));
   }
-  const std::vector<BodyMass> masses(5, {2, {0.01f, 0.1f, 0.1f, 0, 0, 0}});
+  const std::vector<BodyMass> masses(5, body_mass(2, {0.01f, 0.1f, 0.1f, 0, 0, 0}));
   std::vector<BodyCorrection> moved;
   std::vector<std::array<float, most_joint_rows>> multipliers;
   JointTree(5, ends).solve(masses, rows, moved, &multipliers);

@@ -61,7 +61,13 @@ struct JointForest {
   std::vector<BoundedRow> bounded;
   std::vector<BodyCorrection> corrections;
   std::vector<std::array<float, most_joint_rows>> multipliers;
-  std::vector<std::array<float, 6>> stiffness;  ///< [body] geometric stiffness times h^2: xx, yy, zz, yz, zx, xy [kg m^2]
+  std::vector<Symmetric> stiffness;  ///< [body] geometric stiffness times h^2 [kg m^2]
+  std::vector<float> sizes;          ///< [body] sum of |f| h^2 |r| of its joints [kg m^2]
+
+  using Pull = std::array<Vec3f, 2>;  ///< the force on bodies a and b, times h^2 [kg m]
+  std::vector<Pull> pulls;            ///< [joint] of the last substep, or of this one's passes so far
+  std::vector<Pull> pulls_of_pass;    ///< [joint] scratch
+  float inverse_h2_of_pulls = 0;      ///< of the substep in which the pulls were found [1/s^2]
 };
 
 /// Finds the trees of an object, of its joints that are not broken.

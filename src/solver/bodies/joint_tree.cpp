@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "solver/bodies/body_math.h"
+
 namespace pliant {
 
 namespace {
@@ -13,176 +15,266 @@ constexpr int body_unknowns = 6;
 /// there before the other side is known. Joints get this share of their inverse mass as compliance in such trees.
 constexpr float softness = 1e-4f;
 
+using bodies::at, bodies::times;
+using Gradient = std::array<Vec3f, 2>;  ///< for displacement and rotation
+
 /// The inverse mass that one body gives a row, with the mean of its inertia.
-float inverse_mass(const std::array<Vec3f, 2>& gradient, const BodyMass& body) {
+float inverse_mass(const Gradient& gradient, const BodyMass& body) {
   const float inertia = (body.inertia[0] + body.inertia[1] + body.inertia[2]) / 3;
   return length_squared(gradient[0]) / body.mass + length_squared(gradient[1]) / inertia;
 }
 
-std::array<float, 6> six(const std::array<Vec3f, 2>& g) { return {g[0].x, g[0].y, g[0].z, g[1].x, g[1].y, g[1].z}; }
+/// M^-1 times a gradient.
+Gradient accelerated(const Gradient& g, const BodyMass& body, float inverse) {
+  return {g[0] * inverse, times(body.inverse, g[1])};
+}
 
-void set_inertia(const BodyMass& body, TreeBlock<float>& block) {
-  block.size = body_unknowns;
-  for (std::size_t i = 0; i < body_unknowns; ++i) block.diagonal[i] = {};
-  for (std::size_t i = 0; i < 3; ++i) block.diagonal[i][i] = body.mass;
-  const auto& i = body.inertia;
-  block.diagonal[3][3] = i[0];
-  block.diagonal[4][4] = i[1];
-  block.diagonal[5][5] = i[2];
-  block.diagonal[5][4] = block.diagonal[4][5] = i[3];
-  block.diagonal[5][3] = block.diagonal[3][5] = i[4];
-  block.diagonal[4][3] = block.diagonal[3][4] = i[5];
+float product(const Gradient& a, const Gradient& b) { return dot(a[0], b[0]) + dot(a[1], b[1]); }
+
+void set_row(const Gradient& g, float* row) {
+  const float six[body_unknowns] = {g[0].x, g[0].y, g[0].z, g[1].x, g[1].y, g[1].z};
+  std::copy_n(six, body_unknowns, row);
+}
+
+void set_inertia(const BodyMass& body, float* m, int stride) {
+  for (int i = 0; i < 3; ++i) m[i * stride + i] = body.mass;
+  const auto& inertia = body.inertia;
+  m[3 * stride + 3] = inertia[0];
+  m[4 * stride + 4] = inertia[1];
+  m[5 * stride + 5] = inertia[2];
+  m[4 * stride + 5] = inertia[3];
+  m[3 * stride + 5] = inertia[4];
+  m[3 * stride + 4] = inertia[5];
 }
 
 /// The root of a body's tree, with paths halved on the way.
 int root_of(std::vector<int>& above, int body) {
-  while (above[static_cast<std::size_t>(body)] != body) {
-    int& next = above[static_cast<std::size_t>(body)];
-    next = above[static_cast<std::size_t>(next)];
+  while (above[at(body)] != body) {
+    int& next = above[at(body)];
+    next = above[at(next)];
     body = next;
   }
   return body;
 }
 
+const std::array<Gradient, most_joint_rows>& gradients_of(const JointRows& rows, const JointEnds& ends, int body) {
+  return ends.b == body ? rows.of_b : rows.of_a;
+}
+
 }  // namespace
 
-JointTree::JointTree(int bodies, const std::vector<JointEnds>& joints) : ends_(joints) {
-  const auto count = static_cast<std::size_t>(bodies);
-  std::vector<int> above(count);
-  for (int i = 0; i < bodies; ++i) above[static_cast<std::size_t>(i)] = i;
-  std::vector<std::vector<int>> joints_of(count);
-  ground_.assign(count, -1);
-  ground_is_a_.assign(count, 0);
-  for (int j = 0; j < static_cast<int>(joints.size()); ++j) {
-    const auto [a, b] = joints[static_cast<std::size_t>(j)];
-    if ((a < 0) != (b < 0)) {
-      const auto body = static_cast<std::size_t>(std::max(a, b));
-      if (ground_[body] >= 0) loose_.push_back(j);
-      if (ground_[body] >= 0) continue;
-      ground_[body] = j;
-      ground_is_a_[body] = static_cast<char>(a < 0);
-      continue;
-    }
-    if (a < 0 || root_of(above, a) == root_of(above, b)) {
+Symmetric inverse_of(const Symmetric& m) {
+  const Vec3f r0{m[0], m[5], m[4]}, r1{m[5], m[1], m[3]}, r2{m[4], m[3], m[2]};
+  const Vec3f c0 = cross(r1, r2), c1 = cross(r2, r0), c2 = cross(r0, r1);
+  const float inverse = 1 / dot(r0, c0);
+  return {c0.x * inverse, c1.y * inverse, c2.z * inverse, c1.z * inverse, c0.z * inverse, c0.y * inverse};
+}
+
+JointTree::JointTree(int bodies, const std::vector<JointEnds>& joints)
+    : ends_(joints), joints_of_(static_cast<std::size_t>(bodies)) {
+  find_loose(bodies);
+  order();
+}
+
+void JointTree::find_loose(int bodies) {
+  std::vector<int> above(at(bodies));
+  for (int i = 0; i < bodies; ++i) above[at(i)] = i;
+  ground_.assign(above.size(), -1);
+  for (int j = 0; j < static_cast<int>(ends_.size()); ++j) {
+    const auto [a, b] = ends_[at(j)];
+    const int body = std::max(a, b);
+    const bool is_ground = (a < 0) != (b < 0);
+    if (is_ground ? ground_[at(body)] >= 0 : a < 0 || root_of(above, a) == root_of(above, b)) {
       loose_.push_back(j);
       continue;
     }
-    above[static_cast<std::size_t>(root_of(above, a))] = root_of(above, b);
-    joints_of[static_cast<std::size_t>(a)].push_back(j);
-    joints_of[static_cast<std::size_t>(b)].push_back(j);
+    if (is_ground)
+      ground_[at(body)] = j;
+    else
+      above[at(root_of(above, a))] = root_of(above, b);
+    for (const int end : {a, b})
+      if (end >= 0) joints_of_[at(end)].push_back(j);
   }
-  std::vector<int> grounds(count, 0);
+  std::vector<int> grounds(above.size(), 0);
   for (int i = 0; i < bodies; ++i)
-    if (ground_[static_cast<std::size_t>(i)] >= 0) ++grounds[static_cast<std::size_t>(root_of(above, i))];
-  held_.assign(count, 0);
-  for (int i = 0; i < bodies; ++i)
-    held_[static_cast<std::size_t>(i)] = static_cast<char>(grounds[static_cast<std::size_t>(root_of(above, i))] > 1);
-  order(joints, joints_of);
-  blocks_.resize(nodes_.size());
+    if (ground_[at(i)] >= 0) ++grounds[at(root_of(above, i))];
+  held_.assign(above.size(), 0);
+  for (int i = 0; i < bodies; ++i) held_[at(i)] = static_cast<char>(grounds[at(root_of(above, i))] > 1);
 }
 
-/// From each tree's root outward; reversed, children come before parents. The root is the first body that has a joint with the
-/// ground, else the first body: seen from a body that the ground holds, a joint may have no inverse mass along some direction.
-void JointTree::order(const std::vector<JointEnds>& joints, const std::vector<std::vector<int>>& joints_of) {
-  std::vector<char> seen(joints_of.size(), 0);
-  for (std::size_t root = 0; root < joints_of.size(); ++root)
-    if (seen[root] == 0 && ground_[root] >= 0) order_tree(static_cast<int>(root), joints, joints_of, seen);
-  for (std::size_t root = 0; root < joints_of.size(); ++root)
-    if (seen[root] == 0 && !joints_of[root].empty()) order_tree(static_cast<int>(root), joints, joints_of, seen);
+/// From each tree's root outward; reversed, children come before parents. The root is at the first body that has a joint with
+/// the ground, else at the first body: seen from a body that the ground holds, a joint may have no inverse mass along some
+/// direction.
+void JointTree::order() {
+  std::vector<char> seen(joints_of_.size(), 0);
+  for (const bool grounded : {true, false})
+    for (std::size_t body = 0; body < joints_of_.size(); ++body) {
+      if (seen[body] != 0 || joints_of_[body].empty() || (grounded && ground_[body] < 0)) continue;
+      const std::size_t first = nodes_.size();
+      order_tree(static_cast<int>(body));
+      for (std::size_t n = first; n < nodes_.size(); ++n) {
+        const auto [is_body, index, parent, through] = nodes_[n];
+        for (const int end : {is_body ? index : ends_[at(index)].a, is_body ? index : ends_[at(index)].b})
+          if (end >= 0) seen[at(end)] = 1;
+      }
+    }
   std::reverse(nodes_.begin(), nodes_.end());
   const auto count = static_cast<int>(nodes_.size());
   for (Node& node : nodes_)
     if (node.parent >= 0) node.parent = count - 1 - node.parent;
 }
 
-void JointTree::order_tree(int root, const std::vector<JointEnds>& joints, const std::vector<std::vector<int>>& joints_of,
-                           std::vector<char>& seen) {
-  const auto add_body = [&](int body, int parent, bool at_b) {
-    seen[static_cast<std::size_t>(body)] = 1;
-    nodes_.push_back({true, body, parent, at_b, ground_[static_cast<std::size_t>(body)], false});
-  };
+void JointTree::order_tree(int root) {
   std::size_t next = nodes_.size();
-  add_body(root, -1, false);
+  if (!is_eliminated(root))
+    nodes_.push_back({true, root, -1, -1});
+  else
+    nodes_.push_back({false, ground_[at(root)] >= 0 ? ground_[at(root)] : joints_of_[at(root)].front(), -1, -1});
   for (; next < nodes_.size(); ++next) {
     const Node node = nodes_[next];
     const auto here = static_cast<int>(next);
-    if (!node.is_body) {
-      const auto [a, b] = joints[static_cast<std::size_t>(node.index)];
-      add_body(node.at_b ? a : b, here, !node.at_b);  // the parent is at the other end
+    if (node.is_body) {
+      add_joints_of(node.index, here, node.parent < 0 ? -1 : nodes_[at(node.parent)].index);
       continue;
     }
-    for (const int j : joints_of[static_cast<std::size_t>(node.index)])
-      if (node.parent < 0 || nodes_[static_cast<std::size_t>(node.parent)].index != j)
-        nodes_.push_back({false, j, here, joints[static_cast<std::size_t>(j)].b == node.index, -1,
-                          held_[static_cast<std::size_t>(node.index)] != 0});
+    const auto [a, b] = ends_[at(node.index)];
+    for (const int end : {a, b}) {
+      if (end < 0 || end == node.through) continue;
+      if (is_eliminated(end))
+        add_joints_of(end, here, node.index);
+      else
+        nodes_.push_back({true, end, here, end});
+    }
   }
 }
 
-/// The diagonal block and the right-hand side of a node. A joint with the ground comes after its body's unknowns, since it has
-/// no pivot of its own.
-void JointTree::fill(std::size_t n, const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints) {
-  const Node& node = nodes_[n];
-  TreeBlock<float>& block = blocks_[n];
-  block.x = {};
-  std::size_t first = 0;
-  if (node.is_body) {
-    set_inertia(masses[static_cast<std::size_t>(node.index)], block);
-    if (node.ground < 0) return;
-    first = body_unknowns;
+/// Adds the joints of a body but one as children of a node.
+void JointTree::add_joints_of(int body, int parent, int but) {
+  for (const int j : joints_of_[at(body)])
+    if (j != but && (is_eliminated(body) || j != ground_[at(body)])) nodes_.push_back({false, j, parent, body});
+}
+
+/// Sets the sizes of all blocks, where they have changed.
+void JointTree::shape_blocks(const std::vector<JointRows>& joints) {
+  std::vector<BlockTree<float>::Block> blocks;
+  blocks.reserve(nodes_.size());
+  for (const Node& node : nodes_) {
+    const int joint = node.is_body ? ground_[at(node.index)] : node.index;
+    blocks.push_back({node.parent, (node.is_body ? body_unknowns : 0) + (joint < 0 ? 0 : joints[at(joint)].rows)});
   }
-  const JointRows& rows = joints[static_cast<std::size_t>(node.is_body ? node.ground : node.index)];
-  block.size = static_cast<int>(first) + rows.rows;
-  for (std::size_t i = first; i < static_cast<std::size_t>(block.size); ++i) block.diagonal[i] = {};
-  for (std::size_t r = 0; r < static_cast<std::size_t>(rows.rows); ++r) {
-    block.diagonal[first + r][first + r] = -rows.compliance[r];
-    block.x[first + r] = -rows.value[r];
-    if (!node.is_body) {
-      const auto [a, b] = ends_[static_cast<std::size_t>(node.index)];
-      if (node.is_held)
-        block.diagonal[r][r] -= softness * (inverse_mass(rows.of_a[r], masses[static_cast<std::size_t>(a)]) +
-                                            inverse_mass(rows.of_b[r], masses[static_cast<std::size_t>(b)]));
+  if (blocks == blocks_.blocks())
+    blocks_.set_to_zero();
+  else
+    blocks_.reset(std::move(blocks));
+}
+
+/// The block of a joint: -J M^-1 J^T of its eliminated bodies, less compliance. If the body on the way to the parent is
+/// eliminated, it couples the two joints; else the parent is that body.
+void JointTree::fill_joint(std::size_t n, const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints) {
+  const Node& node = nodes_[n];
+  const JointEnds& ends = ends_[at(node.index)];
+  const JointRows& rows = joints[at(node.index)];
+  const int stride = blocks_.stride();
+  float *const m = blocks_.diagonal(n), *const up = blocks_.to_parent(n);
+  for (int r = 0; r < rows.rows; ++r) {
+    m[r * stride + r] = -rows.compliance[at(r)];
+    blocks_.x(n)[r] = -rows.value[at(r)];
+  }
+  for (const int body : {ends.a, ends.b}) {
+    if (body < 0) continue;
+    const BodyMass& mass = masses[at(body)];
+    const auto& g = gradients_of(rows, ends, body);
+    const bool is_held = ends.a >= 0 && ends.b >= 0 && held_[at(body)] != 0;
+    for (int r = 0; is_held && r < rows.rows; ++r) m[r * stride + r] -= softness * inverse_mass(g[at(r)], mass);
+    if (!is_eliminated(body)) {
+      for (int r = 0; body == node.through && r < rows.rows; ++r) set_row(g[at(r)], up + r * stride);
       continue;
     }
-    const std::array<float, 6> g =
-        six(ground_is_a_[static_cast<std::size_t>(node.index)] != 0 ? rows.of_b[r] : rows.of_a[r]);
-    for (std::size_t c = 0; c < body_unknowns; ++c) block.diagonal[first + r][c] = g[c];
+    const float inverse = 1 / mass.mass;
+    const Node* const parent = body == node.through ? &nodes_[at(node.parent)] : nullptr;
+    for (int r = 0; r < rows.rows; ++r) {
+      const Gradient moved = accelerated(g[at(r)], mass, inverse);
+      for (int c = r; c < rows.rows; ++c) m[r * stride + c] = m[r * stride + c] - product(moved, g[at(c)]);
+      if (parent == nullptr) continue;
+      const JointRows& above = joints[at(parent->index)];
+      const auto& other = gradients_of(above, ends_[at(parent->index)], body);
+      for (int c = 0; c < above.rows; ++c) up[r * stride + c] = -product(moved, other[at(c)]);
+    }
   }
 }
 
-void JointTree::couple(std::size_t n, const std::vector<JointRows>& joints) {
+/// The block of a body, followed by its joint with the ground, which has no pivot of its own.
+void JointTree::fill_body(std::size_t n, const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints) {
   const Node& node = nodes_[n];
-  TreeBlock<float>& block = blocks_[n];
-  block.parent = node.parent;
-  if (node.parent < 0) return;
-  const Node& parent = nodes_[static_cast<std::size_t>(node.parent)];
-  const Node& joint = node.is_body ? parent : node;
-  const JointRows& rows = joints[static_cast<std::size_t>(joint.index)];
-  for (std::size_t i = 0; i < static_cast<std::size_t>(block.size); ++i) block.to_parent[i] = {};
-  for (std::size_t r = 0; r < static_cast<std::size_t>(rows.rows); ++r) {
-    const std::array<float, 6> g = six(node.at_b ? rows.of_b[r] : rows.of_a[r]);
-    for (std::size_t c = 0; c < body_unknowns; ++c) (node.is_body ? block.to_parent[c][r] : block.to_parent[r][c]) = g[c];
+  const int stride = blocks_.stride(), ground = ground_[at(node.index)];
+  float *const m = blocks_.diagonal(n), *const up = blocks_.to_parent(n);
+  set_inertia(masses[at(node.index)], m, stride);
+  if (node.parent >= 0) {
+    const int joint = nodes_[at(node.parent)].index;
+    const JointRows& rows = joints[at(joint)];
+    const auto& g = gradients_of(rows, ends_[at(joint)], node.index);
+    for (int r = 0; r < rows.rows; ++r) {
+      float row[body_unknowns];
+      set_row(g[at(r)], row);
+      for (int c = 0; c < body_unknowns; ++c) up[c * stride + r] = row[c];
+    }
+  }
+  if (ground < 0) return;
+  const JointRows& rows = joints[at(ground)];
+  const auto& g = gradients_of(rows, ends_[at(ground)], node.index);
+  for (int r = 0; r < rows.rows; ++r) {
+    float row[body_unknowns];
+    set_row(g[at(r)], row);
+    for (int c = 0; c < body_unknowns; ++c) m[c * stride + body_unknowns + r] = row[c];
+    m[(body_unknowns + r) * stride + body_unknowns + r] = -rows.compliance[at(r)];
+    blocks_.x(n)[body_unknowns + r] = -rows.value[at(r)];
+  }
+}
+
+/// The bodies that are no blocks: d = -M^-1 J^T lambda of their joints.
+void JointTree::move_eliminated(const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints,
+                                std::vector<BodyCorrection>& corrections) {
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    if (nodes_[n].is_body) continue;
+    const JointEnds& ends = ends_[at(nodes_[n].index)];
+    const JointRows& rows = joints[at(nodes_[n].index)];
+    for (const int body : {ends.a, ends.b}) {
+      if (body < 0 || !is_eliminated(body)) continue;
+      const auto& g = gradients_of(rows, ends, body);
+      Vec3f force{}, torque{};
+      for (int r = 0; r < rows.rows; ++r) {
+        force = force + g[at(r)][0] * blocks_.x(n)[r];
+        torque = torque + g[at(r)][1] * blocks_.x(n)[r];
+      }
+      BodyCorrection& by = corrections[at(body)];
+      by.displacement = by.displacement - force * (1 / masses[at(body)].mass);
+      by.rotation = by.rotation - times(masses[at(body)].inverse, torque);
+    }
   }
 }
 
 void JointTree::solve(const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints,
                       std::vector<BodyCorrection>& corrections,
                       std::vector<std::array<float, most_joint_rows>>* multipliers) {
+  shape_blocks(joints);
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
-    fill(n, masses, joints);
-    couple(n, joints);
+    if (nodes_[n].is_body)
+      fill_body(n, masses, joints);
+    else
+      fill_joint(n, masses, joints);
   }
-  solve_block_tree(blocks_);
+  blocks_.solve();
   corrections.assign(masses.size(), {});
   if (multipliers != nullptr) multipliers->assign(joints.size(), {});
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     const Node& node = nodes_[n];
-    const auto& x = blocks_[n].x;
-    const int joint = node.is_body ? node.ground : node.index;
-    const std::size_t first = node.is_body ? body_unknowns : 0;
-    if (node.is_body) corrections[static_cast<std::size_t>(node.index)] = {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
+    const float* x = blocks_.x(n);
+    if (node.is_body) corrections[at(node.index)] = {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
+    const int joint = node.is_body ? ground_[at(node.index)] : node.index;
     if (multipliers == nullptr || joint < 0) continue;
-    for (std::size_t r = 0; r < most_joint_rows; ++r) (*multipliers)[static_cast<std::size_t>(joint)][r] = x[first + r];
+    std::copy_n(x + (node.is_body ? body_unknowns : 0), joints[at(joint)].rows, (*multipliers)[at(joint)].data());
   }
+  move_eliminated(masses, joints, corrections);
 }
 
 }  // namespace pliant

@@ -25,10 +25,16 @@ struct JointRows {
   std::array<float, most_joint_rows> compliance{};  ///< alpha / h^2 of each row
 };
 
+using Symmetric = std::array<float, 6>;  ///< xx, yy, zz, yz, zx, xy
+
+/// The inverse of a positive definite matrix, by cofactors.
+Symmetric inverse_of(const Symmetric& m);
+
 /// What a body resists with: its mass, and its inertia in world axes.
 struct BodyMass {
-  float mass = 1;                  ///< [kg]
-  std::array<float, 6> inertia{};  ///< xx, yy, zz, yz, zx, xy [kg m^2]
+  float mass = 1;       ///< [kg]
+  Symmetric inertia{};  ///< [kg m^2]
+  Symmetric inverse{};  ///< of the inertia [1 / (kg m^2)]
 };
 
 /// Displacement and rotation of a body by which joints are satisfied.
@@ -52,28 +58,33 @@ class JointTree {
              std::vector<std::array<float, most_joint_rows>>* multipliers = nullptr);
 
  private:
+  /// A joint, or a body with three joints or more; its joint with the ground is part of its block. Other bodies are eliminated
+  /// beforehand, since the inverse of their mass is known. That couples their two joints.
   struct Node {
     bool is_body = false;
-    int index = 0;         ///< of the body or joint
-    int parent = -1;       ///< node; the order is that of the blocks
-    bool at_b = false;     ///< of a joint: its parent is its body b; of a body: it is the parent joint's body b
-    int ground = -1;       ///< of a body: its joint with the ground, which is part of its block
-    bool is_held = false;  ///< of a joint: its tree has two joints with the ground or more
+    int index = 0;     ///< of the body or joint
+    int parent = -1;   ///< node; the order is that of the blocks
+    int through = -1;  ///< the body that is shared with the parent, or the body itself; -1: a root
   };
 
-  void order(const std::vector<JointEnds>& joints, const std::vector<std::vector<int>>& joints_of);
-  void order_tree(int root, const std::vector<JointEnds>& joints, const std::vector<std::vector<int>>& joints_of,
-                  std::vector<char>& seen);
-  void fill(std::size_t node, const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints);
-  void couple(std::size_t node, const std::vector<JointRows>& joints);
+  void find_loose(int bodies);
+  void order();
+  void order_tree(int root);
+  void add_joints_of(int body, int parent, int but);
+  bool is_eliminated(int body) const { return joints_of_[static_cast<std::size_t>(body)].size() <= 2; }
+  void shape_blocks(const std::vector<JointRows>& joints);
+  void fill_joint(std::size_t node, const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints);
+  void fill_body(std::size_t node, const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints);
+  void move_eliminated(const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints,
+                       std::vector<BodyCorrection>& corrections);
 
   std::vector<JointEnds> ends_;
   std::vector<Node> nodes_;
-  std::vector<int> ground_;        ///< joint of each body with the ground; -1: none
-  std::vector<char> ground_is_a_;  ///< [body] 1: that joint has the ground as its body a
-  std::vector<char> held_;         ///< [body] 1: its tree has two joints with the ground or more
+  std::vector<std::vector<int>> joints_of_;  ///< [body] that are not loose
+  std::vector<int> ground_;                  ///< joint of each body with the ground; -1: none
+  std::vector<char> held_;                   ///< [body] 1: its tree has two joints with the ground or more
   std::vector<int> loose_;
-  std::vector<TreeBlock<float>> blocks_;
+  BlockTree<float> blocks_;
 };
 
 }  // namespace pliant

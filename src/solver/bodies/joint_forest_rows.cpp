@@ -1,0 +1,162 @@
+// Sets the rows and masses of joint trees.
+#include <algorithm>
+
+#include "constraints/registry.h"
+#include "math/quat.h"
+#include "solver/bodies/body_math.h"
+#include "solver/bodies/joint_forest_work.h"
+#include "solver/project.h"
+
+namespace pliant {
+
+namespace {
+
+using bodies::quaternion, bodies::xyz;
+using BoundedRow = JointForest::BoundedRow;
+using RowState = BoundedRow::State;
+
+/// Sets the slots of a joint to the positions at the substep's start, or now. Points are relative to the first.
+void load(JointWork& work, const JointForest::Joint& joint, bool at_start) {
+  const std::int32_t origin = joint.slots[0];
+  const auto moved = [&](std::int32_t n) {
+    return at_start ? xyz(work.points.remainders[n]) : xyz(work.points.displacements[n]);
+  };
+  for (int slot = 0; slot < 4; ++slot) {
+    const std::int32_t n = joint.slots[static_cast<std::size_t>(slot)];
+    if (slot % 2 == 1) {
+      const Record& q = at_start ? work.frames.starts[n] : work.frames.orientations[n];
+      work.arrays.set_slot(slot, q.x, q.y, q.z, q.w);
+      continue;
+    }
+    const Vec3f x = (xyz(work.points.positions[n]) - xyz(work.points.positions[origin])) + (moved(n) - moved(origin));
+    work.arrays.set_slot(slot, x.x, x.y, x.z, 0);
+  }
+}
+
+void evaluate(JointWork& work, const ConstraintDefinition& type) {
+  StencilArrays<float>& a = work.arrays;
+  if (type.evaluate_bounded != nullptr)
+    type.evaluate_bounded(a.slots, a.rest, a.c, a.gradients, work.bounds);
+  else
+    type.evaluate(a.slots, a.rest, a.c, a.gradients);
+}
+
+/// The displacement along a row since the substep's start.
+float motion_along(const JointWork& work, const JointForest::Joint& joint, const Pool& pool, int row) {
+  float sum = 0;
+  for (int slot = 0; slot < 4; ++slot) {
+    const std::int32_t n = joint.slots[static_cast<std::size_t>(slot)];
+    const Vec3f motion = slot % 2 == 1 ? xyz(work.frames.predicted[n]) + xyz(work.frames.corrections[n])
+                                       : xyz(work.points.displacements[n]) - xyz(work.points.remainders[n]);
+    sum = sum + dot(work.arrays.gradient(pool, row, slot), motion);
+  }
+  return sum;
+}
+
+/// Adds a row to the bounded ones. A stop that is not reached starts at its bound, so that it does not act.
+void add_bounded(JointWork& work, std::size_t j, std::size_t row, int of_part, float before, const JointRows& rows) {
+  const float h2 = work.points.h * work.points.h;
+  BoundedRow bounded{j,
+                     row,
+                     work.bounds[3 * of_part] * h2 - before,
+                     work.bounds[3 * of_part + 1] * h2 - before,
+                     rows.value[row],
+                     rows.compliance[row],
+                     0,
+                     RowState::free};
+  if (rows.value[row] > 0 && bounded.low >= 0) bounded.state = RowState::low;
+  if (rows.value[row] < 0 && bounded.high <= 0) bounded.state = RowState::high;
+  work.forest.bounded.push_back(bounded);
+}
+
+/// The rows of one constraint of a joint, from row `first` on.
+void fill_part(JointWork& work, std::size_t j, const JointForest::Part& part, bool start_gradients, std::size_t first) {
+  const JointForest::Joint& joint = work.forest.joints[j];
+  JointRows& rows = work.forest.rows[j];
+  const ConstraintPlace at = place_of(work, part);
+  const Pool& pool = at.pool;
+  const ConstraintDefinition& type = constraint_type(pool.type);
+  work.arrays.load_rest(at);
+  load(work, joint, false);
+  evaluate(work, type);
+  float c[most_components], bounds[3 * most_components];
+  std::copy_n(work.arrays.c, most_components, c);
+  std::copy_n(work.bounds, 3 * most_components, bounds);
+  if (start_gradients) {
+    load(work, joint, true);
+    evaluate(work, type);
+    std::copy_n(bounds, 3 * most_components, work.bounds);
+  }
+  const float softness = at.value(pool.fields),
+              alpha = min(softness * (type.acts_on_motion ? work.points.inverse_h : work.points.inverse_h2),
+                          largest_compliance),
+              gamma = pool.law == Law::damped && !type.acts_on_motion
+                          ? min(softness * at.value(pool.fields + 1) * work.points.inverse_h, largest_compliance)
+                          : 0;
+  const float* multipliers = work.points.first_pass ? nullptr : multipliers_of(work, at);
+  for (int r = 0; r < pool.components; ++r) {
+    const std::size_t row = first + static_cast<std::size_t>(r);
+    const float before = multipliers != nullptr ? multipliers[r * batch_width] : 0;
+    rows.of_a[row] = {work.arrays.gradient(pool, r, 0), work.arrays.gradient(pool, r, 1)};
+    rows.of_b[row] = {work.arrays.gradient(pool, r, 2), work.arrays.gradient(pool, r, 3)};
+    const bool needs_motion = type.acts_on_motion || gamma > 0;
+    const float motion = needs_motion ? motion_along(work, joint, pool, r) : 0;
+    const float error = type.acts_on_motion ? motion - work.bounds[3 * r + 2] * work.points.h : c[r];
+    rows.value[row] = (error + alpha * before + gamma * motion) / (1 + gamma);
+    rows.compliance[row] = alpha / (1 + gamma);
+    if (type.evaluate_bounded != nullptr) add_bounded(work, j, row, r, before, rows);
+  }
+}
+
+/// The inertia of a body in world axes: xx, yy, zz, yz, zx, xy.
+BodyMass mass_of(const JointWork& work, const JointForest::Body& body) {
+  const Quatf q = quaternion(work.frames.orientations[body.frame]);
+  const Vec3f inverse = xyz(work.frames.inverse_inertias[body.frame]);
+  const Vec3f axes[3] = {rotate(q, Vec3f{1, 0, 0}), rotate(q, Vec3f{0, 1, 0}), rotate(q, Vec3f{0, 0, 1})};
+  const float moments[3] = {1 / inverse.x, 1 / inverse.y, 1 / inverse.z}, inverses[3] = {inverse.x, inverse.y, inverse.z};
+  BodyMass mass;
+  mass.mass = 1 / work.points.positions[body.point].w;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3f& u = axes[k];
+    const float products[6] = {u.x * u.x, u.y * u.y, u.z * u.z, u.y * u.z, u.z * u.x, u.x * u.y};
+    for (std::size_t i = 0; i < 6; ++i) {
+      mass.inertia[i] = mass.inertia[i] + products[i] * moments[k];
+      mass.inverse[i] = mass.inverse[i] + products[i] * inverses[k];
+    }
+  }
+  return mass;
+}
+
+}  // namespace
+
+ConstraintPlace place_of(const JointWork& work, const JointForest::Part& part) {
+  return {work.object.pools[static_cast<std::size_t>(part.pool)], part.pool, part.batch, part.lane};
+}
+
+float* multipliers_of(const JointWork& work, const ConstraintPlace& at) {
+  float* all = work.points.multipliers == nullptr ? nullptr : work.points.multipliers[at.pool_number];
+  return all == nullptr ? nullptr : all + at.multiplier_place(0);
+}
+
+void fill_rows(JointWork& work, bool start_gradients) {
+  JointForest& forest = work.forest;
+  forest.rows.resize(forest.joints.size());
+  forest.bounded.clear();
+  for (std::size_t j = 0; j < forest.joints.size(); ++j) {
+    if (!forest.joints[j].in_tree) continue;
+    std::size_t row = 0;
+    for (const JointForest::Part& part : forest.joints[j].parts) {
+      fill_part(work, j, part, start_gradients, row);
+      row += static_cast<std::size_t>(work.object.pools[static_cast<std::size_t>(part.pool)].components);
+    }
+    forest.rows[j].rows = static_cast<int>(row);
+  }
+}
+
+void fill_masses(JointWork& work) {
+  JointForest& forest = work.forest;
+  forest.masses.resize(forest.bodies.size());
+  for (std::size_t i = 0; i < forest.bodies.size(); ++i) forest.masses[i] = mass_of(work, forest.bodies[i]);
+}
+
+}  // namespace pliant

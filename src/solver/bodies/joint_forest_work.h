@@ -1,0 +1,35 @@
+// What the solution of an object's joint trees works with, and its parts.
+#pragma once
+
+#include "solver/bodies/joint_forest.h"
+#include "solver/substep.h"
+#include "solver/visit.h"
+
+namespace pliant {
+
+/// The arrays of an object, and one constraint at a time.
+struct JointWork {
+  const CompiledObject& object;
+  SweepArguments points;
+  FrameArguments frames;
+  JointForest& forest;
+  StencilArrays<float> arrays{};
+  float bounds[3 * most_components] = {};  ///< of each row: low, high, speed
+};
+
+/// Where a constraint of a joint is stored.
+ConstraintPlace place_of(const JointWork& work, const JointForest::Part& part);
+
+/// The multipliers of a constraint, sixteen apart; null if none are stored.
+float* multipliers_of(const JointWork& work, const ConstraintPlace& at);
+
+/// Sets masses and inertias of all bodies, by their present orientations.
+void fill_masses(JointWork& work);
+
+/// Sets the rows of all joints of trees: C at present, gradients at the substep's start or at present.
+void fill_rows(JointWork& work, bool start_gradients);
+
+/// Solves, with masses and rows, until no row with bounds changes its state.
+void solve_within_bounds(JointForest& forest);
+
+}  // namespace pliant
