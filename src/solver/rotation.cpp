@@ -50,14 +50,17 @@ void update_frames(Substep& s) {
   std::atomic<bool> are_finite{true};
   for_objects(s, [&](int o) {
     const float kept = 1 / (1 + s.h * s.model.objects[o].damping);
-    // Corrections stay whole, because contacts and angular momentum follow what the frame has turned.
-    const float share = s.velocity_share * (s.bodies != nullptr ? s.bodies->velocity_share(o) : 1);
     const int first_of_object = s.model.first_frame[o], end = s.model.end_of_frames(o);
     for (int i = first_of_object; i < end; ++i) s.work.frames.corrections[i].w = kept;
-    for_range(s, "update: frames", first_of_object, end, [&](int first, int last) {
-      if (!s.kernels.motions.update_frames(arrays, first, last, share / s.h))
-        are_finite.store(false, std::memory_order_relaxed);
-    });
+    // Corrections stay whole, because contacts and angular momentum follow what the frame has turned.
+    const auto update = [&](int from, int to, float share) {
+      for_range(s, "update: frames", first_of_object + from, first_of_object + to, [&](int first, int last) {
+        if (!s.kernels.motions.update_frames(arrays, first, last, s.velocity_share * share / s.h))
+          are_finite.store(false, std::memory_order_relaxed);
+      });
+    };
+    if (s.bodies == nullptr) return update(0, end - first_of_object, 1);
+    s.bodies->velocity_shares().for_frames(o, 0, end - first_of_object, update);
   });
   s.frames_are_finite = are_finite.load();
 }

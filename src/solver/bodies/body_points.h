@@ -50,19 +50,8 @@ class BodyPoints {
   /// After a phase of chains: gives the bodies the impulses of the particles that carry them.
   void end_chains(Substep& s, const std::vector<BodyMotion>& motions) { loads_.end_chains(s, motions, impulses_); }
   const std::vector<TouchedBody>& bodies() const { return bodies_; }
-  /// The object of a contact's solid: index in Model::objects.
-  int object_of_solid(int solid) const {
-    return bodies_[static_cast<std::size_t>(body_of_solid_[static_cast<std::size_t>(solid)])].object;
-  }
-  /// The State's particle that is the centre of a solid's body.
-  int particle_of_solid(int solid) const {
-    return bodies_[static_cast<std::size_t>(body_of_solid_[static_cast<std::size_t>(solid)])].particle;
-  }
-  /// Share of the corrections that becomes velocity, for each object; empty: 1 for all.
-  std::vector<float>& velocity_shares() { return velocity_shares_; }
-  float velocity_share(int object) const {
-    return velocity_shares_.empty() ? 1 : velocity_shares_[static_cast<std::size_t>(object)];
-  }
+  /// The index among bodies() of the body of a contact's solid.
+  int body_of_solid(int solid) const { return body_of_solid_[static_cast<std::size_t>(solid)]; }
   /// All contacts of the substep.
   const std::vector<Contact>& contacts() const { return contacts_; }
   /// Applies restitution to velocities. `gravity` is what the velocities of an object lack of this frame's gravity [m/s].
@@ -101,7 +90,6 @@ class BodyPoints {
   std::vector<Solid> solids_;
   std::vector<int> body_of_solid_;
   PointLoads loads_;
-  std::vector<float> velocity_shares_;
   std::vector<int> objects_, tasks_;    ///< objects with surfaces or particles, and their tiles, ascending
   std::vector<Posef> poses_;            ///< of bodies at the substep's start
   std::vector<MovingCollider> moving_;  ///< solids in the substep

@@ -54,6 +54,7 @@ BodySolver::BodySolver(const Model& model, const std::vector<int>* objects, Body
   std::vector<int> all(model.objects.size());
   std::iota(all.begin(), all.end(), 0);
   points_ = BodyPoints(model, objects == nullptr ? all : *objects, touched, bodies_.rules());
+  islands_ = BodyIslands(model, bodies_);
 }
 
 void BodySolver::make_manifolds(const Substep& s) {
@@ -83,6 +84,7 @@ void BodySolver::begin_frame(Substep& s) {
   last_h_ = s.h;
   make_manifolds(s);
   points_.begin_frame(s);
+  shares_.clear();
 }
 
 void BodySolver::find_contacts(Substep& s) {
@@ -167,6 +169,13 @@ void BodySolver::respond(Substep& s, FunctionRef<Vec3f(int object)> gravity) {
   }
   points_.respond(s, motions_.all(), gravity);
   points_.keep_poses(s);
+}
+
+const BodyIslands& BodySolver::find_islands(const Substep& s) {
+  pressing_.clear();
+  blocks_.for_pressing(colours_, [&](int i) { pressing_.push_back(finder_.bodies()[at(i)]); });
+  islands_.find(s, bodies_, {pressing_, states_, points_});
+  return islands_;
 }
 
 void BodySolver::end_frame(const Substep& s) {

@@ -11,11 +11,13 @@
 #include "collision/bodies/body_contacts.h"
 #include "collision/narrow/contact.h"
 #include "model/model.h"
+#include "solver/bodies/body_islands.h"
 #include "solver/bodies/body_motions.h"
 #include "solver/bodies/body_points.h"
 #include "solver/bodies/contact_bodies.h"
 #include "solver/bodies/manifold_blocks.h"
 #include "solver/bodies/manifolds.h"
+#include "solver/bodies/velocity_shares.h"
 #include "solver/contact_log.h"
 
 namespace pliant {
@@ -50,12 +52,14 @@ class BodySolver {
   PointLoads& loads() { return points_.loads(); }
   /// After a phase of chains: gives the bodies the impulses of the particles that carry them.
   void end_chains(Substep& s) { points_.end_chains(s, motions_.all()); }
+  /// In the order of bodies in BodyIslands.
   const std::vector<TouchedBody>& touched_bodies() const { return points_.bodies(); }
-  int object_of_solid(int solid) const { return points_.object_of_solid(solid); }
-  int particle_of_solid(int solid) const { return points_.particle_of_solid(solid); }
-  /// Share of the corrections that becomes velocity, for each object; empty: 1 for all.
-  std::vector<float>& velocity_shares() { return points_.velocity_shares(); }
-  float velocity_share(int object) const { return points_.velocity_share(object); }
+  /// The index among touched_bodies() of the body of a contact with points.
+  int body_of(const Contact& contact) const { return points_.body_of_solid(contact.collider); }
+  /// Finds the islands of a substep after its solve.
+  const BodyIslands& find_islands(const Substep& s);
+  /// Share of the corrections that becomes velocity.
+  VelocityShares& velocity_shares() { return shares_; }
   const std::vector<Contact>& point_contacts() const { return points_.contacts(); }
   /// The pass over velocities. `gravity` is what the velocities of an object lack of this frame's gravity [m/s].
   void respond(Substep& s, FunctionRef<Vec3f(int object)> gravity);
@@ -78,15 +82,18 @@ class BodySolver {
   BodyContacts finder_;
   BodyPoints points_;
   BodyMotions motions_;
+  BodyIslands islands_;
+  VelocityShares shares_;
   std::vector<BodyState> states_;
   std::vector<char> is_fixed_;  ///< [place of bodies_]
   std::vector<BodyContact> contacts_;
-  ManifoldColours colours_;        ///< of contacts_
-  ManifoldBlocks blocks_;          ///< the manifolds of contacts_ in a frame
-  bool pushes_are_known_ = false;  ///< false in the first substep of a frame
-  BodyOverlap deepest_{};          ///< of the last frame, only for the Report
-  int deep_frames_ = 0;            ///< for how many frames it has been deep
-  float last_h_ = 0;               ///< length of the last substep [s]
+  std::vector<std::pair<int, int>> pressing_;  ///< bodies of those that press, for find_islands
+  ManifoldColours colours_;                    ///< of contacts_
+  ManifoldBlocks blocks_;                      ///< the manifolds of contacts_ in a frame
+  bool pushes_are_known_ = false;              ///< false in the first substep of a frame
+  BodyOverlap deepest_{};                      ///< of the last frame, only for the Report
+  int deep_frames_ = 0;                        ///< for how many frames it has been deep
+  float last_h_ = 0;                           ///< length of the last substep [s]
 };
 
 }  // namespace pliant

@@ -26,6 +26,13 @@ void for_each(Executor& executor, const char* name, int n, int a_task, const Bod
   });
 }
 
+/// True if a manifold has a normal impulse.
+bool presses(const ManifoldBlock& block, int lane) {
+  float sum = 0;
+  for (const auto& impulse : block.rows.impulse) sum += impulse[lane];
+  return sum > 0;
+}
+
 }  // namespace
 
 /// Prefetches what the next block needs, and if it is the first one of a task, what this one needs.
@@ -109,12 +116,14 @@ bool ManifoldBlocks::bounces() const {
 int ManifoldBlocks::pressing() const {
   int count = 0;
   for (const ManifoldBlock& block : blocks_)
-    for (int lane = 0; lane < block.lanes; ++lane) {
-      float sum = 0;
-      for (const auto& impulse : block.rows.impulse) sum += impulse[lane];
-      count += sum > 0 ? 1 : 0;
-    }
+    for (int lane = 0; lane < block.lanes; ++lane) count += presses(block, lane) ? 1 : 0;
   return count;
+}
+
+void ManifoldBlocks::for_pressing(const ManifoldColours& colours, FunctionRef<void(int)> visit) const {
+  for (std::size_t i = 0; i < blocks_.size(); ++i)
+    for (int lane = 0; lane < blocks_[i].lanes; ++lane)
+      if (presses(blocks_[i], lane)) visit(colours.order()[at(first_[i] + lane)]);
 }
 
 void ManifoldBlocks::run(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions,

@@ -32,6 +32,8 @@ class ManifoldBlocks {
 
   /// The number of manifolds with a normal impulse.
   int pressing() const;
+  /// Calls visit(number) for each of them.
+  void for_pressing(const ManifoldColours& colours, FunctionRef<void(int)> visit) const;
 
   // Each of these calls the function of that name (manifold_passes.h) for all manifolds.
   void prepare(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions);

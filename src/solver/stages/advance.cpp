@@ -7,11 +7,11 @@
 #include <algorithm>
 
 #include "math/motion.h"
+#include "solver/bodies/body_solver.h"
 #include "solver/contact_kernels.h"
 #include "solver/drivers/lanes.h"
 #include "solver/forces.h"
 #include "solver/rotation.h"
-#include "solver/stages/energy_share.h"
 #include "solver/stages/stages.h"
 #include "solver/substep_law.h"
 
@@ -69,15 +69,25 @@ bool is_finite(const Substep& s, int task) {
   return s.kernels.all_finite(a.displacements, a.first, a.last);
 }
 
+/// Updates positions, and velocities by the shares of the corrections that become velocity.
+void update_particles(const Substep& s, int object, AdvanceArguments a) {
+  const float inverse_h = a.inverse_h;
+  const auto update = [&](int first, int last, float share) {
+    a.first = first;
+    a.last = last;
+    a.inverse_h = inverse_h * (s.velocity_share * share);  // of the corrections alone: the kernel predicts with h
+    s.kernels.update(a);
+  };
+  if (s.bodies == nullptr) return update(a.first, a.last, 1);
+  s.bodies->velocity_shares().for_particles(s.model, object, a.first, a.last, update);
+}
+
 /// Ends a tile's substep: updates velocities and positions, and applies restitution at colliders.
 void update_tile(const Substep& s, int task, bool ends_frame) {
   AdvanceArguments a = particles(s, task);
   const Vec3f settled = gravity_for(s, s.work.gravity[s.model.tiles()[task].object].settled);
   if (ends_frame) a.gravity_settled = settled;
-  const float inverse_h = a.inverse_h;
-  a.inverse_h *= velocity_share(s, s.model.tiles()[task].object);  // of the corrections alone: the kernel predicts with h
-  s.kernels.update(a);
-  a.inverse_h = inverse_h;
+  update_particles(s, s.model.tiles()[task].object, a);
   const std::vector<Contact>& contacts = s.work.tiles[task].contacts;
   if (!contacts.empty()) respond(contacts, ends_frame ? Vec3f{} : settled, a);
 }

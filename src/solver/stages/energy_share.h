@@ -25,7 +25,4 @@ void add(const CorrectionEnergy& of, CorrectionEnergy& sum);
 /// The largest share in [0, 1] with which energy does not increase; if there is none, the share with which it increases least.
 double largest_share(const CorrectionEnergy& e);
 
-/// The share of an object's corrections that the update turns into velocity.
-float velocity_share(const Substep& s, int object);
-
 }  // namespace pliant

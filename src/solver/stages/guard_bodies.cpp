@@ -1,12 +1,13 @@
 // Keeps contact of rigid bodies with cloth and rope from increasing energy.
 //
 // A body that falls on cloth stretches it further than a substep's solve can take back. What is left is corrected in the next
-// substeps, with a velocity of strain / h, so inextensible cloth acts as a trampoline. So the objects that press on one another
-// form an island, and if energy of an island would increase, only a share of its corrections becomes velocity, as in
-// guard_energy.cpp. Positions are corrected wholly. Elastic energy of stretched edges may become kinetic energy.
+// substeps, with a velocity of strain / h, so inextensible cloth acts as a trampoline. So if energy of an island of bodies and cloth
+// (bodies/body_islands.h) would increase, only a share of its corrections becomes velocity, as in guard_energy.cpp. Positions are
+// corrected wholly. Elastic energy of stretched edges may become kinetic energy.
 //
-// Where work is done from outside, an island is left alone: by kinematic particles and colliders that move, by joints, which
-// may have motors and springs, and by pressure of volumes.
+// An island on which work is done from outside is left alone: BodyIslands::is_driven, and kinematic particles that move.
+//
+// All sums are made in one pass over nodes, so the cost is linear in bodies, particles and contacts.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -26,33 +27,6 @@ using namespace bodies;
 
 /// Energy may increase up to that of the lightest body at this speed, so that stretched cloth recovers: a rise of 3 mm [m^2/s^2].
 constexpr double slow_squared = 0.25 * 0.25;
-
-/// Objects joined by contacts of points with bodies: for each the smallest index of its island, or -1 in none.
-std::vector<int> islands_of(const Substep& s) {
-  std::vector<int> island(s.model.objects.size(), -1);
-  const auto root = [&](int object) {
-    if (island[at(object)] < 0) island[at(object)] = object;
-    while (island[at(object)] != object) object = island[at(object)];
-    return object;
-  };
-  for (const Contact& c : s.bodies->point_contacts()) {
-    if (!(c.push > 0)) continue;
-    const int a = root(s.model.object_of(c.point[0])), b = root(s.bodies->object_of_solid(c.collider));
-    island[at(std::max(a, b))] = std::min(a, b);
-  }
-  for (int object = 0; object < static_cast<int>(island.size()); ++object)
-    if (island[at(object)] >= 0) island[at(object)] = root(object);
-  return island;
-}
-
-/// True if the object can do work on others without losing energy that is counted here.
-bool has_other_energy(const CompiledObject& object) {
-  return object.is_collider || object.has_volume || !object.bodies.jointed.empty();
-}
-
-bool any_collider_moves(const Substep& s) {
-  return std::any_of(s.own->colliders.begin(), s.own->colliders.end(), [](const MovingCollider& c) { return c.moves; });
-}
 
 /// Adds the energy of a body's rotation.
 void add_rotation(const Substep& s, int frame, CorrectionEnergy& sum) {
@@ -95,68 +69,126 @@ double elastic_gain(const Substep& s, int object) {
   return gain;
 }
 
-/// The smallest mass of a free body that presses in an island [kg].
-double lightest_body(const Substep& s, const std::vector<int>& island, int number) {
-  float largest = 0;
-  for (const Contact& c : s.bodies->point_contacts()) {
-    if (!(c.push > 0) || island[at(s.model.object_of(c.point[0]))] != number) continue;
-    largest = std::max(largest, s.state.positions[at(s.bodies->particle_of_solid(c.collider))].w);
+/// Sums over an island.
+struct IslandEnergy {
+  CorrectionEnergy centres, rotations;  ///< of bodies
+  CorrectionEnergy points;              ///< of particles
+  double edges = 0;                     ///< gain of elastic energy [J]
+  float largest_inverse_mass = 0;       ///< of bodies that press [1/kg]
+  double excess = 0;                    ///< by how much the energy of bodies increases [J]
+};
+
+/// The islands in which bodies press on particles, and on which no work is done from outside, by their smallest node.
+class GuardedIslands {
+ public:
+  GuardedIslands(const Substep& s, const BodyIslands& islands) : islands_(islands), number_(at(islands.nodes()), -1) {
+    for (const Contact& c : s.bodies->point_contacts()) {
+      if (!(c.push > 0)) continue;
+      const int body = s.bodies->body_of(c),
+                island = islands.island_of(islands.node_of_points(s.model.object_of(c.point[0])));
+      if (islands.is_driven(island)) continue;
+      if (number_[at(island)] < 0) {
+        number_[at(island)] = static_cast<int>(energies_.size());
+        energies_.emplace_back();
+      }
+      float& largest = of_island(island)->largest_inverse_mass;
+      largest = std::max(largest, s.state.positions[at(s.bodies->touched_bodies()[at(body)].particle)].w);
+    }
   }
-  return largest > 0 ? 1 / static_cast<double>(largest) : 0;
+
+  bool empty() const { return energies_.empty(); }
+  std::vector<IslandEnergy>& energies() { return energies_; }
+  /// The island of a node; null if it is not guarded.
+  IslandEnergy* of(int node) { return of_island(islands_.island_of(node)); }
+  IslandEnergy* of_points(int object) { return of(islands_.node_of_points(object)); }
+
+ private:
+  IslandEnergy* of_island(int island) {
+    const int number = number_[at(island)];
+    return number < 0 ? nullptr : &energies_[at(number)];
+  }
+
+  const BodyIslands& islands_;
+  std::vector<int> number_;  ///< [island] index in energies_, or -1
+  std::vector<IslandEnergy> energies_;
+};
+
+void add_bodies(const Substep& s, GuardedIslands& islands) {
+  const std::vector<TouchedBody>& all = s.bodies->touched_bodies();
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    IslandEnergy* const island = islands.of(static_cast<int>(b));
+    if (island == nullptr) continue;
+    add_correction_energy(s, PredictedGravity(s, all[b].object), object_particles(s, all[b].object),
+                          all[b].particle - s.model.first[at(all[b].object)], island->centres);
+    add_rotation(s, all[b].frame, island->rotations);
+  }
+  for (IslandEnergy& island : islands.energies()) {
+    add(island.centres, island.rotations);
+    island.excess = total(island.rotations);
+  }
+}
+
+/// The energies of a tile's particles that are no centres of bodies.
+CorrectionEnergy energy_of_points(const Substep& s, int task) {
+  const int object = s.model.tiles()[at(task)].object;
+  const CompiledBodies& bodies = s.model.objects[at(object)].bodies;
+  if (bodies.empty()) return correction_energy(s, task);
+  CorrectionEnergy sum;
+  const AdvanceArguments a = particles(s, task);
+  const PredictedGravity gravity(s, object);
+  for (int i = a.first; i < a.last; ++i)
+    if (!bodies.has_centre(i)) add_correction_energy(s, gravity, a, i, sum);
+  return sum;
+}
+
+/// Adds particles and edges of islands in which the energy of bodies increases.
+void add_points(const Substep& s, GuardedIslands& islands) {
+  for_each_tile(s, [&](int task) {
+    IslandEnergy* const island = islands.of_points(s.model.tiles()[at(task)].object);
+    if (island != nullptr && island->excess > 0) add(energy_of_points(s, task), island->points);
+  });
+  for_objects(s, [&](int object) {
+    IslandEnergy* const island = islands.of_points(object);
+    if (island != nullptr && island->excess > 0) island->edges += elastic_gain(s, object);
+  });
 }
 
 /// Only the energy of bodies is limited: that of light particles between stiff edges is noise, and would leave bodies no share.
 /// What the particles lose may go to the bodies.
-double share_of_island(const Substep& s, const std::vector<int>& island, int number) {
-  const auto is_inside = [&](int object) { return island[at(object)] == number; };
-  bool is_open = false;
-  for_objects(s, [&](int o) { is_open = is_open || (is_inside(o) && has_other_energy(s.model.objects[at(o)])); });
-  if (is_open) return 1;
-  CorrectionEnergy bodies, centres;
-  for (const TouchedBody& body : s.bodies->touched_bodies()) {
-    if (!is_inside(body.object)) continue;
-    const int first = s.model.first[at(body.object)];
-    add_correction_energy(s, PredictedGravity(s, body.object), object_particles(s, body.object), body.particle - first,
-                          centres);
-    add_rotation(s, body.frame, bodies);
-  }
-  add(centres, bodies);
-  if (!(total(bodies) > 0)) return 1;
-  CorrectionEnergy all;
-  for_each_tile(s, [&](int task) {
-    if (is_inside(s.model.tiles()[at(task)].object)) add(correction_energy(s, task), all);
-  });
-  if (all.has_outside_work) return 1;
-  double gain = 0;
-  for_objects(s, [&](int object) {
-    if (is_inside(object)) gain += elastic_gain(s, object);
-  });
-  const double from_particles = std::max(total(centres) - total(all), 0.), from_edges = std::max(-gain, 0.),
-               slow = std::max(lightest_body(s, island, number) * slow_squared / 2 - bodies.kinetic, 0.);
+float share_of(const IslandEnergy& island) {
+  if (!(island.excess > 0) || island.points.has_outside_work || island.centres.has_outside_work) return 1;
+  CorrectionEnergy bodies = island.rotations;  // and centres: add_bodies
+  const double lightest = island.largest_inverse_mass > 0 ? 1 / static_cast<double>(island.largest_inverse_mass) : 0;
+  const double from_particles = std::max(-total(island.points), 0.), from_edges = std::max(-island.edges, 0.),
+               slow = std::max(lightest * slow_squared / 2 - bodies.kinetic, 0.);
   bodies.predicted -= from_particles + from_edges + slow;
-  return largest_share(bodies);
+  return static_cast<float>(largest_share(bodies));
+}
+
+void set_shares(const Substep& s, GuardedIslands& islands, VelocityShares& shares) {
+  const auto share_at = [](const IslandEnergy* island) { return island == nullptr ? 1.f : share_of(*island); };
+  const std::vector<TouchedBody>& all = s.bodies->touched_bodies();
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    const float share = share_at(islands.of(static_cast<int>(b)));
+    if (share < 1) shares.set_body(s.model, all[b].object, all[b].body, share);
+  }
+  for_objects(s, [&](int object) {
+    const float share = share_at(islands.of_points(object));
+    if (share < 1) shares.set_points(s.model, object, share);
+  });
 }
 
 }  // namespace
 
-float velocity_share(const Substep& s, int object) {
-  return s.velocity_share * (s.bodies != nullptr ? s.bodies->velocity_share(object) : 1);
-}
-
 void guard_bodies(Substep& s) {
   if (s.bodies == nullptr) return;
-  std::vector<float>& shares = s.bodies->velocity_shares();
-  shares.clear();
-  if (s.bodies->point_contacts().empty() || any_collider_moves(s)) return;
-  const std::vector<int> island = islands_of(s);
-  for (int number = 0; number < static_cast<int>(island.size()); ++number) {
-    if (island[at(number)] != number) continue;
-    const double share = share_of_island(s, island, number);
-    if (!(share < 1)) continue;
-    shares.resize(island.size(), 1);
-    for (std::size_t object = 0; object < island.size(); ++object)
-      if (island[object] == number) shares[object] = static_cast<float>(share);
-  }
+  s.bodies->velocity_shares().clear();
+  if (s.bodies->point_contacts().empty()) return;
+  GuardedIslands islands(s, s.bodies->find_islands(s));
+  if (islands.empty()) return;
+  add_bodies(s, islands);
+  add_points(s, islands);
+  set_shares(s, islands, s.bodies->velocity_shares());
 }
 
 }  // namespace pliant
