@@ -93,36 +93,6 @@ class Names {
   std::set<std::string> taken_;
 };
 
-void set_pins(const JsonDocument& document, const JsonValue& at, BuiltObject& built) {
-  std::vector<bool> taken(built.object.positions.size(), false);
-  for (const JsonValue& item : elements(at, "pins")) {
-    Pin pin;
-    set(document, item, "motion", pin.motion);
-    const JsonValue& particles = *item.find("particles");
-    for (const int particle : selected(document, particles, built)) {
-      if (taken[static_cast<std::size_t>(particle)])
-        document.fail(particles, "particle " + std::to_string(particle) + " is already pinned", "pin it once");
-      taken[static_cast<std::size_t>(particle)] = true;
-      pin.particle = particle;
-      built.object.pins.push_back(pin);
-    }
-  }
-}
-
-void set_attachments(const JsonDocument& document, const JsonValue& at, BuiltObject& built) {
-  for (const JsonValue& item : elements(at, "attachments")) {
-    Attachment attachment;
-    set(document, item, "motion", attachment.motion);
-    set(document, item, "stiffness", attachment.stiffness);
-    const bool one_target = set(item, "target", attachment.target);
-    for (const int particle : selected(document, *item.find("particles"), built)) {
-      attachment.particle = particle;
-      if (!one_target) attachment.target = built.object.positions[static_cast<std::size_t>(particle)];
-      built.object.attachments.push_back(attachment);
-    }
-  }
-}
-
 void set_properties(const JsonDocument& document, const JsonValue& at, Object& object) {
   set(at, "thickness", object.thickness);
   set(at, "self_collision", object.self_collision);
@@ -159,6 +129,7 @@ Object object_of(const JsonDocument& document, const JsonValue& at, const MeshFo
                  std::vector<std::string>& repairs) {
   const JsonValue& what = one_of(at, {"cloth", "rope", "particles", "bodies", "urdf"});
   BuiltObject built = build_matter(document, what, names.of(document, at, what.key), folder, repairs);
+  add_parts(document, at, folder, built.object, repairs);
   set_joints(document, at, built.object);
   set_properties(document, at, built.object);
   set_pins(document, at, built);

@@ -32,6 +32,14 @@ Object build_robot(const JsonDocument& document, const JsonValue& at, const std:
 /// Adds the joints of an object's record `at`, if it has any.
 void set_joints(const JsonDocument& document, const JsonValue& at, Object& object);
 
+/// Add the pins and attachments of a record, of an object or a part, to what it builds.
+void set_pins(const JsonDocument& document, const JsonValue& at, BuiltObject& built);
+void set_attachments(const JsonDocument& document, const JsonValue& at, BuiltObject& built);
+
+/// Adds the parts of an object's record `at`, if it has any, and ties them to its bodies.
+void add_parts(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, Object& object,
+               std::vector<std::string>& repairs);
+
 /// The particles that a checked selection denotes, each once.
 std::vector<int> selected(const JsonDocument& document, const JsonValue& at, const BuiltObject& built);
 

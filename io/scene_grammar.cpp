@@ -151,6 +151,31 @@ const Record& attachment_record() {
   return result;
 }
 
+const Record& tie_record() {
+  static const Record result{
+      "tie",
+      "Ties particles of a part to places of a body, where they are at the start.",
+      {needed("particles", selection(), selection_meaning), needed("body", string(), "Name of the body."),
+       field("stiffness", stiffness(), "\"rigid\"", "Stiffness of the ties.")},
+      {}};
+  return result;
+}
+
+const Record& part_record() {
+  static const Record result{
+      "part",
+      "A rope, cloth or particles that belong to an object of bodies, and are tied to them. Properties such as `thickness` "
+      "and friction are those of the object.",
+      {either("cloth", record(cloth_record()), "A cloth; not a balloon."), either("rope", record(rope_record()), "A rope."),
+       either("particles", record(particles_record()), "Particles with constraints."),
+       field("ties", list(record(tie_record())), "none",
+             "What ties it to bodies. What is tied to a body does not touch it."),
+       field("pins", list(record(pin_record())), "none", "Kinematic particles; indices count from the part's first one."),
+       field("attachments", list(record(attachment_record())), "none", "Particles tied to targets.")},
+      {"cloth", "rope", "particles"}};
+  return result;
+}
+
 std::vector<std::string> sweep_names() {
   std::vector<std::string> names{"automatic"};
   for (const NamedSweep& one : sweeps()) names.push_back(one.name);
@@ -168,6 +193,8 @@ const Record& object_record() {
        either("bodies", list(record(body_record()), 1), "Rigid bodies: one, a pile, or the parts of a mechanism."),
        either("urdf", record(urdf_record()), "A robot description."),
        field("joints", list(record(joint_record())), "none", "Joints between its bodies."),
+       field("parts", list(record(part_record())), "none",
+             "Ropes and cloth that are tied to its bodies. Their particles follow those of the bodies."),
        field("velocity", vector("m/s", largest_velocity), Vec3f{}, "Initial velocity of all its particles."),
        field("pins", list(record(pin_record())), "none", "Kinematic particles."),
        field("attachments", list(record(attachment_record())), "none", "Particles tied to targets."),

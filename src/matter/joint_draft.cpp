@@ -66,6 +66,9 @@ double principal_angle(double angle) { return std::remainder(angle, 2 * pi); }
 JointDraft::JointDraft(Object& object, std::string kind, int a, int b, const JointOptions& options)
     : object_(object), kind_(std::move(kind)), name_(options.name), options_(options) {
   if (name_.empty()) name_ = kind_ + " " + std::to_string(object.joints.size());
+  const bool is_taken = std::any_of(object.joints.begin(), object.joints.end(),
+                                    [&](const ObjectJoint& other) { return other.name == options.name; });
+  if (is_taken && !options.name.empty()) refuse("has a name that is taken", "joints of an object have different names");
   a_ = find(a);
   b_ = find(b);
   if (a_.body == b_.body) refuse("joins body " + std::to_string(a) + " with itself", "give two bodies");

@@ -30,7 +30,7 @@ std::size_t body_named(const Object& object, const std::string& start) {
 TEST_F(Heap, HasItsProperties) {
   EXPECT_EQ(heap.name, "heap");
   EXPECT_EQ(heap.bodies.size(), 5U + 6 + 5 + 40);
-  EXPECT_EQ(heap.positions.size(), heap.bodies.size());
+  EXPECT_EQ(heap.positions.size(), heap.bodies.size() + 5 + 4 + 1) << "and those of its parts";
   EXPECT_EQ(heap.thickness, 0.25f);
   EXPECT_EQ(heap.static_friction, 0.75f);
   EXPECT_EQ(heap.kinetic_friction, 0.5f);
@@ -42,6 +42,27 @@ TEST_F(Heap, HasItsProperties) {
   EXPECT_EQ(heap.colour, (Vec3f{0.125f, 0.25f, 0.5f}));
   EXPECT_TRUE(heap.collides);
   EXPECT_TRUE(heap.self_collision);
+}
+
+/// The constraint group of a type and compliance.
+const ConstraintGroup& group_of(const Object& object, const std::string& type, float compliance) {
+  for (const ConstraintGroup& group : object.constraints)
+    if (group.type == type && group.stiffness.value == compliance) return group;
+  throw std::runtime_error("no group of " + type);
+}
+
+TEST_F(Heap, HasPartsThatAreTiedToItsBodies) {
+  const int first = static_cast<int>(heap.bodies.size());
+  EXPECT_EQ(heap.positions.at(std::size_t(first) + 4), (Vec3f{0, 4, 0}));
+  ASSERT_EQ(heap.pins.size(), 1U);
+  EXPECT_EQ(heap.pins[0].particle, first);
+  ASSERT_EQ(heap.attachments.size(), 4U);
+  EXPECT_EQ(heap.attachments[0].particle, first + 5);
+  EXPECT_EQ(heap.attachments[0].target, heap.positions.at(std::size_t(first) + 5));
+  const ObjectBody &hammer = heap.bodies[0], &shard = heap.bodies[4];
+  EXPECT_EQ(group_of(heap, "body_anchor", 0.5f).particles, (std::vector<int>{hammer.particle, hammer.frame, first + 4}));
+  EXPECT_EQ(group_of(heap, "body_anchor", 0).particles, (std::vector<int>{shard.particle, shard.frame, first + 9}));
+  EXPECT_EQ(heap.triangles.size(), 2U);
 }
 
 TEST_F(Heap, HasTheBodyThatTheSameOptionsMake) {

@@ -283,6 +283,15 @@ TEST(Joints, SixAxesAreFreeLockedOrLimitedOneByOne) {
   EXPECT_LT(std::hypot(turned.x, turned.z), 2e-3);
 }
 
+TEST(Joints, OfAnObjectHaveDifferentNames) {
+  Mechanism m;
+  const int b = m.box({0, 0, 0});
+  BallJoint joint{.b = b};
+  joint.options.name = "shoulder";
+  add_joint(m.object, joint);
+  EXPECT_THROW(add_joint(m.object, joint), Error);
+}
+
 TEST(Joints, WrongJointsAreNamedAndChangeNothing) {
   Mechanism m;
   const int b = m.box({0, 0, 0});

@@ -1,0 +1,91 @@
+// Builds what holds an object's particles: pins, attachments, and the parts that are tied to its bodies.
+#include <string>
+#include <vector>
+
+#include "pliant/body.h"
+#include "scene_build.h"
+#include "scene_hints.h"
+#include "scene_values.h"
+
+namespace pliant::scene_file {
+
+void set_pins(const JsonDocument& document, const JsonValue& at, BuiltObject& built) {
+  std::vector<bool> taken(built.object.positions.size(), false);
+  for (const JsonValue& item : elements(at, "pins")) {
+    Pin pin;
+    set(document, item, "motion", pin.motion);
+    const JsonValue& particles = *item.find("particles");
+    for (const int particle : selected(document, particles, built)) {
+      if (taken[static_cast<std::size_t>(particle)])
+        document.fail(particles, "particle " + std::to_string(particle) + " is already pinned", "pin it once");
+      taken[static_cast<std::size_t>(particle)] = true;
+      pin.particle = particle;
+      built.object.pins.push_back(pin);
+    }
+  }
+}
+
+void set_attachments(const JsonDocument& document, const JsonValue& at, BuiltObject& built) {
+  for (const JsonValue& item : elements(at, "attachments")) {
+    Attachment attachment;
+    set(document, item, "motion", attachment.motion);
+    set(document, item, "stiffness", attachment.stiffness);
+    const bool one_target = set(item, "target", attachment.target);
+    for (const int particle : selected(document, *item.find("particles"), built)) {
+      attachment.particle = particle;
+      if (!one_target) attachment.target = built.object.positions[static_cast<std::size_t>(particle)];
+      built.object.attachments.push_back(attachment);
+    }
+  }
+}
+
+namespace {
+
+int body_named(const JsonDocument& document, const JsonValue& at, const Object& object) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < object.bodies.size(); ++i) {
+    if (object.bodies[i].name == at.text) return static_cast<int>(i);
+    names.push_back(object.bodies[i].name);
+  }
+  const std::string near = nearest_name(at.text, names);
+  document.fail(at, "the object has no body '" + printable(at.text) + "'",
+                near.empty() ? "name one of its bodies" : "did you mean '" + printable(near) + "'?");
+}
+
+void set_ties(const JsonDocument& document, const JsonValue& at, const BuiltObject& part, int first, Object& object) {
+  for (const JsonValue& item : elements(at, "ties")) {
+    Stiffness stiffness;
+    set(document, item, "stiffness", stiffness);
+    std::vector<int> particles = selected(document, *item.find("particles"), part);
+    for (int& particle : particles) particle += first;
+    attach(object, particles, body_named(document, *item.find("body"), object), stiffness);
+  }
+}
+
+const JsonValue& matter_of(const JsonValue& part) {
+  for (const char* kind : {"cloth", "rope"})
+    if (const JsonValue* found = part.find(kind)) return *found;
+  return *part.find("particles");
+}
+
+}  // namespace
+
+void add_parts(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, Object& object,
+               std::vector<std::string>& repairs) {
+  const JsonValue* list = at.find("parts");
+  if (list == nullptr) return;
+  if (object.bodies.empty())
+    document.fail_key(*list, "only an object of bodies has parts", "make the part an object of its own");
+  for (const JsonValue& item : list->items) {
+    const JsonValue& what = matter_of(item);
+    if (const JsonValue* volume = what.find("volume"))
+      document.fail_key(*volume, "a part has no volume constraint", "make the balloon an object of its own");
+    BuiltObject part = build_matter(document, what, object.name, folder, repairs);
+    set_pins(document, item, part);
+    set_attachments(document, item, part);
+    const int first = append(object, part.object);
+    set_ties(document, item, part, first, object);
+  }
+}
+
+}  // namespace pliant::scene_file
