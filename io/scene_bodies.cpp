@@ -2,9 +2,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "pliant/body.h"
+#include "pliant/decompose.h"
 #include "scene_build.h"
 #include "scene_grammar.h"
 #include "scene_values.h"
@@ -61,17 +63,49 @@ SolidShape shape_of(const Reader& reader, const JsonValue& solid) {
   return sphere;
 }
 
-std::vector<Solid> solids_of(const Reader& reader, const JsonValue& body) {
+Decomposition pieces_of(const Reader& reader, const JsonValue& at, float density) {
+  DecomposeOptions options;
+  options.density = density;
+  set(at, "tolerance", options.tolerance);
+  set(at, "most_pieces", options.most_pieces);
+  set(at, "most_corners", options.most_corners);
+  SceneMesh surface = make_mesh(reader.document, *at.find("mesh"), reader.folder, reader.object);
+  for (const std::string& repair : surface.repairs) reader.repairs.push_back("object '" + reader.object + "', " + repair);
+  return decompose(surface.mesh, options);
+}
+
+/// The solids of a body, and its inertia where it is that of one mesh.
+struct BodySolids {
   std::vector<Solid> solids;
-  for (const JsonValue& item : elements(body, "solids")) {
+  std::optional<BodyInertia> inertia;
+};
+
+BodySolids solids_of(const Reader& reader, const JsonValue& body) {
+  BodySolids out;
+  const std::vector<JsonValue>& items = elements(body, "solids");
+  for (const JsonValue& item : items) {
     Solid solid;
-    solid.shape = shape_of(reader, item);
-    set(item, "position", solid.position);
-    set(reader.document, item, "rotation", solid.rotation);
+    bool is_moved = set(item, "position", solid.position);
+    is_moved = set(reader.document, item, "rotation", solid.rotation) || is_moved;
     set(item, "density", solid.density);
-    solids.push_back(std::move(solid));
+    const JsonValue* concave = item.find("concave");
+    if (concave == nullptr) {
+      solid.shape = shape_of(reader, item);
+      out.solids.push_back(std::move(solid));
+      continue;
+    }
+    const Decomposition pieces = pieces_of(reader, *concave, solid.density);
+    for (const Solid& piece : pieces.solids)
+      out.solids.push_back({piece.shape, solid.position, solid.rotation, piece.density});
+    if (items.size() == 1 && !is_moved) out.inertia = pieces.inertia;
   }
-  return solids;
+  return out;
+}
+
+/// The inertia of a body whose mass is given instead of its density.
+BodyInertia scaled(BodyInertia inertia, float mass) {
+  const float factor = mass / inertia.mass;
+  return {mass, inertia.centre, inertia.moments * factor, inertia.products * factor};
 }
 
 // ------------------------------------------------------------------------------------------------ copies
@@ -228,7 +262,9 @@ class Bodies {
   void add(const JsonValue& at) {
     const std::string name = name_of(at);
     BodyOptions options = options_of(reader_.document, at);
-    const std::vector<Solid> solids = solids_of(reader_, at);
+    const auto [solids, inertia] = solids_of(reader_, at);
+    const bool has_mass = options.mass > 0 && !std::isinf(options.mass);
+    if (inertia) options.inertia = has_mass ? scaled(*inertia, options.mass) : *inertia;
     const std::vector<RigidPose> copies = copies_of(reader_.document, at);
     if (at.find("repeat") == nullptr) return add_one(at, solids, name, options);
     const RigidPose own{options.position, options.rotation};

@@ -1,5 +1,6 @@
 // The part of the table for rigid bodies: their solids, and how one is repeated.
 #include "pliant/body.h"
+#include "pliant/decompose.h"
 #include "scene_grammar_parts.h"
 #include "scene_grammar_words.h"
 
@@ -37,17 +38,32 @@ const Record& hull_record() {
   return result;
 }
 
+const Record& concave_record() {
+  static const Record result{
+      "concave",
+      "What a closed mesh encloses, divided into convex pieces.",
+      {needed("mesh", record(mesh_record()), "The mesh."),
+       field("tolerance", positive("m", largest_place), "2 % of the mesh's longest side",
+             "By how much pieces may fill hollows of the mesh."),
+       field("most_pieces", integer(1, 1024), DecomposeOptions{}.most_pieces,
+             "Greatest number of pieces; where more would be needed, hollows are filled further."),
+       field("most_corners", integer(8, 1024), DecomposeOptions{}.most_corners, "Greatest number of a piece's corners.")},
+      {}};
+  return result;
+}
+
 const Record& solid_record() {
   static const Record result{
       "solid",
-      "A convex solid of a rigid body.",
+      "A solid of a rigid body.",
       {either("sphere", record(sphere_record()), "A ball."), either("capsule", record(capsule_record()), "A capsule."),
        either("box", record(box_record()), "A box."), either("cylinder", record(cylinder_record()), "A cylinder."),
        either("cone", record(cone_record()), "A cone."), either("hull", record(hull_record()), "A convex hull."),
+       either("concave", record(concave_record()), "A concave solid; a hull takes less time."),
        field("position", place(), Solid{}.position, "Position of the solid's frame in that of the body."),
        field("rotation", record(rotation_record()), "none", "Rotation of the solid's frame in that of the body."),
        field("density", positive("kg/m^3"), Solid{}.density, "Density.")},
-      {"sphere", "capsule", "box", "cylinder", "cone", "hull"}};
+      {"sphere", "capsule", "box", "cylinder", "cone", "hull", "concave"}};
   return result;
 }
 

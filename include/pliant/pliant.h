@@ -4,6 +4,7 @@
 #include "pliant/advise.h"
 #include "pliant/body.h"
 #include "pliant/constraint.h"
+#include "pliant/decompose.h"
 #include "pliant/edit.h"
 #include "pliant/error.h"
 #include "pliant/handles.h"

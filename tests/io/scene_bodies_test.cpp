@@ -1,4 +1,5 @@
 // Tests rigid bodies in scene files: every field, copies, and what is refused.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -49,6 +50,26 @@ const ConstraintGroup& group_of(const Object& object, const std::string& type, f
   for (const ConstraintGroup& group : object.constraints)
     if (group.type == type && group.stiffness.value == compliance) return group;
   throw std::runtime_error("no group of " + type);
+}
+
+TEST_F(Heap, HasAConcaveSolidInPieces) {
+  ASSERT_EQ(heap.bodies[4].solids.size(), 3U) << "a box is one piece";
+  const Solid& piece = heap.bodies[4].solids[2];
+  EXPECT_EQ(std::get<Hull>(piece.shape).points.size(), 8U);
+  EXPECT_FLOAT_EQ(piece.density, 500);
+}
+
+/// A body of one mesh has the mesh's inertia: that of a box of 2 x 1 x 1 m and 1 t, or of a given mass.
+TEST(SceneBodies, OfOneConcaveSolidHaveItsInertia) {
+  const std::string start = R"({"objects": [{"bodies": [{"solids": [{"concave": {"mesh": {"box": {"size": [2, 1, 1]}}},
+    "density": 500}])";
+  const Object by_density = parse_scene(start + "}]}]}", "x.json", ".").objects.at(0),
+               by_mass = parse_scene(start + R"(, "mass": 12}]}]})", "x.json", ".").objects.at(0);
+  const auto largest = [](const Vec3f& v) { return std::max({v.x, v.y, v.z}); };
+  EXPECT_NEAR(by_density.masses[0], 1000, 1e-3);
+  EXPECT_NEAR(largest(by_density.frames[0].inertia), 1000 * 5. / 12, 1e-2);
+  EXPECT_NEAR(by_mass.masses[0], 12, 1e-5);
+  EXPECT_NEAR(largest(by_mass.frames[0].inertia), 12 * 5. / 12, 1e-4);
 }
 
 TEST_F(Heap, HasPartsThatAreTiedToItsBodies) {
