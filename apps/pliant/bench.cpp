@@ -9,6 +9,7 @@
 #include "apps/bench/bench.h"
 #include "apps/bench/chains.h"
 #include "apps/bench/contact.h"
+#include "apps/bench/covered.h"
 #include "apps/bench/draped_meshes.h"
 #include "apps/bench/landing.h"
 #include "apps/bench/memory.h"
@@ -121,6 +122,20 @@ std::string bench_bodies(const BenchOptions& options) {
   return to_json(pliant::bench::measure_piles(wanted));
 }
 
+std::string bench_covered(const BenchOptions& options) {
+  pliant::bench::CoveredOptions wanted;
+  if (!options.sizes.empty()) wanted.sizes = options.sizes;
+  wanted.frames = options.frames.value_or(wanted.frames);
+  print("what          size  bodies  mean, ms  median, ms  slowest, ms  ratio  crossings: worst; frames; unnamed\n");
+  wanted.on_row = [](const pliant::bench::CoveredRow& row) {
+    throw_if_interrupted();
+    print(fmt::format("{:<12} {:5} {:7} {:9.3f} {:11.3f} {:12.2f} {:6.2f}  {}; {}; {}\n", row.what, row.size, row.bodies,
+                      row.mean_ms, row.median_ms, row.largest_ms, row.ratio, row.worst_crossings, row.frames_with_crossings,
+                      row.unnamed));
+  };
+  return to_json(pliant::bench::measure_covered(wanted));
+}
+
 std::string bench_joints(const BenchOptions& options) {
   pliant::bench::ChainOptions wanted;
   if (!options.sizes.empty()) wanted.sizes = options.sizes;
@@ -174,8 +189,8 @@ std::string bench_default(const BenchOptions& options) {
 void refuse_unknown(const std::string& workload) {
   std::vector<std::string> names;
   for (const pliant::bench::Workload& frames : pliant::bench::workloads()) names.push_back(frames.name);
-  for (const char* other : {"bodies", "bodies-pyramid", "bodies-tower", "bodies-pour", "contact", "default", "joints",
-                            "memory", "W3", "W3-ball", "W3-cloth"})
+  for (const char* other : {"bodies", "bodies-pyramid", "bodies-tower", "bodies-pour", "contact", "covered", "default",
+                            "joints", "memory", "W3", "W3-ball", "W3-cloth"})
     names.emplace_back(other);
   if (workload.empty() || std::find(names.begin(), names.end(), workload) != names.end()) return;
   const std::string near = scene_file::nearest_name(workload, names);
@@ -189,6 +204,7 @@ void refuse_unknown(const std::string& workload) {
 std::optional<std::string> bench_by_name(const BenchOptions& options) {
   if (options.workload.rfind("bodies", 0) == 0) return bench_bodies(options);
   if (options.workload == "contact") return bench_contact(options);
+  if (options.workload == "covered") return bench_covered(options);
   if (options.workload == "default") return bench_default(options);
   if (options.workload == "joints") return bench_joints(options);
   if (options.workload == "memory") return bench_memory(options);
