@@ -60,6 +60,7 @@ bool make_substep(Substep& s, FunctionRef<bool()> stops) {
   if (s.bodies != nullptr) s.bodies->stop_passing(s);
   if (stops()) s.substeps = s.number + 1;
   filter(s);
+  if (s.bodies != nullptr) s.bodies->hold_bodies(s);
   if (s.work.contact_log != nullptr) log_contacts(s, *s.work.contact_log);
   guard_energy(s);
   guard_bodies(s);

@@ -208,11 +208,38 @@ int without_centres(const CompiledObject& object, int count, std::vector<std::in
   return static_cast<int>(end - near.begin());
 }
 
-/// Finds the particles to test against a collider. These are all particles of the tile if the collider moves, because
+/// The distance from a solid's box within which a particle that is displaced by `moved` can have a contact [m]; infinite for solids
+/// that turn fast. No particle farther away ends within the thickness and its own path, measured in the solid's frame.
+float reach_of(const MovingCollider& collider, float thickness, float moved) {
+  const Quatf turn = multiply(conjugate(collider.before.rotation), collider.after.rotation);
+  const float chord = 2 * length(Vec3f{turn.x, turn.y, turn.z}),
+              path = length(collider.after.position - collider.before.position);
+  if (!(chord < 0.5f)) return 3e38f;
+  Vec3f corner = collider.shape.kind == ShapeKind::plane ? Vec3f{} : half_sides<float>(collider.shape);
+  if (collider.field != nullptr) corner = max(abs(collider.field->bounds().low), abs(collider.field->bounds().high));
+  const float travelled = moved + path;
+  return 1.01f * ((thickness + travelled + moved) + chord * (length(corner) + travelled)) / (1 - chord);
+}
+
+/// Finds the particles near a collider that moves, ascending.
+int find_near_moving(const ContactSearch& search, const MovingCollider& collider, float thickness,
+                     std::vector<std::int32_t>& near) {
+  near.clear();
+  const float reach = reach_of(collider, thickness, search.largest_displacement);
+  const Vec3f by{reach, reach, reach};
+  search.cells->query({collider.swept.low - by, collider.swept.high + by}, near);
+  for (std::int32_t& i : near) i -= search.first_of_object;
+  near.resize(near.size() + batch_width);
+  return static_cast<int>(near.size()) - batch_width;
+}
+
+/// Finds the particles to test against a collider. Without cells these are all particles of the tile if the collider moves, because
 /// the kernel measures displacements of particles only.
 int find_near(const ContactSearch& search, const MovingCollider& collider, float thickness,
               std::vector<std::int32_t>& near) {
   const AdvanceArguments& a = search.particles;
+  if (search.cells != nullptr && (collider.field == nullptr || !collider.field->is_ground()))
+    return find_near_moving(search, collider, thickness, near);
   near.resize(a.last - a.first + batch_width);
   if (collider.moves || collider.field != nullptr) {
     for (int i = a.first; i < a.last; ++i) near[i - a.first] = i;
@@ -238,19 +265,30 @@ bool meet(const CompiledObject& object, const MovingCollider& collider) {
 
 }  // namespace
 
-void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near, std::vector<Contact>& contacts) {
-  for (int c = 0; c < static_cast<int>(search.colliders.size()); ++c) {
-    const MovingCollider& collider = search.colliders[c];
-    if (!overlap(search.bounds, collider.swept, search.object.thickness) || !meet(search.object, collider)) continue;
-    const float thickness = search.object.thickness + collider.thickness;
-    const int count = without_centres(search.object, find_near(search, collider, thickness, near), near);
-    const Meeting meeting(search, c, thickness);
-    if (search.make_contacts != nullptr && collider.field == nullptr) {
-      find_contacts_in_lanes(meeting, near, count, contacts);
-    } else {
-      for (int k = 0; k < count; ++k) find_contact(meeting, near[k], contacts);
-    }
+namespace {
+
+void find_contacts_with(const ContactSearch& search, int c, std::vector<std::int32_t>& near,
+                        std::vector<Contact>& contacts) {
+  const MovingCollider& collider = search.colliders[c];
+  if (!overlap(search.bounds, collider.swept, search.object.thickness) || !meet(search.object, collider)) return;
+  const float thickness = search.object.thickness + collider.thickness;
+  const int count = without_centres(search.object, find_near(search, collider, thickness, near), near);
+  const Meeting meeting(search, c, thickness);
+  if (search.make_contacts != nullptr && collider.field == nullptr) {
+    find_contacts_in_lanes(meeting, near, count, contacts);
+  } else {
+    for (int k = 0; k < count; ++k) find_contact(meeting, near[k], contacts);
   }
+}
+
+}  // namespace
+
+void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near, std::vector<Contact>& contacts) {
+  if (search.near_colliders != nullptr) {
+    for (const int c : *search.near_colliders) find_contacts_with(search, c, near, contacts);
+    return;
+  }
+  for (int c = 0; c < static_cast<int>(search.colliders.size()); ++c) find_contacts_with(search, c, near, contacts);
 }
 
 void find_breaches(const ContactSearch& search, const std::vector<Contact>& known, std::vector<std::int32_t>& near,

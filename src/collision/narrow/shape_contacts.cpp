@@ -224,7 +224,7 @@ void ShapeContacts::prepare(const Model& model, int object, std::span<const Loca
   if (std::none_of(shapes.begin(), shapes.end(), dips)) elements = {};
 }
 
-void ShapeContacts::detect_tile(const ShapeContactSearch& search, int task) {
+void ShapeContacts::detect_tile(const ShapeContactSearch& search, int task, const std::vector<int>* near) {
   const Task& of = search.model.tiles()[static_cast<std::size_t>(task)];
   const ShapeElements& elements = elements_[static_cast<std::size_t>(of.object)];
   ShapeContactScratch& scratch = scratch_[static_cast<std::size_t>(task)];
@@ -236,7 +236,9 @@ void ShapeContacts::detect_tile(const ShapeContactSearch& search, int task) {
   SweptBox bounds = box_of(search.bounds(task));
   for (const int neighbour : tile.neighbours) bounds = merge(bounds, box_of(search.bounds(task - of.item + neighbour)));
   bool is_measured = false;
-  for (std::size_t c = 0; c < search.colliders.size(); ++c) {
+  const std::size_t count = near == nullptr ? search.colliders.size() : near->size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t c = near == nullptr ? i : static_cast<std::size_t>((*near)[i]);
     const MovingCollider& collider = search.colliders[c];
     const float thickness = object.thickness + collider.thickness;
     if (collider.field != nullptr || !overlap(bounds, collider.swept, object.thickness) ||
@@ -260,8 +262,10 @@ void ShapeContacts::detect(Executor& executor, const ShapeContactSearch& search,
   if (std::none_of(elements_.begin(), elements_.end(), has_elements)) return;
   const std::size_t tasks = search.tasks == nullptr ? scratch_.size() : search.tasks->size();
   const auto task_of = [&](std::size_t i) { return search.tasks == nullptr ? static_cast<int>(i) : (*search.tasks)[i]; };
-  executor.parallel_for("detect contacts", static_cast<int>(tasks),
-                        [&](int i) { detect_tile(search, task_of(static_cast<std::size_t>(i))); });
+  executor.parallel_for("detect contacts", static_cast<int>(tasks), [&](int i) {
+    const auto of = static_cast<std::size_t>(i);
+    detect_tile(search, task_of(of), search.near_colliders == nullptr ? nullptr : (*search.near_colliders)[of]);
+  });
   for (std::size_t i = 0; i < tasks; ++i) {
     const std::vector<Contact>& of_tile = scratch_[static_cast<std::size_t>(task_of(i))].contacts;
     found.insert(found.end(), of_tile.begin(), of_tile.end());

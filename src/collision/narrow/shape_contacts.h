@@ -26,6 +26,8 @@ struct ShapeContactSearch {
   FunctionRef<AdvanceArguments(int task)> particles;  ///< the particles of a task's tile
   FunctionRef<const PointBounds&(int task)> bounds;  ///< encloses the tile's particles at the substep's start and predicted
   const std::vector<int>* tasks = nullptr;           ///< tasks whose tiles take part, ascending; null: all
+  const std::vector<const std::vector<int>*>* near_colliders =
+      nullptr;  ///< of each of `tasks` the colliders that may be near, ascending; null: all
 };
 
 /// Scratch memory of one thread.
@@ -49,7 +51,7 @@ class ShapeContacts {
   void detect(Executor& executor, const ShapeContactSearch& search, std::vector<Contact>& found);
 
  private:
-  void detect_tile(const ShapeContactSearch& search, int task);
+  void detect_tile(const ShapeContactSearch& search, int task, const std::vector<int>* near);
 
   std::vector<ShapeElements> elements_;       ///< elements of each object
   std::vector<ShapeContactScratch> scratch_;  ///< scratch of each task of the model

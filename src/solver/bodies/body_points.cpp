@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "constraints/contact.h"
 #include "geometry/convex_hull.h"
@@ -35,11 +36,6 @@ Vec3f impulse_for(const Vec3f& change, const BodyMotion& body, const Vec3f& arm,
 Vec3f place_of(const Contact& c, const Record* positions, const Record* displacements) {
   return relative(c, positions) + relative(c, displacements);
 }
-
-/// A ball that slides along cloth meets a few triangles in a substep.
-constexpr int most_rounds_of_passing = 16;
-/// After so many of them the points stay and the body alone moves, so that it stops before light cloth too. Momentum is not kept then.
-constexpr int rounds_of_both_sides = 8;
 
 constexpr int sides_of_round_solids = 32;
 
@@ -126,7 +122,11 @@ BodyPoints::BodyPoints(const Model& model, const std::vector<int>& objects, cons
   of_task_.resize(tasks_.size());
   add_solids(model);
   for (const Solid& solid : solids_) body_of_solid_.push_back(solid.body);
+  surfaces_ = SurfaceTiles(model, tasks_);
   loads_ = PointLoads(model, bodies_);
+  std::vector<ConvexShape> shapes;
+  for (const Solid& solid : solids_) shapes.push_back(solid.convex);
+  passing_ = PassingFilter(shapes);
   std::vector<LocalShape> primitives;
   for (const Solid& solid : solids_)
     if (solid.field == nullptr) primitives.push_back(solid.shape);
@@ -145,7 +145,7 @@ void BodyPoints::add_solids(const Model& model) {
     if (bodies_[at(b)].body == 0) next = 0;
     for (; next < all.size() && all[next].body == bodies_[at(b)].body; ++next) {
       const CompiledSolid& from = all[next];
-      Solid solid{b, primitive_of(from), convert<float>(from.pose), nullptr, 0};
+      Solid solid{b, primitive_of(from), convert<float>(from.pose), nullptr, 0, from.shape};
       if (solid.shape.kind == ShapeKind::plane) {
         auto same =
             std::find_if(known.begin(), known.end(), [&](const Known& k) { return are_alike(k.shape, from.shape); });
@@ -175,6 +175,7 @@ bool BodyPoints::meets(const Model& model, const Contact& contact) const {
 void BodyPoints::begin_frame(const Substep& s) {
   contacts_.clear();
   impulses_.clear();
+  passing_.begin_frame();
   keep_poses(s);
 }
 
@@ -214,14 +215,22 @@ void BodyPoints::place_solids(const Substep& s) {
 void BodyPoints::detect(Substep& s) {
   place_solids(s);
   loads_.note_pressed(s, {contacts_, impulses_, body_of_solid_});
+  {
+    const Stopwatch stopwatch(s.context.executor.timings(), "bodies: points");
+    surfaces_.update(s, moving_, true);
+  }
+  near_.clear();
+  for (const SurfaceTile& tile : surfaces_.tiles()) near_.push_back(&tile.solids);
   s.context.executor.parallel_for("bodies: points", static_cast<int>(tasks_.size()), [&](int i) {
     const int task = tasks_[at(i)], number = s.model.tiles()[at(task)].object;
     std::vector<Contact>& found = of_task_[at(i)];
     found.clear();
     const AdvanceArguments a = particles(s, task);
     TileScratch& scratch = s.work.tiles[at(task)];
+    const SurfaceTile& tile = surfaces_.tiles()[at(i)];
     find_contacts(
-        {object_of(s, task), a, scratch.bounds, moving_, s.kernels.find_near, s.kernels.contacts.make_point_contacts},
+        {object_of(s, task), a, scratch.bounds, moving_, s.kernels.find_near, s.kernels.contacts.make_point_contacts,
+         &tile.solids, &tile.cells, s.model.first[at(number)], tile.fastest},
         scratch.near, found);
     for (Contact& contact : found)
       for (std::int32_t& point : contact.point) point += s.model.first[at(number)];
@@ -230,7 +239,7 @@ void BodyPoints::detect(Substep& s) {
   for (const std::vector<Contact>& found : of_task_) contacts_.insert(contacts_.end(), found.begin(), found.end());
   shapes_.detect(s.context.executor,
                  {s.model, moving_, [&](int task) { return particles(s, task); },
-                  [&](int task) -> const PointBounds& { return s.work.tiles[at(task)].bounds; }, &tasks_},
+                  [&](int task) -> const PointBounds& { return s.work.tiles[at(task)].bounds; }, &tasks_, &near_},
                  of_shapes_);
   contacts_.insert(contacts_.end(), of_shapes_.begin(), of_shapes_.end());
   find_swept(s, contacts_);
@@ -249,28 +258,8 @@ void BodyPoints::note_progress(const Substep& s) {
 }
 
 void BodyPoints::find_swept(const Substep& s, std::vector<Contact>& contacts) {
-  const auto may_meet = [&](int object, int solid) {
-    return rules_->meet(object, bodies_[at(solids_[at(solid)].body)].object);
-  };
-  swept_.detect(s, objects_, moving_, may_meet, contacts);
-}
-
-void BodyPoints::stop_passing(Substep& s, const std::vector<BodyMotion>& motions) {
-  for (int round = 0; round < most_rounds_of_passing && swept_.has_fast(); ++round) {
-    place_solids(s);
-    note_progress(s);
-    std::vector<Contact> more;
-    find_swept(s, more);
-    std::erase_if(more, [&](const Contact& c) { return !meets(s.model, c); });
-    if (more.empty()) return;
-    const std::size_t first = contacts_.size();
-    contacts_.insert(contacts_.end(), more.begin(), more.end());
-    impulses_.resize(contacts_.size());
-    begin_pass(s);
-    for (std::size_t i = first; i < contacts_.size(); ++i)
-      project(s, motions[at(solids_[at(contacts_[i].collider)].body)], contacts_[i], round < rounds_of_both_sides);
-    end_pass(s);
-  }
+  swept_.detect(
+      s, surfaces_, moving_, [&](const Contact& c) { return meets(s.model, c); }, contacts);
 }
 
 void BodyPoints::begin_pass(const Substep& s) {

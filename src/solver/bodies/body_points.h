@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "collision/narrow/contact.h"
@@ -14,7 +15,9 @@
 #include "collision/proxies/contact_rules.h"
 #include "model/model.h"
 #include "solver/bodies/manifold_passes.h"
+#include "solver/bodies/passing_filter.h"
 #include "solver/bodies/point_loads.h"
+#include "solver/bodies/surface_tiles.h"
 #include "solver/bodies/swept_contacts.h"
 #include "solver/contact_log.h"
 
@@ -40,8 +43,10 @@ class BodyPoints {
   void detect(Substep& s);
   /// Projects each contact once, or those with points of the objects for which `of` is not zero. `motions` have the bodies' inverse masses and inertias, in the order of the bodies.
   void project(Substep& s, const std::vector<BodyMotion>& motions, const std::vector<char>* of = nullptr);
-  /// After the iterations: keeps fast solids from passing triangles that they hit on the way which these have given them.
+  /// After the iterations: keeps solids and triangles from passing one another on the way which these have given them.
   void stop_passing(Substep& s, const std::vector<BodyMotion>& motions);
+  /// The same after surfaces were kept apart, by moving bodies alone.
+  void hold_bodies(Substep& s, const std::vector<BodyMotion>& motions);
   /// Finds the particles that carry bodies. `begins`: at a substep's start, after detect.
   void find_loads(const Substep& s, const std::vector<BodyMotion>& motions, bool begins) {
     loads_.find(s, {contacts_, impulses_, body_of_solid_}, motions, begins);
@@ -49,6 +54,8 @@ class BodyPoints {
   PointLoads& loads() { return loads_; }
   /// After a phase of chains: gives the bodies the impulses of the particles that carry them.
   void end_chains(Substep& s, const std::vector<BodyMotion>& motions) { loads_.end_chains(s, motions, impulses_); }
+  /// Adds a warning for each body that surfaces overlap at a substep's end, after hold_bodies.
+  void warn_of_overlaps(const Substep& s, std::vector<std::string>& warnings) const;
   const std::vector<TouchedBody>& bodies() const { return bodies_; }
   /// The index among bodies() of the body of a contact's solid.
   int body_of_solid(int solid) const { return body_of_solid_[static_cast<std::size_t>(solid)]; }
@@ -67,6 +74,7 @@ class BodyPoints {
     Posef pose{};                             ///< of the shape in the body's frame
     std::shared_ptr<const SolidField> field;  ///< instead of the shape where that is no primitive; null: a primitive
     float margin = 0;                         ///< around the field [m]
+    ConvexShape convex{};                     ///< the solid itself, for the filter
   };
   /// How a body has moved since contacts were found, and in this pass.
   struct Progress {
@@ -79,6 +87,8 @@ class BodyPoints {
   void place_solids(const Substep& s);
   void note_progress(const Substep& s);
   void find_swept(const Substep& s, std::vector<Contact>& contacts);
+  std::string other_at(const Substep& s, int vertex, int body) const;
+  bool stop_once(Substep& s, const std::vector<BodyMotion>& motions, bool both_sides);
   void begin_pass(const Substep& s);
   void end_pass(Substep& s);
   bool meets(const Model& model, const Contact& contact) const;
@@ -90,13 +100,16 @@ class BodyPoints {
   std::vector<Solid> solids_;
   std::vector<int> body_of_solid_;
   PointLoads loads_;
-  std::vector<int> objects_, tasks_;    ///< objects with surfaces or particles, and their tiles, ascending
-  std::vector<Posef> poses_;            ///< of bodies at the substep's start
-  std::vector<MovingCollider> moving_;  ///< solids in the substep
+  std::vector<int> objects_, tasks_;           ///< objects with surfaces or particles, and their tiles, ascending
+  std::vector<Posef> poses_;                   ///< of bodies at the substep's start
+  std::vector<MovingCollider> moving_;         ///< solids in the substep
+  SurfaceTiles surfaces_;                      ///< of tasks_
+  std::vector<const std::vector<int>*> near_;  ///< [task of tasks_] solids that may be near
   std::vector<std::vector<Contact>> of_task_;
   std::vector<Contact> contacts_, of_shapes_;  ///< `collider` is a solid; points are indices in the State
   ShapeContacts shapes_;
   SweptContacts swept_;
+  PassingFilter passing_;
   std::vector<Progress> progress_;
 };
 

@@ -159,6 +159,12 @@ void BodySolver::project(Substep& s, bool is_first) {
   points_.project(s, motions_.all());
 }
 
+void BodySolver::hold_bodies(Substep& s) {
+  if (!points_.has_any()) return;
+  points_.hold_bodies(s, motions_.all());
+  if (s.is_last()) points_.warn_of_overlaps(s, s.report.warnings);
+}
+
 void BodySolver::respond(Substep& s, FunctionRef<Vec3f(int object)> gravity) {
   Executor& executor = s.context.executor;
   const Stopwatch stopwatch(executor.timings(), "respond: bodies");

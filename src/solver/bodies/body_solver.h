@@ -42,8 +42,10 @@ class BodySolver {
   void project(Substep& s, bool is_first);
   /// Projects the contacts of points of the objects for which `of` is not zero once more.
   void project_points(Substep& s, const std::vector<char>& of) { points_.project(s, motions_.all(), &of); }
-  /// Keeps fast bodies from passing cloth on the way that the iterations have given them.
+  /// Keeps bodies and cloth from passing one another on the way that the iterations have given them.
   void stop_passing(Substep& s) { points_.stop_passing(s, motions_.all()); }
+  /// The same after the filter of surfaces, which may have truncated steps of cloth in front of a body.
+  void hold_bodies(Substep& s);
   /// Finds the particles that carry bodies, for the next solve of chains.
   void find_loads(const Substep& s) {
     if (points_.has_any()) points_.find_loads(s, motions_.all(), false);

@@ -91,22 +91,20 @@ Vec3f coordinates(const Corners& t, const Vec3f& p) {
 
 }  // namespace
 
-void SweptContacts::find_hits(const Substep& s, int object, const MovingCollider& solid) {
-  const Record* const positions = s.state.positions.data() + s.model.first[at(object)];
-  const Record* const displacements = s.work.displacements.data() + s.model.first[at(object)];
+/// Finds the triangles of a tile that the centre of a solid passes.
+void SweptContacts::find_hits(const Substep& s, const SurfaceTile& tile, const MovingCollider& solid, Found& found) {
   const Vec3f from = centre_of(solid, solid.before), to = centre_of(solid, solid.after);
-  const Vec3f low = min(from, to) - Vec3f{1, 1, 1} * fastest_[at(object)],
-              high = max(from, to) + Vec3f{1, 1, 1} * fastest_[at(object)];
-  const std::vector<std::array<int, 3>>& triangles = s.model.objects[at(object)].surface.triangles;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
+  const Vec3f by = Vec3f{1, 1, 1} * tile.fastest;
+  const Vec3f low = min(from, to) - by, high = max(from, to) + by;
+  for (const std::array<int, 3>& t : tile.elements) {
     Passing passing{{}, {}, from, to};
     Corners &start = passing.start, &end = passing.end;
-    for (std::size_t i = 0; i < 3; ++i) start.at[i] = xyz(positions[triangles[t][i]]);
+    for (std::size_t i = 0; i < 3; ++i) start.at[i] = xyz(s.state.positions[at(t[i])]);
     const Vec3f least = min(start.at[0], min(start.at[1], start.at[2])),
                 most = max(start.at[0], max(start.at[1], start.at[2]));
     if (least.x > high.x || least.y > high.y || least.z > high.z || most.x < low.x || most.y < low.y || most.z < low.z)
       continue;
-    for (std::size_t i = 0; i < 3; ++i) end.at[i] = start.at[i] + xyz(displacements[triangles[t][i]]);
+    for (std::size_t i = 0; i < 3; ++i) end.at[i] = start.at[i] + xyz(s.work.displacements[at(t[i])]);
     const Vec3f n = start.normal();
     const float before = dot(n, from - start.at[0]), after = dot(end.normal(), to - end.at[0]);
     if (!(before * after < 0) && after != 0) continue;
@@ -114,60 +112,52 @@ void SweptContacts::find_hits(const Substep& s, int object, const MovingCollider
     const Vec3f weights = coordinates(passing.corners(time), passing.point(time));
     if (!(smallest(weights) > -beside)) continue;
     const float size = length(n);
-    if (size > 0) hits_.push_back({object, static_cast<int>(t), time, weights, n * ((before > 0 ? -1.f : 1.f) / size)});
+    if (size > 0) found.hits.push_back({tile.object, t, time, weights, n * ((before > 0 ? -1.f : 1.f) / size)});
   }
 }
 
-void SweptContacts::detect(const Substep& s, const std::vector<int>& objects, const std::vector<MovingCollider>& solids,
-                           FunctionRef<bool(int object, int solid)> meets, std::vector<Contact>& contacts) {
-  fastest_.assign(s.model.objects.size(), 0);
-  boxes_.resize(s.model.objects.size());
-  for (const int o : objects) {
-    float squared = 0;
-    BoxBounds box{Vec3f{1, 1, 1} * 1e30f, Vec3f{1, 1, 1} * -1e30f};
-    const int first = s.model.first[at(o)];
-    for (int i = first; i < first + s.model.objects[at(o)].particles; ++i) {
-      const Vec3f x = xyz(s.state.positions[at(i)]), d = xyz(s.work.displacements[at(i)]);
-      squared = max(squared, length_squared(d));
-      box = {min(box.low, min(x, x + d)), max(box.high, max(x, x + d))};
-    }
-    fastest_[at(o)] = std::sqrt(squared);
-    boxes_[at(o)] = box;
+void SweptContacts::detect_solid(const Substep& s, const SurfaceTiles& surfaces, const MovingCollider& solid, int number,
+                                 const FunctionRef<bool(const Contact&)>& meets) {
+  Found& found = found_[at(number)];
+  found.hits.clear();
+  found.contacts.clear();
+  found.is_fast = false;
+  const Vec3f from = centre_of(solid, solid.before), to = centre_of(solid, solid.after);
+  const float path = length(to - from), size = share_of_size * smallest(half_sides_of(solid));
+  const BoxBounds of_path{min(from, to), max(from, to)};  // of the centre, which alone is tested
+  for (const int t : surfaces.tiles_near(number)) {
+    const SurfaceTile& tile = surfaces.tiles()[at(t)];
+    if (!(path + tile.fastest > size) || !tile.has_triangles || !overlap(tile.box, of_path)) continue;
+    found.is_fast = true;
+    find_hits(s, tile, solid, found);
   }
-  is_swept_.assign(solids.size(), 0);
-  has_fast_ = false;
-  std::vector<Contact> swept;
-  for (int number = 0; number < static_cast<int>(solids.size()); ++number) {
-    const MovingCollider& solid = solids[at(number)];
-    const float path = length(centre_of(solid, solid.after) - centre_of(solid, solid.before)),
-                size = share_of_size * smallest(half_sides_of(solid));
-    const Vec3f from = centre_of(solid, solid.before), to = centre_of(solid, solid.after);
-    const BoxBounds of_path{min(from, to), max(from, to)};  // of the centre, which alone is tested
-    hits_.clear();
-    for (const int o : objects) {
-      const bool is_fast = path + fastest_[at(o)] > size && !s.model.objects[at(o)].surface.triangles.empty();
-      if (!is_fast || !overlap(boxes_[at(o)], of_path) || !meets(o, number)) continue;
-      has_fast_ = true;
-      find_hits(s, o, solid);
-    }
-    if (hits_.empty()) continue;
-    is_swept_[at(number)] = 1;
-    float first = 2;
-    for (const Hit& hit : hits_) first = min(first, hit.time);
-    for (const Hit& hit : hits_)
-      if (hit.time <= first + same_time) swept.push_back(contact_of(s, hit, solid, number));
-  }
-  if (swept.empty()) return;
-  std::erase_if(contacts, [&](const Contact& c) { return c.weight[1] != 0 && is_swept_[at(c.collider)] != 0; });
-  contacts.insert(contacts.end(), swept.begin(), swept.end());
+  if (found.hits.empty()) return;
+  std::sort(found.hits.begin(), found.hits.end(), [](const Hit& a, const Hit& b) { return a.triangle < b.triangle; });
+  float first = 2;
+  std::vector<Contact> all;
+  for (const Hit& hit : found.hits) all.push_back(contact_of(s, hit, solid, number));
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (meets(all[i])) first = min(first, found.hits[i].time);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (found.hits[i].time <= first + same_time && meets(all[i])) found.contacts.push_back(all[i]);
+}
+
+void SweptContacts::detect(const Substep& s, const SurfaceTiles& surfaces, const std::vector<MovingCollider>& solids,
+                           FunctionRef<bool(const Contact&)> meets, std::vector<Contact>& contacts) {
+  found_.resize(solids.size());
+  s.context.executor.parallel_for("bodies: fast solids", static_cast<int>(solids.size()),
+                                  [&](int i) { detect_solid(s, surfaces, solids[at(i)], i, meets); });
+  has_fast_ = std::any_of(found_.begin(), found_.end(), [](const Found& f) { return f.is_fast; });
+  if (std::all_of(found_.begin(), found_.end(), [](const Found& f) { return f.contacts.empty(); })) return;
+  std::erase_if(contacts, [&](const Contact& c) { return c.weight[1] != 0 && !found_[at(c.collider)].contacts.empty(); });
+  for (const Found& found : found_) contacts.insert(contacts.end(), found.contacts.begin(), found.contacts.end());
 }
 
 Contact SweptContacts::contact_of(const Substep& s, const Hit& hit, const MovingCollider& solid, int number) {
   const CompiledObject& object = s.model.objects[at(hit.object)];
-  const std::array<int, 3>& corners = object.surface.triangles[at(hit.triangle)];
-  const int first = s.model.first[at(hit.object)];
+  const std::array<int, 3>& corners = hit.triangle;
   Contact c;
-  c.point = {corners[0] + first, corners[1] + first, corners[2] + first, corners[0] + first};
+  c.point = {corners[0], corners[1], corners[2], corners[0]};
   c.weight = {hit.weights.x, hit.weights.y, hit.weights.z, 0};
   c.normal = hit.normal;
   c.thickness = object.thickness + solid.thickness;

@@ -1,0 +1,108 @@
+// How bodies and surfaces are kept from passing one another in a substep, and what the Report says where they do.
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "solver/bodies/body_math.h"
+#include "solver/bodies/body_points.h"
+#include "solver/substep.h"
+
+namespace pliant {
+
+namespace {
+
+using namespace bodies;
+
+/// A ball that slides along cloth meets a few triangles in a substep.
+constexpr int most_rounds_of_passing = 16;
+/// After so many of them the points stay and the body alone moves, so that it stops before light cloth too. Momentum is not kept then.
+constexpr int rounds_of_both_sides = 8;
+
+std::string name_of(const Model& model, const TouchedBody& body) {
+  return "body " + std::to_string(body.body) + " of '" + model.objects[at(body.object)].name + "'";
+}
+
+}  // namespace
+
+/// Projects contacts of what would pass. False if there is nothing.
+bool BodyPoints::stop_once(Substep& s, const std::vector<BodyMotion>& motions, bool both_sides) {
+  place_solids(s);
+  note_progress(s);
+  surfaces_.update(s, moving_, false);
+  std::vector<Contact> more;
+  if (swept_.has_fast()) find_swept(s, more);
+  passing_.find(
+      s, surfaces_, moving_, [&](const Contact& c) { return meets(s.model, c); }, more);
+  if (more.empty()) return false;
+  const std::size_t first = contacts_.size();
+  contacts_.insert(contacts_.end(), more.begin(), more.end());
+  impulses_.resize(contacts_.size());
+  begin_pass(s);
+  for (std::size_t i = first; i < contacts_.size(); ++i)
+    project(s, motions[at(solids_[at(contacts_[i].collider)].body)], contacts_[i], both_sides);
+  end_pass(s);
+  return true;
+}
+
+void BodyPoints::stop_passing(Substep& s, const std::vector<BodyMotion>& motions) {
+  if (!has_any()) return;
+  const Stopwatch stopwatch(s.context.executor.timings(), "bodies: filter");
+  for (int round = 0; round < most_rounds_of_passing; ++round)
+    if (!stop_once(s, motions, round < rounds_of_both_sides)) break;
+}
+
+void BodyPoints::hold_bodies(Substep& s, const std::vector<BodyMotion>& motions) {
+  if (!has_any()) return;
+  const Stopwatch stopwatch(s.context.executor.timings(), "bodies: filter");
+  bool goes_on = true;
+  for (int round = 0; round < rounds_of_both_sides && goes_on; ++round) goes_on = stop_once(s, motions, false);
+  if (goes_on) place_solids(s);
+  passing_.end_substep(!goes_on);
+}
+
+/// What else presses on a vertex that a body presses on; empty if nothing does.
+std::string BodyPoints::other_at(const Substep& s, int vertex, int body) const {
+  for (const Contact& c : contacts_) {
+    const int number = body_of_solid_[at(c.collider)];
+    if (c.push > 0 && number != body && std::find(c.point.begin(), c.point.end(), vertex) != c.point.end())
+      return name_of(s.model, bodies_[at(number)]);
+  }
+  const int object = s.model.object_of(vertex), local = vertex - s.model.first[at(object)];
+  std::string found;
+  for_each_tile(s, [&](int task) {
+    if (s.model.tiles()[at(task)].object != object) return;
+    for (const Contact& c : s.work.tiles[at(task)].contacts)
+      if (c.push > 0 && c.point[0] == local && at(c.collider) < s.model.colliders.size())
+        found = "'" + s.model.colliders[at(c.collider)].name + "'";
+  });
+  return found;
+}
+
+void BodyPoints::warn_of_overlaps(const Substep& s, std::vector<std::string>& warnings) const {
+  struct Between {
+    int count = 0, vertex = 0;
+    std::string other;
+  };
+  std::map<std::pair<int, int>, Between> all;  // object of the surface and body
+  for (const PassingFilter::Overlap& overlap : passing_.overlaps()) {
+    const int body = body_of_solid_[at(overlap.solid)];
+    Between& between = all[{overlap.object, body}];
+    if (between.count++ == 0) between.vertex = overlap.vertex;
+    if (between.other.empty()) between.other = other_at(s, overlap.vertex, body);
+  }
+  for (const auto& [which, between] : all) {
+    const CompiledObject& object = s.model.objects[at(which.first)];
+    const int vertex = object.order[at(between.vertex - s.model.first[at(which.first)])];
+    warnings.push_back("object '" + object.name + "' passes through " + name_of(s.model, bodies_[at(which.second)]) +
+                       " in " + std::to_string(between.count) + (between.count == 1 ? " triangle" : " triangles") +
+                       ", the first at vertex " + std::to_string(vertex) + ": " +
+                       (between.other.empty()
+                            ? "they overlapped when they came into contact, or pins hold the vertex; move them apart"
+                            : "it is pinched between that body and " + between.other + "; give it more room") +
+                       ", or name more substeps");
+  }
+}
+
+}  // namespace pliant

@@ -1,0 +1,79 @@
+// Finds triangles of cloth and solids of bodies that a substep would make pass one another.
+//
+// A triangle and a convex solid that are apart at the substep's start have a plane between them. If they are apart at its end too,
+// and moved by less than the solid's size, nothing has passed. Else each vertex of the triangle that ends on the solid's side of the
+// plane gets a contact along the plane's normal, which takes back as much of the approach as is needed, and no more. So it adds
+// no energy. The gap may shrink to `least_gap`, and no further; where it was smaller at the start it stays.
+//
+// Whether a pair passes depends on positions at the substep's start and its end alone. Kept bounds and planes only tell where this
+// need not be computed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "collision/narrow/contact.h"
+#include "geometry/convex_shape.h"
+#include "solver/bodies/surface_tiles.h"
+
+namespace pliant {
+
+struct Substep;
+
+class PassingFilter {
+ public:
+  PassingFilter() = default;
+  explicit PassingFilter(const std::vector<ConvexShape>& shapes);
+
+  /// Starts a frame: forgets what is kept, because a State does not have it.
+  void begin_frame();
+  /// Appends contacts for vertices that end beyond a plane, by solid, then by triangle. `solids` are where the displacements put
+  /// them; `meets` tells which triangles a solid may touch.
+  void find(const Substep& s, const SurfaceTiles& surfaces, const std::vector<MovingCollider>& solids,
+            FunctionRef<bool(const Contact&)> meets, std::vector<Contact>& found);
+  /// After the last find of a substep. `is_final`: nothing has moved since.
+  void end_substep(bool is_final);
+
+  /// A triangle and a solid that overlap at the end of the last substep, or passed one another in it.
+  struct Overlap {
+    int object = 0, vertex = 0;  ///< of the triangle; its first vertex in the State
+    int solid = 0;
+  };
+  /// By solid, after end_substep.
+  std::vector<Overlap> overlaps() const;
+
+ private:
+  struct Pair {
+    std::array<int, 3> element{};
+    int object = 0;
+    float bound = 0, next = 0;  ///< lower bounds of the distance at the substep's start and end [m]
+    Vec3f normal{};             ///< from the solid to the triangle, in the solid's frame; 0: not known
+    bool overlaps = false;      ///< at the substep's end, by more than the contact yields
+  };
+  struct Solid {
+    ConvexShape shape;
+    float inner = 0, outer = 0;  ///< radii about the origin of a ball inside the shape and of one around it [m]
+    std::vector<Pair> pairs;
+    float reach = -1,
+          spent = 0;  ///< motion for which pairs are complete; motion since they were found, with the last find [m]
+    float next = 0;   ///< motion of the substep [m]
+    std::vector<std::int32_t> points;
+    std::vector<Contact> found;
+    Polyhedron corners;  ///< of one triangle
+  };
+  struct Motion;
+
+  static void find_pairs(const Substep& s, const SurfaceTiles& surfaces, const MovingCollider& at, int number,
+                         const FunctionRef<bool(const Contact&)>& meets, Solid& solid);
+  static void check(const Substep& s, const Motion& motion, int number, Solid& solid, Pair& pair);
+  static void add_contacts(const Substep& s, int number, const Pair& pair, const Vec3d& normal, double least,
+                           std::vector<Contact>& found);
+  void find_of(const Substep& s, const SurfaceTiles& surfaces, const MovingCollider& at, int number,
+               const FunctionRef<bool(const Contact&)>& meets);
+
+  std::vector<Solid> solids_;
+};
+
+}  // namespace pliant
