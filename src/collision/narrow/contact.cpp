@@ -227,8 +227,17 @@ int find_near_moving(const ContactSearch& search, const MovingCollider& collider
   near.clear();
   const float reach = reach_of(collider, thickness, search.largest_displacement);
   const Vec3f by{reach, reach, reach};
-  search.cells->query({collider.swept.low - by, collider.swept.high + by}, near);
-  for (std::int32_t& i : near) i -= search.first_of_object;
+  const BoundingBox<float> box{collider.swept.low - by, collider.swept.high + by};
+  search.cells->query({box.low, box.high}, near);
+  std::size_t inside = 0;
+  for (const std::int32_t number : near) {
+    const std::int32_t i = number - search.first_of_object;
+    const Record& p = search.particles.positions[i];
+    near[inside] = i;
+    inside += (p.x >= box.low.x) & (p.y >= box.low.y) & (p.z >= box.low.z) & (p.x <= box.high.x) & (p.y <= box.high.y) &
+              (p.z <= box.high.z);
+  }
+  near.resize(inside);
   near.resize(near.size() + batch_width);
   return static_cast<int>(near.size()) - batch_width;
 }

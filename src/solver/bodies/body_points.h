@@ -87,8 +87,10 @@ class BodyPoints {
   void place_solids(const Substep& s);
   void note_progress(const Substep& s);
   void find_swept(const Substep& s, std::vector<Contact>& contacts);
+  bool has_moved(const Substep& s) const;
   std::string other_at(const Substep& s, int vertex, int body) const;
-  bool stop_once(Substep& s, const std::vector<BodyMotion>& motions, bool both_sides);
+  bool stop_once(Substep& s, const std::vector<BodyMotion>& motions, bool is_first, bool both_sides);
+  void note_moved(const Substep& s, std::size_t first);
   void begin_pass(const Substep& s);
   void end_pass(Substep& s);
   bool meets(const Model& model, const Contact& contact) const;
@@ -110,6 +112,11 @@ class BodyPoints {
   ShapeContacts shapes_;
   SweptContacts swept_;
   PassingFilter passing_;
+  std::vector<char> moved_vertices_, moved_solids_;  ///< by the last round of passing
+  std::vector<int> listed_vertices_;                 ///< the former as a list
+  float farthest_ = 0;                               ///< largest displacement of these [m]
+  std::vector<Record> kept_;                         ///< displacements of tiles near solids after stop_passing
+  bool passing_is_done_ = false;                     ///< stop_passing has left nothing that would pass
   std::vector<Progress> progress_;
 };
 

@@ -26,15 +26,37 @@ std::string name_of(const Model& model, const TouchedBody& body) {
 
 }  // namespace
 
-/// Projects contacts of what would pass. False if there is nothing.
-bool BodyPoints::stop_once(Substep& s, const std::vector<BodyMotion>& motions, bool both_sides) {
+/// Notes what the contacts from number `first` on have moved.
+void BodyPoints::note_moved(const Substep& s, std::size_t first) {
+  moved_vertices_.resize(s.state.positions.size());
+  for (const int vertex : listed_vertices_) moved_vertices_[at(vertex)] = 0;
+  listed_vertices_.clear();
+  std::vector<char> has_moved(bodies_.size(), 0);
+  float squared = 0;
+  for (std::size_t i = first; i < contacts_.size(); ++i) {
+    has_moved[at(body_of_solid_[at(contacts_[i].collider)])] = 1;
+    for (const int vertex : contacts_[i].point) {
+      squared = max(squared, length_squared(xyz(s.work.displacements[at(vertex)])));
+      if (moved_vertices_[at(vertex)] != 0) continue;
+      moved_vertices_[at(vertex)] = 1;
+      listed_vertices_.push_back(vertex);
+    }
+  }
+  farthest_ = sqrt(squared);
+  moved_solids_.clear();
+  for (const int body : body_of_solid_) moved_solids_.push_back(has_moved[at(body)]);
+}
+
+/// Projects contacts of what would pass; not in the first round of a pass, of what the last round has moved. False if there is nothing.
+bool BodyPoints::stop_once(Substep& s, const std::vector<BodyMotion>& motions, bool is_first, bool both_sides) {
   place_solids(s);
   note_progress(s);
-  surfaces_.update(s, moving_, false);
+  if (is_first) surfaces_.update(s, moving_, false);
   std::vector<Contact> more;
   if (swept_.has_fast()) find_swept(s, more);
+  const PassingFilter::Moved moved{is_first ? nullptr : &moved_solids_, &moved_vertices_, is_first ? 0 : farthest_};
   passing_.find(
-      s, surfaces_, moving_, [&](const Contact& c) { return meets(s.model, c); }, more);
+      s, surfaces_, moving_, moved, [&](const Contact& c) { return meets(s.model, c); }, more);
   if (more.empty()) return false;
   const std::size_t first = contacts_.size();
   contacts_.insert(contacts_.end(), more.begin(), more.end());
@@ -43,22 +65,38 @@ bool BodyPoints::stop_once(Substep& s, const std::vector<BodyMotion>& motions, b
   for (std::size_t i = first; i < contacts_.size(); ++i)
     project(s, motions[at(solids_[at(contacts_[i].collider)].body)], contacts_[i], both_sides);
   end_pass(s);
+  note_moved(s, first);
   return true;
 }
 
 void BodyPoints::stop_passing(Substep& s, const std::vector<BodyMotion>& motions) {
   if (!has_any()) return;
   const Stopwatch stopwatch(s.context.executor.timings(), "bodies: filter");
-  for (int round = 0; round < most_rounds_of_passing; ++round)
-    if (!stop_once(s, motions, round < rounds_of_both_sides)) break;
+  passing_is_done_ = false;
+  for (int round = 0; round < most_rounds_of_passing && !passing_is_done_; ++round)
+    passing_is_done_ = !stop_once(s, motions, round == 0, round < rounds_of_both_sides);
+  kept_.clear();
+  for (const SurfaceTile& tile : surfaces_.tiles())
+    if (!tile.solids.empty())
+      kept_.insert(kept_.end(), s.work.displacements.begin() + tile.first, s.work.displacements.begin() + tile.last);
+}
+
+/// True if a particle near solids has another displacement than after stop_passing.
+bool BodyPoints::has_moved(const Substep& s) const {
+  auto next = kept_.begin();
+  for (const SurfaceTile& tile : surfaces_.tiles()) {
+    if (tile.solids.empty()) continue;
+    for (int i = tile.first; i < tile.last; ++i, ++next)
+      if (xyz(*next) != xyz(s.work.displacements[at(i)])) return true;
+  }
+  return false;
 }
 
 void BodyPoints::hold_bodies(Substep& s, const std::vector<BodyMotion>& motions) {
   if (!has_any()) return;
   const Stopwatch stopwatch(s.context.executor.timings(), "bodies: filter");
-  bool goes_on = true;
-  for (int round = 0; round < rounds_of_both_sides && goes_on; ++round) goes_on = stop_once(s, motions, false);
-  if (goes_on) place_solids(s);
+  bool goes_on = !passing_is_done_ || has_moved(s);
+  for (int round = 0; round < rounds_of_both_sides && goes_on; ++round) goes_on = stop_once(s, motions, round == 0, false);
   passing_.end_substep(!goes_on);
 }
 

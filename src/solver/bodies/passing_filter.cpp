@@ -15,8 +15,10 @@ namespace {
 
 using namespace bodies;
 
-/// The gap that is kept, as a share of the cloth's thickness, and at least: ten roundings at a metre [m].
-constexpr float share_of_thickness = 0.1f, least_gap = 1.2e-6f;
+/// The gap that is kept, as a share of the cloth's thickness.
+constexpr float share_of_thickness = 0.1f;
+/// A projected contact may lack this share of its gap, or the rounding of positions: this share of them.
+constexpr double share_left = 0.02, rounding = 5e-7;
 /// Overlaps up to this share of the thickness come from rounding and from contacts that yield. They may not grow.
 constexpr double shallow = 0.25;
 /// Beyond this share of the radius of the ball inside a solid, a triangle could pass it within a substep.
@@ -53,9 +55,7 @@ float outer_radius(const ConvexShape& shape) {
   return std::sqrt(most) + shape.radius;
 }
 
-float gap_of(const Substep& s, int object) {
-  return max(share_of_thickness * s.model.objects[at(object)].thickness, least_gap);
-}
+float gap_of(const Substep& s, int object) { return share_of_thickness * s.model.objects[at(object)].thickness; }
 
 /// A triangle, or a line whose last vertex is repeated.
 struct Element {
@@ -219,17 +219,19 @@ void PassingFilter::check(const Substep& s, const Motion& motion, int number, So
   const auto thickness = static_cast<double>(s.model.objects[at(pair.object)].thickness);
   pair.overlaps = true;  // if not found otherwise
   if (before.separation < -shallow * thickness) return;
-  const double least = std::min(static_cast<double>(kept), std::max(before.separation, static_cast<double>(least_gap)));
+  const double rounded = rounding * (1 + largest(motion.after.position));
+  const double least = std::min(std::max(static_cast<double>(kept), 2 * rounded), std::max(before.separation, 2 * rounded));
   const double wanted = before.separation < 0 ? before.separation : least;
+  const double needed = wanted - std::max(share_left * wanted, rounded);
   const double gap = gap_along(before.normal);
-  if (gap >= wanted) {
+  if (gap >= needed) {
     pair.overlaps = false;
     pair.next = static_cast<float>(gap) - 1e-7f;
     return;
   }
   if (is_slow) {
     const ConvexDistance after = distance_of(solid.shape, motion.after, end, is_line, solid.corners);
-    if (after.separation >= wanted) {
+    if (after.separation >= needed) {
       keep(after, motion.after);
       pair.overlaps = false;
       pair.next = static_cast<float>(after.separation) - 1e-7f;
@@ -240,7 +242,7 @@ void PassingFilter::check(const Substep& s, const Motion& motion, int number, So
 }
 
 void PassingFilter::find_of(const Substep& s, const SurfaceTiles& surfaces, const MovingCollider& at_solid, int number,
-                            const FunctionRef<bool(const Contact&)>& meets) {
+                            const Moved& moved, const FunctionRef<bool(const Contact&)>& meets) {
   Solid& solid = solids_[at(number)];
   solid.found.clear();
   if (surfaces.tiles_near(number).empty()) {
@@ -248,18 +250,25 @@ void PassingFilter::find_of(const Substep& s, const SurfaceTiles& surfaces, cons
     solid.reach = -1;
     return;
   }
+  const auto has_moved = [&](const Pair& pair) {
+    return std::any_of(pair.element.begin(), pair.element.end(), [&](int v) { return (*moved.vertices)[at(v)] != 0; });
+  };
+  const bool is_all = moved.solids == nullptr || (*moved.solids)[at(number)] != 0;
+  if (!is_all && std::none_of(solid.pairs.begin(), solid.pairs.end(), has_moved)) return;
   const Motion motion(at_solid, solid.outer);
-  float fastest = 0;
+  float fastest = moved.farthest;
   for (const int t : surfaces.tiles_near(number)) fastest = max(fastest, surfaces.tiles()[at(t)].fastest);
   solid.next = fastest + length(motion.displacement) + motion.turned;
-  if (!(solid.spent + solid.next <= solid.reach)) find_pairs(s, surfaces, at_solid, number, meets, solid);
-  for (Pair& pair : solid.pairs) check(s, motion, number, solid, pair);
+  const bool is_new = !(solid.spent + solid.next <= solid.reach);
+  if (is_new) find_pairs(s, surfaces, at_solid, number, meets, solid);
+  for (Pair& pair : solid.pairs)
+    if (is_all || is_new || has_moved(pair)) check(s, motion, number, solid, pair);
 }
 
 void PassingFilter::find(const Substep& s, const SurfaceTiles& surfaces, const std::vector<MovingCollider>& solids,
-                         FunctionRef<bool(const Contact&)> meets, std::vector<Contact>& found) {
+                         const Moved& moved, FunctionRef<bool(const Contact&)> meets, std::vector<Contact>& found) {
   s.context.executor.parallel_for(nullptr, static_cast<int>(solids.size()),
-                                  [&](int i) { find_of(s, surfaces, solids[at(i)], i, meets); });
+                                  [&](int i) { find_of(s, surfaces, solids[at(i)], i, moved, meets); });
   for (const Solid& solid : solids_) found.insert(found.end(), solid.found.begin(), solid.found.end());
 }
 

@@ -29,9 +29,15 @@ class PassingFilter {
 
   /// Starts a frame: forgets what is kept, because a State does not have it.
   void begin_frame();
+  /// What has moved since the last find of a substep. Of other triangles and solids the answer is the same, and is none.
+  struct Moved {
+    const std::vector<char>* solids = nullptr;    ///< [solid] null: all
+    const std::vector<char>* vertices = nullptr;  ///< [particle of the State]
+    float farthest = 0;                           ///< largest displacement of these vertices [m]
+  };
   /// Appends contacts for vertices that end beyond a plane, by solid, then by triangle. `solids` are where the displacements put
   /// them; `meets` tells which triangles a solid may touch.
-  void find(const Substep& s, const SurfaceTiles& surfaces, const std::vector<MovingCollider>& solids,
+  void find(const Substep& s, const SurfaceTiles& surfaces, const std::vector<MovingCollider>& solids, const Moved& moved,
             FunctionRef<bool(const Contact&)> meets, std::vector<Contact>& found);
   /// After the last find of a substep. `is_final`: nothing has moved since.
   void end_substep(bool is_final);
@@ -70,7 +76,7 @@ class PassingFilter {
   static void check(const Substep& s, const Motion& motion, int number, Solid& solid, Pair& pair);
   static void add_contacts(const Substep& s, int number, const Pair& pair, const Vec3d& normal, double least,
                            std::vector<Contact>& found);
-  void find_of(const Substep& s, const SurfaceTiles& surfaces, const MovingCollider& at, int number,
+  void find_of(const Substep& s, const SurfaceTiles& surfaces, const MovingCollider& at, int number, const Moved& moved,
                const FunctionRef<bool(const Contact&)>& meets);
 
   std::vector<Solid> solids_;
