@@ -73,9 +73,12 @@ Feature feature_of_round(const ConvexShape& shape, const Vec3d& direction, doubl
   const double r = shape.core_radius, h = shape.half_length, top_radius = shape.kind == ConvexShape::Kind::cone ? 0 : r;
   const double across = std::sqrt(direction.x * direction.x + direction.z * direction.z);
   const double tilt = 2 * r * across;  // the height of a disc in the direction
-  if (tilt <= slack && (direction.y < 0 || top_radius > 0)) return disc(r, direction.y < 0 ? -h : h, direction.y >= 0);
   const Vec3d side = on_circle(1, direction), below = side * r - Vec3d{0, h, 0}, above = side * top_radius + Vec3d{0, h, 0};
-  if (std::fabs(dot(direction, above - below)) <= slack) return points_of({below, above});
+  const bool has_disc = tilt <= slack && (direction.y < 0 || top_radius > 0),
+             has_side = std::fabs(dot(direction, above - below)) <= slack;
+  // Of a needle or a coin the slack exceeds the thickness: then the longer of both is what it lies on.
+  if (has_side && (!has_disc || length_squared(above - below) > 4 * r * r)) return points_of({below, above});
+  if (has_disc) return disc(r, direction.y < 0 ? -h : h, direction.y >= 0);
   return points_of({support(shape, direction)});
 }
 

@@ -52,11 +52,19 @@ void fill_particles(const Object& object, const std::vector<Vec3f>& positions, C
   }
 }
 
+/// Moments of inertia of which none is below a share of the largest. The inertia in world axes would have no correct digit else.
+Vec3f conditioned(const Vec3f& inertia) {
+  constexpr float least_share = 1e-5f;
+  const auto finite = [](float moment) { return std::isinf(moment) ? 0.f : moment; };
+  const float least = least_share * std::max({finite(inertia.x), finite(inertia.y), finite(inertia.z)});
+  return {std::max(inertia.x, least), std::max(inertia.y, least), std::max(inertia.z, least)};
+}
+
 void fill_frames(const Object& object, FrameRecords& out) {
   const auto inverse = [](float inertia) { return std::isinf(inertia) ? 0.f : 1 / inertia; };
   for (const ObjectFrame& frame : object.frames) {
     const Quatf q = normalise(frame.orientation);
-    const Vec3f w = rotate(conjugate(q), frame.angular_velocity), i = frame.inertia;
+    const Vec3f w = rotate(conjugate(q), frame.angular_velocity), i = conditioned(frame.inertia);
     out.orientations.push_back({q.x, q.y, q.z, q.w});
     const auto free = [](float speed, float inertia) { return std::isinf(inertia) ? 0.f : speed; };
     out.angular_velocities.push_back({free(w.x, i.x), free(w.y, i.y), free(w.z, i.z), 0});

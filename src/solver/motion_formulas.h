@@ -93,8 +93,8 @@ template <class R, int lanes>
 PLIANT_HD void predict_frames(const FrameArrays& a, const Lanes<R, lanes>& at, float step) {
   const R h(step), half(0.5f), one(1.f);
   const Quat<R> q = at.rotation(a.orientations);
-  const Vec3<R> w = at.vector(a.angular_velocities), inverse = at.vector(a.inverse_inertias), inertia = inertia_of(inverse);
-  const Vec3<R> none{R(0.f), R(0.f), R(0.f)};
+  const Vec3<R> inverse = at.vector(a.inverse_inertias), inertia = inertia_of(inverse), none{R(0.f), R(0.f), R(0.f)};
+  const Vec3<R> w = at.vector(a.angular_velocities);
   Vec3<R> change = none;
   for (int round = 0; round < 2; ++round) change = gyroscopic_rate(inverse, inertia, w + change * half) * h;
   change = select(length_squared(w) * (h * h) < one, change, none);  // beyond a radian per substep the rounds diverge
@@ -158,16 +158,10 @@ PLIANT_HD void store_inertia(const BodyArrays& a, const BodyLanes<R, lanes>& at,
   at.motion.store(at.row(a, inertia_rest), {element(rows[2], rows[0]), element(rows[0], rows[1]), zero}, zero);
 }
 
-/// The change of spin that an angular impulse makes at orientation `now`, where it made `change` at `then`.
+/// A vector in the body's axes: as it turns with the body from the frame's start to now.
 template <class R>
-PLIANT_HD Vec3<R> spin_changed(const Vec3<R>& change, const Quat<R>& then, const Quat<R>& now, const Vec3<R>& inverse) {
-  const R zero(0.f);
-  const Vec3<R> local = rotate(conjugate(then), change), inertia = inertia_of(inverse);
-  const Vec3<R> impulse{select(inverse.x > zero, local.x * inertia.x, zero),
-                        select(inverse.y > zero, local.y * inertia.y, zero),
-                        select(inverse.z > zero, local.z * inertia.z, zero)};
-  const Vec3<R> turned = rotate(conjugate(now), rotate(then, impulse));
-  return rotate(now, Vec3<R>{turned.x * inverse.x, turned.y * inverse.y, turned.z * inverse.z});
+PLIANT_HD Vec3<R> local(const Quat<R>& orientation, const Vec3<R>& v) {
+  return rotate(conjugate(orientation), v);
 }
 
 template <class R, int lanes>
@@ -177,37 +171,37 @@ PLIANT_HD void load_inertia(const BodyArrays& a, const BodyLanes<R, lanes>& at) 
   store_inertia(a, at, at.frame.rotation(a.of_frames.orientations), at.frame.vector(a.of_frames.inverse_inertias));
 }
 
+// Contacts see spins and rotations as they were at the frame's start: turned back by what the body has turned since. So its arms to the
+// contacts and its inertia, which are those of the frame's start, fit one another, as if the points turned with the body.
+
 template <class R, int lanes>
 PLIANT_HD void load_predicted(const BodyArrays& a, const BodyLanes<R, lanes>& at, float h, bool is_first, float share) {
   const R rate(1 / h);
   const R inverse_mass = at.particle.load(a.positions).w;
+  const Quat<R> start = at.body.rotation(a.start_orientations), now = at.frame.rotation(a.of_frames.orientations);
   Vec3<R> moves = (at.particle.vector(a.displacements) - at.particle.vector(a.remainders)) * rate;
-  Vec3<R> turns = (at.frame.vector(a.of_frames.predicted) + at.frame.vector(a.of_frames.corrections)) * rate;
+  Vec3<R> turns = local(now, (at.frame.vector(a.of_frames.predicted) + at.frame.vector(a.of_frames.corrections)) * rate);
   at.motion.store(at.row(a, kept_velocity), moves, R(0.f));
-  at.motion.store(at.row(a, kept_spin), turns, R(0.f));
+  at.motion.store(at.row(a, kept_spin), rotate(start, turns), R(0.f));
   if (is_first) {
-    // Of the substep, not of the frame: a body that spins fast would lose angular momentum.
-    const Quat<R> q = at.frame.rotation(a.of_frames.orientations);
-    const Vec3<R> inverse = at.frame.vector(a.of_frames.inverse_inertias);
-    store_inertia(a, at, q, inverse);
+    const Vec3<R> none{R(0.f), R(0.f), R(0.f)};
     if (share > 0) {
       moves += at.body.vector(a.pushed) * R(share);
-      turns += spin_changed(at.body.vector(a.pushed_spin), at.body.rotation(a.pushed_at), q, inverse) * R(share);
+      turns += at.body.vector(a.pushed_spin) * R(share);
     }
-    const Vec3<R> none{R(0.f), R(0.f), R(0.f)};
     at.body.store(a.pushed, none, R(0.f));
     at.body.store(a.pushed_spin, none, R(0.f));
-    at.body.store(a.pushed_at, q);
   }
   at.motion.store(at.row(a, velocity), moves, inverse_mass);
-  at.motion.store(at.row(a, spin), turns, R(0.f));
+  at.motion.store(at.row(a, spin), rotate(start, turns), R(0.f));
 }
 
-/// How the motion has changed since it was kept. Adds that to what contacts did.
+/// How the motion has changed since it was kept; rotation in the body's axes. Adds that to what contacts did.
 template <class R, int lanes>
 PLIANT_HD void take_change(const BodyArrays& a, const BodyLanes<R, lanes>& at, Vec3<R>& moved, Vec3<R>& turned) {
   moved = at.motion.vector(at.row(a, velocity)) - at.motion.vector(at.row(a, kept_velocity));
-  turned = at.motion.vector(at.row(a, spin)) - at.motion.vector(at.row(a, kept_spin));
+  turned = local(at.body.rotation(a.start_orientations),
+                 at.motion.vector(at.row(a, spin)) - at.motion.vector(at.row(a, kept_spin)));
   at.body.store(a.pushed, at.body.vector(a.pushed) + moved, R(0.f));
   at.body.store(a.pushed_spin, at.body.vector(a.pushed_spin) + turned, R(0.f));
 }
@@ -216,12 +210,12 @@ template <class R, int lanes>
 PLIANT_HD void store_predicted(const BodyArrays& a, const BodyLanes<R, lanes>& at, float h) {
   Vec3<R> moved, turned;
   take_change(a, at, moved, turned);
+  const Quat<R> q = at.frame.rotation(a.of_frames.orientations);
   moved = moved * R(h);
-  turned = turned * R(h);
+  turned = rotate(q, turned) * R(h);
   const RecordOf<R> d = at.particle.load(a.displacements), c = at.frame.load(a.of_frames.corrections);
   at.particle.store(a.displacements, d.xyz + moved, d.w);
   at.frame.store(a.of_frames.corrections, c.xyz + turned, c.w);
-  const Quat<R> q = at.frame.rotation(a.of_frames.orientations);
   const Quat<R> by = multiply(Quat<R>{turned.x, turned.y, turned.z, R(0.f)}, q);
   const R half(0.5f);
   at.frame.store(a.of_frames.orientations,
@@ -232,15 +226,23 @@ template <class R, int lanes>
 PLIANT_HD void load_velocities(const BodyArrays& a, const BodyLanes<R, lanes>& at, const Vec3f& gravity) {
   const R zero(0.f);
   const RecordOf<R> x = at.particle.load(a.positions);
+  const Quat<R> start = at.body.rotation(a.start_orientations), now = at.frame.rotation(a.of_frames.orientations);
   const Vec3<R> moved =
       (x.xyz - at.body.vector(a.start_positions)) + (at.particle.vector(a.remainders) - at.body.vector(a.start_remainders));
-  const Vec3<R> turned = at.motion.vector(at.row(a, rotation)) +
-                         (at.frame.vector(a.of_frames.predicted) + at.frame.vector(a.of_frames.corrections));
+  const Vec3<R> turned =
+      at.motion.vector(at.row(a, rotation)) +
+      rotate(start, local(now, at.frame.vector(a.of_frames.predicted) + at.frame.vector(a.of_frames.corrections)));
   at.motion.store(at.row(a, displacement), moved, zero);
   at.motion.store(at.row(a, rotation), turned, zero);
   const Vec3<R> g{R(gravity.x), R(gravity.y), R(gravity.z)};
   const Vec3<R> v = at.particle.vector(a.velocities) + select(x.w > zero, g, Vec3<R>{zero, zero, zero});
-  const Vec3<R> w = rotate(at.frame.rotation(a.of_frames.orientations), at.frame.vector(a.of_frames.angular_velocities));
+  // Contacts push at the substep's start, and angular momentum that they bring stays in the world while the prediction turns the body.
+  const RecordOf<R> spins = at.frame.load(a.of_frames.angular_velocities);
+  const Vec3<R> spins_now =
+      spins.xyz + turned_back(at.frame.vector(a.of_frames.inverse_inertias),
+                              local(now, at.frame.vector(a.of_frames.predicted)), at.body.vector(a.pushed_spin));
+  at.frame.store(a.of_frames.angular_velocities, spins_now, spins.w);
+  const Vec3<R> w = rotate(start, spins_now);
   at.motion.store(at.row(a, velocity), v, x.w);
   at.motion.store(at.row(a, spin), w, zero);
   at.motion.store(at.row(a, kept_velocity), v, zero);
@@ -253,8 +255,7 @@ PLIANT_HD void store_velocities(const BodyArrays& a, const BodyLanes<R, lanes>& 
   take_change(a, at, moved, turned);
   const RecordOf<R> v = at.particle.load(a.velocities), w = at.frame.load(a.of_frames.angular_velocities);
   at.particle.store(a.velocities, v.xyz + moved, v.w);
-  const Vec3<R> local = rotate(conjugate(at.frame.rotation(a.of_frames.orientations)), turned);
-  at.frame.store(a.of_frames.angular_velocities, w.xyz + local, w.w);
+  at.frame.store(a.of_frames.angular_velocities, w.xyz + turned, w.w);
 }
 
 }  // namespace pliant::motion_formulas

@@ -23,9 +23,10 @@ struct BodyArrays {
   BodyMotion* motions = nullptr;
   const std::int32_t *particles = nullptr, *frames = nullptr;            ///< of each body: indices in the State
   const Record *start_positions = nullptr, *start_remainders = nullptr;  ///< of each body, at the frame's start [m]
+  const Record* start_orientations = nullptr;                            ///< of each body, at the frame's start
   Record *pushed = nullptr,
-         *pushed_spin = nullptr;  ///< of each body: what contacts did to its velocities in the last substep
-  Record* pushed_at = nullptr;    ///< of each body: its orientation then
+         *pushed_spin =
+             nullptr;  ///< of each body: what contacts did to its velocities in the last substep; spin in its axes
   const Record *positions = nullptr, *remainders = nullptr;
   Record *displacements = nullptr, *velocities = nullptr;
   FrameArrays of_frames{};
@@ -39,8 +40,8 @@ struct MotionKernels {
 
   /// Gathers the masses and inertia of bodies [first, last).
   void (*load_inertia)(const BodyArrays& arrays, int first, int last);
-  /// Gathers their predicted motions, and keeps them in BodyMotion. If `is_first` in the substep, also their inertia, and the
-  /// motions start with what contacts did in the last substep, times `share`.
+  /// Gathers their predicted motions, and keeps them in BodyMotion. If `is_first` in the substep, they start with what contacts did
+  /// in the last one, times `share`.
   void (*load_predicted)(const BodyArrays& arrays, int first, int last, float h, bool is_first, float share);
   /// Adds to the predicted motion of bodies what contacts changed since load_predicted.
   void (*store_predicted)(const BodyArrays& arrays, int first, int last, float h);

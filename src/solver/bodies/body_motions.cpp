@@ -40,19 +40,19 @@ BodyMotions::BodyMotions(const ContactBodies& bodies) : motions_(bodies.places()
       ranges_.push_back({place.object, i, i});
     ranges_.back().last = i + 1;
   }
-  for (Records* list : {&start_positions_, &start_remainders_, &pushed_, &pushed_spin_, &pushed_at_})
+  for (Records* list : {&start_positions_, &start_remainders_, &start_orientations_, &pushed_, &pushed_spin_})
     list->resize(particles_.size());
 }
 
-BodyArrays BodyMotions::arrays(const Substep& s) {
-  return {motions_.data(),
+BodyArrays BodyMotions::arrays(const Substep& s, std::vector<BodyMotion>& motions) {
+  return {motions.data(),
           particles_.data(),
           frames_.data(),
           start_positions_.data(),
           start_remainders_.data(),
+          start_orientations_.data(),
           pushed_.data(),
           pushed_spin_.data(),
-          pushed_at_.data(),
           s.state.positions.data(),
           s.state.remainders.data(),
           s.work.displacements.data(),
@@ -66,8 +66,15 @@ void BodyMotions::begin_frame(const Substep& s) {
     const std::size_t particle = at(particles_[at(i)]);
     start_positions_[at(i)] = s.state.positions[particle];
     start_remainders_[at(i)] = s.state.remainders[particle];
+    start_orientations_[at(i)] = s.state.frames.orientations[at(frames_[at(i)])];
   }
   const BodyArrays all = arrays(s);
+  for_ranges(s.context.executor, bodies(), [&](int first, int last) { s.kernels.motions.load_inertia(all, first, last); });
+}
+
+void BodyMotions::begin_substep(const Substep& s) {
+  present_.resize(motions_.size());
+  const BodyArrays all = arrays(s, present_);
   for_ranges(s.context.executor, bodies(), [&](int first, int last) { s.kernels.motions.load_inertia(all, first, last); });
 }
 
@@ -114,7 +121,8 @@ void BodyMotions::change_once(FunctionRef<void()> change) {
   change();
   for (int i = 0; i < bodies(); ++i) {
     pushed_[at(i)] = plus(pushed_[at(i)], before_velocity_[at(i)] - motions_[at(i)].velocity);
-    pushed_spin_[at(i)] = plus(pushed_spin_[at(i)], before_spin_[at(i)] - motions_[at(i)].spin);
+    const Quatf start = quaternion(start_orientations_[at(i)]);
+    pushed_spin_[at(i)] = plus(pushed_spin_[at(i)], rotate(conjugate(start), before_spin_[at(i)] - motions_[at(i)].spin));
   }
 }
 

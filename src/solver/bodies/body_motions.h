@@ -17,12 +17,16 @@ class BodyMotions {
   BodyMotions() = default;
   explicit BodyMotions(const ContactBodies& bodies);
 
-  /// Of the places of ContactBodies.
+  /// Of the places of ContactBodies. Spins, rotations and inertias of bodies are turned back to the frame's start.
   std::vector<BodyMotion>& all() { return motions_; }
   const std::vector<BodyMotion>& all() const { return motions_; }
 
   /// Reads where bodies are at the frame's start, and their masses.
   void begin_frame(const Substep& s);
+
+  /// Reads masses and inertias of bodies by their present orientations, for contact with points.
+  void begin_substep(const Substep& s);
+  const std::vector<BodyMotion>& present() const { return present_; }
 
   /// Gathers predicted motions. If `is_first` in the substep, they start with `share` times what contacts did in the last one.
   void load_predicted(const Substep& s, const ContactBodies& bodies, bool is_first, float share);
@@ -42,14 +46,17 @@ class BodyMotions {
     int object = 0, first = 0, last = 0;
   };
 
-  BodyArrays arrays(const Substep& s);
+  BodyArrays arrays(const Substep& s, std::vector<BodyMotion>& motions);
+  BodyArrays arrays(const Substep& s) { return arrays(s, motions_); }
   int bodies() const { return static_cast<int>(particles_.size()); }
 
   std::vector<BodyMotion> motions_;
   std::vector<std::int32_t> particles_, frames_;      ///< of each body: indices in the State
   std::vector<Range> ranges_;                         ///< of at most a task's length
   Records start_positions_, start_remainders_;        ///< of each body, at the frame's start [m]
-  Records pushed_, pushed_spin_, pushed_at_;          ///< of each body (BodyArrays)
+  Records start_orientations_;                        ///< of each body, at the frame's start
+  Records pushed_, pushed_spin_;                      ///< of each body (BodyArrays)
+  std::vector<BodyMotion> present_;                   ///< masses and inertias by present orientations
   std::vector<Vec3f> before_velocity_, before_spin_;  ///< of change_once
 };
 

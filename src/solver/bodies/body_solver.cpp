@@ -140,8 +140,9 @@ void BodySolver::start_substep(const Substep& s) {
 
 void BodySolver::collide(Substep& s) {
   if (!points_.has_any()) return;
+  motions_.begin_substep(s);
   points_.detect(s);
-  points_.find_loads(s, motions_.all(), true);
+  points_.find_loads(s, motions_.present(), true);
 }
 
 void BodySolver::project(Substep& s, bool is_first) {
@@ -156,12 +157,12 @@ void BodySolver::project(Substep& s, bool is_first) {
     blocks_.position_pass(executor, s.kernels.manifolds, motions_.all(), s.h, {});
     motions_.store_predicted(s);
   }
-  points_.project(s, motions_.all());
+  points_.project(s, motions_.present());
 }
 
 void BodySolver::hold_bodies(Substep& s) {
   if (!points_.has_any()) return;
-  points_.hold_bodies(s, motions_.all());
+  points_.hold_bodies(s, motions_.present());
   if (s.is_last()) points_.warn_of_overlaps(s, s.report.warnings);
 }
 
@@ -173,7 +174,7 @@ void BodySolver::respond(Substep& s, FunctionRef<Vec3f(int object)> gravity) {
     blocks_.velocity_pass(executor, s.kernels.manifolds, motions_.all(), s.h);
     motions_.store_velocities(s);
   }
-  points_.respond(s, motions_.all(), gravity);
+  points_.respond(s, motions_.present(), gravity);
   points_.keep_poses(s);
 }
 

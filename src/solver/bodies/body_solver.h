@@ -41,19 +41,19 @@ class BodySolver {
   /// one, and makes bodies bounce.
   void project(Substep& s, bool is_first);
   /// Projects the contacts of points of the objects for which `of` is not zero once more.
-  void project_points(Substep& s, const std::vector<char>& of) { points_.project(s, motions_.all(), &of); }
+  void project_points(Substep& s, const std::vector<char>& of) { points_.project(s, motions_.present(), &of); }
   /// Keeps bodies and cloth from passing one another on the way that the iterations have given them.
-  void stop_passing(Substep& s) { points_.stop_passing(s, motions_.all()); }
+  void stop_passing(Substep& s) { points_.stop_passing(s, motions_.present()); }
   /// The same after the filter of surfaces, which may have truncated steps of cloth in front of a body.
   void hold_bodies(Substep& s);
   /// Finds the particles that carry bodies, for the next solve of chains.
   void find_loads(const Substep& s) {
-    if (points_.has_any()) points_.find_loads(s, motions_.all(), false);
+    if (points_.has_any()) points_.find_loads(s, motions_.present(), false);
   }
   /// What particles carry of bodies in the solve of chains.
   PointLoads& loads() { return points_.loads(); }
   /// After a phase of chains: gives the bodies the impulses of the particles that carry them.
-  void end_chains(Substep& s) { points_.end_chains(s, motions_.all()); }
+  void end_chains(Substep& s) { points_.end_chains(s, motions_.present()); }
   /// In the order of bodies in BodyIslands.
   const std::vector<TouchedBody>& touched_bodies() const { return points_.bodies(); }
   /// The index among touched_bodies() of the body of a contact with points.
