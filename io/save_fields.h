@@ -193,12 +193,18 @@ void fields(A& a, Is<SweepOptions> auto& of) {
     most_overstretch, multigrid_cycles);
 }
 template <class A>
+void fields(A& a, Is<SleepOptions> auto& of) {
+  auto& [on, speed, spin, time] = of;
+  a(on, speed, spin, time);
+}
+template <class A>
 void fields(A& a, Is<Settings> auto& of) {
   auto& [substeps, iterations, tolerance, threads, sweep, sweep_options, contact_filter, most_substeps, least_substeps,
-         initial_intersections, untangling_speed, separate_phases, measure, record_residuals, record_multipliers, isa] = of;
+         initial_intersections, untangling_speed, sleep, separate_phases, measure, record_residuals, record_multipliers,
+         isa] = of;
   a(substeps, iterations, tolerance);
   a.aside(threads);
-  a(sweep, sweep_options, contact_filter, most_substeps, least_substeps, initial_intersections, untangling_speed);
+  a(sweep, sweep_options, contact_filter, most_substeps, least_substeps, initial_intersections, untangling_speed, sleep);
   a.aside(separate_phases, measure, record_residuals, record_multipliers, isa);
 }
 /// Force fields are functions, so only their number is stored, by the caller of `fields`. Settings have a block of

@@ -38,6 +38,15 @@ SweepOptions sweep_options_of(const JsonValue& at) {
   return options;
 }
 
+SleepOptions sleep_of(const JsonValue& at) {
+  SleepOptions sleep;
+  set(at, "on", sleep.on);
+  set(at, "speed", sleep.speed);
+  set(at, "spin", sleep.spin);
+  set(at, "time", sleep.time);
+  return sleep;
+}
+
 Settings settings_of(const JsonDocument& document, const JsonValue& at) {
   Settings settings;
   set(at, "substeps", settings.substeps);
@@ -60,6 +69,7 @@ Settings settings_of(const JsonDocument& document, const JsonValue& at) {
   set(at, "sweep", sweep);
   settings.sweep = sweep_of(sweep);
   if (const JsonValue* options = at.find("sweep_options")) settings.sweep_options = sweep_options_of(*options);
+  if (const JsonValue* sleep = at.find("sleep")) settings.sleep = sleep_of(*sleep);
   if (const auto error = error_of_bounds(settings))
     document.fail(*at.find("least_substeps"), error->problem(), error->advice());
   return settings;

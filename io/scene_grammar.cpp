@@ -275,6 +275,18 @@ const Record& sweep_options_record() {
   return result;
 }
 
+const Record& sleep_record() {
+  static const Record result{
+      "sleep",
+      "When rigid bodies sleep (docs/guide/bodies.md). They do if `on` is true.",
+      {field("on", boolean(), SleepOptions{}.on, "Islands of bodies that have been slow for `time` sleep."),
+       field("speed", positive("m/s", 1000), SleepOptions{}.speed, "Slow: the centre of mass moves by less than this."),
+       field("spin", positive("rad/s", 1000), SleepOptions{}.spin, "Slow: the body turns by less than this, too."),
+       field("time", number("s", 0, 1e6), SleepOptions{}.time, "For how long all bodies of an island have to be slow.")},
+      {}};
+  return result;
+}
+
 const Record& settings_record() {
   static const Record result{
       "settings",
@@ -311,6 +323,7 @@ const Record& settings_record() {
        field("initial_intersections", choice({"leave", "untangle", "refuse"}), "leave",
              "Treatment of surfaces that intersect at the start: leave them, move them apart, or refuse the scene."),
        field("untangling_speed", positive("m/s", 1000), Settings{}.untangling_speed, "Speed limit of depenetration."),
+       field("sleep", record(sleep_record()), "off", "When rigid bodies sleep."),
        field("measure", boolean(), Settings{}.measure, "Measure residuals and stretch each frame."),
        field("record_residuals", boolean(), Settings{}.record_residuals,
              "Measure both residuals after every iteration of each frame's last substep; slow."),

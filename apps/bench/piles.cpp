@@ -88,8 +88,10 @@ Pile pour(int bodies) {
 
 class PliantPile final : public PileEngine {
  public:
-  PliantPile(const Pile& pile, int threads) : world_(scene_of(pile, threads)) {}
-  void step(float dt) override { world_.step(dt); }
+  PliantPile(const Pile& pile, int threads, bool sleeps = false) : world_(scene_of(pile, threads, sleeps)) {}
+  void step(float dt) override { sleeping_ = world_.step(dt).sleeping_bodies; }
+  /// The number of bodies that slept at the end of the last step.
+  int sleeping() const { return sleeping_; }
   std::vector<Vec3f> positions() const override { return world_.object(0).positions(); }
   std::vector<Vec3f> velocities() const override {
     std::vector<Vec3f> result;
@@ -99,9 +101,10 @@ class PliantPile final : public PileEngine {
   int substeps() const override { return world_.settings().substeps; }
 
  private:
-  static Scene scene_of(const Pile& pile, int threads) {
+  static Scene scene_of(const Pile& pile, int threads, bool sleeps) {
     Scene scene;
     scene.settings.threads = threads;
+    scene.settings.sleep.on = sleeps;
     Object bodies;
     bodies.name = pile.name;
     for (const PileBody& body : pile.bodies) {
@@ -133,6 +136,7 @@ class PliantPile final : public PileEngine {
   }
 
   World world_;
+  int sleeping_ = 0;
 };
 
 // ------------------------------------------------------------------------------------------------ measuring
@@ -175,18 +179,31 @@ PileRow measure(const Pile& pile, const PileOptions& options, const std::string&
   return row;
 }
 
+/// A pile that sleeps: null if it is not asleep after ten seconds.
+std::unique_ptr<PliantPile> make_sleeping_pile(const Pile& pile) {
+  constexpr int most_frames = 600;
+  auto engine = std::make_unique<PliantPile>(pile, 1, true);
+  for (int frame = 0; frame < most_frames; ++frame) {
+    engine->step(frame_time);
+    if (engine->sleeping() == static_cast<int>(pile.bodies.size())) return engine;
+  }
+  return nullptr;
+}
+
 std::vector<PileRow> measure_all(const Pile& pile, const PileOptions& options) {
   std::vector<PileRow> rows;
-  const auto add = [&](const std::string& name, const std::unique_ptr<PileEngine>& engine, int threads) {
-    PileRow row = measure(pile, options, name, *engine, threads);
+  const auto add = [&](const std::string& name, PileEngine& engine, int threads) {
+    PileRow row = measure(pile, options, name, engine, threads);
     row.ratio = rows.empty() ? 1 : rows.front().mean_ms / row.mean_ms;
     if (options.on_row) options.on_row(row);
     rows.push_back(std::move(row));
   };
   if (options.against_bullet)
-    for (const int substeps : {1, 4}) add("bullet", make_bullet_pile(pile, substeps), 1);
-  add("pliant", make_pliant_pile(pile, 1), 1);
-  if (pile.name == "pour") add("pliant", make_pliant_pile(pile, 2), 2);
+    for (const int substeps : {1, 4}) add("bullet", *make_bullet_pile(pile, substeps), 1);
+  add("pliant", *make_pliant_pile(pile, 1), 1);
+  if (pile.name == "pour") add("pliant", *make_pliant_pile(pile, 2), 2);
+  if (pile.name != "pyramid") return rows;
+  if (const auto asleep = make_sleeping_pile(pile)) add("pliant, asleep", *asleep, 1);
   return rows;
 }
 

@@ -108,14 +108,14 @@ std::string bench_bodies(const BenchOptions& options) {
   wanted.limit = options.limit;
   wanted.against_bullet = options.against == "bullet";
   print(
-      "pile      size  bodies  engine  threads  substeps  mean, ms  slowest, ms  real-time    ratio  "
+      "pile      size  bodies  engine          threads  substeps  mean, ms  slowest, ms  real-time    ratio  "
       "after frame: moved, m; fastest, m/s; lost\n");
   wanted.on_row = [](const pliant::bench::PileRow& row) {
     throw_if_interrupted();
     std::string snapshots;
     for (const pliant::bench::PileSnapshot& snapshot : row.snapshots)
       snapshots += fmt::format("  {}: {:.3g}; {:.2g}; {}", snapshot.frame, snapshot.moved, snapshot.speed, snapshot.lost);
-    print(fmt::format("{:<8} {:5} {:7}  {:<6} {:8} {:9} {:9.3f} {:12.2f} {:10.2f} {:8.2f}{}\n", row.pile, row.size,
+    print(fmt::format("{:<8} {:5} {:7}  {:<14} {:8} {:9} {:9.3f} {:12.2f} {:10.2f} {:8.2f}{}\n", row.pile, row.size,
                       row.bodies, row.engine, row.threads, row.substeps, row.mean_ms, row.largest_ms,
                       1000. / 60 / row.mean_ms, row.ratio, snapshots));
   };

@@ -77,6 +77,8 @@ class ObjectView {
   /// Object::joints.
   JointLoad joint_load(int joint) const;
   bool joint_is_broken(int joint) const;
+  /// True if a rigid body sleeps (SleepOptions). `body` is an index in Object::bodies.
+  bool body_is_asleep(int body) const;
 
  private:
   const WorldData* read_;

@@ -142,6 +142,7 @@ struct Report {
   std::optional<Overstretch> overstretch;      ///< of this frame; empty if it was not completed; see Measurements::advice
   WorstOverstretch worst_overstretch;          ///< of this and earlier frames
   std::vector<IterationResidual> convergence;  ///< last substep by iteration, if Settings::record_residuals is set
+  int sleeping_bodies = 0;                     ///< rigid bodies that sleep at the end of the step (SleepOptions)
   std::vector<JointBreak> broken_joints;       ///< joints that broke in this step, by object and index
   std::optional<NonFinite> nonfinite;
   bool stopped = false;  ///< true if World::stop_when ended the step before the frame was complete

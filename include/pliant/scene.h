@@ -317,6 +317,15 @@ struct SweepOptions {
   int multigrid_cycles = 2;  ///< for `multigrid`: conjugate gradient steps per substep, each with a W-cycle, 1..100
 };
 
+/// When rigid bodies sleep: an island of bodies that touch or are jointed, all of which have been slow for some time, rests until
+/// something acts on it (docs/guide/bodies.md).
+struct SleepOptions {
+  bool on = false;
+  float speed = 0.02f;  ///< slow: the centre of mass moves by less than this, > 0 [m/s]
+  float spin = 0.04f;   ///< and the body turns by less than this, > 0 [rad/s]
+  float time = 0.5f;    ///< for how long the bodies of an island have to be slow, >= 0 [s]
+};
+
 struct Settings {
   int substeps = 0;    ///< substeps per frame, 1..10000; 0: as many as each set of objects needs (chosen_substeps)
   int iterations = 1;  ///< iterations per substep, 1..10000
@@ -343,6 +352,7 @@ struct Settings {
     refuse,    ///< making a World throws an Error that names the first intersection
   } initial_intersections = Intersections::leave;
   float untangling_speed = 0.5f;  ///< largest speed at which surfaces are moved apart [m/s]
+  SleepOptions sleep{};
   /// Times update, predict and the search for non-finite values separately in Report::phases. By default they run
   /// together with sweeps, tile by tile. Bits are the same; speed is lower.
   bool separate_phases = false;

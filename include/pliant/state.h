@@ -134,6 +134,9 @@ struct MotorSetting {
   friend auto operator<=>(const MotorSetting&, const MotorSetting&) = default;
 };
 
+/// A value of State::rest_times: the body sleeps.
+inline constexpr float asleep = -1;
+
 /// All data of a World that change with time, as a plain value: copy, hash or restore it, and the next step gives the
 /// same bits. Each object has a block of particles in storage order, which ObjectView::storage_order relates to the user's
 /// order. Blocks of removed objects are filled with zeros.
@@ -153,11 +156,14 @@ struct State {
   std::vector<BrokenJoint> broken_joints;  ///< ascending; usually none
   std::vector<MotorSetting> motors;        ///< ascending by block, joint and motor; usually none
   std::vector<BodyContact> body_contacts;  ///< of rigid bodies, by owners and solids, then by pieces; usually none
+  /// For each frame in `frames`, for how long its body has been slow [s], or `asleep`; 0 if it is of no body. Empty if bodies never
+  /// sleep (SleepOptions), and after something was added, removed or edited: then all are awake.
+  std::vector<float> rest_times;
 };
 
 /// The SHA-256 hash of a State as 64 hexadecimal digits. It includes blocks only after a removal or an edit, because
-/// contiguous blocks follow from the particles; frames, channels, held poses, settings of motors and substeps
-/// only if there are any.
+/// contiguous blocks follow from the particles; frames, channels, held poses, settings of motors, substeps and
+/// times of rest only if there are any.
 std::string hash(const State& state);
 
 }  // namespace pliant

@@ -61,6 +61,17 @@ void check_bounds(Problems& problems, const Settings& settings) {
     problems.grave(error->where().element, error->problem(), error->advice());
 }
 
+void check_sleep(Problems& problems, const SleepOptions& sleep) {
+  const auto check = [&](const char* name, float value, const char* unit) {
+    if (!(value > 0 && value <= 1000))
+      problems.grave(std::string("settings, sleep, ") + name, "is " + words(value) + " " + unit,
+                     std::string("give a number above 0 and up to 1000 ") + unit);
+  };
+  check("speed", sleep.speed, "m/s");
+  check("spin", sleep.spin, "rad/s");
+  require_range(problems, "settings, sleep, time", sleep.time, 0, 1e6f);
+}
+
 void check_settings(Problems& problems, const Scene& scene) {
   const Settings& settings = scene.settings;
   require_range(problems, "settings, substeps", settings.substeps, 0, 10000);
@@ -71,6 +82,7 @@ void check_settings(Problems& problems, const Scene& scene) {
   if (!(settings.untangling_speed > 0 && settings.untangling_speed <= 1000))
     problems.grave("settings, untangling_speed", "is " + words(settings.untangling_speed) + " m/s",
                    "give a speed above 0 and up to 1000 m/s");
+  check_sleep(problems, settings.sleep);
   check_sweep(problems, settings, has_natural(scene));
   require_range(problems, "frames", scene.frames, 0, std::numeric_limits<int>::max());
   if (!(scene.frame_time > 0) || std::isinf(scene.frame_time))

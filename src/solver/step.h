@@ -30,6 +30,7 @@ struct StepContext {
   double tolerance = 0;                     ///< Settings::tolerance; if > 0, call prepare_residual first, and use one group
   std::span<const GroupFrame> groups{};     ///< groups with different numbers of substeps
   OverstretchMeter* meter = nullptr;        ///< fills Report::overstretch if the frame is completed; null: not measured
+  SleepOptions sleep{};                     ///< Settings::sleep
 };
 
 /// Advances the State by `dt` seconds. Never throws; the report describes all problems.

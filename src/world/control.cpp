@@ -132,6 +132,13 @@ void stop_fixed(WorldData& world) {
   }
 }
 
+/// Wakes the bodies of an object, so that what is set acts in the next step.
+void wake_bodies(WorldData& world, int number) {
+  std::vector<float>& times = world.state.rest_times;
+  if (times.empty()) return;
+  std::fill(times.begin() + world.model.first_frame[number], times.begin() + world.model.end_of_frames(number), 0.f);
+}
+
 struct MotorPlace {
   std::size_t joint = 0, motor = 0;
 };
@@ -228,6 +235,7 @@ void ObjectHandle::set_targets(std::span<const int> particles, std::span<const V
       refuse(of.name, "particle " + std::to_string(particle), "is dynamic, so it cannot have a target",
              "pin it first (World::edit), or use an attachment");
   }
+  wake_bodies(*world_, number);
   put_targets(listed, particles, positions, first, world_->state, world_->workspace.control.objects[number].targets);
 }
 
@@ -236,6 +244,7 @@ void ObjectHandle::set_attachment_targets(std::span<const int> attachments, std:
   const CompiledObject& of = world_->model.objects[number];
   const Listed listed{of, "attachment", of.particles - of.user_particles, of.user_particles};
   require(listed, attachments, positions);
+  wake_bodies(*world_, number);
   put_targets(listed, attachments, positions, world_->model.first[number], world_->state,
               world_->workspace.control.objects[number].targets);
 }
@@ -244,6 +253,7 @@ void ObjectHandle::set_velocities(std::span<const Vec3f> velocities) {
   const int number = world_->number(id()), first = world_->model.first[number];
   const CompiledObject& of = world_->model.objects[number];
   require(of, velocities, "velocities");
+  wake_bodies(*world_, number);
   for (int user = 0; user < of.user_particles; ++user) {
     const int i = first + of.place[user];
     const Vec3f& v = velocities[user];
@@ -269,6 +279,7 @@ void ObjectHandle::set_forces(std::span<const Vec3f> forces) {
   const int number = world_->number(id());
   const CompiledObject& of = world_->model.objects[number];
   require(of, forces, "forces");
+  wake_bodies(*world_, number);
   std::vector<Vec3f>& in_storage = world_->workspace.control.objects[number].forces;
   in_storage.assign(of.particles, Vec3f{});
   for (int user = 0; user < of.user_particles; ++user) in_storage[of.place[user]] = forces[user];
@@ -296,6 +307,7 @@ void ObjectHandle::set_motor(const std::string& joint, const MotorCommand& comma
   if (is_known) setting.most = at->most;
   setting.most = command.most.value_or(setting.most);
   pliant::set_motor(of, its, motor, setting.target, setting.most);
+  wake_bodies(*world_, number);
   if (is_known)
     *at = setting;
   else

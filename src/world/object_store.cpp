@@ -168,6 +168,7 @@ void add_field(WorldData& world, const MeshCollider& collider, std::shared_ptr<c
 }
 
 void prepare_object(WorldData& world, int number) {
+  world.state.rest_times.clear();  // what lay on the object, or may touch it now, wakes
   pliant::prepare(world.model, number, kept_multipliers(world.settings, world.model.objects[number].sweep),
                   world.workspace);
   prepare_sweep(world.model, number, world.settings, world.executor.threads(), world.workspace);

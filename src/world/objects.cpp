@@ -127,6 +127,7 @@ ObjectId World::add(const Object& object) {
 ColliderId World::add(const Collider& collider) {
   refuse_grave(collider);
   data_->model.colliders.push_back(collider);
+  data_->state.rest_times.clear();  // bodies may be where it is
   prepare_shape_contacts(*data_);
   return data_->ids.colliders.add(static_cast<int>(data_->model.colliders.size()) - 1);
 }
@@ -173,6 +174,7 @@ void World::remove(ColliderId collider) {
   data_->ids.colliders.remove(collider);
   data_->ids.colliders.close_gap(number);
   data_->model.colliders.erase(data_->model.colliders.begin() + number);
+  data_->state.rest_times.clear();  // what lay on it wakes
   prepare_shape_contacts(*data_);
   std::map<int, PoseDrive> drives;  // by new numbers: a removal decreases larger ones by one
   for (const auto& [other, drive] : data_->workspace.control.colliders)

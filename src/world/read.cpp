@@ -171,6 +171,18 @@ bool ObjectView::joint_is_broken(int joint) const {
   return std::binary_search(broken.begin(), broken.end(), joint);
 }
 
+bool ObjectView::body_is_asleep(int body) const {
+  const int number = read_->number(id_);
+  const CompiledObject& from = read_->model.objects[number];
+  if (body < 0 || static_cast<std::size_t>(body) >= from.bodies.bodies.size())
+    throw Error({.object = from.name, .element = "body " + std::to_string(body)},
+                "does not exist; there are " + std::to_string(from.bodies.bodies.size()) + " bodies",
+                "indices count from 0");
+  const int number_of_frame = read_->model.first_frame[number] + from.bodies.bodies[static_cast<std::size_t>(body)].frame;
+  const auto frame = static_cast<std::size_t>(number_of_frame);
+  return frame < read_->state.rest_times.size() && read_->state.rest_times[frame] == asleep;
+}
+
 double ObjectView::enclosed_volume() const { return measure_volume(read_->object(id_), positions_of(*read_, id_)); }
 
 }  // namespace pliant

@@ -167,6 +167,19 @@ void require_held_poses(const WorldData& world, const State& given) {
   }
 }
 
+void require_rest_times(const State& state) {
+  if (!state.rest_times.empty() && state.rest_times.size() != state.frames.size())
+    throw Error({},
+                "the state has times of rest of " + std::to_string(state.rest_times.size()) + " frames, of which it has " +
+                    std::to_string(state.frames.size()),
+                "restore a state of this world, or clear its rest_times, which wakes all bodies");
+  for (std::size_t i = 0; i < state.rest_times.size(); ++i)
+    if (!(state.rest_times[i] >= 0 || state.rest_times[i] == asleep) || std::isinf(state.rest_times[i]))
+      throw Error({.element = "frame " + std::to_string(i)},
+                  "its time of rest is " + std::to_string(state.rest_times[i]) + " s",
+                  "give 0 or more, or -1 for a body that sleeps");
+}
+
 /// Throws an Error if the blocks of particles of a State differ from those of this World.
 void require_blocks(const WorldData& world, const State& given) {
   const std::vector<StateBlock>& own = world.state.blocks;
@@ -212,6 +225,7 @@ void World::restore(const State& state) {
   require_body_contacts(state);
   require_broken_joints(data_->model, state);
   require_motors(data_->model, state);
+  require_rest_times(state);
   if (!std::isfinite(state.time)) throw Error({}, "the state's time is not finite", "restore an earlier state");
   if (state.frame < 0 || state.frame > largest_frame)
     throw Error({}, "the state's frame is " + std::to_string(state.frame), "restore a state of this world");
@@ -258,6 +272,7 @@ std::string hash(const State& state) {
   if (!state.broken_joints.empty()) sha.add(state.broken_joints.data(), state.broken_joints.size() * sizeof(BrokenJoint));
   if (!state.motors.empty()) sha.add(state.motors.data(), state.motors.size() * sizeof(MotorSetting));
   if (!state.body_contacts.empty()) sha.add(state.body_contacts.data(), state.body_contacts.size() * sizeof(BodyContact));
+  if (!state.rest_times.empty()) sha.add(state.rest_times.data(), state.rest_times.size() * sizeof(float));
   return sha.finish();
 }
 

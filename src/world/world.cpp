@@ -125,7 +125,7 @@ Report World::step(float dt) {
   pliant::step({data_->model, data_->state, data_->workspace, data_->executor, data_->kernels, groups.back().substeps,
                 data_->settings.iterations, data_->settings.sweep_options, data_->settings.record_residuals, data_->stop,
                 data_->settings.separate_phases, static_cast<double>(data_->settings.tolerance), groups,
-                &data_->overstretch.meter()},
+                &data_->overstretch.meter(), data_->settings.sleep},
                dt, report);
   for (JointBreak& broken : report.broken_joints) broken.object = data_->ids.objects.id_of(broken.object.slot);
   data_->stopped = report.nonfinite.has_value();

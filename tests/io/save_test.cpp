@@ -142,6 +142,31 @@ TEST(Save, TargetsOfMotorsAreKept) {
   EXPECT_LT(loaded.world.object(id).angular_velocities()[0].z, 0) << "as commanded, not as described";
 }
 
+TEST(Save, BodiesThatSleepGoOnSleeping) {
+  const Folder folder;
+  Scene scene;
+  scene.settings.sleep = {true, 0.03f, 0.05f, 0.25f};
+  scene.colliders.emplace_back();
+  const ObjectId id = scene.add(make_body({{Box{}}}, {.name = "box", .position = {0, 0.5f, 0}}));
+  World world(scene);
+  for (int frame = 0; frame < 60; ++frame) world.step(dt);
+  ASSERT_TRUE(world.object(id).body_is_asleep(0));
+  save(folder / "world", world, scene);
+  LoadedWorld loaded = load_world(folder / "world");
+  EXPECT_EQ(loaded.scene.settings.sleep.time, 0.25f);
+  EXPECT_EQ(loaded.world.state().rest_times, world.state().rest_times);
+  EXPECT_EQ(loaded.world.step(dt).sleeping_bodies, 1);
+  world.step(dt);
+  EXPECT_EQ(loaded.world.state_hash(), world.state_hash());
+  State other = world.state();
+  other.rest_times = {};
+  EXPECT_NE(hash(other), world.state_hash());
+  other.rest_times = {-0.5f};
+  EXPECT_NE(reason([&] { world.restore(other); }).find("time of rest"), std::string::npos);
+  other.rest_times = {0, 0};
+  EXPECT_NE(reason([&] { world.restore(other); }).find("2 frames"), std::string::npos);
+}
+
 TEST(Save, ChannelsAreKept) {
   const Folder folder;
   State state;
@@ -320,7 +345,7 @@ TEST(Save, TheReasonIsNamed) {
   const std::string whole = test::read(path);
   std::string changed = whole;
   changed[8] = 2;
-  says(why(changed), "has format version 2, and this Pliant reads version 8; use the Pliant that wrote it");
+  says(why(changed), "has format version 2, and this Pliant reads version 9; use the Pliant that wrote it");
   says(why(""), "is empty");
   says(why("o cloth\nv 0 0 0\n"), "is not a file saved by Pliant");
   says(why(whole.substr(0, 100)),

@@ -82,6 +82,10 @@ TEST_F(FullContact, KnowsWhatPairsAre) {
   EXPECT_EQ(scene.settings.most_substeps, 321);
   EXPECT_EQ(scene.settings.initial_intersections, Settings::Intersections::untangle);
   EXPECT_EQ(scene.settings.untangling_speed, 0.25f);
+  EXPECT_TRUE(scene.settings.sleep.on);
+  EXPECT_EQ(scene.settings.sleep.speed, 0.0625f);
+  EXPECT_EQ(scene.settings.sleep.spin, 0.125f);
+  EXPECT_EQ(scene.settings.sleep.time, 0.75f);
 }
 
 /// The longest side of a mesh's bounding box, and its lowest point.

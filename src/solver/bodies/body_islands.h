@@ -34,6 +34,8 @@ class BodyIslands {
   /// Finds the islands of a substep after its solve.
   void find(const Substep& s, const ContactBodies& bodies, const Contacts& contacts);
 
+  /// The constraints that join nodes.
+  const std::vector<BodyLink>& links() const { return links_; }
   int nodes() const { return bodies_ + objects_; }
   /// The node of an object's particles.
   int node_of_points(int object) const { return bodies_ + object; }

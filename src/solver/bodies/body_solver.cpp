@@ -55,6 +55,7 @@ BodySolver::BodySolver(const Model& model, const std::vector<int>* objects, Body
   std::iota(all.begin(), all.end(), 0);
   points_ = BodyPoints(model, objects == nullptr ? all : *objects, touched, bodies_.rules());
   islands_ = BodyIslands(model, bodies_);
+  sleep_ = BodySleep(model, bodies_, islands_);
 }
 
 void BodySolver::make_manifolds(const Substep& s) {
@@ -72,14 +73,10 @@ void BodySolver::make_manifolds(const Substep& s) {
 
 void BodySolver::begin_frame(Substep& s) {
   bodies_.begin_frame(s);
-  states_.clear();
-  is_fixed_.clear();
-  for (int place = 0; place < static_cast<int>(bodies_.places().size()); ++place) {
-    states_.push_back(bodies_.state_at_start(s, place));
-    is_fixed_.push_back(states_.back().is_fixed ? 1 : 0);
-  }
-  motions_.begin_frame(s);
+  sleep_.begin_frame(s, s.state.body_contacts);
+  read_states(s);
   find_contacts(s);
+  motions_.begin_frame(s);
   pushes_are_known_ = false;
   last_h_ = s.h;
   make_manifolds(s);
@@ -87,16 +84,51 @@ void BodySolver::begin_frame(Substep& s) {
   shares_.clear();
 }
 
-void BodySolver::find_contacts(Substep& s) {
-  const float gravity = static_cast<float>(s.dt) * length(s.model.gravity);
-  const bool is_alone = s.part == nullptr;  // else other groups read the State's contacts at the same time
-  if (is_alone) {
-    contacts_.swap(s.state.body_contacts);
-    s.state.body_contacts.clear();
+void BodySolver::read_states(const Substep& s) {
+  states_.clear();
+  is_fixed_.clear();
+  for (int place = 0; place < static_cast<int>(bodies_.places().size()); ++place) {
+    states_.push_back(bodies_.state_at_start(s, place));
+    is_fixed_.push_back(states_.back().is_fixed ? 1 : 0);
   }
+}
+
+void BodySolver::update_contacts(Substep& s, const std::vector<BodyContact>& before) {
+  const float gravity = static_cast<float>(s.dt) * length(s.model.gravity);
   finder_.update(
       s.context.executor, states_, static_cast<float>(s.dt), gravity,
-      [&](int a, int b) { return bodies_.meet(s.model, a, b); }, is_alone ? contacts_ : s.state.body_contacts, contacts_);
+      [&](int a, int b) { return bodies_.meet(s.model, a, b); }, before, contacts_);
+}
+
+/// Contacts with a body that sleeps wake it, and are found once more with those of its island.
+void BodySolver::find_contacts_beside_sleepers(Substep& s) {
+  for (bool goes_on = true; goes_on;) {
+    for (std::size_t place = at(bodies_.dynamic()); place < states_.size() && sleep_.any(); ++place)
+      if (moves(states_[place])) states_[place].is_fixed = false;  // so that pairs with bodies that sleep are found
+    update_contacts(s, before_);
+    goes_on = sleep_.wake_touched(s, finder_.bodies(), before_);
+    if (goes_on) read_states(s);
+  }
+  sleep_.keep_contacts(s.part == nullptr, before_);
+}
+
+void BodySolver::find_contacts(Substep& s) {
+  const bool is_alone = s.part == nullptr;  // else other groups read the State's contacts at the same time
+  if (sleep_.any()) {
+    if (is_alone) {
+      before_.swap(s.state.body_contacts);
+      s.state.body_contacts.clear();
+    } else {
+      before_ = s.state.body_contacts;
+    }
+    find_contacts_beside_sleepers(s);
+  } else {
+    if (is_alone) {
+      contacts_.swap(s.state.body_contacts);
+      s.state.body_contacts.clear();
+    }
+    update_contacts(s, is_alone ? contacts_ : s.state.body_contacts);
+  }
   if (finder_.left_out() > 0)
     s.report.warnings.push_back(std::to_string(finder_.left_out()) +
                                 " pairs of bodies that overlap are left to later frames, because each body has " +
@@ -146,6 +178,7 @@ void BodySolver::collide(Substep& s) {
 }
 
 void BodySolver::project(Substep& s, bool is_first) {
+  if (contacts_.empty() && !points_.has_any()) return;
   Executor& executor = s.context.executor;
   const Stopwatch stopwatch(executor.timings(), "solve: bodies");
   if (is_first) {
@@ -167,6 +200,7 @@ void BodySolver::hold_bodies(Substep& s) {
 }
 
 void BodySolver::respond(Substep& s, FunctionRef<Vec3f(int object)> gravity) {
+  if (contacts_.empty() && !points_.has_any()) return;
   Executor& executor = s.context.executor;
   const Stopwatch stopwatch(executor.timings(), "respond: bodies");
   motions_.load_velocities(s, gravity);
@@ -185,22 +219,33 @@ const BodyIslands& BodySolver::find_islands(const Substep& s) {
   return islands_;
 }
 
-void BodySolver::end_frame(const Substep& s) {
+void BodySolver::take_impulses(const Substep& s) {
   const auto prefetch = [&](int i) { __builtin_prefetch(&contacts_[at(i)].impulse, 1); };
   blocks_.take(s.context.executor, colours_, prefetch,
                [&](int i, const Manifold& m) { keep_impulses(m, s.h, contacts_[at(i)]); });
 }
 
+void BodySolver::end_frame(Substep& s) {
+  take_impulses(s);
+  if (!s.context.sleep.on) return;
+  std::vector<int> pressed;
+  for (const Contact& contact : points_.contacts())
+    if (contact.push > 0) pressed.push_back(points_.body_of_solid(contact.collider));
+  s.report.sleeping_bodies = sleep_.end_frame(s, {finder_.bodies(), states_, pressed});
+  sleep_.add_kept_contacts(contacts_);
+}
+
 void BodySolver::log_contacts(const Substep& s, ContactLog& log) {
-  end_frame(s);
-  for (const int i : colours_.order()) {
-    const BodyContact& c = contacts_[at(i)];
+  take_impulses(s);
+  const auto add = [&](const BodyContact& c, const Vec3d& centre_b) {
     const double impulse = static_cast<double>((c.impulse[0] + c.impulse[1]) + (c.impulse[2] + c.impulse[3]));
-    if (!(impulse > 0)) continue;
+    if (impulse > 0) add_push({c.a.owner, c.b.owner, impulse, -c.normal, centre_b + convert<double>(c.arm_b)}, log);
+  };
+  for (const int i : colours_.order()) {
     const std::size_t b = at(finder_.bodies()[at(i)].second);
-    const Vec3d place = states_[b].pose.position + convert<double>(motions_.all()[b].displacement + c.arm_b);
-    add_push({c.a.owner, c.b.owner, impulse, -c.normal, place}, log);
+    add(contacts_[at(i)], states_[b].pose.position + convert<double>(motions_.all()[b].displacement));
   }
+  for (const BodyContact& c : sleep_.kept_contacts()) add(c, states_[at(sleep_.body_of(c.b))].pose.position);
   points_.log_contacts(s, log);
   finish_substep(log);
 }

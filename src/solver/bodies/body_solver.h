@@ -14,6 +14,7 @@
 #include "solver/bodies/body_islands.h"
 #include "solver/bodies/body_motions.h"
 #include "solver/bodies/body_points.h"
+#include "solver/bodies/body_sleep.h"
 #include "solver/bodies/contact_bodies.h"
 #include "solver/bodies/manifold_blocks.h"
 #include "solver/bodies/manifolds.h"
@@ -66,7 +67,7 @@ class BodySolver {
   /// The pass over velocities. `gravity` is what the velocities of an object lack of this frame's gravity [m/s].
   void respond(Substep& s, FunctionRef<Vec3f(int object)> gravity);
   /// Puts the impulses of the last substep into contacts().
-  void end_frame(const Substep& s);
+  void end_frame(Substep& s);
 
   /// In ascending order of parts. The State takes them at a frame's end; the next frame makes new ones.
   std::vector<BodyContact>& contacts() { return contacts_; }
@@ -75,8 +76,12 @@ class BodySolver {
   void log_contacts(const Substep& s, ContactLog& log);
 
  private:
+  void read_states(const Substep& s);
   void find_contacts(Substep& s);
+  void find_contacts_beside_sleepers(Substep& s);
+  void update_contacts(Substep& s, const std::vector<BodyContact>& before);
   void warn_of_overlap(Substep& s);
+  void take_impulses(const Substep& s);
   void make_manifolds(const Substep& s);
   void start_substep(const Substep& s);
 
@@ -85,10 +90,11 @@ class BodySolver {
   BodyPoints points_;
   BodyMotions motions_;
   BodyIslands islands_;
+  BodySleep sleep_;
   VelocityShares shares_;
   std::vector<BodyState> states_;
   std::vector<char> is_fixed_;  ///< [place of bodies_]
-  std::vector<BodyContact> contacts_;
+  std::vector<BodyContact> contacts_, before_;
   std::vector<std::pair<int, int>> pressing_;  ///< bodies of those that press, for find_islands
   ManifoldColours colours_;                    ///< of contacts_
   ManifoldBlocks blocks_;                      ///< the manifolds of contacts_ in a frame

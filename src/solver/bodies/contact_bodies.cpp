@@ -94,6 +94,7 @@ std::string ContactBodies::name(const Model& model, int index) const {
 
 bool ContactBodies::meet(const Model& model, int a, int b) const {
   const BodyPlace &one = places_[at(a)], &other = places_[at(b)];
+  if (!one.is_body() && !other.is_body()) return false;
   if (one.collider >= 0 || other.collider >= 0) return true;
   if (!one.is_body() || !other.is_body())
     return meets_mesh(model, one.is_body() ? one : other, one.is_body() ? other : one);

@@ -99,9 +99,36 @@ void add_bounded_parts(const CompiledObject& object, const std::vector<std::vect
   }
 }
 
+/// Marks the constraints of broken joints, and of bodies that sleep.
+std::vector<std::vector<char>> find_left_out(const CompiledObject& object, const ObjectJoints& joints) {
+  std::vector<std::vector<char>> marks = joints.is_broken;
+  if (joints.is_asleep.empty()) return marks;
+  marks.resize(object.pools.size());
+  std::vector<char> is_asleep(static_cast<std::size_t>(object.particles) + object.frames.size());  // [slot]
+  for (std::size_t b = 0; b < joints.is_asleep.size(); ++b) {
+    const CompiledBodies::Body& body = object.bodies.bodies[b];
+    const int frame = object.particles + body.frame;
+    is_asleep[static_cast<std::size_t>(body.particle)] = is_asleep[static_cast<std::size_t>(frame)] = joints.is_asleep[b];
+  }
+  for (const Segment& segment : object.segments) {
+    const Pool& pool = object.pools[static_cast<std::size_t>(segment.pool)];
+    if (pool.in_lanes) continue;
+    for_segment(object, segment, [&](const ConstraintPlace& at, const std::int32_t* number) {
+      const bool sleeps = std::any_of(number, number + pool.stencil,
+                                      [&](std::int32_t slot) { return is_asleep[static_cast<std::size_t>(slot)] != 0; });
+      if (!sleeps) return;
+      auto& of_pool = marks[static_cast<std::size_t>(at.pool_number)];
+      of_pool.resize(static_cast<std::size_t>(pool.batches) * batch_width);
+      of_pool[static_cast<std::size_t>(at.batch * batch_width + at.lane)] = 1;
+    });
+  }
+  return marks;
+}
+
 /// Marks the constraints that the stencil driver leaves out.
-void mark_skipped(const CompiledObject& object, const JointForest& forest, ObjectJoints& into) {
-  into.is_skipped = into.is_broken;
+void mark_skipped(const CompiledObject& object, const JointForest& forest, const std::vector<std::vector<char>>& left_out,
+                  ObjectJoints& into) {
+  into.is_skipped = left_out;
   into.is_skipped.resize(object.pools.size());
   for (const JointForest::Joint& joint : forest.joints) {
     if (!joint.in_tree) continue;
@@ -126,14 +153,15 @@ ObjectJoints& ObjectJoints::operator=(ObjectJoints&&) noexcept = default;
 
 void prepare_joints(const CompiledObject& object, ObjectJoints& joints) {
   auto forest = std::make_unique<JointForest>();
-  find_joints(object, joints.is_broken, *forest);
+  const std::vector<std::vector<char>> left_out = find_left_out(object, joints);
+  find_joints(object, left_out, *forest);
   if (!forest->joints.empty()) {
     forest->tree.emplace(static_cast<int>(forest->bodies.size()), forest->ends);
     for (const int loose : forest->tree->loose()) forest->joints[static_cast<std::size_t>(loose)].in_tree = false;
     // Where a motor drives against a stop, both are rows of one direction, and the solve leaves out the later one.
-    for (const bool motors : {false, true}) add_bounded_parts(object, joints.is_broken, motors, *forest);
+    for (const bool motors : {false, true}) add_bounded_parts(object, left_out, motors, *forest);
   }
-  mark_skipped(object, *forest, joints);
+  mark_skipped(object, *forest, left_out, joints);
   joints.forest = forest->tree ? std::move(forest) : nullptr;
 }
 

@@ -9,11 +9,13 @@ namespace pliant {
 struct JointForest;
 
 struct ObjectJoints {
-  std::vector<int> broken;                    ///< indices in CompiledObject::joints, ascending
-  std::vector<std::vector<char>> is_broken;   ///< [pool][16 batch + lane] 1: part of a broken joint; empty: none
-  std::vector<std::vector<char>> is_skipped;  ///< likewise, also of joints in `forest`: the stencil driver leaves them out
-  std::vector<const char*> skipped;           ///< pointers to the same; null: none of the pool. Empty: none at all
-  std::unique_ptr<JointForest> forest;        ///< joints that are solved directly; null: none
+  std::vector<int> broken;                   ///< indices in CompiledObject::joints, ascending
+  std::vector<std::vector<char>> is_broken;  ///< [pool][16 batch + lane] 1: part of a broken joint; empty: none
+  std::vector<char> is_asleep;               ///< [body] 1: sleeps, so its constraints are left out; empty: none does
+  std::vector<std::vector<char>>
+      is_skipped;  ///< as is_broken, also of joints in `forest` and of bodies that sleep: the stencil driver leaves them out
+  std::vector<const char*> skipped;     ///< pointers to the same; null: none of the pool. Empty: none at all
+  std::unique_ptr<JointForest> forest;  ///< joints that are solved directly; null: none
 
   ObjectJoints();
   ~ObjectJoints();

@@ -1,0 +1,277 @@
+#include "solver/bodies/body_sleep.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "collision/bodies/body_contacts.h"
+#include "solver/bodies/body_math.h"
+#include "solver/bodies/joint_forest.h"
+#include "solver/substep.h"
+
+namespace pliant {
+
+namespace {
+
+using namespace bodies;
+
+bool is_zero(const Record& r) { return r.x == 0 && r.y == 0 && r.z == 0; }
+
+/// True if a particle follows keyframes.
+bool is_kinematic(const CompiledObject& object, int particle) {
+  return std::any_of(object.kinematics.begin(), object.kinematics.end(),
+                     [&](const Kinematic& kinematic) { return kinematic.particle == particle; });
+}
+
+}  // namespace
+
+bool moves(const BodyState& state) {
+  return state.deforms || length_squared(state.velocity) > 0 || length_squared(state.spin) > 0;
+}
+
+BodySleep::BodySleep(const Model& model, const ContactBodies& bodies, const BodyIslands& islands)
+    : model_(&model),
+      bodies_(&bodies),
+      links_(&islands),
+      first_body_(model.objects.size(), -1),
+      is_tied_(at(bodies.dynamic())),
+      is_asleep_(at(bodies.dynamic())) {
+  for (int body = count(); body-- > 0;) {
+    const BodyPlace& place = bodies.places()[at(body)];
+    first_body_[at(place.object)] = body;
+    has_kinematic_ =
+        has_kinematic_ || is_kinematic(model.objects[at(place.object)], place.particle - model.first[at(place.object)]);
+  }
+  for (const BodyLink& link : islands.links()) {
+    if (jointed_.empty() || jointed_.back() != link.object) jointed_.push_back(link.object);
+    if (link.a >= count() && link.b < count()) is_tied_[at(link.b)] = 1;
+    if (link.b >= count() && link.a < count()) is_tied_[at(link.a)] = 1;
+  }
+}
+
+float& BodySleep::rest_time(Substep& s, int body) const {
+  return s.state.rest_times[at(bodies_->places()[at(body)].frame)];
+}
+
+bool BodySleep::is_broken(const Substep& s, const BodyLink& link) const {
+  const std::vector<int>& broken = s.work.joints[at(link.object)].broken;
+  return link.joint >= 0 && std::binary_search(broken.begin(), broken.end(), link.joint);
+}
+
+int BodySleep::body_of(const ContactPart& part) const {
+  if (part.owner < 0 || first_body_[at(part.owner)] < 0) return -1;
+  return first_body_[at(part.owner)] + model_->objects[at(part.owner)].bodies.solids[at(part.solid)].body;
+}
+
+bool BodySleep::involves_sleeper(const BodyContact& contact) const {
+  const int a = body_of(contact.a), b = body_of(contact.b);
+  return (a >= 0 && is_asleep_[at(a)] != 0) || (b >= 0 && is_asleep_[at(b)] != 0);
+}
+
+// ---------------------------------------------------------------- a frame's start
+
+void BodySleep::begin_frame(Substep& s, std::span<const BodyContact> contacts) {
+  held_.clear();
+  kept_.clear();
+  is_on_ = s.context.sleep.on;
+  std::fill(is_asleep_.begin(), is_asleep_.end(), char{0});
+  if (!is_on_) {
+    s.state.rest_times.clear();
+  } else {
+    s.state.rest_times.resize(s.state.frames.size(), 0.f);
+    is_restless_ = has_kinematic_ || !s.model.forces.empty();
+    for (int body = 0; body < count(); ++body) {
+      is_asleep_[at(body)] = rest_time(s, body) == asleep ? 1 : 0;
+      if (is_asleep_[at(body)] != 0) hold(s, body);
+    }
+    if (any()) wake_pushed(s, contacts);
+  }
+  leave_out_constraints(s);
+}
+
+/// Joins the bodies that sleep and have a contact or a constraint with one another.
+void BodySleep::find_islands(const Substep& s, std::span<const BodyContact> contacts) {
+  islands_.reset(count());
+  const auto join = [&](int a, int b) {
+    if (a >= 0 && b >= 0 && is_asleep_[at(a)] != 0 && is_asleep_[at(b)] != 0) islands_.unite(a, b);
+  };
+  for (const BodyContact& contact : contacts) join(body_of(contact.a), body_of(contact.b));
+  for (const BodyLink& link : links_->links())
+    if (link.a < count() && link.b < count() && !is_broken(s, link)) join(link.a, link.b);
+}
+
+/// True if the user acts on a body of its object in this frame.
+bool BodySleep::is_driven(const Substep& s, int body) const {
+  return is_restless_ || s.work.control.object(bodies_->places()[at(body)].object) != nullptr;
+}
+
+/// Wakes bodies that have a velocity, because a State was restored with one, those on which the user acts, and those that a
+/// constraint connects with a body that is awake.
+void BodySleep::wake_pushed(Substep& s, std::span<const BodyContact> contacts) {
+  std::vector<char> is_woken(at(count()));
+  for (const Held& held : held_) {
+    const BodyPlace& place = bodies_->places()[at(held.body)];
+    const bool has_velocity =
+        !is_zero(s.state.velocities[at(place.particle)]) || !is_zero(s.state.frames.angular_velocities[at(place.frame)]);
+    if (has_velocity || is_driven(s, held.body) || is_tied_[at(held.body)] != 0) is_woken[at(held.body)] = 1;
+  }
+  const auto is_awake = [&](int body) {
+    const BodyPlace& place = bodies_->places()[at(body)];
+    return is_asleep_[at(body)] == 0 &&
+           (s.state.positions[at(place.particle)].w > 0 || !is_zero(s.state.frames.inverse_inertias[at(place.frame)]));
+  };
+  for (const BodyLink& link : links_->links()) {
+    if (link.a >= count() || link.b >= count() || is_broken(s, link)) continue;
+    if (is_awake(link.a)) is_woken[at(link.b)] = 1;
+    if (is_awake(link.b)) is_woken[at(link.a)] = 1;
+  }
+  wake(s, contacts, is_woken);
+}
+
+bool BodySleep::wake_touched(Substep& s, std::span<const std::pair<int, int>> pairs,
+                             std::span<const BodyContact> contacts) {
+  std::vector<char> is_woken(at(count()));
+  bool any_woken = false;
+  for (const auto& [a, b] : pairs)  // two bodies that do not move have none
+    for (const int place : {a, b}) {
+      if (place >= count() || is_asleep_[at(place)] == 0) continue;
+      is_woken[at(place)] = 1;
+      any_woken = true;
+    }
+  if (!any_woken) return false;
+  wake(s, contacts, is_woken);
+  leave_out_constraints(s);
+  return true;
+}
+
+/// Wakes the islands of the bodies that are marked.
+void BodySleep::wake(Substep& s, std::span<const BodyContact> contacts, std::vector<char>& is_woken) {
+  if (std::find(is_woken.begin(), is_woken.end(), char{1}) == is_woken.end()) return;
+  find_islands(s, contacts);
+  for (const Held& held : held_)
+    if (is_woken[at(held.body)] != 0) is_woken[at(islands_.find(held.body))] = 1;
+  std::vector<Held> stay;
+  for (const Held& held : held_) {
+    if (is_woken[at(islands_.find(held.body))] == 0) {
+      stay.push_back(held);
+      continue;
+    }
+    const BodyPlace& place = bodies_->places()[at(held.body)];
+    is_asleep_[at(held.body)] = 0;
+    rest_time(s, held.body) = 0;
+    s.state.positions[at(place.particle)].w = held.position.w;
+    s.state.frames.inverse_inertias[at(place.frame)] = held.inverse_inertia;
+  }
+  held_.swap(stay);
+}
+
+/// Gives a body infinite mass for a frame.
+void BodySleep::hold(Substep& s, int body) {
+  const BodyPlace& place = bodies_->places()[at(body)];
+  Record &position = s.state.positions[at(place.particle)], &inertia = s.state.frames.inverse_inertias[at(place.frame)];
+  held_.push_back({body, position, s.state.frames.orientations[at(place.frame)], inertia});
+  position.w = 0;
+  inertia = {};
+}
+
+/// Leaves out the constraints of bodies that sleep, and no others.
+void BodySleep::leave_out_constraints(Substep& s) {
+  for (const int object : jointed_) {
+    const int first = first_body_[at(object)];
+    const auto from = is_asleep_.begin() + first,
+               to = from + static_cast<std::ptrdiff_t>(s.model.objects[at(object)].bodies.bodies.size());
+    const std::vector<char> now = std::find(from, to, char{1}) == to ? std::vector<char>{} : std::vector<char>(from, to);
+    ObjectJoints& joints = s.work.joints[at(object)];
+    if (joints.is_asleep == now) continue;
+    joints.is_asleep = now;
+    prepare_joints(s.model.objects[at(object)], joints);
+  }
+}
+
+void BodySleep::keep_contacts(bool is_alone, std::vector<BodyContact>& contacts) {
+  if (held_.size() == is_asleep_.size() && is_alone) {
+    kept_.swap(contacts);  // all of them, and a copy takes many bytes
+    contacts.clear();
+    return;
+  }
+  std::copy_if(contacts.begin(), contacts.end(), std::back_inserter(kept_),
+               [&](const BodyContact& c) { return involves_sleeper(c); });
+}
+
+// ---------------------------------------------------------------- its end
+
+void BodySleep::put_back(Substep& s, const Held& held) {
+  const BodyPlace& place = bodies_->places()[at(held.body)];
+  s.state.positions[at(place.particle)] = held.position;
+  s.state.remainders[at(place.particle)] = s.state.velocities[at(place.particle)] = {};
+  s.state.frames.orientations[at(place.frame)] = held.orientation;
+  s.state.frames.inverse_inertias[at(place.frame)] = held.inverse_inertia;
+  s.state.frames.angular_velocities[at(place.frame)] = {};
+}
+
+int BodySleep::end_frame(Substep& s, const Frame& frame) {
+  for (const Held& held : held_) put_back(s, held);
+  std::vector<char> is_woken(at(count()));
+  for (const int body : frame.pressed) is_woken[at(body)] = is_asleep_[at(body)];
+  if (any()) wake(s, kept_, is_woken);
+  add_rest(s, frame);
+  return fall_asleep(s, frame);
+}
+
+/// Counts for how long each body has been slow.
+void BodySleep::add_rest(Substep& s, const Frame& frame) {
+  const SleepOptions& options = s.context.sleep;
+  std::vector<char> is_touched(is_tied_);
+  for (const int body : frame.pressed) is_touched[at(body)] = 1;
+  for (const auto& [a, b] : frame.pairs) {  // colliders come after bodies
+    if (b >= count() && moves(frame.states[at(b)])) is_touched[at(a)] = 1;
+    if (a >= count() && moves(frame.states[at(a)])) is_touched[at(b)] = 1;
+  }
+  for (int body = 0; body < count(); ++body) {
+    if (is_asleep_[at(body)] != 0) continue;
+    const BodyPlace& place = bodies_->places()[at(body)];
+    const Vec3f v = xyz(s.state.velocities[at(place.particle)]),
+                w = xyz(s.state.frames.angular_velocities[at(place.frame)]);
+    const bool is_slow =
+        length_squared(v) < options.speed * options.speed && length_squared(w) < options.spin * options.spin;
+    const bool rests = is_slow && is_touched[at(body)] == 0 && !frame.states[at(body)].is_fixed && !is_driven(s, body);
+    rest_time(s, body) = rests ? rest_time(s, body) + static_cast<float>(s.dt) : 0;
+  }
+}
+
+/// Lets the islands sleep whose bodies have all been slow for long enough.
+int BodySleep::fall_asleep(Substep& s, const Frame& frame) {
+  islands_.reset(count());
+  const auto is_free = [&](int body) {
+    return body < count() && is_asleep_[at(body)] == 0 && !frame.states[at(body)].is_fixed;
+  };
+  const auto join = [&](int a, int b) {
+    if (is_free(a) && is_free(b)) islands_.unite(a, b);
+  };
+  for (const auto& [a, b] : frame.pairs) join(a, b);
+  for (const BodyLink& link : links_->links())
+    if (!is_broken(s, link)) join(link.a, link.b);
+  std::vector<char> is_awake(at(count()));
+  for (int body = 0; body < count(); ++body)
+    if (is_free(body) && !(rest_time(s, body) >= s.context.sleep.time && rest_time(s, body) > 0))
+      is_awake[at(islands_.find(body))] = 1;
+  auto sleeping = static_cast<int>(held_.size());
+  for (int body = 0; body < count(); ++body) {
+    if (!is_free(body) || is_awake[at(islands_.find(body))] != 0) continue;
+    const BodyPlace& place = bodies_->places()[at(body)];
+    rest_time(s, body) = asleep;
+    s.state.remainders[at(place.particle)] = s.state.velocities[at(place.particle)] = {};
+    s.state.frames.angular_velocities[at(place.frame)] = {};
+    ++sleeping;
+  }
+  return sleeping;
+}
+
+void BodySleep::add_kept_contacts(std::vector<BodyContact>& contacts) {
+  if (kept_.empty()) return;
+  if (contacts.empty()) return contacts.swap(kept_);
+  merged_.clear();
+  std::merge(contacts.begin(), contacts.end(), kept_.begin(), kept_.end(), std::back_inserter(merged_), in_order);
+  contacts.swap(merged_);
+}
+
+}  // namespace pliant

@@ -1,0 +1,445 @@
+// Tests sleep of rigid bodies: what sleeps does not move by a bit, and what acts on it wakes it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pliant/body.h"
+#include "pliant/error.h"
+#include "pliant/joint.h"
+#include "pliant/mesh.h"
+#include "pliant/world.h"
+
+namespace pliant {
+namespace {
+
+constexpr float dt = 1.f / 60;
+constexpr int four_seconds = 240;
+
+int add(Object& object, const SolidShape& shape, const Vec3f& position, const Vec3f& velocity = {}) {
+  BodyOptions options;
+  options.position = position;
+  options.velocity = velocity;
+  options.mass = 1;
+  object.collides = object.self_collision = true;
+  return add_body(object, {{shape}}, options);
+}
+
+Scene sleeping_scene() {
+  Scene scene;
+  scene.settings.sleep.on = true;
+  return scene;
+}
+
+Collider ground() {
+  Collider plane;
+  plane.name = "ground";
+  return plane;
+}
+
+/// A pyramid of unit boxes on the plane y = 0.
+Object pyramid(int base) {
+  Object boxes;
+  boxes.name = "pyramid";
+  boxes.static_friction = boxes.kinetic_friction = 0.6f;
+  for (int row = 0; row < base; ++row)
+    for (int i = 0; i < base - row; ++i)
+      add(boxes, Box{{.5f, .5f, .5f}},
+          {static_cast<float>(i) + 0.5f * static_cast<float>(row), 0.5f + static_cast<float>(row), 0});
+  return boxes;
+}
+
+/// A box at rest on the plane, 2 m from the origin along z.
+Object single_box() {
+  Object box;
+  box.name = "box";
+  add(box, Box{{.5f, .5f, .5f}}, {0, .5f, 2});
+  return box;
+}
+
+Report step(World& world) {
+  Report report = world.step(dt);
+  EXPECT_TRUE(report.ok()) << report.explain();
+  return report;
+}
+
+/// Steps until so many bodies sleep; false if they do not within four seconds.
+bool fall_asleep(World& world, int bodies) {
+  for (int frame = 0; frame < four_seconds; ++frame)
+    if (step(world).sleeping_bodies == bodies) return true;
+  return false;
+}
+
+bool are_same(const Records& a, const Records& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Record)) == 0;
+}
+
+bool has_same_poses(const State& a, const State& b) {
+  return are_same(a.positions, b.positions) && are_same(a.remainders, b.remainders) &&
+         are_same(a.velocities, b.velocities) && are_same(a.frames.orientations, b.frames.orientations) &&
+         are_same(a.frames.angular_velocities, b.frames.angular_velocities) &&
+         are_same(a.frames.inverse_inertias, b.frames.inverse_inertias);
+}
+
+TEST(BodySleep, IsOffByDefault) {
+  Scene scene;
+  scene.add(ground());
+  scene.add(pyramid(3));
+  World world(scene);
+  for (int frame = 0; frame < four_seconds; ++frame) EXPECT_EQ(step(world).sleeping_bodies, 0);
+  EXPECT_TRUE(world.state().rest_times.empty());
+  EXPECT_FALSE(world.object(0).body_is_asleep(0));
+  EXPECT_THROW((void)world.object(0).body_is_asleep(6), Error);
+}
+
+/// No contact is solved, and no bit of a pose or contact changes.
+TEST(BodySleep, APileHasTheSameBitsForAThousandFrames) {
+  Scene scene = sleeping_scene();
+  scene.add(ground());
+  scene.add(pyramid(6));
+  World world(scene);
+  ASSERT_TRUE(fall_asleep(world, 21));
+  const State before = world.state();
+  EXPECT_FALSE(before.body_contacts.empty());
+  for (int frame = 0; frame < 1000; ++frame) {
+    const Report report = step(world);
+    ASSERT_EQ(report.sleeping_bodies, 21);
+    ASSERT_EQ(report.contacts, 0);
+    ASSERT_TRUE(has_same_poses(world.state(), before)) << "frame " << frame;
+    ASSERT_EQ(world.state().body_contacts.size(), before.body_contacts.size());
+    ASSERT_EQ(std::memcmp(world.state().body_contacts.data(), before.body_contacts.data(),
+                          before.body_contacts.size() * sizeof(BodyContact)),
+              0);
+  }
+  EXPECT_TRUE(world.object(0).body_is_asleep(20));
+}
+
+/// Awake for as long as the thresholds say, and no longer.
+TEST(BodySleep, WaitsForItsTime) {
+  Scene scene = sleeping_scene();
+  scene.settings.sleep.time = 1;
+  scene.gravity = {};
+  Object boxes;
+  add(boxes, Box{{.5f, .5f, .5f}}, {0, 0, 0});
+  add(boxes, Box{{.5f, .5f, .5f}}, {5, 0, 0}, {0.03f, 0, 0});  // faster than 0.02 m/s
+  scene.add(boxes);
+  World world(scene);
+  for (int frame = 1; frame <= 120; ++frame) {
+    step(world);
+    const bool is_near = frame >= 59 && frame <= 61;  // rounding of the sum
+    EXPECT_TRUE(is_near || world.object(0).body_is_asleep(0) == (frame > 60)) << "frame " << frame;
+    EXPECT_FALSE(world.object(0).body_is_asleep(1));
+  }
+}
+
+/// An object that is far from everything and only keeps a body awake would wake others by no rule.
+TEST(BodySleep, ABodyThatMovesElsewhereWakesNothing) {
+  Scene scene = sleeping_scene();
+  scene.add(ground());
+  scene.add(pyramid(3));
+  Object slider;
+  slider.static_friction = slider.kinetic_friction = 0;
+  add(slider, Box{{.5f, .5f, .5f}}, {0, 0.5f, 20}, {1, 0, 0});
+  scene.add(slider);
+  World world(scene);
+  ASSERT_TRUE(fall_asleep(world, 6));
+  for (int frame = 0; frame < 60; ++frame) EXPECT_EQ(step(world).sleeping_bodies, 6);
+}
+
+// ------------------------------------------------------------------------------------------------ what wakes
+
+/// The box sleeps; then something happens, and it is awake within the given number of steps.
+void expect_waking(World& world, const std::string& what, const std::function<void()>& act, int steps = 1) {
+  ASSERT_TRUE(fall_asleep(world, 1)) << what;
+  act();
+  for (int i = 0; i < steps; ++i) step(world);
+  EXPECT_FALSE(world.object(0).body_is_asleep(0)) << what;
+}
+
+TEST(BodySleep, WhatTheUserSetsWakes) {
+  Scene scene = sleeping_scene();
+  scene.add(ground());
+  scene.add(single_box());
+  const std::vector<Vec3f> up{{0, 1, 0}}, nothing{{0, 0, 0}};
+  Object ball;
+  add(ball, Sphere{.1f}, {10, 5, 0});
+  const std::vector<std::pair<std::string, std::function<void(World&)>>> ways{
+      {"velocities", [&](World& world) { world.object(0).set_velocities(up); }},
+      {"impulses", [&](World& world) { world.object(0).add_impulses(nothing); }},
+      {"forces", [&](World& world) { world.object(0).set_forces(up); }},
+      {"addition", [&](World& world) { world.add(ball); }},
+      {"edit",
+       [&](World& world) {
+         world.edit(0, {single_box(), {0}});
+       }},
+      {"velocities in the State",
+       [&](World& world) {
+         State state = world.state();
+         state.velocities[0].y = 1;
+         world.restore(state);
+       }},
+      {"times of rest in the State",
+       [&](World& world) {
+         State state = world.state();
+         state.rest_times.clear();
+         world.restore(state);
+       }},
+      {"pose of the ground",
+       [&](World& world) {
+         world.collider(0).set_pose({{0, 0.01f, 0}, {}});
+       }},
+  };
+  for (const auto& [what, act] : ways) {
+    World world(scene);
+    expect_waking(world, what, [&, &way = act] { way(world); });
+  }
+}
+
+TEST(BodySleep, AForceFieldKeepsBodiesAwake) {
+  Scene scene = sleeping_scene();
+  scene.add(ground());
+  scene.add(single_box());
+  scene.forces.emplace_back([](const Vec3f&, const Vec3f&, float, float) { return Vec3f{}; });
+  World world(scene);
+  EXPECT_FALSE(fall_asleep(world, 1));
+}
+
+/// A ball rolls against a box that sleeps: it passes its momentum on as to a box that is awake, because the box wakes before the
+/// contact is solved.
+TEST(BodySleep, ABallWakesWhatItHits) {
+  float after[2] = {};
+  for (const bool sleeps : {false, true}) {
+    Scene scene = sleeping_scene();
+    scene.settings.sleep.on = sleeps;
+    scene.gravity = {};
+    Object box;
+    add(box, Box{{.5f, .5f, .5f}}, {});
+    scene.add(box);
+    Object ball;
+    add(ball, Sphere{.2f}, {-5.7f, 0, 0}, {5, 0, 0});
+    scene.add(ball);
+    World world(scene);
+    bool was_asleep = false;
+    for (int frame = 0; frame < 120; ++frame) {
+      step(world);
+      was_asleep = was_asleep || world.object(0).body_is_asleep(0);
+    }
+    EXPECT_EQ(was_asleep, sleeps);
+    after[sleeps ? 1 : 0] = world.object(0).velocities()[0].x;
+  }
+  EXPECT_NEAR(after[0], 2.5f, 0.01f) << "two equal masses, no restitution";
+  EXPECT_NEAR(after[1], after[0], 1e-4f);
+}
+
+TEST(BodySleep, ClothThatFallsOnABoxWakesIt) {
+  Scene scene = sleeping_scene();
+  scene.add(ground());
+  scene.add(single_box());
+  Object cloth = make_cloth(grid_mesh(9, 9, 1, 1));
+  for (Vec3f& p : cloth.positions) p = {p.x - 0.5f, 8, p.z + 1.5f};
+  cloth.collides = true;
+  cloth.thickness = 0.02f;
+  scene.add(cloth);
+  World world(scene);
+  ASSERT_TRUE(fall_asleep(world, 1));
+  int frame = 0;
+  while (frame < 180 && world.object(0).body_is_asleep(0)) step(world), ++frame;
+  EXPECT_FALSE(world.object(0).body_is_asleep(0));
+  float lowest = 8;
+  for (const Vec3f& p : world.object(1).positions()) lowest = std::min(lowest, p.y);
+  EXPECT_NEAR(lowest, 1, 0.2f) << "when it touches, not before";
+}
+
+/// A pusher comes by keyframes and moves the box by 0.3 m.
+TEST(BodySleep, AColliderThatComesWakes) {
+  Scene scene = sleeping_scene();
+  scene.add(ground());
+  scene.add(single_box());
+  Collider pusher;
+  pusher.shape = Box{{.1f, .4f, .4f}};
+  pusher.position = {-3, 0.5f, 2};
+  pusher.motion.keyframes = {{3, {}}, {4, {2.7f, 0, 0}}};
+  scene.add(pusher);
+  World world(scene);
+  ASSERT_TRUE(fall_asleep(world, 1));
+  for (int frame = 0; frame < 300; ++frame) step(world);
+  EXPECT_GT(world.object(0).positions()[0].x, 0.29f);
+}
+
+/// Of two bodies that a hinge connects one gets a velocity: both wake. A new target of the motor wakes both, too.
+TEST(BodySleep, JointsAndMotorsWake) {
+  Scene scene = sleeping_scene();
+  scene.gravity = {};
+  Object arms;
+  add(arms, Box{{.5f, .1f, .1f}}, {0, 0, 0});
+  add(arms, Box{{.5f, .1f, .1f}}, {1.2f, 0, 0});
+  HingeJoint hinge;
+  hinge.options.name = "hinge";
+  hinge.a = 0;
+  hinge.b = 1;
+  hinge.anchor = {0.6f, 0, 0};
+  hinge.axis = {0, 0, 1};
+  hinge.motor = JointMotor{JointMotor::Kind::speed, 0, 10};
+  add_joint(arms, hinge);
+  scene.add(arms);
+  World world(scene);
+  ASSERT_TRUE(fall_asleep(world, 2));
+  const State before = world.state();
+  for (int frame = 0; frame < 10; ++frame) step(world);
+  EXPECT_TRUE(has_same_poses(world.state(), before));
+  State pushed = world.state();
+  pushed.velocities[0].y = 0.5f;
+  world.restore(pushed);
+  step(world);
+  EXPECT_FALSE(world.object(0).body_is_asleep(0) || world.object(0).body_is_asleep(1));
+  world.restore(before);
+  step(world);
+  ASSERT_TRUE(world.object(0).body_is_asleep(1));
+  world.object(0).set_motor("hinge", {.target = 1});
+  for (int frame = 0; frame < 30; ++frame) step(world);
+  const std::vector<Vec3f> spin = world.object(0).angular_velocities();
+  EXPECT_NEAR(spin[1].z - spin[0].z, 1, 0.01);
+}
+
+/// Bodies that particles are tied to stay awake.
+TEST(BodySleep, ABodyOnARopeStaysAwake) {
+  Scene scene = sleeping_scene();
+  Object object;
+  add(object, Box{{.1f, .1f, .1f}}, {0, -1.1f, 0});
+  const int first = append(object, make_rope({{0, 0, 0}, {0, -0.5f, 0}, {0, -1, 0}}));
+  object.pins.push_back({first, {}});
+  attach(object, {first + 2}, 0);
+  scene.add(object);
+  World world(scene);
+  EXPECT_FALSE(fall_asleep(world, 1));
+}
+
+// ------------------------------------------------------------------------------------------------ supports
+
+/// Three boxes on a plate: where the plate goes, they fall.
+TEST(BodySleep, AStackWhoseSupportGoesFalls) {
+  Object stack;
+  for (int i = 0; i < 3; ++i) add(stack, Box{{.5f, .5f, .5f}}, {0, 0.5f + static_cast<float>(i), 0});
+  const Box plate{{1, .1f, 1}};
+  Collider collider;
+  collider.shape = plate;
+  collider.position = {0, -0.1f, 0};
+  Object fixed;
+  BodyOptions options;
+  options.position = collider.position;
+  options.mass = std::numeric_limits<float>::infinity();
+  fixed.collides = true;
+  add_body(fixed, {{plate}}, options);
+  const auto falls = [&](bool is_collider, const std::function<void(World&)>& pull) {
+    Scene scene = sleeping_scene();
+    scene.add(stack);
+    is_collider ? scene.add(collider) : scene.add(fixed);
+    World world(scene);
+    EXPECT_TRUE(fall_asleep(world, 3));
+    pull(world);
+    for (int frame = 0; frame < 60; ++frame) step(world);
+    return world.object(0).positions()[0].y < -3;
+  };
+  EXPECT_TRUE(falls(true, [](World& world) { world.remove(ColliderId(0)); }));
+  EXPECT_TRUE(falls(true, [](World& world) { world.collider(0).set_pose({{0, -20, 0}, {}}); }));
+  EXPECT_TRUE(falls(false, [](World& world) { world.remove(ObjectId(1)); }));
+}
+
+/// A row of dominoes sleeps when a ball comes.
+TEST(BodySleep, ABallSetsOffDominoesThatSleep) {
+  constexpr int count = 12;
+  Scene scene = sleeping_scene();
+  scene.add(ground());
+  Object dominoes;
+  dominoes.static_friction = dominoes.kinetic_friction = 0.6f;
+  for (int i = 0; i < count; ++i) add(dominoes, Box{{.04f, .4f, .2f}}, {0.4f * static_cast<float>(i), 0.4f, 0});
+  scene.add(dominoes);
+  Object ball;
+  ball.static_friction = ball.kinetic_friction = 0;
+  add(ball, Sphere{.3f}, {-6, 0.3f, 0}, {3, 0, 0});
+  scene.add(ball);
+  World world(scene);
+  ASSERT_TRUE(fall_asleep(world, count));
+  for (int frame = 0; frame < 2 * four_seconds; ++frame) step(world);
+  for (const Vec3f& p : world.object(0).positions()) EXPECT_LT(p.y, 0.35f) << "it has fallen";
+}
+
+// ------------------------------------------------------------------------------------------------ the same bits
+
+/// Piles that fall asleep at different times, and a ball that wakes one.
+Scene busy_scene(int threads) {
+  Scene scene = sleeping_scene();
+  scene.settings.threads = threads;
+  scene.add(ground());
+  scene.add(pyramid(4));
+  scene.add(single_box());
+  Object ball;
+  add(ball, Sphere{.4f}, {-12, 0.4f, 0}, {6, 0, 0});
+  scene.add(ball);
+  return scene;
+}
+
+TEST(BodySleep, ARestoredWorldGoesOnWithTheSameBits) {
+  World world(busy_scene(1));
+  std::vector<State> states;
+  std::vector<std::string> hashes;
+  for (int frame = 0; frame < four_seconds; ++frame) {
+    states.push_back(world.state());
+    step(world);
+    hashes.push_back(world.state_hash());
+  }
+  int falls = 0, wakes = 0;
+  World other(busy_scene(1));
+  for (std::size_t frame = 1; frame + 1 < states.size(); ++frame) {
+    const auto sleepers = [&](const State& state) {
+      return std::count(state.rest_times.begin(), state.rest_times.end(), asleep);
+    };
+    const auto change = sleepers(states[frame]) - sleepers(states[frame - 1]);
+    falls += change > 0 ? 1 : 0;
+    wakes += change < 0 ? 1 : 0;
+    if (change == 0 && frame % 40 != 0) continue;
+    for (std::size_t from = frame - 1; from <= frame; ++from) {  // across the change
+      other.restore(states[from]);
+      step(other);
+      EXPECT_EQ(other.state_hash(), hashes[from]) << "frame " << from;
+      step(other);
+      EXPECT_EQ(other.state_hash(), hashes[from + 1]) << "frame " << from;
+    }
+  }
+  EXPECT_GT(falls, 1);
+  EXPECT_GT(wakes, 0);
+}
+
+TEST(BodySleep, HasTheSameBitsOnAnyNumberOfThreads) {
+  std::string hashes[2];
+  for (int i = 0; i < 2; ++i) {
+    World world(busy_scene(i + 1));
+    for (int frame = 0; frame < four_seconds; ++frame) step(world);
+    hashes[i] = world.state_hash();
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+/// A contact of bodies that sleep goes on, so it does not end and begin as an event.
+TEST(BodySleep, ContactEventsPersist) {
+  Scene scene = sleeping_scene();
+  scene.add(ground());
+  scene.add(single_box());
+  World world(scene);
+  world.record_contact_events(true);
+  ASSERT_TRUE(fall_asleep(world, 1));
+  for (int frame = 0; frame < 5; ++frame) {
+    step(world);
+    ASSERT_EQ(world.contact_events().size(), 1U);
+    EXPECT_EQ(world.contact_events()[0].change, ContactEvent::Change::persist);
+  }
+}
+
+}  // namespace
+}  // namespace pliant
