@@ -426,6 +426,37 @@ TEST(BodySleep, HasTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_EQ(hashes[0], hashes[1]);
 }
 
+/// Cloth with other substeps, which nothing touches, makes groups of several solvers. Each gets the bits that it gets alone.
+TEST(BodySleep, HasTheSameBitsBesideOtherGroups) {
+  Scene beside = busy_scene(1);
+  Object cloth = make_cloth(grid_mesh(9, 9, 1, 1));
+  for (Vec3f& p : cloth.positions) p.y += 20;
+  cloth.pins = {{0, {}}, {8, {}}};
+  beside.add(cloth);
+  World alone(busy_scene(1)), other(beside);
+  int most = 0;
+  for (int frame = 0; frame < four_seconds; ++frame) {
+    const int sleeping = step(alone).sleeping_bodies;
+    ASSERT_EQ(step(other).sleeping_bodies, sleeping) << "frame " << frame;
+    most = std::max(most, sleeping);
+    for (int o = 0; o < 3; ++o) {
+      const std::vector<Vec3f> a = alone.object(o).positions(), b = other.object(o).positions();
+      ASSERT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3f)), 0) << "object " << o << ", frame " << frame;
+    }
+  }
+  EXPECT_GT(most, 5);
+}
+
+TEST(BodySleep, RefusesThresholdsWithoutMeaning) {
+  for (const SleepOptions& wrong :
+       {SleepOptions{true, 0}, SleepOptions{true, 0.02f, -1}, SleepOptions{true, 0.02f, 0.04f, -1}}) {
+    Scene scene;
+    scene.add(single_box());
+    scene.settings.sleep = wrong;
+    EXPECT_THROW(World{scene}, Error);
+  }
+}
+
 /// A contact of bodies that sleep goes on, so it does not end and begin as an event.
 TEST(BodySleep, ContactEventsPersist) {
   Scene scene = sleeping_scene();
