@@ -169,6 +169,45 @@ TEST(CoveredBodies, AFastTipDoesNotPierceAPinnedCloth) {
   }
 }
 
+/// The path of a substep may be many times the body's size.
+TEST(CoveredBodies, AFastBodyDoesNotPassInAFewSubsteps) {
+  for (const int substeps : {1, 4}) {
+    for (const SolidShape& shape : std::vector<SolidShape>{Sphere{0.04f}, Box{{0.04f, 0.06f, 0.05f}}, Cone{0.05f, 0.06f}}) {
+      Scene scene = thrown(shape, 30, true);
+      scene.settings.substeps = substeps;
+      EXPECT_EQ(worst_crossings(scene, 20), 0) << substeps << " substeps, shape " << shape.index();
+      World world(scene);
+      for (int frame = 0; frame < 3; ++frame) world.step(1.f / 60);
+      float lowest = 0;
+      for (const Vec3f& p : world.object(0).positions()) lowest = std::min(lowest, p.y);
+      EXPECT_GT(world.object(1).positions()[0].y, lowest - 0.06f) << substeps << " substeps, shape " << shape.index();
+    }
+  }
+}
+
+TEST(CoveredBodies, HaveTheSameBitsOnAnyNumberOfThreads) {
+  std::string hash;
+  for (const int threads : {1, 2, 5}) {
+    Scene scene = covered_mixed();
+    scene.settings.threads = threads;
+    World world(scene);
+    for (int frame = 0; frame < 30; ++frame) ASSERT_TRUE(world.step(1.f / 60).ok());
+    const std::string now = world.state_hash();
+    EXPECT_TRUE(hash.empty() || hash == now) << threads << " threads";
+    hash = now;
+  }
+}
+
+TEST(CoveredBodies, GoOnWithTheSameBitsAfterARestore) {
+  World world(covered_mixed()), other(covered_mixed());
+  for (int frame = 0; frame < 20; ++frame) ASSERT_TRUE(world.step(1.f / 60).ok());
+  other.restore(world.state());
+  for (int frame = 0; frame < 10; ++frame) {
+    ASSERT_TRUE(world.step(1.f / 60).ok() && other.step(1.f / 60).ok());
+    EXPECT_EQ(world.state_hash(), other.state_hash()) << frame;
+  }
+}
+
 /// Both together keep their momentum, to 1e-5 of the body's.
 TEST(CoveredBodies, ATipThatIsKeptFromPiercingFreeClothKeepsTheMomentum) {
   const Scene scene = thrown(Cone{0.05f, 0.06f}, 5, false);
@@ -217,6 +256,25 @@ TEST(CoveredBodies, ClothUnderAHeavyBodyIsNotPassedUnnamed) {
     });
     EXPECT_TRUE(is_named || crossings(world, scene.objects[0], scene.objects[1]) == 0) << frame;
   }
+}
+
+/// A box that is in a cloth from the start, all of whose vertices are pinned, so that only the box can give way.
+TEST(CoveredBodies, ClothThatABodyOverlapsIsNamed) {
+  Scene scene = thrown(Box{{0.06f, 0.06f, 0.06f}}, 0, true);
+  scene.objects[0].name = "cloth";
+  scene.objects[0].pins.clear();
+  for (int i = 0; i < 21 * 21; ++i) scene.objects[0].pins.push_back({i, {}});
+  Object heap;
+  heap.name = "heap";
+  BodyOptions options;
+  options.position = {0, 0.01f, 0};
+  add_body(heap, {{.shape = Box{{0.06f, 0.06f, 0.06f}}}}, options);
+  scene.objects[1] = heap;
+  World world(scene);
+  const Report report = world.step(1.f / 60);
+  ASSERT_GT(crossings(world, scene.objects[0], scene.objects[1]), 0);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_EQ(report.warnings[0].find("object 'cloth' passes through body 0 of 'heap' in "), 0u) << report.warnings[0];
 }
 
 TEST(CoveredBodies, TheCountSeesClothWithoutContact) {

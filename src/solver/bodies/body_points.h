@@ -89,7 +89,10 @@ class BodyPoints {
   void find_swept(const Substep& s, std::vector<Contact>& contacts);
   bool has_moved(const Substep& s) const;
   std::string other_at(const Substep& s, int vertex, int body) const;
-  bool stop_once(Substep& s, const std::vector<BodyMotion>& motions, bool is_first, bool both_sides);
+  /// How a round keeps bodies and triangles from passing: by impulses on both sides or on bodies alone, or by taking back their motion in the substep.
+  enum class Stop { both_sides, bodies, back, bodies_back };
+  bool stop_once(Substep& s, const std::vector<BodyMotion>& motions, bool is_first, Stop by);
+  void take_back(Substep& s, const Contact& contact, bool both_sides);
   void note_moved(const Substep& s, std::size_t first);
   void begin_pass(const Substep& s);
   void end_pass(Substep& s);

@@ -15,10 +15,12 @@ namespace {
 
 using namespace bodies;
 
-/// A ball that slides along cloth meets a few triangles in a substep.
-constexpr int most_rounds_of_passing = 16;
-/// After so many of them the points stay and the body alone moves, so that it stops before light cloth too. Momentum is not kept then.
+/// A ball that slides along cloth meets a few triangles in a substep; in all but violent impacts two or three rounds do.
 constexpr int rounds_of_both_sides = 8;
+/// Up to this round the points stay and the body alone moves, so that it stops before light cloth too. Momentum is not kept then.
+constexpr int rounds_of_impulses = 16;
+/// In the rounds after those, whatever would still pass goes back to the substep's start, where nothing has passed.
+constexpr int most_rounds_of_passing = 32, most_rounds_of_holding = 16;
 
 std::string name_of(const Model& model, const TouchedBody& body) {
   return "body " + std::to_string(body.body) + " of '" + model.objects[at(body.object)].name + "'";
@@ -47,8 +49,25 @@ void BodyPoints::note_moved(const Substep& s, std::size_t first) {
   for (const int body : body_of_solid_) moved_solids_.push_back(has_moved[at(body)]);
 }
 
-/// Projects contacts of what would pass; not in the first round of a pass, of what the last round has moved. False if there is nothing.
-bool BodyPoints::stop_once(Substep& s, const std::vector<BodyMotion>& motions, bool is_first, bool both_sides) {
+/// Puts a body, and with both sides the points, back to where they were at the substep's start.
+void BodyPoints::take_back(Substep& s, const Contact& contact, bool both_sides) {
+  const int number = body_of_solid_[at(contact.collider)];
+  const TouchedBody& body = bodies_[at(number)];
+  if (s.state.positions[at(body.particle)].w > 0) {
+    const std::size_t frame = at(body.frame);
+    const Quatf& start = poses_[at(number)].rotation;
+    s.work.displacements[at(body.particle)] = {};
+    s.state.frames.orientations[frame] = {start.x, start.y, start.z, start.w};
+    s.work.frames.corrections[frame] = plus({}, -xyz(s.work.frames.predicted[frame]));
+  }
+  if (!both_sides) return;
+  for (std::size_t i = 0; i < contact.point.size(); ++i)
+    if (contact.weight[i] != 0 && s.state.positions[at(contact.point[i])].w > 0)
+      s.work.displacements[at(contact.point[i])] = {};
+}
+
+/// Stops what would pass; not in the first round of a pass, of what the last round has moved. False if there is nothing.
+bool BodyPoints::stop_once(Substep& s, const std::vector<BodyMotion>& motions, bool is_first, Stop by) {
   place_solids(s);
   note_progress(s);
   if (is_first) surfaces_.update(s, moving_, false);
@@ -61,10 +80,14 @@ bool BodyPoints::stop_once(Substep& s, const std::vector<BodyMotion>& motions, b
   const std::size_t first = contacts_.size();
   contacts_.insert(contacts_.end(), more.begin(), more.end());
   impulses_.resize(contacts_.size());
-  begin_pass(s);
-  for (std::size_t i = first; i < contacts_.size(); ++i)
-    project(s, motions[at(solids_[at(contacts_[i].collider)].body)], contacts_[i], both_sides);
-  end_pass(s);
+  if (by == Stop::back || by == Stop::bodies_back) {
+    for (const Contact& contact : more) take_back(s, contact, by == Stop::back);
+  } else {
+    begin_pass(s);
+    for (std::size_t i = first; i < contacts_.size(); ++i)
+      project(s, motions[at(solids_[at(contacts_[i].collider)].body)], contacts_[i], by == Stop::both_sides);
+    end_pass(s);
+  }
   note_moved(s, first);
   return true;
 }
@@ -73,8 +96,12 @@ void BodyPoints::stop_passing(Substep& s, const std::vector<BodyMotion>& motions
   if (!has_any()) return;
   const Stopwatch stopwatch(s.context.executor.timings(), "bodies: filter");
   passing_is_done_ = false;
-  for (int round = 0; round < most_rounds_of_passing && !passing_is_done_; ++round)
-    passing_is_done_ = !stop_once(s, motions, round == 0, round < rounds_of_both_sides);
+  for (int round = 0; round < most_rounds_of_passing && !passing_is_done_; ++round) {
+    const Stop by = round < rounds_of_both_sides ? Stop::both_sides
+                    : round < rounds_of_impulses ? Stop::bodies
+                                                 : Stop::back;
+    passing_is_done_ = !stop_once(s, motions, round == 0, by);
+  }
   kept_.clear();
   for (const SurfaceTile& tile : surfaces_.tiles())
     if (!tile.solids.empty())
@@ -96,7 +123,8 @@ void BodyPoints::hold_bodies(Substep& s, const std::vector<BodyMotion>& motions)
   if (!has_any()) return;
   const Stopwatch stopwatch(s.context.executor.timings(), "bodies: filter");
   bool goes_on = !passing_is_done_ || has_moved(s);
-  for (int round = 0; round < rounds_of_both_sides && goes_on; ++round) goes_on = stop_once(s, motions, round == 0, false);
+  for (int round = 0; round < most_rounds_of_holding && goes_on; ++round)
+    goes_on = stop_once(s, motions, round == 0, round < rounds_of_both_sides ? Stop::bodies : Stop::bodies_back);
   passing_.end_substep(!goes_on);
 }
 
