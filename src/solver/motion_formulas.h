@@ -56,15 +56,27 @@ struct Lanes {
 
 // ---------------------------------------------------------------- frames
 
-/// I^-1 ((I m) x m) for I in principal axes: Euler's equations without torque [1/s^2]. Zero if rotation about an axis
-/// is locked.
+/// Euler's equations without torque in principal axes: dw/dt = I^-1 ((I w) x w), whose components are factor.x w_y w_z and so on.
+/// Factors are zero if rotation about an axis is locked.
 template <class R>
-PLIANT_HD Vec3<R> gyroscopic_rate(const Vec3<R>& inverse, const Vec3<R>& inertia, const Vec3<R>& m) {
+PLIANT_HD Vec3<R> gyroscopic_factors(const Vec3<R>& inverse, const Vec3<R>& inertia) {
   const R zero(0.f);
   const auto turns = min(min(inverse.x, inverse.y), inverse.z) > zero;
-  const Vec3<R> rate{inverse.x * ((inertia.y - inertia.z) * m.y * m.z), inverse.y * ((inertia.z - inertia.x) * m.z * m.x),
-                     inverse.z * ((inertia.x - inertia.y) * m.x * m.y)};
-  return select(turns, rate, Vec3<R>{zero, zero, zero});
+  const Vec3<R> factors{inverse.x * (inertia.y - inertia.z), inverse.y * (inertia.z - inertia.x),
+                        inverse.z * (inertia.x - inertia.y)};
+  return select(turns, factors, Vec3<R>{zero, zero, zero});
+}
+
+/// One step of Newton's method for the implicit midpoint rule, change = h rate(w + change / 2).
+template <class R>
+PLIANT_HD Vec3<R> gyroscopic_step(const Vec3<R>& f, const Vec3<R>& w, const Vec3<R>& change, const R& h) {
+  const R half(0.5f), one(1.f), k = half * h;
+  const Vec3<R> m = w + change * half;
+  const Vec3<R> left = Vec3<R>{f.x * m.y * m.z, f.y * m.z * m.x, f.z * m.x * m.y} * h - change;
+  const Vec3<R> x{one, -(k * f.x * m.z), -(k * f.x * m.y)}, y{-(k * f.y * m.z), one, -(k * f.y * m.x)},
+      z{-(k * f.z * m.y), -(k * f.z * m.x), one};
+  const Vec3<R> yz = cross(y, z), zx = cross(z, x), xy = cross(x, y);
+  return change + (yz * left.x + zx * left.y + xy * left.z) * (one / dot(x, yz));
 }
 
 /// The inertia whose inverse is given; where that is zero, a number without meaning.
@@ -95,9 +107,10 @@ PLIANT_HD void predict_frames(const FrameArrays& a, const Lanes<R, lanes>& at, f
   const Quat<R> q = at.rotation(a.orientations);
   const Vec3<R> inverse = at.vector(a.inverse_inertias), inertia = inertia_of(inverse), none{R(0.f), R(0.f), R(0.f)};
   const Vec3<R> w = at.vector(a.angular_velocities);
+  const Vec3<R> factors = gyroscopic_factors(inverse, inertia);
   Vec3<R> change = none;
-  for (int round = 0; round < 2; ++round) change = gyroscopic_rate(inverse, inertia, w + change * half) * h;
-  change = select(length_squared(w) * (h * h) < one, change, none);  // beyond a radian per substep the rounds diverge
+  for (int round = 0; round < 3; ++round) change = gyroscopic_step(factors, w, change, h);
+  change = select(length_squared(w) * (h * h) < one, change, none);  // beyond a radian per substep the steps may diverge
   const Vec3<R> angle = (w + change * half) * h;
   // Taylor series of the quaternion exponential. The next terms are below a float's precision up to half a radian per
   // substep.
