@@ -71,7 +71,12 @@ Decomposition pieces_of(const Reader& reader, const JsonValue& at, float density
   set(at, "most_corners", options.most_corners);
   SceneMesh surface = make_mesh(reader.document, *at.find("mesh"), reader.folder, reader.object);
   for (const std::string& repair : surface.repairs) reader.repairs.push_back("object '" + reader.object + "', " + repair);
-  return decompose(surface.mesh, options);
+  Decomposition pieces = decompose(surface.mesh, options);
+  if (static_cast<int>(pieces.solids.size()) >= options.most_pieces && pieces.filled > options.tolerance)
+    reader.repairs.push_back("object '" + reader.object + "', concave solid: " + std::to_string(pieces.solids.size()) +
+                             " pieces fill hollows by up to " + std::to_string(pieces.filled) +
+                             " m; a greater most_pieces keeps them open");
+  return pieces;
 }
 
 /// The solids of a body, and its inertia where it is that of one mesh.

@@ -43,8 +43,8 @@ Feature moved(Feature feature, const Posed& pose) {
   return feature;
 }
 
-Feature facing_feature(const ConvexShape& shape, const Posed& pose, const Vec3d& direction, double margin) {
-  const double slack = std::min(margin, flat_share * size_of(shape));
+Feature facing_feature(const ConvexShape& shape, const Posed& pose, const Vec3d& direction, double margin, double turning) {
+  const double slack = std::max(std::min(margin, flat_share * size_of(shape)), turning);
   return moved(feature_towards(shape, rotate(conjugate(pose.rotation), direction), slack), pose);
 }
 
@@ -81,7 +81,7 @@ std::vector<TouchPoint> points_between(const Feature& a, const Feature& b, const
 
 }  // namespace
 
-Touch touch(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, double margin) {
+Touch touch(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, double margin, double turning) {
   if (are_polyhedra(a, b))
     return touch(*a.polyhedron, moved(*b.polyhedron, convert<float>(pose_of_b)), static_cast<float>(margin));
   const ConvexDistance nearest = convex_distance(a, b, pose_of_b, margin);
@@ -91,8 +91,8 @@ Touch touch(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, 
     return four_of({{nearest.on_a, nearest.on_b, nearest.separation, nearest_point}}, normal);
   const double radius_a = static_cast<double>(a.radius), radius_b = static_cast<double>(b.radius);
   std::vector<TouchPoint> points =
-      points_between(facing_feature(a, {}, normal, margin), facing_feature(b, pose_of_b, -normal, margin), normal,
-                     margin + radius_a + radius_b);
+      points_between(facing_feature(a, {}, normal, margin, turning), facing_feature(b, pose_of_b, -normal, margin, turning),
+                     normal, margin + radius_a + radius_b);
   double deepest = margin;
   for (TouchPoint& point : points) {
     point.on_a += normal * radius_a;
@@ -106,10 +106,12 @@ Touch touch(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, 
   return four_of(points, normal);
 }
 
-Touch touch_half_space(const ConvexShape& b, const Posed& pose_of_b, double margin) {
+Touch touch_half_space(const ConvexShape& b, const Posed& pose_of_b, double margin, double turning) {
   const Vec3d up{0, 1, 0};
   const double radius = static_cast<double>(b.radius);
-  const Feature lowest = facing_feature(b, pose_of_b, -up, margin);
+  const Vec3d down = rotate(conjugate(pose_of_b.rotation), -up);
+  const double depth = radius - to_world(pose_of_b, support(b, down)).y;  // all that is below the surface touches
+  const Feature lowest = facing_feature(b, pose_of_b, -up, margin, std::max(turning, depth));
   std::vector<TouchPoint> points;
   for (int i = 0; i < lowest.count; ++i) {
     const Vec3d on_b = lowest.points[static_cast<std::size_t>(i)] - up * radius;

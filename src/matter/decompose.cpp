@@ -215,12 +215,14 @@ class Divider {
     piece.hull = reduced(convex_hull(points), options_.most_corners);
     if (!piece.hull) return;
     for (const GridNode& node : piece.part.hollow)
-      if (node.distance > piece.filled && is_in(*piece.hull, place_of(node))) piece.filled = node.distance;
+      if (node.distance > piece.filled && is_in(*piece.hull, place_of(node), 0.5f * field_->spacing))
+        piece.filled = node.distance;
   }
 
-  static bool is_in(const ConvexHull& hull, const Vec3f& p) {
+  /// True if a point is in a hull or nearer to its faces than `near`: a hull may be thinner than a cell, and have nodes beside it alone.
+  static bool is_in(const ConvexHull& hull, const Vec3f& p, float near) {
     for (std::size_t f = 0; f < hull.faces.size(); ++f)
-      if (dot(hull.normals[f], p - hull.corners[static_cast<std::size_t>(hull.faces[f][0])]) > 0) return false;
+      if (dot(hull.normals[f], p - hull.corners[static_cast<std::size_t>(hull.faces[f][0])]) > near) return false;
     return true;
   }
 

@@ -140,6 +140,18 @@ TEST(Decompose, KeepsTheHoleOfARing) {
   EXPECT_NEAR(mass_of(ring), 1000 * 2 * pi * pi * 0.25 * 0.25, 0.05 * 1234);
 }
 
+/// A ring that is thin against the grid: whatever closes its hole is told.
+TEST(Decompose, SaysIfItClosesTheHoleOfAThinRing) {
+  for (const int most : {31, 128}) {
+    DecomposeOptions options;
+    options.most_pieces = most;
+    const Decomposition ring = decompose(torus(0.1f, 0.02f, 48, 16), options);
+    const bool is_open = depth_in(ring, {0, 0, 0}) < 0 && depth_in(ring, {0, -0.0185f, 0}) < 0;
+    EXPECT_TRUE(is_open || ring.filled > 0.03f) << most << " pieces at most, filled " << ring.filled;
+    EXPECT_TRUE(is_open || most < 128);
+  }
+}
+
 TEST(Decompose, KeepsToTheGreatestNumberOfPieces) {
   DecomposeOptions options;
   options.most_pieces = 3;

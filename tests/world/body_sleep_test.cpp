@@ -6,6 +6,7 @@
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -305,6 +306,29 @@ TEST(BodySleep, JointsAndMotorsWake) {
   for (int frame = 0; frame < 30; ++frame) step(world);
   const std::vector<Vec3f> spin = world.object(0).angular_velocities();
   EXPECT_NEAR(spin[1].z - spin[0].z, 1, 0.01);
+}
+
+/// A platform of infinite mass that set_targets lifts takes a sleeping box of another object along.
+TEST(BodySleep, AFixedBodyThatIsMovedByTargetsWakes) {
+  Scene scene = sleeping_scene();
+  Object platform;
+  BodyOptions fixed;
+  fixed.mass = std::numeric_limits<float>::infinity();
+  add_body(platform, {{Box{{1, 0.1f, 1}}}}, fixed);
+  scene.add(platform);
+  Object box;
+  add(box, Box{{.3f, .3f, .3f}}, {0, 0.4f, 0});
+  scene.add(box);
+  World world(scene);
+  for (int frame = 0; frame < 120; ++frame) step(world);
+  ASSERT_TRUE(world.object(1).body_is_asleep(0));
+  const int centre = 0;
+  for (int frame = 1; frame <= 60; ++frame) {
+    const Vec3f target{0, 0.01f * static_cast<float>(frame), 0};
+    world.object(0).set_targets(std::span(&centre, 1), std::span(&target, 1));
+    step(world);
+  }
+  EXPECT_NEAR(world.object(1).positions()[0].y, 1, 0.02);
 }
 
 /// Bodies that particles are tied to stay awake.

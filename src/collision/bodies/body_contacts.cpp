@@ -56,9 +56,10 @@ void renew_gaps(const Posed& a, const Posed& b, BodyContact& c) {
 }
 
 /// Contact points of two parts in the frame of body a.
-Touch touch_of(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, double reach) {
+Touch touch_of(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, double reach, double turning) {
   const Posed pose = relative_pose(a.pose, compose(b_in_a, b.pose));
-  Touch found = a.is_half_space ? touch_half_space(b.shape, pose, reach) : touch(a.shape, b.shape, pose, reach);
+  Touch found =
+      a.is_half_space ? touch_half_space(b.shape, pose, reach, turning) : touch(a.shape, b.shape, pose, reach, turning);
   found.normal = rotate(a.pose.rotation, found.normal);
   for (int i = 0; i < found.count; ++i) {
     TouchPoint& point = found.points[at(i)];
@@ -164,7 +165,7 @@ struct BodyContacts::Task {
   const BodyContacts& of;
   const std::vector<BodyState>& bodies;
   const std::vector<BodyContact>& before;
-  float dt;
+  float dt, faster;
 
   /// Finds the contacts of pairs [first, last).
   void run(int first, int last, Found& found) const {
@@ -192,6 +193,11 @@ struct BodyContacts::Task {
     }
   }
 
+  /// How fast a part's points move as its body spins, at most [m/s].
+  float turning_of(int part, const BodyState& body) const {
+    return max(of.pairs_.turning(part) - (body.is_fixed ? 0 : faster), 0.f);
+  }
+
   void find(const Pair& pair, std::span<const BodyContact> old, Found& found) const {
     const BodyPart &one = of.parts_[at(pair.first)], &other = of.parts_[at(pair.second)];
     const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
@@ -213,6 +219,9 @@ struct BodyContacts::Task {
     }
     const float fast = length(a.velocity - b.velocity) + of.pairs_.turning(pair.first) + of.pairs_.turning(pair.second);
     const double reach = static_cast<double>(BodyPairs::margin_share) * size + static_cast<double>(dt * fast);
+    // An impact may turn the whole approach into spin. Of two opposite points one may rise as the other sinks.
+    const double turning = static_cast<double>(
+        2 * dt * (length(a.velocity - b.velocity) + turning_of(pair.first, a) + turning_of(pair.second, b)));
     const auto add = [&](const Touch& touching, int piece) {
       if (touching.count == 0) return;
       BodyContact contact;
@@ -229,9 +238,10 @@ struct BodyContacts::Task {
       found.made.push_back(contact);
       ++found.count;
     };
-    if (one.mesh == nullptr) return add(touch_of(one, other, apart(relative, one.body, other.body, size), reach), 0);
+    if (one.mesh == nullptr)
+      return add(touch_of(one, other, apart(relative, one.body, other.body, size), reach, turning), 0);
     std::vector<MeshTouch> touches;
-    touch_mesh(other.shape, compose(relative, other.pose), *one.mesh, reach, touches);
+    touch_mesh(other.shape, compose(relative, other.pose), *one.mesh, reach, touches, turning);
     for (const MeshTouch& touching : touches) add(touching.touch, touching.piece);
   }
 };
@@ -248,11 +258,11 @@ BodyContacts::BodyContacts(std::vector<BodyPart> parts) : parts_(std::move(parts
 }
 
 /// Finds in tasks which contacts stay and which begin.
-void BodyContacts::find(Executor& executor, const std::vector<BodyState>& bodies, float dt,
+void BodyContacts::find(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
                         const std::vector<BodyContact>& before) {
   const int count = static_cast<int>(pairs_.pairs().size()), tasks = (count + pairs_a_task - 1) / pairs_a_task;
   found_.resize(at(tasks));
-  const Task task_of_pair{*this, bodies, before, dt};
+  const Task task_of_pair{*this, bodies, before, dt, faster};
   executor.parallel_for("bodies: contacts", tasks, [&](int task) {
     task_of_pair.run(task * pairs_a_task, std::min(count, (task + 1) * pairs_a_task), found_[at(task)]);
   });
@@ -297,7 +307,7 @@ void BodyContacts::update(Executor& executor, const std::vector<BodyState>& bodi
                           FunctionRef<bool(int, int)> meet, const std::vector<BodyContact>& before,
                           std::vector<BodyContact>& now) {
   pairs_.update(executor, parts_, bodies, dt, faster, meet);
-  find(executor, bodies, dt, before);
+  find(executor, bodies, dt, faster, before);
   const bool stay = &before == &now && all_stay(before);
   bodies_.resize(first_.back());
   if (!stay) next_.resize(first_.back());

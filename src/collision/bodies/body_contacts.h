@@ -71,7 +71,8 @@ class BodyContacts {
     }
   };
 
-  void find(Executor& executor, const std::vector<BodyState>& bodies, float dt, const std::vector<BodyContact>& before);
+  void find(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
+            const std::vector<BodyContact>& before);
   void sort(std::vector<BodyContact>& contacts);
   bool all_stay(const std::vector<BodyContact>& before) const;
 

@@ -107,9 +107,9 @@ std::vector<TrianglePoint> points_on(const BodyMesh& mesh, const SolidInMesh& so
 }  // namespace
 
 void touch_mesh(const ConvexShape& shape, const Posed& pose_in_mesh, const BodyMesh& mesh, double reach,
-                std::vector<MeshTouch>& found) {
+                std::vector<MeshTouch>& found, double turning) {
   found.clear();
-  const SolidInMesh solid(shape, pose_in_mesh);
+  const SolidInMesh solid(shape, pose_in_mesh, turning);
   const std::vector<TrianglePoint> points = points_on(mesh, solid, reach);
   for (const Cluster& cluster : clusters_of(points, coincident * solid.size()))
     found.push_back({cluster.piece, touch_of(cluster)});

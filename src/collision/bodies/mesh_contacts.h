@@ -17,8 +17,8 @@ struct MeshTouch {
 };
 
 /// Finds where a solid touches a mesh, or might within `reach` [m], sorted by pieces. Replaces `found`. Triangles whose normals
-/// of contact differ by less than about six degrees share a manifold.
+/// of contact differ by less than about six degrees share a manifold. `turning` as of SolidInMesh.
 void touch_mesh(const ConvexShape& shape, const Posed& pose_in_mesh, const BodyMesh& mesh, double reach,
-                std::vector<MeshTouch>& found);
+                std::vector<MeshTouch>& found, double turning = 0);
 
 }  // namespace pliant

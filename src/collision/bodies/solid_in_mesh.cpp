@@ -7,7 +7,8 @@
 
 namespace pliant {
 
-SolidInMesh::SolidInMesh(const ConvexShape& shape, const Posed& pose) : shape_(shape), pose_(pose), centre_(pose.position) {
+SolidInMesh::SolidInMesh(const ConvexShape& shape, const Posed& pose, double turning)
+    : shape_(shape), pose_(pose), centre_(pose.position), turning_(turning) {
   size_ = radius() + static_cast<double>(std::max(shape.core_radius, shape.half_length));
   if (!is_polyhedron()) return;
   const Polyhedron& p = *shape.polyhedron;

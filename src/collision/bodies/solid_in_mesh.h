@@ -11,12 +11,14 @@ namespace pliant {
 /// A convex solid in the frame of a mesh.
 class SolidInMesh {
  public:
-  SolidInMesh(const ConvexShape& shape, const Posed& pose);
+  /// By `turning` [m] its points may move against one another before contacts are found again.
+  SolidInMesh(const ConvexShape& shape, const Posed& pose, double turning);
 
   const ConvexShape& shape() const { return shape_; }
   const Posed& pose() const { return pose_; }
   const Vec3d& centre() const { return centre_; }
   double radius() const { return static_cast<double>(shape_.radius); }
+  double turning() const { return turning_; }
   double size() const { return size_; }  ///< about half its length, with the radius [m]
   bool is_polyhedron() const { return shape_.kind == ConvexShape::Kind::polyhedron; }
   const std::vector<Vec3d>& corners() const { return corners_; }  ///< of a polyhedron
@@ -33,7 +35,7 @@ class SolidInMesh {
   const ConvexShape& shape_;
   Posed pose_;
   Vec3d centre_{};
-  double size_ = 0;
+  double size_ = 0, turning_ = 0;
   std::vector<Vec3d> corners_, normals_;
 };
 

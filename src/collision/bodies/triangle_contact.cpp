@@ -46,7 +46,7 @@ struct Facing {
 
   Feature flat_part() const {
     const double slack = std::clamp(reach - solid.radius(), least_slack * solid.size(), most_slack * solid.size());
-    return solid.feature(-normal, slack);
+    return solid.feature(-normal, std::max(slack, solid.turning()));
   }
 
   void add(std::vector<TrianglePoint>& points, const TouchPoint& point) const {

@@ -69,6 +69,15 @@ bool BodySleep::involves_sleeper(const BodyContact& contact) const {
 
 // ---------------------------------------------------------------- a frame's start
 
+/// True if the user may move a fixed body in this frame, which nothing else would notice.
+bool BodySleep::moves_fixed_body(const Substep& s) const {
+  for (int body = 0; body < count(); ++body) {
+    const BodyPlace& place = bodies_->places()[at(body)];
+    if (s.state.positions[at(place.particle)].w == 0 && s.work.control.object(place.object) != nullptr) return true;
+  }
+  return false;
+}
+
 void BodySleep::begin_frame(Substep& s, std::span<const BodyContact> contacts) {
   held_.clear();
   kept_.clear();
@@ -78,7 +87,7 @@ void BodySleep::begin_frame(Substep& s, std::span<const BodyContact> contacts) {
     s.state.rest_times.clear();
   } else {
     s.state.rest_times.resize(s.state.frames.size(), 0.f);
-    is_restless_ = has_kinematic_ || !s.model.forces.empty();
+    is_restless_ = has_kinematic_ || !s.model.forces.empty() || moves_fixed_body(s);
     for (int body = 0; body < count(); ++body) {
       is_asleep_[at(body)] = rest_time(s, body) == asleep ? 1 : 0;
       if (is_asleep_[at(body)] != 0) hold(s, body);

@@ -64,6 +64,7 @@ class BodySleep {
   int count() const { return static_cast<int>(is_asleep_.size()); }
   float& rest_time(Substep& s, int body) const;
   bool is_driven(const Substep& s, int body) const;
+  bool moves_fixed_body(const Substep& s) const;
   bool involves_sleeper(const BodyContact& contact) const;
   bool is_broken(const Substep& s, const BodyLink& link) const;
   void find_islands(const Substep& s, std::span<const BodyContact> contacts);
