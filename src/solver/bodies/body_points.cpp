@@ -176,6 +176,7 @@ void BodyPoints::begin_frame(const Substep& s) {
   contacts_.clear();
   impulses_.clear();
   passing_.begin_frame();
+  surfaces_.begin_frame();
   keep_poses(s);
 }
 

@@ -56,14 +56,14 @@ void BodyPoints::take_back(Substep& s, const Contact& contact, bool both_sides) 
   if (s.state.positions[at(body.particle)].w > 0) {
     const std::size_t frame = at(body.frame);
     const Quatf& start = poses_[at(number)].rotation;
-    s.work.displacements[at(body.particle)] = {};
+    s.work.displacements[at(body.particle)] = s.state.remainders[at(body.particle)];
     s.state.frames.orientations[frame] = {start.x, start.y, start.z, start.w};
     s.work.frames.corrections[frame] = plus({}, -xyz(s.work.frames.predicted[frame]));
   }
   if (!both_sides) return;
   for (std::size_t i = 0; i < contact.point.size(); ++i)
     if (contact.weight[i] != 0 && s.state.positions[at(contact.point[i])].w > 0)
-      s.work.displacements[at(contact.point[i])] = {};
+      s.work.displacements[at(contact.point[i])] = s.state.remainders[at(contact.point[i])];
 }
 
 /// Stops what would pass; not in the first round of a pass, of what the last round has moved. False if there is nothing.

@@ -142,6 +142,10 @@ void SurfaceTiles::make_lists(const Substep& s, const std::vector<MovingCollider
   }
 }
 
+void SurfaceTiles::begin_frame() {
+  for (SurfaceTile& tile : tiles_) tile.longest = 0;
+}
+
 void SurfaceTiles::update(const Substep& s, const std::vector<MovingCollider>& solids, bool begins) {
   s.context.executor.parallel_for(nullptr, static_cast<int>(tiles_.size()), [&](int t) {
     SurfaceTile& tile = tiles_[at(t)];

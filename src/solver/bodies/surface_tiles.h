@@ -35,6 +35,9 @@ class SurfaceTiles {
   SurfaceTiles() = default;
   SurfaceTiles(const Model& model, const std::vector<int>& tasks);
 
+  /// Forgets lengths of edges, which may have changed between frames.
+  void begin_frame();
+
   /// Finds near solids, and sorts particles into cells if the substep `begins`, for the present displacements.
   void update(const Substep& s, const std::vector<MovingCollider>& solids, bool begins);
 
