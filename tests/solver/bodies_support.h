@@ -55,7 +55,7 @@ class Bodies {
     finder_.update(
         executor_, states, dt, dt * length(gravity), [](int, int) { return true; }, before, contacts_);
     load();
-    const float h = dt / static_cast<float>(substeps), slow = 2 * h * length(gravity);
+    const float h = dt / static_cast<float>(substeps);
     manifolds_.clear();
     for (const BodyContact& c : contacts_)
       manifolds_.push_back(manifold_of(c, c.a.owner, c.b.owner, {friction, friction, restitution}, h));
@@ -67,7 +67,7 @@ class Bodies {
       bool bounced = restitution > 0;
       for (int round = 0; bounced && round < most_rounds; ++round) {
         bounced = false;
-        for_manifolds([&](Manifold& m, BodyMotion& a, BodyMotion& b) { bounced = bounce(m, a, b, h, slow) || bounced; });
+        for_manifolds([&](Manifold& m, BodyMotion& a, BodyMotion& b) { bounced = bounce(m, a, b, h, gravity * h) || bounced; });
       }
       for_manifolds([&](Manifold& m, BodyMotion& a, BodyMotion& b) { position_pass(m, a, b, h, {}); });
       for (BodyMotion& m : motions_) {

@@ -97,7 +97,8 @@ Pile random_pile(int bodies, int contacts, int of_first, unsigned seed) {
   return pile;
 }
 
-constexpr float step = 1.f / 480, slow = 0.05f;
+constexpr float step = 1.f / 480;
+constexpr Vec3f fall{0, -0.025f, 0};
 constexpr ContactSoftness softness{0.04f, 0.05f, 0.5f};
 constexpr int substeps = 3;
 
@@ -127,7 +128,7 @@ int solve_one_by_one(Pile& pile) {
     one_by_one(pile, [](Manifold& m, BodyMotion& a, BodyMotion& b) { warm_start(m, a, b); });
     bool bounced = false;
     one_by_one(pile, [&](Manifold& m, BodyMotion& a, BodyMotion& b) {
-      if (bounce(m, a, b, step, slow)) bounced = true;
+      if (bounce(m, a, b, step, fall)) bounced = true;
     });
     bounces += bounced ? 1 : 0;
     one_by_one(pile, [](Manifold& m, BodyMotion& a, BodyMotion& b) { position_pass(m, a, b, step, softness); });
@@ -151,7 +152,7 @@ int solve_in_blocks(Pile& pile, const ManifoldKernels& kernels, int threads) {
   blocks.prepare(executor, kernels, pile.motions);
   for (int substep = 0; substep < substeps; ++substep) {
     blocks.warm_start(executor, kernels, pile.motions);
-    bounces += blocks.bounce(executor, kernels, pile.motions, step, slow) ? 1 : 0;
+    bounces += blocks.bounce(executor, kernels, pile.motions, step, fall) ? 1 : 0;
     blocks.position_pass(executor, kernels, pile.motions, step, softness);
     advance(pile);
     blocks.velocity_pass(executor, kernels, pile.motions, step);

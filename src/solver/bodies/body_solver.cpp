@@ -162,11 +162,11 @@ void BodySolver::start_substep(const Substep& s) {
   if (!pushes_are_known_) blocks_.warm_start(executor, kernels, motions_.all());
   pushes_are_known_ = true;
   if (!blocks_.bounces()) return;
-  const float slow = 2 * s.h * length(s.model.gravity);
+  const Vec3f fall = s.model.gravity * s.h;
   motions_.change_once([&] {
     bool goes_on = true;
     for (int round = 0; goes_on && round < most_rounds_of_impacts; ++round)
-      goes_on = blocks_.bounce(executor, kernels, motions_.all(), s.h, slow);
+      goes_on = blocks_.bounce(executor, kernels, motions_.all(), s.h, fall);
   });
 }
 

@@ -151,10 +151,10 @@ void ManifoldBlocks::warm_start(Executor& executor, const ManifoldKernels& kerne
 }
 
 bool ManifoldBlocks::bounce(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions, float h,
-                            float slow) {
+                            const Vec3f& fall) {
   std::atomic<bool> bounced{false};
   run(executor, kernels, motions, [&](const ManifoldKernels& k, const BlockRange& range) {
-    if (k.bounce(range, h, slow)) bounced.store(true, std::memory_order_relaxed);
+    if (k.bounce(range, h, fall)) bounced.store(true, std::memory_order_relaxed);
   });
   return bounced.load();
 }

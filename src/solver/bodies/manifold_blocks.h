@@ -38,7 +38,8 @@ class ManifoldBlocks {
   // Each of these calls the function of that name (manifold_passes.h) for all manifolds.
   void prepare(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions);
   void warm_start(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions);
-  bool bounce(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions, float h, float slow);
+  bool bounce(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions, float h,
+              const Vec3f& fall);
   void position_pass(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions, float h,
                      const ContactSoftness& softness);
   void velocity_pass(Executor& executor, const ManifoldKernels& kernels, std::span<BodyMotion> motions, float h);

@@ -263,17 +263,22 @@ PLIANT_HD void velocity_pass(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b,
 /// True where a point would pass through in this substep; those points get the velocity that restitution demands.
 template <class R, int lanes>
 PLIANT_HD auto bounce(const ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b, const Moved<R>& moved_a,
-                      const Moved<R>& moved_b, float h, float slow) {
+                      const Moved<R>& moved_b, float h, const Vec3f& fall) {
   Wrench<R> motion = along(m, approach(m, a, b), b.spin - a.spin);
   const Wrench<R> moved = moved_apart(m, moved_a, moved_b);
   const Mobility<R> mobility = mobility_of<R>(m);
-  const R zero(0.f), restitution = get<R>(m.restitution);
+  const R zero(0.f), restitution = get<R>(m.restitution), slow(-2 * length(fall));
+  // Gravity's share of the approach in this substep, where it acts on one of both alone. A body that goes back where it came from leaves
+  // the height at which it is with the speed that it had there.
+  const Vec3<R> falls{R(fall.x), R(fall.y), R(fall.z)}, none{zero, zero, zero};
+  const R together =
+      dot(get<R>(m.normal), select(b.inverse_mass > zero, falls, none) - select(a.inverse_mass > zero, falls, none));
   R wanted[4], most = zero;
   PLIANT_UNROLL
   for (int i = 0; i < 4; ++i) {
     const R speed = at_point(m, i, motion), gap = get<R>(m.gap[i]) + at_point(m, i, moved);
-    const R back = select(gap + R(h) * speed < zero, -restitution * speed, zero);
-    wanted[i] = select(speed <= R(-slow), back, zero);
+    const R back = select(gap + R(h) * speed < zero, -restitution * (speed - together), zero);
+    wanted[i] = select(speed <= slow, back, zero);
     most = max(most, wanted[i]);
   }
   PointImpulses<R> impulse{{zero, zero, zero, zero}};

@@ -19,7 +19,7 @@ struct ManifoldKernels {
   void (*prepare)(const BlockRange& range);
   void (*warm_start)(const BlockRange& range);
   /// Returns true if any point bounced.
-  bool (*bounce)(const BlockRange& range, float h, float slow);
+  bool (*bounce)(const BlockRange& range, float h, const Vec3f& fall);
   void (*position_pass)(const BlockRange& range, const PassNumbers& numbers);
   void (*velocity_pass)(const BlockRange& range, const PassNumbers& numbers);
 };

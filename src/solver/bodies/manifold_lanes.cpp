@@ -85,12 +85,12 @@ void warm_start_blocks(const BlockRange& range) {
       });
 }
 
-bool bounce_blocks(const BlockRange& range, float h, float slow) {
+bool bounce_blocks(const BlockRange& range, float h, const Vec3f& fall) {
   std::uint32_t bounced = 0;
   for_blocks(
       range, [&](ManifoldBlock & block, Motion<Wide> & a, Motion<Wide> & b) __attribute__((always_inline)) {
         bounced |= lane_bits(
-            bounce(block.rows, a, b, load_moved(range.motions, block.a), load_moved(range.motions, block.b), h, slow));
+            bounce(block.rows, a, b, load_moved(range.motions, block.a), load_moved(range.motions, block.b), h, fall));
       });
   return bounced != 0;
 }

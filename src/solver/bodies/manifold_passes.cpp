@@ -47,10 +47,11 @@ struct WarmStart {
   }
 };
 struct Bounce {
-  float h, slow;
+  float h;
+  Vec3f fall;
   bool* bounced;
   void operator()(Row& row, Pair& p) const {
-    if (formulas::bounce(row, p.a, p.b, p.moved_a, p.moved_b, h, slow)) *bounced = true;
+    if (formulas::bounce(row, p.a, p.b, p.moved_a, p.moved_b, h, fall)) *bounced = true;
   }
 };
 struct PositionPass {
@@ -120,9 +121,9 @@ void run(const BlockRange& range, const Pass& pass) {
 
 void prepare_blocks(const BlockRange& range) { run(range, Prepare{}); }
 void warm_start_blocks(const BlockRange& range) { run(range, WarmStart{}); }
-bool bounce_blocks(const BlockRange& range, float h, float slow) {
+bool bounce_blocks(const BlockRange& range, float h, const Vec3f& fall) {
   bool bounced = false;
-  run(range, Bounce{h, slow, &bounced});
+  run(range, Bounce{h, fall, &bounced});
   return bounced;
 }
 void position_pass_blocks(const BlockRange& range, const PassNumbers& numbers) { run(range, PositionPass{numbers}); }
@@ -142,9 +143,9 @@ void prepare(Manifold& m, const BodyMotion& a, const BodyMotion& b) {
 
 void warm_start(const Manifold& m, BodyMotion& a, BodyMotion& b) { run(m, a, b, WarmStart{}); }
 
-bool bounce(Manifold& m, BodyMotion& a, BodyMotion& b, float h, float slow) {
+bool bounce(Manifold& m, BodyMotion& a, BodyMotion& b, float h, const Vec3f& fall) {
   bool bounced = false;
-  if (m.restitution > 0) run(m, a, b, Bounce{h, slow, &bounced});
+  if (m.restitution > 0) run(m, a, b, Bounce{h, fall, &bounced});
   return bounced;
 }
 

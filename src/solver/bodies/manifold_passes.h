@@ -58,10 +58,10 @@ void prepare(Manifold& manifold, const BodyMotion& a, const BodyMotion& b);
 /// Applies the kept impulses, at the start of a substep.
 void warm_start(const Manifold& manifold, BodyMotion& a, BodyMotion& b);
 
-/// Where points would pass through in this substep, faster than `slow` [m/s], gives them the velocity that restitution demands.
+/// Where points would pass through in this substep, faster than twice `fall`, which is what gravity adds to velocities in the substep [m/s], gives them the velocity that restitution demands.
 /// Returns true if there were any. Called for all manifolds in turn until none is left, before the passes, so that a row of
 /// balls passes an impact on.
-bool bounce(Manifold& manifold, BodyMotion& a, BodyMotion& b, float h, float slow);
+bool bounce(Manifold& manifold, BodyMotion& a, BodyMotion& b, float h, const Vec3f& fall);
 
 /// Corrects velocities so that gaps become shorter by their share: friction first, then the points one after another.
 void position_pass(Manifold& manifold, BodyMotion& a, BodyMotion& b, float h, const ContactSoftness& softness);
