@@ -67,7 +67,8 @@ class Bodies {
       bool bounced = restitution > 0;
       for (int round = 0; bounced && round < most_rounds; ++round) {
         bounced = false;
-        for_manifolds([&](Manifold& m, BodyMotion& a, BodyMotion& b) { bounced = bounce(m, a, b, h, gravity * h) || bounced; });
+        for_manifolds(
+            [&](Manifold& m, BodyMotion& a, BodyMotion& b) { bounced = bounce(m, a, b, h, gravity * h) || bounced; });
       }
       for_manifolds([&](Manifold& m, BodyMotion& a, BodyMotion& b) { position_pass(m, a, b, h, {}); });
       for (BodyMotion& m : motions_) {
