@@ -99,8 +99,8 @@ void BodyIslands::join_bodies(std::span<const std::pair<int, int>> pressing) {
 }
 
 void BodyIslands::join_points(const Substep& s, const BodyPoints& points) {
-  for (const Contact& c : points.contacts())
-    if (c.push > 0) join(points.body_of_solid(c.collider), node_of_points(s.model.object_of(c.point[0])));
+  for (const Contact& c : points.impulses().contacts())
+    if (c.push > 0) join(points.solids().number_of(c), node_of_points(s.model.object_of(c.point[0])));
 }
 
 void BodyIslands::join_links(const Substep& s) {

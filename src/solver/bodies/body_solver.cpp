@@ -229,8 +229,8 @@ void BodySolver::end_frame(Substep& s) {
   take_impulses(s);
   if (!s.context.sleep.on) return;
   std::vector<int> pressed;
-  for (const Contact& contact : points_.contacts())
-    if (contact.push > 0) pressed.push_back(points_.body_of_solid(contact.collider));
+  for (const Contact& contact : point_contacts())
+    if (contact.push > 0) pressed.push_back(body_of(contact));
   s.report.sleeping_bodies = sleep_.end_frame(s, {finder_.bodies(), states_, pressed});
   sleep_.add_kept_contacts(contacts_);
 }
@@ -246,10 +246,10 @@ void BodySolver::log_contacts(const Substep& s, ContactLog& log) {
     add(contacts_[at(i)], states_[b].pose.position + convert<double>(motions_.all()[b].displacement));
   }
   for (const BodyContact& c : sleep_.kept_contacts()) add(c, states_[at(sleep_.body_of(c.b))].pose.position);
-  points_.log_contacts(s, log);
+  points_.impulses().log_contacts(s, points_.solids(), log);
   finish_substep(log);
 }
 
-int BodySolver::contacts_that_press() const { return points_.contacts_that_press() + blocks_.pressing(); }
+int BodySolver::contacts_that_press() const { return points_.impulses().contacts_that_press() + blocks_.pressing(); }
 
 }  // namespace pliant

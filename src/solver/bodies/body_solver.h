@@ -56,14 +56,14 @@ class BodySolver {
   /// After a phase of chains: gives the bodies the impulses of the particles that carry them.
   void end_chains(Substep& s) { points_.end_chains(s, motions_.present()); }
   /// In the order of bodies in BodyIslands.
-  const std::vector<TouchedBody>& touched_bodies() const { return points_.bodies(); }
+  const std::vector<TouchedBody>& touched_bodies() const { return points_.solids().bodies(); }
   /// The index among touched_bodies() of the body of a contact with points.
-  int body_of(const Contact& contact) const { return points_.body_of_solid(contact.collider); }
+  int body_of(const Contact& contact) const { return points_.solids().number_of(contact); }
   /// Finds the islands of a substep after its solve.
   const BodyIslands& find_islands(const Substep& s);
   /// Share of the corrections that becomes velocity.
   VelocityShares& velocity_shares() { return shares_; }
-  const std::vector<Contact>& point_contacts() const { return points_.contacts(); }
+  const std::vector<Contact>& point_contacts() const { return points_.impulses().contacts(); }
   /// The pass over velocities. `gravity` is what the velocities of an object lack of this frame's gravity [m/s].
   void respond(Substep& s, FunctionRef<Vec3f(int object)> gravity);
   /// Puts the impulses of the last substep into contacts().

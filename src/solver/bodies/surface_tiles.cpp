@@ -73,7 +73,7 @@ void measure(const Substep& s, SurfaceTile& tile) {
   tile.box = BoxBounds{low, high}.grown(2 * (thickness + 2 * tile.fastest));  // twice the reach of contacts
 }
 
-/// Measures edges anew where motion could have doubled them.
+/// Measures edges again where motion could have doubled them.
 void measure_edges(const Substep& s, SurfaceTile& tile) {
   if (tile.longest > 0 && tile.grown < 0.5f * tile.longest) return;
   float squared = 0;
