@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "collision/narrow/near_points.h"
 #include "math/motion.h"
 
 namespace pliant {
@@ -208,47 +209,103 @@ int without_centres(const CompiledObject& object, int count, std::vector<std::in
   return static_cast<int>(end - near.begin());
 }
 
+/// How far the points of a solid move in a substep.
+struct SolidMotion {
+  float path = 0;   ///< of its origin [m]
+  float chord = 0;  ///< of a point at a distance of 1 m from it, by rotation [m]
+
+  explicit SolidMotion(const MovingCollider& of) : path(length(of.after.position - of.before.position)) {
+    const Quatf turn = multiply(conjugate(of.before.rotation), of.after.rotation);
+    chord = 2 * length(Vec3f{turn.x, turn.y, turn.z});
+  }
+};
+
 /// The distance from a solid's box within which a particle that is displaced by `moved` can have a contact [m]; infinite for solids
 /// that turn fast. No particle farther away ends within the thickness and its own path, measured in the solid's frame.
-float reach_of(const MovingCollider& collider, float thickness, float moved) {
-  const Quatf turn = multiply(conjugate(collider.before.rotation), collider.after.rotation);
-  const float chord = 2 * length(Vec3f{turn.x, turn.y, turn.z}),
-              path = length(collider.after.position - collider.before.position);
-  if (!(chord < 0.5f)) return 3e38f;
+float reach_of(const MovingCollider& collider, const SolidMotion& motion, float thickness, float moved) {
+  if (!(motion.chord < 0.5f)) return 3e38f;
   Vec3f corner = collider.shape.kind == ShapeKind::plane ? Vec3f{} : half_sides<float>(collider.shape);
   if (collider.field != nullptr) corner = max(abs(collider.field->bounds().low), abs(collider.field->bounds().high));
-  const float travelled = moved + path;
-  return 1.01f * ((thickness + travelled + moved) + chord * (length(corner) + travelled)) / (1 - chord);
+  const float travelled = moved + motion.path;
+  return 1.01f * ((thickness + travelled + moved) + motion.chord * (length(corner) + travelled)) / (1 - motion.chord);
 }
+
+/// Lists of near particles hold for the motion of about so many substeps, and for this share of the solid's box.
+constexpr float substeps_of_lists = 8, share_of_box = 0.05f;
+
+/// The particles near a collider that moves, and the box that those in contact are in.
+struct NearMoving {
+  SolidMotion motion;
+  BoxBounds box{};
+  NearPoints::List* list = nullptr;
+
+  NearMoving(const ContactSearch& search, int number, float thickness)
+      : motion(search.colliders[static_cast<std::size_t>(number)]) {
+    const MovingCollider& collider = search.colliders[static_cast<std::size_t>(number)];
+    const float reach = reach_of(collider, motion, thickness, search.largest_displacement);
+    const Vec3f by{reach, reach, reach};
+    box = {collider.swept.low - by, collider.swept.high + by};
+    const float slack = substeps_of_lists * (search.largest_displacement + motion.path) +
+                        share_of_box * largest(collider.swept.high - collider.swept.low);
+    list = &search.near_points->near(number, box, slack);
+  }
+
+  bool has(const Record& p) const {
+    return (p.x >= box.low.x) & (p.y >= box.low.y) & (p.z >= box.low.z) & (p.x <= box.high.x) & (p.y <= box.high.y) &
+           (p.z <= box.high.z);
+  }
+};
 
 /// Finds the particles near a collider that moves, ascending.
-int find_near_moving(const ContactSearch& search, const MovingCollider& collider, float thickness,
-                     std::vector<std::int32_t>& near) {
-  near.clear();
-  const float reach = reach_of(collider, thickness, search.largest_displacement);
-  const Vec3f by{reach, reach, reach};
-  const BoundingBox<float> box{collider.swept.low - by, collider.swept.high + by};
-  search.cells->query({box.low, box.high}, near);
-  std::size_t inside = 0;
-  for (const std::int32_t number : near) {
-    const std::int32_t i = number - search.first_of_object;
-    const Record& p = search.particles.positions[i];
-    near[inside] = i;
-    inside += (p.x >= box.low.x) & (p.y >= box.low.y) & (p.z >= box.low.z) & (p.x <= box.high.x) & (p.y <= box.high.y) &
-              (p.z <= box.high.z);
+int find_near_moving(const ContactSearch& search, int number, float thickness, std::vector<std::int32_t>& near) {
+  const NearMoving moving(search, number, thickness);
+  const std::vector<std::int32_t>& points = moving.list->points;
+  near.resize(points.size() + batch_width);
+  int inside = 0;
+  for (const std::int32_t point : points) {
+    const std::int32_t i = point - search.first_of_object;
+    near[static_cast<std::size_t>(inside)] = i;
+    inside += moving.has(search.particles.positions[i]) ? 1 : 0;
   }
-  near.resize(inside);
-  near.resize(near.size() + batch_width);
-  return static_cast<int>(near.size()) - batch_width;
+  near.resize(static_cast<std::size_t>(inside) + batch_width);
+  return inside;
 }
 
-/// Finds the particles to test against a collider. Without cells these are all particles of the tile if the collider moves, because
+/// True if a path of this length to a place in a grid's frame stays farther than the thickness from the grid's solid, by a distance
+/// known elsewhere. A trilinear distance grows by at most one along each axis.
+bool stays_clear(const NearPoints::Known& known, const Vec3f& to, float path, float thickness) {
+  constexpr float steepest = 1.7321f;
+  const float rounded = 1e-5f * ((largest(abs(to)) + largest(abs(known.place))) + (abs(known.distance) + path));
+  return known.distance - steepest * length(to - known.place) > thickness + steepest * path + rounded;
+}
+
+/// Finds contacts of the particles near a collider that moves and is given by a grid. Distances are sampled only where those known
+/// from earlier substeps leave a contact possible.
+void find_contacts_in_grid(const Meeting& m, std::vector<Contact>& contacts) {
+  const NearMoving moving(m.search, m.number, m.thickness);
+  const MovingCollider& collider = m.collider;
+  const AdvanceArguments& a = m.search.particles;
+  NearPoints::List& list = *moving.list;
+  for (std::size_t k = 0; k < list.points.size(); ++k) {
+    const int i = list.points[k] - m.search.first_of_object;
+    const Record &x = a.positions[i], &d = a.displacements[i];
+    if (!moving.has(x) || m.search.object.bodies.has_centre(i)) continue;
+    const Vec3f to = to_local(collider.after, Vec3f{x.x, x.y, x.z} + Vec3f{d.x, d.y, d.z});
+    NearPoints::Known& known = list.known[k];
+    const float path = m.search.largest_displacement + moving.motion.path + moving.motion.chord * length(to);
+    if (stays_clear(known, to, 1.001f * path, m.thickness)) continue;
+    known = {to, collider.field->distance(to).distance};
+    if (stays_clear(known, to, 1.001f * path, m.thickness)) continue;
+    find_contact(m, i, contacts);
+  }
+}
+
+/// Finds the particles to test against a collider. Without lists these are all particles of the tile if the collider moves, because
 /// the kernel measures displacements of particles only.
-int find_near(const ContactSearch& search, const MovingCollider& collider, float thickness,
-              std::vector<std::int32_t>& near) {
+int find_near(const ContactSearch& search, int number, float thickness, std::vector<std::int32_t>& near) {
   const AdvanceArguments& a = search.particles;
-  if (search.cells != nullptr && (collider.field == nullptr || !collider.field->is_ground()))
-    return find_near_moving(search, collider, thickness, near);
+  const MovingCollider& collider = search.colliders[static_cast<std::size_t>(number)];
+  if (search.near_points != nullptr && collider.field == nullptr) return find_near_moving(search, number, thickness, near);
   near.resize(a.last - a.first + batch_width);
   if (collider.moves || collider.field != nullptr) {
     for (int i = a.first; i < a.last; ++i) near[i - a.first] = i;
@@ -281,8 +338,10 @@ void find_contacts_with(const ContactSearch& search, int c, std::vector<std::int
   const MovingCollider& collider = search.colliders[c];
   if (!overlap(search.bounds, collider.swept, search.object.thickness) || !meet(search.object, collider)) return;
   const float thickness = search.object.thickness + collider.thickness;
-  const int count = without_centres(search.object, find_near(search, collider, thickness, near), near);
   const Meeting meeting(search, c, thickness);
+  if (search.near_points != nullptr && collider.field != nullptr && !collider.field->is_ground())
+    return find_contacts_in_grid(meeting, contacts);
+  const int count = without_centres(search.object, find_near(search, c, thickness, near), near);
   if (search.make_contacts != nullptr && collider.field == nullptr) {
     find_contacts_in_lanes(meeting, near, count, contacts);
   } else {

@@ -7,7 +7,6 @@
 
 #include <vector>
 
-#include "collision/broad/point_cells.h"
 #include "collision/fields/collider_pose.h"
 #include "collision/fields/solid_field.h"
 #include "collision/narrow/point_contact.h"
@@ -18,6 +17,8 @@
 #include "model/substep.h"
 
 namespace pliant {
+
+class NearPoints;
 
 /// A collider during one substep.
 struct MovingCollider {
@@ -44,10 +45,9 @@ struct ContactSearch {
   int (*find_near)(const NearQuery& query, std::int32_t* near);  ///< the kernel StepKernels::find_near
   MakePointContacts make_contacts = nullptr;  ///< ContactKernels::make_point_contacts, or null for one particle at a time
   const std::vector<int>* near_colliders = nullptr;  ///< the colliders that may be near the tile, ascending; null: all
-  const PointCells* cells =
-      nullptr;                     ///< the object's particles at the substep's start; null: none. Numbers as in the State
-  int first_of_object = 0;         ///< the number of the object's first particle in `cells`
-  float largest_displacement = 0;  ///< of the particles in `cells` [m]
+  NearPoints* near_points = nullptr;  ///< of the tile; null: all its particles are tested. Numbers as in the State
+  int first_of_object = 0;            ///< the number of the object's first particle in `near_points`
+  float largest_displacement = 0;     ///< of the particles in `near_points` [m]
 };
 
 /// Appends the contacts of a tile's particles, ordered by collider, then by particle. `near` is scratch memory.

@@ -56,10 +56,10 @@ void BodyPoints::detect(Substep& s) {
     const AdvanceArguments a = particles(s, task);
     TileScratch& scratch = s.work.tiles[at(task)];
     const SurfaceTile& tile = surfaces_.tiles()[at(i)];
-    find_contacts(
-        {object_of(s, task), a, scratch.bounds, solids_.moving(), s.kernels.find_near,
-         s.kernels.contacts.make_point_contacts, &tile.solids, &tile.cells, s.model.first[at(number)], tile.fastest},
-        scratch.near, found);
+    find_contacts({object_of(s, task), a, scratch.bounds, solids_.moving(), s.kernels.find_near,
+                   s.kernels.contacts.make_point_contacts, &tile.solids, &surfaces_.near_points(i),
+                   s.model.first[at(number)], tile.fastest},
+                  scratch.near, found);
     for (Contact& contact : found)
       for (std::int32_t& point : contact.point) point += s.model.first[at(number)];
   });

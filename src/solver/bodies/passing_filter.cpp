@@ -25,6 +25,12 @@ constexpr double shallow = 0.25;
 constexpr float share_of_size = 0.5f;
 /// Pairs are found for the motion of about so many substeps, and for this share of a solid's radius.
 constexpr float substeps_of_pairs = 8, share_of_radius = 0.1f;
+/// The same for which pairs are far.
+constexpr float substeps_of_groups = 8, share_of_groups = 0.02f;
+/// A bound of all motion that is smaller than this share of what far pairs allow is good enough.
+constexpr float share_of_slack = 0.05f;
+/// What is added to a motion for rounding: a share of it, and positions' [m].
+constexpr float motion_rounding = 1 + 1e-5f, position_rounding = 3e-7f;
 
 float inner_radius(const ConvexShape& shape) {
   switch (shape.kind) {
@@ -101,20 +107,18 @@ ConvexDistance distance_of(const ConvexShape& shape, const Posed& pose, const El
 
 }  // namespace
 
-/// How a solid moves in a substep.
-struct PassingFilter::Motion {
-  Posed before, after;
-  Vec3f displacement{};
-  float turned = 0;  ///< largest displacement of a point of the solid by its rotation [m]
+PassingFilter::Motion PassingFilter::motion_of(const MovingCollider& at, float radius) {
+  const Quatf turn = multiply(at.after.rotation, conjugate(at.before.rotation));
+  return {convert<double>(at.before), convert<double>(at.after), at.after.position - at.before.position,
+          2.1f * length(Vec3f{turn.x, turn.y, turn.z}) * radius};
+}
 
-  Motion(const MovingCollider& at, float radius)
-      : before(convert<double>(at.before)),
-        after(convert<double>(at.after)),
-        displacement(at.after.position - at.before.position) {
-    const Quatf turn = multiply(at.after.rotation, conjugate(at.before.rotation));
-    turned = 2.1f * length(Vec3f{turn.x, turn.y, turn.z}) * radius;
-  }
-};
+void PassingFilter::forget(Solid& solid) {
+  solid.pairs.clear();
+  solid.vertices.clear();
+  solid.is_grouped = false;
+  solid.reach = -1;
+}
 
 PassingFilter::PassingFilter(const std::vector<ConvexShape>& shapes) {
   for (const ConvexShape& shape : shapes) {
@@ -126,14 +130,25 @@ PassingFilter::PassingFilter(const std::vector<ConvexShape>& shapes) {
 }
 
 void PassingFilter::begin_frame() {
-  for (Solid& solid : solids_) {
-    solid.pairs.clear();
-    solid.reach = -1;
+  for (Solid& solid : solids_) forget(solid);
+}
+
+/// Takes the motion that far pairs have used from their bounds, so that all pairs are alike.
+void PassingFilter::take_motion(Solid& solid) {
+  if (!solid.is_grouped) return;
+  auto close = solid.close.begin();
+  for (int i = 0; i < static_cast<int>(solid.pairs.size()); ++i) {
+    if (close != solid.close.end() && *close == i)
+      ++close;
+    else
+      solid.pairs[at(i)].bound -= solid.used;
   }
+  solid.is_grouped = false;
 }
 
 void PassingFilter::find_pairs(const Substep& s, const SurfaceTiles& surfaces, const MovingCollider& at_solid, int number,
                                const FunctionRef<bool(const Contact&)>& meets, Solid& solid) {
+  take_motion(solid);
   std::vector<Pair> kept;
   kept.swap(solid.pairs);
   solid.reach = substeps_of_pairs * solid.next + share_of_radius * solid.outer;
@@ -156,7 +171,7 @@ void PassingFilter::find_pairs(const Substep& s, const SurfaceTiles& surfaces, c
       return overlap(box, {min(a, min(b, c)), max(a, max(b, c))});
     };
     solid.points.clear();
-    tile.cells.query(box.grown(tile.longest), solid.points);
+    tile.near_points.cells().query(box.grown(tile.longest), solid.points);
     for (const std::int32_t point : solid.points)
       for (int k = tile.first_element[at(point - tile.first)]; k < tile.first_element[at(point - tile.first) + 1]; ++k)
         if (is_near(tile.elements[at(k)]) && may_touch(tile.elements[at(k)]))
@@ -176,6 +191,40 @@ void PassingFilter::find_pairs(const Substep& s, const SurfaceTiles& surfaces, c
     while (old != kept.end() && in_order(*old, pair)) ++old;
     if (old != kept.end() && old->element == pair.element) pair = *old;
   }
+  solid.vertices.clear();
+  for (const Pair& pair : solid.pairs)
+    solid.vertices.insert(solid.vertices.end(), pair.element.begin(), pair.element.end());
+  std::sort(solid.vertices.begin(), solid.vertices.end());
+  solid.vertices.erase(std::unique(solid.vertices.begin(), solid.vertices.end()), solid.vertices.end());
+}
+
+/// Finds which pairs are far, so that a bound of all motion tells that none of them passes.
+void PassingFilter::group_pairs(const Substep& s, Solid& solid) {
+  const float least = substeps_of_groups * solid.fastest + share_of_groups * solid.outer;
+  solid.close.clear();
+  solid.slack = 1e30f;
+  solid.used = 0;
+  for (int i = 0; i < static_cast<int>(solid.pairs.size()); ++i) {
+    const float room = solid.pairs[at(i)].bound - gap_of(s, solid.pairs[at(i)].object);
+    if (room > least)
+      solid.slack = min(solid.slack, room);
+    else
+      solid.close.push_back(i);
+  }
+  solid.is_grouped = true;
+}
+
+/// True if no far pair can pass by the present motion, which is then used.
+bool PassingFilter::far_pairs_stay_clear(const Substep& s, Solid& solid) {
+  float moved = solid.next * motion_rounding + position_rounding;
+  if (!(moved < share_of_slack * (solid.slack - solid.used))) {
+    float squared = 0;
+    for (const int vertex : solid.vertices)
+      squared = max(squared, length_squared(xyz(s.work.displacements[at(vertex)]) - solid.motion.displacement));
+    moved = std::sqrt(squared) * motion_rounding + solid.motion.turned + position_rounding;
+  }
+  solid.next_used = solid.used + moved;
+  return solid.next_used < solid.slack;
 }
 
 void PassingFilter::add_contacts(const Substep& s, int number, const Pair& pair, const Vec3d& normal, double least,
@@ -194,11 +243,14 @@ void PassingFilter::add_contacts(const Substep& s, int number, const Pair& pair,
   }
 }
 
-void PassingFilter::check(const Substep& s, const Motion& motion, int number, Solid& solid, Pair& pair) {
+void PassingFilter::check(const Substep& s, int number, Solid& solid, Pair& pair) {
+  const Motion& motion = solid.motion;
   float squared = 0;
   for (const int vertex : pair.element)
     squared = max(squared, length_squared(xyz(s.work.displacements[at(vertex)]) - motion.displacement));
-  const float moved = std::sqrt(squared) * (1 + 1e-5f) + motion.turned + 3e-7f, kept = gap_of(s, pair.object);
+  const float moved = std::sqrt(squared) * motion_rounding + motion.turned + position_rounding,
+              kept = gap_of(s, pair.object);
+  solid.fastest = max(solid.fastest, moved);
   pair.next = pair.bound - moved;
   pair.overlaps = false;
   if (pair.next > kept) return;
@@ -241,42 +293,82 @@ void PassingFilter::check(const Substep& s, const Motion& motion, int number, So
   add_contacts(s, number, pair, before.normal, reach_along(solid.shape, motion.after, before.normal) + wanted, solid.found);
 }
 
-void PassingFilter::find_of(const Substep& s, const SurfaceTiles& surfaces, const MovingCollider& at_solid, int number,
-                            const Moved& moved, const FunctionRef<bool(const Contact&)>& meets) {
-  Solid& solid = solids_[at(number)];
+/// Finds which pairs of a solid a find concerns.
+void PassingFilter::begin_find(const SurfaceTiles& surfaces, const MovingCollider& at_solid, int number, const Moved& moved,
+                               Solid& solid) {
   solid.found.clear();
-  if (surfaces.tiles_near(number).empty()) {
-    solid.pairs.clear();
-    solid.reach = -1;
-    return;
-  }
+  solid.is_concerned = solid.is_new = false;
+  if (surfaces.tiles_near(number).empty()) return forget(solid);
+  solid.is_all = moved.solids == nullptr || (*moved.solids)[at(number)] != 0;
+  solid.is_concerned = solid.is_all || std::any_of(solid.vertices.begin(), solid.vertices.end(),
+                                                   [&](int v) { return (*moved.vertices)[at(v)] != 0; });
+  if (!solid.is_concerned) return;
+  solid.motion = motion_of(at_solid, solid.outer);
+  float fastest = moved.farthest;
+  for (const int t : surfaces.tiles_near(number)) fastest = max(fastest, surfaces.tiles()[at(t)].fastest);
+  solid.next = fastest + length(solid.motion.displacement) + solid.motion.turned;
+  solid.is_new = !(solid.spent + solid.next <= solid.reach);
+}
+
+void PassingFilter::find_of(const Substep& s, const SurfaceTiles& surfaces, const MovingCollider& at_solid, int number,
+                            const Moved& moved, const FunctionRef<bool(const Contact&)>& meets, Solid& solid) {
+  if (!solid.is_concerned) return;
+  if (solid.is_new) find_pairs(s, surfaces, at_solid, number, meets, solid);
   const auto has_moved = [&](const Pair& pair) {
     return std::any_of(pair.element.begin(), pair.element.end(), [&](int v) { return (*moved.vertices)[at(v)] != 0; });
   };
-  const bool is_all = moved.solids == nullptr || (*moved.solids)[at(number)] != 0;
-  if (!is_all && std::none_of(solid.pairs.begin(), solid.pairs.end(), has_moved)) return;
-  const Motion motion(at_solid, solid.outer);
-  float fastest = moved.farthest;
-  for (const int t : surfaces.tiles_near(number)) fastest = max(fastest, surfaces.tiles()[at(t)].fastest);
-  solid.next = fastest + length(motion.displacement) + motion.turned;
-  const bool is_new = !(solid.spent + solid.next <= solid.reach);
-  if (is_new) find_pairs(s, surfaces, at_solid, number, meets, solid);
+  const bool begins = moved.solids == nullptr;
+  if (begins && !solid.is_new && !solid.is_grouped) group_pairs(s, solid);
+  if (solid.is_grouped && far_pairs_stay_clear(s, solid)) {
+    for (const int i : solid.close)
+      if (solid.is_all || has_moved(solid.pairs[at(i)])) check(s, number, solid, solid.pairs[at(i)]);
+    return;
+  }
+  const bool is_whole = solid.is_all || solid.is_new || solid.is_grouped;  // far pairs were not checked in this substep
+  take_motion(solid);
+  if (is_whole) solid.fastest = 0;
   for (Pair& pair : solid.pairs)
-    if (is_all || is_new || has_moved(pair)) check(s, motion, number, solid, pair);
+    if (is_whole || has_moved(pair)) check(s, number, solid, pair);
 }
 
-void PassingFilter::find(const Substep& s, const SurfaceTiles& surfaces, const std::vector<MovingCollider>& solids,
+/// Sorts the particles of the tiles in which pairs are found.
+void PassingFilter::sort_points(const Substep& s, SurfaceTiles& surfaces) {
+  tiles_.clear();
+  for (std::size_t i = 0; i < solids_.size(); ++i)
+    if (solids_[i].is_new) {
+      const std::vector<int>& near = surfaces.tiles_near(static_cast<int>(i));
+      tiles_.insert(tiles_.end(), near.begin(), near.end());
+    }
+  std::sort(tiles_.begin(), tiles_.end());
+  tiles_.erase(std::unique(tiles_.begin(), tiles_.end()), tiles_.end());
+  s.context.executor.parallel_for(nullptr, static_cast<int>(tiles_.size()),
+                                  [&](int i) { surfaces.sort_points(s, tiles_[at(i)]); });
+}
+
+void PassingFilter::find(const Substep& s, SurfaceTiles& surfaces, const std::vector<MovingCollider>& solids,
                          const Moved& moved, FunctionRef<bool(const Contact&)> meets, std::vector<Contact>& found) {
-  s.context.executor.parallel_for(nullptr, static_cast<int>(solids.size()),
-                                  [&](int i) { find_of(s, surfaces, solids[at(i)], i, moved, meets); });
+  const auto for_solids = [&](FunctionRef<void(int)> body) {
+    s.context.executor.parallel_for(nullptr, static_cast<int>(solids.size()), body);
+  };
+  for_solids([&](int i) { begin_find(surfaces, solids[at(i)], i, moved, solids_[at(i)]); });
+  sort_points(s, surfaces);
+  for_solids([&](int i) { find_of(s, surfaces, solids[at(i)], i, moved, meets, solids_[at(i)]); });
   for (const Solid& solid : solids_) found.insert(found.end(), solid.found.begin(), solid.found.end());
 }
 
 void PassingFilter::end_substep(bool is_final) {
   for (Solid& solid : solids_) {
     solid.spent += solid.next;
-    if (!is_final) solid.reach = -1;
-    for (Pair& pair : solid.pairs) pair.bound = is_final ? pair.next : 0;
+    if (!is_final) {
+      solid.reach = -1;
+      solid.is_grouped = false;
+      for (Pair& pair : solid.pairs) pair.bound = 0;
+    } else if (solid.is_grouped) {
+      solid.used = solid.next_used;
+      for (const int i : solid.close) solid.pairs[at(i)].bound = solid.pairs[at(i)].next;
+    } else {
+      for (Pair& pair : solid.pairs) pair.bound = pair.next;
+    }
   }
 }
 

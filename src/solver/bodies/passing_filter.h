@@ -37,7 +37,7 @@ class PassingFilter {
   };
   /// Appends contacts for vertices that end beyond a plane, by solid, then by triangle. `solids` are where the displacements put
   /// them; `meets` tells which triangles a solid may touch.
-  void find(const Substep& s, const SurfaceTiles& surfaces, const std::vector<MovingCollider>& solids, const Moved& moved,
+  void find(const Substep& s, SurfaceTiles& surfaces, const std::vector<MovingCollider>& solids, const Moved& moved,
             FunctionRef<bool(const Contact&)> meets, std::vector<Contact>& found);
   /// After the last find of a substep. `is_final`: nothing has moved since.
   void end_substep(bool is_final);
@@ -58,28 +58,50 @@ class PassingFilter {
     Vec3f normal{};             ///< from the solid to the triangle, in the solid's frame; 0: not known
     bool overlaps = false;      ///< at the substep's end, by more than the contact yields
   };
+  /// How a solid moves in a substep.
+  struct Motion {
+    Posed before, after;
+    Vec3f displacement{};
+    float turned = 0;  ///< largest displacement of a point of the solid by its rotation [m]
+  };
   struct Solid {
     ConvexShape shape;
-    float inner = 0, outer = 0;  ///< radii about the origin of a ball inside the shape and of one around it [m]
-    std::vector<Pair> pairs;
+    float inner = 0, outer = 0;     ///< radii about the origin of a ball inside the shape and of one around it [m]
+    std::vector<Pair> pairs;        ///< by element
+    std::vector<int> vertices;      ///< of pairs, ascending
+    std::vector<int> close;         ///< indices of the pairs that each find checks, ascending; the others are far
+    float slack = 0;                ///< motion that far pairs allow before one has to be checked [m]
+    float used = 0, next_used = 0;  ///< of it at the substep's start and end; far pairs' own bounds do not have it [m]
+    float fastest = 0;              ///< motion of the fastest pair when all were checked last [m]
+    bool is_grouped = false;        ///< close and slack are for the present pairs
     float reach = -1,
           spent = 0;  ///< motion for which pairs are complete; motion since they were found, with the last find [m]
     float next = 0;   ///< motion of the substep [m]
+    Motion motion{};  ///< as of the last find that concerns the solid, like the next three
+    bool is_concerned = false, is_all = false;  ///< pairs may have to be checked: at all, and all of them
+    bool is_new = false;                        ///< pairs are found first
     std::vector<std::int32_t> points;
     std::vector<Contact> found;
     Polyhedron corners;  ///< of one triangle
   };
-  struct Motion;
-
+  static Motion motion_of(const MovingCollider& at, float radius);
+  static void forget(Solid& solid);
+  static void take_motion(Solid& solid);
   static void find_pairs(const Substep& s, const SurfaceTiles& surfaces, const MovingCollider& at, int number,
                          const FunctionRef<bool(const Contact&)>& meets, Solid& solid);
-  static void check(const Substep& s, const Motion& motion, int number, Solid& solid, Pair& pair);
+  static void group_pairs(const Substep& s, Solid& solid);
+  static bool far_pairs_stay_clear(const Substep& s, Solid& solid);
+  static void check(const Substep& s, int number, Solid& solid, Pair& pair);
   static void add_contacts(const Substep& s, int number, const Pair& pair, const Vec3d& normal, double least,
                            std::vector<Contact>& found);
-  void find_of(const Substep& s, const SurfaceTiles& surfaces, const MovingCollider& at, int number, const Moved& moved,
-               const FunctionRef<bool(const Contact&)>& meets);
+  static void begin_find(const SurfaceTiles& surfaces, const MovingCollider& at, int number, const Moved& moved,
+                         Solid& solid);
+  static void find_of(const Substep& s, const SurfaceTiles& surfaces, const MovingCollider& at, int number,
+                      const Moved& moved, const FunctionRef<bool(const Contact&)>& meets, Solid& solid);
+  void sort_points(const Substep& s, SurfaceTiles& surfaces);
 
   std::vector<Solid> solids_;
+  std::vector<int> tiles_;  ///< scratch memory
 };
 
 }  // namespace pliant

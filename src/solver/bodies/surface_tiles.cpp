@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
+#include "math/wide.h"
 #include "solver/bodies/body_math.h"
 #include "solver/substep.h"
 
@@ -56,21 +58,49 @@ void add_elements(const CompiledObject& object, int first_particle, SurfaceTile*
   }
 }
 
+Quad least(const Quad& a, const Quad& b) { return a < b ? a : b; }
+Quad most(const Quad& a, const Quad& b) { return a > b ? a : b; }
+float squared_of(const Quad& a) {
+  const Quad squares = a * a;
+  return squares[0] + squares[1] + squares[2];
+}
+
+/// Calls visit(place, particle) for the particles of a tile and its border.
+template <class Visit>
+void for_vertices(const SurfaceTile& tile, const Visit& visit) {
+  std::size_t place = 0;
+  for (int i = tile.first; i < tile.last; ++i) visit(place++, at(i));
+  for (const int i : tile.border) visit(place++, at(i));
+}
+
 /// The box of a tile's elements on their way, and its fastest vertex.
 void measure(const Substep& s, SurfaceTile& tile) {
-  Vec3f low{3e38f, 3e38f, 3e38f}, high = -low;
+  Quad low = Quad{} + 3e38f, high = -low;
   float squared = 0;
-  const auto add = [&](int i) {
-    const Vec3f x = xyz(s.state.positions[at(i)]), d = xyz(s.work.displacements[at(i)]);
-    low = min(low, min(x, x + d));
-    high = max(high, max(x, x + d));
-    squared = max(squared, length_squared(d));
-  };
-  for (int i = tile.first; i < tile.last; ++i) add(i);
-  for (const int i : tile.border) add(i);
+  for_vertices(tile, [&](std::size_t, std::size_t i) {
+    const Quad x = load_quad(&s.state.positions[i]), d = load_quad(&s.work.displacements[i]), to = x + d;
+    low = least(low, least(x, to));
+    high = most(high, most(x, to));
+    squared = max(squared, squared_of(d));
+  });
   tile.fastest = std::sqrt(squared);
   const float thickness = s.model.objects[at(tile.object)].thickness;
-  tile.box = BoxBounds{low, high}.grown(2 * (thickness + 2 * tile.fastest));  // twice the reach of contacts
+  const BoxBounds box{{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+  tile.box = box.grown(2 * (thickness + 2 * tile.fastest));  // twice the reach of contacts
+}
+
+/// How far the fastest vertex has moved since the last call [m]; infinity if there was none.
+float moved_since(const Substep& s, SurfaceTile& tile) {
+  const std::size_t count = at(tile.last - tile.first) + tile.border.size();
+  const bool is_first = tile.before.size() != count;
+  tile.before.resize(count);
+  float squared = 0;
+  for_vertices(tile, [&](std::size_t place, std::size_t i) {
+    const Record& x = s.state.positions[i];
+    squared = max(squared, squared_of(load_quad(&x) - load_quad(&tile.before[place])));
+    tile.before[place] = x;
+  });
+  return is_first ? std::numeric_limits<float>::infinity() : std::sqrt(squared);
 }
 
 /// Measures edges again where motion could have doubled them.
@@ -84,11 +114,6 @@ void measure_edges(const Substep& s, SurfaceTile& tile) {
   }
   tile.longest = std::sqrt(squared) * (1 + 1e-5f);
   tile.grown = 0;
-}
-
-void sort_points(const Substep& s, SurfaceTile& tile) {
-  tile.cells.build(s.state.positions.data(), tile.first, tile.last);
-  measure_edges(s, tile);
 }
 
 }  // namespace
@@ -120,7 +145,7 @@ bool SurfaceTiles::are_lists_valid(const std::vector<MovingCollider>& solids) co
   return true;
 }
 
-void SurfaceTiles::make_lists(const Substep& s, const std::vector<MovingCollider>& solids) {
+void SurfaceTiles::make_lists(const std::vector<MovingCollider>& solids) {
   kept_solids_.clear();
   for (const MovingCollider& solid : solids) {
     const float path = length(solid.after.position - solid.before.position);
@@ -133,13 +158,17 @@ void SurfaceTiles::make_lists(const Substep& s, const std::vector<MovingCollider
   for (std::vector<int>& tiles : tiles_near_) tiles.clear();
   for (std::size_t t = 0; t < tiles_.size(); ++t) {
     std::vector<int>& near = tiles_[t].solids;
-    const bool was_far = near.empty();
     near.clear();
     tree_.query(kept_tiles_[t], [&](int solid) { near.push_back(solid); });
     std::sort(near.begin(), near.end());
     for (const int solid : near) tiles_near_[at(solid)].push_back(static_cast<int>(t));
-    if (was_far && !near.empty()) sort_points(s, tiles_[t]);
+    tiles_[t].near_points.keep_only(near);
   }
+}
+
+void SurfaceTiles::sort_points(const Substep& s, int tile) {
+  tiles_[at(tile)].near_points.sort();
+  measure_edges(s, tiles_[at(tile)]);
 }
 
 void SurfaceTiles::begin_frame() {
@@ -149,13 +178,15 @@ void SurfaceTiles::begin_frame() {
 void SurfaceTiles::update(const Substep& s, const std::vector<MovingCollider>& solids, bool begins) {
   s.context.executor.parallel_for(nullptr, static_cast<int>(tiles_.size()), [&](int t) {
     SurfaceTile& tile = tiles_[at(t)];
-    // Where solids were near in the last substep they mostly still are.
-    if (begins && !tile.solids.empty()) sort_points(s, tile);
+    if (begins) {
+      const float moved = moved_since(s, tile);
+      tile.near_points.begin_substep(s.state.positions.data(), tile.first, tile.last, moved);
+      tile.grown += 2 * moved;
+      if (tile.longest > 0) tile.longest += 2 * moved;
+    }
     measure(s, tile);
-    tile.grown += 2 * tile.fastest;
-    tile.longest += 2 * tile.fastest;
   });
-  if (!are_lists_valid(solids)) make_lists(s, solids);
+  if (!are_lists_valid(solids)) make_lists(solids);
 }
 
 }  // namespace pliant
