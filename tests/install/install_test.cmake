@@ -1,12 +1,5 @@
 # Run by ctest: install, configure, build and run the outside project.
-function(must)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  if(NOT result EQUAL 0)
-    list(JOIN ARGN " " command)
-    message(FATAL_ERROR "failed (${result}): ${command}\n${output}")
-  endif()
-  set(output "${output}" PARENT_SCOPE)
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/must.cmake)
 
 file(REMOVE_RECURSE ${WORK})
 must(${CMAKE_COMMAND} --install ${PLIANT_BUILD} --prefix ${WORK}/prefix --config ${CONFIGURATION})
