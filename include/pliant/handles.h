@@ -77,6 +77,10 @@ class ObjectView {
   /// Object::joints.
   JointLoad joint_load(int joint) const;
   bool joint_is_broken(int joint) const;
+  /// The present pose of a rigid body: of the frame in which it was described (BodyOptions::position, rotation), in the world. `body`
+  /// is an index in Object::bodies, or a name that only one of these has. Throws an Error if there is no such body.
+  RigidPose pose(int body) const;
+  RigidPose pose(const std::string& body) const;
   /// True if a rigid body sleeps (SleepOptions). `body` is an index in Object::bodies.
   bool body_is_asleep(int body) const;
 

@@ -6,6 +6,7 @@
 #include "constraints/registry.h"
 #include "geometry/convex_hull.h"
 #include "math/quat.h"
+#include "model/body_names.h"
 
 namespace pliant {
 
@@ -92,7 +93,34 @@ void find_ties(const Object& object, const std::vector<int>& place, CompiledBodi
   sort_once(out.attached);
 }
 
+/// The mean length of the edges at each attached particle, from the positions at the start.
+std::vector<double> edge_lengths_of(const Object& object, const std::vector<int>& place, const CompiledBodies& bodies) {
+  std::vector<double> sums(bodies.is_centre.size(), 0), counts(bodies.is_centre.size(), 0);
+  for (const ConstraintGroup& group : object.constraints) {
+    if (bodies.attached.empty() || !is_length(group.type)) continue;
+    for (std::size_t i = 0; i + 1 < group.particles.size(); i += 2) {
+      const auto a = static_cast<std::size_t>(group.particles[i]), b = static_cast<std::size_t>(group.particles[i + 1]);
+      const double edge = length(convert<double>(object.positions[b]) - convert<double>(object.positions[a]));
+      for (const std::size_t end : {a, b}) {
+        sums[static_cast<std::size_t>(place[end])] += edge;
+        counts[static_cast<std::size_t>(place[end])] += 1;
+      }
+    }
+  }
+  std::vector<double> lengths;
+  for (const auto& [particle, body] : bodies.attached) {
+    const auto at = static_cast<std::size_t>(particle);
+    lengths.push_back(counts[at] > 0 ? sums[at] / counts[at] : 0);
+  }
+  return lengths;
+}
+
 }  // namespace
+
+std::string words_of_body(const CompiledBodies& bodies, int body, const std::string& object) {
+  const std::string& name = bodies.labels[static_cast<std::size_t>(body)].name;
+  return (has_own_name(name) ? "body '" + name + "'" : "body " + std::to_string(body)) + " of '" + object + "'";
+}
 
 ConvexShape convex_shape_of(const SolidShape& shape, std::vector<Polyhedron>& polyhedra) {
   return std::visit(MakeShape{polyhedra}, shape);
@@ -110,6 +138,7 @@ CompiledBodies compile_bodies(const Object& object, const std::vector<int>& plac
   for (const ObjectBody& body : object.bodies) {
     const int number = static_cast<int>(out.bodies.size()), particle = place[static_cast<std::size_t>(body.particle)];
     out.bodies.push_back({particle, body.frame});
+    out.labels.push_back({body.name, {convert<double>(body.origin), normalise(convert<double>(body.axes))}});
     out.is_centre[static_cast<std::size_t>(particle)] = 1;
     for (const Solid& solid : body.solids) {
       std::vector<float> key = std::visit(PolyhedronKey{}, solid.shape);
@@ -123,6 +152,7 @@ CompiledBodies compile_bodies(const Object& object, const std::vector<int>& plac
     }
   }
   find_ties(object, place, out);
+  out.edge_lengths = edge_lengths_of(object, place, out);
   out.polyhedra = std::move(polyhedra);
   return out;
 }

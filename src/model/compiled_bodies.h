@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,11 +24,19 @@ struct CompiledBodies {
     int particle = 0;  ///< storage index of the centre of mass
     int frame = 0;     ///< index of the orientation, among the object's frames
   };
+  /// What messages and poses need of a body.
+  struct Label {
+    std::string name;
+    Posed described;  ///< the frame in which it was described, in its principal axes about its centre of mass
+  };
   std::vector<Body> bodies;           ///< in the order of Object::bodies
+  std::vector<Label> labels;          ///< likewise
   std::vector<CompiledSolid> solids;  ///< body after body
   std::vector<std::pair<int, int>>
       jointed;  ///< pairs of bodies with a constraint between them, which do not collide; sorted
   std::vector<std::pair<int, int>> attached;  ///< particles and the bodies to which a constraint ties them; likewise
+  std::vector<double>
+      edge_lengths;  ///< [attached] mean length at the start of the edges at the particle; 0: it has none [m]
   std::shared_ptr<const std::vector<Polyhedron>> polyhedra;  ///< what shapes point to; each different one once
 
   bool empty() const { return bodies.empty(); }
@@ -35,6 +44,9 @@ struct CompiledBodies {
   bool has_centre(int particle) const { return !is_centre.empty() && is_centre[static_cast<std::size_t>(particle)] != 0; }
   std::vector<char> is_centre;  ///< [particle]; empty without bodies
 };
+
+/// The words for a body in messages: "body 'wheel' of 'car'", or "body 3 of 'car'" if it has no name of its own.
+std::string words_of_body(const CompiledBodies& bodies, int body, const std::string& object);
 
 /// Compiles the bodies of an object. `place` are the storage indices of its particles.
 CompiledBodies compile_bodies(const Object& object, const std::vector<int>& place, int particles);

@@ -171,14 +171,49 @@ bool ObjectView::joint_is_broken(int joint) const {
   return std::binary_search(broken.begin(), broken.end(), joint);
 }
 
+namespace {
+
+/// Throws an Error if the object has no such body.
+const CompiledBodies::Body& body_of(const CompiledObject& object, int body) {
+  if (body < 0 || static_cast<std::size_t>(body) >= object.bodies.bodies.size())
+    throw Error({.object = object.name, .element = "body " + std::to_string(body)},
+                "does not exist; there are " + std::to_string(object.bodies.bodies.size()) + " bodies",
+                "indices count from 0");
+  return object.bodies.bodies[static_cast<std::size_t>(body)];
+}
+
+/// Throws an Error if not exactly one body has the name.
+int body_of_name(const CompiledObject& object, const std::string& name) {
+  const std::vector<CompiledBodies::Label>& labels = object.bodies.labels;
+  const auto has_name = [&](const CompiledBodies::Label& label) { return label.name == name; };
+  const auto count = std::count_if(labels.begin(), labels.end(), has_name);
+  if (count != 1)
+    throw Error({.object = object.name, .element = "body '" + name + "'"},
+                count == 0 ? "does not exist" : "is the name of " + std::to_string(count) + " bodies",
+                count == 0 ? "use a name that BodyOptions::name gave" : "use the index, or give each body its own name");
+  return static_cast<int>(std::find_if(labels.begin(), labels.end(), has_name) - labels.begin());
+}
+
+}  // namespace
+
+RigidPose ObjectView::pose(int body) const {
+  const int number = read_->number(id_);
+  const CompiledObject& from = read_->model.objects[number];
+  const CompiledBodies::Body& place = body_of(from, body);
+  const Posed& described = from.bodies.labels[static_cast<std::size_t>(body)].described;
+  const Record& x = read_->state.positions[read_->model.first[number] + place.particle];
+  const Record& q = read_->state.frames.orientations[read_->model.first_frame[number] + place.frame];
+  const Posed axes{convert<double>(Vec3f{x.x, x.y, x.z}), normalise(convert<double>(Quatf{q.x, q.y, q.z, q.w}))};
+  return {convert<float>(to_world(axes, described.position)),
+          convert<float>(normalise(multiply(axes.rotation, described.rotation)))};
+}
+
+RigidPose ObjectView::pose(const std::string& body) const { return pose(body_of_name(read_->object(id_), body)); }
+
 bool ObjectView::body_is_asleep(int body) const {
   const int number = read_->number(id_);
   const CompiledObject& from = read_->model.objects[number];
-  if (body < 0 || static_cast<std::size_t>(body) >= from.bodies.bodies.size())
-    throw Error({.object = from.name, .element = "body " + std::to_string(body)},
-                "does not exist; there are " + std::to_string(from.bodies.bodies.size()) + " bodies",
-                "indices count from 0");
-  const int number_of_frame = read_->model.first_frame[number] + from.bodies.bodies[static_cast<std::size_t>(body)].frame;
+  const int number_of_frame = read_->model.first_frame[number] + body_of(from, body).frame;
   const auto frame = static_cast<std::size_t>(number_of_frame);
   return frame < read_->state.rest_times.size() && read_->state.rest_times[frame] == asleep;
 }
