@@ -14,36 +14,38 @@ namespace pliant {
 struct BodyInertia {
   float mass = 1;           ///< > 0 [kg]
   Vec3f centre{};           ///< centre of mass [m]
-  Vec3f moments{1, 1, 1};   ///< Ixx, Iyy, Izz about the centre, > 0 [kg m^2]
+  Vec3f moments{1, 1, 1};   ///< Ixx, Iyy, Izz about the centre, > 0; none above the sum of the others [kg m^2]
   Vec3f products{0, 0, 0};  ///< Iyz, Izx, Ixy: elements of the inertia tensor, negative integrals of y z, z x, x y [kg m^2]
 };
 
 /// Options of make_body.
 struct BodyOptions {
-  std::string name = "body";
-  Vec3f position{};          ///< of the frame in which the solids are described [m]
-  Quatf rotation{};          ///< of that frame; unit quaternion
-  Vec3f velocity{};          ///< of the centre of mass [m/s]
-  Vec3f angular_velocity{};  ///< in world axes [rad/s]
-  float mass = 0;            ///< replaces the mass that densities give, > 0 [kg]; 0: by density; infinity: fixed
+  std::string name = "body";  ///< each body of an object has its own, or this default
+  Vec3f position{};           ///< of the frame in which the solids are described [m]
+  Quatf rotation{};           ///< of that frame; unit quaternion
+  Vec3f velocity{};           ///< of the centre of mass [m/s]
+  Vec3f angular_velocity{};   ///< in world axes [rad/s]
+  float mass = 0;             ///< replaces the mass that densities give, > 0 [kg]; 0: by density; infinity: fixed
   std::optional<BodyInertia>
       inertia{};  ///< replaces mass, centre and inertia of the solids, of which there may then be none
 };
 
 /// Makes an object of one rigid body of solids, which may overlap: each counts with its own mass. Its particle is the centre of
 /// mass, its frame the principal axes of inertia. Throws an Error that names a solid with a size or density that is not
-/// positive, or a hull whose points lie in a plane. The object collides with others and, if bodies are added, with itself.
+/// positive, a hull whose points lie in a plane, a rotation of zero, or an inertia that no body has. The object collides with others and, if bodies are added, with itself.
 Object make_body(const std::vector<Solid>& solids, const BodyOptions& options = {});
 
 /// Adds a rigid body to an object, for example to a pile or a mechanism, and returns its index in Object::bodies.
 int add_body(Object& object, const std::vector<Solid>& solids, const BodyOptions& options = {});
 
 /// Ties particles of the object to a body, each to the place where it is: the end of a rope, the corner of a cloth. They do not touch
-/// that body. Throws an Error that names a particle or body that does not exist. Append rope or cloth to the body's object first.
+/// that body. Throws an Error if there are no particles, or that names a particle or body that does not exist. Append rope or cloth to
+/// the body's object first.
 void attach(Object& object, const std::vector<int>& particles, int body, const Stiffness& stiffness = {});
 
 /// Adds the particles, frames, bodies, joints, constraints, triangles and pins of another object to an object, whose other
-/// properties stay. Returns the index of its first particle. Throws an Error if it has a volume.
+/// properties stay. A body whose name is taken gets a number after it, as in "door_2". Returns the index of its first particle.
+/// Throws an Error if it has a volume.
 int append(Object& object, const Object& other);
 
 /// The pose of a body at time 0: of the frame in which it was described (BodyOptions::position, rotation), in the world.

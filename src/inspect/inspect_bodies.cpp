@@ -1,10 +1,12 @@
 // Errors in the rigid bodies of an object for which a World rejects it.
 #include <cmath>
+#include <map>
 #include <string>
 #include <variant>
 
 #include "geometry/convex_hull.h"
 #include "inspect/problems.h"
+#include "model/body_names.h"
 
 namespace pliant {
 
@@ -53,9 +55,24 @@ void check_place(Problems& problems, const std::string& element, const char* kin
   taken[static_cast<std::size_t>(index)] = 1;
 }
 
+/// Reports bodies with the name of another one, by which ObjectView::pose could not find them.
+void check_names(Problems& problems, const Object& object) {
+  std::map<std::string, std::size_t> first;
+  for (std::size_t b = 0; b < object.bodies.size(); ++b) {
+    const std::string& name = object.bodies[b].name;
+    if (!has_own_name(name)) continue;
+    const auto [known, is_new] = first.emplace(name, b);
+    if (!is_new)
+      problems.grave("body " + std::to_string(b) + " '" + name + "'",
+                     "has the name of body " + std::to_string(known->second),
+                     "give each body of an object its own name, or none");
+  }
+}
+
 }  // namespace
 
 void check_bodies(Problems& problems, const Object& object) {
+  check_names(problems, object);
   std::vector<char> particles(object.positions.size()), frames(object.frames.size());
   for (std::size_t b = 0; b < object.bodies.size(); ++b) {
     const ObjectBody& body = object.bodies[b];

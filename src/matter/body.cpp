@@ -1,6 +1,7 @@
 // Makes a rigid body of solids: its mass, centre and principal axes.
 #include "pliant/body.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -16,6 +17,21 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& body, std::size_t solid, const std::string& what, const std::string& advice) {
   throw Error({"", 0, body, "solid " + std::to_string(solid)}, what, advice);
+}
+
+/// Refuses a rotation that has no direction: one of zero, or not finite. Others are normalised.
+Quatd checked_rotation(const Quatf& rotation, const Location& of) {
+  const Quatd q = convert<double>(rotation);
+  const double squared = dot(q, q);
+  if (!(squared > 1e-12) || !std::isfinite(squared))
+    throw Error(of, "has a rotation that is " + std::string(squared == 0 ? "zero" : "not a unit quaternion"),
+                "give a unit quaternion: x = y = z = 0 and w = 1 is no rotation");
+  return normalise(q);
+}
+
+Posed pose_of_solid(const Solid& solid, const std::string& body, std::size_t number) {
+  return {convert<double>(solid.position),
+          checked_rotation(solid.rotation, {"", 0, body, "solid " + std::to_string(number)})};
 }
 
 /// Refuses a size that is not positive and finite.
@@ -66,8 +82,7 @@ Moments moments_of(const Solid& solid, const std::string& body, std::size_t numb
   if (!(solid.density > 0) || !std::isfinite(solid.density))
     refuse(body, number, "has a density of " + std::to_string(solid.density), "give a positive, finite density [kg/m^3]");
   const Moments own = std::visit(MomentsOf{{body, number}}, solid.shape);
-  const Posed pose{convert<double>(solid.position), normalise(convert<double>(solid.rotation))};
-  return moved(times(own, static_cast<double>(solid.density)), pose);
+  return moved(times(own, static_cast<double>(solid.density)), pose_of_solid(solid, body, number));
 }
 
 }  // namespace
@@ -89,11 +104,20 @@ Moments moments_of(const BodyInertia& inertia, const std::string& body) {
            m * c.z * c.x - off.y, m * c.x * c.y - off.z}};
 }
 
-/// Refuses an inertia tensor that is not positive definite.
+/// Refuses an inertia tensor that is not positive definite, or that no distribution of mass has: with x^2 + y^2 and so on
+/// integrated, no moment exceeds the sum of the others. Thin plates reach it, hence the margin for rounding.
 MassProperties checked(const MassProperties& own, const std::string& body) {
-  if (own.inertia.x > 0 && own.inertia.y > 0 && own.inertia.z > 0) return own;
-  throw Error({"", 0, body, "inertia"}, "has a principal moment of inertia that is not positive",
-              "make the products of inertia smaller than the moments");
+  const Vec3d& i = own.inertia;
+  if (!(i.x > 0 && i.y > 0 && i.z > 0))
+    throw Error({"", 0, body, "inertia"}, "has a principal moment of inertia that is not positive",
+                "make the products of inertia smaller than the moments");
+  const double sum = i.x + i.y + i.z, largest = std::max({i.x, i.y, i.z});
+  if (largest > 0.5 * (1 + 1e-4) * sum)
+    throw Error({"", 0, body, "inertia"},
+                "has a principal moment of " + std::to_string(largest) + " kg m^2, more than the sum of the others, " +
+                    std::to_string(sum - largest) + ", which no body has",
+                "check the moments; a thin rod has two that are equal, a thin plate one that is the sum of the others");
+  return own;
 }
 
 /// Moments of all solids in the frame in which they are described, with the mass that the options give.
@@ -110,9 +134,10 @@ Moments moments_of_all(const std::vector<Solid>& solids, const BodyOptions& opti
 }
 
 /// The body's solids in its principal axes, about its centre of mass.
-std::vector<Solid> in_principal_axes(std::vector<Solid> solids, const MassProperties& own) {
-  for (Solid& solid : solids) {
-    const Posed pose{convert<double>(solid.position), normalise(convert<double>(solid.rotation))};
+std::vector<Solid> in_principal_axes(std::vector<Solid> solids, const MassProperties& own, const std::string& body) {
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    Solid& solid = solids[i];
+    const Posed pose = pose_of_solid(solid, body, i);
     solid.position = convert<float>(rotate(conjugate(own.axes), pose.position - own.centre));
     solid.rotation = convert<float>(normalise(multiply(conjugate(own.axes), pose.rotation)));
   }
@@ -130,7 +155,7 @@ void append_velocity(Object& object, const Vec3f& velocity) {
 
 int add_body(Object& object, const std::vector<Solid>& solids, const BodyOptions& options) {
   const MassProperties own = checked(mass_properties(moments_of_all(solids, options)), options.name);
-  const Posed pose{convert<double>(options.position), normalise(convert<double>(options.rotation))};
+  const Posed pose{convert<double>(options.position), checked_rotation(options.rotation, {"", 0, options.name, ""})};
   const bool is_fixed = std::isinf(options.mass);
   const float infinity = std::numeric_limits<float>::infinity();
   object.positions.push_back(convert<float>(to_world(pose, own.centre)));
@@ -145,7 +170,7 @@ int add_body(Object& object, const std::vector<Solid>& solids, const BodyOptions
   body.name = options.name;
   body.particle = static_cast<int>(object.positions.size()) - 1;
   body.frame = static_cast<int>(object.frames.size()) - 1;
-  body.solids = in_principal_axes(solids, own);
+  body.solids = in_principal_axes(solids, own, options.name);
   body.origin = convert<float>(rotate(conjugate(own.axes), -own.centre));
   body.axes = convert<float>(conjugate(own.axes));
   object.bodies.push_back(std::move(body));

@@ -1,9 +1,11 @@
 // Puts objects together, and ties particles to bodies.
 #include <algorithm>
+#include <set>
 #include <string>
 #include <utility>
 
 #include "constraints/registry.h"
+#include "model/body_names.h"
 #include "pliant/body.h"
 #include "pliant/error.h"
 
@@ -29,9 +31,31 @@ ConstraintGroup shifted(ConstraintGroup group, int particles, int frames) {
   return group;
 }
 
+/// A name that is not taken: "door", else "door_2", "door_3" and so on.
+std::string free_name(const std::string& name, std::set<std::string>& taken) {
+  std::string found = name;
+  for (int number = 2; !taken.insert(found).second; ++number) found = name + "_" + std::to_string(number);
+  return found;
+}
+
+/// Bodies may share the name of those without one, and that of the world.
+void append_bodies(Object& object, const Object& other, int particles, int frames) {
+  std::set<std::string> taken;
+  for (const ObjectBody& body : object.bodies) taken.insert(body.name);
+  for (ObjectBody body : other.bodies) {
+    body.particle += particles;
+    body.frame += frames;
+    if (has_own_name(body.name)) body.name = free_name(body.name, taken);
+    object.bodies.push_back(std::move(body));
+  }
+}
+
 /// Joints list constraints by the number of their group.
 void append_joints(Object& object, const Object& other, int bodies, int groups) {
+  std::set<std::string> taken;
+  for (const ObjectJoint& joint : object.joints) taken.insert(joint.name);
   for (ObjectJoint joint : other.joints) {
+    joint.name = free_name(joint.name, taken);
     joint.a += bodies;
     joint.b += bodies;
     for (std::array<int, 2>& constraint : joint.constraints) constraint[0] += groups;
@@ -54,11 +78,7 @@ int append(Object& object, const Object& other) {
   object.positions.insert(object.positions.end(), other.positions.begin(), other.positions.end());
   object.masses.insert(object.masses.end(), other.masses.begin(), other.masses.end());
   object.frames.insert(object.frames.end(), other.frames.begin(), other.frames.end());
-  for (ObjectBody body : other.bodies) {
-    body.particle += particles;
-    body.frame += frames;
-    object.bodies.push_back(std::move(body));
-  }
+  append_bodies(object, other, particles, frames);
   for (const ConstraintGroup& group : other.constraints) object.constraints.push_back(shifted(group, particles, frames));
   append_joints(object, other, bodies, groups);
   for (const auto& [a, b, c] : other.triangles) object.triangles.push_back({a + particles, b + particles, c + particles});
@@ -75,6 +95,8 @@ int append(Object& object, const Object& other) {
 
 void attach(Object& object, const std::vector<int>& particles, int body, const Stiffness& stiffness) {
   require(object, "body", body, object.bodies.size());
+  if (particles.empty())
+    throw Error({"", 0, object.name, "body " + std::to_string(body)}, "is tied to no particles", "give at least one");
   for (const int particle : particles) require(object, "particle", particle, object.positions.size());
   const ObjectBody& to = object.bodies[static_cast<std::size_t>(body)];
   ConstraintGroup group;

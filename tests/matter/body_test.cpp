@@ -85,5 +85,33 @@ TEST(Body, OfNoSizeDensityOrVolumeIsRefused) {
   EXPECT_NE(refused({Sphere{1}}, options).find("mass"), std::string::npos);
 }
 
+TEST(Body, OfARotationOfZeroIsRefused) {
+  BodyOptions options;
+  options.name = "wheel";
+  options.rotation = {0, 0, 0, 0};
+  EXPECT_NE(refused({Sphere{1}}, options).find("object 'wheel': has a rotation that is zero"), std::string::npos)
+      << refused({Sphere{1}}, options);
+  EXPECT_NE(refused({Sphere{1}, {}, {0, 0, 0, 0}}).find("solid 0: has a rotation that is zero"), std::string::npos);
+  options.rotation = {0, NAN, 0, 1};
+  EXPECT_NE(refused({Sphere{1}}, options).find("not a unit quaternion"), std::string::npos);
+  options.rotation = {0, 0, 0, 1.001f};
+  EXPECT_EQ(refused({Sphere{1}}, options), "") << "what rounding leaves is normalised";
+}
+
+/// No moment of inertia exceeds the sum of the others, with equality for flat plates.
+TEST(Body, OfAnInertiaThatNoBodyHasIsRefused) {
+  BodyOptions options;
+  options.name = "plate";
+  options.inertia = BodyInertia{1, {}, {1, 1, 2}, {}};
+  EXPECT_EQ(refused({Sphere{1}}, options), "");
+  options.inertia->moments = {1, 1, 2.01f};
+  const std::string text = refused({Sphere{1}}, options);
+  EXPECT_NE(text.find("object 'plate', inertia"), std::string::npos) << text;
+  EXPECT_NE(text.find("more than the sum of the others"), std::string::npos) << text;
+  // Products count, too: the principal moments of this tensor are 1.5 - 1, 1.5 + 1 and 1.5.
+  options.inertia = BodyInertia{1, {}, {1.5f, 1.5f, 1.5f}, {0, 0, 1}};
+  EXPECT_NE(refused({Sphere{1}}, options).find("more than the sum"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace pliant

@@ -9,6 +9,7 @@
 #include "pliant/error.h"
 #include "pliant/joint.h"
 #include "pliant/world.h"
+#include "world/refusal.h"
 
 namespace pliant {
 namespace {
@@ -67,6 +68,31 @@ TEST(Attach, OfWhatDoesNotExistIsNamed) {
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("particle 99"), std::string::npos) << error.what();
   }
+}
+
+TEST(Attach, OfNoParticlesIsRefused) {
+  Object object = hung_box(1);
+  object.name = "box";
+  const std::string text = testing_support::refusal([&] { attach(object, {}, 0); });
+  EXPECT_NE(text.find("object 'box', body 0: is tied to no particles"), std::string::npos) << text;
+}
+
+/// Names stay different, so that bodies and joints can be found by them.
+TEST(Append, GivesTakenNamesANumber) {
+  Object object = make_body({{Sphere{0.1f}}}, {.name = "ball"});
+  add_joint(object, BallJoint{.b = 0, .options = {.name = "hook"}});
+  Object all = object;
+  append(all, object);
+  append(all, object);
+  std::vector<std::string> names;
+  for (const ObjectBody& body : all.bodies) names.push_back(body.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"ball", "world", "ball_2", "world", "ball_3", "world"}));
+  EXPECT_EQ(all.joints[1].name, "hook_2");
+  EXPECT_EQ(all.joints[2].name, "hook_3");
+  Scene scene;
+  scene.add(all);
+  const World world(scene);
+  EXPECT_EQ(world.object(0).pose("ball_3").position, Vec3f{});
 }
 
 /// Two doors appended to one object act like each by itself.
