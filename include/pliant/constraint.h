@@ -46,6 +46,7 @@ struct ConstraintDefinition {
   bool is_compiled = false;  ///< true for built-in types of one row over points, which are projected sixteen at a time
   bool is_joint =
       false;  ///< true for bilateral joints of two bodies (point, frame, point, frame): trees of them are solved directly
+  bool is_tie = false;  ///< true if C is the way from a place on a body to a particle (slots body, frame, particle) [m]
   bool acts_on_motion = false;  ///< true if rows impose a speed of C; only with `evaluate_bounded`
   float largest_change = 0;     ///< largest change of C in one projection; 0: no limit
   void (*evaluate)(const float* slots, const float* rest, float* c, float* gradients) = nullptr;
@@ -201,6 +202,7 @@ ConstraintDefinition definition_of() {
   static_assert(!is_bounded<T> || T::rows > 1 || T::slots::frames > 0, "a bounded row over points alone: not supported");
   made.acts_on_motion = acts_on_motion<T>;
   if constexpr (requires { T::is_joint; }) made.is_joint = T::is_joint;
+  if constexpr (requires { T::is_tie; }) made.is_tie = T::is_tie;
   if constexpr (is_bounded<T>) made.evaluate_bounded = &evaluate_bounded<T>;
   made.evaluate = &evaluate<T, float>;
   made.evaluate_double = &evaluate<T, double>;

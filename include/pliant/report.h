@@ -127,6 +127,19 @@ struct JointBreak {
   std::string name;  ///< of the joint
 };
 
+/// The rigid tie of a particle to a body (attach()) that is open farthest: the error that a step leaves. Ties with compliance or PBD
+/// stiffness are left out, because these open by design.
+struct TieGap {
+  double gap = 0;  ///< distance of the particle from its place on the body [m]
+  double length =
+      0;  ///< mean length of the edges at the particle, or without edges its distance from the centre of mass [m]
+  ObjectId object;
+  int particle = -1, body = -1;  ///< in the object's own order, and an index in Object::bodies; -1: no rigid tie is open
+};
+
+/// True if a tie is open by no more than an edge may be too long.
+inline bool is_tolerable(const TieGap& tie) { return tie.gap <= tolerated_overstretch * tie.length; }
+
 /// The result of a step. A step never throws, except for exceptions of the user's force fields.
 struct Report {
   std::int64_t frame = 0;
@@ -141,6 +154,7 @@ struct Report {
   IterationCount iterations;                   ///< iterations per substep
   std::optional<Overstretch> overstretch;      ///< of this frame; empty if it was not completed; see Measurements::advice
   WorstOverstretch worst_overstretch;          ///< of this and earlier frames
+  TieGap widest_tie;                           ///< of this frame, by gap / length; a warning says so if not tolerable
   std::vector<IterationResidual> convergence;  ///< last substep by iteration, if Settings::record_residuals is set
   int sleeping_bodies = 0;                     ///< rigid bodies that sleep at the end of the step (SleepOptions)
   std::vector<JointBreak> broken_joints;       ///< joints that broke in this step, by object and index

@@ -12,6 +12,7 @@ struct BodyAnchor {
   static constexpr const char* name = "body_anchor";
   using slots = Slots<Point, Frame, Point>;  // body, its orientation, particle
   static constexpr int rows = 3;
+  static constexpr bool is_tie = true;
 
   template <class R>
   struct Params {

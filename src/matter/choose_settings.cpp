@@ -50,16 +50,21 @@ Choice choose(const Given& given, const Object& object, std::size_t number) {
   const double gravity = given.surroundings.gravity;
   if (given.settings.iterations > 1) return {Sweep::tiled, "more than one iteration"};
   const std::size_t particles = linked_particles(object);
+  // A heavy body stretches even a short rope, unless the rope is solved with the body's inertia, which only chains are.
+  const bool is_tied = particles > 0 && has_ties(object);
+  if (is_coarse(particles) && is_tied) return {Sweep::chains, name + ", which is tied to bodies"};
   if (is_coarse(particles)) return {Sweep::tiled, too_coarse};
   if (object.volume) return choose_for_volume(given, object, number);
   // Neither tethers nor multigrid know of bending, which demands more substeps than they need for stretch.
   const bool is_stiff = is_stiff_sheet(object, gravity), is_in_rows = is_regular(object);
   const bool touches = can_touch(given.surroundings, object, number);
-  if (!is_stiff && is_in_rows && may_be_tethered(object, gravity) && (!touches || !lies_on_pins(object)))
+  // Tethers would pull tied particles off their bodies.
+  if (!is_stiff && !is_tied && is_in_rows && may_be_tethered(object, gravity) && (!touches || !lies_on_pins(object)))
     return {Sweep::tethered_chains, name + ", which hangs from pins or attachments and has its springs in straight rows"};
   if (touches) return {Sweep::chains, name + ", a surface that can touch itself or others"};
   if (is_stiff) return {Sweep::chains, name + ", a sheet whose bending length is more than a quarter of its size"};
   if (is_in_rows) return {Sweep::chains, name + ", whose springs lie in straight rows"};
+  if (is_tied) return {Sweep::chains, name + ", which is tied to bodies"};
   // Multigrid would be faster at equal stretch, but cloth that should slide over a collider sticks with it.
   if (can_meet_collider(given.surroundings, object)) return {Sweep::chains, name + ", which can meet a collider"};
   return {Sweep::multigrid,

@@ -207,6 +207,13 @@ bool lies_on_pins(const Object& object) {
   return 10 * (object.pins.size() + object.attachments.size()) > object.positions.size();
 }
 
+bool has_ties(const Object& object) {
+  return std::any_of(object.constraints.begin(), object.constraints.end(), [](const ConstraintGroup& group) {
+    const int type = find_constraint_type(group.type);
+    return type >= 0 && constraint_type(type).is_tie && !group.particles.empty();
+  });
+}
+
 bool has_fixed(const Object& object) {
   return !object.pins.empty() || !object.attachments.empty() ||
          std::any_of(object.masses.begin(), object.masses.end(), [](float mass) { return std::isinf(mass); });

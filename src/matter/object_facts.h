@@ -28,6 +28,9 @@ bool may_be_tethered(const Object& object, double gravity);
 /// too softly.
 bool lies_on_pins(const Object& object);
 
+/// True if particles are tied to bodies.
+bool has_ties(const Object& object);
+
 /// True if pins, attachments or infinite masses hold a part of the object.
 bool has_fixed(const Object& object);
 

@@ -13,7 +13,7 @@
 //     guard         where the substep has become shorter, corrections may not increase energy
 //     update        v from the corrections, x += displacement; restitution at colliders
 //     respond       restitution between surfaces (friction is part of a contact's projection)
-//   measure         overstretch of the frame
+//   measure         overstretch of the frame, and gaps of ties
 //
 // Mueller et al. 2007, algorithm 1, with the small steps of Macklin et al. 2019.
 #include "solver/step.h"
@@ -23,6 +23,7 @@
 #include <cstdint>
 
 #include "solver/bodies/body_solver.h"
+#include "solver/bodies/tie_gaps.h"
 #include "solver/stages/stages.h"
 #include "solver/substep_law.h"
 
@@ -115,6 +116,7 @@ void run(const StepContext& context, double dt, Report& report) {
   else
     run_in_turn(context, groups);
   if (!end_frame(groups, report)) return;
+  if (!report.stopped) report.widest_tie = widest_tie(context.model, context.state);
   if (context.meter != nullptr && !report.stopped)
     report.overstretch = context.meter->measure({context.model, context.state, context.workspace, context.kernels.lengths},
                                                 &context.executor);

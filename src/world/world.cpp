@@ -8,6 +8,7 @@
 #include "matter/advice_settings.h"
 #include "solver/step.h"
 #include "solver/sweeps/sweep.h"
+#include "world/advice.h"
 #include "world/control.h"
 #include "world/events.h"
 #include "world/groups.h"
@@ -131,6 +132,10 @@ Report World::step(float dt) {
   data_->stopped = report.nonfinite.has_value();
   if (data_->stopped || report.stopped) forget_multipliers(*data_, !data_->stopped);
   end_control(*data_, report.stopped);
+  report.widest_tie.object =
+      report.widest_tie.body < 0 ? ObjectId() : data_->ids.objects.id_of(report.widest_tie.object.slot);
+  if (!is_tolerable(report.widest_tie))
+    report.warnings.push_back(words_of(report.widest_tie, data_->object(report.widest_tie.object)));
   if (report.overstretch) {
     report.overstretch = with_slot(*data_, *report.overstretch);
     data_->overstretch.add(*report.overstretch, report.frame);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "solver/sweeps/chain_link.h"
 
@@ -23,6 +24,7 @@ struct LoadedLink {
   float change = 0;    ///< dlambda, after elimination as if no link followed
   float coupling = 0;  ///< factor by which this link's dlambda changes that of the previous one
   Vec3f move{};        ///< of the link's second particle [m]
+  float tension = 0;   ///< of the first solve, times h^2 and over the length; 0 where pushed or not yet solved [kg]
 };
 
 /// What link k + 1 needs of link k, as ChainEnd.
@@ -42,22 +44,84 @@ class LoadedLane {
 
   /// Solves the path, without the bodies from which it would pull particles away.
   void solve(float softness, float* scratch) const {
+    for (int k = 0; k < steps_; ++k) put(scratch, k, {});
+    const float tied = mass_of_ties();
+    if (tied > 0) softness *= mass_of_path() / (mass_of_path() + tied);
     for (int attempt = 0; attempt <= most_attempts; ++attempt) {
       eliminate_all(softness, scratch);
       const Vec3f first = substitute(scratch);
-      if (!release(first, scratch, attempt == most_attempts)) return apply(first, scratch);
+      if (!release(first, scratch, attempt == most_attempts)) return finish(first, softness, tied > 0, scratch);
     }
     eliminate_all(softness, scratch);
-    apply(substitute(scratch), scratch);
+    finish(substitute(scratch), softness, tied > 0, scratch);
   }
 
  private:
-  static constexpr int most_attempts = 3;
+  static constexpr int most_attempts = 3, most_rounds = 8;
+
+  /// Applies the solution. A path that is tied to bodies is solved again with the inertia across that its tensions demand, until
+  /// these grow no more: light particles that zigzag yield at first, and hide how hard the rope is pulled.
+  void finish(const Vec3f& first, float softness, bool is_tied, float* scratch) const {
+    Vec3f moved = first;
+    for (int round = 0; is_tied && round < most_rounds && keep_tensions(scratch); ++round) {
+      eliminate_all(softness, scratch);
+      moved = substitute(scratch);
+    }
+    apply(moved, scratch);
+  }
+
+  float mass_of_path() const {
+    float mass = 0;
+    for (int k = -1; k < steps_; ++k) {
+      const float w = a_.positions[k < 0 ? particle(0, 0) : particle(k, 1)].w;
+      mass += w > 0 ? 1 / w : 0;
+    }
+    return mass;
+  }
+
+  /// What ties add to the masses of the path's particles, along the ties.
+  float mass_of_ties() const {
+    float mass = 0;
+    for (int k = -1; k < steps_; ++k) {
+      const int number = k < 0 ? particle(0, 0) : particle(k, 1);
+      const std::int32_t load = loads_.of_particle[number];
+      if (load < 0 || !is_tie(loads_.inertias[load]) || !(loads_.inertias[load].root_along > 0)) continue;
+      const float root = loads_.inertias[load].root_along;
+      mass += 1 / (root * root) - 1 / a_.positions[number].w;
+    }
+    return mass;
+  }
+  static bool is_tie(const LoadedInertia& load) { return load.farthest == infinity; }
+
+  /// Keeps the greatest tensions of the solutions. True if they have grown and demand more inertia across of a particle.
+  bool keep_tensions(float* scratch) const {
+    bool any = false;
+    float before = 0, old_before = 0;
+    for (int k = 0; k < steps_; ++k) {
+      LoadedLink link = get(scratch, k);
+      const float length = pool_.row(0, links_[k].first_batch)[lane_], old = link.tension;
+      link.tension = max(old, -link.change / max(length, smallest_denominator));
+      put(scratch, k, link);
+      const float own = k > 0 && a_.positions[particle(k, 0)].w > 0 ? 1 / a_.positions[particle(k, 0)].w : infinity;
+      const float across = inertia_across(before, link.tension);
+      any = any || (across > own && across > grown * inertia_across(old_before, old));
+      before = link.tension;
+      old_before = old;
+    }
+    return any;
+  }
+  static constexpr float grown = 1.1f, infinity = std::numeric_limits<float>::infinity();
+  static float inertia_across(float tension, float next) { return 2 * (tension + next); }
 
   void eliminate_all(float softness, float* scratch) const {
     LoadedEnd end;
     end.root = root_of(particle(0, 0));
-    for (int k = 0; k < steps_; ++k) put(scratch, k, eliminate(k, softness, end));
+    for (int k = 0; k < steps_; ++k) {
+      const float tension = get(scratch, k).tension;
+      LoadedLink link = eliminate(k, softness, root_between(k, scratch), end);
+      link.tension = tension;
+      put(scratch, k, link);
+    }
   }
 
   /// Returns the displacement of the path's first particle; puts those of the others into the links.
@@ -70,7 +134,7 @@ class LoadedLane {
       change = link.change;
       coupling = link.coupling;
       const Vec3f own = link.direction * change;
-      const RootInertia root = root_of(particle(k, 1));
+      const RootInertia root = root_between(k, scratch);
       link.move = root(root(own - pull));
       pull = own;
       put(scratch, k, link);
@@ -113,11 +177,40 @@ class LoadedLane {
   static constexpr int floats_per_link = sizeof(LoadedLink) / sizeof(float);
   static_assert(floats_per_link * static_cast<int>(sizeof(float)) == sizeof(LoadedLink));
 
-  LoadedLink eliminate(int k, float softness, LoadedEnd& end) const {
+  /// The inertia of link k's second particle.
+  ///
+  /// A taut string of light particles has transverse waves that a substep cannot follow: forces along directions of the
+  /// prediction are stable up to (omega h)^2 = 4/3 (x' = x + h v', v' = v - h omega^2 (x + h v)). With tensions T and lengths L of
+  /// both links, omega^2 is at most 2 (T / L + T' / L') / m, so an inertia of 2 h^2 (T / L + T' / L') across them keeps it to 1 / h^2.
+  RootInertia root_between(int k, const float* scratch) const {
+    const int number = particle(k, 1);
+    RootInertia root = root_of(number);
+    if (k + 1 == steps_) return root;
+    const LoadedLink link = get(scratch, k), next = get(scratch, k + 1);
+    const float across = inertia_across(link.tension, next.tension);
+    if (!(across * a_.positions[number].w > 1)) return root;
+    if (loads_.of_particle[number] >= 0) {  // its axis is that of the tie or contact
+      root.across = min(root.across, 1 / std::sqrt(across));
+      return root;
+    }
+    const Vec3f along = way(k) + way(k + 1);
+    const float size = length(along);
+    if (!(size > smallest_denominator)) return root;
+    root.axis = along * (1 / size);
+    root.across = 1 / std::sqrt(across);
+    return root;
+  }
+
+  /// From the first particle of link k to the second, as predicted [m].
+  Vec3f way(int k) const {
     const int from = particle(k, 0), to = particle(k, 1);
     const Record &p = a_.positions[from], &q = a_.positions[to];
     const Record &d = a_.displacements[from], &e = a_.displacements[to];
-    const Vec3f across{(q.x - p.x) + (e.x - d.x), (q.y - p.y) + (e.y - d.y), (q.z - p.z) + (e.z - d.z)};
+    return {(q.x - p.x) + (e.x - d.x), (q.y - p.y) + (e.y - d.y), (q.z - p.z) + (e.z - d.z)};
+  }
+
+  LoadedLink eliminate(int k, float softness, const RootInertia& root, LoadedEnd& end) const {
+    const Vec3f across = way(k);
     const float length = std::sqrt(dot(across, across));
     const Vec3f n = across * (1 / max(length, smallest_denominator));
     const std::int64_t batch = links_[k].first_batch;
@@ -130,7 +223,6 @@ class LoadedLane {
       coupled = dot(u, v);
       coupling = coupled * end.inverse_pivot;
     }
-    const RootInertia root = root_of(to);
     const float added = softness + compliance;
     const float inverse_pivot = 1 / max(mobility + length_squared(root(n)) + added, smallest_denominator);
     const float missing = length > smallest_denominator ? pool_.row(0, batch)[lane_] - length : 0;
