@@ -25,6 +25,7 @@ struct Reader {
   const MeshFolder& folder;
   const std::string& object;
   std::vector<std::string>& repairs;
+  std::string body{};  ///< the body that is read
 };
 
 /// Only the corners of a mesh's hull are kept, so that copies of the body are cheap to make.
@@ -63,6 +64,19 @@ SolidShape shape_of(const Reader& reader, const JsonValue& solid) {
   return sphere;
 }
 
+/// An Error of decompose() with the mesh's file, and the body that has it.
+Decomposition decomposed(const Reader& reader, const JsonValue& at, const TriangleMesh& mesh,
+                         const DecomposeOptions& options) {
+  try {
+    return decompose(mesh, options);
+  } catch (const Error& error) {
+    const JsonValue* file = at.find("mesh")->find("file");
+    const std::string element = file != nullptr ? "mesh '" + printable(file->text) + "'" : "mesh";
+    throw Error({"", 0, reader.body, element + (error.where().element.empty() ? "" : ", " + error.where().element)},
+                error.problem(), error.advice());
+  }
+}
+
 Decomposition pieces_of(const Reader& reader, const JsonValue& at, float density) {
   DecomposeOptions options;
   options.density = density;
@@ -71,7 +85,7 @@ Decomposition pieces_of(const Reader& reader, const JsonValue& at, float density
   set(at, "most_corners", options.most_corners);
   SceneMesh surface = make_mesh(reader.document, *at.find("mesh"), reader.folder, reader.object);
   for (const std::string& repair : surface.repairs) reader.repairs.push_back("object '" + reader.object + "', " + repair);
-  Decomposition pieces = decompose(surface.mesh, options);
+  Decomposition pieces = decomposed(reader, at, surface.mesh, options);
   if (static_cast<int>(pieces.solids.size()) >= options.most_pieces && pieces.filled > options.tolerance)
     reader.repairs.push_back("object '" + reader.object + "', concave solid: " + std::to_string(pieces.solids.size()) +
                              " pieces fill hollows by up to " + std::to_string(pieces.filled) +
@@ -267,7 +281,7 @@ class Bodies {
   void add(const JsonValue& at) {
     const std::string name = name_of(at);
     BodyOptions options = options_of(reader_.document, at);
-    const auto [solids, inertia] = solids_of(reader_, at);
+    const auto [solids, inertia] = solids_of({reader_.document, reader_.folder, reader_.object, reader_.repairs, name}, at);
     const bool has_mass = options.mass > 0 && !std::isinf(options.mass);
     if (inertia) options.inertia = has_mass ? scaled(*inertia, options.mass) : *inertia;
     const std::vector<RigidPose> copies = copies_of(reader_.document, at);

@@ -67,6 +67,23 @@ Json overstretch_json(const Report& report) {
           {"frame_of_worst_largest", worst.frame_of_largest}};
 }
 
+/// The rigid tie that was open farthest in any frame; null without one.
+Json tie_json(const World& world, const TieGap& tie, std::int64_t frame) {
+  if (tie.body < 0) return nullptr;
+  return {{"object", world.object(tie.object).info().name},
+          {"particle", tie.particle},
+          {"body", tie.body},
+          {"gap", tie.gap},
+          {"length", tie.length},
+          {"frame", frame}};
+}
+
+std::size_t body_count(const Scene& scene) {
+  std::size_t count = 0;
+  for (const Object& object : scene.objects) count += object.bodies.size();
+  return count;
+}
+
 Json nonfinite_json(const Report& report) {
   if (!report.nonfinite) return nullptr;
   const NonFinite& found = *report.nonfinite;
@@ -108,6 +125,10 @@ void RunReport::add(const Report& report, const World& world) {
       milliseconds_.empty() ? report.iterations.smallest : std::min(iterations_.smallest, report.iterations.smallest);
   iterations_.largest = std::max(iterations_.largest, report.iterations.largest);
   add_pairs(pairs_, report.pairs);
+  if (report.widest_tie.gap * widest_tie_.length > widest_tie_.gap * report.widest_tie.length || widest_tie_.body < 0) {
+    widest_tie_ = report.widest_tie;
+    frame_of_tie_ = report.frame;
+  }
   iterations_.mean += report.iterations.mean;
   milliseconds_.push_back(report.milliseconds);
   most_substeps_ = std::max(most_substeps_, report.substeps);
@@ -152,6 +173,8 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["iterations_used"] = {
       {"smallest", iterations_.smallest}, {"largest", iterations_.largest}, {"mean", iterations_.mean / frames}};
   json["particles"] = particle_count(world);
+  json["bodies"] = body_count(scene);
+  json["sleeping_bodies"] = last_.sleeping_bodies;
   json["constraints"] = constraints_by_type(world);
   json["contacts"] = last_.contacts;
   json["pairs"] = pairs_json(pairs_);
@@ -163,6 +186,7 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["mean_stretch"] = stretch.mean;
   json["p99_stretch"] = stretch.p99;
   json["overstretch"] = overstretch_json(last_);
+  json["widest_tie"] = tie_json(world, widest_tie_, frame_of_tie_);
   json["nonfinite"] = nonfinite_json(last_);
   json["warnings"] = warnings_.lines();
   json["advice"] = advice(world);

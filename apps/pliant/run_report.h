@@ -40,6 +40,8 @@ class RunReport {
   IterationCount iterations_;  ///< until it is written, `mean` has the sum over frames
   int most_substeps_ = 0;      ///< of any frame
   std::int64_t sum_of_substeps_ = 0;
+  TieGap widest_tie_;  ///< of any frame
+  std::int64_t frame_of_tie_ = 0;
   PairReport pairs_;  ///< candidates, contacts and intersections of the last frame; other counts summed
   std::vector<double> milliseconds_;
   std::map<std::string, double> phase_sums_;

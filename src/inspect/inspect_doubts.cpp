@@ -92,6 +92,7 @@ void doubt_references(const Doubts& d) {
     std::for_each(group.particles.begin(), group.particles.end(), use);
   for (const auto& triangle : d.object.triangles) std::for_each(triangle.begin(), triangle.end(), use);
   for (const Attachment& attachment : d.object.attachments) use(attachment.particle);
+  for (const ObjectBody& body : d.object.bodies) use(body.particle);
   Tally loose;
   for (std::size_t i = 0; i < used.size(); ++i)
     if (!used[i]) loose.add(static_cast<std::int64_t>(i));

@@ -1,4 +1,5 @@
 // Errors in an object for which a World rejects it: inconsistent sizes, indices out of range, invalid numbers.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -80,7 +81,17 @@ void check_frames(Problems& problems, const Object& object) {
   problems.grave(crooked, "frame", "has an orientation that is no unit quaternion",
                  "give x, y, z, w with squares that sum to 1");
   problems.grave(spinning, "frame", "has an angular velocity that is not finite", "give radians a second");
-  problems.grave(inertia, "frame", "has an inertia outside 1e-20 to 1e20 kg m^2", "give all three above 0, or infinity");
+  const auto small = [&](const ObjectBody& body) { return body.frame == inertia.first; };
+  const auto body = std::find_if(object.bodies.begin(), object.bodies.end(), small);
+  if (body == object.bodies.end() || inertia.count == 0)
+    return problems.grave(inertia, "frame", "has an inertia outside 1e-20 to 1e20 kg m^2",
+                          "give all three above 0, or infinity");
+  const Vec3f& moments = object.frames[static_cast<std::size_t>(inertia.first)].inertia;
+  problems.grave("body " + std::to_string(body - object.bodies.begin()) + " '" + body->name + "'" +
+                     (inertia.count > 1 ? " and " + std::to_string(inertia.count - 1) + " more" : ""),
+                 "has moments of inertia of " + words(moments.x) + ", " + words(moments.y) + " and " + words(moments.z) +
+                     " kg m^2, outside 1e-20 to 1e20",
+                 "make it larger, or check that its sizes are in metres");
 }
 
 // ------------------------------------------------------------------------------------------------ constraints

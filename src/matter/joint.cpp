@@ -69,7 +69,7 @@ int add_joint(Object& object, const BallJoint& joint) {
   set_axis(draft, joint.anchor, joint.axis);
   draft.lock("ball_joint");
   if (joint.most_swing) {
-    draft.require(*joint.most_swing, "greatest swing", 0, 3);
+    draft.require(*joint.most_swing, "greatest swing [rad]", 0, 3);
     draft.add("joint_swing", 0, {*joint.most_swing}, 0);
   }
   if (joint.twist) draft.limit_angle(0, *joint.twist);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "constraints/joint_rows.h"
@@ -46,6 +48,22 @@ bool accepts(const ConstraintGroup& group, const std::string& type, const Stiffn
          own.damping == stiffness.damping && group.compliances.empty() && !group.rest.empty();
 }
 
+/// "an axis", "a ratio".
+std::string with_article(const std::string& name) {
+  return (std::string("aeiou").find(name.front()) == std::string::npos ? "a " : "an ") + name;
+}
+
+/// "1.5 m", or of an angle "1.5 rad (85.9 degrees)", because scene files have degrees.
+std::string in_words(float value, bool is_angle) {
+  char text[80];
+  const auto number = static_cast<double>(value);
+  if (is_angle)
+    std::snprintf(text, sizeof text, "%.4g rad (%.4g degrees)", number, number * 180 / pi);
+  else
+    std::snprintf(text, sizeof text, "%.6g m", number);
+  return text;
+}
+
 /// The group to which a constraint can be added; a new one if there is none.
 std::size_t group_for(Object& object, const std::string& type, const Stiffness& stiffness) {
   for (std::size_t i = 0; i < object.constraints.size(); ++i)
@@ -85,20 +103,20 @@ void JointDraft::refuse(const std::string& problem, const std::string& advice) c
 
 void JointDraft::require(float value, const char* name, float least, float most, bool may_be_infinite) const {
   if (value >= least && value <= most && (may_be_infinite || std::isfinite(value))) return;
-  refuse(std::string("has a ") + name + " of " + std::to_string(value),
+  refuse("has " + with_article(name) + " of " + std::to_string(value),
          std::isinf(most) ? "give a number of at least " + std::to_string(least)
                           : "give a number from " + std::to_string(least) + " to " + std::to_string(most));
 }
 
 Vec3d JointDraft::place(const Vec3f& at, const char* name) const {
-  if (!is_finite(at)) refuse(std::string("has a ") + name + " that is not finite", "give coordinates in metres");
+  if (!is_finite(at)) refuse("has " + with_article(name) + " that is not finite", "give coordinates in metres");
   return convert<double>(at);
 }
 
 Vec3d JointDraft::direction(const Vec3f& axis, const char* name) const {
   const Vec3d v = place(axis, name);
   const double size = std::sqrt(length_squared(v));
-  if (!(size > 0)) refuse(std::string("has a ") + name + " of length zero", "give the direction of the axis");
+  if (!(size > 0)) refuse("has " + with_article(name) + " of length zero", "give the direction of the axis");
   return v * (1 / size);
 }
 
@@ -172,25 +190,25 @@ void JointDraft::add_raw(const char* type, const std::vector<int>& slots, const 
   parts_.push_back({type, slots, rest, Stiffness::compliance(compliance, damping)});
 }
 
-void JointDraft::require_range(const JointRange& range) const {
+void JointDraft::require_range(const JointRange& range, bool is_angle) const {
   if (!std::isfinite(range.low) || !std::isfinite(range.high) || range.low > range.high)
-    refuse("has a range from " + std::to_string(range.low) + " to " + std::to_string(range.high),
+    refuse("has a range from " + in_words(range.low, is_angle) + " to " + in_words(range.high, is_angle),
            "give two finite numbers, the lower one first");
   require(range.compliance, "compliance of its range", 0);
 }
 
 void JointDraft::limit_angle(int axis, const JointRange& range) {
-  require_range(range);
+  require_range(range, true);
   const double low = static_cast<double>(range.low), high = static_cast<double>(range.high);
   if (high - low > 2 * pi)
-    refuse("has a range of " + std::to_string(high - low) + " rad", "give at most a full turn, or no range");
+    refuse("has a range of " + in_words(static_cast<float>(high - low), true), "give at most a full turn, or no range");
   add("joint_angle", axis,
       {static_cast<float>(principal_angle((low + high) / 2)), static_cast<float>((high - low) / 2), joint::no_limit},
       range.compliance);
 }
 
 void JointDraft::limit_offset(int axis, const JointRange& range) {
-  require_range(range);
+  require_range(range, false);
   add("joint_offset", axis, {range.low, range.high, joint::no_limit}, range.compliance);
 }
 

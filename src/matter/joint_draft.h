@@ -70,7 +70,7 @@ class JointDraft {
   JointBody find(int body) const;
   JointBody world() const;
   void add_world();
-  void require_range(const JointRange& range) const;
+  void require_range(const JointRange& range, bool is_angle) const;
   void add_motor(const char* type, int axis, const JointMotor& motor, const char* name, bool is_angle);
   void add_friction(const char* type, int axis, float friction);
 

@@ -511,4 +511,27 @@ TEST_F(Command, AnInterruptedRunLeavesNothingHalfWritten) {
   EXPECT_EQ(files(), before + 1) << "the checkpoint alone";
 }
 
+/// One box lies on the ground and sleeps, another is thrown.
+TEST_F(Command, SaysHowManyBodiesSleep) {
+  std::ofstream(folder_ / "small.json") << R"({"frames": 90, "settings": {"sleep": {"on": true}},
+    "objects": [{"name": "boxes", "bodies": [
+      {"name": "still", "solids": [{"box": {"half_extents": [0.1, 0.2, 0.3]}}], "position": [0, 0.2, 0]},
+      {"name": "thrown", "solids": [{"box": {"half_extents": [0.1, 0.2, 0.3]}}], "position": [4, 0.2, 0], "velocity": [0, 20, 0]}]}],
+    "colliders": [{"plane": {}}]})";
+  const Json json = report("");
+  EXPECT_EQ(json.at("bodies"), 2);
+  EXPECT_EQ(json.at("sleeping_bodies"), 1);
+  EXPECT_EQ(json.at("widest_tie"), nullptr);
+}
+
+/// Two boxes of 0.2 m x 0.4 m x 0.6 m, 4 m apart along x.
+TEST_F(Command, CheckCountsSolidsInTheSize) {
+  std::ofstream(folder_ / "boxes.json") << R"({"frames": 1, "objects": [{"name": "boxes", "bodies": [
+      {"name": "a", "solids": [{"box": {"half_extents": [0.1, 0.2, 0.3]}}], "position": [0, 0.2, 0]},
+      {"name": "b", "solids": [{"box": {"half_extents": [0.1, 0.2, 0.3]}}], "position": [4, 0.2, 0]}]}]})";
+  const Result result = pliant("check boxes.json");
+  EXPECT_NE(result.out.find("of 2 particles, 4.2 x 0.4 x 0.6 m"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("moves freely"), std::string::npos) << result.out;
+}
+
 }  // namespace

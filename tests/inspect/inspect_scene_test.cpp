@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "pliant/body.h"
+#include "pliant/joint.h"
 #include "pliant/mesh.h"
 #include "pliant/scene.h"
 #include "pliant/substep_bounds.h"
@@ -86,6 +88,40 @@ TEST(InspectScene, BoundsUpToTheLargestIntDoNotOverflow) {
   EXPECT_NE(error->advice().find("increase most_substeps to 2147483648"), std::string::npos) << error->advice();
   settings.least_substeps = largest - 3;
   EXPECT_FALSE(error_of_bounds(settings));
+}
+
+/// A body is free by nature; a particle in no constraint beside it is not.
+TEST(InspectScene, DoesNotCallFreeBodiesLooseParticles) {
+  Scene scene;
+  Object object = make_body({{Sphere{0.1f}}}, {.name = "ball"});
+  add_body(object, {{Sphere{0.1f}}}, {.name = "left", .position = {1, 0, 0}});
+  add_body(object, {{Sphere{0.1f}}}, {.name = "right", .position = {2, 0, 0}});
+  add_joint(object, BallJoint{.a = 1, .b = 2, .anchor = {1.5f, 0, 0}});
+  scene.add(object);
+  EXPECT_EQ(finding(scene, "moves freely"), "");
+  scene.objects[0].positions.push_back({5, 0, 0});
+  scene.objects[0].masses.push_back(1);
+  EXPECT_NE(finding(scene, "moves freely").find("particle 3"), std::string::npos) << finding(scene, "moves freely");
+}
+
+TEST(InspectScene, NamesTheBodyWhoseInertiaIsTooSmall) {
+  Scene scene;
+  scene.add(make_body({{Sphere{1e-5f}}}, {.name = "dust"}));
+  const std::string text = finding(scene, "moments of inertia");
+  EXPECT_NE(text.find("object 'dust', body 0 'dust'"), std::string::npos) << text;
+  EXPECT_NE(text.find("outside 1e-20 to 1e20"), std::string::npos) << text;
+}
+
+TEST(InspectScene, NamesBodiesThatShareAName) {
+  Scene scene;
+  Object object = make_body({{Sphere{0.1f}}}, {.name = "ball"});
+  add_body(object, {{Sphere{0.1f}}}, {.position = {1, 0, 0}});
+  add_body(object, {{Sphere{0.1f}}}, {.position = {2, 0, 0}});
+  scene.add(object);
+  EXPECT_EQ(finding(scene, "has the name"), "") << "bodies without a name of their own share the default";
+  add_body(scene.objects[0], {{Sphere{0.1f}}}, {.name = "ball", .position = {3, 0, 0}});
+  const std::string text = finding(scene, "has the name");
+  EXPECT_NE(text.find("object 'ball', body 3 'ball': has the name of body 0"), std::string::npos) << text;
 }
 
 }  // namespace

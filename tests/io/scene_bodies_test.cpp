@@ -226,5 +226,24 @@ TEST(SceneBodies, AreHullsOfMeshFiles) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(SceneBodies, NameTheFileOfAnOpenMesh) {
+  std::string folder = testing::TempDir() + "/pliant_open_XXXXXX";
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  std::ofstream(folder + "/open.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
+  const auto message = [&](const std::string& body) {
+    try {
+      (void)parse_scene(bodies(body), "x.json", folder);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string text = message(R"({"name": "chair", "solids": [{"concave": {"mesh": {"file": "open.obj"}}}]})");
+  EXPECT_NE(text.find("object 'bodies', /objects/0/bodies/0, body 'chair', mesh 'open.obj', edge "), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("the mesh is not closed"), std::string::npos) << text;
+  std::filesystem::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace pliant

@@ -345,16 +345,32 @@ TEST(JointFreedoms, ARopeOverPulleysIsSlackUntilItIsLongEnough) {
   EXPECT_NEAR(m.pose(a).position.y + m.pose(b).position.y, 0, 1e-3);
 }
 
+/// The problem for which a joint is refused; empty if it is added.
+template <class Joint>
+std::string problem_of(Object& object, const Joint& joint) {
+  try {
+    add_joint(object, joint);
+  } catch (const Error& error) {
+    return error.problem();
+  }
+  return {};
+}
+
+/// Scene files have degrees and the C++ API has radians, so messages have both.
+TEST(JointFreedoms, WrongRangesAndAxesAreNamed) {
+  Cube m;
+  EXPECT_EQ(problem_of(m.object, HingeJoint{.b = m.body, .axis = {0, 0, 0}}), "has an axis of length zero");
+  EXPECT_EQ(problem_of(m.object, HingeJoint{.b = m.body, .limit = JointRange{-6, 3}}),
+            "has a range of 9 rad (515.7 degrees)");
+  EXPECT_EQ(problem_of(m.object, HingeJoint{.b = m.body, .limit = JointRange{0.5f, 0.25f}}),
+            "has a range from 0.5 rad (28.65 degrees) to 0.25 rad (14.32 degrees)");
+  EXPECT_EQ(problem_of(m.object, SliderJoint{.b = m.body, .limit = JointRange{0.5f, 0.25f}}),
+            "has a range from 0.5 m to 0.25 m");
+}
+
 TEST(JointFreedoms, APlaneNeedsItsXForLimits) {
   Cube m;
-  const auto refusal = [&](const PlanarJoint& joint) {
-    try {
-      add_joint(m.object, joint);
-    } catch (const Error& error) {
-      return std::string(error.problem());
-    }
-    return std::string();
-  };
+  const auto refusal = [&](const PlanarJoint& joint) { return problem_of(m.object, joint); };
   EXPECT_EQ(refusal({.b = m.body, .x_limit = range}), "has limits or motors in its plane, but no axis_x");
   EXPECT_EQ(refusal({.b = m.body, .axis_x = Vec3f{1, 1, 0}}), "has an axis_x that is not in its plane");
   EXPECT_EQ(refusal({.b = m.body, .turn_limit = range}), "");
