@@ -275,6 +275,22 @@ TEST(CoveredBodies, ClothThatABodyOverlapsIsNamed) {
   ASSERT_GT(crossings(world, scene.objects[0], scene.objects[1]), 0);
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_EQ(report.warnings[0].find("object 'cloth' passes through body 0 of 'heap' in "), 0u) << report.warnings[0];
+  EXPECT_NE(report.warnings[0].find(": the vertex is pinned"), std::string::npos) << report.warnings[0];
+}
+
+/// Where nothing presses from the other side and nothing is pinned, it is no pinch. A body with a name is called by it.
+TEST(CoveredBodies, ABodyInLooseClothIsNotCalledPinched) {
+  Scene scene = thrown(Box{{0.06f, 0.06f, 0.06f}}, 0, false);
+  scene.settings.substeps = 1;
+  scene.objects[0].name = "cloth";
+  scene.objects[1] = make_body({{Box{{0.06f, 0.06f, 0.06f}}}}, {.name = "bullet", .position = {0, 0.01f, 0}});
+  World world(scene);
+  const Report report = world.step(1.f / 60);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  const std::string& text = report.warnings[0];
+  EXPECT_EQ(text.find("object 'cloth' passes through body 'bullet' of 'bullet' in "), 0u) << text;
+  EXPECT_NE(text.find(": they hit one another too hard for 1 substep a frame, or overlapped when they"), std::string::npos)
+      << text;
 }
 
 TEST(CoveredBodies, TheCountSeesClothWithoutContact) {

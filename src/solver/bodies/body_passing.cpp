@@ -23,7 +23,8 @@ constexpr int rounds_of_impulses = 16;
 constexpr int most_rounds_of_passing = 32, most_rounds_of_holding = 16;
 
 std::string name_of(const Model& model, const TouchedBody& body) {
-  return "body " + std::to_string(body.body) + " of '" + model.objects[at(body.object)].name + "'";
+  const CompiledObject& object = model.objects[at(body.object)];
+  return words_of_body(object.bodies, body.body, object.name);
 }
 
 /// Puts a body, and with both sides the points, back to where they were at the substep's start.
@@ -91,7 +92,8 @@ bool BodyPassing::stop_once(Substep& s, const Parts& parts, bool is_first, Stop 
   solids.place(s);
   impulses.note_progress(s, solids);
   if (is_first) surfaces.update(s, solids.moving(), false);
-  const auto meets = [&](const Contact& c) { return solids.meets(s.model, c); };
+  const BodySolids& all = solids;  // clang 14 captures no structured binding
+  const auto meets = [&](const Contact& c) { return all.meets(s.model, c); };
   std::vector<Contact> more;
   if (swept.has_fast()) swept.detect(s, surfaces, solids.moving(), meets, more);
   const PassingFilter::Moved moved{is_first ? nullptr : &moved_solids_, &moved_vertices_, is_first ? 0 : farthest_};
@@ -106,6 +108,19 @@ bool BodyPassing::stop_once(Substep& s, const Parts& parts, bool is_first, Stop 
   note_moved(s, parts, first);
   return true;
 }
+
+namespace {
+
+/// Why a body and a surface overlap, and what to do. What presses from the other side is the cause where something does. Else the
+/// vertex is held; else the substeps were too few for the impact, or nothing was apart at the start.
+std::string cause_of(const Substep& s, int vertex, const std::string& other) {
+  if (!other.empty()) return "it is pinched between that body and " + other + "; give it more room, or name more substeps";
+  if (s.state.positions[at(vertex)].w == 0) return "the vertex is pinned; move the pin away, or let the body yield";
+  return "they hit one another too hard for " + std::to_string(s.planned) + (s.planned == 1 ? " substep" : " substeps") +
+         " a frame, or overlapped when they came into contact; name more substeps, or move them apart";
+}
+
+}  // namespace
 
 void BodyPassing::stop_passing(Substep& s, const Parts& parts) {
   const Stopwatch stopwatch(s.context.executor.timings(), "bodies: filter");
@@ -157,13 +172,10 @@ void BodyPassing::warn_of_overlaps(const Substep& s, const BodySolids& solids, c
   for (const auto& [which, between] : all) {
     const CompiledObject& object = s.model.objects[at(which.first)];
     const int vertex = object.order[at(between.vertex - s.model.first[at(which.first)])];
-    warnings.push_back(
-        "object '" + object.name + "' passes through " + name_of(s.model, solids.bodies()[at(which.second)]) + " in " +
-        std::to_string(between.count) + (between.count == 1 ? " triangle" : " triangles") + ", the first at vertex " +
-        std::to_string(vertex) + ": " +
-        (between.other.empty() ? "they overlapped when they came into contact, or pins hold the vertex; move them apart"
-                               : "it is pinched between that body and " + between.other + "; give it more room") +
-        ", or name more substeps");
+    warnings.push_back("object '" + object.name + "' passes through " +
+                       name_of(s.model, solids.bodies()[at(which.second)]) + " in " + std::to_string(between.count) +
+                       (between.count == 1 ? " triangle" : " triangles") + ", the first at vertex " +
+                       std::to_string(vertex) + ": " + cause_of(s, between.vertex, between.other));
   }
 }
 
