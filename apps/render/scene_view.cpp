@@ -80,14 +80,41 @@ Vec3f body_colour(const Vec3f& colour, std::size_t body) {
   return {std::min(lit.x, 1.f), std::min(lit.y, 1.f), std::min(lit.z, 1.f)};
 }
 
+/// Bodies that sleep are paler and bluish, so that pictures show what is awake.
+Vec3f sleeping_colour(const Vec3f& colour) { return colour * 0.3f + Vec3f{0.36f, 0.42f, 0.52f}; }
+
 void add_bodies(RenderScene& result, const Object& object, const output::FrameObject& shape, const ObjectView& view) {
   std::vector<std::shared_ptr<const TriangleMesh>> meshes;
   for (const TriangleMesh& solid : shape.solids) meshes.push_back(std::make_shared<const TriangleMesh>(solid));
   const std::vector<output::BodyMotion> motions = output::body_motions(object, view);
   for (std::size_t b = 0; b < motions.size(); ++b) {
     const bool is_fixed = !std::isfinite(object.masses[static_cast<std::size_t>(object.bodies[b].particle)]);
-    result.bodies.push_back(
-        {meshes[static_cast<std::size_t>(shape.bodies[b].solid)], motions[b].pose, body_colour(shape.colour, b), is_fixed});
+    const Vec3f awake = body_colour(shape.colour, b);
+    const Vec3f colour = view.body_is_asleep(static_cast<int>(b)) ? sleeping_colour(awake) : awake;
+    result.bodies.push_back({meshes[static_cast<std::size_t>(shape.bodies[b].solid)], motions[b].pose, colour, is_fixed});
+  }
+}
+
+/// Draws threads, rods and springs between bodies: joints that set the distance of two anchors, unless they are broken.
+void add_threads(RenderScene& result, const Object& object, const ObjectView& view) {
+  constexpr float radius = 0.001f;
+  constexpr std::size_t slots = 4, fields = 8;  // body, frame, body, frame; two anchors in their frames, and bounds
+  const std::vector<Vec3f> positions = view.positions();
+  const std::vector<Quatf> turns = view.orientations();
+  for (std::size_t j = 0; j < object.joints.size(); ++j) {
+    if (view.joint_is_broken(static_cast<int>(j))) continue;
+    for (const auto& [group, index] : object.joints[j].constraints) {
+      const ConstraintGroup& of = object.constraints[static_cast<std::size_t>(group)];
+      if (of.type != "joint_distance" || of.rest.size() < fields * (static_cast<std::size_t>(index) + 1)) continue;
+      const int* const at = &of.particles[slots * static_cast<std::size_t>(index)];
+      const float* const rest = &of.rest[fields * static_cast<std::size_t>(index)];
+      const auto end = [&](int i) {
+        const Vec3f anchor{rest[3 * i], rest[3 * i + 1], rest[3 * i + 2]};
+        return positions[static_cast<std::size_t>(at[2 * i])] +
+               rotate(turns[static_cast<std::size_t>(at[2 * i + 1])], anchor);
+      };
+      result.tubes.push_back({.points = {end(0), end(1)}, .radius = radius, .colour = {0.2f, 0.2f, 0.22f}});
+    }
   }
 }
 
@@ -114,6 +141,7 @@ void add_object(RenderScene& result, const Object& object, const ObjectView& vie
   const output::FrameObject shape = output::describe(object);
   std::vector<Vec3f> positions = view.positions();
   add_bodies(result, object, shape, view);
+  add_threads(result, object, view);
   if (!shape.has_matter()) return;
   if (!shape.triangles.empty()) {
     result.meshes.push_back({std::move(positions), shape.triangles, shape.colour, false});
