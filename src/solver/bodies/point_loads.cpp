@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "constraints/registry.h"
 #include "solver/bodies/body_math.h"
 #include "solver/substep.h"
 #include "solver/sweeps/sweep.h"
+#include "solver/visit.h"
 
 namespace pliant {
 
@@ -49,14 +51,35 @@ float share_of(float inverse_mass, float mobility, int carriers) {
   return min(1 / (inverse_mass * n), 1 / (mobility * max(1.f, 0.5f * n)));
 }
 
+/// The ties of an object that yield: particles and frames, by their numbers in the object. In the chain's system a body hangs rigidly on
+/// its particle, which would take the compliance out of such a tie.
+std::vector<std::pair<int, int>> yielding_ties(const CompiledObject& object) {
+  std::vector<std::pair<int, int>> found;
+  for (int type = 0; type < constraint_type_count(); ++type) {
+    if (!constraint_type(type).is_tie) continue;
+    for_constraints(object, type, [&](const ConstraintPlace& at, const std::int32_t* slots) {
+      if (at.pool.law == Law::pbd || softness(at, 1) > 0) found.emplace_back(slots[2], slots[1] - object.particles);
+    });
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 }  // namespace
 
 PointLoads::PointLoads(const Model& model, const std::vector<TouchedBody>& bodies) : bodies_(bodies) {
+  std::vector<std::pair<int, int>> yielding;
+  int last = -1;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const int object = bodies_[b].object;
-    if (!solves_chains(model.objects[at(object)].sweep)) continue;
-    for (const auto& [point, body] : model.objects[at(object)].bodies.attached)
-      if (body == bodies_[b].body) ties_.emplace_back(point + model.first[at(object)], static_cast<int>(b));
+    const int number = bodies_[b].object;
+    const CompiledObject& object = model.objects[at(number)];
+    if (!solves_chains(object.sweep) || object.bodies.attached.empty()) continue;
+    if (number != last) yielding = yielding_ties(object);
+    last = number;
+    const int frame = object.bodies.bodies[at(bodies_[b].body)].frame;
+    for (const auto& [point, body] : object.bodies.attached)
+      if (body == bodies_[b].body && !std::binary_search(yielding.begin(), yielding.end(), std::pair{point, frame}))
+        ties_.emplace_back(point + model.first[at(number)], static_cast<int>(b));
   }
   std::sort(ties_.begin(), ties_.end());
 }
