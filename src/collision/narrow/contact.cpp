@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "collision/narrow/axes.h"
 #include "collision/narrow/near_points.h"
 #include "math/motion.h"
 
@@ -272,10 +273,10 @@ int find_near_moving(const ContactSearch& search, int number, float thickness, s
 }
 
 /// True if a path of this length to a place in a grid's frame stays farther than the thickness from the grid's solid, by a distance
-/// known elsewhere. A trilinear distance grows by at most one along each axis.
-bool stays_clear(const NearPoints::Known& known, const Vec3f& to, float path, float thickness) {
+/// known elsewhere. A trilinear distance grows by at most one along each axis. `rounding` is that of positions in the world [m].
+bool stays_clear(const NearPoints::Known& known, const Vec3f& to, float path, float thickness, float rounding) {
   constexpr float steepest = 1.7321f;
-  const float rounded = 1e-5f * ((largest(abs(to)) + largest(abs(known.place))) + (abs(known.distance) + path));
+  const float rounded = rounding + 1e-5f * ((largest(to) + largest(known.place)) + (abs(known.distance) + path));
   return known.distance - steepest * length(to - known.place) > thickness + steepest * path + rounded;
 }
 
@@ -286,16 +287,19 @@ void find_contacts_in_grid(const Meeting& m, std::vector<Contact>& contacts) {
   const MovingCollider& collider = m.collider;
   const AdvanceArguments& a = m.search.particles;
   NearPoints::List& list = *moving.list;
+  const Axes frame(collider.after);
+  const float moving_by = m.search.largest_displacement + moving.motion.path,
+              rounding = 1e-6f * (largest(collider.swept.low) + largest(collider.swept.high));
   for (std::size_t k = 0; k < list.points.size(); ++k) {
     const int i = list.points[k] - m.search.first_of_object;
     const Record &x = a.positions[i], &d = a.displacements[i];
     if (!moving.has(x) || m.search.object.bodies.has_centre(i)) continue;
-    const Vec3f to = to_local(collider.after, Vec3f{x.x, x.y, x.z} + Vec3f{d.x, d.y, d.z});
+    const Vec3f to = frame.to_local(Vec3f{x.x, x.y, x.z} + Vec3f{d.x, d.y, d.z});
     NearPoints::Known& known = list.known[k];
-    const float path = m.search.largest_displacement + moving.motion.path + moving.motion.chord * length(to);
-    if (stays_clear(known, to, 1.001f * path, m.thickness)) continue;
+    const float path = 1.001f * (moving_by + moving.motion.chord * length(to));
+    if (stays_clear(known, to, path, m.thickness, rounding)) continue;
     known = {to, collider.field->distance(to).distance};
-    if (stays_clear(known, to, 1.001f * path, m.thickness)) continue;
+    if (stays_clear(known, to, path, m.thickness, rounding)) continue;
     find_contact(m, i, contacts);
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "collision/narrow/axes.h"
 #include "geometry/shape_closest.h"
 #include "math/wide.h"
 
@@ -51,6 +52,13 @@ SweptBox box_of(const PointBounds& bounds) { return {vector_of(bounds.low), vect
 
 SweptBox merge(const SweptBox& a, const SweptBox& b) { return {min(a.low, b.low), max(a.high, b.high)}; }
 
+/// Loads the beginning of an array that is read soon; the processor foresees the rest.
+template <class T>
+void prefetch(const std::vector<T>& array) {
+  constexpr std::size_t lines = 3, line = 64;
+  for (std::size_t i = 0; i < lines; ++i) __builtin_prefetch(reinterpret_cast<const char*>(array.data()) + i * line);
+}
+
 /// Computes the swept box of each cluster.
 void measure_clusters(const TileElements& tile, const AdvanceArguments& a, ShapeContactScratch& scratch) {
   scratch.boxes.clear();
@@ -58,6 +66,7 @@ void measure_clusters(const TileElements& tile, const AdvanceArguments& a, Shape
   const Quad gravity = quad(a.gravity_begun), none{};
   for (const ElementCluster& cluster : tile.clusters) {
     Quad low = none + 3e38f, high = -low, down = none, up = none;
+    if (&cluster != &tile.clusters.back()) prefetch((&cluster + 1)->vertices);
     for (const int v : cluster.vertices) {
       const Prediction p(a, gravity, v);
       const Quad to = p.position + p.displacement;
@@ -71,25 +80,6 @@ void measure_clusters(const TileElements& tile, const AdvanceArguments& a, Shape
     scratch.paths.push_back(farthest[0] + farthest[1] + farthest[2]);
   }
 }
-
-/// The frame of a collider as its three axes in world coordinates. A transformation is three dot products instead of a
-/// rotation.
-struct Axes {
-  Vec3f x, y, z, origin;
-
-  explicit Axes(const Pose<float>& pose)
-      : x(rotate(pose.rotation, Vec3f{1, 0, 0})),
-        y(rotate(pose.rotation, Vec3f{0, 1, 0})),
-        z(rotate(pose.rotation, Vec3f{0, 0, 1})),
-        origin(pose.position) {}
-
-  Vec3f to_local(const Vec3f& p) const {
-    const Vec3f d = p - origin;
-    return {dot(x, d), dot(y, d), dot(z, d)};
-  }
-  /// Half extents, in this frame, of a box that encloses a box with half extents `e` in the world.
-  Vec3f extent(const Vec3f& e) const { return {dot(abs(x), e), dot(abs(y), e), dot(abs(z), e)}; }
-};
 
 /// A collider with its frames at the substep's start and end.
 struct ColliderFrames {
@@ -185,6 +175,8 @@ ClusterWays enter_frame(const Meeting& m, const ColliderFrames& frames, ShapeCon
 }
 
 void find_cluster_contacts(const Meeting& m, const ColliderFrames& frames, ShapeContactScratch& scratch) {
+  prefetch(m.cluster.edges);
+  prefetch(m.cluster.triangles);
   const ClusterWays ways = enter_frame(m, frames, scratch);
   const std::uint16_t* codes = scratch.outcodes.data();
   for (const auto& edge : m.cluster.edges)

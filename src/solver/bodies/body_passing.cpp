@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <map>
 #include <string>
 #include <utility>
@@ -88,7 +89,10 @@ void BodyPassing::note_moved(const Substep& s, const Parts& parts, std::size_t f
 
 /// Stops what would pass; not in the first round of a pass, of what the last round has moved. False if there is nothing.
 bool BodyPassing::stop_once(Substep& s, const Parts& parts, bool is_first, Stop by) {
-  const auto& [solids, surfaces, swept, impulses, motions] = parts;
+  BodySolids& solids = parts.solids;
+  SurfaceTiles& surfaces = parts.surfaces;
+  SweptContacts& swept = parts.swept;
+  PointImpulses& impulses = parts.impulses;
   solids.place(s);
   impulses.note_progress(s, solids);
   if (is_first) surfaces.update(s, solids.moving(), false);
@@ -103,7 +107,7 @@ bool BodyPassing::stop_once(Substep& s, const Parts& parts, bool is_first, Stop 
   if (by == Stop::back || by == Stop::bodies_back) {
     for (const Contact& contact : more) take_back(s, solids, contact, by == Stop::back);
   } else {
-    impulses.project_from(s, solids, first, motions, by == Stop::both_sides);
+    impulses.project_from(s, solids, first, parts.motions, by == Stop::both_sides);
   }
   note_moved(s, parts, first);
   return true;
@@ -139,11 +143,14 @@ void BodyPassing::stop_passing(Substep& s, const Parts& parts) {
 
 /// True if a particle near solids has another displacement than after stop_passing.
 bool BodyPassing::has_moved(const Substep& s, const SurfaceTiles& surfaces) const {
-  auto next = kept_.begin();
+  const Record* kept = kept_.data();
   for (const SurfaceTile& tile : surfaces.tiles()) {
     if (tile.solids.empty()) continue;
-    for (int i = tile.first; i < tile.last; ++i, ++next)
-      if (xyz(*next) != xyz(s.work.displacements[at(i)])) return true;
+    const std::size_t count = at(tile.last - tile.first);
+    const Record* const now = &s.work.displacements[at(tile.first)];
+    const auto are_same = [](const Record& a, const Record& b) { return xyz(a) == xyz(b); };
+    if (std::memcmp(kept, now, count * sizeof(Record)) != 0 && !std::equal(kept, kept + count, now, are_same)) return true;
+    kept += count;
   }
   return false;
 }

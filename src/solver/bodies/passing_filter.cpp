@@ -24,7 +24,7 @@ constexpr double shallow = 0.25;
 /// Beyond this share of the radius of the ball inside a solid, a triangle could pass it within a substep.
 constexpr float share_of_size = 0.5f;
 /// Pairs are found for the motion of about so many substeps, and for this share of a solid's radius.
-constexpr float substeps_of_pairs = 8, share_of_radius = 0.1f;
+constexpr float substeps_of_pairs = 16, share_of_radius = 0.15f;
 /// The same for which pairs are far.
 constexpr float substeps_of_groups = 8, share_of_groups = 0.02f;
 /// A bound of all motion that is smaller than this share of what far pairs allow is good enough.

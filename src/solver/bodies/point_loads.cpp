@@ -82,6 +82,43 @@ PointLoads::PointLoads(const Model& model, const std::vector<TouchedBody>& bodie
         ties_.emplace_back(point + model.first[at(number)], static_cast<int>(b));
   }
   std::sort(ties_.begin(), ties_.end());
+  find_paths(model);
+}
+
+void PointLoads::find_paths(const Model& model) {
+  std::vector<std::pair<int, Lane>> all;  // by particle in the State
+  for (std::size_t o = 0; o < model.objects.size(); ++o) {
+    const CompiledObject& object = model.objects[o];
+    first_batch_.push_back(lanes_.size());
+    for (const ChainBatch& batch : object.chains) {
+      const auto number = static_cast<std::int32_t>(lanes_.size());
+      for (int k = 0; k < batch.steps; ++k) {
+        const Segment& link = object.segments[at(batch.first_segment + k)];
+        const std::int32_t* const points = object.pools[at(batch.pool)].indices.data() + link.index_offset;
+        for (int lane = 0; lane < link.last_count; ++lane)
+          for (const int slot : {0, batch_width})
+            all.push_back({points[slot + lane] + model.first[o], {number, 1u << lane}});
+      }
+      lanes_.push_back(0);
+    }
+  }
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [particle, lane] : all) {
+    while (static_cast<int>(first_path_.size()) <= particle) first_path_.push_back(static_cast<int>(paths_.size()));
+    paths_.push_back(lane);
+  }
+  first_path_.push_back(static_cast<int>(paths_.size()));
+}
+
+/// Sets or clears the lanes of all loads.
+void PointLoads::mark_lanes(bool are_loaded) {
+  for (const Load& load : loads_) {
+    if (at(load.particle) + 1 >= first_path_.size()) continue;
+    for (int i = first_path_[at(load.particle)]; i < first_path_[at(load.particle) + 1]; ++i) {
+      std::uint32_t& lanes = lanes_[at(paths_[at(i)].batch)];
+      lanes = are_loaded ? lanes | paths_[at(i)].bit : 0;
+    }
+  }
 }
 
 void PointLoads::note_pressed(const Substep& s, const Contacts& contacts) {
@@ -165,11 +202,13 @@ void PointLoads::find(const Substep& s, const Contacts& contacts, const std::vec
   is_loaded_.assign(s.model.objects.size(), 0);
   if (of_particle_.size() != s.state.positions.size()) of_particle_.assign(s.state.positions.size(), -1);
   for (const Load& load : loads_) of_particle_[at(load.particle)] = -1;
+  mark_lanes(false);
   kept_.swap(loads_);
   loads_.clear();
   add_ties(s);
   add_contacts(s, contacts, begins);
   share_inertia(s, motions);
+  mark_lanes(true);
   for (const Load& load : loads_) is_loaded_[at(s.model.object_of(load.particle))] = 1;
   if (begins) return;
   for (const Load& old : kept_) {

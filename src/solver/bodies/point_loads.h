@@ -5,6 +5,7 @@
 // Tonge et al. 2012), so the body moves by no more than the mean of its particles.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -47,6 +48,10 @@ class PointLoads {
   ChainLoads of(int first_particle) {
     return {of_particle_.data() + first_particle, inertias_.data(), is_released_.data()};
   }
+  /// The paths of a chain batch of an object with a particle that carries a body: bit i for lane i.
+  std::uint32_t loaded_lanes(int object, int batch) const {
+    return lanes_[first_batch_[static_cast<std::size_t>(object)] + static_cast<std::size_t>(batch)];
+  }
 
   /// Before and after a phase of chains: gives the bodies the impulses of their particles.
   void begin_chains(const Substep& s);
@@ -63,6 +68,14 @@ class PointLoads {
     Vec3f before{};               ///< displacement before a phase [m]
   };
 
+  /// One of the sixteen paths of a chain batch.
+  struct Lane {
+    std::int32_t batch = 0;  ///< index in lanes_
+    std::uint32_t bit = 0;
+  };
+
+  void find_paths(const Model& model);
+  void mark_lanes(bool are_loaded);
   void add_ties(const Substep& s);
   void add_contacts(const Substep& s, const Contacts& contacts, bool begins);
   void add(int particle, int body, int contact, const Vec3f& axis);
@@ -79,6 +92,10 @@ class PointLoads {
   std::vector<LoadedInertia> inertias_;  ///< of loads_
   std::vector<char> is_released_;        ///< [load] moved without its body in this phase
   std::vector<int> carriers_;            ///< [body] number of its loads
+  std::vector<int> first_path_;          ///< [particle in the State] of its paths in paths_; the last entry is their number
+  std::vector<Lane> paths_;
+  std::vector<std::size_t> first_batch_;  ///< [object] of its chain batches in lanes_
+  std::vector<std::uint32_t> lanes_;      ///< [chain batch]
 };
 
 }  // namespace pliant

@@ -33,9 +33,9 @@ void solve_one(const Substep& s, const Task& task, const SweepArguments& a, Alig
   const auto solve_all = [&] { by.solve_chain(chains.pool, links, batch.steps, softness, multipliers, a, scratch.data()); };
   const bool may_be_loaded = s.bodies != nullptr && s.bodies->loads().has_any(task.object);
   if (!may_be_loaded) return solve_all();
-  const ChainLoads loads = s.bodies->loads().of(s.model.first[task.object]);
-  const std::uint32_t lanes = loaded_lanes(chains, loads.of_particle);
+  const std::uint32_t lanes = s.bodies->loads().loaded_lanes(task.object, task.item);
   if (lanes == 0) return solve_all();
+  const ChainLoads loads = s.bodies->loads().of(s.model.first[task.object]);
   if (lanes != (1u << links->last_count) - 1) {
     const KeptLanes kept(chains, lanes, a);
     solve_all();

@@ -262,16 +262,6 @@ class LoadedLane {
 
 }  // namespace
 
-std::uint32_t loaded_lanes(const ChainTask& task, const std::int32_t* of_particle) {
-  std::uint32_t lanes = 0;
-  for (int k = 0; k < task.steps; ++k) {
-    const std::int32_t* const points = task.pool.indices.data() + task.links[k].index_offset;
-    for (int lane = 0; lane < task.links[k].last_count; ++lane)
-      if (of_particle[points[lane]] >= 0 || of_particle[points[batch_width + lane]] >= 0) lanes |= 1u << lane;
-  }
-  return lanes;
-}
-
 void solve_loaded_chains(const ChainTask& task, std::uint32_t lanes, const SweepArguments& a, const ChainLoads& loads,
                          float* scratch) {
   for (int i = 0; i < task.links->last_count; ++i)
@@ -280,6 +270,9 @@ void solve_loaded_chains(const ChainTask& task, std::uint32_t lanes, const Sweep
 }
 
 KeptLanes::KeptLanes(const ChainTask& task, std::uint32_t lanes, const SweepArguments& a) : task_(task), arguments_(a) {
+  const auto paths = static_cast<std::size_t>(__builtin_popcount(lanes)), steps = static_cast<std::size_t>(task.steps);
+  displacements_.reserve(paths * (steps + 1));
+  if (task.multipliers != nullptr) multipliers_.reserve(paths * steps);
   for (int k = 0; k < task.steps; ++k) {
     const Segment& link = task.links[k];
     const std::int32_t* const points = task.pool.indices.data() + link.index_offset;

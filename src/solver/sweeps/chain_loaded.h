@@ -46,9 +46,6 @@ struct ChainTask {
   float* multipliers;  ///< the pool's array or null
 };
 
-/// The paths with a particle that carries a body: bit i for lane i.
-std::uint32_t loaded_lanes(const ChainTask& task, const std::int32_t* of_particle);
-
 /// Solves the paths `lanes` exactly with the inertias of `loads`. `scratch` as for ChainKernels::solve_chain.
 void solve_loaded_chains(const ChainTask& task, std::uint32_t lanes, const SweepArguments& arguments,
                          const ChainLoads& loads, float* scratch);
