@@ -16,6 +16,7 @@ struct FrameArrays {
   Record *orientations, *angular_velocities;
   const Record* inverse_inertias;
   Record *starts, *predicted, *corrections;  ///< w of corrections: what damping leaves of the velocity
+  const Record* round;                       ///< 1 for each axis about which the frame's body is round, else 0
 };
 
 /// The arrays of bodies. Those with one entry for each body begin with its body 0.
@@ -25,8 +26,8 @@ struct BodyArrays {
   const Record *start_positions = nullptr, *start_remainders = nullptr;  ///< of each body, at the frame's start [m]
   const Record* start_orientations = nullptr;                            ///< of each body, at the frame's start
   Record *pushed = nullptr,
-         *pushed_spin =
-             nullptr;  ///< of each body: what contacts did to its velocities in the last substep; spin in its axes
+         *pushed_spin = nullptr;  ///< of each body: what contacts did to its velocities in the last substep; spin
+                                  ///< in its axes at the frame's start
   const Record *positions = nullptr, *remainders = nullptr;
   Record *displacements = nullptr, *velocities = nullptr;
   FrameArrays of_frames{};
@@ -35,8 +36,8 @@ struct BodyArrays {
 struct MotionKernels {
   /// Starts a substep of h seconds: orientations follow angular velocities, which follow the gyroscopic torque.
   void (*predict_frames)(const FrameArrays& arrays, int first, int last, float h);
-  /// Ends a substep: angular velocities change by the corrections times `inverse_h`. Returns true if all are finite.
-  bool (*update_frames)(const FrameArrays& arrays, int first, int last, float inverse_h);
+  /// Ends a substep of h seconds: angular velocities change by `share` of the corrections over h. Returns true if all are finite.
+  bool (*update_frames)(const FrameArrays& arrays, int first, int last, float h, float share);
 
   /// Gathers the masses and inertia of bodies [first, last).
   void (*load_inertia)(const BodyArrays& arrays, int first, int last);

@@ -15,9 +15,9 @@ struct Loops {
   static void predict(const FrameArrays& a, int first, int last, float h) {
     for (int i = first; i < last; i += lanes) predict_frames(a, At::from(i, last), h);
   }
-  static bool update(const FrameArrays& a, int first, int last, float inverse_h) {
+  static bool update(const FrameArrays& a, int first, int last, float h, float share) {
     R sum(0.f);
-    for (int i = first; i < last; i += lanes) sum += update_frames(a, At::from(i, last), inverse_h);
+    for (int i = first; i < last; i += lanes) sum += update_frames(a, At::from(i, last), h, share);
     return all_zero(sum);
   }
   static void gather_inertia(const BodyArrays& a, int first, int last) {

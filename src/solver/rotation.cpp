@@ -32,9 +32,10 @@ void for_frames(Substep& s, const char* name, FunctionRef<void(int, int)> body) 
 }  // namespace
 
 FrameArrays frame_arrays(const Substep& s) {
-  return {s.state.frames.orientations.data(),     s.state.frames.angular_velocities.data(),
-          s.state.frames.inverse_inertias.data(), s.work.frames.starts.data(),
-          s.work.frames.predicted.data(),         s.work.frames.corrections.data()};
+  return {
+      s.state.frames.orientations.data(), s.state.frames.angular_velocities.data(), s.state.frames.inverse_inertias.data(),
+      s.work.frames.starts.data(),        s.work.frames.predicted.data(),           s.work.frames.corrections.data(),
+      s.work.frames.round.data()};
 }
 
 void predict_frames(Substep& s) {
@@ -55,7 +56,7 @@ void update_frames(Substep& s) {
     // Corrections stay whole, because contacts and angular momentum follow what the frame has turned.
     const auto update = [&](int from, int to, float share) {
       for_range(s, "update: frames", first_of_object + from, first_of_object + to, [&](int first, int last) {
-        if (!s.kernels.motions.update_frames(arrays, first, last, s.velocity_share * share / s.h))
+        if (!s.kernels.motions.update_frames(arrays, first, last, s.h, s.velocity_share * share))
           are_finite.store(false, std::memory_order_relaxed);
       });
     };

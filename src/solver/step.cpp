@@ -1,7 +1,7 @@
 // Advances all objects by one frame. Read this file first.
 //
 //   for each group of objects, side by side or in turn, and for each of its substeps of length h = dt / substeps
-//     control       kinematic colliders move to their pose at the substep's end
+//     control       kinematic colliders move to their pose at the substep's end; contacts of bodies that have turned far are found again
 //     forces        wind and force fields change velocities
 //     predict       v += h g, displacement = h v                            symplectic Euler
 //                   contacts of particles with colliders along the predicted path
@@ -52,6 +52,7 @@ bool all_end_together(const std::vector<Substep>& groups, const Substep& s) {
 /// Makes the current substep of a group, the last one if stops() is true. False if a value is not finite.
 bool make_substep(Substep& s, FunctionRef<bool()> stops) {
   control(s);
+  if (s.bodies != nullptr) s.bodies->renew_contacts(s);
   apply_forces(s);
   if (!predict(s)) return false;
   collide(s);

@@ -24,6 +24,8 @@ SweepArguments arguments(const Substep& s, int object, bool first_pass) {
   return a;
 }
 
+double time_left(const Substep& s) { return s.number == 0 ? s.dt : s.frame_start + s.dt - time_of(s, s.number); }
+
 FrameArguments frame_arguments(const Substep& s, int object) {
   const int first = s.model.first_frame[object];
   return {s.state.frames.orientations.data() + first, s.state.frames.inverse_inertias.data() + first,

@@ -57,6 +57,9 @@ struct Substep {
 /// The start time of substep number `substep` of the frame [s].
 double time_of(const Substep& s, int substep);
 
+/// What is left of the frame at the substep's start [s].
+double time_left(const Substep& s);
+
 /// The change of velocity by gravity over a time [m/s].
 Vec3f gravity_for(const Substep& s, double seconds);
 

@@ -38,6 +38,7 @@ void resize(const Model& model, Workspace& workspace) {
   workspace.expected_velocities.resize(model.particles());
   workspace.joints.resize(objects);
   workspace.frames.starts.resize(model.frames());
+  workspace.frames.round.resize(model.frames());
   workspace.frames.predicted.resize(model.frames());
   workspace.frames.corrections.resize(model.frames());
   workspace.multipliers.resize(objects);

@@ -59,6 +59,7 @@ struct FrameGravity {
 struct FrameScratch {
   Records starts;                  ///< orientations at the substep's start
   Records predicted, corrections;  ///< rotation vectors of each frame in world axes [rad]
+  Records round;                   ///< see FrameArrays
 };
 
 /// Of each set of objects that can meet: whether its impacts go on in this round (respond.cpp), and in the next one.

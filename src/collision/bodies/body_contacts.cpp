@@ -1,6 +1,7 @@
 #include "collision/bodies/body_contacts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -8,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "collision/bodies/manifold.h"
 #include "collision/bodies/mesh_contacts.h"
 #include "geometry/convex_contact.h"
 
@@ -80,6 +82,22 @@ void set_directions(BodyContact& c, const Vec3d& normal) {
   c.tangent2 = convert<float>(cross(normal, first));
 }
 
+/// Moves the centre of a contact to that of its touching points.
+void move_centre(const std::array<Vec3f, 4>& places, BodyContact& c) {
+  const std::array<bool, 4> touches = touching_points({c.count, c.x, c.y, c.gap});
+  const auto count = std::count(touches.begin(), touches.end(), true);
+  if (count == c.count) return;
+  Vec3f centre{};
+  for (std::size_t i = 0; i < 4; ++i)
+    if (touches[i]) centre += places[i] * (1 / static_cast<float>(count));
+  c.arm_a += centre;
+  c.arm_b += centre;
+  for (std::size_t i = 0; i < at(c.count); ++i) {
+    c.x[i] -= dot(centre, c.tangent1);
+    c.y[i] -= dot(centre, c.tangent2);
+  }
+}
+
 /// Places the points of a new contact.
 void set_points(const Touch& found, const Posed& a, const Posed& b, BodyContact& c) {
   c.count = found.count;
@@ -91,9 +109,10 @@ void set_points(const Touch& found, const Posed& a, const Posed& b, BodyContact&
   }
   c.arm_a = convert<float>(centre - a.position);
   c.arm_b = convert<float>(centre - b.position);
+  std::array<Vec3f, 4> places{};
   for (std::size_t i = 0; i < at(found.count); ++i) {
     const TouchPoint& point = found.points[i];
-    const Vec3f place = convert<float>(to_world(a, (point.on_a + point.on_b) * 0.5) - centre);
+    const Vec3f& place = places[i] = convert<float>(to_world(a, (point.on_a + point.on_b) * 0.5) - centre);
     c.x[i] = dot(place, c.tangent1);
     c.y[i] = dot(place, c.tangent2);
     c.gap[i] = static_cast<float>(point.separation);
@@ -101,6 +120,14 @@ void set_points(const Touch& found, const Posed& a, const Posed& b, BodyContact&
     c.anchor_b[i] = convert<float>(to_local(b, to_world(a, point.on_b)));
     c.feature[i] = point.feature;
   }
+  move_centre(places, c);
+}
+
+/// True if a body and the pair have turned by less than a tenth of a radian between two contacts (cosine of half the angle).
+bool turned_little(const BodyContact& old, const BodyContact& now) {
+  constexpr float straight_enough = 0.99875f;
+  return std::fabs(dot(old.rotation, now.rotation)) > straight_enough &&
+         std::fabs(dot(old.turned, now.turned)) > straight_enough;
 }
 
 /// Hands the impulses of an earlier contact of the same parts to the points that are the same.
@@ -108,12 +135,13 @@ void take_impulses(const BodyContact& old, BodyContact& c) {
   for (std::size_t i = 0; i < at(c.count); ++i)
     for (std::size_t j = 0; j < at(old.count); ++j)
       if (c.feature[i] == old.feature[j]) c.impulse[i] = old.impulse[j];
+  c.substep = old.substep;
+  if (!turned_little(old, c)) return;
   const Vec3f friction = old.tangent1 * old.friction_impulse[0] + old.tangent2 * old.friction_impulse[1];
   c.friction_impulse = {dot(friction, c.tangent1), dot(friction, c.tangent2)};
   c.twist_impulse = old.twist_impulse;
   const Vec3f rolling = old.tangent1 * old.rolling_impulse[0] + old.tangent2 * old.rolling_impulse[1];
   c.rolling_impulse = {dot(rolling, c.tangent1), dot(rolling, c.tangent2)};
-  c.substep = old.substep;
 }
 
 auto solids_of(const BodyContact& c) { return std::tuple{c.a.owner, c.a.solid, c.b.owner, c.b.solid}; }

@@ -8,12 +8,22 @@
 
 namespace pliant {
 
+/// Points of a contact, in a plane along its tangents [m].
+struct ContactPoints {
+  int count = 0;
+  const std::array<float, 4>&x, &y, &gap;
+};
+
+/// True for points that touch where the nearest one does: seen from that, surfaces open by less than a twentieth. Friction acts there, and
+/// not between the ends of a stick of which one is in the air.
+std::array<bool, 4> touching_points(const ContactPoints& points);
+
 /// Contact of bodies a and b. Over fifteen members: what is kept, then what is prepared once a frame (solver/bodies).
 struct Manifold {
   int a = 0, b = 0;
   int count = 0;                           ///< of points, 1 to 4
   Vec3f normal{}, tangent1{}, tangent2{};  ///< unit vectors, the normal from a to b
-  Vec3f arm_a{}, arm_b{};                  ///< from the centres of mass to the centre of the points [m]
+  Vec3f arm_a{}, arm_b{};                  ///< from the centres of mass to the centre of the touching points [m]
   std::array<float, 4> x{}, y{};           ///< places of points along the tangents, from that centre [m]
   std::array<float, 4> gap{};              ///< separations at the frame's start [m]
   float friction = 0, restitution = 0;     ///< coefficients [-]

@@ -36,6 +36,8 @@ BodyMotions::BodyMotions(const ContactBodies& bodies) : motions_(bodies.places()
     const BodyPlace& place = bodies.places()[at(i)];
     particles_.push_back(place.particle);
     frames_.push_back(place.frame);
+    const Vec3f round = bodies.round_axes(i);
+    round_.push_back({round.x, round.y, round.z, 0});
     if (ranges_.empty() || ranges_.back().object != place.object || i - ranges_.back().first == bodies_a_task)
       ranges_.push_back({place.object, i, i});
     ranges_.back().last = i + 1;
@@ -67,6 +69,7 @@ void BodyMotions::begin_frame(const Substep& s) {
     start_positions_[at(i)] = s.state.positions[particle];
     start_remainders_[at(i)] = s.state.remainders[particle];
     start_orientations_[at(i)] = s.state.frames.orientations[at(frames_[at(i)])];
+    s.work.frames.round[at(frames_[at(i)])] = round_[at(i)];
   }
   const BodyArrays all = arrays(s);
   for_ranges(s.context.executor, bodies(), [&](int first, int last) { s.kernels.motions.load_inertia(all, first, last); });
@@ -124,6 +127,12 @@ void BodyMotions::change_once(FunctionRef<void()> change) {
     const Quatf start = quaternion(start_orientations_[at(i)]);
     pushed_spin_[at(i)] = plus(pushed_spin_[at(i)], rotate(conjugate(start), before_spin_[at(i)] - motions_[at(i)].spin));
   }
+}
+
+float BodyMotions::turned(int body) const {
+  const Vec3f turned = rotate(conjugate(quaternion(start_orientations_[at(body)])), motions_[at(body)].rotation);
+  const Record& round = round_[at(body)];
+  return length(Vec3f{turned.x * (1 - round.x), turned.y * (1 - round.y), turned.z * (1 - round.z)});
 }
 
 }  // namespace pliant

@@ -37,6 +37,9 @@ class BodyMotions {
   /// Adds what contacts have changed to velocities.
   void store_velocities(const Substep& s);
 
+  /// By how much a body has turned since the frame's start, but about axes about which it is round [rad].
+  float turned(int body) const;
+
   /// Calls change(), whose effect on velocities the next substep does not start with.
   void change_once(FunctionRef<void()> change);
 
@@ -55,6 +58,7 @@ class BodyMotions {
   std::vector<Range> ranges_;                         ///< of at most a task's length
   Records start_positions_, start_remainders_;        ///< of each body, at the frame's start [m]
   Records start_orientations_;                        ///< of each body, at the frame's start
+  Records round_;                                     ///< of each body (FrameArrays)
   Records pushed_, pushed_spin_;                      ///< of each body (BodyArrays)
   std::vector<BodyMotion> present_;                   ///< masses and inertias by present orientations
   std::vector<Vec3f> before_velocity_, before_spin_;  ///< of change_once

@@ -22,6 +22,8 @@ constexpr int most_rounds_of_impacts = 32;
 /// another: impacts are over sooner.
 constexpr float deep_share = 0.2f;
 constexpr int frames_of_rest = 6;
+/// Contacts are found again in a frame if a body has turned by more than this since they were found [rad].
+constexpr float far_turned = 0.15f;
 /// Bodies, or contacts, in a task.
 constexpr int a_task = 256;
 
@@ -84,6 +86,24 @@ void BodySolver::begin_frame(Substep& s) {
   shares_.clear();
 }
 
+/// True if a body with contacts has turned far since they were found.
+bool BodySolver::has_turned() const {
+  const auto turned = [&](int body) { return body < bodies_.dynamic() && motions_.turned(body) > far_turned; };
+  return std::any_of(finder_.bodies().begin(), finder_.bodies().end(),
+                     [&](const std::pair<int, int>& pair) { return turned(pair.first) || turned(pair.second); });
+}
+
+void BodySolver::renew_contacts(Substep& s) {
+  if (s.number == 0 || contacts_.empty() || !has_turned()) return;
+  take_impulses(s);
+  bodies_.begin_frame(s);
+  read_states(s);
+  update_contacts(s, contacts_);
+  motions_.begin_frame(s);
+  pushes_are_known_ = false;
+  make_manifolds(s);
+}
+
 void BodySolver::read_states(const Substep& s) {
   states_.clear();
   is_fixed_.clear();
@@ -94,9 +114,10 @@ void BodySolver::read_states(const Substep& s) {
 }
 
 void BodySolver::update_contacts(Substep& s, const std::vector<BodyContact>& before) {
-  const float gravity = static_cast<float>(s.dt) * length(s.model.gravity);
+  const double left = time_left(s);
+  const float gravity = static_cast<float>(left) * length(s.model.gravity);
   finder_.update(
-      s.context.executor, states_, static_cast<float>(s.dt), gravity,
+      s.context.executor, states_, static_cast<float>(left), gravity,
       [&](int a, int b) { return bodies_.meet(s.model, a, b); }, before, contacts_);
 }
 

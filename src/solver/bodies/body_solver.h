@@ -1,6 +1,6 @@
 // Contact of the rigid bodies of a substep group with one another and with colliders, as stages of a frame.
 //
-// Contacts are found once a frame, and each substep solves them with one soft pass that corrects the predicted motion and one
+// Contacts are found once a frame, and again where bodies turn fast, and each substep solves them with one soft pass that corrects the predicted motion and one
 // pass over velocities after the update, which takes back what the first added (manifold_passes.h). Bodies' motions are gathered from the
 // State for a pass and scattered after it, so constraints, chains and other contact act on bodies as on any particle and frame.
 #pragma once
@@ -36,6 +36,8 @@ class BodySolver {
 
   /// Finds the contacts of a frame. Kept ones come from the State.
   void begin_frame(Substep& s);
+  /// Before the prediction of a substep: finds them again if a body has turned so far that its arms and normals are no longer true.
+  void renew_contacts(Substep& s);
   /// Finds the contacts of points and bodies in a substep.
   void collide(Substep& s);
   /// Corrects displacements and rotations of bodies, and of points that touch them. In the first iteration of a substep, starts from the impulses of the last
@@ -76,6 +78,7 @@ class BodySolver {
   void log_contacts(const Substep& s, ContactLog& log);
 
  private:
+  bool has_turned() const;
   void read_states(const Substep& s);
   void find_contacts(Substep& s);
   void find_contacts_beside_sleepers(Substep& s);

@@ -26,6 +26,20 @@ ConvexShape shape_of_collider(const Shape& shape, std::vector<Polyhedron>& polyh
   return {};
 }
 
+/// One for each axis of its body about which a solid is round, else zero.
+Vec3f round_axes_of(const CompiledSolid& solid) {
+  constexpr double straight = 1e-5;
+  const Vec3d centre = solid.pose.position;
+  const bool is_ball = solid.shape.kind == ConvexShape::Kind::point;
+  if (solid.shape.kind == ConvexShape::Kind::polyhedron) return {};
+  const double size = static_cast<double>(solid.shape.radius + solid.shape.core_radius);
+  if (is_ball && length(centre) < straight * size) return {1, 1, 1};
+  const Vec3d along = is_ball ? centre * (1 / length(centre)) : rotate(solid.pose.rotation, Vec3d{0, 1, 0});
+  if (!(length(cross(along, centre)) < straight * size)) return {};
+  const auto round = [&](double part) { return std::fabs(part) > 1 - straight * straight ? 1.f : 0.f; };
+  return {round(along.x), round(along.y), round(along.z)};
+}
+
 }  // namespace
 
 ContactBodies::ContactBodies(const Model& model, const std::vector<int>* objects, BodyMeshes& meshes)
@@ -49,10 +63,13 @@ void ContactBodies::add_object(const Model& model, int object, std::vector<BodyP
     const auto& [particle, frame] = from.bodies.bodies[b];
     places_.push_back(
         {object, static_cast<int>(b), model.first[at(object)] + particle, model.first_frame[at(object)] + frame});
+    round_.push_back({1, 1, 1});
   }
   for (int i = 0; i < static_cast<int>(from.bodies.solids.size()); ++i) {
     const CompiledSolid& solid = from.bodies.solids[at(i)];
     parts.push_back({{object, i, 0}, first + solid.body, solid.shape, false, solid.pose});
+    Vec3f& round = round_[at(first + solid.body)];
+    round = min(round, round_axes_of(solid));
   }
 }
 
@@ -193,16 +210,16 @@ BodyMaterial ContactBodies::sliding(const Model& model, int a, int b) const {
 BodyState ContactBodies::collider_at_start(const Substep& s, const BodyPlace& place) {
   if (place.mesh != nullptr) move_vertices(s, place);
   const auto [before, after] = place.mesh == nullptr ? poses_between(colliders_at_start_[at(place.collider)])
-                                                     : poses_of_mesh(s, place, s.frame_start, s.frame_start + s.dt);
+                                                     : poses_of_mesh(s, place, time_of(s, s.number), s.frame_start + s.dt);
   const Posef start = convert<float>(before), end = convert<float>(after);
-  const float rate = static_cast<float>(1 / s.dt);
+  const float rate = static_cast<float>(1 / time_left(s));
   return {before, convert<float>(after.position - before.position) * rate,
           turn_between(start.rotation, end.rotation) * rate, true,
           place.mesh != nullptr && meshes_->of_object.at(place.object).is_deformed};
 }
 
 void ContactBodies::begin_frame(const Substep& s) {
-  move_colliders(s.model, s.work.control, s.frame_start, s.frame_start + s.dt, colliders_at_start_);
+  move_colliders(s.model, s.work.control, time_of(s, s.number), s.frame_start + s.dt, colliders_at_start_);
 }
 
 std::pair<Posed, Posed> ContactBodies::poses_of_collider(const Substep& s, int index) const {

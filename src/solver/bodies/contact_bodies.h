@@ -51,14 +51,16 @@ class ContactBodies {
   /// The parts of all places, in ascending order of owners. They point to shapes that are kept here.
   std::vector<BodyPart> take_parts() { return std::move(parts_); }
 
+  /// One for each principal axis about which the solids of a body of an object are round, else zero.
+  Vec3f round_axes(int body) const { return round_[static_cast<std::size_t>(body)]; }
   /// "body 3 of 'pile'", or the name of a collider.
   std::string name(const Model& model, int place) const;
   bool meet(const Model& model, int a, int b) const;
   BodyMaterial material(const Model& model, int a, int b) const;
 
-  /// Finds where colliders are at the frame's start and end.
+  /// Finds where colliders are at the substep's start and the frame's end.
   void begin_frame(const Substep& s);
-  /// The state of a place at the frame's start. Moves the vertices of a mesh that deforms to where they are.
+  /// The state of a place at the substep's start. Moves the vertices of a mesh that deforms to where they are.
   BodyState state_at_start(const Substep& s, int place);
   /// The poses of a collider before and after the substep.
   std::pair<Posed, Posed> poses_of_collider(const Substep& s, int place) const;
@@ -81,6 +83,7 @@ class ContactBodies {
   std::vector<BodyPlace> places_;
   int dynamic_ = 0;
   std::vector<BodyPart> parts_;
+  std::vector<Vec3f> round_;  ///< [body]
   std::vector<Polyhedron> collider_shapes_;
   std::vector<MovingCollider> colliders_at_start_;  ///< their poses are those at the frame's start and end
 };

@@ -314,14 +314,11 @@ PLIANT_HD void prepare(ManifoldRows<lanes>& m, const Motion<R>& a, const Motion<
                               dot(first, of_na + of_nb)}};
   PLIANT_UNROLL
   for (int i = 0; i < 6; ++i) store_row(m.mobility[i], mobility.k[i]);
-  R radius(0.f);
   PLIANT_UNROLL
   for (int i = 0; i < 4; ++i) {
     store_row(m.mass[i], one / max(at_point(m, i, answer(m, mobility, i)), least));
-    const R x = get<R>(m.x[i]), y = get<R>(m.y[i]);
-    radius += sqrt(x * x + y * y);
   }
-  store_row(m.twist_arm, get<R>(m.friction) * (radius * get<R>(m.point_share)) + get<R>(m.spinning));
+  store_row(m.twist_arm, get<R>(m.friction) * get<R>(m.radius) + get<R>(m.spinning));
   store_row(m.twist_mass, one / max(dot(normal, turned(a, normal) + turned(b, normal)), least));
   const Vec3<R> ua = cross(arm_a, first), ub = cross(arm_b, first), va = cross(arm_a, second), vb = cross(arm_b, second);
   const Vec3<R> of_va = turned(a, va), of_vb = turned(b, vb);
