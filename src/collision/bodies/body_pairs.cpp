@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace pliant {
 
 namespace {
 
-constexpr int parts_a_task = 256;
+constexpr int parts_a_task = 256, packets_a_task = 8, pairs_a_task = 2048;
 /// Boxes are larger by this share of their part's size than they need be, so that pairs last for more than a frame.
 constexpr float spare_share = 0.1f;
 
@@ -130,16 +131,43 @@ bool BodyPairs::fits() const {
   return true;
 }
 
-void BodyPairs::find_near(const Frame& frame) {
+/// Finds the pairs of packets [first, last) of the tree. Those of one part are contiguous and ascending.
+void BodyPairs::find_near(const Frame& frame, int first, int last, std::vector<Pair>& found) {
+  std::vector<int> packs, hits;
+  found.clear();
+  for (int packet = first; packet < last; ++packet)
+    tree_.packet_overlaps(packet, tree_, packs, hits, [&](int i, const std::vector<int>& others) {
+      const auto begin = static_cast<std::ptrdiff_t>(found.size());
+      const int a = frame.parts[at(convex_[at(i)])].body;
+      for (const int j : others) {
+        const int b = frame.parts[at(convex_[at(j)])].body;
+        if (i < j && a != b && frame.meet(std::min(a, b), std::max(a, b))) found.emplace_back(i, j);
+      }
+      std::sort(found.begin() + begin, found.end());
+      first_near_[at(i + 1)] = static_cast<int>(found.size()) - static_cast<int>(begin);
+    });
+}
+
+void BodyPairs::find_near(Executor& executor, const Frame& frame) {
   larger_.clear();
   for (std::size_t i = 0; i < boxes_.size(); ++i) larger_.push_back(boxes_[i].grown(spare_share * size_[at(convex_[i])]));
   tree_.build(larger_);
-  near_.clear();
-  tree_.self_pairs([&](int i, int j) {
-    const int a = frame.parts[at(convex_[at(i)])].body, b = frame.parts[at(convex_[at(j)])].body;
-    if (a != b && frame.meet(std::min(a, b), std::max(a, b))) near_.emplace_back(std::min(i, j), std::max(i, j));
+  const int packets = tree_.packet_count(), tasks = (packets + packets_a_task - 1) / packets_a_task;
+  of_task_.resize(at(tasks));
+  first_near_.assign(boxes_.size() + 1, 0);
+  executor.parallel_for(nullptr, tasks, [&](int task) {
+    find_near(frame, task * packets_a_task, std::min(packets, (task + 1) * packets_a_task), of_task_[at(task)]);
   });
-  std::sort(near_.begin(), near_.end());
+  std::partial_sum(first_near_.begin(), first_near_.end(), first_near_.begin());
+  near_.resize(at(first_near_.back()));
+  executor.parallel_for(nullptr, tasks, [&](int task) {
+    const std::vector<Pair>& found = of_task_[at(task)];
+    for (auto pair = found.begin(); pair != found.end();) {
+      const int i = pair->first, count = first_near_[at(i + 1)] - first_near_[at(i)];
+      std::copy_n(pair, count, near_.begin() + first_near_[at(i)]);
+      pair += count;
+    }
+  });
 }
 
 /// Pairs of half-spaces and meshes with convex parts.
@@ -169,6 +197,27 @@ void BodyPairs::find_pairs_of_others(const Frame& frame) {
   std::sort(of_others_.begin(), of_others_.end());
 }
 
+/// Adds the pairs of near_ whose boxes overlap to those of others.
+void BodyPairs::keep_overlapping(Executor& executor, const Frame& frame) {
+  const int count = static_cast<int>(near_.size()), tasks = (count + pairs_a_task - 1) / pairs_a_task;
+  of_task_.resize(std::max(of_task_.size(), at(tasks)));
+  const auto is_fixed = [&](int part) { return frame.bodies[at(frame.parts[at(part)].body)].is_fixed; };
+  executor.parallel_for(nullptr, tasks, [&](int task) {
+    std::vector<Pair>& found = of_task_[at(task)];
+    found.clear();
+    for (int k = task * pairs_a_task; k < std::min(count, (task + 1) * pairs_a_task); ++k) {
+      const auto& [i, j] = near_[at(k)];
+      const int a = convex_[at(i)], b = convex_[at(j)];
+      if (overlap(boxes_[at(i)], boxes_[at(j)]) && !(is_fixed(a) && is_fixed(b))) found.emplace_back(a, b);
+    }
+  });
+  pairs_ = of_others_;
+  const auto first = static_cast<std::ptrdiff_t>(pairs_.size());
+  for (int task = 0; task < tasks; ++task)
+    pairs_.insert(pairs_.end(), of_task_[at(task)].begin(), of_task_[at(task)].end());
+  std::inplace_merge(pairs_.begin(), pairs_.begin() + first, pairs_.end());
+}
+
 void BodyPairs::thin_crowd(const Frame& frame) {
   left_out_ = 0;
   if (pairs_.size() <= most_of_crowded * convex_.size()) return;
@@ -192,16 +241,9 @@ void BodyPairs::update(Executor& executor, const std::vector<BodyPart>& parts, c
   const Frame frame{parts, bodies, dt, meet};
   find_boxes(executor, frame, faster);
   const Stopwatch stopwatch(executor.timings(), "bodies: pairs");
-  if (!fits()) find_near(frame);
+  if (!fits()) find_near(executor, frame);
   find_pairs_of_others(frame);
-  pairs_ = of_others_;
-  const auto first = static_cast<std::ptrdiff_t>(pairs_.size());
-  for (const auto& [i, j] : near_) {
-    if (!overlap(boxes_[at(i)], boxes_[at(j)])) continue;
-    const int a = convex_[at(i)], b = convex_[at(j)];
-    if (!(bodies[at(parts[at(a)].body)].is_fixed && bodies[at(parts[at(b)].body)].is_fixed)) pairs_.emplace_back(a, b);
-  }
-  std::inplace_merge(pairs_.begin(), pairs_.begin() + first, pairs_.end());
+  keep_overlapping(executor, frame);
   thin_crowd(frame);
 }
 

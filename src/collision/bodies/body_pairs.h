@@ -52,7 +52,9 @@ class BodyPairs {
 
   void find_boxes(Executor& executor, const Frame& frame, float faster);
   bool fits() const;
-  void find_near(const Frame& frame);
+  void find_near(Executor& executor, const Frame& frame);
+  void find_near(const Frame& frame, int first, int last, std::vector<Pair>& found);
+  void keep_overlapping(Executor& executor, const Frame& frame);
   void find_pairs_of_others(const Frame& frame);
   void thin_crowd(const Frame& frame);
 
@@ -62,7 +64,9 @@ class BodyPairs {
   std::vector<BoxBounds> larger_;  ///< of convex parts when the tree was built
   Tree<BoxBounds> tree_;           ///< of larger_
   std::vector<Pair> near_;         ///< indices in convex_ whose larger boxes overlap, ascending
+  std::vector<int> first_near_;    ///< of each part in convex_: its first pair in near_ as the smaller one
   std::vector<Pair> pairs_, of_others_;
+  std::vector<std::vector<Pair>> of_task_;
   std::ptrdiff_t left_out_ = 0;
 };
 
