@@ -110,15 +110,16 @@ PLIANT_HD Vec3<R> gyroscopic_change(const Vec3<R>& factors, const Vec3<R>& w, co
   return select(length_squared(w) * (h * h) < R(1.f), change, none);
 }
 
-/// The free motion of a symmetric top that turns by more than a radian in h: it turns about its angular momentum, and then about its own
+/// The free motion of a symmetric top that turns by more than a radian in h, or is round: it turns about its angular momentum, and then about its own
 /// axis. Energy and angular momentum stay whatever the angle of the latter, so that is not exact.
 template <class R>
 struct Spinning {
-  decltype(R{} > R{}) applies;  ///< false where two moments of inertia do not agree to 1e-4, or the frame turns slowly
-  Vec3<R> angle;                ///< about the angular momentum [rad]
-  Quat<R> twist;                ///< about the axis
+  decltype(R{} > R{})
+      applies;    ///< false where two moments of inertia do not agree to 1e-4, or the frame turns slowly and is not round
+  Vec3<R> angle;  ///< about the angular momentum [rad]
+  Quat<R> twist;  ///< about the axis
 
-  PLIANT_HD Spinning(const Vec3<R>& inverse, const Vec3<R>& w, const R& h) {
+  PLIANT_HD Spinning(const Vec3<R>& inverse, const Vec3<R>& round, const Vec3<R>& w, const R& h) {
     const R zero(0.f), one(1.f), half(0.5f), close(1e-4f);
     const auto agree = [&](const R& a, const R& b) { return abs(a - b) < close * max(a, b); };
     const Vec3<R> x{one, zero, zero}, y{zero, one, zero}, z{zero, zero, one}, none{zero, zero, zero};
@@ -126,9 +127,9 @@ struct Spinning {
                                 select(agree(inverse.z, inverse.x), y, select(agree(inverse.x, inverse.y), z, none)));
     const R own = dot(axis, inverse), across = half * ((inverse.x + inverse.y + inverse.z) - own), along = dot(axis, w);
     const R twisting = along * (one - across / max(own, R(1.2e-38f)));
-    applies =
-        select(min(min(inverse.x, inverse.y), inverse.z) > zero, dot(axis, axis), zero) * (length_squared(w) * (h * h)) >=
-        one;
+    applies = select(min(min(inverse.x, inverse.y), inverse.z) > zero, dot(axis, axis), zero) *
+                  max(length_squared(w) * (h * h), (round.x + round.y) + round.z) >=
+              one;
     angle = (w - axis * twisting) * h;
     const R t = half * h * twisting;
     twist = normalise(Quat<R>{axis.x * t, axis.y * t, axis.z * t, one});
@@ -142,7 +143,7 @@ PLIANT_HD void predict_frames(const FrameArrays& a, const Lanes<R, lanes>& at, f
   const Vec3<R> inverse = at.vector(a.inverse_inertias);
   const Vec3<R> w = at.vector(a.angular_velocities);
   const Vec3<R> change = gyroscopic_change(gyroscopic_factors(inverse, inertia_of(inverse)), w, h);
-  const Spinning<R> fast(inverse, w, h);
+  const Spinning<R> fast(inverse, at.vector(a.round), w, h);
   const Vec3<R> angle = select(fast.applies, fast.angle, (w + change * half) * h);
   // Taylor series of the quaternion exponential. The next terms are below a float's precision up to half a radian per
   // substep.
@@ -170,10 +171,12 @@ template <class R>
 struct Turned {
   using IsRound = decltype(R{} > R{});
   Quat<R> start, now;
+  Vec3<R> round;
   Quat<R> twist;  ///< of the turn from start to now, what is about the axes about which the body is round
   IsRound is_round;
 
-  PLIANT_HD Turned(const Quat<R>& at_start, const Quat<R>& present, const Vec3<R>& round) : start(at_start), now(present) {
+  PLIANT_HD Turned(const Quat<R>& at_start, const Quat<R>& present, const Vec3<R>& round_axes)
+      : start(at_start), now(present), round(round_axes) {
     const Quat<R> turn = multiply(conjugate(start), now);
     twist = normalise(Quat<R>{turn.x * round.x, turn.y * round.y, turn.z * round.z, turn.w});
     is_round = (round.x + round.y) + round.z > R(0.f);
@@ -181,6 +184,17 @@ struct Turned {
   /// From the body's axes to those in which contacts are, and back.
   PLIANT_HD Vec3<R> from_body(const Vec3<R>& v) const { return select(is_round, rotate(twist, v), v); }
   PLIANT_HD Vec3<R> to_body(const Vec3<R>& v) const { return select(is_round, local(twist, v), v); }
+  /// The turn from start to now without the twist, in the body's axes [rad].
+  PLIANT_HD Vec3<R> swing() const {
+    const Quat<R> rest = multiply(multiply(conjugate(start), now), conjugate(twist));
+    const R two = select(rest.w < R(0.f), R(-2.f), R(2.f));
+    return {rest.x * two, rest.y * two, rest.z * two};
+  }
+  /// A turn without what is about axes about which the body is round.
+  PLIANT_HD Vec3<R> across(const Vec3<R>& v) const {
+    const R one(1.f);
+    return {v.x * (one - round.x), v.y * (one - round.y), v.z * (one - round.z)};
+  }
   /// From the world, and back.
   PLIANT_HD Vec3<R> from_world(const Vec3<R>& v) const { return from_body(local(now, v)); }
   PLIANT_HD Vec3<R> to_world(const Vec3<R>& v) const { return rotate(now, to_body(v)); }

@@ -110,9 +110,9 @@ PLIANT_HD void load_velocities(const BodyArrays& a, const BodyLanes<R, lanes>& a
   const Turned<R> body = turned_of(a, at);
   const Vec3<R> moved =
       (x.xyz - at.body.vector(a.start_positions)) + (at.particle.vector(a.remainders) - at.body.vector(a.start_remainders));
-  const Vec3<R> turned =
-      at.motion.vector(at.row(a, rotation)) + rotate(body.start, body.from_world(at.frame.vector(a.of_frames.predicted) +
-                                                                                 at.frame.vector(a.of_frames.corrections)));
+  const Vec3<R> turn = at.frame.vector(a.of_frames.predicted) + at.frame.vector(a.of_frames.corrections);
+  const Vec3<R> turned = select(body.is_round, rotate(body.start, body.swing()),
+                                at.motion.vector(at.row(a, rotation)) + rotate(body.start, body.from_world(turn)));
   at.motion.store(at.row(a, displacement), moved, zero);
   at.motion.store(at.row(a, rotation), turned, zero);
   const Vec3<R> g{R(gravity.x), R(gravity.y), R(gravity.z)};
@@ -120,11 +120,10 @@ PLIANT_HD void load_velocities(const BodyArrays& a, const BodyLanes<R, lanes>& a
   // Contacts push at the substep's start, and angular momentum that they bring stays in the world while the prediction turns the body.
   const RecordOf<R> spins = at.frame.load(a.of_frames.angular_velocities);
   const Vec3<R> inverse = at.frame.vector(a.of_frames.inverse_inertias);
-  const Vec3<R> round = at.frame.vector(a.of_frames.round), turn = local(body.now, at.frame.vector(a.of_frames.predicted));
-  const Vec3<R> across{turn.x * (R(1.f) - round.x), turn.y * (R(1.f) - round.y), turn.z * (R(1.f) - round.z)};
+  const Vec3<R> across = body.across(local(body.now, at.frame.vector(a.of_frames.predicted)));
   const Vec3<R> back = turned_back(inverse, across, body.to_body(at.body.vector(a.pushed_spin)));
   const Vec3<R> spins_now =
-      select(is_large_turn(inverse, round, at.frame.vector(a.of_frames.corrections)), spins.xyz, spins.xyz + back);
+      select(is_large_turn(inverse, body.round, at.frame.vector(a.of_frames.corrections)), spins.xyz, spins.xyz + back);
   at.frame.store(a.of_frames.angular_velocities, spins_now, spins.w);
   const Vec3<R> w = rotate(body.start, body.from_body(spins_now));
   at.motion.store(at.row(a, velocity), v, x.w);

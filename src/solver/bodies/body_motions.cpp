@@ -129,10 +129,4 @@ void BodyMotions::change_once(FunctionRef<void()> change) {
   }
 }
 
-float BodyMotions::turned(int body) const {
-  const Vec3f turned = rotate(conjugate(quaternion(start_orientations_[at(body)])), motions_[at(body)].rotation);
-  const Record& round = round_[at(body)];
-  return length(Vec3f{turned.x * (1 - round.x), turned.y * (1 - round.y), turned.z * (1 - round.z)});
-}
-
 }  // namespace pliant

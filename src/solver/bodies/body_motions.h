@@ -2,6 +2,7 @@
 // that constraints, chains and other contact act on bodies as on any particle and frame.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -17,7 +18,8 @@ class BodyMotions {
   BodyMotions() = default;
   explicit BodyMotions(const ContactBodies& bodies);
 
-  /// Of the places of ContactBodies. Spins, rotations and inertias of bodies are turned back to the frame's start.
+  /// Of the places of ContactBodies. Spins, rotations and inertias of bodies are turned back to the frame's start; rotations leave out
+  /// axes about which a body is round.
   std::vector<BodyMotion>& all() { return motions_; }
   const std::vector<BodyMotion>& all() const { return motions_; }
 
@@ -38,7 +40,7 @@ class BodyMotions {
   void store_velocities(const Substep& s);
 
   /// By how much a body has turned since the frame's start, but about axes about which it is round [rad].
-  float turned(int body) const;
+  float turned(int body) const { return length(motions_[static_cast<std::size_t>(body)].rotation); }
 
   /// Calls change(), whose effect on velocities the next substep does not start with.
   void change_once(FunctionRef<void()> change);
