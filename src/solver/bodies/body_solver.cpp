@@ -23,7 +23,7 @@ constexpr int most_rounds_of_impacts = 32;
 constexpr float deep_share = 0.2f;
 constexpr int frames_of_rest = 6;
 /// Contacts are found again in a frame if a body has turned by more than this since they were found [rad].
-constexpr float far_turned = 0.15f;
+constexpr float far_turned = 0.2f;
 /// Bodies, or contacts, in a task.
 constexpr int a_task = 256;
 
