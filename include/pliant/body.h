@@ -20,7 +20,7 @@ struct BodyInertia {
 
 /// Options of make_body.
 struct BodyOptions {
-  std::string name = "body";  ///< each body of an object has its own, or this default
+  std::string name = "body";  ///< the bodies of an object in a World have names of their own, or this default
   Vec3f position{};           ///< of the frame in which the solids are described [m]
   Quatf rotation{};           ///< of that frame; unit quaternion
   Vec3f velocity{};           ///< of the centre of mass [m/s]
@@ -44,7 +44,7 @@ int add_body(Object& object, const std::vector<Solid>& solids, const BodyOptions
 void attach(Object& object, const std::vector<int>& particles, int body, const Stiffness& stiffness = {});
 
 /// Adds the particles, frames, bodies, joints, constraints, triangles and pins of another object to an object, whose other
-/// properties stay. A body whose name is taken gets a number after it, as in "door_2". Returns the index of its first particle.
+/// properties stay. Bodies and joints whose names are taken get a number after them, as in "door_2". Returns the index of its first particle.
 /// Throws an Error if it has a volume.
 int append(Object& object, const Object& other);
 

@@ -1,5 +1,6 @@
 // Puts objects together, and ties particles to bodies.
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <string>
 #include <utility>
@@ -33,8 +34,12 @@ ConstraintGroup shifted(ConstraintGroup group, int particles, int frames) {
 
 /// A name that is not taken: "door", else "door_2", "door_3" and so on.
 std::string free_name(const std::string& name, std::set<std::string>& taken) {
-  std::string found = name;
-  for (int number = 2; !taken.insert(found).second; ++number) found = name + "_" + std::to_string(number);
+  if (taken.insert(name).second) return name;
+  const auto first = taken.lower_bound(name + "_"), last = taken.lower_bound(name + "`");  // the character after _
+  auto number = std::distance(first, last) + 2;
+  std::string found;
+  do found = name + "_" + std::to_string(number++);
+  while (!taken.insert(found).second);
   return found;
 }
 

@@ -72,6 +72,9 @@ void prepare(const Model& model, Multipliers kept, Workspace& workspace) {
 void prepare(const Model& model, int object, Multipliers kept, Workspace& workspace) {
   resize(model, workspace);
   const CompiledObject& from = model.objects[object];
+  const int frame = model.first_frame[object];
+  std::fill_n(workspace.frames.round.begin() + frame, model.end_of_frames(object) - frame,
+              Record{});  // those of another object before
   prepare_multipliers(from, kept, workspace.multipliers[object], workspace.multiplier_pointers[object]);
   const bool has_stencils = std::any_of(from.pools.begin(), from.pools.end(), [](const Pool& p) { return !p.in_lanes; });
   workspace.stores_in_last[object] = kept == Multipliers::lengths_in_last && !has_stencils ? 1 : 0;

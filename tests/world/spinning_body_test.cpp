@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "math/quat.h"
@@ -85,6 +86,28 @@ TEST(SpinningBody, OfABallDoesNotTurnItsPath) {
   }
 }
 
+/// A wheel of 0.1 m that rolls goes straight on at any speed: its turn about its axis moves no surface.
+TEST(SpinningBody, OfAWheelKeepsItsPath) {
+  const float half = std::sqrt(0.5f);
+  for (const float spin : {10.f, 30.f, 50.f}) {
+    Scene scene;
+    scene.add(Collider{});
+    scene.colliders[0].static_friction = scene.colliders[0].kinetic_friction = 1;
+    BodyOptions options;
+    options.position = {0, 0.1f, 0};
+    options.rotation = {half, 0, 0, half};
+    options.velocity = {0.1f * spin, 0, 0};
+    options.angular_velocity = {0, 0, -spin};
+    Object wheel = make_body({{Cylinder{0.1f, 0.1f}}}, options);
+    wheel.static_friction = wheel.kinetic_friction = 1;
+    scene.add(wheel);
+    World world(scene);
+    for (int frame = 0; frame < 120; ++frame) ASSERT_TRUE(world.step(1.f / 60).ok());
+    EXPECT_NEAR(world.object(0).velocities()[0].x, 0.1f * spin, 1e-3f * spin) << spin;
+    EXPECT_NEAR(world.object(0).positions()[0].z, 0, 1e-2f) << spin;
+  }
+}
+
 /// The energy of the bodies of an object over the mass of one [J/kg]; half a kick of gravity is not in the velocities of symplectic Euler.
 double energy_of(const Object& object, const World& world, double kick) {
   double sum = 0;
@@ -123,6 +146,71 @@ TEST(SpinningBody, OfRodsThatLandBringsNoEnergy) {
     EXPECT_LT(now, before + 0.01 * start) << frame;
     before = now;
   }
+}
+
+/// A ball of radius 0.1 m that rolls, with moments of inertia of its own [kg m^2].
+World rolling_ball(const Vec3f& moments, const Vec3f& spin) {
+  Scene scene;
+  scene.add(Collider{});
+  scene.colliders[0].static_friction = scene.colliders[0].kinetic_friction = 0.5f;
+  BodyOptions options;
+  options.position = {0, 0.1f, 0};
+  options.velocity = {5, 0, 0};
+  options.angular_velocity = spin;
+  Object ball = make_body({{Sphere{0.1f}}}, options);
+  ball.static_friction = ball.kinetic_friction = 0.5f;
+  ball.masses[0] = 1;
+  ball.frames[0].inertia = moments;
+  scene.add(ball);
+  return World(scene);
+}
+
+/// A ball that is loaded unevenly wobbles as it rolls, and gains no energy: its solid is round, its inertia is not.
+TEST(SpinningBody, OfABallWithUnevenInertiaKeepsItsEnergy) {
+  const Vec3f moments{0.006f, 0.003f, 0.0035f};
+  World world = rolling_ball(moments, {1, 3, -50});
+  const auto energy = [&] {
+    const Vec3f v = world.object(0).velocities()[0];
+    return 0.5 * double(length_squared(v)) + energy_and_momentum(moments, world.state().frames.angular_velocities[0]).first;
+  };
+  const double start = energy();
+  for (int frame = 0; frame < 600; ++frame) ASSERT_TRUE(world.step(1.f / 60).ok());
+  EXPECT_LT(energy(), 1.01 * start);
+}
+
+/// Rotation about an axis of infinite inertia is locked, of round bodies too.
+TEST(SpinningBody, OfABallDoesNotTurnALockedAxis) {
+  World world = rolling_ball({std::numeric_limits<float>::infinity(), 0.004f, 0.004f}, {0, 30, 0});
+  for (int frame = 0; frame < 120; ++frame) {
+    ASSERT_TRUE(world.step(1.f / 60).ok());
+    ASSERT_NEAR(world.state().frames.angular_velocities[0].x, 0, 1e-4f) << frame;  // rounding of 30 rad/s
+  }
+}
+
+/// A body that spins elsewhere, so that contacts are found again within frames, changes nothing for one that rides on a mesh that moves.
+TEST(SpinningBody, DoesNotDisturbARideOnAMesh) {
+  Scene scene;
+  scene.add(Collider{});
+  MeshCollider platform;
+  platform.mesh.positions = {{-3, 1, -3}, {3, 1, -3}, {-3, 1, 3}, {3, 1, 3}};
+  platform.mesh.triangles = {{0, 2, 1}, {1, 2, 3}};
+  platform.static_friction = platform.kinetic_friction = 1;
+  platform.motion.keyframes = {{0, {0, 0, 0}, {}}, {10, {20, 0, 0}, {}}};
+  scene.add(platform);
+  BodyOptions rider, spinner;
+  rider.position = {0, 1.1f, 0};
+  rider.velocity = {2, 0, 0};
+  spinner.position = {0, 0.1f, 20};
+  spinner.angular_velocity = {0, 60, 0};
+  for (const BodyOptions& options : {rider, spinner}) {
+    Object box = make_body({{Box{{0.1f, 0.1f, 0.1f}}}}, options);
+    box.static_friction = box.kinetic_friction = 1;
+    scene.add(box);
+  }
+  World world(scene);
+  for (int frame = 0; frame < 60; ++frame) ASSERT_TRUE(world.step(1.f / 60).ok());
+  EXPECT_NEAR(world.object(0).velocities()[0].x, 2, 1e-3f);
+  EXPECT_NEAR(world.object(0).positions()[0].x, 2, 1e-3f);
 }
 
 }  // namespace

@@ -245,11 +245,21 @@ struct BodyContacts::Task {
       std::for_each(old.begin(), old.end(), note_depth);
       return;
     }
-    const float fast = length(a.velocity - b.velocity) + of.pairs_.turning(pair.first) + of.pairs_.turning(pair.second);
+    const Vec3f velocity = a.velocity - b.velocity;
+    const auto is_close = [&](const BodyContact& contact) {
+      const float gap = *std::min_element(contact.gap.begin(), contact.gap.begin() + contact.count);
+      return gap <= BodyPairs::margin_share * static_cast<float>(size);
+    };
+    // What rolls or slides along a plane does not meet it with that speed.
+    const float approach =
+        one.is_half_space && std::any_of(old.begin(), old.end(), is_close)
+            ? std::fabs(dot(velocity, rotate(convert<float>(compose(a.pose, one.pose)).rotation, Vec3f{0, 1, 0})))
+            : length(velocity);
+    const float fast = approach + of.pairs_.turning(pair.first) + of.pairs_.turning(pair.second);
     const double reach = static_cast<double>(BodyPairs::margin_share) * size + static_cast<double>(dt * fast);
     // An impact may turn the whole approach into spin. Of two opposite points one may rise as the other sinks.
-    const double turning = static_cast<double>(
-        2 * dt * (length(a.velocity - b.velocity) + turning_of(pair.first, a) + turning_of(pair.second, b)));
+    const double turning =
+        static_cast<double>(2 * dt * (approach + turning_of(pair.first, a) + turning_of(pair.second, b)));
     const auto add = [&](const Touch& touching, int piece) {
       if (touching.count == 0) return;
       BodyContact contact;
@@ -281,6 +291,11 @@ bool in_order(const BodyContact& a, const BodyContact& b) {
 BodyContacts::BodyContacts(std::vector<BodyPart> parts) : parts_(std::move(parts)), pairs_(parts_) {
   const auto is_before = [](const BodyPart& a, const BodyPart& b) { return a.id < b.id; };
   const auto is_mesh = [](const BodyPart& part) { return part.mesh != nullptr; };
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const std::size_t body = at(parts_[i].body);
+    if (size_.size() <= body) size_.resize(body + 1, 1e30f);
+    size_[body] = std::min(size_[body], pairs_.size(static_cast<int>(i)));
+  }
   are_ordered_ =
       std::is_sorted(parts_.begin(), parts_.end(), is_before) && std::none_of(parts_.begin(), parts_.end(), is_mesh);
 }

@@ -42,6 +42,8 @@ class BodyContacts {
   /// The bodies of each contact of the last update.
   const std::vector<std::pair<int, int>>& bodies() const { return bodies_; }
   const std::vector<BodyPart>& parts() const { return parts_; }
+  /// Half of the smallest extent of the parts of a body [m]; without end for planes, and for meshes.
+  float size_of_body(int body) const { return size_[static_cast<std::size_t>(body)]; }
 
   /// The deepest contact of a frame, relative to the size of its bodies: of those that stay, when the frame before began.
   BodyOverlap deepest() const;
@@ -77,6 +79,7 @@ class BodyContacts {
   bool all_stay(const std::vector<BodyContact>& before) const;
 
   std::vector<BodyPart> parts_;
+  std::vector<float> size_;   ///< [body]
   bool are_ordered_ = false;  ///< true: contacts in the order of pairs are in order
   BodyPairs pairs_;
   std::vector<Found> found_;        ///< [task]

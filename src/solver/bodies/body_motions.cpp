@@ -29,6 +29,16 @@ void follow(const std::pair<Posed, Posed>& poses, float h, BodyMotion& motion) {
   motion.spin = turn_between(convert<float>(before).rotation, convert<float>(after).rotation) * (1 / h);
 }
 
+/// Of the axes about which a body's solids are round, those about which its inertia is, too, and free to turn.
+Record round_of_inertia(const Record& inverse, const Record& solids) {
+  const auto agree = [](float a, float b) {
+    return std::min(a, b) > 0 && std::max(a, b) - std::min(a, b) < 1e-4f * std::max(a, b);
+  };
+  const bool turns = inverse.x > 0 && inverse.y > 0 && inverse.z > 0;
+  return {turns && agree(inverse.y, inverse.z) ? solids.x : 0, turns && agree(inverse.z, inverse.x) ? solids.y : 0,
+          turns && agree(inverse.x, inverse.y) ? solids.z : 0, 0};
+}
+
 }  // namespace
 
 BodyMotions::BodyMotions(const ContactBodies& bodies) : motions_(bodies.places().size()) {
@@ -69,7 +79,8 @@ void BodyMotions::begin_frame(const Substep& s) {
     start_positions_[at(i)] = s.state.positions[particle];
     start_remainders_[at(i)] = s.state.remainders[particle];
     start_orientations_[at(i)] = s.state.frames.orientations[at(frames_[at(i)])];
-    s.work.frames.round[at(frames_[at(i)])] = round_[at(i)];
+    s.work.frames.round[at(frames_[at(i)])] =
+        round_of_inertia(s.state.frames.inverse_inertias[at(frames_[at(i)])], round_[at(i)]);
   }
   const BodyArrays all = arrays(s);
   for_ranges(s.context.executor, bodies(), [&](int first, int last) { s.kernels.motions.load_inertia(all, first, last); });

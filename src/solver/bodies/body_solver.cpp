@@ -24,6 +24,9 @@ constexpr float deep_share = 0.2f;
 constexpr int frames_of_rest = 6;
 /// Contacts are found again in a frame if a body has turned by more than this since they were found [rad].
 constexpr float far_turned = 0.2f;
+/// The same if two bodies, of which some bounce, have moved against each other by more than this share of half of the smaller one's
+/// thickness: the direction of an impact is that of the place where they meet.
+constexpr float far_moved = 0.1f;
 /// Bodies, or contacts, in a task.
 constexpr int a_task = 256;
 
@@ -86,15 +89,24 @@ void BodySolver::begin_frame(Substep& s) {
   shares_.clear();
 }
 
-/// True if a body with contacts has turned far since they were found.
-bool BodySolver::has_turned() const {
+/// True if bodies with a contact have turned far since it was found, or, if some bounce, moved far. Along planes and meshes,
+/// whose size has no end, that is no matter.
+bool BodySolver::have_moved_far() const {
   const auto turned = [&](int body) { return body < bodies_.dynamic() && motions_.turned(body) > far_turned; };
-  return std::any_of(finder_.bodies().begin(), finder_.bodies().end(),
-                     [&](const std::pair<int, int>& pair) { return turned(pair.first) || turned(pair.second); });
+  const std::vector<BodyMotion>& all = motions_.all();
+  const bool bounces = blocks_.bounces();
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const auto& [a, b] = finder_.bodies()[i];
+    if (turned(a) || turned(b)) return true;
+    if (!bounces || std::max(finder_.size_of_body(a), finder_.size_of_body(b)) > 1e29f) continue;
+    const float far = far_moved * std::min(finder_.size_of_body(a), finder_.size_of_body(b));
+    if (length_squared(all[at(b)].displacement - all[at(a)].displacement) > far * far) return true;
+  }
+  return false;
 }
 
 void BodySolver::renew_contacts(Substep& s) {
-  if (s.number == 0 || contacts_.empty() || !has_turned()) return;
+  if (s.number == 0 || contacts_.empty() || !have_moved_far()) return;
   take_impulses(s);
   bodies_.begin_frame(s);
   read_states(s);

@@ -36,7 +36,7 @@ class BodySolver {
 
   /// Finds the contacts of a frame. Kept ones come from the State.
   void begin_frame(Substep& s);
-  /// Before the prediction of a substep: finds them again if a body has turned so far that its arms and normals are no longer true.
+  /// Before the prediction of a substep: finds them again if bodies have turned or moved so far that its arms and normals are no longer true.
   void renew_contacts(Substep& s);
   /// Finds the contacts of points and bodies in a substep.
   void collide(Substep& s);
@@ -78,7 +78,7 @@ class BodySolver {
   void log_contacts(const Substep& s, ContactLog& log);
 
  private:
-  bool has_turned() const;
+  bool have_moved_far() const;
   void read_states(const Substep& s);
   void find_contacts(Substep& s);
   void find_contacts_beside_sleepers(Substep& s);

@@ -26,6 +26,11 @@ ConvexShape shape_of_collider(const Shape& shape, std::vector<Polyhedron>& polyh
   return {};
 }
 
+/// A spin without what is about round axes, which moves no surface.
+Vec3f without(const Vec3f& round, const Vec3f& spin) {
+  return {spin.x * (1 - round.x), spin.y * (1 - round.y), spin.z * (1 - round.z)};
+}
+
 /// One for each axis of its body about which a solid is round, else zero.
 Vec3f round_axes_of(const CompiledSolid& solid) {
   constexpr double straight = 1e-5;
@@ -63,13 +68,15 @@ void ContactBodies::add_object(const Model& model, int object, std::vector<BodyP
     const auto& [particle, frame] = from.bodies.bodies[b];
     places_.push_back(
         {object, static_cast<int>(b), model.first[at(object)] + particle, model.first_frame[at(object)] + frame});
-    round_.push_back({1, 1, 1});
+    round_.push_back({});
   }
+  std::vector<char> has_solid(from.bodies.bodies.size(), 0);
   for (int i = 0; i < static_cast<int>(from.bodies.solids.size()); ++i) {
     const CompiledSolid& solid = from.bodies.solids[at(i)];
     parts.push_back({{object, i, 0}, first + solid.body, solid.shape, false, solid.pose});
     Vec3f& round = round_[at(first + solid.body)];
-    round = min(round, round_axes_of(solid));
+    round = has_solid[at(solid.body)] == 0 ? round_axes_of(solid) : min(round, round_axes_of(solid));
+    has_solid[at(solid.body)] = 1;
   }
 }
 
@@ -208,7 +215,8 @@ BodyMaterial ContactBodies::sliding(const Model& model, int a, int b) const {
 }
 
 BodyState ContactBodies::collider_at_start(const Substep& s, const BodyPlace& place) {
-  if (place.mesh != nullptr) move_vertices(s, place);
+  // Within a frame they stay where they were at its start: other groups that run at the same time touch the mesh, too.
+  if (place.mesh != nullptr && s.number == 0) move_vertices(s, place);
   const auto [before, after] = place.mesh == nullptr ? poses_between(colliders_at_start_[at(place.collider)])
                                                      : poses_of_mesh(s, place, time_of(s, s.number), s.frame_start + s.dt);
   const Posef start = convert<float>(before), end = convert<float>(after);
@@ -237,7 +245,7 @@ BodyState ContactBodies::state_at_start(const Substep& s, int index) {
   const bool is_fixed = x.w == 0 && inverse.x == 0 && inverse.y == 0 && inverse.z == 0;
   return {{convert<double>(xyz(x)), convert<double>(q)},
           xyz(s.state.velocities[at(place.particle)]),
-          rotate(q, xyz(s.state.frames.angular_velocities[at(place.frame)])),
+          rotate(q, without(round_[at(index)], xyz(s.state.frames.angular_velocities[at(place.frame)]))),
           is_fixed};
 }
 

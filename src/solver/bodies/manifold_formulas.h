@@ -260,6 +260,18 @@ PLIANT_HD void velocity_pass(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b,
       });
 }
 
+/// Friction of an impact, at the centre: stops sliding, inside of a disc of the normal impulse times the coefficient.
+template <class R, int lanes>
+PLIANT_HD void rub_in_impact(const ManifoldRows<lanes>& m, const R& pressed, Motion<R>& a, Motion<R>& b) {
+  const Vec3<R> velocity = approach(m, a, b), first = get<R>(m.tangent), second = cross(get<R>(m.normal), first);
+  const R u = dot(velocity, first), v = dot(velocity, second), both = get<R>(m.slide[2]);
+  const R one = -(get<R>(m.slide[0]) * u + both * v), two = -(get<R>(m.slide[1]) * v + both * u);
+  const R limit = get<R>(m.friction) * pressed, size = sqrt(one * one + two * two);
+  const R scale = select(size <= limit, R(1.f), get<R>(m.sliding) * limit / max(size, R(tiny)));
+  const R none(0.f);
+  add(m, first * (one * scale) + second * (two * scale), Vec3<R>{none, none, none}, a, b);
+}
+
 /// True where a point would pass through in this substep; those points get the velocity that restitution demands.
 template <class R, int lanes>
 PLIANT_HD auto bounce(const ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b, const Moved<R>& moved_a,
@@ -293,6 +305,7 @@ PLIANT_HD auto bounce(const ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b, 
   }
   Motion<R> after_a = a, after_b = b;
   apply(m, impulse, after_a, after_b);
+  rub_in_impact(m, (impulse.at[0] + impulse.at[1]) + (impulse.at[2] + impulse.at[3]), after_a, after_b);
   const auto closes = most > zero;  // where none does, not even the sign of a zero may change
   a.velocity = select(closes, after_a.velocity, a.velocity);
   a.spin = select(closes, after_a.spin, a.spin);

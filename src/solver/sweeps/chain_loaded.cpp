@@ -110,6 +110,7 @@ class LoadedLane {
     }
     return any;
   }
+  static constexpr float least_root = 1e-3f;  ///< a million times the inertia is the most that pivots of floats resolve
   static constexpr float grown = 1.1f, infinity = std::numeric_limits<float>::infinity();
   static float inertia_across(float tension, float next) { return 2 * (tension + next); }
 
@@ -190,14 +191,14 @@ class LoadedLane {
     const float across = inertia_across(link.tension, next.tension);
     if (!(across * a_.positions[number].w > 1)) return root;
     if (loads_.of_particle[number] >= 0) {  // its axis is that of the tie or contact
-      root.across = min(root.across, 1 / std::sqrt(across));
+      root.across = min(root.across, max(1 / std::sqrt(across), least_root * root.across));
       return root;
     }
     const Vec3f along = way(k) + way(k + 1);
     const float size = length(along);
     if (!(size > smallest_denominator)) return root;
     root.axis = along * (1 / size);
-    root.across = 1 / std::sqrt(across);
+    root.across = max(1 / std::sqrt(across), least_root * std::sqrt(a_.positions[number].w));
     return root;
   }
 
