@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "collision/bodies/body_contacts.h"
 #include "collision/narrow/contact.h"
 #include "model/model.h"
 #include "solver/bodies/body_islands.h"
@@ -16,6 +15,7 @@
 #include "solver/bodies/body_points.h"
 #include "solver/bodies/body_sleep.h"
 #include "solver/bodies/contact_bodies.h"
+#include "solver/bodies/frame_contacts.h"
 #include "solver/bodies/manifold_blocks.h"
 #include "solver/bodies/manifolds.h"
 #include "solver/bodies/velocity_shares.h"
@@ -25,7 +25,7 @@ namespace pliant {
 
 struct Substep;
 
-/// Over fifteen members: the bodies of a group, their contacts, and the memory of a frame.
+/// Over fifteen members: the stages that a frame calls.
 class BodySolver {
  public:
   /// For the bodies of the given objects, or of all if it is null. Call begin_frame before anything else.
@@ -72,38 +72,27 @@ class BodySolver {
   void end_frame(Substep& s);
 
   /// In ascending order of parts. The State takes them at a frame's end; the next frame makes new ones.
-  std::vector<BodyContact>& contacts() { return contacts_; }
+  std::vector<BodyContact>& contacts() { return contacts_.all(); }
   int contacts_that_press() const;
   /// Adds the impulses of the current substep, after respond. Those of impacts with restitution are left out.
   void log_contacts(const Substep& s, ContactLog& log);
 
  private:
-  bool have_moved_far() const;
-  void read_states(const Substep& s);
-  void find_contacts(Substep& s);
-  void find_contacts_beside_sleepers(Substep& s);
-  void update_contacts(Substep& s, const std::vector<BodyContact>& before);
-  void warn_of_overlap(Substep& s);
   void take_impulses(const Substep& s);
   void make_manifolds(const Substep& s);
   void start_substep(const Substep& s);
 
   ContactBodies bodies_;
-  BodyContacts finder_;
+  FrameContacts contacts_;
   BodyPoints points_;
   BodyMotions motions_;
   BodyIslands islands_;
   BodySleep sleep_;
   VelocityShares shares_;
-  std::vector<BodyState> states_;
-  std::vector<char> is_fixed_;  ///< [place of bodies_]
-  std::vector<BodyContact> contacts_, before_;
   std::vector<std::pair<int, int>> pressing_;  ///< bodies of those that press, for find_islands
   ManifoldColours colours_;                    ///< of contacts_
   ManifoldBlocks blocks_;                      ///< the manifolds of contacts_ in a frame
   bool pushes_are_known_ = false;              ///< false in the first substep of a frame
-  BodyOverlap deepest_{};                      ///< of the last frame, only for the Report
-  int deep_frames_ = 0;                        ///< for how many frames it has been deep
   float last_h_ = 0;                           ///< length of the last substep [s]
 };
 

@@ -1,0 +1,56 @@
+// The contacts of a frame between the bodies of a substep group, and of bodies with colliders: found at its start, and again where bodies
+// turn or move so far that normals and arms are no longer true.
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "collision/bodies/body_contacts.h"
+#include "solver/bodies/body_motions.h"
+#include "solver/bodies/body_sleep.h"
+#include "solver/bodies/contact_bodies.h"
+#include "solver/bodies/deep_overlaps.h"
+
+namespace pliant {
+
+struct Substep;
+
+class FrameContacts {
+ public:
+  /// Takes the parts of the bodies, and refers to these as long as it lives.
+  explicit FrameContacts(ContactBodies& bodies);
+
+  /// Finds the contacts of a frame, for which bodies and sleep have begun. Kept ones come from the State.
+  void find(Substep& s, BodySleep& sleep);
+  /// True if bodies with a contact have turned far since it was found, or, if some bounce, moved far.
+  bool are_outdated(const BodyMotions& motions, bool some_bounce) const;
+  /// Finds them again within a frame.
+  void renew(Substep& s);
+
+  /// In ascending order of parts.
+  std::vector<BodyContact>& all() { return contacts_; }
+  const std::vector<BodyContact>& all() const { return contacts_; }
+  /// The bodies of each, as places of ContactBodies.
+  const std::vector<std::pair<int, int>>& bodies() const { return finder_.bodies(); }
+  /// [place] when contacts were found.
+  const std::vector<BodyState>& states() const { return states_; }
+  /// [place] nonzero: fixed.
+  std::span<const char> is_fixed() const { return is_fixed_; }
+
+ private:
+  void read_states(const Substep& s);
+  void update(Substep& s, const std::vector<BodyContact>& before);
+  void find_beside_sleepers(Substep& s, BodySleep& sleep);
+  void warn(Substep& s);
+
+  ContactBodies* bodies_;
+  BodyContacts finder_;
+  DeepOverlaps overlaps_;
+  std::vector<BodyState> states_;
+  std::vector<char> is_fixed_;
+  std::vector<BodyContact> contacts_;
+  std::vector<BodyContact> before_;  ///< of the frame before, where bodies sleep
+};
+
+}  // namespace pliant
