@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "parallel/ranges.h"
+
 namespace pliant {
 
 namespace {
@@ -42,11 +44,8 @@ void CandidateFinder::find(Executor& executor, const std::vector<Vec3f>& from, c
 void CandidateFinder::fit_boxes(Executor& executor, const std::vector<Vec3f>& from, const std::vector<Vec3f>& to,
                                 float radius) {
   const auto each = [&](std::size_t n, const auto& body) {
-    const int tasks = static_cast<int>((n + boxes_in_a_task - 1) / boxes_in_a_task);
-    executor.parallel_for("candidate boxes", tasks, [&](int task) {
-      const std::size_t first = static_cast<std::size_t>(task) * boxes_in_a_task;
-      for (std::size_t i = first; i < std::min(n, first + boxes_in_a_task); ++i) body(i);
-    });
+    for_items(executor, "candidate boxes", static_cast<int>(n), boxes_in_a_task,
+              [&](int i) { body(static_cast<std::size_t>(i)); });
   };
   const auto box_of = [&](const auto& corners) {
     BoxBounds box = all_vertex_boxes_[static_cast<std::size_t>(corners[0])];
@@ -83,15 +82,14 @@ void CandidateFinder::fit_trees(Executor& executor, bool rebuild) {
 template <class Wanted>
 void CandidateFinder::find_lists(Executor& executor, const Tree<BoxBounds>& owners, const Tree<BoxBounds>& others,
                                  const int* owner_of_leaf, IntLists& lists, const Wanted& wanted) {
-  const int part_count = (owners.packet_count() + packets_in_a_part - 1) / packets_in_a_part;
+  const int part_count = ranges_of(owners.packet_count(), packets_in_a_part);
   if (parts_.size() < static_cast<std::size_t>(part_count)) parts_.resize(static_cast<std::size_t>(part_count));
   std::fill(lists.start.begin(), lists.start.end(), 0);
-  executor.parallel_for("find candidates", part_count, [&](int number) {
-    Part& part = parts_[static_cast<std::size_t>(number)];
+  for_ranges(executor, "find candidates", owners.packet_count(), packets_in_a_part, [&](int first, int last) {
+    Part& part = parts_[static_cast<std::size_t>(first / packets_in_a_part)];
     part.runs.clear();
     part.items.clear();
-    const int last = std::min((number + 1) * packets_in_a_part, owners.packet_count());
-    for (int packet = number * packets_in_a_part; packet < last; ++packet)
+    for (int packet = first; packet < last; ++packet)
       owners.packet_overlaps(packet, others, part.packs, part.hits, [&](int leaf, const std::vector<int>& hits) {
         const int owner = owner_of_leaf == nullptr ? leaf : owner_of_leaf[leaf];
         const auto before = static_cast<std::ptrdiff_t>(part.items.size());

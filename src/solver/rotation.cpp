@@ -1,8 +1,8 @@
 #include "solver/rotation.h"
 
-#include <algorithm>
 #include <atomic>
 
+#include "parallel/ranges.h"
 #include "solver/bodies/body_solver.h"
 #include "solver/motion_kernels.h"
 
@@ -14,11 +14,8 @@ constexpr int frames_a_task = 256;
 
 /// Calls body(first, last) for ranges of the frames [first, last) on all threads.
 void for_range(Substep& s, const char* name, int first, int last, FunctionRef<void(int, int)> body) {
-  const int tasks = (last - first + frames_a_task - 1) / frames_a_task;
-  for_tasks(s, name, tasks, [&](int task) {
-    const int from = first + task * frames_a_task;
-    body(from, std::min(last, from + frames_a_task));
-  });
+  for_ranges(s.context.executor, name, last - first, frames_a_task,
+             [&](int from, int to) { body(first + from, first + to); });
 }
 
 /// The same for the frames of all objects that take part.

@@ -12,6 +12,7 @@
 #include "collision/bodies/manifold.h"
 #include "collision/bodies/mesh_contacts.h"
 #include "geometry/convex_contact.h"
+#include "parallel/ranges.h"
 
 namespace pliant {
 
@@ -303,12 +304,11 @@ BodyContacts::BodyContacts(std::vector<BodyPart> parts) : parts_(std::move(parts
 /// Finds in tasks which contacts stay and which begin.
 void BodyContacts::find(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
                         const std::vector<BodyContact>& before) {
-  const int count = static_cast<int>(pairs_.pairs().size()), tasks = (count + pairs_a_task - 1) / pairs_a_task;
-  found_.resize(at(tasks));
+  const int count = static_cast<int>(pairs_.pairs().size());
+  found_.resize(at(ranges_of(count, pairs_a_task)));
   const Task task_of_pair{*this, bodies, before, dt, faster};
-  executor.parallel_for("bodies: contacts", tasks, [&](int task) {
-    task_of_pair.run(task * pairs_a_task, std::min(count, (task + 1) * pairs_a_task), found_[at(task)]);
-  });
+  for_ranges(executor, "bodies: contacts", count, pairs_a_task,
+             [&](int first, int last) { task_of_pair.run(first, last, found_[at(first / pairs_a_task)]); });
   first_.assign(1, 0);
   for (const Found& found : found_) first_.push_back(first_.back() + found.count);
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "parallel/ranges.h"
+
 namespace pliant {
 
 namespace {
@@ -105,21 +107,18 @@ BodyPairs::BodyPairs(const std::vector<BodyPart>& parts) {
 }
 
 void BodyPairs::find_boxes(Executor& executor, const Frame& frame, float faster) {
-  const int count = static_cast<int>(convex_.size());
   boxes_.resize(convex_.size());
   turning_.resize(frame.parts.size());
   for (const int part : others_)
     turning_[at(part)] = turning_of_other(frame.parts[at(part)], frame.bodies[at(frame.parts[at(part)].body)]);
-  executor.parallel_for("bodies: boxes", (count + parts_a_task - 1) / parts_a_task, [&](int task) {
-    for (int i = task * parts_a_task; i < std::min(count, (task + 1) * parts_a_task); ++i) {
-      const int number = convex_[at(i)];
-      const BodyPart& part = frame.parts[at(number)];
-      const BodyState& body = frame.bodies[at(part.body)];
-      const BoxBounds box = box_of(part, body.pose);
-      turning_[at(number)] = turning_speed(body, box) + (body.is_fixed ? 0 : faster);
-      boxes_[at(i)] = swept(box, body.velocity * frame.dt)
-                          .grown(0.5f * margin_share * size_[at(number)] + frame.dt * turning_[at(number)]);
-    }
+  for_items(executor, "bodies: boxes", static_cast<int>(convex_.size()), parts_a_task, [&](int i) {
+    const int number = convex_[at(i)];
+    const BodyPart& part = frame.parts[at(number)];
+    const BodyState& body = frame.bodies[at(part.body)];
+    const BoxBounds box = box_of(part, body.pose);
+    turning_[at(number)] = turning_speed(body, box) + (body.is_fixed ? 0 : faster);
+    boxes_[at(i)] = swept(box, body.velocity * frame.dt)
+                        .grown(0.5f * margin_share * size_[at(number)] + frame.dt * turning_[at(number)]);
   });
 }
 
@@ -152,12 +151,11 @@ void BodyPairs::find_near(Executor& executor, const Frame& frame) {
   larger_.clear();
   for (std::size_t i = 0; i < boxes_.size(); ++i) larger_.push_back(boxes_[i].grown(spare_share * size_[at(convex_[i])]));
   tree_.build(larger_);
-  const int packets = tree_.packet_count(), tasks = (packets + packets_a_task - 1) / packets_a_task;
+  const int packets = tree_.packet_count(), tasks = ranges_of(packets, packets_a_task);
   of_task_.resize(at(tasks));
   first_near_.assign(boxes_.size() + 1, 0);
-  executor.parallel_for(nullptr, tasks, [&](int task) {
-    find_near(frame, task * packets_a_task, std::min(packets, (task + 1) * packets_a_task), of_task_[at(task)]);
-  });
+  for_ranges(executor, nullptr, packets, packets_a_task,
+             [&](int first, int last) { find_near(frame, first, last, of_task_[at(first / packets_a_task)]); });
   std::partial_sum(first_near_.begin(), first_near_.end(), first_near_.begin());
   near_.resize(at(first_near_.back()));
   executor.parallel_for(nullptr, tasks, [&](int task) {
@@ -199,13 +197,13 @@ void BodyPairs::find_pairs_of_others(const Frame& frame) {
 
 /// Adds the pairs of near_ whose boxes overlap to those of others.
 void BodyPairs::keep_overlapping(Executor& executor, const Frame& frame) {
-  const int count = static_cast<int>(near_.size()), tasks = (count + pairs_a_task - 1) / pairs_a_task;
+  const int count = static_cast<int>(near_.size()), tasks = ranges_of(count, pairs_a_task);
   of_task_.resize(std::max(of_task_.size(), at(tasks)));
   const auto is_fixed = [&](int part) { return frame.bodies[at(frame.parts[at(part)].body)].is_fixed; };
-  executor.parallel_for(nullptr, tasks, [&](int task) {
-    std::vector<Pair>& found = of_task_[at(task)];
+  for_ranges(executor, nullptr, count, pairs_a_task, [&](int from, int to) {
+    std::vector<Pair>& found = of_task_[at(from / pairs_a_task)];
     found.clear();
-    for (int k = task * pairs_a_task; k < std::min(count, (task + 1) * pairs_a_task); ++k) {
+    for (int k = from; k < to; ++k) {
       const auto& [i, j] = near_[at(k)];
       const int a = convex_[at(i)], b = convex_[at(j)];
       if (overlap(boxes_[at(i)], boxes_[at(j)]) && !(is_fixed(a) && is_fixed(b))) found.emplace_back(a, b);

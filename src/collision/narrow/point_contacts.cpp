@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "math/vector.h"
+#include "parallel/ranges.h"
 
 namespace pliant {
 
@@ -70,7 +71,7 @@ void PointContacts::detect(Executor& executor, const PairParticles& particles, s
     boxes_[i] = swept_box(particles.positions[points[i]], particles.displacements[points[i]], model_.largest_thickness);
   tree_.build(boxes_);
   const int packets = tree_.packet_count();
-  tasks_.resize(static_cast<std::size_t>((packets + packets_a_task - 1) / packets_a_task));
+  tasks_.resize(static_cast<std::size_t>(ranges_of(packets, packets_a_task)));
   const auto collect = [&](Task& task, int a, const std::vector<int>& others) {
     for (const int b : others) {
       if (b <= a) continue;
@@ -83,10 +84,10 @@ void PointContacts::detect(Executor& executor, const PairParticles& particles, s
         task.pairs.push_back({i, j});
     }
   };
-  executor.parallel_for("detect contacts", static_cast<int>(tasks_.size()), [&](int number) {
-    Task& task = tasks_[static_cast<std::size_t>(number)];
+  for_ranges(executor, "detect contacts", packets, packets_a_task, [&](int first, int last) {
+    Task& task = tasks_[static_cast<std::size_t>(first / packets_a_task)];
     task.pairs.clear();
-    for (int packet = number * packets_a_task; packet < std::min(packets, (number + 1) * packets_a_task); ++packet)
+    for (int packet = first; packet < last; ++packet)
       tree_.packet_overlaps(packet, tree_, task.packs, task.hits,
                             [&](int a, const std::vector<int>& others) { collect(task, a, others); });
   });

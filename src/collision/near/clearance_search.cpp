@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "parallel/ranges.h"
+
 namespace pliant {
 
 namespace {
 
-constexpr std::size_t questions_in_a_task = 16;
+constexpr int questions_in_a_task = 16;
 constexpr float not_asked = -1;
 
 }  // namespace
@@ -29,15 +31,15 @@ void ClearanceSearch::answer(Executor& executor, const PairKernels& kernels, con
   executor.parallel_for("place corners", static_cast<int>(is_placed_.size()), [&](int c) {
     if (is_placed_[c] != 0) clearance_.place(kernels, c, positions);
   });
-  const std::size_t tasks = (questions_.size() + questions_in_a_task - 1) / questions_in_a_task;
+  const int count = static_cast<int>(questions_.size());
+  const auto tasks = static_cast<std::size_t>(ranges_of(count, questions_in_a_task));
   if (scratch_.size() < tasks) scratch_.resize(tasks);
-  executor.parallel_for("look for clearance", static_cast<int>(tasks), [&](int number) {
-    const auto task = static_cast<std::size_t>(number);
-    const std::size_t first = task * questions_in_a_task;
-    for (std::size_t i = first; i < std::min(questions_.size(), first + questions_in_a_task); ++i) {
-      const Question& question = questions_[i];
+  for_ranges(executor, "look for clearance", count, questions_in_a_task, [&](int first, int last) {
+    auto& scratch = scratch_[static_cast<std::size_t>(first / questions_in_a_task)];
+    for (int i = first; i < last; ++i) {
+      const Question& question = questions_[static_cast<std::size_t>(i)];
       answers_[static_cast<std::size_t>(question.pair)] =
-          clearance_.between(kernels, question.first, question.second, question.wanted, scratch_[task]);
+          clearance_.between(kernels, question.first, question.second, question.wanted, scratch);
     }
   });
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "parallel/ranges.h"
+
 namespace pliant {
 
 namespace {
@@ -25,11 +27,9 @@ void ClusterMotions::reset(int cluster) {
 
 bool ClusterMotions::measure(Executor& executor, const ClusterLayout& layout, const std::vector<int>& order,
                              const PairParticles& particles) {
-  const int clusters = static_cast<int>(motions_.size()), tasks = (clusters + clusters_in_a_task - 1) / clusters_in_a_task;
-  executor.parallel_for("contact bounds", tasks, [&](int task) {
-    for (int c = task * clusters_in_a_task; c < std::min(clusters, (task + 1) * clusters_in_a_task); ++c)
-      if (const int count = layout.vertex_count[c]; count > 0)
-        kernels_.measure_cluster(layout.vertices.data() + layout.vertex_start[c], count, particles, motions_[c]);
+  for_items(executor, "contact bounds", static_cast<int>(motions_.size()), clusters_in_a_task, [&](int c) {
+    if (const int count = layout.vertex_count[c]; count > 0)
+      kernels_.measure_cluster(layout.vertices.data() + layout.vertex_start[c], count, particles, motions_[c]);
   });
   find_means(order);
   return std::all_of(order.begin(), order.end(), [&](int c) { return motions_[static_cast<std::size_t>(c)].is_bounded; });

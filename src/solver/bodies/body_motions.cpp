@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "parallel/ranges.h"
 #include "solver/bodies/body_math.h"
 #include "solver/rotation.h"
 #include "solver/substep.h"
@@ -17,9 +18,8 @@ constexpr int bodies_a_task = 256;
 
 /// Calls body(first, last) for ranges of `count` bodies on all threads.
 template <class Body>
-void for_ranges(Executor& executor, int count, const Body& body) {
-  executor.parallel_for(nullptr, (count + bodies_a_task - 1) / bodies_a_task,
-                        [&](int task) { body(task * bodies_a_task, std::min(count, (task + 1) * bodies_a_task)); });
+void for_bodies(const Substep& s, int count, const Body& body) {
+  for_ranges(s.context.executor, nullptr, count, bodies_a_task, body);
 }
 
 /// Moves with a collider: its velocities in the substep.
@@ -83,27 +83,26 @@ void BodyMotions::begin_frame(const Substep& s) {
         round_of_inertia(s.state.frames.inverse_inertias[at(frames_[at(i)])], round_[at(i)]);
   }
   const BodyArrays all = arrays(s);
-  for_ranges(s.context.executor, bodies(), [&](int first, int last) { s.kernels.motions.load_inertia(all, first, last); });
+  for_bodies(s, bodies(), [&](int first, int last) { s.kernels.motions.load_inertia(all, first, last); });
 }
 
 void BodyMotions::begin_substep(const Substep& s) {
   present_.resize(motions_.size());
   const BodyArrays all = arrays(s, present_);
-  for_ranges(s.context.executor, bodies(), [&](int first, int last) { s.kernels.motions.load_inertia(all, first, last); });
+  for_bodies(s, bodies(), [&](int first, int last) { s.kernels.motions.load_inertia(all, first, last); });
 }
 
 void BodyMotions::load_predicted(const Substep& s, const ContactBodies& bodies_and_colliders, bool is_first, float share) {
   for (int i = bodies(); i < static_cast<int>(motions_.size()); ++i)
     follow(bodies_and_colliders.poses_of_collider(s, i), s.h, motions_[at(i)]);
   const BodyArrays all = arrays(s);
-  for_ranges(s.context.executor, bodies(),
+  for_bodies(s, bodies(),
              [&](int first, int last) { s.kernels.motions.load_predicted(all, first, last, s.h, is_first, share); });
 }
 
 void BodyMotions::store_predicted(const Substep& s) {
   const BodyArrays all = arrays(s);
-  for_ranges(s.context.executor, bodies(),
-             [&](int first, int last) { s.kernels.motions.store_predicted(all, first, last, s.h); });
+  for_bodies(s, bodies(), [&](int first, int last) { s.kernels.motions.store_predicted(all, first, last, s.h); });
 }
 
 void BodyMotions::load_velocities(const Substep& s, FunctionRef<Vec3f(int object)> gravity) {
@@ -121,8 +120,7 @@ void BodyMotions::load_velocities(const Substep& s, FunctionRef<Vec3f(int object
 
 void BodyMotions::store_velocities(const Substep& s) {
   const BodyArrays all = arrays(s);
-  for_ranges(s.context.executor, bodies(),
-             [&](int first, int last) { s.kernels.motions.store_velocities(all, first, last); });
+  for_bodies(s, bodies(), [&](int first, int last) { s.kernels.motions.store_velocities(all, first, last); });
 }
 
 void BodyMotions::change_once(FunctionRef<void()> change) {

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cstddef>
 
+#include "parallel/ranges.h"
+
 namespace pliant {
 
 namespace {
@@ -15,16 +17,6 @@ constexpr int blocks_a_task = 32;
 constexpr int blocks_a_fill = 16;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-int tasks_of(int count, int a_task) { return (count + a_task - 1) / a_task; }
-
-/// Calls body(i) for i in [0, n) on all threads, `a_task` of them in each task.
-template <class Body>
-void for_each(Executor& executor, const char* name, int n, int a_task, const Body& body) {
-  executor.parallel_for(name, tasks_of(n, a_task), [&](int task) {
-    for (int i = task * a_task; i < std::min(n, (task + 1) * a_task); ++i) body(i);
-  });
-}
 
 /// True if a manifold has a normal impulse.
 bool presses(const ManifoldBlock& block, int lane) {
@@ -77,7 +69,7 @@ void ManifoldBlocks::fill(Executor& executor, const ManifoldColours& colours, st
   const int count = start_.back() = static_cast<int>(first_.size());
   first_.push_back(colours.start().back());
   blocks_.resize(at(count));
-  for_each(executor, nullptr, count, blocks_a_fill, [&](int i) {
+  for_items(executor, nullptr, count, blocks_a_fill, [&](int i) {
     prefetch_block(i, colours, prefetch);
     fill_block(i, colours, is_fixed, manifold);
   });
@@ -85,7 +77,7 @@ void ManifoldBlocks::fill(Executor& executor, const ManifoldColours& colours, st
 
 void ManifoldBlocks::take(Executor& executor, const ManifoldColours& colours, FunctionRef<void(int)> prefetch,
                           FunctionRef<void(int, const Manifold&)> keep) const {
-  for_each(executor, nullptr, static_cast<int>(blocks_.size()), blocks_a_fill, [&](int i) {
+  for_items(executor, nullptr, static_cast<int>(blocks_.size()), blocks_a_fill, [&](int i) {
     prefetch_block(i, colours, prefetch);
     const ManifoldBlock& block = blocks_[at(i)];
     for (int lane = 0; lane < block.lanes; ++lane) {
@@ -98,7 +90,7 @@ void ManifoldBlocks::take(Executor& executor, const ManifoldColours& colours, Fu
 }
 
 void ManifoldBlocks::scale_impulses(Executor& executor, float factor) {
-  for_each(executor, nullptr, static_cast<int>(blocks_.size()), blocks_a_task, [&](int i) {
+  for_items(executor, nullptr, static_cast<int>(blocks_.size()), blocks_a_task, [&](int i) {
     ManifoldRows<16>& rows = blocks_[at(i)].rows;
     for (int lane = 0; lane < block_width; ++lane) {
       for (auto& impulse : rows.impulse) impulse[lane] *= factor;
@@ -133,10 +125,8 @@ void ManifoldBlocks::run(Executor& executor, const ManifoldKernels& kernels, std
   };
   for (int c = 0; c < manifold_colours && start_[at(c)] < start_.back(); ++c) {
     const int first = start_[at(c)], last = start_[at(c + 1)];
-    executor.parallel_for(nullptr, tasks_of(last - first, blocks_a_task), [&](int task) {
-      const int from = first + task * blocks_a_task;
-      pass(kernels, range(from, std::min(from + blocks_a_task, last)));
-    });
+    for_ranges(executor, nullptr, last - first, blocks_a_task,
+               [&](int from, int to) { pass(kernels, range(first + from, first + to)); });
   }
   const int tail = start_[manifold_colours];
   if (tail < start_.back()) pass(manifold_kernels_sequential(), range(tail, start_.back()));
