@@ -1,0 +1,23 @@
+// The particles and frames of a compiled object: their numbers, tiles and States at the start, and those that follow keyframes.
+#pragma once
+
+#include <vector>
+
+#include "model/compiled_object.h"
+#include "model/gather_constraints.h"
+
+namespace pliant {
+
+/// The positions of the user's particles, then the targets of attachments.
+std::vector<Vec3f> all_positions(const Object& object);
+
+/// Cuts particles into tiles and numbers them tile by tile. `tile` becomes the tile of each particle, by the user's index.
+void number_particles(const std::vector<Vec3f>& positions, const std::vector<ConstraintList>& lists, int largest_tile,
+                      std::vector<int>& tile, CompiledObject& out);
+
+// After number_particles:
+void fill_particles(const Object& object, const std::vector<Vec3f>& positions, CompiledObject& out);
+void fill_frames(const Object& object, FrameRecords& out);
+void fill_kinematics(const Object& object, CompiledObject& out);
+
+}  // namespace pliant

@@ -1,0 +1,227 @@
+#include "model/schedule.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+
+#include "constraints/registry.h"
+#include "model/fill_pool.h"
+#include "topology/colouring.h"
+
+namespace pliant {
+
+namespace {
+
+constexpr int batches_per_inter_tile_task = 32, batches_per_stencil_task = 4;
+
+/// Replaces user indices of particles by storage indices, and orders each stencil as its type's `canonical` does.
+void renumber(ConstraintList& list, const std::vector<int>& place) {
+  const int particles = static_cast<int>(place.size());
+  std::vector<int>& stencils = list.stencils.own();
+  for (int& number : stencils) number = number < particles ? place[number] : number;  // frames are not reordered
+  const auto canonical = constraint_type(list.type).canonical;
+  if (canonical == nullptr) return;
+  std::array<float, most_rest_fields> rest{};
+  const auto fields = static_cast<std::size_t>(list.fields);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(list.count()); ++i) {
+    for (std::size_t field = 0; field < fields; ++field) rest[field] = list.rest[i * fields + field];
+    canonical(&stencils[i * static_cast<std::size_t>(list.size)], rest.data());
+    for (std::size_t field = 0; field < fields; ++field) list.rest.set(i * fields + field, rest[field]);
+  }
+}
+
+/// The constraints of a list, grouped by the tile that contains all their particles; inter-tile constraints come last.
+struct ByTile {
+  std::vector<int> begin;  ///< first member of each tile, then of the inter-tile ones; one more at the end
+  std::vector<int> members;
+
+  std::vector<int> of(int tile) const { return {members.begin() + begin[tile], members.begin() + begin[tile + 1]}; }
+};
+
+ByTile split_by_tile(ConstraintList& list, const std::vector<int>& tile_of, int tiles) {
+  const std::vector<int>& stencils = list.stencils.own();
+  const auto tile_at = [&](int i) {
+    const int* stencil = &stencils[static_cast<std::size_t>(i) * list.size];
+    int tile = tile_of[stencil[0]];
+    for (int slot = 1; slot < list.size; ++slot) {
+      if (tile_of[stencil[slot]] != tile) tile = tiles;
+    }
+    return tile;
+  };
+  ByTile split;
+  split.begin.assign(static_cast<std::size_t>(tiles) + 2, 0);
+  for (int i = 0; i < list.count(); ++i) ++split.begin[tile_at(i) + 1];
+  std::partial_sum(split.begin.begin(), split.begin.end(), split.begin.begin());
+  split.members.resize(static_cast<std::size_t>(list.count()));
+  std::vector<int> next(split.begin.begin(), split.begin.end() - 1);
+  for (int i = 0; i < list.count(); ++i) split.members[next[tile_at(i)]++] = i;
+  return split;
+}
+
+/// The constraint in a lane of a batch. With groups of four, lane 4 l + j has member l of group j (see math/wide.h).
+/// Lanes beyond the last constraint repeat the first one; they are read, but never written.
+int member_in_lane(const Colour& colour, int batch, int lane, bool& valid) {
+  const int position = colour.runs != 0 ? batch * batch_width + 4 * (lane % 4) + lane / 4 : batch * batch_width + lane;
+  valid = position < static_cast<int>(colour.members.size());
+  return colour.members[valid ? position : batch * batch_width];
+}
+
+void append_batch(const ConstraintList& list, const std::vector<Row>& rows, const Colour& colour, int batch, Pool& pool) {
+  const std::size_t block = pool.blocks.size();
+  pool.blocks.resize(block + pool.block_floats);
+  bool valid = true;
+  for (int lane = 0; lane < batch_width; ++lane) {
+    const int member = member_in_lane(colour, batch, lane, valid);
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      if (pool.row_offset[row] >= 0) pool.blocks[block + pool.row_offset[row] + lane] = rows[row].at(member);
+    }
+    pool.origin.push_back(valid ? list.origin[member] : -1);
+  }
+  for (int slot = 0; slot < list.size; ++slot) {
+    for (int lane = 0; lane < ((colour.runs >> slot & 1) != 0 ? 4 : batch_width); ++lane) {
+      const int member = member_in_lane(colour, batch, lane, valid);
+      pool.indices.push_back(list.stencils[static_cast<std::size_t>(member) * list.size + slot]);
+    }
+  }
+  ++pool.batches;
+}
+
+/// Appends batches [first, last) of a colour to a pool, and returns them as a segment.
+Segment append_segment(const ConstraintList& list, const Colour& colour, int first, int last, int pool_number, Pool& pool) {
+  const int count = static_cast<int>(colour.members.size());
+  Segment segment;
+  segment.pool = pool_number;
+  segment.runs = colour.runs;
+  segment.first_batch = pool.batches;
+  segment.batches = last - first;
+  const int in_last = std::min(batch_width, count - (last - 1) * batch_width);
+  segment.last_count = colour.runs != 0 ? in_last / 4 : in_last;
+  segment.index_offset = static_cast<std::int64_t>(pool.indices.size());
+  const std::vector<Row> rows = rows_of(list);
+  for (int batch = first; batch < last; ++batch) append_batch(list, rows, colour, batch, pool);
+  return segment;
+}
+
+/// Appends a colour in segments of at most `largest` batches. Inter-tile constraints use several, because threads share
+/// them by segment.
+void append_colour(const ConstraintList& list, const Colour& colour, int largest, int pool_number, Pool& pool,
+                   std::vector<Segment>& segments) {
+  const int batches = (static_cast<int>(colour.members.size()) + batch_width - 1) / batch_width;
+  for (int first = 0; first < batches;) {
+    const int last = first + std::min(batches - first, largest);
+    segments.push_back(append_segment(list, colour, first, last, pool_number, pool));
+    first = last;
+  }
+}
+
+/// Gives each constraint a colour of its own, which keeps the order of the list.
+std::vector<Colour> one_by_one(const std::vector<int>& members) {
+  std::vector<Colour> colours;
+  colours.reserve(members.size());
+  for (int member : members) colours.push_back({0, {member}});
+  return colours;
+}
+
+/// The segments of one constraint list: tile by tile, then inter-tile constraints by colour.
+struct ListSchedule {
+  std::vector<Segment> segments;
+  std::vector<int> tile_end, colour_end;  ///< one past the last segment of each tile; of each inter-tile colour
+};
+
+/// Reserves more than needed: reserved pages that are never written cost no memory, but a growing array is copied.
+void reserve(const ConstraintList& list, Pool& pool) {
+  const std::size_t lanes = static_cast<std::size_t>(list.count()) * 5 / 4 + batch_width;
+  pool.indices.reserve(lanes * static_cast<std::size_t>(list.size));
+  pool.blocks.reserve(lanes / batch_width * static_cast<std::size_t>(pool.block_floats));
+  pool.origin.reserve(lanes);
+}
+
+ListSchedule schedule_list(ConstraintList& list, const std::vector<int>& tile_of, int tiles, bool in_given_order,
+                           int number, Colouring& colouring, Pool& pool) {
+  ListSchedule out;
+  const ByTile split = split_by_tile(list, tile_of, tiles);
+  reserve(list, pool);
+  for (int t = 0; t <= tiles; ++t) {
+    const bool inter_tile = t == tiles;
+    const std::vector<int> members = split.of(t);
+    const std::vector<Colour> colours =
+        in_given_order ? one_by_one(members) : colouring.colour(list.stencils.own(), list.size, members);
+    for (const Colour& colour : colours) {
+      append_colour(list, colour, inter_tile ? batches_per_inter_tile_task : 1 << 30, number, pool, out.segments);
+      if (inter_tile) out.colour_end.push_back(static_cast<int>(out.segments.size()));
+    }
+    if (!inter_tile) out.tile_end.push_back(static_cast<int>(out.segments.size()));
+  }
+  if (pool.indices.capacity() > 2 * pool.indices.size()) pool.indices.shrink_to_fit();  // most slots are contiguous
+  return out;
+}
+
+/// Merges the segments of all lists: tile by tile, then inter-tile colour by colour; within each, in the order of the
+/// lists.
+void merge(const std::vector<ListSchedule>& schedules, CompiledObject& out) {
+  std::vector<int> next(schedules.size(), 0);
+  const auto append_to = [&](std::size_t i, int end) {
+    const auto first = schedules[i].segments.begin();
+    out.segments.insert(out.segments.end(), first + next[i], first + end);
+    next[i] = end;
+  };
+  for (std::size_t t = 0; t < out.tiles.size(); ++t) {
+    out.tiles[t].first_segment = static_cast<int>(out.segments.size());
+    for (std::size_t i = 0; i < schedules.size(); ++i)
+      if (!schedules[i].tile_end.empty()) append_to(i, schedules[i].tile_end[t]);
+    out.tiles[t].last_segment = static_cast<int>(out.segments.size());
+  }
+  out.phases.push_back({Driver::tile, 0, static_cast<int>(out.tiles.size())});
+  for (std::size_t i = 0; i < schedules.size(); ++i) {
+    for (const int end : schedules[i].colour_end) {
+      const int first = static_cast<int>(out.segments.size());
+      append_to(i, end);
+      out.phases.push_back({Driver::inter_tile, first, static_cast<int>(out.segments.size())});
+    }
+  }
+}
+
+/// True if a later step of compile() reads the list: chains, stencils, or, for distance constraints, tethers or multigrid.
+bool is_needed_later(const ConstraintList& list, bool keeps_lengths) {
+  return list.chained || !list.in_lanes || (is_length(list.type) && keeps_lengths);
+}
+
+}  // namespace
+
+void schedule(std::vector<ConstraintList>& lists, const std::vector<int>& tile, bool in_given_order, bool keeps_lengths,
+              CompiledObject& out) {
+  std::vector<int> tile_of(tile.size());  // tile of each particle, by storage index
+  for (std::size_t storage = 0; storage < tile.size(); ++storage) tile_of[storage] = tile[out.order[storage]];
+  std::vector<ListSchedule> schedules(lists.size());
+  Colouring colouring(out.particles);
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    ConstraintList& list = lists[i];
+    renumber(list, out.place);
+    out.pools.push_back(make_pool(list));
+    if (!list.chained && list.in_lanes)
+      schedules[i] = schedule_list(list, tile_of, static_cast<int>(out.tiles.size()), in_given_order, static_cast<int>(i),
+                                   colouring, out.pools[i]);
+    if (!is_needed_later(list, keeps_lengths)) list = list.empty();
+  }
+  merge(schedules, out);
+}
+
+void schedule_stencils(std::vector<ConstraintList>& lists, bool in_given_order, CompiledObject& out) {
+  Colouring colouring(out.particles + static_cast<int>(out.frames.size()));
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    if (lists[i].in_lanes) continue;
+    std::vector<int> members(static_cast<std::size_t>(lists[i].count()));
+    std::iota(members.begin(), members.end(), 0);
+    const std::vector<Colour> colours =
+        in_given_order ? one_by_one(members) : colouring.colour_singly(lists[i].stencils.own(), lists[i].size, members);
+    for (const Colour& colour : colours) {
+      const int first = static_cast<int>(out.segments.size());
+      append_colour(lists[i], colour, batches_per_stencil_task, static_cast<int>(i), out.pools[i], out.segments);
+      out.phases.push_back({Driver::stencil, first, static_cast<int>(out.segments.size())});
+    }
+  }
+}
+
+}  // namespace pliant
