@@ -1,5 +1,4 @@
 // Tests the command as users see it: exit status, the one line on standard error, files that are complete or do not exist.
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -8,96 +7,16 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "command/command_fixture.h"
+
+namespace pliant {
 namespace {
-
-namespace fs = std::filesystem;
-using Json = nlohmann::json;
-
-std::size_t longest_line(const std::string& text) {
-  std::size_t longest = 0;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) longest = std::max(longest, line.size());
-  return longest;
-}
-
-std::string slurp(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-/// A temporary folder for one test.
-class Command : public testing::Test {
- protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "pliant_command_XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-    std::ofstream(folder_ / "small.json") << small_scene(4);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  /// A scene of a 12 x 12 cloth over a sphere.
-  static std::string small_scene(int frames) {
-    return R"({"frames": )" + std::to_string(frames) + R"(, "settings": {"substeps": 4},
-      "objects": [{"cloth": {"mesh": {"grid": {"columns": 12, "rows": 12, "width": 1, "depth": 1}}, "material": "cotton"}}],
-      "colliders": [{"sphere": {"radius": 0.3}, "position": [0, -0.4, 0]}]})";
-  }
-
-  struct Result {
-    int status;
-    std::string out, err;
-  };
-
-  /// Runs `pliant ARGUMENTS` through the shell in the test's folder.
-  Result pliant(const std::string& arguments) {
-    const std::string line = "cd '" + folder_.string() + "' && '" PLIANT_COMMAND "' " + arguments + " >stdout 2>stderr";
-    const int status = std::system(line.c_str());
-    Result result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(folder_ / "stdout"), slurp(folder_ / "stderr")};
-    fs::remove(folder_ / "stdout");
-    fs::remove(folder_ / "stderr");
-    return result;
-  }
-
-  /// Why nothing can be drawn on this machine, found by the simplest picture. Empty if it can, or if that fails for
-  /// another reason; then the tests must succeed in drawing.
-  std::string why_nothing_is_drawn() {
-    const Result probe = pliant("render small.json --out probe.png --frame 0 --size 16x16 --quiet");
-    fs::remove(folder_ / "probe.png");
-    for (const char* lack :
-         {"pliant: pictures need EGL", "pliant: pictures need OpenGL", "pliant: EGL gives no OpenGL 3.3 context"})
-      if (probe.status != 0 && probe.err.rfind(lack, 0) == 0) return probe.err;
-    return "";
-  }
-
-  /// Expects that the command fails with this status and one line that contains `word`.
-  void expect_refused(const std::string& arguments, int status, const std::string& word) {
-    SCOPED_TRACE(arguments);
-    const Result result = pliant(arguments);
-    EXPECT_EQ(result.status, status);
-    EXPECT_EQ(result.err.rfind("pliant: ", 0), 0u) << result.err;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-    EXPECT_NE(result.err.find(word), std::string::npos) << result.err;
-  }
-
-  Json report(const std::string& arguments) {
-    const Result result = pliant("run small.json --quiet --report report.json " + arguments);
-    EXPECT_EQ(result.status, 0) << result.err;
-    return Json::parse(slurp(folder_ / "report.json"));
-  }
-
-  int files() const { return static_cast<int>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator())); }
-
-  fs::path folder_;
-};
 
 TEST_F(Command, HelpAndVersion) {
   EXPECT_EQ(pliant("--help").status, 0);
@@ -274,31 +193,6 @@ TEST_F(Command, RenderDrawsWithTheSettingsThatAreGiven) {
     EXPECT_FALSE(picture(other) == plain) << other;
 }
 
-class Mended : public Command {
- protected:
-  void SetUp() override {
-    Command::SetUp();
-    std::ofstream(folder_ / "patch.obj") << "v 0 0 0\nv 0 0 2\nv 3 0 0\nv 9 9 9\nf 1 2 3\n";
-    std::ofstream(folder_ / "patch.json")
-        << R"({"frames": 1, "objects": [{"name": "p", "cloth": {"mesh": {"file": "patch.obj"}}}]})";
-  }
-  const std::string line = "repaired: object 'p', patch.obj: dropped 1 vertex of no triangle, the first 3\n";
-};
-
-TEST_F(Mended, IsSaidByRunAsByCheck) {
-  EXPECT_NE(pliant("check patch.json").out.find(line), std::string::npos);
-  const Result run = pliant("run patch.json");
-  EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_EQ(run.out.rfind(line, 0), 0u) << run.out;
-  EXPECT_EQ(pliant("run patch.json --quiet").out, "");
-}
-
-TEST_F(Mended, IsSaidByRender) {
-  if (const std::string why = why_nothing_is_drawn(); !why.empty()) GTEST_SKIP() << why;
-  const Result drawn = pliant("render patch.json --out patch.png --size 64x48");
-  EXPECT_EQ(drawn.out, line + "wrote patch.png\n") << drawn.err;
-}
-
 TEST_F(Command, SaysNothingInAPipeThatIsNoResult) {
   const Result result = pliant("run small.json");
   EXPECT_EQ(result.err, "");
@@ -363,119 +257,6 @@ TEST_F(Command, KeepsDistanceGridsWhereItIsTold) {
   EXPECT_EQ(state(first), state(pliant("run grid.json")));
 }
 
-TEST_F(Command, CheckFindsNothingWrongInASoundScene) {
-  const Result result = pliant("check small.json");
-  EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.out.find("1 object of 144 particles, 1 x 0 x 1 m"), std::string::npos) << result.out;
-}
-
-TEST_F(Command, CheckRunsASceneAndNamesTheDefaultThatWouldMendIt) {
-  std::ofstream(folder_ / "sagging.json") << R"({"frames": 20, "settings": {"sweep": "tiled", "substeps": 2},
-      "objects": [{"name": "sheet",
-      "cloth": {"mesh": {"grid": {"columns": 12, "rows": 12, "width": 1, "depth": 1}}, "stretch": {"compliance": 0}},
-      "pins": [{"particles": [0, 11]}]}]})";
-  const Result result = pliant("check sagging.json --seconds 600");
-  EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.out.find("doubtful: in frame "), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("object 'sheet': stretched "), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find(" keeps all edges within 10 % and 99 in 100 within 2 % of the length"), std::string::npos)
-      << result.out;
-  EXPECT_NE(result.out.find("remove \"sweep\" and \"substeps\" from the scene's \"settings\"\n"), std::string::npos)
-      << result.out;
-  EXPECT_EQ(result.out.find("--seconds"), std::string::npos) << "there was time enough";
-  EXPECT_LE(longest_line(result.out), 180u) << result.out;
-  EXPECT_EQ(pliant("check sagging.json --seconds 0").out.find("stretched"), std::string::npos) << "not run at all";
-
-  Json scene = Json::parse(slurp(folder_ / "sagging.json"));
-  scene["gravity"] = {0, -1e5, 0};
-  std::ofstream(folder_ / "heavy.json") << scene.dump();
-  const std::string hasty = pliant("check heavy.json --seconds 1e-3").out;
-  EXPECT_NE(hasty.find(" --seconds 0.03 tries more\n"), std::string::npos) << hasty;
-  scene.erase("gravity");
-  scene["settings"].erase("sweep");
-  scene["settings"].erase("substeps");
-  std::ofstream(folder_ / "mended.json") << scene.dump();
-  const std::string short_run = pliant("check mended.json --seconds 1e-6").out;
-  EXPECT_NE(short_run.find("\nnothing wrong, nothing doubtful in 1 of 20 frames\n"), std::string::npos) << short_run;
-  EXPECT_NE(pliant("check mended.json --seconds 600").out.find("nothing wrong, nothing doubtful"), std::string::npos);
-  expect_refused("check sagging.json --seconds -1", 2, "seconds");
-}
-
-/// A default that does not suffice: several iterations make it `tiled` with 20 substeps.
-TEST_F(Command, CheckNamesSettingsWhereTheDefaultDoesNotSuffice) {
-  std::ofstream(folder_ / "sagging.json") << R"({"frames": 20, "settings": {"iterations": 2}, "objects": [{"name": "sheet",
-      "cloth": {"mesh": {"grid": {"columns": 32, "rows": 32, "width": 1, "depth": 1}}, "stretch": {"compliance": 0}},
-      "pins": [{"particles": [0, 31]}]}]})";
-  const Result result = pliant("check sagging.json --seconds 600");
-  const std::string mark = "add to the scene's \"settings\": ";
-  const std::size_t at = result.out.find(mark);
-  ASSERT_NE(at, std::string::npos) << result.out;
-  const std::size_t end = result.out.find('\n', at);
-  Json scene = Json::parse(slurp(folder_ / "sagging.json"));
-  scene["settings"].update(Json::parse(result.out.substr(at + mark.size(), end - at - mark.size())));
-  std::ofstream(folder_ / "mended.json") << scene.dump();
-  EXPECT_NE(pliant("check mended.json --seconds 600").out.find("nothing wrong, nothing doubtful"), std::string::npos);
-}
-
-TEST_F(Command, CheckTellsAMeshItsSizeAndWhatWasMended) {
-  std::ofstream(folder_ / "patch.obj") << "v 0 0 0\nv 0 0 20\nv 30 0 0\nv 9 9 9\nf 1 2 3\n";
-  const Result result = pliant("check patch.obj");
-  EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(result.out.rfind("patch.obj: 3 vertices, 1 triangle, 30 x 0 x 20 m", 0), 0u) << result.out;
-  EXPECT_NE(result.out.find("\nrepaired: dropped 1 vertex of no triangle, the first 3\nthe indices below"),
-            std::string::npos)
-      << result.out;
-  EXPECT_NE(result.out.find("\nnote: open, with 1 border of 3 edges"), std::string::npos) << result.out;
-  EXPECT_EQ(result.out.find("doubtful"), std::string::npos) << "a border is right for a cloth:\n" << result.out;
-  std::ofstream(folder_ / "patch.json") << R"({"objects": [{"cloth": {"mesh": {"file": "patch.obj"}}}]})";
-  EXPECT_NE(pliant("check patch.json").out.find("dropped 1 vertex of no triangle"), std::string::npos);
-}
-
-TEST_F(Command, CompareShowsEverySweepAndWritesPictureAndNumbers) {
-  const Result result = pliant("compare small.json --iterations 3 --out curves.png --out curves.json");
-  ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.out.find("small.json after 2 frames"), std::string::npos) << result.out;
-  for (const char* sweep : {"\ntiled ", "\nsymmetric ", "\njacobi ", "\nnatural ", "\nchains ", "\ntiled+chebyshev "})
-    EXPECT_NE(result.out.find(sweep), std::string::npos) << sweep << result.out;
-  EXPECT_NE(result.out.find("; its curve is that of its sweep, and --budget-ms runs it too\n"), std::string::npos)
-      << result.out;
-  EXPECT_EQ(result.out.find("almost at rest"), std::string::npos) << result.out;
-  EXPECT_EQ(slurp(folder_ / "curves.png").substr(1, 3), "PNG");
-  const Json json = Json::parse(slurp(folder_ / "curves.json"));
-  EXPECT_EQ(json.at("iterations"), 3);
-  EXPECT_GE(json.at("curves").size(), 6u);
-  const Result few =
-      pliant("compare small.json --iterations 2 --sweeps tiled,natural+chebyshev --frame 1 --frames 2 --budget-ms 100000");
-  EXPECT_EQ(few.status, 0) << few.err;
-  EXPECT_NE(few.out.find("left out: natural+chebyshev: "), std::string::npos) << few.out;
-  EXPECT_NE(few.out.find("within 100000 ms per frame, 2 frames"), std::string::npos) << few.out;
-}
-
-TEST_F(Command, CompareSaysThatASceneIsAtRest) {
-  Json scene = Json::parse(small_scene(4));
-  scene["gravity"] = {0, 0, 0};
-  std::ofstream(folder_ / "small.json") << scene.dump();
-  const std::string out = pliant("compare small.json --iterations 2 --sweeps tiled").out;
-  EXPECT_NE(out.find("the scene is almost at rest there, at 0 m/s in the mean: choose a --frame in motion\n"),
-            std::string::npos)
-      << out;
-}
-
-TEST_F(Command, CompareRefusesWhatItCannotDo) {
-  expect_refused("compare", 2, "SCENE");
-  expect_refused("compare small.json --iterations 0", 2, "iterations");
-  expect_refused("compare small.json --budget-ms -1", 2, "budget-ms");
-  expect_refused("compare small.json --sweeps tilde", 1, "tilde");
-  expect_refused("compare small.json --sweeps natural+chebyshev", 1, "natural order");
-  expect_refused("compare small.json --out curves.gif", 1, "curves.gif");
-  expect_refused("compare small.json --out small.json", 1, "twice");
-  expect_refused("compare small.json --out a.png --out b.png", 1, "b.png");
-  expect_refused("compare small.json --out nowhere/a.json", 1, "nowhere");
-  expect_refused("compare small.json --frames 0 --budget-ms 1", 1, "--frames");
-  EXPECT_EQ(slurp(folder_ / "small.json"), small_scene(4)) << "what was read is written over";
-  EXPECT_EQ(files(), 1) << "an error left a file behind";
-}
-
 TEST_F(Command, AReportSaysHowManyIterationsATolerancePermitted) {
   const Json plain = report("--iterations 6").at("iterations_used");
   EXPECT_EQ(plain.at("smallest"), 6);
@@ -524,14 +305,5 @@ TEST_F(Command, SaysHowManyBodiesSleep) {
   EXPECT_EQ(json.at("widest_tie"), nullptr);
 }
 
-/// Two boxes of 0.2 m x 0.4 m x 0.6 m, 4 m apart along x.
-TEST_F(Command, CheckCountsSolidsInTheSize) {
-  std::ofstream(folder_ / "boxes.json") << R"({"frames": 1, "objects": [{"name": "boxes", "bodies": [
-      {"name": "a", "solids": [{"box": {"half_extents": [0.1, 0.2, 0.3]}}], "position": [0, 0.2, 0]},
-      {"name": "b", "solids": [{"box": {"half_extents": [0.1, 0.2, 0.3]}}], "position": [4, 0.2, 0]}]}]})";
-  const Result result = pliant("check boxes.json");
-  EXPECT_NE(result.out.find("of 2 particles, 4.2 x 0.4 x 0.6 m"), std::string::npos) << result.out;
-  EXPECT_EQ(result.out.find("moves freely"), std::string::npos) << result.out;
-}
-
 }  // namespace
+}  // namespace pliant

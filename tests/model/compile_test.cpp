@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <random>
@@ -14,52 +12,10 @@
 #include "constraints/all.h"
 #include "math/vector.h"
 #include "model/compiled_object.h"
-#include "model/gather_constraints.h"
-#include "model/model.h"
-#include "model/stiffness.h"
-#include "pliant/error.h"
+#include "support/compiled_grids.h"
 
 namespace pliant {
 namespace {
-
-/// A crumpled grid with edges, hinges of both types with every law, pins and attachments.
-Object rumpled_grid(int columns, int rows) {
-  Object object;
-  object.name = "grid";
-  std::mt19937 random(11);
-  for (int r = 0; r < rows; ++r) {
-    for (int c = 0; c < columns; ++c) {
-      const float bump = static_cast<float>(random() % 1000) * 1e-4f;
-      object.positions.push_back({static_cast<float>(c) * 0.1f, bump, static_cast<float>(r) * 0.1f});
-      object.masses.push_back(0.5f + bump);
-      object.velocities.push_back({bump, 0, -bump});
-    }
-  }
-  object.masses[1] = std::numeric_limits<float>::infinity();
-  const auto at = [&](int r, int c) { return r * columns + c; };
-  ConstraintGroup edges{"distance", {}, {}, Stiffness::compliance(1e-6f), {}},
-      pbd{"distance", {}, {}, Stiffness::pbd(0.9f), {}};
-  ConstraintGroup damped{"distance", {}, {}, Stiffness::compliance(1e-5f, 2), {}};
-  ConstraintGroup hinges{"dihedral_bending", {}, {}, Stiffness::compliance(0.1f), {}};
-  ConstraintGroup isometric{"isometric_bending", {}, {}, Stiffness::compliance(0.2f), {}};
-  for (int r = 0; r < rows; ++r) {
-    for (int c = 0; c < columns; ++c) {
-      if (c + 1 < columns) edges.particles.insert(edges.particles.end(), {at(r, c + 1), at(r, c)});
-      if (r + 1 < rows) pbd.particles.insert(pbd.particles.end(), {at(r, c), at(r + 1, c)});
-      if (r + 1 < rows && c + 1 < columns) {
-        damped.particles.insert(damped.particles.end(), {at(r, c), at(r + 1, c + 1)});
-        hinges.particles.insert(hinges.particles.end(), {at(r + 1, c + 1), at(r, c), at(r, c + 1), at(r + 1, c)});
-        isometric.particles.insert(isometric.particles.end(), {at(r, c), at(r + 1, c + 1), at(r + 1, c), at(r, c + 1)});
-        object.triangles.push_back({at(r, c), at(r + 1, c + 1), at(r, c + 1)});
-        object.triangles.push_back({at(r, c), at(r + 1, c), at(r + 1, c + 1)});
-      }
-    }
-  }
-  object.constraints = {edges, hinges, pbd, isometric, damped};
-  object.pins.push_back({0, Motion{{Keyframe{0, {0, 0, 0}, {}}, Keyframe{1, {1, 0, 0}, {}}}, {}, false}});
-  object.attachments.push_back({columns - 1, {5, 5, 5}, {}, Stiffness::compliance(1e-3f)});
-  return object;
-}
 
 /// A lane of a segment in terms of the user's description.
 struct Found {
@@ -136,13 +92,6 @@ Object renumbered(const Object& object) {
   for (auto& triangle : out.triangles) std::for_each(triangle.begin(), triangle.end(), rename);
   for (Attachment& attachment : out.attachments) rename(attachment.particle);
   return out;
-}
-
-std::vector<ObjectPhase> phases_of(const CompiledObject& object, Driver driver) {
-  std::vector<ObjectPhase> phases;
-  std::copy_if(object.phases.begin(), object.phases.end(), std::back_inserter(phases),
-               [&](const ObjectPhase& phase) { return phase.driver == driver; });
-  return phases;
 }
 
 /// Parameters: size of tiles; true if the grid is numbered line by line, false if randomly.
@@ -390,128 +339,6 @@ TEST(Compile, TheStarOfFiveHundredEdges) {
     const CompiledObject compiled = compile(star, {10, largest});
     EXPECT_EQ(all_lanes(compiled).size(), 500u);
   }
-}
-
-// ------------------------------------------------------------------------------------------------ what is refused, and
-// small parts
-
-TEST(Gather, RefusesWhatDoesNotFit) {
-  Object object;
-  object.name = "thing";
-  object.positions.resize(3);
-  object.masses.assign(3, 1);
-  const auto refused = [&](ConstraintGroup group) {
-    object.constraints = {std::move(group)};
-    try {
-      gather_constraints(object, 1);
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  EXPECT_NE(refused({"elastic", {0, 1}, {}, {}, {}}).find("elastic"), std::string::npos);
-  EXPECT_NE(refused({"distance", {0, 1, 2}, {}, {}, {}}).find("thing"), std::string::npos);
-  EXPECT_NE(refused({"distance", {0, 3}, {}, {}, {}}).find("particle 3"), std::string::npos);
-  EXPECT_NE(refused({"distance", {0, -1}, {}, {}, {}}).find("particle -1"), std::string::npos);
-  EXPECT_NE(refused({"distance", {0, 1}, {1, 2}, {}, {}}).find("rest"), std::string::npos);
-  EXPECT_NE(refused({"distance", {0, 1}, {}, {}, {1, 2}}).find("compliances"), std::string::npos);
-  EXPECT_EQ(refused({"distance", {}, {}, {}, {}}), "");
-}
-
-TEST(Gather, GivesEachConstraintItsOwnCompliance) {
-  Object object;
-  object.positions = {{0, 0, 0}, {1, 0, 0}, {3, 0, 0}};
-  object.masses.assign(3, 1);
-  object.constraints = {{"distance", {0, 1, 1, 2}, {}, Stiffness::compliance(7), {0.5f, 0.25f}}};
-  const auto lists = gather_constraints(object, 1);
-  ASSERT_EQ(lists.size(), 1u);
-  EXPECT_EQ(lists[0].response, (Column<float>{0.5f, 0.25f}));
-  EXPECT_EQ(lists[0].rest, (Column<float>{1, 2}));
-  ASSERT_EQ(lists[0].origin.size(), 2u);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(lists[0].origin[i], static_cast<int>(i));
-}
-
-TEST(StiffnessPerProjection, LeavesTheShareThatWasAskedFor) {
-  for (double k : {0.0, 1e-6, 0.1, 0.5, 0.9, 0.999, 1.0}) {
-    for (int n : {1, 2, 10, 200, 100000}) {
-      const double each = stiffness_per_projection(k, n);
-      EXPECT_NEAR(std::pow(1 - each, n), 1 - k, 1e-10) << k << ", " << n;
-    }
-  }
-}
-
-TEST(Model, JoinsObjectsEndToEnd) {
-  Model model;
-  model.add(compile(rumpled_grid(6, 6), {10, 9}));
-  model.add(compile(rumpled_grid(3, 3), {10, 9}));
-  ASSERT_EQ(model.first, (std::vector<int>{0, 37}));
-  EXPECT_EQ(model.particles(), 47);
-  const State state = initial_state(model);
-  EXPECT_EQ(state.positions.size(), 47u);
-  EXPECT_EQ(state.velocities.size(), 47u);
-  EXPECT_EQ(state.remainders.size(), 47u);
-  // A phase contains all objects, whose particles differ anyway.
-  std::size_t tasks = 0, segments = 0;
-  for (const Phase& phase : model.phases) tasks += phase.driver == Driver::inter_tile ? phase.tasks.size() : 0;
-  for (const CompiledObject& object : model.objects) {
-    for (const ObjectPhase& colour : phases_of(object, Driver::inter_tile))
-      segments += static_cast<std::size_t>(colour.last - colour.first);
-  }
-  EXPECT_GT(tasks, 0u);
-  EXPECT_EQ(tasks, segments);
-}
-
-/// What a phase visits, as numbers that can be compared.
-std::vector<std::vector<int>> visits_of(const Model& model) {
-  std::vector<std::vector<int>> visits;
-  for (const Phase& phase : model.phases) {
-    visits.push_back({static_cast<int>(phase.driver), phase.colour, phase.work});
-    for (const Task& task : phase.tasks) visits.back().insert(visits.back().end(), {task.object, task.item, task.work});
-  }
-  return visits;
-}
-
-CompileOptions by(Sweep sweep) {
-  CompileOptions options{10, 9};
-  options.sweep = sweep;
-  options.tethers = sweep == Sweep::chains;
-  return options;
-}
-
-TEST(Model, WalksPhasesByDriversThenColours) {
-  Model model;
-  model.add(compile(rumpled_grid(6, 6), by(Sweep::chains)));
-  model.add(compile(rumpled_grid(5, 4), by(Sweep::tiled)));
-  std::set<Driver> met;
-  for (std::size_t i = 0; i < model.phases.size(); ++i) {
-    const Phase& phase = model.phases[i];
-    met.insert(phase.driver);
-    const bool is_next_colour = i > 0 && phase.driver == model.phases[i - 1].driver;
-    EXPECT_EQ(phase.colour, is_next_colour ? model.phases[i - 1].colour + 1 : 0);
-    EXPECT_TRUE(i == 0 || phase.driver >= model.phases[i - 1].driver);
-    EXPECT_TRUE(std::is_sorted(phase.tasks.begin(), phase.tasks.end(),
-                               [](const Task& a, const Task& b) { return a.object < b.object; }));
-  }
-  EXPECT_EQ(model.phases.front().driver, Driver::tile);
-  EXPECT_EQ(model.phases.front().tasks.size(), model.objects[0].tiles.size() + model.objects[1].tiles.size());
-  EXPECT_EQ(met.count(Driver::chain) + met.count(Driver::inter_tile) + met.count(Driver::collider_contact), 3u);
-}
-
-TEST(Model, LosesAnObjectsPhasesWithTheObject) {
-  Model model;
-  model.add(compile(rumpled_grid(5, 4), by(Sweep::tiled)));
-  const auto before = visits_of(model);
-  const int added = model.add(compile(rumpled_grid(6, 6), by(Sweep::chains)));
-  EXPECT_NE(visits_of(model), before);
-  const auto both = visits_of(model);
-  model.remove(added);
-  EXPECT_EQ(visits_of(model), before);
-  EXPECT_EQ(model.add(compile(rumpled_grid(6, 6), by(Sweep::chains))), added);
-  EXPECT_EQ(visits_of(model), both);
-  model.remove(0);
-  model.remove(added);
-  ASSERT_EQ(model.phases.size(), 3u);  // tiles and contacts
-  for (const Phase& phase : model.phases) EXPECT_TRUE(phase.tasks.empty() && phase.work == 0);
 }
 
 }  // namespace
