@@ -22,5 +22,6 @@
 #include "pliant/shape.h"
 #include "pliant/state.h"
 #include "pliant/substep_bounds.h"
+#include "pliant/surface.h"
 #include "pliant/vec3.h"
 #include "pliant/world.h"
