@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "parallel/launch.h"
+#include "parallel/ranges.h"
 
 namespace pliant::surface {
 
@@ -74,14 +74,11 @@ constexpr int full_count = 5;
 void find_fills(ParticleCells& cells, Executor& executor) {
   const auto is_full = [&](int cell) { return cell >= 0 && cells.particles(cell).size() >= full_count; };
   cells.fills.assign(cells.keys.size(), Fill::sparse);
-  executor.parallel_for("surface: fills", launch_blocks(cells.size()), [&](int block) {
-    const int last = std::min(cells.size(), (block + 1) * launch_block);
-    for (int cell = block * launch_block; cell < last; ++cell) {
-      if (!is_full(cell)) continue;
-      const std::array<int, 27> around = cells_around(cells, cell);
-      const bool is_enclosed = std::all_of(around.begin(), around.end(), is_full);
-      cells.fills[static_cast<std::size_t>(cell)] = is_enclosed ? Fill::enclosed : Fill::full;
-    }
+  for_items(executor, "surface: fills", cells.size(), 512, [&](int cell) {
+    if (!is_full(cell)) return;
+    const std::array<int, 27> around = cells_around(cells, cell);
+    const bool is_enclosed = std::all_of(around.begin(), around.end(), is_full);
+    cells.fills[static_cast<std::size_t>(cell)] = is_enclosed ? Fill::enclosed : Fill::full;
   });
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "parallel/launch.h"
+#include "parallel/ranges.h"
 
 namespace pliant::surface {
 
@@ -116,13 +116,9 @@ void make_cell(const ParticleCells& cells, int cell, float spacing, bool anisotr
 }  // namespace
 
 Splats make_splats(const ParticleCells& cells, float spacing, bool anisotropic, Executor& executor) {
-  constexpr int cells_per_task = 128;
   Splats splats{.all = std::vector<Splat>(cells.positions.size()), .bounds = std::vector<Box>(cells.keys.size())};
-  const int tasks = (cells.size() + cells_per_task - 1) / cells_per_task;
-  executor.parallel_for("surface: kernels", tasks, [&](int task) {
-    const int last = std::min(cells.size(), (task + 1) * cells_per_task);
-    for (int cell = task * cells_per_task; cell < last; ++cell) make_cell(cells, cell, spacing, anisotropic, splats);
-  });
+  for_items(executor, "surface: kernels", cells.size(), 128,
+            [&](int cell) { make_cell(cells, cell, spacing, anisotropic, splats); });
   for (const Splat& splat : splats.all) splats.reach = std::max(splats.reach, largest(splat.reach));
   return splats;
 }
