@@ -189,9 +189,19 @@ void include_bodies(const RenderScene& scene, bool fixed, float largest, std::ve
   }
 }
 
+/// Makes one ball of radius 1, coarser if there are many, and the place of each.
+Geometry build_balls(const RenderBalls& balls, float least_radius) {
+  Geometry geometry{.vertices = {}, .indices = {}, .colour = balls.colour, .material = Material::solid};
+  add_capsule(geometry, 1, 0, balls.centres.size() < 10000 ? 16 : 8);
+  const float radius = std::max(balls.radius, least_radius);
+  for (const Vec3f& centre : balls.centres) geometry.places.push_back({centre.x, centre.y, centre.z, radius});
+  return geometry;
+}
+
 Geometry build_mesh(const RenderMesh& mesh) {
   if (mesh.is_solid) return build_solid(mesh);
-  Geometry geometry{.vertices = {}, .indices = {}, .colour = mesh.colour, .material = Material::cloth};
+  const Material material = mesh.is_liquid ? Material::liquid : Material::cloth;
+  Geometry geometry{.vertices = {}, .indices = {}, .colour = mesh.colour, .material = material};
   const std::vector<Vec3f> normals = output::vertex_normals(mesh.positions, mesh.triangles);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) geometry.vertices.push_back({mesh.positions[i], normals[i]});
   for (const auto& triangle : mesh.triangles)
@@ -269,6 +279,7 @@ std::vector<Vec3f> points_of_interest(const RenderScene& scene) {
   for (const RenderMesh& mesh : scene.meshes)
     if (!mesh.is_solid) points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
   for (const RenderTube& tube : scene.tubes) points.insert(points.end(), tube.points.begin(), tube.points.end());
+  for (const RenderBalls& balls : scene.balls) points.insert(points.end(), balls.centres.begin(), balls.centres.end());
   include_bodies(scene, false, std::numeric_limits<float>::infinity(), points);
   const float size = bounds(points).radius();
   include_bodies(scene, true, size == 0 ? std::numeric_limits<float>::infinity() : 2.5f * size, points);
@@ -297,6 +308,8 @@ std::vector<Geometry> build_geometry(const RenderScene& scene, const Vec3f& arou
   std::vector<Geometry> result;
   for (const RenderMesh& mesh : scene.meshes) result.push_back(build_mesh(mesh));
   for (const RenderTube& tube : scene.tubes) result.push_back(build_tube(tube, std::max(tube.radius, least_radius)));
+  for (const RenderBalls& balls : scene.balls)
+    if (!balls.centres.empty()) result.push_back(build_balls(balls, least_radius));
   add_bodies(scene.bodies, result);
   for (const RenderCollider& collider : scene.colliders) {
     const bool is_ground = scene.ground && is_level_plane(collider) && collider.position.y <= *scene.ground + 1e-6f;
@@ -319,6 +332,11 @@ void check(const RenderScene& scene) {
     const RenderTube& tube = scene.tubes[t];
     const bool fine = std::all_of(tube.points.begin(), tube.points.end(), finite) && std::isfinite(tube.radius);
     if (!fine) refuse("tube", t, "has a position that is not finite");
+  }
+  for (std::size_t b = 0; b < scene.balls.size(); ++b) {
+    const std::vector<Vec3f>& centres = scene.balls[b].centres;
+    if (!std::all_of(centres.begin(), centres.end(), finite) || !std::isfinite(scene.balls[b].radius))
+      refuse("group of balls", b, "has a position or radius that is not finite");
   }
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) check_body(scene.bodies[b], b);
   for (std::size_t c = 0; c < scene.colliders.size(); ++c) {

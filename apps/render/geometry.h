@@ -1,6 +1,7 @@
 // A RenderScene in a form that can be drawn: triangles with normals, and their bounds.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -13,7 +14,7 @@ struct Vertex {
 };
 
 /// How a surface is shaded.
-enum class Material { cloth, solid, ground };
+enum class Material { cloth, solid, ground, liquid };
 
 /// Triangles of one colour.
 struct Geometry {
@@ -21,6 +22,7 @@ struct Geometry {
   std::vector<std::uint32_t> indices;
   Vec3f colour{};
   Material material = Material::solid;
+  std::vector<std::array<float, 4>> places{};  ///< a copy is drawn at each: shift and scale; none: once, as it is
 };
 
 /// A bounding box of points. It is empty until a point is included.

@@ -24,12 +24,20 @@ struct RenderMesh {
   std::vector<std::array<int, 3>> triangles;
   Vec3f colour{0.75f, 0.35f, 0.30f};  ///< colour as linear RGB, 0..1
   bool is_solid = false;              ///< true: a collider, drawn with sharp edges
+  bool is_liquid = false;             ///< true: the closed surface of a liquid, drawn clear, deeper in colour where thick
 };
 
 /// A line drawn as a round tube, for ropes; a single point becomes a ball.
 struct RenderTube {
   std::vector<Vec3f> points;
   float radius = 0.005f;  ///< radius of the tube [m]; it is drawn at least about a pixel wide
+  Vec3f colour{0.75f, 0.35f, 0.30f};
+};
+
+/// Balls of one radius and colour, for particles. All share one mesh on the graphics card.
+struct RenderBalls {
+  std::vector<Vec3f> centres;
+  float radius = 0.005f;  ///< [m]
   Vec3f colour{0.75f, 0.35f, 0.30f};
 };
 
@@ -72,6 +80,7 @@ struct RenderScene {
   std::optional<Camera> camera;       ///< none: a camera that shows the whole scene
   std::optional<Extent> extent;       ///< none: the extent of this scene
   std::vector<RenderBody> bodies{};
+  std::vector<RenderBalls> balls{};
 };
 
 /// Makes what to draw of a World at present: objects with triangles as surfaces, ropes as tubes, free particles as balls, rigid

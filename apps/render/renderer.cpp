@@ -25,6 +25,8 @@ struct Range {
   std::size_t first = 0;  // offset in the index buffer [bytes]
   Vec3f colour{};
   Material material = Material::solid;
+  std::size_t first_place = 0;  // offset in the buffer of places [bytes]
+  GLsizei places = 0;
 };
 
 /// The camera and what follows from it.
@@ -70,6 +72,9 @@ Sun make_sun(const ViewFrame& view, const std::vector<Geometry>& geometries) {
   Bounds box;
   for (const Geometry& geometry : geometries) {
     if (geometry.material == Material::ground) continue;
+    for (const auto& [x, y, z, scale] : geometry.places)
+      box.include(Vec3f{dot(frame.right, {x, y, z}), dot(frame.up, {x, y, z}), dot(frame.back, {x, y, z})}, scale);
+    if (!geometry.places.empty()) continue;
     for (const Vertex& v : geometry.vertices)
       box.include(Vec3f{dot(frame.right, v.position), dot(frame.up, v.position), dot(frame.back, v.position)});
   }
@@ -120,6 +125,8 @@ struct Programs {
   Program blur{screen_vertex, blur_fragment};
   Program sky{screen_vertex, std::string(light_functions) + sky_fragment};
   Program surface{surface_vertex, std::string(light_functions) + surface_fragment};
+  Program thickness{depth_vertex, thickness_fragment};
+  Program liquid{surface_vertex, std::string(light_functions) + liquid_fragment};
 };
 
 /// A texture, and the framebuffer that draws into it.
@@ -134,6 +141,7 @@ struct Renderer::Implementation {
   std::vector<std::uint8_t> draw(const RenderScene& scene);
 
   void upload(const std::vector<Geometry>& geometries);
+  void draw_range(const Range& range) const;
   void draw_ranges(bool ground) const;
   void draw_shadows(const Matrix& clip) const;
   void draw_depth(const Eye& eye) const;
@@ -141,6 +149,9 @@ struct Renderer::Implementation {
   void draw_sky(const Eye& eye) const;
   void draw_surfaces(const Eye& eye, const Sun& sun, const Extent& extent, float pixel) const;
   void draw_both_sides(const Range& range) const;
+  bool has_liquid() const;
+  void draw_thickness(const Eye& eye, const Range& range, float middle) const;
+  void draw_liquids(const Eye& eye, const Sun& sun, const Extent& extent) const;
   std::vector<std::uint8_t> read_back() const;
 
   int width, height, half_width, half_height;
@@ -148,21 +159,22 @@ struct Renderer::Implementation {
   Programs programs;
   VertexArray array, nothing;
   Sampler plain_sampler;  // reads depths of the shadow map without comparing them
-  Buffer vertices, indices;
-  Target shadow, depth, raw_occlusion, occlusion, picture;
+  Buffer vertices, indices, places;
+  Target shadow, depth, raw_occlusion, occlusion, picture, behind, thickness;
   SampledTarget sampled;
   std::vector<Range> ranges;
 };
 
 Renderer::Implementation::Implementation(int w, int h)
     : width(w), height(h), half_width((w + 1) / 2), half_height((h + 1) / 2), sampled(w, h, best_samples()) {
-  GLuint names[2];
+  GLuint names[3];
   glGenVertexArrays(2, names);
   array = VertexArray(names[0]);
   nothing = VertexArray(names[1]);
-  glGenBuffers(2, names);
+  glGenBuffers(3, names);
   vertices = Buffer(names[0]);
   indices = Buffer(names[1]);
+  places = Buffer(names[2]);
   glBindVertexArray(array.get());
   glBindBuffer(GL_ARRAY_BUFFER, vertices.get());
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.get());
@@ -170,6 +182,7 @@ Renderer::Implementation::Implementation(int w, int h)
     glEnableVertexAttribArray(i);
     glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), reinterpret_cast<const void*>(i * sizeof(Vec3f)));
   }
+  glVertexAttribDivisor(2, 1);
   shadow.texture =
       make_texture(GL_DEPTH_COMPONENT24, shadow_size, shadow_size, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
@@ -188,16 +201,23 @@ Renderer::Implementation::Implementation(int w, int h)
   occlusion.framebuffer = make_framebuffer(occlusion.texture.get(), 0);
   picture.texture = make_texture(GL_RGBA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE, GL_NEAREST);
   picture.framebuffer = make_framebuffer(picture.texture.get(), 0);
+  behind.texture = make_texture(GL_RGBA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE, GL_LINEAR);
+  behind.framebuffer = make_framebuffer(behind.texture.get(), 0);
+  thickness.texture = make_texture(GL_R32F, width, height, GL_RED, GL_FLOAT, GL_NEAREST);
+  thickness.framebuffer = make_framebuffer(thickness.texture.get(), 0);
 }
 
 void Renderer::Implementation::upload(const std::vector<Geometry>& geometries) {
   std::vector<Vertex> all_vertices;
   std::vector<std::uint32_t> all_indices;
+  std::vector<std::array<float, 4>> all_places;
   ranges.clear();
   for (const Geometry& geometry : geometries) {
     const auto first = static_cast<std::uint32_t>(all_vertices.size());
     ranges.push_back({static_cast<GLsizei>(geometry.indices.size()), all_indices.size() * sizeof(std::uint32_t),
-                      geometry.colour, geometry.material});
+                      geometry.colour, geometry.material, all_places.size() * sizeof(all_places[0]),
+                      static_cast<GLsizei>(geometry.places.size())});
+    all_places.insert(all_places.end(), geometry.places.begin(), geometry.places.end());
     all_vertices.insert(all_vertices.end(), geometry.vertices.begin(), geometry.vertices.end());
     for (const std::uint32_t i : geometry.indices) all_indices.push_back(first + i);
   }
@@ -207,12 +227,29 @@ void Renderer::Implementation::upload(const std::vector<Geometry>& geometries) {
                GL_STREAM_DRAW);
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(all_indices.size() * sizeof(std::uint32_t)),
                all_indices.data(), GL_STREAM_DRAW);
+  glBindBuffer(GL_ARRAY_BUFFER, places.get());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(all_places.size() * sizeof(all_places[0])), all_places.data(),
+               GL_STREAM_DRAW);
+}
+
+/// Draws a range once, or at each of its places.
+void Renderer::Implementation::draw_range(const Range& range) const {
+  const auto* const first = reinterpret_cast<const void*>(range.first);
+  if (range.places == 0) {
+    glDisableVertexAttribArray(2);
+    glVertexAttrib4f(2, 0, 0, 0, 1);
+    return glDrawElements(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, first);
+  }
+  glBindBuffer(GL_ARRAY_BUFFER, places.get());
+  glVertexAttribPointer(2, 4, GL_FLOAT, GL_FALSE, 0, reinterpret_cast<const void*>(range.first_place));
+  glEnableVertexAttribArray(2);
+  glDrawElementsInstanced(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, first, range.places);
 }
 
 void Renderer::Implementation::draw_ranges(bool ground) const {
   for (const Range& range : ranges) {
-    if (range.material == Material::ground && !ground) continue;
-    glDrawElements(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(range.first));
+    if ((range.material == Material::ground && !ground) || range.material == Material::liquid) continue;
+    draw_range(range);
   }
 }
 
@@ -305,6 +342,7 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   // surface.
   program.set("bias", std::max(5 * size / shadow_size, 2 * pixel));
   for (const Range& range : ranges) {
+    if (range.material == Material::liquid) continue;
     program.set("albedo", range.colour);
     program.set("material", static_cast<int>(range.material));
     draw_both_sides(range);
@@ -313,20 +351,79 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
 
 /// Draws backs and fronts separately: where two layers of cloth coincide, the front wins, without z-fighting.
 void Renderer::Implementation::draw_both_sides(const Range& range) const {
-  const auto* const first = reinterpret_cast<const void*>(range.first);
-  if (range.material != Material::cloth) {
-    glDrawElements(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, first);
-    return;
-  }
+  if (range.material != Material::cloth) return draw_range(range);
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
-  glDrawElements(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, first);
+  draw_range(range);
   glCullFace(GL_FRONT);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.f, 4.f);
-  glDrawElements(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, first);
+  draw_range(range);
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_CULL_FACE);
+}
+
+bool Renderer::Implementation::has_liquid() const {
+  return std::any_of(ranges.begin(), ranges.end(), [](const Range& range) { return range.material == Material::liquid; });
+}
+
+/// Adds the distances of one liquid's faces. `middle` is the distance of the scene.
+void Renderer::Implementation::draw_thickness(const Eye& eye, const Range& range, float middle) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, thickness.framebuffer.get());
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT);
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE);
+  const Program& program = programs.thickness;
+  program.use();
+  program.set("view_projection", eye.view_projection);
+  program.set("eye", eye.camera.eye);
+  program.set("forward", -eye.frame.back);
+  program.set("near_far", eye.near, eye.far);
+  program.set("picture", static_cast<float>(width), static_cast<float>(height));
+  program.set("middle", middle);
+  program.set("depth", 0);
+  draw_range(range);
+  glDisable(GL_BLEND);
+  glEnable(GL_DEPTH_TEST);
+}
+
+/// Draws each liquid over the picture so far.
+void Renderer::Implementation::draw_liquids(const Eye& eye, const Sun& sun, const Extent& extent) const {
+  if (!has_liquid()) return;
+  const float middle = length(extent.centre - eye.camera.eye);
+  glBindSampler(2, 0);
+  for (const Range& range : ranges) {
+    if (range.material != Material::liquid) continue;
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, sampled.framebuffer.get());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, behind.framebuffer.get());
+    glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindVertexArray(array.get());
+    const Target* const read[3] = {&depth, &thickness, &behind};
+    for (GLuint unit = 0; unit < 3; ++unit) {
+      glActiveTexture(GL_TEXTURE0 + unit);
+      glBindTexture(GL_TEXTURE_2D, read[unit]->texture.get());
+    }
+    draw_thickness(eye, range, middle);
+    glBindFramebuffer(GL_FRAMEBUFFER, sampled.framebuffer.get());
+    const Program& program = programs.liquid;
+    program.use();
+    program.set("view_projection", eye.view_projection);
+    program.set("eye", eye.camera.eye);
+    program.set("sun", sun.direction);
+    program.set("right", eye.frame.right);
+    program.set("up", eye.frame.up);
+    program.set("forward", -eye.frame.back);
+    program.set("slope", eye.half_width, eye.half_height);
+    program.set("picture", static_cast<float>(width), static_cast<float>(height));
+    program.set("albedo", range.colour);
+    program.set("clarity", 0.6f * extent.radius);
+    program.set("depth", 0);
+    program.set("thickness", 1);
+    program.set("behind", 2);
+    draw_range(range);
+  }
 }
 
 std::vector<std::uint8_t> Renderer::Implementation::read_back() const {
@@ -370,6 +467,7 @@ std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scen
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   draw_sky(eye);
   draw_surfaces(eye, sun, extent, pixel);
+  draw_liquids(eye, sun, extent);
   return read_back();
 }
 

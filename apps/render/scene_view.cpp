@@ -64,8 +64,14 @@ float ground_height(const Scene& scene, const std::vector<RenderCollider>& at_re
     low = std::min(low, lowest(object));
     for (const Vec3f& position : object.positions) all.include(position);
   }
-  for (const Vec3f& point : points_of_interest(
-           {.meshes = {}, .tubes = {}, .colliders = at_rest, .ground = {}, .camera = {}, .extent = {}, .bodies = {}}))
+  for (const Vec3f& point : points_of_interest({.meshes = {},
+                            .tubes = {},
+                            .colliders = at_rest,
+                            .ground = {},
+                            .camera = {},
+                            .extent = {},
+                            .bodies = {},
+                            .balls = {}}))
     low = std::min(low, point.y);
   for (const MeshCollider& collider : scene.mesh_colliders)
     for (const Vec3f& position : collider.mesh.positions) low = std::min(low, position.y);
@@ -153,8 +159,12 @@ void add_object(RenderScene& result, const Object& object, const ObjectView& vie
     result.tubes.push_back(std::move(tube));
   }
   if (!shape.lines.empty()) return add_weights(result, object, positions);
-  for (const Vec3f& position : positions)
-    result.tubes.push_back({.points = {position}, .radius = object.thickness, .colour = shape.colour});
+  if (object.positions.size() < 2) {
+    for (const Vec3f& position : positions)
+      result.tubes.push_back({.points = {position}, .radius = object.thickness, .colour = shape.colour});
+    return;
+  }
+  result.balls.push_back({.centres = std::move(positions), .radius = object.thickness, .colour = shape.colour});
 }
 
 }  // namespace

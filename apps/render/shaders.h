@@ -6,8 +6,13 @@ namespace pliant::render {
 /// Vertex shader with positions only, for the shadow map and the depth pass.
 inline constexpr const char* depth_vertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
+layout(location = 2) in vec4 place;
 uniform mat4 view_projection;
-void main() { gl_Position = view_projection * vec4(position, 1.0); }
+out vec3 at;
+void main() {
+  at = position * place.w + place.xyz;
+  gl_Position = view_projection * vec4(at, 1.0);
+}
 )";
 
 inline constexpr const char* depth_fragment = R"(#version 330 core
@@ -115,12 +120,13 @@ void main() {
 inline constexpr const char* surface_vertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 place;
 uniform mat4 view_projection;
 out vec3 at, facing;
 void main() {
-  at = position;
+  at = position * place.w + place.xyz;
   facing = normal;
-  gl_Position = view_projection * vec4(position, 1.0);
+  gl_Position = view_projection * vec4(at, 1.0);
 }
 )";
 
@@ -197,6 +203,53 @@ void main() {
     result = mix(result, sky(normalize(at - eye)), smoothstep(2.5, 13.0, away));
   }
   colour = vec4(developed(result), 1.0);
+}
+)";
+
+/// How much liquid a ray passes before it meets what is opaque: the distances at which it leaves the closed surface, less those at
+/// which it enters it. Distances are taken from `middle`, so that their sum keeps more digits.
+inline constexpr const char* thickness_fragment = R"(#version 330 core
+in vec3 at;
+out float length_within;
+uniform vec3 eye, forward;
+uniform sampler2D depth;
+uniform vec2 near_far, picture;
+uniform float middle;
+void main() {
+  float d = texture(depth, gl_FragCoord.xy / picture).r * 2.0 - 1.0;
+  float opaque = 2.0 * near_far.x * near_far.y / (near_far.y + near_far.x - d * (near_far.y - near_far.x));
+  float ahead = dot(at - eye, forward), stretch = length(at - eye) / ahead;
+  float away = min(ahead, opaque) * stretch - middle;
+  length_within = gl_FrontFacing ? -away : away;
+}
+)";
+
+/// Shades the surface of a liquid: what is behind it, shifted as a refracted ray is (Snell), absorbed by thickness (Beer and Lambert), and the
+/// sky's reflection by angle (Schlick 1994).
+inline constexpr const char* liquid_fragment = R"(
+in vec3 at, facing;
+out vec4 colour;
+uniform vec3 albedo, sun, right, up, forward;
+uniform vec2 picture, slope;
+uniform sampler2D behind, thickness, depth;
+uniform float clarity;  // length over which the light of other colours falls to a third [m]
+void main() {
+  vec3 normal = normalize(facing), view = normalize(eye - at);
+  if (dot(normal, view) < 0.0) normal = -normal;
+  vec2 place = gl_FragCoord.xy / picture;
+  float deep = max(texture(thickness, place).r, 0.0);
+  vec3 bend = refract(-view, normal, 1.0 / 1.33) + view;
+  vec2 shift = vec2(dot(bend, right), dot(bend, up)) * min(deep, clarity) * 0.5 / (slope * dot(at - eye, forward));
+  shift = clamp(shift, vec2(-0.1), vec2(0.1));
+  if (texture(depth, place + shift).r < gl_FragCoord.z) shift = vec2(0.0);  // an object before the liquid
+  vec3 water = developed(albedo * (1.2 + 1.2 * max(dot(normal, sun), 0.0)));  // light that is scattered back
+  vec3 seen = texture(behind, place + shift).rgb * exp(-1.3 * (1.0 - albedo) * deep / clarity);
+  seen = mix(water, seen, exp(-0.6 * deep / clarity));
+  vec3 mirrored = reflect(-view, normal);
+  vec3 sky_light = developed(sky(mirrored) * mix(0.35, 1.0, smoothstep(-0.3, 0.1, mirrored.y)));
+  float reflected = 0.02 + 0.98 * pow(1.0 - max(dot(normal, view), 0.0), 5.0);
+  float glint = pow(max(dot(normal, normalize(sun + view)), 0.0), 250.0);
+  colour = vec4(mix(seen, sky_light, reflected) + vec3(0.8, 0.78, 0.72) * glint, 1.0);
 }
 )";
 

@@ -172,6 +172,44 @@ TEST_F(Picture, OfABoxACapsuleAndATubeCoversWhatTheyMeasure) {
   expect_area(tube, 0.4f + round, "tube");
 }
 
+TEST_F(Picture, OfBallsIsThatOfSpheres) {
+  RenderScene empty;
+  empty.ground.reset();
+  empty.camera = straight();
+  RenderScene balls = empty, spheres = empty;
+  const std::vector<Vec3f> centres{{-0.4f, 0, 0}, {0.1f, 0.3f, -0.2f}, {0.3f, -0.3f, 0.1f}};
+  balls.balls.push_back({centres, 0.2f, {0.1f, 0.1f, 0.8f}});
+  for (const Vec3f& centre : centres) spheres.colliders.push_back({Sphere{0.2f}, centre, {}, {0.1f, 0.1f, 0.8f}});
+  const auto nothing = renderer->draw(empty);
+  const int a = different(renderer->draw(balls), nothing), b = different(renderer->draw(spheres), nothing);
+  EXPECT_NEAR(a, b, 0.03 * b);
+}
+
+TEST_F(Picture, OfALiquidIsClearWhereItIsThinAndColouredWhereItIsThick) {
+  RenderScene bare;
+  bare.ground.reset();
+  bare.camera = straight();
+  bare.extent = Extent{{}, 1};
+  bare.meshes.push_back(square(0.9f, {0, 0, -0.8f}, {0.8f, 0.8f, 0.8f}));
+  const auto with_ball = [&](float radius) {
+    RenderScene scene = bare;
+    const TriangleMesh ball = sphere_mesh(4);
+    RenderMesh liquid{
+        .positions = ball.positions, .triangles = ball.triangles, .colour = {0.1f, 0.3f, 0.6f}, .is_liquid = true};
+    for (Vec3f& p : liquid.positions) p = {p.x * 0.6f, p.y * 0.6f, p.z * radius};
+    scene.meshes.push_back(liquid);
+    return scene;
+  };
+  const auto middle = [&](const RenderScene& scene) { return at(renderer->draw(scene), width / 2, height / 2); };
+  const Pixel without = middle(bare), thin = middle(with_ball(0.005f)), thick = middle(with_ball(0.6f));
+  EXPECT_LT(std::abs(thin.r - without.r) + std::abs(thin.b - without.b), 30) << "a centimetre is clear";
+  EXPECT_LT(thick.r, without.r - 80);
+  EXPECT_GT(thick.b - thick.r, thin.b - thin.r + 40);
+  RenderScene hidden = with_ball(0.6f), front = bare;
+  for (RenderScene* scene : {&hidden, &front}) scene->meshes.push_back(square(0.3f, {0, 0, 0.8f}, {0.7f, 0.1f, 0.1f}));
+  EXPECT_EQ(middle(hidden).brightness(), middle(front).brightness());
+}
+
 TEST_F(Picture, OfOneSceneIsTheSameTwice) {
   RenderScene scene = with_sphere(0.5f);
   scene.ground = -0.5f;

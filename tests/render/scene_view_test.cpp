@@ -95,6 +95,22 @@ TEST(SceneView, ShowsWhatIsHeavyAsABall) {
   EXPECT_FLOAT_EQ(picture.tubes[1].radius, 2 * 2 * scene.objects[0].thickness) << "cube root of 8";
 }
 
+TEST(SceneView, ShowsFreeParticlesAsBalls) {
+  Scene scene;
+  Object object;
+  object.positions = {{0, 1, 0}, {0.1f, 1, 0}, {0.5f, 2, 0}};
+  object.masses = {1, 1, 1};
+  object.thickness = 0.02f;
+  scene.add(object);
+  const RenderScene picture = make_render_scene(scene, World(scene));
+  ASSERT_EQ(picture.balls.size(), 1u);
+  EXPECT_TRUE(picture.tubes.empty());
+  EXPECT_EQ(picture.balls[0].centres, object.positions);
+  EXPECT_EQ(picture.balls[0].radius, object.thickness);
+  const Extent extent = extent_of({picture});
+  EXPECT_NEAR(extent.centre.x, 0.25f, 1e-5f);
+}
+
 TEST(SceneView, PutsTheGroundUnderEverything) {
   const auto ground = [](const Scene& scene) { return make_render_scene(scene, World(scene)).ground.value_or(1e9f); };
   Scene scene;
