@@ -304,7 +304,18 @@ Extent extent_of(const std::vector<RenderScene>& scenes) {
   return {all.centre(), all.radius()};
 }
 
-std::vector<Geometry> build_geometry(const RenderScene& scene, const Vec3f& around, float radius, float least_radius) {
+namespace {
+
+/// True for a plane that the eye is behind, as the front wall of a tank.
+bool hides_all(const RenderCollider& collider, const Vec3f& eye) {
+  return std::holds_alternative<Plane>(collider.shape) &&
+         dot(rotate(collider.rotation, {0, 1, 0}), eye - collider.position) < 0;
+}
+
+}  // namespace
+
+std::vector<Geometry> build_geometry(const RenderScene& scene, const Vec3f& around, float radius, float least_radius,
+                                     const Vec3f& eye) {
   std::vector<Geometry> result;
   for (const RenderMesh& mesh : scene.meshes) result.push_back(build_mesh(mesh));
   for (const RenderTube& tube : scene.tubes) result.push_back(build_tube(tube, std::max(tube.radius, least_radius)));
@@ -313,7 +324,7 @@ std::vector<Geometry> build_geometry(const RenderScene& scene, const Vec3f& arou
   add_bodies(scene.bodies, result);
   for (const RenderCollider& collider : scene.colliders) {
     const bool is_ground = scene.ground && is_level_plane(collider) && collider.position.y <= *scene.ground + 1e-6f;
-    if (!is_ground) result.push_back(build_collider(collider, around, radius));
+    if (!is_ground && !hides_all(collider, eye)) result.push_back(build_collider(collider, around, radius));
   }
   return result;
 }

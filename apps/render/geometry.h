@@ -44,8 +44,9 @@ Bounds bounds(const std::vector<Vec3f>& points);
 bool is_level_plane(const RenderCollider& collider);
 
 /// Makes all geometry but the ground. A plane becomes a slab of half size `radius` about `around`; tubes have at least
-/// `least_radius`.
-std::vector<Geometry> build_geometry(const RenderScene& scene, const Vec3f& around, float radius, float least_radius);
+/// `least_radius`. Planes that the eye is behind are left out, since they would hide all.
+std::vector<Geometry> build_geometry(const RenderScene& scene, const Vec3f& around, float radius, float least_radius,
+                                     const Vec3f& eye);
 
 /// Makes a horizontal square with the given centre.
 Geometry build_ground(const Vec3f& centre, float half_size, const Vec3f& colour);

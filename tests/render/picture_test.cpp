@@ -210,6 +210,18 @@ TEST_F(Picture, OfALiquidIsClearWhereItIsThinAndColouredWhereItIsThick) {
   EXPECT_EQ(middle(hidden).brightness(), middle(front).brightness());
 }
 
+TEST_F(Picture, LeavesOutAWallBetweenTheCameraAndWhatItHolds) {
+  const float half = std::sqrt(0.5f);
+  RenderScene bare = with_sphere(0.5f), front = bare, back = bare;
+  bare.camera = front.camera = back.camera = straight();
+  front.colliders.push_back(
+      {Plane{}, {0, 0, 0.6f}, {-half, 0, 0, half}, {0.1f, 0.5f, 0.1f}});  // faces -z, the camera looks there
+  back.colliders.push_back({Plane{}, {0, 0, -0.6f}, {half, 0, 0, half}, {0.1f, 0.5f, 0.1f}});
+  const auto without = renderer->draw(bare);
+  EXPECT_EQ(renderer->draw(front), without);
+  EXPECT_GT(different(renderer->draw(back), without), width * height / 10);
+}
+
 TEST_F(Picture, OfOneSceneIsTheSameTwice) {
   RenderScene scene = with_sphere(0.5f);
   scene.ground = -0.5f;
