@@ -5,7 +5,6 @@
 
 #include "collision/bodies/body_contacts.h"
 #include "solver/bodies/body_math.h"
-#include "solver/bodies/joint_forest.h"
 #include "solver/substep.h"
 
 namespace pliant {
@@ -34,7 +33,7 @@ BodySleep::BodySleep(const Model& model, const ContactBodies& bodies, const Body
       links_(&islands),
       first_body_(model.objects.size(), -1),
       is_tied_(at(bodies.dynamic())),
-      is_asleep_(at(bodies.dynamic())) {
+      held_(bodies, islands.links()) {
   for (int body = count(); body-- > 0;) {
     const BodyPlace& place = bodies.places()[at(body)];
     first_body_[at(place.object)] = body;
@@ -42,7 +41,6 @@ BodySleep::BodySleep(const Model& model, const ContactBodies& bodies, const Body
         has_kinematic_ || is_kinematic(model.objects[at(place.object)], place.particle - model.first[at(place.object)]);
   }
   for (const BodyLink& link : islands.links()) {
-    if (jointed_.empty() || jointed_.back() != link.object) jointed_.push_back(link.object);
     if (link.a >= count() && link.b < count()) is_tied_[at(link.b)] = 1;
     if (link.b >= count() && link.a < count()) is_tied_[at(link.a)] = 1;
   }
@@ -64,7 +62,7 @@ int BodySleep::body_of(const ContactPart& part) const {
 
 bool BodySleep::involves_sleeper(const BodyContact& contact) const {
   const int a = body_of(contact.a), b = body_of(contact.b);
-  return (a >= 0 && is_asleep_[at(a)] != 0) || (b >= 0 && is_asleep_[at(b)] != 0);
+  return (a >= 0 && held_.holds(a)) || (b >= 0 && held_.holds(b));
 }
 
 // ---------------------------------------------------------------- a frame's start
@@ -82,26 +80,23 @@ void BodySleep::begin_frame(Substep& s, std::span<const BodyContact> contacts) {
   held_.clear();
   kept_.clear();
   is_on_ = s.context.sleep.on;
-  std::fill(is_asleep_.begin(), is_asleep_.end(), char{0});
   if (!is_on_) {
     s.state.rest_times.clear();
   } else {
     s.state.rest_times.resize(s.state.frames.size(), 0.f);
     is_restless_ = has_kinematic_ || !s.model.forces.empty() || moves_fixed_body(s);
-    for (int body = 0; body < count(); ++body) {
-      is_asleep_[at(body)] = rest_time(s, body) == asleep ? 1 : 0;
-      if (is_asleep_[at(body)] != 0) hold(s, body);
-    }
+    for (int body = 0; body < count(); ++body)
+      if (rest_time(s, body) == asleep) held_.hold(s.state, body);
     if (any()) wake_pushed(s, contacts);
   }
-  leave_out_constraints(s);
+  held_.leave_out_constraints(s);
 }
 
 /// Joins the bodies that sleep and have a contact or a constraint with one another.
 void BodySleep::find_islands(const Substep& s, std::span<const BodyContact> contacts) {
   islands_.reset(count());
   const auto join = [&](int a, int b) {
-    if (a >= 0 && b >= 0 && is_asleep_[at(a)] != 0 && is_asleep_[at(b)] != 0) islands_.unite(a, b);
+    if (a >= 0 && b >= 0 && held_.holds(a) && held_.holds(b)) islands_.unite(a, b);
   };
   for (const BodyContact& contact : contacts) join(body_of(contact.a), body_of(contact.b));
   for (const BodyLink& link : links_->links())
@@ -117,7 +112,7 @@ bool BodySleep::is_driven(const Substep& s, int body) const {
 /// constraint connects with a body that is awake.
 void BodySleep::wake_pushed(Substep& s, std::span<const BodyContact> contacts) {
   std::vector<char> is_woken(at(count()));
-  for (const Held& held : held_) {
+  for (const HeldBodies::Held& held : held_.all()) {
     const BodyPlace& place = bodies_->places()[at(held.body)];
     const bool has_velocity =
         !is_zero(s.state.velocities[at(place.particle)]) || !is_zero(s.state.frames.angular_velocities[at(place.frame)]);
@@ -125,7 +120,7 @@ void BodySleep::wake_pushed(Substep& s, std::span<const BodyContact> contacts) {
   }
   const auto is_awake = [&](int body) {
     const BodyPlace& place = bodies_->places()[at(body)];
-    return is_asleep_[at(body)] == 0 &&
+    return !held_.holds(body) &&
            (s.state.positions[at(place.particle)].w > 0 || !is_zero(s.state.frames.inverse_inertias[at(place.frame)]));
   };
   for (const BodyLink& link : links_->links()) {
@@ -142,13 +137,13 @@ bool BodySleep::wake_touched(Substep& s, std::span<const std::pair<int, int>> pa
   bool any_woken = false;
   for (const auto& [a, b] : pairs)  // two bodies that do not move have none
     for (const int place : {a, b}) {
-      if (place >= count() || is_asleep_[at(place)] == 0) continue;
+      if (place >= count() || !held_.holds(place)) continue;
       is_woken[at(place)] = 1;
       any_woken = true;
     }
   if (!any_woken) return false;
   wake(s, contacts, is_woken);
-  leave_out_constraints(s);
+  held_.leave_out_constraints(s);
   return true;
 }
 
@@ -156,48 +151,17 @@ bool BodySleep::wake_touched(Substep& s, std::span<const std::pair<int, int>> pa
 void BodySleep::wake(Substep& s, std::span<const BodyContact> contacts, std::vector<char>& is_woken) {
   if (std::find(is_woken.begin(), is_woken.end(), char{1}) == is_woken.end()) return;
   find_islands(s, contacts);
-  for (const Held& held : held_)
+  for (const HeldBodies::Held& held : held_.all())
     if (is_woken[at(held.body)] != 0) is_woken[at(islands_.find(held.body))] = 1;
-  std::vector<Held> stay;
-  for (const Held& held : held_) {
-    if (is_woken[at(islands_.find(held.body))] == 0) {
-      stay.push_back(held);
-      continue;
-    }
-    const BodyPlace& place = bodies_->places()[at(held.body)];
-    is_asleep_[at(held.body)] = 0;
-    rest_time(s, held.body) = 0;
-    s.state.positions[at(place.particle)].w = held.position.w;
-    s.state.frames.inverse_inertias[at(place.frame)] = held.inverse_inertia;
-  }
-  held_.swap(stay);
-}
-
-/// Gives a body infinite mass for a frame.
-void BodySleep::hold(Substep& s, int body) {
-  const BodyPlace& place = bodies_->places()[at(body)];
-  Record &position = s.state.positions[at(place.particle)], &inertia = s.state.frames.inverse_inertias[at(place.frame)];
-  held_.push_back({body, position, s.state.frames.orientations[at(place.frame)], inertia});
-  position.w = 0;
-  inertia = {};
-}
-
-/// Leaves out the constraints of bodies that sleep, and no others.
-void BodySleep::leave_out_constraints(Substep& s) {
-  for (const int object : jointed_) {
-    const int first = first_body_[at(object)];
-    const auto from = is_asleep_.begin() + first,
-               to = from + static_cast<std::ptrdiff_t>(s.model.objects[at(object)].bodies.bodies.size());
-    const std::vector<char> now = std::find(from, to, char{1}) == to ? std::vector<char>{} : std::vector<char>(from, to);
-    ObjectJoints& joints = s.work.joints[at(object)];
-    if (joints.is_asleep == now) continue;
-    joints.is_asleep = now;
-    prepare_joints(s.model.objects[at(object)], joints);
-  }
+  held_.release(s.state, [&](int body) {
+    const bool wakes = is_woken[at(islands_.find(body))] != 0;
+    if (wakes) rest_time(s, body) = 0;
+    return wakes;
+  });
 }
 
 void BodySleep::keep_contacts(bool is_alone, std::vector<BodyContact>& contacts) {
-  if (held_.size() == is_asleep_.size() && is_alone) {
+  if (held_.holds_every_body() && is_alone) {
     kept_.swap(contacts);  // all of them, and a copy takes many bytes
     contacts.clear();
     return;
@@ -208,19 +172,10 @@ void BodySleep::keep_contacts(bool is_alone, std::vector<BodyContact>& contacts)
 
 // ---------------------------------------------------------------- its end
 
-void BodySleep::put_back(Substep& s, const Held& held) {
-  const BodyPlace& place = bodies_->places()[at(held.body)];
-  s.state.positions[at(place.particle)] = held.position;
-  s.state.remainders[at(place.particle)] = s.state.velocities[at(place.particle)] = {};
-  s.state.frames.orientations[at(place.frame)] = held.orientation;
-  s.state.frames.inverse_inertias[at(place.frame)] = held.inverse_inertia;
-  s.state.frames.angular_velocities[at(place.frame)] = {};
-}
-
 int BodySleep::end_frame(Substep& s, const Frame& frame) {
-  for (const Held& held : held_) put_back(s, held);
+  held_.put_back(s.state);
   std::vector<char> is_woken(at(count()));
-  for (const int body : frame.pressed) is_woken[at(body)] = is_asleep_[at(body)];
+  for (const int body : frame.pressed) is_woken[at(body)] = held_.holds(body) ? 1 : 0;
   if (any()) wake(s, kept_, is_woken);
   add_rest(s, frame);
   return fall_asleep(s, frame);
@@ -236,7 +191,7 @@ void BodySleep::add_rest(Substep& s, const Frame& frame) {
     if (a >= count() && moves(frame.states[at(a)])) is_touched[at(b)] = 1;
   }
   for (int body = 0; body < count(); ++body) {
-    if (is_asleep_[at(body)] != 0) continue;
+    if (held_.holds(body)) continue;
     const BodyPlace& place = bodies_->places()[at(body)];
     const Vec3f v = xyz(s.state.velocities[at(place.particle)]),
                 w = xyz(s.state.frames.angular_velocities[at(place.frame)]);
@@ -250,9 +205,7 @@ void BodySleep::add_rest(Substep& s, const Frame& frame) {
 /// Lets the islands sleep whose bodies have all been slow for long enough.
 int BodySleep::fall_asleep(Substep& s, const Frame& frame) {
   islands_.reset(count());
-  const auto is_free = [&](int body) {
-    return body < count() && is_asleep_[at(body)] == 0 && !frame.states[at(body)].is_fixed;
-  };
+  const auto is_free = [&](int body) { return body < count() && !held_.holds(body) && !frame.states[at(body)].is_fixed; };
   const auto join = [&](int a, int b) {
     if (is_free(a) && is_free(b)) islands_.unite(a, b);
   };
@@ -263,7 +216,7 @@ int BodySleep::fall_asleep(Substep& s, const Frame& frame) {
   for (int body = 0; body < count(); ++body)
     if (is_free(body) && !(rest_time(s, body) >= s.context.sleep.time && rest_time(s, body) > 0))
       is_awake[at(islands_.find(body))] = 1;
-  auto sleeping = static_cast<int>(held_.size());
+  auto sleeping = static_cast<int>(held_.all().size());
   for (int body = 0; body < count(); ++body) {
     if (!is_free(body) || is_awake[at(islands_.find(body))] != 0) continue;
     const BodyPlace& place = bodies_->places()[at(body)];

@@ -1,11 +1,9 @@
 // Sleep of rigid bodies: an island of bodies that have been slow for some time rests until something acts on it.
 //
-// A body that sleeps has infinite mass while a frame is made, so no stage moves it, and its pose is put back bit by bit at the end. Its
-// contacts stay in the State as they were, and its constraints are left out. What comes near enough to touch wakes it before the
+// A body that sleeps is held in place while a frame is made (held_bodies.h), so no stage moves it. Its contacts stay in the State as they were, and its constraints are left out. What comes near enough to touch wakes it before the
 // contacts of the frame are solved. All that lasts is State::rest_times.
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
@@ -14,6 +12,7 @@
 #include "pliant/state.h"
 #include "solver/bodies/body_islands.h"
 #include "solver/bodies/contact_bodies.h"
+#include "solver/bodies/held_bodies.h"
 #include "solver/bodies/islands.h"
 
 namespace pliant {
@@ -32,7 +31,7 @@ class BodySleep {
   /// Starts a frame: reads which bodies sleep, and wakes those on which something other than a contact acts.
   void begin_frame(Substep& s, std::span<const BodyContact> contacts);
   /// True if a body sleeps.
-  bool any() const { return !held_.empty(); }
+  bool any() const { return !held_.all().empty(); }
   /// Wakes the islands of bodies that have a contact in this frame. `pairs` are places, `contacts` those of the State. Returns false if
   /// there are none.
   bool wake_touched(Substep& s, std::span<const std::pair<int, int>> pairs, std::span<const BodyContact> contacts);
@@ -55,13 +54,7 @@ class BodySleep {
   void add_kept_contacts(std::vector<BodyContact>& contacts);
 
  private:
-  /// What a body had before it was held in place.
-  struct Held {
-    int body = 0;
-    Record position{}, orientation{}, inverse_inertia{};
-  };
-
-  int count() const { return static_cast<int>(is_asleep_.size()); }
+  int count() const { return static_cast<int>(is_tied_.size()); }
   float& rest_time(Substep& s, int body) const;
   bool is_driven(const Substep& s, int body) const;
   bool moves_fixed_body(const Substep& s) const;
@@ -70,9 +63,6 @@ class BodySleep {
   void find_islands(const Substep& s, std::span<const BodyContact> contacts);
   void wake_pushed(Substep& s, std::span<const BodyContact> contacts);
   void wake(Substep& s, std::span<const BodyContact> contacts, std::vector<char>& is_woken);
-  void hold(Substep& s, int body);
-  void put_back(Substep& s, const Held& held);
-  void leave_out_constraints(Substep& s);
   void add_rest(Substep& s, const Frame& frame);
   int fall_asleep(Substep& s, const Frame& frame);
 
@@ -80,14 +70,12 @@ class BodySleep {
   const ContactBodies* bodies_ = nullptr;
   const BodyIslands* links_ = nullptr;
   std::vector<int> first_body_;  ///< [object] its first body, or -1
-  std::vector<int> jointed_;     ///< objects with constraints between bodies
   std::vector<char> is_tied_;    ///< [body] a constraint ties it to particles
   bool has_kinematic_ = false;   ///< a body follows keyframes, so that nothing may sleep
   bool is_on_ = false;
-  bool is_restless_ = false;     ///< nothing may sleep in this frame
-  std::vector<char> is_asleep_;  ///< [body]
-  std::vector<Held> held_;       ///< ascending by body
-  Islands islands_;              ///< of bodies that sleep
+  bool is_restless_ = false;  ///< nothing may sleep in this frame
+  HeldBodies held_;           ///< those that sleep
+  Islands islands_;           ///< of bodies that sleep
   std::vector<BodyContact> kept_, merged_;
 };
 
