@@ -102,11 +102,16 @@ void fields(A& a, Is<WorldLayout> auto& of) {
   a(objects, colliders, mesh_colliders, blocks, first_frames, sweeps, sweep_is_open, substeps_are_open);
 }
 template <class A>
+void fields(A& a, Is<Fluid> auto& of) {
+  auto& [spacing, density, speed_of_sound, viscosity] = of;
+  a(spacing, density, speed_of_sound, viscosity);
+}
+template <class A>
 void fields(A& a, Is<Object> auto& of) {
-  auto& [name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, pins, attachments,
-         thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution,
+  auto& [name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, pins,
+         attachments, thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution,
          rolling_friction, spinning_friction, drag, lift, sweep, damping, colour] = of;
-  a(name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, pins, attachments,
+  a(name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, pins, attachments,
     thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution, rolling_friction,
     spinning_friction, drag, lift, sweep, damping);
   a.aside(colour);

@@ -41,6 +41,15 @@ float compliance_from_stiffness(float k, const ConversionContext& context);
 /// The PBD stiffness k that corresponds to compliance alpha. Throws an Error if alpha < 0.
 float stiffness_from_compliance(float alpha, const ConversionContext& context);
 
+/// Makes the particles of an object a liquid: a constraint on the density at each of them (Macklin and Mueller 2013). Liquids with the same
+/// spacing, groups and mask mix; others do not meet.
+struct Fluid {
+  float spacing = 0.02f;     ///< distance of particles at rest [m]
+  float density = 1000;      ///< at rest [kg/m^3]
+  float speed_of_sound = 0;  ///< by which it yields to pressure p: by p / (density c^2); 0: it does not yield [m/s]
+  float viscosity = 0.001f;  ///< dynamic viscosity [Pa s]; water 0.001, honey 10
+};
+
 /// Properties of a fabric. They do not depend on a mesh.
 struct Fabric {
   std::string name;

@@ -140,6 +140,12 @@ struct TieGap {
 /// True if a tie is open by no more than an edge may be too long.
 inline bool is_tolerable(const TieGap& tie) { return tie.gap <= tolerated_overstretch * tie.length; }
 
+/// How much denser than at rest liquids are, in the last substep: density over that at rest, minus 1, where that is above 0 [-].
+struct Compression {
+  double mean = 0, largest = 0;  ///< over all particles of liquids
+  int crowded = 0;               ///< particles with over 256 neighbours, of which the rest was left out
+};
+
 /// The result of a step. A step never throws, except for exceptions of the user's force fields.
 struct Report {
   std::int64_t frame = 0;
@@ -156,6 +162,7 @@ struct Report {
   WorstOverstretch worst_overstretch;          ///< of this and earlier frames
   TieGap widest_tie;                           ///< of this frame, by gap / length; a warning says so if not tolerable
   std::vector<IterationResidual> convergence;  ///< last substep by iteration, if Settings::record_residuals is set
+  Compression compression;                     ///< of liquids
   int sleeping_bodies = 0;                     ///< rigid bodies that sleep at the end of the step (SleepOptions)
   std::vector<JointBreak> broken_joints;       ///< joints that broke in this step, by object and index
   std::optional<NonFinite> nonfinite;

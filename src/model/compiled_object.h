@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -109,6 +110,7 @@ struct CompiledObject {
   Carrier carrier;                    ///< motion of all particles of a mesh collider
   Surface surface;
   std::vector<std::array<int, 2>> lines;  ///< contact lines of an object without triangles
+  std::optional<Fluid> fluid;             ///< its particles are a liquid
   bool has_volume = false;
   CompiledVolume volume;
   bool self_collision = false, collides = false, is_collider = false;

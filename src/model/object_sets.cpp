@@ -200,7 +200,22 @@ bool can_follow_volume(const Object& object, double substep) {
   return overstretch_of_inflated(object, substep) <= most_overstretch_of_volumes;
 }
 
+int substeps_of_fluid(const Object& object, double frame_time) {
+  constexpr double error = 0.0035, relaxation = 0.4;        // of solver/fluids/fluid_solver.cpp
+  constexpr double squared_gradients = 0.98, excess = 1.3;  // over 1 / reach^2 in a liquid at rest; over a plain sum
+  const double reach = 2 * static_cast<double>(object.fluid->spacing);
+  float low = 0, high = 0;
+  for (std::size_t i = 0; i < object.positions.size(); ++i) {
+    low = i == 0 ? object.positions[i].y : std::min(low, object.positions[i].y);
+    high = i == 0 ? object.positions[i].y : std::max(high, object.positions[i].y);
+  }
+  const double depth = std::max(static_cast<double>(high - low), 5 * reach);
+  const double h = std::sqrt(error * relaxation / (squared_gradients * excess * least_acceleration * depth / 2)) * reach;
+  return std::clamp(static_cast<int>(std::ceil(std::min(frame_time / h, 1e4))), 4, 1000);
+}
+
 int own_substeps(const Object& object, Sweep sweep, bool is_blown, double frame_time) {
+  if (object.fluid) return substeps_of_fluid(object, frame_time);
   const bool is_of_bodies = !object.bodies.empty() && object.bodies.size() == object.positions.size();
   if (is_of_bodies && !has_converted(object)) return substeps_of_bodies;
   if (object.volume && solves_chains(sweep) && !has_converted(object)) {

@@ -22,6 +22,8 @@ struct ContactKernels;    // solver/contact_kernels.h
 struct LengthKernels;     // solver/length_kernels.h
 struct ManifoldKernels;   // solver/bodies/manifold_kernels.h
 struct MotionKernels;     // solver/motion_kernels.h
+struct FluidKernels;      // solver/fluids/fluid_kernels.h
+struct NeighbourKernels;  // collision/neighbours/neighbour_kernels.h
 struct PairKernels;       // collision/proxies/pair_kernels.h
 
 struct StepKernels {
@@ -62,6 +64,8 @@ struct Kernels : StepKernels {
   const PairKernels& pairs;
   const ManifoldKernels& manifolds;
   const MotionKernels& motions;
+  const NeighbourKernels& neighbours;
+  const FluidKernels& fluids;
 };
 
 /// The readable reference in plain floats. Kernels without a scalar version (multigrid, pairs) use the generic level.

@@ -1,10 +1,12 @@
 // Selects a kernel table: the best for this CPU, or one by name.
 #include <string>
 
+#include "collision/neighbours/neighbour_kernels.h"
 #include "collision/proxies/pair_kernels.h"
 #include "pliant/error.h"
 #include "solver/bodies/manifold_kernels.h"
 #include "solver/contact_kernels.h"
+#include "solver/fluids/fluid_kernels.h"
 #include "solver/kernels.h"
 #include "solver/length_kernels.h"
 #include "solver/motion_kernels.h"
@@ -34,7 +36,8 @@ bool runs_generic() { return true; }
                                chain_kernels_##suffix(),   multigrid_kernels_##suffix(), \
                                contact_kernels_##suffix(), length_kernels_##suffix(),    \
                                pair_kernels_##suffix(),    manifold_kernels_##suffix(),  \
-                               motion_kernels_##suffix()};                               \
+                               motion_kernels_##suffix(),  neighbour_kernels_##suffix(), \
+                               fluid_kernels_##suffix()};                                \
     return table;                                                                        \
   }
 PLIANT_FOR_EACH_LEVEL(PLIANT_LEVEL_TABLE, )
@@ -59,7 +62,8 @@ const Kernels& kernels_sequential() {
                              chain_kernels_sequential(),   multigrid_kernels_generic(),
                              contact_kernels_sequential(), length_kernels_sequential(),
                              pair_kernels_generic(),       manifold_kernels_sequential(),
-                             motion_kernels_sequential()};
+                             motion_kernels_sequential(),  neighbour_kernels_sequential(),
+                             fluid_kernels_sequential()};
   return table;
 }
 

@@ -13,6 +13,7 @@
 #include "model/model.h"
 #include "model/object_sets.h"
 #include "solver/bodies/body_solver.h"
+#include "solver/fluids/fluid_solver.h"
 
 namespace pliant {
 
@@ -32,7 +33,8 @@ struct SubstepGroup {
   std::vector<Phase> phases{};          ///< phases with the tasks of these objects only
   std::vector<Sweep> sweeps{};          ///< sweeps that these objects use
   std::vector<Task> lengths{};          ///< also where it has all: objects solved by chains, and each of their LengthRanges
-  std::unique_ptr<BodySolver> bodies{};  ///< also where it has all; null without rigid bodies
+  std::unique_ptr<BodySolver> bodies{};   ///< also where it has all; null without rigid bodies
+  std::unique_ptr<FluidSolver> fluids{};  ///< likewise; null without liquids
   std::unique_ptr<PairModel> pair_model{};
   std::unique_ptr<SurfaceContact> pairs{};  ///< contact between surfaces; null if no two of the group can touch
 

@@ -133,6 +133,14 @@ void make_body_solvers(WorldData& world) {
   }
 }
 
+/// Makes the liquids of all groups again.
+void make_fluid_solvers(WorldData& world) {
+  for (SubstepGroup& group : world.groups.all) {
+    group.fluids = std::make_unique<FluidSolver>(world.model, group.has_all ? nullptr : &group.objects);
+    if (!group.fluids->has_fluids()) group.fluids = nullptr;
+  }
+}
+
 bool has_contact(const WorldGroups& groups) {
   return groups.pairs_of_all != nullptr || std::any_of(groups.all.begin(), groups.all.end(),
                                                        [](const SubstepGroup& group) { return group.pairs != nullptr; });
@@ -210,6 +218,7 @@ void bring_up_to_date(WorldData& world) {
   if (!has_contact(world.groups)) world.groups.tables = nullptr;
   if (std::exchange(world.groups.colliders_changed, false) || world.groups.objects_changed) make_body_solvers(world);
   if (!world.groups.objects_changed) return;
+  make_fluid_solvers(world);
   for (TileScratch& tile : world.workspace.tiles)
     tile.contacts.clear();  // contacts have collider indices, which may have changed
   if (world.settings.tolerance > 0) prepare_residual(world.model, world.workspace.residual);

@@ -4,6 +4,7 @@
 
 #include "solver/bodies/body_solver.h"
 #include "solver/diagnose.h"
+#include "solver/fluids/fluid_solver.h"
 #include "solver/pair_words.h"
 #include "solver/stages/stages.h"
 #include "solver/substep_law.h"
@@ -31,6 +32,7 @@ Substep begin_group(const StepContext& context, const GroupFrame& of, double dt)
   s.most = of.most_substeps;
   s.least_hanging = of.least_hanging;
   if (of.group != nullptr) s.bodies = of.group->bodies.get();
+  if (of.group != nullptr) s.fluids = of.group->fluids.get();
   if (of.group != nullptr) s.own_lengths = &of.group->lengths;
   for_objects(s, [&](int o) {
     s.work.gravity[o] = {0, static_cast<double>(s.h), 0, 1 / (1 + s.h * s.model.objects[o].damping)};
@@ -40,6 +42,7 @@ Substep begin_group(const StepContext& context, const GroupFrame& of, double dt)
   begin_quarter(s);
   if (s.has_pairs()) s.pairs->begin_frame(s.state.positions.data(), s.work.look_for_tangles);
   if (s.bodies != nullptr) s.bodies->begin_frame(s);
+  if (s.fluids != nullptr) s.fluids->begin_frame();
   s.sweeps_on_entry = may_sweep_on_entry(s);
   return s;
 }
@@ -114,6 +117,13 @@ void add(const PairCounts& c, PairReport& sum) {
   sum.deepest = std::max(sum.deepest, c.deepest);
 }
 
+/// Liquids of several groups: the mean of the worst.
+void add(const Compression& c, Compression& sum) {
+  sum.mean = std::max(sum.mean, c.mean);
+  sum.largest = std::max(sum.largest, c.largest);
+  sum.crowded += c.crowded;
+}
+
 void add(Substep& s, Report& sum) {
   Report& own = s.report;
   sum.substeps = std::max(sum.substeps, s.made);
@@ -122,6 +132,7 @@ void add(Substep& s, Report& sum) {
   sum.sleeping_bodies += own.sleeping_bodies;
   std::move(own.broken_joints.begin(), own.broken_joints.end(), std::back_inserter(sum.broken_joints));
   std::move(own.warnings.begin(), own.warnings.end(), std::back_inserter(sum.warnings));
+  if (s.fluids != nullptr) add(s.fluids->compression(), sum.compression);
   if (!s.has_pairs()) return;
   add(s.pairs->counts(), sum.pairs);
   warn_of_pairs(s.model, *s.pairs, sum.warnings);

@@ -1,0 +1,26 @@
+// Liquids as particles.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pliant/scene.h"
+
+namespace pliant {
+
+/// Options of make_liquid.
+struct LiquidOptions {
+  std::string name = "liquid";
+  Fluid fluid{};
+  Vec3f velocity{};  ///< at the start [m/s]
+};
+
+/// The points of a cubic lattice that fill a box: as many as fit, centred, half a spacing from its faces.
+/// Throws an Error if a size or the spacing is not positive and finite, or if there would be over 2^26 points.
+std::vector<Vec3f> fill_box(const Vec3f& low, const Vec3f& high, float spacing);
+
+/// Makes a liquid of particles at given places, about a spacing apart. Each has the mass of a cube of that side, and touches colliders at
+/// half the spacing, without friction. Throws an Error that names an option that is out of range.
+Object make_liquid(const std::vector<Vec3f>& positions, const LiquidOptions& options = {});
+
+}  // namespace pliant

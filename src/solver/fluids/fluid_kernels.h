@@ -1,0 +1,41 @@
+// The passes over the particles of a liquid, one table for each instruction set level as in solver/kernels.h. All tables give the same
+// bits: a particle adds its neighbours one after another.
+#pragma once
+
+#include <cstdint>
+
+#include "collision/neighbours/neighbour_group.h"
+#include "math/levels.h"
+#include "pliant/state.h"
+#include "solver/fluids/fluid_law.h"
+
+namespace pliant {
+
+/// Arrays by slot (collision/neighbours/neighbour_lists.h). Over fifteen members: what the passes read and write.
+struct FluidArrays {
+  FluidLaw law;
+  float relaxation = 0;  ///< share of a correction that is made
+  float softness = 0;    ///< compliance over the square of the substep [1/m^2]
+
+  const Record* places = nullptr;        ///< predicted [m]
+  Record* weighted = nullptr;            ///< places, and in w what the multiplier changes
+  float* multipliers = nullptr;          ///< of the substep
+  const Record* walls = nullptr;         ///< gradient of the share of walls in the density [1/m], and that share [-]
+  const char* has_walls = nullptr;       ///< for each group, 1 if any of its `walls` is not zero
+  float* densities = nullptr;            ///< over that at rest [-]
+  const std::int32_t* points = nullptr;  ///< of each slot: its particle
+  Record* displacements = nullptr;       ///< by particle [m]
+  int slots = 0;
+};
+
+struct FluidKernels {
+  /// The density of a group's particles, and how far their multipliers change.
+  void (*find_multipliers)(const FluidArrays& arrays, const NeighbourGroup& group, int number);
+  /// Moves a group's particles by these changes and those of their neighbours.
+  void (*move)(const FluidArrays& arrays, const NeighbourGroup& group, int number);
+};
+
+PLIANT_DECLARE_LEVELS(FluidKernels, fluid_kernels)
+const FluidKernels& fluid_kernels_sequential();
+
+}  // namespace pliant

@@ -1,0 +1,72 @@
+// The passes over a group of sixteen slots in sixteen lanes, or over its slots one at a time: fluid_lanes.cpp and fluid_sequential.cpp
+// say how lanes are loaded.
+#pragma once
+
+#include "solver/fluids/fluid_formulas.h"
+#include "solver/fluids/fluid_kernels.h"
+
+namespace pliant {
+inline namespace PLIANT_ISA {
+namespace fluid_formulas {
+
+/// `Lanes` has the type of a value, how many slots it holds, and how it loads and stores them.
+template <class Lanes, class Unit>
+struct Loops {
+  using R = typename Lanes::Value;
+
+  static void find_multipliers(const FluidArrays& a, const NeighbourGroup& group, int number) {
+    for (int lane = 0; lane < neighbour_lanes; lane += Lanes::count) {
+      const int slot = number * neighbour_lanes + lane;
+      const auto own = Lanes::load_own(a.places + slot);
+      Sums<R> sums;
+      for (int k = 0; k < group.rows; ++k) {
+        const auto other = Lanes::load(a.places, group.slots + k * neighbour_lanes + lane);
+        Lanes::store(group.factors + k * neighbour_lanes + lane,
+                     add_neighbour(own.position - other.position, R(a.law.reach), sums));
+      }
+      R wall(0.f);
+      Vec3<R> gradient{wall, wall, wall};
+      if (a.has_walls[number] != 0) {
+        const auto of_walls = Lanes::load_own(a.walls + slot);
+        wall = of_walls.w;
+        gradient = of_walls.position;
+      }
+      const R multiplier = Lanes::load(a.multipliers + slot);
+      const Solved<R> solved = solve(a.law, a.relaxation, a.softness, sums, wall, gradient, multiplier);
+      Lanes::store(a.multipliers + slot, multiplier + solved.change);
+      Lanes::store(a.densities + slot, solved.density);
+      Lanes::store_own(a.weighted + slot, own.position, solved.change);
+    }
+  }
+
+  static void move(const FluidArrays& a, const NeighbourGroup& group, int number) {
+    for (int lane = 0; lane < neighbour_lanes; lane += Lanes::count) {
+      const int slot = number * neighbour_lanes + lane;
+      const auto own = Lanes::load_own(a.weighted + slot);
+      const R zero(0.f);
+      Vec3<R> sum{zero, zero, zero};
+      for (int k = 0; k < group.rows; ++k) {
+        const auto other = Lanes::load(a.weighted, group.slots + k * neighbour_lanes + lane);
+        const R by = (own.w + other.w) * Lanes::load(group.factors + k * neighbour_lanes + lane);
+        const Vec3<R> d = own.position - other.position;
+        sum = {sum.x + by * d.x, sum.y + by * d.y, sum.z + by * d.z};
+      }
+      const R scale(-a.law.gradient_scale);
+      Vec3<R> way{scale * sum.x, scale * sum.y, scale * sum.z};
+      if (a.has_walls[number] != 0) {
+        const auto walls = Lanes::load_own(a.walls + slot);
+        way = {way.x + own.w * walls.position.x, way.y + own.w * walls.position.y, way.z + own.w * walls.position.z};
+      }
+      Lanes::add(a, slot, way);
+    }
+  }
+
+  static const FluidKernels table;
+};
+
+template <class Lanes, class Unit>
+const FluidKernels Loops<Lanes, Unit>::table{find_multipliers, move};
+
+}  // namespace fluid_formulas
+}  // namespace PLIANT_ISA
+}  // namespace pliant

@@ -1,0 +1,137 @@
+#include "solver/fluids/fluid_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "solver/fluids/fluid_kernels.h"
+#include "solver/substep.h"
+
+namespace pliant {
+
+namespace {
+
+/// Neighbours are found again after so many substeps. Finding them in each changes neither the density nor the energy of a dam break.
+constexpr int oldest_neighbours = 5;
+/// Share of a correction that is made, because neighbours correct the same error: without it particles overshoot.
+constexpr float relaxation = 0.4f;
+/// A place where nobody is near [m].
+constexpr float nowhere = 1e18f;
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+/// Liquids mix if these are equal.
+auto kind_of(const CompiledObject& object) { return std::tuple{object.fluid->spacing, object.groups, object.mask}; }
+
+Record predicted(const Substep& s, std::int32_t particle) {
+  const Record &x = s.state.positions[at(particle)], &d = s.work.displacements[at(particle)];
+  return {x.x + d.x, x.y + d.y, x.z + d.z, 0};
+}
+
+/// Calls body(group) for all groups on all threads.
+template <class Body>
+void for_groups(Substep& s, const char* name, const NeighbourLists& lists, const Body& body) {
+  s.context.executor.parallel_for(name, lists.tasks(), [&](int task) {
+    const int first = task * NeighbourLists::groups_in_a_task;
+    const int last = std::min(first + NeighbourLists::groups_in_a_task, lists.groups());
+    for (int group = first; group < last; ++group) body(group);
+  });
+}
+
+}  // namespace
+
+FluidSolver::FluidSolver(const Model& model, const std::vector<int>* objects) {
+  const auto add = [&](int o) {
+    const CompiledObject& object = model.objects[at(o)];
+    if (!object.fluid) return;
+    auto pool = std::find_if(pools_.begin(), pools_.end(), [&](const auto& one) {
+      return kind_of(model.objects[at(one->objects.front())]) == kind_of(object);
+    });
+    if (pool == pools_.end()) pool = pools_.insert(pool, std::make_unique<FluidPool>());
+    FluidPool& p = **pool;
+    p.objects.push_back(o);
+    p.law = fluid_law(object.fluid->spacing);
+    const float c = object.fluid->speed_of_sound;
+    p.softness = c > 0 ? 1 / (c * c) : 0;
+    for (int i = model.first[at(o)]; i < model.end_of(o); ++i) p.points.push_back(i);
+  };
+  const int count = static_cast<int>(objects != nullptr ? objects->size() : model.objects.size());
+  for (int i = 0; i < count; ++i) add(objects != nullptr ? (*objects)[at(i)] : i);
+}
+
+FluidSolver::~FluidSolver() = default;
+
+void FluidSolver::begin_frame() {
+  for (auto& pool : pools_) pool->age = -1;
+}
+
+void FluidSolver::find_neighbours(Substep& s, FluidPool& pool) {
+  Records& by_point = pool.weighted;  // scratch
+  by_point.resize(pool.points.size());
+  for (std::size_t i = 0; i < pool.points.size(); ++i) by_point[i] = predicted(s, pool.points[i]);
+  pool.neighbours.find(s.context.executor, s.kernels.neighbours, by_point, pool.law.reach);
+  const std::vector<std::int32_t>& order = pool.neighbours.order().points();
+  const std::size_t padded = at(pool.neighbours.nobody()) + NeighbourLists::lanes;
+  pool.of_slot.resize(order.size());
+  for (std::size_t slot = 0; slot < order.size(); ++slot) pool.of_slot[slot] = pool.points[at(order[slot])];
+  pool.places.assign(padded, {nowhere, nowhere, nowhere, 0});
+  for (std::size_t slot = 0; slot < order.size(); ++slot) pool.places[slot] = by_point[at(order[slot])];
+  pool.weighted.assign(padded, {nowhere, nowhere, nowhere, 0});
+  pool.multipliers.assign(padded, 0);
+  pool.densities.assign(padded, 0);
+  const Stopwatch watch(s.context.executor.timings(), "neighbours: walls");
+  pool.walls.find(pool.neighbours, pool.places, s.own->colliders, pool.law.reach, pool.law.reach / 2);
+}
+
+void FluidSolver::collide(Substep& s) {
+  for (auto& pool : pools_) {
+    if (pool->age >= 0 && ++pool->age < oldest_neighbours) continue;
+    find_neighbours(s, *pool);
+    pool->age = 0;
+  }
+}
+
+void FluidSolver::project(Substep& s, FluidPool& pool, bool is_first) {
+  if (is_first) std::fill(pool.multipliers.begin(), pool.multipliers.end(), 0.f);
+  const NeighbourLists& lists = pool.neighbours;
+  for_groups(s, "solve: places of liquids", lists, [&](int group) {
+    const int first = group * NeighbourLists::lanes, last = std::min(first + NeighbourLists::lanes, lists.slots());
+    for (int slot = first; slot < last; ++slot) pool.places[at(slot)] = predicted(s, pool.of_slot[at(slot)]);
+    pool.walls.measure(pool.law, s.own->colliders, pool.places, group);
+  });
+  FluidArrays a{pool.law, relaxation, pool.softness / (s.h * s.h)};
+  a.places = pool.places.data();
+  a.weighted = pool.weighted.data();
+  a.multipliers = pool.multipliers.data();
+  a.walls = pool.walls.shares().data();
+  a.has_walls = pool.walls.has_any().data();
+  a.densities = pool.densities.data();
+  a.points = pool.of_slot.data();
+  a.displacements = s.work.displacements.data();
+  a.slots = lists.slots();
+  const FluidKernels& kernels = s.kernels.fluids;
+  for_groups(s, "solve: density", lists, [&](int g) { kernels.find_multipliers(a, lists.group(g), g); });
+  for_groups(s, "solve: density", lists, [&](int g) { kernels.move(a, lists.group(g), g); });
+}
+
+void FluidSolver::project(Substep& s, bool is_first) {
+  for (auto& pool : pools_) project(s, *pool, is_first);
+}
+
+Compression FluidSolver::compression() const {
+  Compression all;
+  double count = 0;
+  for (const auto& pool : pools_) {
+    all.crowded += pool->neighbours.left_out();
+    for (int slot = 0; slot < pool->neighbours.slots(); ++slot) {
+      const double over = static_cast<double>(pool->densities[at(slot)]) - 1;
+      all.mean += std::max(over, 0.0);
+      all.largest = std::max(all.largest, over);
+      ++count;
+    }
+  }
+  if (count > 0) all.mean /= count;
+  return all;
+}
+
+}  // namespace pliant

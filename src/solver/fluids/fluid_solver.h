@@ -1,0 +1,57 @@
+// The liquids of a substep group, as stages of a frame: their neighbours are found every few substeps, and each iteration projects the
+// density constraint of every particle once (Macklin and Mueller 2013), with the small steps of Macklin et al. 2019.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "collision/neighbours/neighbour_lists.h"
+#include "model/model.h"
+#include "pliant/report.h"
+#include "solver/fluids/fluid_walls.h"
+
+namespace pliant {
+
+struct Substep;
+
+/// Liquids with one spacing that mix. Particles are numbered by slots, in the order of cells.
+struct FluidPool {
+  std::vector<int> objects;  ///< ascending
+  FluidLaw law;
+  float softness = 0;                 ///< compliance 1 / c^2, c the speed of sound [s^2/m^2]
+  std::vector<std::int32_t> points;   ///< all particles, as in the State
+  std::vector<std::int32_t> of_slot;  ///< the particle of each slot
+  NeighbourLists neighbours;
+  FluidWalls walls;
+  Records places, weighted;                   ///< by slot
+  std::vector<float> multipliers, densities;  ///< by slot
+  int age = -1;                               ///< substeps since neighbours were found; -1: they must be
+};
+
+class FluidSolver {
+ public:
+  /// For the liquids of the given objects, or of all if it is null.
+  FluidSolver(const Model& model, const std::vector<int>* objects);
+  ~FluidSolver();
+
+  bool has_fluids() const { return !pools_.empty(); }
+
+  /// Starts a frame: neighbours are found in its first substep, so that they follow from the State.
+  void begin_frame();
+  /// After the prediction: finds neighbours, if those known are too old.
+  void collide(Substep& s);
+  /// Projects all density constraints once.
+  void project(Substep& s, bool is_first);
+  /// Of the last projection.
+  Compression compression() const;
+  const std::vector<std::unique_ptr<FluidPool>>& pools() const { return pools_; }
+
+ private:
+  void find_neighbours(Substep& s, FluidPool& pool);
+  void project(Substep& s, FluidPool& pool, bool is_first);
+
+  std::vector<std::unique_ptr<FluidPool>> pools_;
+};
+
+}  // namespace pliant
