@@ -103,8 +103,8 @@ void fields(A& a, Is<WorldLayout> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<Fluid> auto& of) {
-  auto& [spacing, density, speed_of_sound, viscosity] = of;
-  a(spacing, density, speed_of_sound, viscosity);
+  auto& [spacing, density, speed_of_sound] = of;
+  a(spacing, density, speed_of_sound);
 }
 template <class A>
 void fields(A& a, Is<Object> auto& of) {

@@ -105,6 +105,29 @@ const Record& particles_record() {
   return result;
 }
 
+const Record& fill_record() {
+  static const Record result{"fill",
+                             "Particles on a cubic lattice that fills an axis-aligned box.",
+                             {needed("min", place(), "Corner with the smallest coordinates."),
+                              needed("max", place(), "Corner with the largest coordinates.")},
+                             {}};
+  return result;
+}
+
+const Record& liquid_record() {
+  static const Record result{
+      "liquid",
+      "A liquid of particles. Liquids with the same spacing, groups and mask mix; others do not meet.",
+      {either("fill", record(fill_record()), "The box that it fills at the start."),
+       either("positions", list(place(), 1), "Positions of the particles at the start, about a spacing apart."),
+       field("spacing", positive("m", largest_place), Fluid{}.spacing, "Distance of particles at rest."),
+       field("density", positive("kg/m^3"), Fluid{}.density, "Density at rest."),
+       field("speed_of_sound", number("m/s", 0, largest_velocity), Fluid{}.speed_of_sound,
+             "By which it yields to a pressure p: by p / (density c^2). 0: it does not yield.")},
+      {"fill", "positions"}};
+  return result;
+}
+
 const Record& box_select_record() {
   static const Record result{"box of particles",
                              "The particles inside an axis-aligned box or on its surface.",
@@ -185,10 +208,11 @@ std::vector<std::string> sweep_names() {
 const Record& object_record() {
   static const Record result{
       "object",
-      "A cloth, a rope, particles with constraints, rigid bodies, or a robot.",
+      "A cloth, a rope, a liquid, particles with constraints, rigid bodies, or a robot.",
       {field("name", string(), "the kind, with a number if it is taken", "Unique name, used in messages and files."),
        either("cloth", record(cloth_record()), "A cloth, garment or balloon."),
        either("rope", record(rope_record()), "A rope."),
+       either("liquid", record(liquid_record()), "A liquid."),
        either("particles", record(particles_record()), "Particles with constraints."),
        either("bodies", list(record(body_record()), 1), "Rigid bodies: one, a pile, or the parts of a mechanism."),
        either("urdf", record(urdf_record()), "A robot description."),
@@ -198,7 +222,7 @@ const Record& object_record() {
        field("velocity", vector("m/s", largest_velocity), Vec3f{}, "Initial velocity of all its particles."),
        field("pins", list(record(pin_record())), "none", "Kinematic particles."),
        field("attachments", list(record(attachment_record())), "none", "Particles tied to targets."),
-       field("thickness", number("m", 0, largest_place), "the material's; 0.005 for a rope, else 0.001",
+       field("thickness", number("m", 0, largest_place), "the material's; 0.005 for a rope, half the spacing for a liquid, else 0.001",
              "Distance kept from colliders; two surfaces keep the sum of both."),
        field(
            "self_collision", boolean(), "false; true for bodies",
@@ -209,8 +233,8 @@ const Record& object_record() {
        field("groups", bits(), "[0]",
              "Indices of its groups, 0 to 31. Two objects collide if the `mask` of each contains a group of the other."),
        field("mask", bits(), "all", "Indices of the groups that it collides with; [] for none."),
-       field("static_friction", number("-", 0, 1000), "the material's, else 0.4", "Coefficient of static friction."),
-       field("kinetic_friction", number("-", 0, 1000), "the material's, else 0.3; at most the static one",
+       field("static_friction", number("-", 0, 1000), "the material's; 0 for a liquid, else 0.4", "Coefficient of static friction."),
+       field("kinetic_friction", number("-", 0, 1000), "the material's; 0 for a liquid, else 0.3; at most the static one",
              "Coefficient of kinetic friction, at most the static one."),
        field("restitution", share(), Object{}.restitution,
              "Coefficient of restitution: the share of the normal speed kept in a bounce."),
@@ -226,7 +250,7 @@ const Record& object_record() {
        field("damping", number("1/s", 0, 1e6), Object{}.damping,
              "Velocity damping: in a second a share of 1 - exp(-damping) is lost."),
        field("colour", colour(), Object{}.colour, "Colour as linear red, green and blue.")},
-      {"cloth", "rope", "particles", "bodies", "urdf"}};
+      {"cloth", "rope", "liquid", "particles", "bodies", "urdf"}};
   return result;
 }
 

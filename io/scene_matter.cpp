@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "pliant/liquid.h"
 #include "scene_build.h"
 #include "scene_grammar.h"
 #include "scene_values.h"
@@ -56,6 +57,24 @@ BuiltObject rope_of(const JsonDocument& document, const JsonValue& at, const std
   for (const JsonValue& point : elements(at, "points")) points.push_back(vector_of(point));
   if (const JsonValue* line = at.find("line")) points = line_points(*line);
   return {make_rope(points, options)};
+}
+
+BuiltObject liquid_of(const JsonDocument& document, const JsonValue& at, const std::string& name) {
+  LiquidOptions options;
+  options.name = name;
+  set(at, "spacing", options.fluid.spacing);
+  set(at, "density", options.fluid.density);
+  set(at, "speed_of_sound", options.fluid.speed_of_sound);
+  std::vector<Vec3f> positions;
+  for (const JsonValue& position : elements(at, "positions")) positions.push_back(vector_of(position));
+  if (const JsonValue* fill = at.find("fill")) {
+    const Vec3f low = vector_of(*fill->find("min")), high = vector_of(*fill->find("max"));
+    const Vec3f sides = (high - low) * (1 / options.fluid.spacing);
+    if (static_cast<double>(sides.x) * static_cast<double>(sides.y) * static_cast<double>(sides.z) > largest_scene)
+      document.fail(*fill, "more than " + std::to_string(largest_scene) + " particles", "use a larger spacing, or a smaller box");
+    positions = fill_box(low, high, options.fluid.spacing);
+  }
+  return {make_liquid(positions, options)};
 }
 
 std::vector<float> masses_of(const JsonDocument& document, const JsonValue& at, std::size_t particles) {
@@ -170,6 +189,7 @@ BuiltObject build_matter(const JsonDocument& document, const JsonValue& what, co
                          const MeshFolder& folder, std::vector<std::string>& repairs) {
   try {
     if (what.key == "cloth") return cloth_of(document, what, name, folder, repairs);
+    if (what.key == "liquid") return liquid_of(document, what, name);
     if (what.key == "rope") return rope_of(document, what, name);
     if (what.key == "bodies") return {build_bodies(document, what, name, folder, repairs)};
     if (what.key == "urdf") return {build_robot(document, what, name, folder, repairs)};

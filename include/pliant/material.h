@@ -47,7 +47,6 @@ struct Fluid {
   float spacing = 0.02f;     ///< distance of particles at rest [m]
   float density = 1000;      ///< at rest [kg/m^3]
   float speed_of_sound = 0;  ///< by which it yields to pressure p: by p / (density c^2); 0: it does not yield [m/s]
-  float viscosity = 0.001f;  ///< dynamic viscosity [Pa s]; water 0.001, honey 10
 };
 
 /// Properties of a fabric. They do not depend on a mesh.
