@@ -117,7 +117,7 @@ const Record& fill_record() {
 const Record& liquid_record() {
   static const Record result{
       "liquid",
-      "A liquid of particles. Liquids with the same spacing, groups and mask mix; others do not meet.",
+      "A liquid of particles. Liquids with the same spacing, speed of sound, groups and mask mix; others do not meet.",
       {either("fill", record(fill_record()), "The box that it fills at the start."),
        either("positions", list(place(), 1), "Positions of the particles at the start, about a spacing apart."),
        field("spacing", positive("m", largest_place), Fluid{}.spacing, "Distance of particles at rest."),
@@ -222,7 +222,8 @@ const Record& object_record() {
        field("velocity", vector("m/s", largest_velocity), Vec3f{}, "Initial velocity of all its particles."),
        field("pins", list(record(pin_record())), "none", "Kinematic particles."),
        field("attachments", list(record(attachment_record())), "none", "Particles tied to targets."),
-       field("thickness", number("m", 0, largest_place), "the material's; 0.005 for a rope, half the spacing for a liquid, else 0.001",
+       field("thickness", number("m", 0, largest_place),
+             "the material's; 0.005 for a rope, half the spacing for a liquid, else 0.001",
              "Distance kept from colliders; two surfaces keep the sum of both."),
        field(
            "self_collision", boolean(), "false; true for bodies",
@@ -233,7 +234,8 @@ const Record& object_record() {
        field("groups", bits(), "[0]",
              "Indices of its groups, 0 to 31. Two objects collide if the `mask` of each contains a group of the other."),
        field("mask", bits(), "all", "Indices of the groups that it collides with; [] for none."),
-       field("static_friction", number("-", 0, 1000), "the material's; 0 for a liquid, else 0.4", "Coefficient of static friction."),
+       field("static_friction", number("-", 0, 1000), "the material's; 0 for a liquid, else 0.4",
+             "Coefficient of static friction."),
        field("kinetic_friction", number("-", 0, 1000), "the material's; 0 for a liquid, else 0.3; at most the static one",
              "Coefficient of kinetic friction, at most the static one."),
        field("restitution", share(), Object{}.restitution,

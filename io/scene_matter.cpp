@@ -71,7 +71,8 @@ BuiltObject liquid_of(const JsonDocument& document, const JsonValue& at, const s
     const Vec3f low = vector_of(*fill->find("min")), high = vector_of(*fill->find("max"));
     const Vec3f sides = (high - low) * (1 / options.fluid.spacing);
     if (static_cast<double>(sides.x) * static_cast<double>(sides.y) * static_cast<double>(sides.z) > largest_scene)
-      document.fail(*fill, "more than " + std::to_string(largest_scene) + " particles", "use a larger spacing, or a smaller box");
+      document.fail(*fill, "more than " + std::to_string(largest_scene) + " particles",
+                    "use a larger spacing, or a smaller box");
     positions = fill_box(low, high, options.fluid.spacing);
   }
   return {make_liquid(positions, options)};

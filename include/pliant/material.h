@@ -42,7 +42,7 @@ float compliance_from_stiffness(float k, const ConversionContext& context);
 float stiffness_from_compliance(float alpha, const ConversionContext& context);
 
 /// Makes the particles of an object a liquid: a constraint on the density at each of them (Macklin and Mueller 2013). Liquids with the same
-/// spacing, groups and mask mix; others do not meet.
+/// spacing, speed of sound, groups and mask mix; others do not meet.
 struct Fluid {
   float spacing = 0.02f;     ///< distance of particles at rest [m]
   float density = 1000;      ///< at rest [kg/m^3]

@@ -188,6 +188,20 @@ TEST_F(FullScene, HasItsRopes) {
   EXPECT_EQ(scene.objects.at(4).thickness, RopeOptions{}.thickness);
 }
 
+TEST_F(FullScene, HasItsLiquids) {
+  const Object& oil = scene.objects.at(9);
+  ASSERT_TRUE(oil.fluid);
+  EXPECT_EQ(oil.fluid->spacing, 0.25f);
+  EXPECT_EQ(oil.fluid->density, 920);
+  EXPECT_EQ(oil.fluid->speed_of_sound, 12.5f);
+  EXPECT_EQ(oil.positions.size(), 16U);
+  EXPECT_EQ(oil.positions.at(1), (Vec3f{-7.625f, 4.125f, 1.125f}));
+  EXPECT_EQ(oil.masses.at(0), 14.375f);
+  EXPECT_EQ(oil.thickness, 0.125f);
+  EXPECT_EQ(oil.static_friction, 0);
+  EXPECT_EQ(scene.objects.at(10).positions.at(1), (Vec3f{-8, 8.5f, 1}));
+}
+
 TEST_F(FullScene, HasItsParticles) {
   const Object& object = scene.objects.at(5);
   EXPECT_EQ(object.masses, (std::vector<float>{1, 2, std::numeric_limits<float>::infinity(), 4}));
@@ -299,7 +313,7 @@ TEST(SceneSchema, HoldsEveryFieldWithItsRange) {
   EXPECT_EQ(settings.at("properties").at("substeps").at("maximum"), 10000);
   EXPECT_EQ(schema.at("$defs").at("sphere").at("properties").at("radius").at("exclusiveMinimum"), 0);
   EXPECT_EQ(schema.at("$defs").at("scene").at("required"), nlohmann::json({"objects"}));
-  EXPECT_EQ(schema.at("$defs").at("object").at("oneOf").size(), 5U);
+  EXPECT_EQ(schema.at("$defs").at("object").at("oneOf").size(), 6U);
 }
 
 TEST(SceneSchema, NamesEveryConstraintType) {

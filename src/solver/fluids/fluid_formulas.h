@@ -4,13 +4,14 @@
 
 #include "math/inverse_root.h"
 #include "math/vector.h"
+#include "math/wide.h"
 #include "solver/fluids/fluid_law.h"
 
 namespace pliant {
 inline namespace PLIANT_ISA {
 namespace fluid_formulas {
 
-using pliant::max, pliant::min;  // of floats, which those of lanes hide
+using pliant::inverse_root, pliant::max, pliant::min;  // of floats, which those of lanes hide
 
 /// The squared distance of coincident particles [m^2].
 inline constexpr float least_squared = 1e-12f;

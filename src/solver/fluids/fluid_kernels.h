@@ -23,6 +23,7 @@ struct FluidArrays {
   const Record* walls = nullptr;         ///< gradient of the share of walls in the density [1/m], and that share [-]
   const char* has_walls = nullptr;       ///< for each group, 1 if any of its `walls` is not zero
   float* densities = nullptr;            ///< over that at rest [-]
+  const float* lightness = nullptr;      ///< density of the lightest liquid over that of the particle; null: all are equal
   const std::int32_t* points = nullptr;  ///< of each slot: its particle
   Record* displacements = nullptr;       ///< by particle [m]
   int slots = 0;

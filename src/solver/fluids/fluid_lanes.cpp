@@ -1,9 +1,24 @@
 // The passes of a liquid in sixteen SIMD lanes, compiled per instruction set level under the rules of solver/lanes.cpp.
 #include "math/wide.h"
-#include "solver/fluids/fluid_loops.h"
 
 namespace pliant {
 inline namespace PLIANT_ISA {
+/// inverse_root of math/inverse_root.h in each lane.
+PLIANT_HD Wide inverse_root(const Wide& x) {
+  Wide y;
+  PLIANT_EACH_PART(y.part[i] = (Part)(0x5f375a86 - ((PartMask)x.part[i] >> 1)))
+  const Wide half = Wide(0.5f) * x, three_halves(1.5f);
+  y = y * (three_halves - half * y * y);
+  return y * (three_halves - half * y * y);
+}
+}  // namespace PLIANT_ISA
+}  // namespace pliant
+
+#include "solver/fluids/fluid_loops.h"  // after what it uses for lanes
+
+namespace pliant {
+inline namespace PLIANT_ISA {
+
 namespace {
 
 struct ThisUnit {};

@@ -10,6 +10,7 @@ namespace {
 struct Lattice {
   double cubes = 0;         ///< of q^3, with the point itself
   double fourths = 0;       ///< of q^4, without it
+  double moments = 0;       ///< of q^2 r
   double cubes_beyond = 0;  ///< of q^3 behind a plane at half a spacing
 };
 
@@ -18,9 +19,10 @@ Lattice lattice() {
   for (int z = -2; z <= 2; ++z)
     for (int y = -2; y <= 2; ++y)
       for (int x = -2; x <= 2; ++x) {
-        const double q = 2 - sqrt(static_cast<double>(x * x + y * y + z * z));
+        const double r = sqrt(static_cast<double>(x * x + y * y + z * z)), q = 2 - r;
         if (!(q > 0)) continue;
         sums.cubes += q * q * q;
+        sums.moments += q * q * r;
         if (x < 0) sums.cubes_beyond += q * q * q;
         if (x != 0 || y != 0 || z != 0) sums.fourths += q * q * q * q;
       }
@@ -33,6 +35,14 @@ double squared_gradients_at_rest(float spacing) {
   const Lattice sums = lattice();
   const double s = static_cast<double>(spacing);
   return 9 * sums.fourths / (sums.cubes * sums.cubes * s * s);
+}
+
+float fluid_compliance(float speed_of_sound) {
+  if (!(speed_of_sound > 0)) return 0;
+  const Lattice sums = lattice();
+  const double c = static_cast<double>(speed_of_sound),
+               passed_on = sums.moments / sums.cubes;  // 3 / S times a third: along an axis
+  return static_cast<float>(passed_on / (c * c));
 }
 
 FluidLaw fluid_law(float spacing) {

@@ -22,6 +22,10 @@ FluidLaw fluid_law(float spacing);
 /// The sum of squared gradients of a particle inside a liquid at rest, if all have the same mass [1/m^2].
 double squared_gradients_at_rest(float spacing);
 
+/// The compliance of a liquid whose density grows by p / (density c^2) under a pressure p [s^2/m^2]; 0 if c is 0. A lattice of particles
+/// passes on 0.77 of the pressure that the multipliers stand for, so multipliers are larger than p.
+float fluid_compliance(float speed_of_sound);
+
 /// The share of the kernel's integral that lies behind a plane at distance d from its centre, for 0 <= t = 1 - d / reach <= 1: 0.5 for d = 0.
 template <class R>
 PLIANT_HD R share_behind_plane(const R& t) {

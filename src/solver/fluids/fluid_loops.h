@@ -57,6 +57,10 @@ struct Loops {
         const auto walls = Lanes::load_own(a.walls + slot);
         way = {way.x + own.w * walls.position.x, way.y + own.w * walls.position.y, way.z + own.w * walls.position.z};
       }
+      if (a.lightness != nullptr) {
+        const R share = Lanes::load(a.lightness + slot);
+        way = {share * way.x, share * way.y, share * way.z};
+      }
       Lanes::add(a, slot, way);
     }
   }

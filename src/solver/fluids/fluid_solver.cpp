@@ -21,7 +21,9 @@ constexpr float nowhere = 1e18f;
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Liquids mix if these are equal.
-auto kind_of(const CompiledObject& object) { return std::tuple{object.fluid->spacing, object.groups, object.mask}; }
+auto kind_of(const CompiledObject& object) {
+  return std::tuple{object.fluid->spacing, object.fluid->speed_of_sound, object.groups, object.mask};
+}
 
 Record predicted(const Substep& s, std::int32_t particle) {
   const Record &x = s.state.positions[at(particle)], &d = s.work.displacements[at(particle)];
@@ -51,12 +53,23 @@ FluidSolver::FluidSolver(const Model& model, const std::vector<int>* objects) {
     FluidPool& p = **pool;
     p.objects.push_back(o);
     p.law = fluid_law(object.fluid->spacing);
-    const float c = object.fluid->speed_of_sound;
-    p.softness = c > 0 ? 1 / (c * c) : 0;
+    p.softness = fluid_compliance(object.fluid->speed_of_sound);
     for (int i = model.first[at(o)]; i < model.end_of(o); ++i) p.points.push_back(i);
+  };
+  const auto densities = [&](FluidPool& p) {
+    float least = model.objects[at(p.objects.front())].fluid->density, most = least;
+    for (const int o : p.objects) {
+      const CompiledObject& object = model.objects[at(o)];
+      least = std::min(least, object.fluid->density);
+      most = std::max(most, object.fluid->density);
+      p.lightness_of_point.resize(p.lightness_of_point.size() + at(object.particles), object.fluid->density);
+    }
+    for (float& of : p.lightness_of_point) of = least / of;
+    if (least == most) p.lightness_of_point.clear();
   };
   const int count = static_cast<int>(objects != nullptr ? objects->size() : model.objects.size());
   for (int i = 0; i < count; ++i) add(objects != nullptr ? (*objects)[at(i)] : i);
+  for (auto& pool : pools_) densities(*pool);
 }
 
 FluidSolver::~FluidSolver() = default;
@@ -77,6 +90,9 @@ void FluidSolver::find_neighbours(Substep& s, FluidPool& pool) {
   pool.places.assign(padded, {nowhere, nowhere, nowhere, 0});
   for (std::size_t slot = 0; slot < order.size(); ++slot) pool.places[slot] = by_point[at(order[slot])];
   pool.weighted.assign(padded, {nowhere, nowhere, nowhere, 0});
+  pool.lightness.assign(pool.lightness_of_point.empty() ? 0 : padded, 1);
+  for (std::size_t slot = 0; slot < order.size() && !pool.lightness.empty(); ++slot)
+    pool.lightness[slot] = pool.lightness_of_point[at(order[slot])];
   pool.multipliers.assign(padded, 0);
   pool.densities.assign(padded, 0);
   const Stopwatch watch(s.context.executor.timings(), "neighbours: walls");
@@ -106,6 +122,7 @@ void FluidSolver::project(Substep& s, FluidPool& pool, bool is_first) {
   a.walls = pool.walls.shares().data();
   a.has_walls = pool.walls.has_any().data();
   a.densities = pool.densities.data();
+  a.lightness = pool.lightness.empty() ? nullptr : pool.lightness.data();
   a.points = pool.of_slot.data();
   a.displacements = s.work.displacements.data();
   a.slots = lists.slots();

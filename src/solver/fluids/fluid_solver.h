@@ -19,11 +19,13 @@ struct Substep;
 struct FluidPool {
   std::vector<int> objects;  ///< ascending
   FluidLaw law;
-  float softness = 0;                 ///< compliance 1 / c^2, c the speed of sound [s^2/m^2]
+  float softness = 0;                 ///< compliance [s^2/m^2]
   std::vector<std::int32_t> points;   ///< all particles, as in the State
   std::vector<std::int32_t> of_slot;  ///< the particle of each slot
   NeighbourLists neighbours;
   FluidWalls walls;
+  std::vector<float> lightness_of_point;      ///< the least density over that of each point; empty if all are equal
+  std::vector<float> lightness;               ///< the same by slot
   Records places, weighted;                   ///< by slot
   std::vector<float> multipliers, densities;  ///< by slot
   int age = -1;                               ///< substeps since neighbours were found; -1: they must be
