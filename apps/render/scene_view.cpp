@@ -9,6 +9,7 @@
 #include "geometry.h"
 #include "io/write_frames.h"
 #include "matrix.h"
+#include "pliant/surface.h"
 #include "render.h"
 
 namespace pliant::render {
@@ -143,12 +144,25 @@ void add_weights(RenderScene& result, const Object& object, const std::vector<Ve
   }
 }
 
+/// Draws the surface of a liquid. Particles that are not finite, or far away, are left out.
+void add_liquid(RenderScene& result, const Object& object, std::vector<Vec3f> positions, const Vec3f& colour) {
+  const float spacing = object.fluid->spacing, most = 1e6f * spacing;
+  std::erase_if(positions,
+                [&](const Vec3f& p) { return !(std::abs(p.x) < most && std::abs(p.y) < most && std::abs(p.z) < most); });
+  TriangleMesh surface = liquid_surface(positions, {.spacing = spacing});
+  result.meshes.push_back({.positions = std::move(surface.positions),
+                           .triangles = std::move(surface.triangles),
+                           .colour = colour,
+                           .is_liquid = true});
+}
+
 void add_object(RenderScene& result, const Object& object, const ObjectView& view) {
   const output::FrameObject shape = output::describe(object);
   std::vector<Vec3f> positions = view.positions();
   add_bodies(result, object, shape, view);
   add_threads(result, object, view);
   if (!shape.has_matter()) return;
+  if (object.fluid) return add_liquid(result, object, std::move(positions), shape.colour);
   if (!shape.triangles.empty()) {
     result.meshes.push_back({std::move(positions), shape.triangles, shape.colour, false});
     return;

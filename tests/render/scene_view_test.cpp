@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "pliant/body.h"
+#include "pliant/surface.h"
 #include "render/render.h"
 
 namespace pliant::render {
@@ -109,6 +110,24 @@ TEST(SceneView, ShowsFreeParticlesAsBalls) {
   EXPECT_EQ(picture.balls[0].radius, object.thickness);
   const Extent extent = extent_of({picture});
   EXPECT_NEAR(extent.centre.x, 0.25f, 1e-5f);
+}
+
+TEST(SceneView, ShowsALiquidAsItsSurface) {
+  Scene scene;
+  Object object;
+  for (int i = 0; i < 64; ++i)
+    object.positions.push_back(
+        Vec3f{static_cast<float>(i & 3), static_cast<float>(i >> 2 & 3), static_cast<float>(i >> 4)} * 0.1f);
+  object.masses.assign(64, 1);
+  object.fluid = Fluid{.spacing = 0.1f};
+  scene.add(object);
+  const RenderScene picture = make_render_scene(scene, World(scene));
+  ASSERT_EQ(picture.meshes.size(), 1u);
+  EXPECT_TRUE(picture.balls.empty());
+  EXPECT_TRUE(picture.meshes[0].is_liquid);
+  const TriangleMesh expected = liquid_surface(object.positions, {.spacing = 0.1f});
+  EXPECT_EQ(picture.meshes[0].positions, expected.positions);
+  EXPECT_EQ(picture.meshes[0].triangles, expected.triangles);
 }
 
 TEST(SceneView, PutsTheGroundUnderEverything) {
