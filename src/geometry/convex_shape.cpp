@@ -52,7 +52,7 @@ Feature points_of(std::initializer_list<Vec3d> points) {
   return out;
 }
 
-/// The face that is flattest in a direction, an edge of it, or the farthest corner.
+/// The face that is flattest in a direction, if all of it is near; else the farthest edge that is, or the farthest corner.
 Feature feature_of(const Polyhedron& p, const Vec3d& direction, double slack) {
   const Vec3d top = farthest_corner(p, direction);
   const double least = dot(direction, top) - slack;
@@ -62,10 +62,17 @@ Feature feature_of(const Polyhedron& p, const Vec3d& direction, double slack) {
     if (dot(direction, convert<double>(p.normals[f])) > dot(direction, convert<double>(p.normals[best]))) best = f;
   const auto first = p.face_corners.begin() + p.first_of_face[best], last = first + p.corners_of(best);
   if (std::all_of(first, last, is_near)) return face_of(p, best);
-  for (const PolyhedronEdge& edge : p.edges)
-    if (is_near(edge.a) && is_near(edge.b))
-      return points_of({convert<double>(p.corners[edge.a]), convert<double>(p.corners[edge.b])});
-  return points_of({top});
+  const PolyhedronEdge* farthest = nullptr;  // of those near, else a box that tips about an edge would lie on another one
+  double reached = 0;
+  for (const PolyhedronEdge& edge : p.edges) {
+    if (!is_near(edge.a) || !is_near(edge.b)) continue;
+    const double far = dot(direction, convert<double>(p.corners[edge.a]) + convert<double>(p.corners[edge.b]));
+    if (farthest != nullptr && !(far > reached)) continue;
+    farthest = &edge;
+    reached = far;
+  }
+  if (farthest == nullptr) return points_of({top});
+  return points_of({convert<double>(p.corners[farthest->a]), convert<double>(p.corners[farthest->b])});
 }
 
 /// Of a solid of revolution with a segment as its outline: a disc below, one above if `has_top`, and a side.
