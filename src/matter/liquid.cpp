@@ -24,6 +24,7 @@ std::vector<float> places(float low, float high, float spacing) {
   const auto count = std::max(1, static_cast<int>(std::floor((high - low) / spacing * (1 + 1e-5f))));
   const float first = (low + high) / 2 - spacing * static_cast<float>(count - 1) / 2;
   std::vector<float> out;
+  out.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) out.push_back(first + spacing * static_cast<float>(i));
   return out;
 }
