@@ -69,8 +69,11 @@ BuiltObject liquid_of(const JsonDocument& document, const JsonValue& at, const s
   for (const JsonValue& position : elements(at, "positions")) positions.push_back(vector_of(position));
   if (const JsonValue* fill = at.find("fill")) {
     const Vec3f low = vector_of(*fill->find("min")), high = vector_of(*fill->find("max"));
-    const Vec3f sides = (high - low) * (1 / options.fluid.spacing);
-    if (static_cast<double>(sides.x) * static_cast<double>(sides.y) * static_cast<double>(sides.z) > largest_scene)
+    const auto along = [&](float from, float to) {
+      return std::max(1.,
+                      (static_cast<double>(to) - static_cast<double>(from)) / static_cast<double>(options.fluid.spacing));
+    };
+    if (along(low.x, high.x) * along(low.y, high.y) * along(low.z, high.z) > largest_scene)
       document.fail(*fill, "more than " + std::to_string(largest_scene) + " particles",
                     "use a larger spacing, or a smaller box");
     positions = fill_box(low, high, options.fluid.spacing);

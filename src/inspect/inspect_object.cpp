@@ -259,6 +259,14 @@ void check_control(Problems& problems, const Object& object) {
 
 }  // namespace
 
+void check_fluid(Problems& problems, const Object& object) {
+  constexpr double least = 1e-9;  // spacing [m] and density [kg/m^3]: their powers must be floats
+  if (!object.fluid) return;
+  require_range(problems, "fluid, spacing", object.fluid->spacing, least, largest_place);
+  require_range(problems, "fluid, density", object.fluid->density, least, 1e12);
+  require_range(problems, "fluid, speed_of_sound", object.fluid->speed_of_sound, 0, largest_place);
+}
+
 void check_object(Problems& problems, const Object& object) {
   check_positions(problems, object);
   check_velocities(problems, object);
@@ -270,6 +278,7 @@ void check_object(Problems& problems, const Object& object) {
   check_volume(problems, object, sound);
   check_control(problems, object);
   require_range(problems, "thickness", object.thickness, 0, largest_place);
+  check_fluid(problems, object);
   check_friction(problems, object.static_friction, object.kinetic_friction, object.restitution);
   check_rolling(problems, object.rolling_friction, object.spinning_friction);
   require_range(problems, "drag", object.drag, 0, largest_place);

@@ -1,7 +1,7 @@
 // Makes a liquid: particles, each with the mass of a cube whose side is the spacing.
 #include "pliant/liquid.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -36,9 +36,10 @@ std::vector<Vec3f> fill_box(const Vec3f& low, const Vec3f& high, float spacing) 
   require_positive("", "spacing", spacing, "distance of particles [m]");
   const Vec3f size = high - low;
   for (const float side : {size.x, size.y, size.z}) require_positive("", "side of the box", side, "length [m]");
-  const double s = static_cast<double>(spacing);
-  const double points =
-      static_cast<double>(size.x) / s * (static_cast<double>(size.y) / s) * (static_cast<double>(size.z) / s);
+  const auto along = [&](float side) {
+    return std::max(1., std::floor(static_cast<double>(side) / static_cast<double>(spacing)));
+  };
+  const double points = along(size.x) * along(size.y) * along(size.z);
   if (points > most_points)
     throw Error({.element = "box"}, "would have " + std::to_string(points) + " particles",
                 "give a larger spacing or a smaller box");

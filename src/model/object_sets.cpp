@@ -121,7 +121,14 @@ int substeps_of_stretching(const Object& object) {
   return std::clamp(4 * quarter, substeps_of_others, most_substeps_of_volumes);
 }
 
+/// True if both are liquids that mix.
+bool are_of_a_kind(const SetMember& a, const SetMember& b) {
+  return a.spacing > 0 && a.spacing == b.spacing && a.speed_of_sound == b.speed_of_sound && a.groups == b.groups &&
+         a.mask == b.mask;
+}
+
 bool can_meet(const SetMember& a, const SetMember& b) {
+  if (are_of_a_kind(a, b)) return true;
   const bool by_masks = (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
   const bool by_kind = a.is_collider != b.is_collider || (a.collides && b.collides && !a.is_collider);
   return by_masks && by_kind;
@@ -148,12 +155,13 @@ class Forest {
 
 /// Divides members into classes that meet the same members. Scenes with many objects have few classes.
 std::vector<std::vector<int>> classes_of(const std::vector<SetMember>& members) {
-  std::map<std::tuple<std::uint32_t, std::uint32_t, bool, bool>, std::size_t> numbers;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, bool, bool, float, float>, std::size_t> numbers;
   std::vector<std::vector<int>> classes;
   for (int i = 0; i < static_cast<int>(members.size()); ++i) {
     const SetMember& m = members[i];
     const std::size_t number =
-        numbers.try_emplace({m.groups, m.mask, m.collides, m.is_collider}, classes.size()).first->second;
+        numbers.try_emplace({m.groups, m.mask, m.collides, m.is_collider, m.spacing, m.speed_of_sound}, classes.size())
+            .first->second;
     if (number == classes.size()) classes.emplace_back();
     classes[number].push_back(i);
   }
@@ -248,7 +256,8 @@ SubstepRule substep_rule(const Object& object, Sweep sweep, double gravity) {
 }
 
 SetMember member_of(const Object& object, int substeps, SubstepRule rule) {
-  return {object.groups, object.mask, object.collides, false, substeps, rule};
+  const Fluid fluid = object.fluid.value_or(Fluid{.spacing = 0});
+  return {object.groups, object.mask, object.collides, false, substeps, rule, fluid.spacing, fluid.speed_of_sound};
 }
 
 SetMember member_of(const MeshCollider& collider) {

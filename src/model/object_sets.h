@@ -87,6 +87,7 @@ struct SetMember {
   bool is_collider = false;  ///< a mesh collider, which touches all objects, but no other collider
   int substeps = 0;          ///< substeps that it needs by itself; 0: any number
   SubstepRule rule = SubstepRule::any;
+  float spacing = 0, speed_of_sound = 0;  ///< of a liquid, which meets those that have the same; 0: it is none
 };
 
 SetMember member_of(const Object& object, int substeps, SubstepRule rule);

@@ -89,6 +89,13 @@ TEST(Neighbours, AreFoundFarFromTheOriginAndBeyondTheGrid) {
   }
 }
 
+TEST(Neighbours, AreFoundBesidePointsAtBothEndsOfTheGrid) {
+  std::vector<Record> points = cloud(300, 0.5f, 11);
+  points[0] = {1e8f, 1e8f, 1e8f, 0};
+  points[1] = {-1e8f, -1e8f, -1e8f, 0};
+  EXPECT_EQ(by_lists(points, neighbour_kernels_generic()), by_brute_force(points));
+}
+
 TEST(Neighbours, OfNoPointAndOfOneAreNone) {
   EXPECT_TRUE(by_lists({}, neighbour_kernels_generic()).empty());
   EXPECT_TRUE(by_lists({{1, 2, 3, 0}}, neighbour_kernels_generic()).front().empty());

@@ -223,6 +223,38 @@ TEST(Liquid, ThatIsHeavierSinksBelowALighterOne) {
   EXPECT_GT(height(0) - height(1), 0.2);
 }
 
+// They share substeps, although the low one alone would need fewer.
+TEST(Liquid, MixesWithOneOfAnotherHeight) {
+  Scene scene;
+  const auto add = [&](const char* name, float from, float height) {
+    scene.add(make_liquid(fill_box({from, 0, 0}, {from + 0.25f, height, 0.25f}, 0.025f),
+                          {.name = name, .fluid = {.spacing = 0.025f}}));
+  };
+  add("low", 0, 0.1f);
+  add("high", 0.25f, 0.6f);
+  add_tank(scene, {0.5f, 1, 0.25f});
+  World world(scene);
+  EXPECT_EQ(world.object(0).info().substeps, world.object(1).info().substeps);
+  run(world, 120);
+  double mean = 0, count = 0;
+  for (int object = 0; object < 2; ++object)
+    for (const Vec3f& p : world.object(object).positions()) {
+      mean += static_cast<double>(p.y);
+      ++count;
+    }
+  EXPECT_NEAR(mean / count, 0.35 / 2, 0.02);  // as deep as both together
+}
+
+TEST(Liquid, DoesNotMoveItsFixedParticles) {
+  Scene scene = column(0.5f);
+  scene.objects[0].pins = {{0, {}}, {40, {}}};
+  const Vec3f first = scene.objects[0].positions[0], other = scene.objects[0].positions[40];
+  World world(scene);
+  run(world, 30);
+  EXPECT_EQ(world.object(0).positions()[0], first);
+  EXPECT_EQ(world.object(0).positions()[40], other);
+}
+
 std::string why_not(const std::function<void()>& make) {
   try {
     make();
@@ -239,6 +271,13 @@ TEST(Liquid, NamesWhatIsOutOfRange) {
   EXPECT_NE(why_not([] { make_liquid({{}}, {.fluid = {.speed_of_sound = NAN}}); }).find("speed_of_sound"),
             std::string::npos);
   EXPECT_NE(why_not([] { fill_box({0, 0, 0}, {1, -1, 1}, 0.1f); }).find("side"), std::string::npos);
+  EXPECT_NE(why_not([] { fill_box({0, 0, 0}, {1e6f, 1e-6f, 1e-6f}, 1e-4f); }).find("larger spacing"), std::string::npos);
+  EXPECT_NE(why_not([] {
+              Scene scene = column(0.5f);
+              scene.objects[0].fluid->spacing = NAN;
+              const World world(scene);
+            }).find("spacing"),
+            std::string::npos);
   EXPECT_NE(why_not([] { fill_box({0, 0, 0}, {1, 1, 1}, 1e-4f); }).find("larger spacing"), std::string::npos);
 }
 

@@ -9,7 +9,7 @@ namespace pliant {
 namespace {
 
 /// Places beyond this many columns from the origin share the outermost cells.
-constexpr std::int32_t farthest = 1 << 20;
+constexpr std::int32_t farthest = (1 << 20) - 1;  // so that three places fit in a key
 constexpr int digit_bits = 11;
 
 /// The largest whole number that is not above `x`, within the grid; for NaN its end.

@@ -90,13 +90,25 @@ void FluidSolver::find_neighbours(Substep& s, FluidPool& pool) {
   pool.places.assign(padded, {nowhere, nowhere, nowhere, 0});
   for (std::size_t slot = 0; slot < order.size(); ++slot) pool.places[slot] = by_point[at(order[slot])];
   pool.weighted.assign(padded, {nowhere, nowhere, nowhere, 0});
-  pool.lightness.assign(pool.lightness_of_point.empty() ? 0 : padded, 1);
-  for (std::size_t slot = 0; slot < order.size() && !pool.lightness.empty(); ++slot)
-    pool.lightness[slot] = pool.lightness_of_point[at(order[slot])];
+  find_lightness(s.state, pool);
   pool.multipliers.assign(padded, 0);
   pool.densities.assign(padded, 0);
   const Stopwatch watch(s.context.executor.timings(), "neighbours: walls");
-  pool.walls.find(pool.neighbours, pool.places, s.own->colliders, pool.law.reach, pool.law.reach / 2);
+  pool.walls.find(s.model.objects[at(pool.objects.front())], pool.neighbours, pool.places, s.own->colliders, pool.law.reach,
+                  pool.law.reach / 2);
+}
+
+/// Particles that are fixed do not move, but push others.
+void FluidSolver::find_lightness(const State& state, FluidPool& pool) const {
+  const auto is_fixed = [&](std::int32_t particle) { return state.positions[at(particle)].w == 0; };
+  const bool are_alike = pool.lightness_of_point.empty() && std::none_of(pool.points.begin(), pool.points.end(), is_fixed);
+  pool.lightness.assign(are_alike ? 0 : pool.places.size(), 1);
+  if (are_alike) return;
+  const std::vector<std::int32_t>& order = pool.neighbours.order().points();
+  for (std::size_t slot = 0; slot < order.size(); ++slot) {
+    if (!pool.lightness_of_point.empty()) pool.lightness[slot] = pool.lightness_of_point[at(order[slot])];
+    if (is_fixed(pool.of_slot[slot])) pool.lightness[slot] = 0;
+  }
 }
 
 void FluidSolver::collide(Substep& s) {

@@ -24,8 +24,8 @@ struct FluidPool {
   std::vector<std::int32_t> of_slot;  ///< the particle of each slot
   NeighbourLists neighbours;
   FluidWalls walls;
-  std::vector<float> lightness_of_point;      ///< the least density over that of each point; empty if all are equal
-  std::vector<float> lightness;               ///< the same by slot
+  std::vector<float> lightness_of_point;      ///< the least density over that of each point; empty if all have one
+  std::vector<float> lightness;               ///< the same by slot, 0 for a fixed particle; empty if all are 1
   Records places, weighted;                   ///< by slot
   std::vector<float> multipliers, densities;  ///< by slot
   int age = -1;                               ///< substeps since neighbours were found; -1: they must be
@@ -51,6 +51,7 @@ class FluidSolver {
 
  private:
   void find_neighbours(Substep& s, FluidPool& pool);
+  void find_lightness(const State& state, FluidPool& pool) const;
   void project(Substep& s, FluidPool& pool, bool is_first);
 
   std::vector<std::unique_ptr<FluidPool>> pools_;

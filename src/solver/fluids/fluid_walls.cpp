@@ -16,6 +16,11 @@ SurfaceDistance<float> distance_to(const MovingCollider& collider, const Vec3f& 
   return {to.distance - collider.thickness, rotate(collider.after.rotation, to.normal)};
 }
 
+/// Primitive colliders meet every object.
+bool can_meet(const CompiledObject& liquid, const MovingCollider& collider) {
+  return collider.field == nullptr || ((liquid.groups & collider.mask) != 0 && (collider.groups & liquid.mask) != 0);
+}
+
 /// What the walls so far leave of a kernel, and the gradient of what they take.
 struct Left {
   float share = 1;
@@ -41,8 +46,8 @@ Left left_by(const FluidLaw& law, const std::vector<MovingCollider>& colliders, 
 
 }  // namespace
 
-void FluidWalls::find(const NeighbourLists& lists, const Records& places, const std::vector<MovingCollider>& colliders,
-                      float reach, float motion) {
+void FluidWalls::find(const CompiledObject& liquid, const NeighbourLists& lists, const Records& places,
+                      const std::vector<MovingCollider>& colliders, float reach, float motion) {
   begin_.assign(1, 0);
   near_.clear();
   has_any_.assign(at(lists.groups()), 0);
@@ -50,6 +55,7 @@ void FluidWalls::find(const NeighbourLists& lists, const Records& places, const 
   for (int g = 0; g < lists.groups(); ++g) {
     const int first = g * NeighbourLists::lanes, last = std::min(first + NeighbourLists::lanes, lists.slots());
     for (std::size_t c = 0; c < colliders.size(); ++c) {
+      if (!can_meet(liquid, colliders[c])) continue;
       const auto is_near = [&](const Record& p) {
         return distance_to(colliders[c], {p.x, p.y, p.z}).distance < reach + motion;
       };

@@ -18,8 +18,8 @@ namespace pliant {
 class FluidWalls {
  public:
   /// Finds the colliders near each group of slots, for as long as no point moves farther than `motion` [m] against them.
-  void find(const NeighbourLists& lists, const Records& places, const std::vector<MovingCollider>& colliders, float reach,
-            float motion);
+  void find(const CompiledObject& liquid, const NeighbourLists& lists, const Records& places,
+            const std::vector<MovingCollider>& colliders, float reach, float motion);
   /// Measures the share of colliders at the present places of a group's slots.
   void measure(const FluidLaw& law, const std::vector<MovingCollider>& colliders, const Records& places, int group);
 
