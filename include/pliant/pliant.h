@@ -10,6 +10,7 @@
 #include "pliant/handles.h"
 #include "pliant/io.h"
 #include "pliant/joint.h"
+#include "pliant/liquid.h"
 #include "pliant/material.h"
 #include "pliant/measurements.h"
 #include "pliant/mesh.h"

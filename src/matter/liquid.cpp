@@ -65,6 +65,7 @@ Object make_liquid(const std::vector<Vec3f>& positions, const LiquidOptions& opt
   if (length_squared(options.velocity) > 0) liquid.velocities.assign(positions.size(), options.velocity);
   liquid.fluid = fluid;
   liquid.thickness = fluid.spacing / 2;
+  liquid.collides = true;
   liquid.static_friction = liquid.kinetic_friction = 0;
   liquid.colour = {0.1f, 0.3f, 0.6f};
   return liquid;

@@ -286,17 +286,18 @@ std::vector<int> find_sets(const std::vector<SetMember>& members) {
 
 std::vector<SetSubsteps> substeps_of_sets(const std::vector<SetMember>& members) {
   const std::vector<int> sets = find_sets(members);
-  std::vector<int> most(members.size(), 0), least(members.size(), 0);
+  std::vector<int> most(members.size(), 0), least(members.size(), 0), of_solids(members.size(), 0);
   std::vector<SubstepRule> rule(members.size(), SubstepRule::any);
   for (std::size_t i = 0; i < members.size(); ++i) {
     most[sets[i]] = std::max(most[sets[i]], members[i].substeps);
+    if (!(members[i].spacing > 0)) of_solids[sets[i]] = std::max(of_solids[sets[i]], members[i].substeps);
     if (members[i].rule != SubstepRule::by_state) least[sets[i]] = std::max(least[sets[i]], members[i].substeps);
     rule[sets[i]] = std::max(rule[sets[i]], members[i].rule);
   }
   std::vector<SetSubsteps> out;
   out.reserve(sets.size());
   for (const int set : sets) {
-    const bool is_coupled = rule[set] == SubstepRule::constant && most[set] > substeps_of_bodies;
+    const bool is_coupled = rule[set] == SubstepRule::constant && of_solids[set] > substeps_of_bodies;
     const int wanted = is_coupled ? std::max(most[set], substeps_of_coupled) : most[set];
     const int substeps = rule[set] == SubstepRule::fixed ? substeps_of_others : wanted;
     out.push_back({set, substeps, rule[set] == SubstepRule::by_state, least[set]});

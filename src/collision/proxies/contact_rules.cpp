@@ -17,6 +17,7 @@ void ContactRules::set(int body, const ContactBody& by) {
 bool ContactRules::meet(int a, int b) const {
   const ContactBody &p = bodies_[static_cast<std::size_t>(a)], &q = bodies_[static_cast<std::size_t>(b)];
   if (a == b) return p.meets_itself;
+  if (p.mixes_with(q)) return false;
   const bool masks = (p.groups & q.mask) != 0 && (q.groups & p.mask) != 0;
   const bool meant = (p.collides && q.collides) || p.is_collider || q.is_collider;
   return masks && meant && !(p.is_immovable && q.is_immovable);
@@ -42,7 +43,7 @@ std::vector<int> ContactRules::excepted() const {
 /// Sorts bodies into classes with equal contact rules; returns the class of each body.
 std::vector<int> ContactRules::find_classes(const std::vector<int>& among, std::vector<Class>& classes) const {
   const std::vector<int> alone = excepted();
-  using Key = std::tuple<std::uint32_t, std::uint32_t, int, int>;
+  using Key = std::tuple<std::uint32_t, std::uint32_t, int, int, float, float>;
   std::map<Key, int> numbers;
   const std::pair<const Key, int>* last = nullptr;  // cached, because most bodies have the same rules as the previous one
   std::vector<int> class_of;
@@ -51,7 +52,7 @@ std::vector<int> ContactRules::find_classes(const std::vector<int>& among, std::
     const ContactBody& body = bodies_[static_cast<std::size_t>(number)];
     const int flags = (body.collides ? 1 : 0) + (body.is_collider ? 2 : 0) + (body.is_immovable ? 4 : 0);
     const bool is_alone = std::binary_search(alone.begin(), alone.end(), number);
-    const Key key{body.groups, body.mask, flags, is_alone ? number : -1};
+    const Key key{body.groups, body.mask, flags, is_alone ? number : -1, body.spacing, body.speed_of_sound};
     if (last == nullptr || last->first != key) last = &*numbers.try_emplace(key, static_cast<int>(classes.size())).first;
     if (static_cast<std::size_t>(last->second) == classes.size()) classes.emplace_back();
     class_of.push_back(last->second);

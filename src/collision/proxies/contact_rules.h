@@ -14,12 +14,18 @@ namespace pliant {
 /// The contact settings of a body.
 struct ContactBody {
   std::uint32_t groups = 1, mask = ~0u;
-  bool collides = true;       ///< meets other bodies whose `collides` is true
-  bool is_collider = false;   ///< a collider, which also meets bodies whose `collides` is false
-  bool is_immovable = false;  ///< static or kinematic: two such bodies never meet
+  bool collides = true;                   ///< meets other bodies whose `collides` is true
+  float spacing = 0, speed_of_sound = 0;  ///< of a liquid: liquids that mix do not touch; 0: no liquid
+  bool is_collider = false;               ///< a collider, which also meets bodies whose `collides` is false
+  bool is_immovable = false;              ///< static or kinematic: two such bodies never meet
   bool meets_itself = false;
   float thickness = 0;  ///< distance that the body keeps from others; two bodies keep the sum of theirs [m]
   float static_friction = 0, kinetic_friction = 0, restitution = 0;
+
+  bool mixes_with(const ContactBody& other) const {
+    return spacing > 0 && spacing == other.spacing && speed_of_sound == other.speed_of_sound && groups == other.groups &&
+           mask == other.mask;
+  }
 };
 
 class ContactRules {

@@ -21,6 +21,10 @@ ContactBody body_of(const CompiledObject& object) {
   body.mask = is_there ? object.mask : 0;
   body.collides = object.collides;
   body.is_collider = object.is_collider;
+  if (object.fluid) {
+    body.spacing = object.fluid->spacing;
+    body.speed_of_sound = object.fluid->speed_of_sound;
+  }
   body.is_immovable = is_immovable(object);
   body.meets_itself = is_there && object.self_collision;
   body.thickness = object.thickness;

@@ -144,7 +144,7 @@ void add_body(const Model& model, int body, PairModel& out) {
   out.triangles_around.add(out.elements, of.triangles, of.vertices);
 }
 
-/// Lists free particles that can meet others: of bodies with self-collision, or of all bodies if there are several.
+/// Lists free particles that can meet others: of objects with self-collision, or that meet other objects of free particles.
 void find_free_points(const Model& model, PairModel& out) {
   out.free_points.clear();
   std::vector<int> bodies;
@@ -152,12 +152,16 @@ void find_free_points(const Model& model, PairModel& out) {
     const CompiledObject& object = model.objects[number];
     if (object.surface.triangles.empty() && object.lines.empty()) bodies.push_back(number);
   }
-  if (bodies.size() == 1 && !out.shared->rules.meet(bodies[0], bodies[0])) return;
-  for (const int o : bodies)
+  const auto meets_any = [&](int o) {
+    return std::any_of(bodies.begin(), bodies.end(), [&](int other) { return out.shared->rules.meet(o, other); });
+  };
+  for (const int o : bodies) {
+    if (!meets_any(o)) continue;
     for (int i = 0; i < model.objects[o].particles; ++i)
       if (model.objects[o].order[static_cast<std::size_t>(i)] < model.objects[o].user_particles &&
           !model.objects[o].bodies.has_centre(i))
         out.free_points.push_back(model.first[o] + i);
+  }
 }
 
 void order_clusters(PairModel& model) {
@@ -188,13 +192,23 @@ std::vector<int> all_bodies(std::size_t count) {
   return all;
 }
 
+/// False if an object has only the centres of rigid bodies, whose contact is elsewhere (solver/bodies/).
+bool has_elements(const CompiledObject& object) {
+  if (!object.surface.triangles.empty() || !object.lines.empty()) return true;
+  return object.particles > static_cast<int>(object.bodies.bodies.size());
+}
+
 /// The members that meet others or themselves, ascending; numbers the sets that they form.
-std::vector<int> find_meeting(PairModel& model) {
-  const std::vector<char> meets_some = model.shared->rules.meeting(model.members);
-  number_sets(meets_some, model);
-  std::vector<int> meeting;
-  for (std::size_t i = 0; i < meets_some.size(); ++i)
-    if (meets_some[i] != 0) meeting.push_back(model.members[i]);
+std::vector<int> find_meeting(const Model& model, PairModel& out) {
+  std::vector<int> candidates, meeting;
+  for (const int o : out.members)
+    if (has_elements(model.objects[o])) candidates.push_back(o);
+  const std::vector<char> meets = out.shared->rules.meeting(candidates);
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (meets[i] != 0) meeting.push_back(candidates[i]);
+  std::vector<char> meets_some;
+  for (const int o : out.members) meets_some.push_back(std::binary_search(meeting.begin(), meeting.end(), o) ? 1 : 0);
+  number_sets(meets_some, out);
   return meeting;
 }
 
@@ -214,7 +228,7 @@ std::vector<int> find_affected(const PairModel& model, const std::vector<int>& c
 
 std::optional<PairChanges> update_pair_model(const Model& model, const std::vector<int>& changed, PairModel& out) {
   if (out.has_all) out.members = all_bodies(model.objects.size());
-  const std::vector<int> meeting = find_meeting(out), affected = find_affected(out, changed, meeting);
+  const std::vector<int> meeting = find_meeting(model, out), affected = find_affected(out, changed, meeting);
   PairChanges changes;
   for (const int body : affected) {
     if (!out.bodies.has(body)) continue;

@@ -33,6 +33,11 @@ class BodySolids {
   std::vector<LocalShape> primitives() const;
   /// False if the points of a contact may not touch its body: by groups and masks, or because they are tied to it.
   bool meets(const Model& model, const Contact& contact) const;
+  /// False if the particles of an object may not touch the body of a solid, by groups and masks.
+  bool meets_object(int object, int solid) const {
+    const int body = body_of_solid_[static_cast<std::size_t>(solid)];
+    return rules_->meet(object, bodies_[static_cast<std::size_t>(body)].object);
+  }
 
   /// Keeps where bodies are, before the next prediction.
   void keep_poses(const Substep& s);

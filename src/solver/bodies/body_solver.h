@@ -57,6 +57,9 @@ class BodySolver {
   PointLoads& loads() { return points_.loads(); }
   /// After a phase of chains: gives the bodies the impulses of the particles that carry them.
   void end_chains(Substep& s) { points_.end_chains(s, motions_.present()); }
+  /// The solids of bodies as points touch them, and the masses and inertias of the bodies by their orientations at the substep's start.
+  const BodySolids& solids() const { return points_.solids(); }
+  const std::vector<BodyMotion>& present_motions() const { return motions_.present(); }
   /// In the order of bodies in BodyIslands.
   const std::vector<TouchedBody>& touched_bodies() const { return points_.solids().bodies(); }
   /// The index among touched_bodies() of the body of a contact with points.

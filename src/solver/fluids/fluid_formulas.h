@@ -43,16 +43,16 @@ struct Solved {
   R density, change;
 };
 
-/// `multiplier` is what it is before, at most 0: a liquid pushes and does not pull.
+/// `least` is added to the squared gradients. `multiplier` is what it is before, at most 0: a liquid pushes and does not pull.
 template <class R>
 PLIANT_HD Solved<R> solve(const FluidLaw& law, float relaxation, float softness, const Sums<R>& sums, const R& wall,
-                          const Vec3<R>& wall_gradient, const R& multiplier) {
+                          const Vec3<R>& wall_gradient, const R& least, const R& multiplier) {
   const R scale(law.gradient_scale);
   const Vec3<R> gradient{wall_gradient.x - scale * sums.gradient.x, wall_gradient.y - scale * sums.gradient.y,
                          wall_gradient.z - scale * sums.gradient.z};
   const R density = R(law.own) + R(law.density_scale) * sums.cubes + wall;
-  const R squared = gradient.x * gradient.x + gradient.y * gradient.y + gradient.z * gradient.z +
-                    scale * scale * sums.fourths + R(law.least_sum);
+  const R squared =
+      gradient.x * gradient.x + gradient.y * gradient.y + gradient.z * gradient.z + scale * scale * sums.fourths + least;
   const R error = density - R(1.f) + R(softness) * multiplier;
   const R change = -error / (squared / R(relaxation) + R(softness));
   return {density, min(multiplier + change, R(0.f)) - multiplier};

@@ -22,6 +22,7 @@ struct FluidArrays {
   float* multipliers = nullptr;          ///< of the substep
   const Record* walls = nullptr;         ///< gradient of the share of walls in the density [1/m], and that share [-]
   const char* has_walls = nullptr;       ///< for each group, 1 if any of its `walls` is not zero
+  const float* squares = nullptr;        ///< what bodies add to the squared gradients [1/m^2]; null: nothing
   float* densities = nullptr;            ///< over that at rest [-]
   const float* lightness = nullptr;      ///< density of the lightest liquid over that of the particle; null: all are equal
   const std::int32_t* points = nullptr;  ///< of each slot: its particle

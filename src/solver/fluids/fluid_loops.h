@@ -31,8 +31,9 @@ struct Loops {
         wall = of_walls.w;
         gradient = of_walls.position;
       }
+      const R least = R(a.law.least_sum) + (a.squares == nullptr ? R(0.f) : Lanes::load(a.squares + slot));
       const R multiplier = Lanes::load(a.multipliers + slot);
-      const Solved<R> solved = solve(a.law, a.relaxation, a.softness, sums, wall, gradient, multiplier);
+      const Solved<R> solved = solve(a.law, a.relaxation, a.softness, sums, wall, gradient, least, multiplier);
       Lanes::store(a.multipliers + slot, multiplier + solved.change);
       Lanes::store(a.densities + slot, solved.density);
       Lanes::store_own(a.weighted + slot, own.position, solved.change);

@@ -94,8 +94,9 @@ void FluidSolver::find_neighbours(Substep& s, FluidPool& pool) {
   pool.multipliers.assign(padded, 0);
   pool.densities.assign(padded, 0);
   const Stopwatch watch(s.context.executor.timings(), "neighbours: walls");
-  pool.walls.find(s.model.objects[at(pool.objects.front())], pool.neighbours, pool.places, s.own->colliders, pool.law.reach,
-                  pool.law.reach / 2);
+  pool.walls.find(s.model.objects[at(pool.objects.front())], pool.neighbours, pool.places,
+                  FluidBodies::bounds(s, pool.objects.front()), pool.law.reach, pool.law.reach / 2);
+  pool.squares.assign(pool.walls.near_solids().empty() ? 0 : padded, 0);
 }
 
 /// Particles that are fixed do not move, but push others.
@@ -103,7 +104,11 @@ void FluidSolver::find_lightness(const State& state, FluidPool& pool) const {
   const auto is_fixed = [&](std::int32_t particle) { return state.positions[at(particle)].w == 0; };
   const bool are_alike = pool.lightness_of_point.empty() && std::none_of(pool.points.begin(), pool.points.end(), is_fixed);
   pool.lightness.assign(are_alike ? 0 : pool.places.size(), 1);
+  const auto moving = std::find_if_not(pool.points.begin(), pool.points.end(), is_fixed);
+  pool.mass = moving == pool.points.end() ? 0 : 1 / state.positions[at(*moving)].w;
   if (are_alike) return;
+  if (!pool.lightness_of_point.empty() && moving != pool.points.end())
+    pool.mass *= pool.lightness_of_point[at(moving - pool.points.begin())];
   const std::vector<std::int32_t>& order = pool.neighbours.order().points();
   for (std::size_t slot = 0; slot < order.size(); ++slot) {
     if (!pool.lightness_of_point.empty()) pool.lightness[slot] = pool.lightness_of_point[at(order[slot])];
@@ -122,11 +127,13 @@ void FluidSolver::collide(Substep& s) {
 void FluidSolver::project(Substep& s, FluidPool& pool, bool is_first) {
   if (is_first) std::fill(pool.multipliers.begin(), pool.multipliers.end(), 0.f);
   const NeighbourLists& lists = pool.neighbours;
+  const FluidBounds bounds = FluidBodies::bounds(s, pool.objects.front());
   for_groups(s, "solve: places of liquids", lists, [&](int group) {
     const int first = group * NeighbourLists::lanes, last = std::min(first + NeighbourLists::lanes, lists.slots());
     for (int slot = first; slot < last; ++slot) pool.places[at(slot)] = predicted(s, pool.of_slot[at(slot)]);
-    pool.walls.measure(pool.law, s.own->colliders, pool.places, group);
+    pool.walls.measure(pool.law, bounds, pool.places, group);
   });
+  pool.bodies.count(s, pool.walls);
   FluidArrays a{pool.law, relaxation, pool.softness / (s.h * s.h)};
   a.places = pool.places.data();
   a.weighted = pool.weighted.data();
@@ -137,10 +144,15 @@ void FluidSolver::project(Substep& s, FluidPool& pool, bool is_first) {
   a.lightness = pool.lightness.empty() ? nullptr : pool.lightness.data();
   a.points = pool.of_slot.data();
   a.displacements = s.work.displacements.data();
+  a.squares = pool.squares.empty() ? nullptr : pool.squares.data();
   a.slots = lists.slots();
   const FluidKernels& kernels = s.kernels.fluids;
-  for_groups(s, "solve: density", lists, [&](int g) { kernels.find_multipliers(a, lists.group(g), g); });
+  for_groups(s, "solve: density", lists, [&](int g) {
+    if (a.squares != nullptr) pool.bodies.add_squares(s, pool.walls, pool.places, pool.mass, g, pool.squares);
+    kernels.find_multipliers(a, lists.group(g), g);
+  });
   for_groups(s, "solve: density", lists, [&](int g) { kernels.move(a, lists.group(g), g); });
+  if (a.squares != nullptr) pool.bodies.push(s, pool.walls, pool.weighted, pool.lightness, pool.mass);
 }
 
 void FluidSolver::project(Substep& s, bool is_first) {

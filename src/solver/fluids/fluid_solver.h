@@ -9,6 +9,7 @@
 #include "collision/neighbours/neighbour_lists.h"
 #include "model/model.h"
 #include "pliant/report.h"
+#include "solver/fluids/fluid_bodies.h"
 #include "solver/fluids/fluid_walls.h"
 
 namespace pliant {
@@ -24,6 +25,9 @@ struct FluidPool {
   std::vector<std::int32_t> of_slot;  ///< the particle of each slot
   NeighbourLists neighbours;
   FluidWalls walls;
+  FluidBodies bodies;
+  float mass = 0;                             ///< of a particle of the lightest liquid [kg]; 0 if all are fixed
+  std::vector<float> squares;                 ///< by slot: what bodies add to the squared gradients [1/m^2]
   std::vector<float> lightness_of_point;      ///< the least density over that of each point; empty if all have one
   std::vector<float> lightness;               ///< the same by slot, 0 for a fixed particle; empty if all are 1
   Records places, weighted;                   ///< by slot

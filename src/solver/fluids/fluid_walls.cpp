@@ -21,59 +21,113 @@ bool can_meet(const CompiledObject& liquid, const MovingCollider& collider) {
   return collider.field == nullptr || ((liquid.groups & collider.mask) != 0 && (collider.groups & liquid.mask) != 0);
 }
 
-/// What the walls so far leave of a kernel, and the gradient of what they take.
-struct Left {
-  float share = 1;
-  Vec3f gradient{};
+/// The most colliders and solids that bound one particle.
+constexpr int most_walls = 16;
 
-  void take(float of_wall, const Vec3f& slope) {
-    gradient = gradient * (1 - of_wall) + slope * share;
-    share *= 1 - of_wall;
+/// What the walls near a place take of its kernel.
+struct Walls {
+  std::int32_t which[most_walls] = {};
+  float share[most_walls] = {};
+  Vec3f slope[most_walls] = {};
+  int count = 0;
+
+  /// The gradient of 1 - product of (1 - share) that comes from one of them.
+  Vec3f gradient(int wall) const {
+    float others = 1;
+    for (int i = 0; i < count; ++i) others *= i == wall ? 1 : 1 - share[i];
+    return slope[wall] * others;
+  }
+  float sum() const {
+    float left = 1;
+    for (int i = 0; i < count; ++i) left *= 1 - share[i];
+    return 1 - left;
   }
 };
 
-Left left_by(const FluidLaw& law, const std::vector<MovingCollider>& colliders, const std::int32_t* first,
-             const std::int32_t* last, const Vec3f& place) {
-  Left left;
-  for (; first != last; ++first) {
-    const SurfaceDistance<float> to = distance_to(colliders[at(*first)], place);
+Walls walls_near(const FluidLaw& law, const FluidBounds& bounds, const std::int32_t* first, const std::int32_t* last,
+                 const Vec3f& place) {
+  Walls walls;
+  for (; first != last && walls.count < most_walls; ++first) {
+    const SurfaceDistance<float> to = distance_to(bounds.at(*first), place);
     if (!(to.distance < law.reach)) continue;
     const float t = 1 - std::max(to.distance, 0.f) / law.reach;
-    left.take(law.wall_scale * share_behind_plane(t), to.normal * (law.wall_scale * slope_behind_plane(t) / law.reach));
+    walls.which[walls.count] = *first;
+    walls.share[walls.count] = law.wall_scale * share_behind_plane(t);
+    walls.slope[walls.count++] = to.normal * (law.wall_scale * slope_behind_plane(t) / law.reach);
   }
-  return left;
+  return walls;
+}
+
+/// The box of a group of slots.
+BoundingBox<float> box_of(const Records& places, int first, int last) {
+  const Record& p = places[at(first)];
+  BoundingBox<float> box{{p.x, p.y, p.z}, {p.x, p.y, p.z}};
+  for (int slot = first + 1; slot < last; ++slot) {
+    const Record& q = places[at(slot)];
+    box.low = {std::min(box.low.x, q.x), std::min(box.low.y, q.y), std::min(box.low.z, q.z)};
+    box.high = {std::max(box.high.x, q.x), std::max(box.high.y, q.y), std::max(box.high.z, q.z)};
+  }
+  return box;
+}
+
+bool is_within(const BoundingBox<float>& a, const BoundingBox<float>& b, float distance) {
+  return !(a.low.x > b.high.x + distance || a.low.y > b.high.y + distance || a.low.z > b.high.z + distance ||
+           b.low.x > a.high.x + distance || b.low.y > a.high.y + distance || b.low.z > a.high.z + distance);
 }
 
 }  // namespace
 
+const MovingCollider& FluidBounds::at(std::int32_t i) const {
+  const int first = number_of_colliders();
+  return i < first ? (*colliders)[static_cast<std::size_t>(i)] : (*solids)[static_cast<std::size_t>(i - first)];
+}
+
 void FluidWalls::find(const CompiledObject& liquid, const NeighbourLists& lists, const Records& places,
-                      const std::vector<MovingCollider>& colliders, float reach, float motion) {
+                      const FluidBounds& bounds, float reach, float motion) {
   begin_.assign(1, 0);
   near_.clear();
+  near_solids_.clear();
+  first_solid_.assign(1, 0);
   has_any_.assign(at(lists.groups()), 0);
   shares_.resize(places.size());
+  const int colliders = bounds.number_of_colliders(), all = colliders + bounds.number_of_solids();
   for (int g = 0; g < lists.groups(); ++g) {
     const int first = g * NeighbourLists::lanes, last = std::min(first + NeighbourLists::lanes, lists.slots());
-    for (std::size_t c = 0; c < colliders.size(); ++c) {
-      if (!can_meet(liquid, colliders[c])) continue;
-      const auto is_near = [&](const Record& p) {
-        return distance_to(colliders[c], {p.x, p.y, p.z}).distance < reach + motion;
-      };
-      if (std::any_of(places.begin() + first, places.begin() + last, is_near))
-        near_.push_back(static_cast<std::int32_t>(c));
+    const BoundingBox<float> box = box_of(places, first, last);
+    for (int c = 0; c < all; ++c) {
+      const MovingCollider& wall = bounds.at(c);
+      if (c < colliders ? !can_meet(liquid, wall) : bounds.meets[at(c - colliders)] == 0) continue;
+      if (!is_within(box, wall.swept, reach + motion)) continue;
+      const auto is_near = [&](const Record& p) { return distance_to(wall, {p.x, p.y, p.z}).distance < reach + motion; };
+      if (!std::any_of(places.begin() + first, places.begin() + last, is_near)) continue;
+      near_.push_back(c);
+      if (c >= colliders) near_solids_.push_back({g, c - colliders});
     }
     begin_.push_back(static_cast<std::int32_t>(near_.size()));
+    first_solid_.push_back(static_cast<int>(near_solids_.size()));
   }
 }
 
-void FluidWalls::measure(const FluidLaw& law, const std::vector<MovingCollider>& colliders, const Records& places,
-                         int group) {
+void FluidWalls::measure(const FluidLaw& law, const FluidBounds& bounds, const Records& places, int group) {
   const std::int32_t *first = near_.data() + begin_[at(group)], *last = near_.data() + begin_[at(group) + 1];
   has_any_[at(group)] = first != last ? 1 : 0;
   if (first == last) return;
-  for (std::size_t slot = at(group) * NeighbourLists::lanes; slot < at(group + 1) * NeighbourLists::lanes; ++slot) {
-    const Left left = left_by(law, colliders, first, last, {places[slot].x, places[slot].y, places[slot].z});
-    shares_[slot] = {left.gradient.x, left.gradient.y, left.gradient.z, 1 - left.share};
+  const int first_solid = first_solid_[at(group)], colliders = bounds.number_of_colliders();
+  for (int i = first_solid; i < first_solid_[at(group) + 1]; ++i) near_solids_[at(i)] = {group, near_solids_[at(i)].solid};
+  for (int lane = 0; lane < NeighbourLists::lanes; ++lane) {
+    const std::size_t slot = at(group) * NeighbourLists::lanes + at(lane);
+    const Walls walls = walls_near(law, bounds, first, last, {places[slot].x, places[slot].y, places[slot].z});
+    Vec3f gradient{};
+    int solid = first_solid;
+    for (int i = 0; i < walls.count; ++i) {
+      const Vec3f of_wall = walls.gradient(i);
+      gradient += of_wall;
+      if (walls.which[i] < colliders) continue;
+      while (near_solids_[at(solid)].solid != walls.which[i] - colliders) ++solid;
+      near_solids_[at(solid)].gradient[lane] = of_wall;
+      ++near_solids_[at(solid)].touched;
+    }
+    shares_[slot] = {gradient.x, gradient.y, gradient.z, walls.sum()};
   }
 }
 

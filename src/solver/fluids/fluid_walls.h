@@ -2,7 +2,7 @@
 //
 // A wall counts as a half-space at its nearest point, for which the integral of the kernel is exact; several count by 1 - product of
 // (1 - share), which in a corner is within 2 % of a lattice that goes on behind the walls. Contacts keep particles out; the density only keeps
-// them from gathering at walls.
+// them from gathering at walls. The solids of rigid bodies count as colliders do; FluidBodies passes on what the liquid pushes them.
 #pragma once
 
 #include <cstdint>
@@ -15,20 +15,43 @@
 
 namespace pliant {
 
+/// What bounds a liquid.
+struct FluidBounds {
+  const std::vector<MovingCollider>* colliders = nullptr;
+  const std::vector<MovingCollider>* solids = nullptr;  ///< of rigid bodies; null if there are none
+  std::vector<char> meets;                              ///< for each solid, 1 if it touches the liquid
+
+  int number_of_colliders() const { return static_cast<int>(colliders->size()); }
+  int number_of_solids() const { return solids == nullptr ? 0 : static_cast<int>(solids->size()); }
+  const MovingCollider& at(std::int32_t i) const;
+};
+
+/// A solid near a group of slots.
+struct NearSolid {
+  std::int32_t group = 0, solid = 0;
+  int touched = 0;                             ///< slots in whose kernels the solid is
+  Vec3f gradient[NeighbourLists::lanes] = {};  ///< of the solid's share in the density of each slot [1/m]
+};
+
 class FluidWalls {
  public:
-  /// Finds the colliders near each group of slots, for as long as no point moves farther than `motion` [m] against them.
-  void find(const CompiledObject& liquid, const NeighbourLists& lists, const Records& places,
-            const std::vector<MovingCollider>& colliders, float reach, float motion);
-  /// Measures the share of colliders at the present places of a group's slots.
-  void measure(const FluidLaw& law, const std::vector<MovingCollider>& colliders, const Records& places, int group);
+  /// Finds what is near each group of slots, for as long as no point moves farther than `motion` [m] against it.
+  void find(const CompiledObject& liquid, const NeighbourLists& lists, const Records& places, const FluidBounds& bounds,
+            float reach, float motion);
+  /// Measures the share of colliders and solids at the present places of a group's slots.
+  void measure(const FluidLaw& law, const FluidBounds& bounds, const Records& places, int group);
 
   const Records& shares() const { return shares_; }  ///< by slot: see FluidArrays::walls
   const std::vector<char>& has_any() const { return has_any_; }
+  /// In the order of groups; those of a group are [first_solid(group), first_solid(group + 1)).
+  const std::vector<NearSolid>& near_solids() const { return near_solids_; }
+  int first_solid(int group) const { return first_solid_[static_cast<std::size_t>(group)]; }
 
  private:
-  std::vector<std::int32_t> begin_, near_;  ///< of each group: indices of colliders
+  std::vector<std::int32_t> begin_, near_;  ///< of each group: indices of colliders, then of solids behind them
   std::vector<char> has_any_;               ///< [group]
+  std::vector<int> first_solid_;            ///< [group]
+  std::vector<NearSolid> near_solids_;
   Records shares_;
 };
 

@@ -1,0 +1,168 @@
+// Rigid bodies in liquids: Archimedes' principle, how floating bodies turn, and what both sides keep.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pliant/body.h"
+#include "pliant/liquid.h"
+#include "pliant/world.h"
+
+namespace pliant {
+namespace {
+
+constexpr float spacing = 0.05f, side = 0.3f, width = 0.9f, depth = 0.6f;
+
+Collider wall(const Vec3f& at, const Quatf& rotation) {
+  Collider plane;
+  plane.position = at;
+  plane.rotation = rotation;
+  plane.static_friction = plane.kinetic_friction = 0;
+  return plane;
+}
+
+Object cube(float relative_density, float tilt, const Vec3f& at) {
+  Solid solid;
+  solid.shape = Box{{side / 2, side / 2, side / 2}};
+  solid.density = 1000 * relative_density;
+  BodyOptions options;
+  options.position = at;
+  options.rotation = {0, 0, std::sin(tilt / 2), std::cos(tilt / 2)};
+  return make_body({solid}, options);
+}
+
+/// A cube let go just above a pool.
+Scene pool(float relative_density, float tilt = 0) {
+  Scene scene;
+  scene.add(make_liquid(fill_box({0, 0, 0}, {width, depth, width}, spacing), {.fluid = {.spacing = spacing}}));
+  const float r = std::sqrt(0.5f);
+  scene.add(wall({0, 0, 0}, {0, 0, 0, 1}));
+  scene.add(wall({0, 0, 0}, {0, 0, -r, r}));
+  scene.add(wall({width, 0, 0}, {0, 0, r, r}));
+  scene.add(wall({0, 0, 0}, {r, 0, 0, r}));
+  scene.add(wall({0, 0, width}, {-r, 0, 0, r}));
+  scene.add(cube(relative_density, tilt, {width / 2, depth + side / 2 + 0.02f, width / 2}));
+  scene.settings.threads = 1;
+  return scene;
+}
+
+struct Floating {
+  double draft = 0;    ///< of an upright cube at this height [m]
+  double upright = 0;  ///< cosine of the angle between the cube's own y and the world's
+};
+
+/// The mean of a last second, in which a cube bobs a little.
+Floating run(World& world, int frames, double relative_density) {
+  const double volume = static_cast<double>(side) * side * side, area = static_cast<double>(width) * width;
+  const double level = depth + relative_density * volume / area;
+  Floating of;
+  for (int i = 0; i < frames; ++i) {
+    const Report report = world.step(1.f / 60);
+    EXPECT_TRUE(report.ok()) << report.explain();
+    if (i < frames - 60) continue;
+    of.draft += (level - (static_cast<double>(world.state().positions.back().y) - side / 2)) / 60;
+    const Record& q = world.state().frames.orientations.front();
+    of.upright += (1 - 2 * static_cast<double>(q.x * q.x + q.z * q.z)) / 60;
+  }
+  return of;
+}
+
+// A floating body displaces its own weight. The bound is a quarter of a spacing.
+TEST(LiquidBodies, FloatWithTheDraftOfTheirDensity) {
+  for (const float density : {0.25f, 0.9f}) {
+    World world(pool(density));
+    const Floating of = run(world, 360, density);
+    EXPECT_NEAR(of.draft, density * side, spacing / 4) << "density " << density;
+  }
+}
+
+// The centre of a cube of half the liquid's density is at the waterline, however it is turned.
+TEST(LiquidBodies, OfHalfTheDensityFloatWithTheirCentreAtTheWaterline) {
+  World world(pool(0.5f, 0.3f));
+  EXPECT_NEAR(run(world, 360, 0.5).draft, side / 2, spacing / 4);
+}
+
+// A cube of relative density below (3 - sqrt(3)) / 6 = 0.21 or above 0.79 floats upright (Gilbert 1991); 0.9 is far above.
+TEST(LiquidBodies, ThatAreTiltedTurnUpright) {
+  World world(pool(0.9f, 0.3f));
+  EXPECT_GT(run(world, 480, 0.9).upright, std::cos(0.12));
+}
+
+// Of half the density it floats neither flat nor upright: from a tilt of 0.1 about a horizontal axis it turns on.
+TEST(LiquidBodies, OfHalfTheDensityDoNotFloatFlat) {
+  World world(pool(0.5f, 0.1f));
+  EXPECT_LT(run(world, 480, 0.5).upright, std::cos(0.5));
+}
+
+TEST(LiquidBodies, ThatAreHeavierSink) {
+  World world(pool(2.5f));
+  run(world, 240, 2.5);
+  EXPECT_LT(world.state().positions.back().y, side / 2 + 1.5f * spacing) << "one layer of particles may stay below";
+}
+
+TEST(LiquidBodies, AndLiquidKeepTheirMomentum) {
+  Scene scene;
+  scene.gravity = {};
+  Object liquid = make_liquid(fill_box({0, 0, 0}, {0.4f, 0.4f, 0.4f}, spacing), {.fluid = {.spacing = spacing}});
+  liquid.velocities.assign(liquid.positions.size(), {3, 0.5f, 0});
+  const double mass = static_cast<double>(liquid.masses.front()), count = static_cast<double>(liquid.positions.size());
+  scene.add(liquid);
+  scene.add(cube(0.5f, 0.4f, {0.75f, 0.25f, 0.2f}));
+  World world(scene);
+  for (int i = 0; i < 60; ++i) ASSERT_TRUE(world.step(1.f / 60).ok());
+  Vec3d sum{}, of_body{};
+  const State& state = world.state();
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    const Record& v = state.velocities[i];
+    const double m = 1 / static_cast<double>(state.positions[i].w);
+    of_body = Vec3d{v.x, v.y, v.z} * m;
+    sum = sum + of_body;
+  }
+  const double size = 3 * mass * count;
+  EXPECT_GT(of_body.x, 0.1 * size) << "the liquid hits the body";
+  EXPECT_NEAR(sum.x, size, 1e-5 * size);
+  EXPECT_NEAR(sum.y, size / 6, 1e-5 * size);
+  EXPECT_NEAR(sum.z, 0, 1e-5 * size);
+}
+
+TEST(LiquidBodies, DoNotMoveIfTheyMayNotTouch) {
+  Scene scene = pool(0.5f);
+  scene.objects.back().mask = 0;
+  scene.gravity = {};
+  scene.objects.back().positions.front() = {0.45f, 0.3f, 0.45f};
+  World world(scene);
+  for (int i = 0; i < 5; ++i) world.step(1.f / 60);
+  EXPECT_EQ(world.state().velocities.back().x, 0);
+  EXPECT_EQ(world.state().velocities.back().y, 0);
+}
+
+std::string hash_after(const Scene& scene, int threads, const char* isa) {
+  Settings settings = scene.settings;
+  settings.threads = threads;
+  settings.isa = isa;
+  World world(scene, settings);
+  for (int i = 0; i < 30; ++i) world.step(1.f / 60);
+  return hash(world.state());
+}
+
+TEST(LiquidBodies, HaveTheSameBitsOnAnyThreadsAndLevels) {
+  const Scene scene = pool(0.4f, 0.2f);
+  const std::string expected = hash_after(scene, 1, "sequential");
+  EXPECT_EQ(hash_after(scene, 1, ""), expected);
+  EXPECT_EQ(hash_after(scene, 3, ""), expected);
+  EXPECT_EQ(hash_after(scene, 2, "generic"), expected);
+}
+
+TEST(LiquidBodies, GoOnFromARestoredStateWithTheSameBits) {
+  const Scene scene = pool(0.4f, 0.2f);
+  World world(scene);
+  for (int i = 0; i < 25; ++i) world.step(1.f / 60);
+  const State kept = world.state();
+  for (int i = 0; i < 7; ++i) world.step(1.f / 60);
+  World other(scene);
+  other.restore(kept);
+  for (int i = 0; i < 7; ++i) other.step(1.f / 60);
+  EXPECT_EQ(hash(other.state()), hash(world.state()));
+}
+
+}  // namespace
+}  // namespace pliant
