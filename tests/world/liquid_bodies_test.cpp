@@ -5,6 +5,7 @@
 
 #include "pliant/body.h"
 #include "pliant/liquid.h"
+#include "pliant/mesh.h"
 #include "pliant/world.h"
 
 namespace pliant {
@@ -133,6 +134,39 @@ TEST(LiquidBodies, DoNotMoveIfTheyMayNotTouch) {
   for (int i = 0; i < 5; ++i) world.step(1.f / 60);
   EXPECT_EQ(world.state().velocities.back().x, 0);
   EXPECT_EQ(world.state().velocities.back().y, 0);
+}
+
+// Walls without a floor, and a sheet held at its edge between them: all that the water can fall through is the cloth.
+TEST(LiquidOnCloth, IsHeld) {
+  Scene scene;
+  Object sheet = make_cloth(grid_mesh(25, 25, 0.6f, 0.6f));
+  for (std::size_t i = 0; i < sheet.positions.size(); ++i) {
+    const Vec3f& p = sheet.positions[i];
+    if (std::abs(p.x) < 0.299f && std::abs(p.z) < 0.299f) continue;
+    Pin pin;
+    pin.particle = static_cast<int>(i);
+    sheet.pins.push_back(pin);
+  }
+  sheet.collides = true;
+  sheet.thickness = 0.005f;
+  const std::size_t of_cloth = sheet.positions.size();
+  scene.add(sheet);
+  scene.add(make_liquid(fill_box({-0.28f, 0.04f, -0.28f}, {0.28f, 0.25f, 0.28f}, 0.04f), {.fluid = {.spacing = 0.04f}}));
+  const float r = std::sqrt(0.5f);
+  scene.add(wall({-0.3f, 0, 0}, {0, 0, -r, r}));
+  scene.add(wall({0.3f, 0, 0}, {0, 0, r, r}));
+  scene.add(wall({0, 0, -0.3f}, {r, 0, 0, r}));
+  scene.add(wall({0, 0, 0.3f}, {-r, 0, 0, r}));
+  World world(scene);
+  for (int i = 0; i < 60; ++i) {
+    const Report report = world.step(1.f / 60);
+    ASSERT_TRUE(report.ok()) << report.explain();
+  }
+  float lowest = 0, sagging = 0;
+  for (std::size_t i = 0; i < world.state().positions.size(); ++i)
+    (i < of_cloth ? sagging : lowest) = std::min(i < of_cloth ? sagging : lowest, world.state().positions[i].y);
+  EXPECT_LT(sagging, -0.005f) << "the water weighs on the cloth";
+  EXPECT_GT(lowest, sagging) << "no particle is below the lowest place of the cloth";
 }
 
 std::string hash_after(const Scene& scene, int threads, const char* isa) {
