@@ -107,13 +107,18 @@ void fields(A& a, Is<Fluid> auto& of) {
   a(spacing, density, speed_of_sound);
 }
 template <class A>
+void fields(A& a, Is<Grains> auto& of) {
+  auto& [radius, density, friction] = of;
+  a(radius, density, friction);
+}
+template <class A>
 void fields(A& a, Is<Object> auto& of) {
-  auto& [name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, pins,
+  auto& [name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains, pins,
          attachments, thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution,
          rolling_friction, spinning_friction, drag, lift, sweep, damping, colour] = of;
-  a(name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, pins, attachments,
-    thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution, rolling_friction,
-    spinning_friction, drag, lift, sweep, damping);
+  a(name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains, pins,
+    attachments, thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution,
+    rolling_friction, spinning_friction, drag, lift, sweep, damping);
   a.aside(colour);
 }
 template <class A>

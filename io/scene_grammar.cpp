@@ -128,6 +128,21 @@ const Record& liquid_record() {
   return result;
 }
 
+const Record& grains_record() {
+  static const Record result{
+      "grains",
+      "Sand or gravel: spheres with friction, which do not turn. Those whose objects meet by groups and masks touch.",
+      {either("fill", record(fill_record()), "The box that it fills at the start, a diameter apart."),
+       either("positions", list(place(), 1), "Centres of the grains at the start, a diameter or more apart."),
+       field("radius", positive("m", largest_place), Grains{}.radius, "Radius of each grain."),
+       field("density", positive("kg/m^3"), Grains{}.density, "Density of the solid, not of the bulk with its voids."),
+       field("friction", number("-", 0, 1000), Grains{}.friction,
+             "Coefficient of friction of the bulk: tangent of the angle of repose. It is also the default friction with "
+             "colliders.")},
+      {"fill", "positions"}};
+  return result;
+}
+
 const Record& box_select_record() {
   static const Record result{"box of particles",
                              "The particles inside an axis-aligned box or on its surface.",
@@ -208,11 +223,12 @@ std::vector<std::string> sweep_names() {
 const Record& object_record() {
   static const Record result{
       "object",
-      "A cloth, a rope, a liquid, particles with constraints, rigid bodies, or a robot.",
+      "A cloth, a rope, a liquid, grains, particles with constraints, rigid bodies, or a robot.",
       {field("name", string(), "the kind, with a number if it is taken", "Unique name, used in messages and files."),
        either("cloth", record(cloth_record()), "A cloth, garment or balloon."),
        either("rope", record(rope_record()), "A rope."),
        either("liquid", record(liquid_record()), "A liquid."),
+       either("grains", record(grains_record()), "Sand or gravel."),
        either("particles", record(particles_record()), "Particles with constraints."),
        either("bodies", list(record(body_record()), 1), "Rigid bodies: one, a pile, or the parts of a mechanism."),
        either("urdf", record(urdf_record()), "A robot description."),
@@ -223,7 +239,7 @@ const Record& object_record() {
        field("pins", list(record(pin_record())), "none", "Kinematic particles."),
        field("attachments", list(record(attachment_record())), "none", "Particles tied to targets."),
        field("thickness", number("m", 0, largest_place),
-             "the material's; 0.005 for a rope, half the spacing for a liquid, else 0.001",
+             "the material's; 0.005 for a rope, half the spacing for a liquid, the radius of grains, else 0.001",
              "Distance kept from colliders; two surfaces keep the sum of both."),
        field(
            "self_collision", boolean(), "false; true for bodies",
@@ -234,9 +250,10 @@ const Record& object_record() {
        field("groups", bits(), "[0]",
              "Indices of its groups, 0 to 31. Two objects collide if the `mask` of each contains a group of the other."),
        field("mask", bits(), "all", "Indices of the groups that it collides with; [] for none."),
-       field("static_friction", number("-", 0, 1000), "the material's; 0 for a liquid, else 0.4",
+       field("static_friction", number("-", 0, 1000), "the material's; 0 for a liquid, that of grains, else 0.4",
              "Coefficient of static friction."),
-       field("kinetic_friction", number("-", 0, 1000), "the material's; 0 for a liquid, else 0.3; at most the static one",
+       field("kinetic_friction", number("-", 0, 1000),
+             "the material's; 0 for a liquid, that of grains, else 0.3; at most the static one",
              "Coefficient of kinetic friction, at most the static one."),
        field("restitution", share(), Object{}.restitution,
              "Coefficient of restitution: the share of the normal speed kept in a bounce."),
@@ -252,7 +269,7 @@ const Record& object_record() {
        field("damping", number("1/s", 0, 1e6), Object{}.damping,
              "Velocity damping: in a second a share of 1 - exp(-damping) is lost."),
        field("colour", colour(), Object{}.colour, "Colour as linear red, green and blue.")},
-      {"cloth", "rope", "liquid", "particles", "bodies", "urdf"}};
+      {"cloth", "rope", "liquid", "grains", "particles", "bodies", "urdf"}};
   return result;
 }
 

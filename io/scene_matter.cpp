@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "pliant/grains.h"
 #include "pliant/liquid.h"
 #include "scene_build.h"
 #include "scene_grammar.h"
@@ -59,26 +60,38 @@ BuiltObject rope_of(const JsonDocument& document, const JsonValue& at, const std
   return {make_rope(points, options)};
 }
 
+/// The places in `positions`, or those that fill a box at a spacing.
+std::vector<Vec3f> places_of(const JsonDocument& document, const JsonValue& at, float spacing) {
+  std::vector<Vec3f> positions;
+  for (const JsonValue& position : elements(at, "positions")) positions.push_back(vector_of(position));
+  const JsonValue* fill = at.find("fill");
+  if (fill == nullptr) return positions;
+  const Vec3f low = vector_of(*fill->find("min")), high = vector_of(*fill->find("max"));
+  const auto along = [&](float from, float to) {
+    return std::max(1., (static_cast<double>(to) - static_cast<double>(from)) / static_cast<double>(spacing));
+  };
+  if (along(low.x, high.x) * along(low.y, high.y) * along(low.z, high.z) > largest_scene)
+    document.fail(*fill, "more than " + std::to_string(largest_scene) + " particles",
+                  "use a larger spacing, or a smaller box");
+  return fill_box(low, high, spacing);
+}
+
 BuiltObject liquid_of(const JsonDocument& document, const JsonValue& at, const std::string& name) {
   LiquidOptions options;
   options.name = name;
   set(at, "spacing", options.fluid.spacing);
   set(at, "density", options.fluid.density);
   set(at, "speed_of_sound", options.fluid.speed_of_sound);
-  std::vector<Vec3f> positions;
-  for (const JsonValue& position : elements(at, "positions")) positions.push_back(vector_of(position));
-  if (const JsonValue* fill = at.find("fill")) {
-    const Vec3f low = vector_of(*fill->find("min")), high = vector_of(*fill->find("max"));
-    const auto along = [&](float from, float to) {
-      return std::max(1.,
-                      (static_cast<double>(to) - static_cast<double>(from)) / static_cast<double>(options.fluid.spacing));
-    };
-    if (along(low.x, high.x) * along(low.y, high.y) * along(low.z, high.z) > largest_scene)
-      document.fail(*fill, "more than " + std::to_string(largest_scene) + " particles",
-                    "use a larger spacing, or a smaller box");
-    positions = fill_box(low, high, options.fluid.spacing);
-  }
-  return {make_liquid(positions, options)};
+  return {make_liquid(places_of(document, at, options.fluid.spacing), options)};
+}
+
+BuiltObject grains_of(const JsonDocument& document, const JsonValue& at, const std::string& name) {
+  GrainsOptions options;
+  options.name = name;
+  set(at, "radius", options.grains.radius);
+  set(at, "density", options.grains.density);
+  set(at, "friction", options.grains.friction);
+  return {make_grains(places_of(document, at, 2 * options.grains.radius), options)};
 }
 
 std::vector<float> masses_of(const JsonDocument& document, const JsonValue& at, std::size_t particles) {
@@ -194,6 +207,7 @@ BuiltObject build_matter(const JsonDocument& document, const JsonValue& what, co
   try {
     if (what.key == "cloth") return cloth_of(document, what, name, folder, repairs);
     if (what.key == "liquid") return liquid_of(document, what, name);
+    if (what.key == "grains") return grains_of(document, what, name);
     if (what.key == "rope") return rope_of(document, what, name);
     if (what.key == "bodies") return {build_bodies(document, what, name, folder, repairs)};
     if (what.key == "urdf") return {build_robot(document, what, name, folder, repairs)};

@@ -49,6 +49,14 @@ struct Fluid {
   float speed_of_sound = 0;  ///< by which it yields to pressure p: by p / (density c^2); 0: it does not yield [m/s]
 };
 
+/// Makes the particles of an object grains: spheres that press on one another with friction, and do not turn. Grains whose objects meet by
+/// groups and masks touch, also of different radius.
+struct Grains {
+  float radius = 0.01f;   ///< of each sphere [m]
+  float density = 2650;   ///< of the solid, not of the bulk with its voids [kg/m^3]
+  float friction = 0.6f;  ///< of the bulk: tangent of the angle of repose [-]
+};
+
 /// Properties of a fabric. They do not depend on a mesh.
 struct Fabric {
   std::string name;

@@ -133,6 +133,7 @@ struct Object {
   std::vector<std::array<int, 3>> triangles;  ///< surface for contact, air, volume and pictures; may be empty
   std::optional<Volume> volume;               ///< keeps the enclosed volume; needs a closed surface
   std::optional<Fluid> fluid;                 ///< its particles are a liquid (pliant/liquid.h)
+  std::optional<Grains> grains;               ///< its particles are grains (pliant/grains.h)
   std::vector<Pin> pins;
   std::vector<Attachment> attachments;
   float thickness = 0.001f;           ///< distance kept from colliders; two surfaces keep the sum of both [m]

@@ -134,6 +134,14 @@ struct MotorSetting {
   friend auto operator<=>(const MotorSetting&, const MotorSetting&) = default;
 };
 
+/// Two grains in contact (pliant/grains.h).
+struct GrainContact {
+  std::int32_t a = 0, b = 0;  ///< particles of the State, a < b
+  Vec3f slip{};               ///< of a over b since they stuck, along the contact plane [m]
+  friend bool operator==(const GrainContact&, const GrainContact&) = default;
+};
+static_assert(sizeof(GrainContact) == 20);
+
 /// A value of State::rest_times: the body sleeps.
 inline constexpr float asleep = -1;
 
@@ -159,6 +167,7 @@ struct State {
   /// For each frame in `frames`, for how long its body has been slow [s], or `asleep`; 0 if it is of no body. Empty if bodies never
   /// sleep (SleepOptions), and after something was added, removed or edited: then all are awake.
   std::vector<float> rest_times;
+  std::vector<GrainContact> grain_contacts;  ///< those that press, ascending by a, then b; usually none
 };
 
 /// The SHA-256 hash of a State as 64 hexadecimal digits. It includes blocks only after a removal or an edit, because

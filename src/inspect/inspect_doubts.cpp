@@ -86,7 +86,7 @@ void doubt_pins(const Doubts& d) {
 }
 
 void doubt_references(const Doubts& d) {
-  if (d.object.fluid) return;  // whose particles are in no constraint of their own
+  if (d.object.fluid || d.object.grains) return;  // whose particles are in no constraint of their own
   std::vector<bool> used = d.fixed;
   const auto use = [&](int particle) { used[static_cast<std::size_t>(particle)] = true; };
   for (const ConstraintGroup& group : d.object.constraints)

@@ -267,6 +267,15 @@ void check_fluid(Problems& problems, const Object& object) {
   require_range(problems, "fluid, speed_of_sound", object.fluid->speed_of_sound, 0, largest_place);
 }
 
+void check_grains(Problems& problems, const Object& object) {
+  constexpr double least = 1e-9;  // radius [m] and density [kg/m^3]: their powers must be floats
+  if (!object.grains) return;
+  require_range(problems, "grains, radius", object.grains->radius, least, largest_place);
+  require_range(problems, "grains, density", object.grains->density, least, 1e12);
+  require_range(problems, "grains, friction", object.grains->friction, 0, 1000);
+  if (object.fluid) problems.grave("grains", "are a liquid too", "give grains or fluid, in two objects if both are wanted");
+}
+
 void check_object(Problems& problems, const Object& object) {
   check_positions(problems, object);
   check_velocities(problems, object);
@@ -279,6 +288,7 @@ void check_object(Problems& problems, const Object& object) {
   check_control(problems, object);
   require_range(problems, "thickness", object.thickness, 0, largest_place);
   check_fluid(problems, object);
+  check_grains(problems, object);
   check_friction(problems, object.static_friction, object.kinetic_friction, object.restitution);
   check_rolling(problems, object.rolling_friction, object.spinning_friction);
   require_range(problems, "drag", object.drag, 0, largest_place);

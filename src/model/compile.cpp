@@ -44,6 +44,7 @@ std::vector<int> anchors_of(const Object& object, double gravity, const Compiled
 void add_whole_object_phases(CompiledObject& out) {
   if (out.has_volume) out.phases.push_back({Driver::volume, 0, 1});
   if (out.fluid) out.phases.push_back({Driver::fluid, 0, 1});
+  if (out.grains) out.phases.push_back({Driver::grain, 0, 1});
   if (out.tethers.slots > 0) out.phases.push_back({Driver::tether, 0, 1});
   std::stable_sort(out.phases.begin(), out.phases.end(),
                    [](const ObjectPhase& a, const ObjectPhase& b) { return a.driver < b.driver; });
@@ -84,6 +85,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   if (options.sweep == Sweep::multigrid) out.multigrid = build_multigrid(lists, out.positions, options.gravity);
   fill_volume(object, options.passes, out);
   out.fluid = object.fluid;
+  out.grains = object.grains;
   add_whole_object_phases(out);
   out.lengths = find_length_ranges(out);
 

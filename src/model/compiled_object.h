@@ -111,6 +111,7 @@ struct CompiledObject {
   Surface surface;
   std::vector<std::array<int, 2>> lines;  ///< contact lines of an object without triangles
   std::optional<Fluid> fluid;             ///< its particles are a liquid
+  std::optional<Grains> grains;           ///< its particles are grains
   bool has_volume = false;
   CompiledVolume volume;
   bool self_collision = false, collides = false, is_collider = false;

@@ -130,6 +130,7 @@ bool are_of_a_kind(const SetMember& a, const SetMember& b) {
 bool can_meet(const SetMember& a, const SetMember& b) {
   if (are_of_a_kind(a, b)) return true;
   const bool by_masks = (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
+  if (a.is_of_grains && b.is_of_grains && by_masks) return true;
   const bool by_kind = a.is_collider != b.is_collider || (a.collides && b.collides && !a.is_collider);
   return by_masks && by_kind;
 }
@@ -155,12 +156,14 @@ class Forest {
 
 /// Divides members into classes that meet the same members. Scenes with many objects have few classes.
 std::vector<std::vector<int>> classes_of(const std::vector<SetMember>& members) {
-  std::map<std::tuple<std::uint32_t, std::uint32_t, bool, bool, float, float>, std::size_t> numbers;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, bool, bool, float, float, bool>, std::size_t> numbers;
   std::vector<std::vector<int>> classes;
   for (int i = 0; i < static_cast<int>(members.size()); ++i) {
     const SetMember& m = members[i];
     const std::size_t number =
-        numbers.try_emplace({m.groups, m.mask, m.collides, m.is_collider, m.spacing, m.speed_of_sound}, classes.size())
+        numbers
+            .try_emplace({m.groups, m.mask, m.collides, m.is_collider, m.spacing, m.speed_of_sound, m.is_of_grains},
+                         classes.size())
             .first->second;
     if (number == classes.size()) classes.emplace_back();
     classes[number].push_back(i);
@@ -208,22 +211,37 @@ bool can_follow_volume(const Object& object, double substep) {
   return overstretch_of_inflated(object, substep) <= most_overstretch_of_volumes;
 }
 
-int substeps_of_fluid(const Object& object, double frame_time) {
-  constexpr double error = 0.0035, relaxation = 0.4;        // of solver/fluids/fluid_solver.cpp
-  constexpr double squared_gradients = 0.98, excess = 1.3;  // over 1 / reach^2 in a liquid at rest; over a plain sum
-  const double reach = 2 * static_cast<double>(object.fluid->spacing);
+/// The height of an object's particles at the start [m].
+double depth_of(const Object& object) {
   float low = 0, high = 0;
   for (std::size_t i = 0; i < object.positions.size(); ++i) {
     low = i == 0 ? object.positions[i].y : std::min(low, object.positions[i].y);
     high = i == 0 ? object.positions[i].y : std::max(high, object.positions[i].y);
   }
-  const double depth = std::max(static_cast<double>(high - low), 5 * reach);
+  return static_cast<double>(high - low);
+}
+
+int substeps_of_grains(const Object& object, double frame_time) {
+  constexpr double overlap = 0.03, stiffness = 0.2;  // over the diameter; of solver/grains/grain_solver.cpp
+  const double diameter = 2 * static_cast<double>(object.grains->radius);
+  const double depth = std::max(depth_of(object), 10 * diameter);
+  // A grain bears `depth / diameter` others, each of which falls by g h^2 in a substep; it yields by twice that over the stiffness.
+  const double h = diameter * std::sqrt(overlap * stiffness / (2 * least_acceleration * depth));
+  return std::clamp(static_cast<int>(std::ceil(std::min(frame_time / h, 1e4))), 8, 1000);
+}
+
+int substeps_of_fluid(const Object& object, double frame_time) {
+  constexpr double error = 0.0035, relaxation = 0.4;        // of solver/fluids/fluid_solver.cpp
+  constexpr double squared_gradients = 0.98, excess = 1.3;  // over 1 / reach^2 in a liquid at rest; over a plain sum
+  const double reach = 2 * static_cast<double>(object.fluid->spacing);
+  const double depth = std::max(depth_of(object), 5 * reach);
   const double h = std::sqrt(error * relaxation / (squared_gradients * excess * least_acceleration * depth / 2)) * reach;
   return std::clamp(static_cast<int>(std::ceil(std::min(frame_time / h, 1e4))), 4, 1000);
 }
 
 int own_substeps(const Object& object, Sweep sweep, bool is_blown, double frame_time) {
   if (object.fluid) return substeps_of_fluid(object, frame_time);
+  if (object.grains) return substeps_of_grains(object, frame_time);
   const bool is_of_bodies = !object.bodies.empty() && object.bodies.size() == object.positions.size();
   if (is_of_bodies && !has_converted(object)) return substeps_of_bodies;
   if (object.volume && solves_chains(sweep) && !has_converted(object)) {
@@ -257,7 +275,8 @@ SubstepRule substep_rule(const Object& object, Sweep sweep, double gravity) {
 
 SetMember member_of(const Object& object, int substeps, SubstepRule rule) {
   const Fluid fluid = object.fluid.value_or(Fluid{.spacing = 0});
-  return {object.groups, object.mask, object.collides, false, substeps, rule, fluid.spacing, fluid.speed_of_sound};
+  return {object.groups, object.mask,          object.collides,          false, substeps, rule,
+          fluid.spacing, fluid.speed_of_sound, object.grains.has_value()};
 }
 
 SetMember member_of(const MeshCollider& collider) {

@@ -55,6 +55,9 @@ bool can_follow_volume(const Object& object, double substep = 1.0 / 60 / substep
 /// above a particle, times the square of the substep.
 int substeps_of_fluid(const Object& object, double frame_time);
 
+/// The substeps of grains, with which those at the bottom of the object overlap by 3 % of their diameter at rest.
+int substeps_of_grains(const Object& object, double frame_time);
+
 /// True if wind or a force field acts on objects.
 bool blows(const Wind& wind, const std::vector<ForceField>& forces);
 
@@ -88,6 +91,7 @@ struct SetMember {
   int substeps = 0;          ///< substeps that it needs by itself; 0: any number
   SubstepRule rule = SubstepRule::any;
   float spacing = 0, speed_of_sound = 0;  ///< of a liquid, which meets those that have the same; 0: it is none
+  bool is_of_grains = false;              ///< grains meet by their masks
 };
 
 SetMember member_of(const Object& object, int substeps, SubstepRule rule);

@@ -133,9 +133,11 @@ void make_body_solvers(WorldData& world) {
   }
 }
 
-/// Makes the liquids of all groups again.
-void make_fluid_solvers(WorldData& world) {
+/// Makes the liquids and grains of all groups again.
+void make_particle_solvers(WorldData& world) {
   for (SubstepGroup& group : world.groups.all) {
+    group.grains = std::make_unique<GrainSolver>(world.model, group.has_all ? nullptr : &group.objects);
+    if (!group.grains->has_grains()) group.grains = nullptr;
     group.fluids = std::make_unique<FluidSolver>(world.model, group.has_all ? nullptr : &group.objects);
     if (!group.fluids->has_fluids()) group.fluids = nullptr;
   }
@@ -218,7 +220,7 @@ void bring_up_to_date(WorldData& world) {
   if (!has_contact(world.groups)) world.groups.tables = nullptr;
   if (std::exchange(world.groups.colliders_changed, false) || world.groups.objects_changed) make_body_solvers(world);
   if (!world.groups.objects_changed) return;
-  make_fluid_solvers(world);
+  make_particle_solvers(world);
   for (TileScratch& tile : world.workspace.tiles)
     tile.contacts.clear();  // contacts have collider indices, which may have changed
   if (world.settings.tolerance > 0) prepare_residual(world.model, world.workspace.residual);

@@ -119,8 +119,14 @@ void give_back_state(WorldData& world, int number, const ObjectState& kept, cons
   }
 }
 
-/// Discards the contacts, broken joints and targets of motors of an object's rigid bodies.
+/// Discards the contacts, broken joints and targets of motors of an object's rigid bodies, and the contacts of its grains.
 void forget_contacts(WorldData& world, int number) {
+  const StateBlock block = world.state.blocks[static_cast<std::size_t>(number)];
+  const auto is_of_block = [&](int particle) {
+    return particle >= block.first && particle < block.first + block.particles;
+  };
+  std::erase_if(world.state.grain_contacts,
+                [&](const GrainContact& contact) { return is_of_block(contact.a) || is_of_block(contact.b); });
   std::erase_if(world.state.motors, [&](const MotorSetting& setting) { return setting.block == number; });
   std::erase_if(world.state.broken_joints, [&](const BrokenJoint& joint) { return joint.block == number; });
   std::erase_if(world.state.body_contacts,

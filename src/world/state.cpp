@@ -86,6 +86,21 @@ void require_body_contacts(const State& state) {
   }
 }
 
+void require_grain_contacts(const State& state) {
+  const GrainContact* before = nullptr;
+  for (const GrainContact& contact : state.grain_contacts) {
+    const bool exists =
+        contact.a >= 0 && contact.a < contact.b && static_cast<std::size_t>(contact.b) < state.positions.size();
+    const Vec3f& slip = contact.slip;
+    const bool is_finite = std::isfinite(slip.x) && std::isfinite(slip.y) && std::isfinite(slip.z);
+    if (!exists || !is_finite || (before != nullptr && !in_order_of_particles(*before, contact)))
+      throw Error({.element = "grain contact " + std::to_string(&contact - state.grain_contacts.data())},
+                  "names no two particles, is not in ascending order, or has a number that is not finite",
+                  "restore a state of this world, or clear its grain_contacts");
+    before = &contact;
+  }
+}
+
 void require_broken_joints(const Model& model, const State& state) {
   const BrokenJoint* before = nullptr;
   for (const BrokenJoint& broken : state.broken_joints) {
@@ -223,6 +238,7 @@ void World::restore(const State& state) {
   require_channels(state);
   require_substeps(state);
   require_body_contacts(state);
+  require_grain_contacts(state);
   require_broken_joints(data_->model, state);
   require_motors(data_->model, state);
   require_rest_times(state);
@@ -273,6 +289,8 @@ std::string hash(const State& state) {
   if (!state.motors.empty()) sha.add(state.motors.data(), state.motors.size() * sizeof(MotorSetting));
   if (!state.body_contacts.empty()) sha.add(state.body_contacts.data(), state.body_contacts.size() * sizeof(BodyContact));
   if (!state.rest_times.empty()) sha.add(state.rest_times.data(), state.rest_times.size() * sizeof(float));
+  if (!state.grain_contacts.empty())
+    sha.add(state.grain_contacts.data(), state.grain_contacts.size() * sizeof(GrainContact));
   return sha.finish();
 }
 

@@ -202,6 +202,21 @@ TEST_F(FullScene, HasItsLiquids) {
   EXPECT_EQ(scene.objects.at(10).positions.at(1), (Vec3f{-8, 8.5f, 1}));
 }
 
+TEST_F(FullScene, HasItsGrains) {
+  const Object& sand = scene.objects.at(11);
+  ASSERT_TRUE(sand.grains);
+  EXPECT_EQ(sand.grains->radius, 0.125f);
+  EXPECT_EQ(sand.grains->density, 1500);
+  EXPECT_EQ(sand.grains->friction, 0.75f);
+  EXPECT_EQ(sand.positions.size(), 16U);
+  EXPECT_EQ(sand.positions.at(1), (Vec3f{-7.625f, 10.125f, 1.125f}));
+  EXPECT_NEAR(sand.masses.at(0), 1500 * 3.14159265 / 6 / 64, 1e-4);
+  EXPECT_EQ(sand.thickness, 0.125f);
+  EXPECT_EQ(sand.static_friction, 0.75f);
+  EXPECT_EQ(sand.kinetic_friction, 0.75f);
+  EXPECT_EQ(scene.objects.at(12).positions.at(1), (Vec3f{-8, 12.5f, 1}));
+}
+
 TEST_F(FullScene, HasItsParticles) {
   const Object& object = scene.objects.at(5);
   EXPECT_EQ(object.masses, (std::vector<float>{1, 2, std::numeric_limits<float>::infinity(), 4}));
@@ -313,7 +328,7 @@ TEST(SceneSchema, HoldsEveryFieldWithItsRange) {
   EXPECT_EQ(settings.at("properties").at("substeps").at("maximum"), 10000);
   EXPECT_EQ(schema.at("$defs").at("sphere").at("properties").at("radius").at("exclusiveMinimum"), 0);
   EXPECT_EQ(schema.at("$defs").at("scene").at("required"), nlohmann::json({"objects"}));
-  EXPECT_EQ(schema.at("$defs").at("object").at("oneOf").size(), 6U);
+  EXPECT_EQ(schema.at("$defs").at("object").at("oneOf").size(), 7U);
 }
 
 TEST(SceneSchema, NamesEveryConstraintType) {

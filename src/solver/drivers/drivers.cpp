@@ -14,6 +14,7 @@ constexpr std::array<PhaseDriver, driver_count> drivers{{
     {Turn::sweep, false, &project_volumes},
     {Turn::stencil, false, &project_stencils},
     {Turn::stencil, false, &project_fluids},
+    {Turn::stencil, false, &project_grains},
     {Turn::last, false, &hold_tethers},
     {Turn::last, false, &project_surface_contacts},
     {Turn::last, false, &project_collider_contacts},

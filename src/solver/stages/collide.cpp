@@ -1,5 +1,6 @@
 #include "solver/bodies/body_solver.h"
 #include "solver/fluids/fluid_solver.h"
+#include "solver/grains/grain_solver.h"
 #include "solver/stages/stages.h"
 
 namespace pliant {
@@ -25,6 +26,7 @@ void collide(Substep& s) {
   collide_with_shapes(s);
   if (s.bodies != nullptr) s.bodies->collide(s);
   if (s.fluids != nullptr) s.fluids->collide(s);
+  if (s.grains != nullptr) s.grains->collide(s);
   if (!s.has_pairs()) return;
   s.pairs->detect(s.context.executor, all_particles(s));
   s.own->contact_solver.begin(s.kernels.contacts, s.pairs->contacts(), s.pairs->static_contacts(), s.state.positions.data(),

@@ -5,6 +5,7 @@
 #include "solver/bodies/body_solver.h"
 #include "solver/diagnose.h"
 #include "solver/fluids/fluid_solver.h"
+#include "solver/grains/grain_solver.h"
 #include "solver/pair_words.h"
 #include "solver/stages/stages.h"
 #include "solver/substep_law.h"
@@ -33,6 +34,7 @@ Substep begin_group(const StepContext& context, const GroupFrame& of, double dt)
   s.least_hanging = of.least_hanging;
   if (of.group != nullptr) s.bodies = of.group->bodies.get();
   if (of.group != nullptr) s.fluids = of.group->fluids.get();
+  if (of.group != nullptr) s.grains = of.group->grains.get();
   if (of.group != nullptr) s.own_lengths = &of.group->lengths;
   for_objects(s, [&](int o) {
     s.work.gravity[o] = {0, static_cast<double>(s.h), 0, 1 / (1 + s.h * s.model.objects[o].damping)};
@@ -43,6 +45,7 @@ Substep begin_group(const StepContext& context, const GroupFrame& of, double dt)
   if (s.has_pairs()) s.pairs->begin_frame(s.state.positions.data(), s.work.look_for_tangles);
   if (s.bodies != nullptr) s.bodies->begin_frame(s);
   if (s.fluids != nullptr) s.fluids->begin_frame();
+  if (s.grains != nullptr) s.grains->begin_frame();
   s.sweeps_on_entry = may_sweep_on_entry(s);
   return s;
 }
@@ -158,6 +161,15 @@ void keep_body_contacts(std::vector<Substep>& groups) {
   if (!std::is_sorted(all.begin(), all.end(), in_order)) std::sort(all.begin(), all.end(), in_order);
 }
 
+/// Puts the contacts of grains of all groups into the State.
+void keep_grain_contacts(std::vector<Substep>& groups) {
+  State& state = groups.front().state;
+  state.grain_contacts.clear();
+  for (Substep& s : groups)
+    if (s.grains != nullptr) s.grains->append_contacts(state, state.grain_contacts);
+  std::sort(state.grain_contacts.begin(), state.grain_contacts.end(), in_order_of_particles);
+}
+
 /// Puts the broken joints of all objects into the State, and orders those that the Report names.
 void keep_broken_joints(const Substep& s, Report& report) {
   s.state.broken_joints.clear();
@@ -172,6 +184,7 @@ void keep_broken_joints(const Substep& s, Report& report) {
 
 bool end_frame(std::vector<Substep>& groups, Report& report) {
   keep_body_contacts(groups);
+  keep_grain_contacts(groups);
   add(groups, report.iterations);
   for (Substep& s : groups) add(s, report);
   keep_broken_joints(groups.front(), report);
@@ -179,6 +192,7 @@ bool end_frame(std::vector<Substep>& groups, Report& report) {
     if (s.failed_in < 0) continue;
     report.nonfinite = diagnose(s);
     s.state.body_contacts.clear();  // impulses may not be finite either
+    s.state.grain_contacts.clear();
     report.nonfinite->frame = s.state.frame;
     report.nonfinite->substep = s.failed_in;
     report.substeps = std::max(report.substeps, s.failed_in + 1);

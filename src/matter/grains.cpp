@@ -1,0 +1,39 @@
+// Makes grains: particles, each with the mass of a sphere.
+#include "pliant/grains.h"
+
+#include <cmath>
+#include <string>
+
+#include "pliant/error.h"
+
+namespace pliant {
+
+namespace {
+
+void require(bool is_good, const std::string& name, const char* element, float value, const char* what) {
+  if (!is_good || !std::isfinite(value))
+    throw Error({.object = name, .element = element}, "is " + std::to_string(value), std::string("give a ") + what);
+}
+
+}  // namespace
+
+Object make_grains(const std::vector<Vec3f>& positions, const GrainsOptions& options) {
+  constexpr float sphere = 4.18879020f;  // 4/3 pi: volume over the cube of the radius
+  const Grains& grains = options.grains;
+  if (positions.empty()) throw Error({.object = options.name}, "grains without particles", "give a position or more");
+  require(grains.radius > 0, options.name, "radius", grains.radius, "positive, finite radius [m]");
+  require(grains.density > 0, options.name, "density", grains.density, "positive, finite density [kg/m^3]");
+  require(grains.friction >= 0, options.name, "friction", grains.friction, "finite coefficient of 0 or more [-]");
+  Object object;
+  object.name = options.name;
+  object.positions = positions;
+  object.masses.assign(positions.size(), sphere * grains.density * grains.radius * grains.radius * grains.radius);
+  if (length_squared(options.velocity) > 0) object.velocities.assign(positions.size(), options.velocity);
+  object.grains = grains;
+  object.thickness = grains.radius;
+  object.static_friction = object.kinetic_friction = grains.friction;
+  object.colour = {0.60f, 0.42f, 0.22f};
+  return object;
+}
+
+}  // namespace pliant

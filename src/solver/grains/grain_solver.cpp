@@ -1,0 +1,226 @@
+#include "solver/grains/grain_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/vector.h"
+#include "solver/grains/grain_formulas.h"
+#include "solver/substep.h"
+
+namespace pliant {
+
+namespace {
+
+/// Neighbours are found within this distance beyond contact, and again once a grain has moved by half of it; over the radius.
+constexpr float skin = 0.5f;
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
+
+Record predicted(const Substep& s, std::int32_t particle) {
+  const Record &x = s.state.positions[at(particle)], &d = s.work.displacements[at(particle)];
+  return {x.x + d.x, x.y + d.y, x.z + d.z, 0};
+}
+
+/// Calls body(slot) for all slots of a task.
+template <class Body>
+void for_slots(const NeighbourLists& lists, int task, const Body& body) {
+  constexpr int slots = NeighbourLists::groups_in_a_task * NeighbourLists::lanes;
+  const int first = task * slots, last = std::min(first + slots, lists.slots());
+  for (int slot = first; slot < last; ++slot) body(slot);
+}
+
+/// Calls body(slot) for all slots on all threads.
+template <class Body>
+void for_all_slots(Substep& s, const char* name, const NeighbourLists& lists, const Body& body) {
+  s.context.executor.parallel_for(name, lists.tasks(), [&](int task) { for_slots(lists, task, body); });
+}
+
+/// Grains of one object always meet.
+bool can_touch(const GrainTraits& a, const GrainTraits& b) {
+  return a.object == b.object || ((a.groups & b.mask) != 0 && (b.groups & a.mask) != 0);
+}
+
+/// The known slip of a over b, or none.
+Vec3f known_slip(const std::vector<GrainContact>& known, std::int32_t a, std::int32_t b) {
+  const GrainContact wanted{std::min(a, b), std::max(a, b), {}};
+  const auto found = std::lower_bound(known.begin(), known.end(), wanted, in_order_of_particles);
+  if (found == known.end() || found->a != wanted.a || found->b != wanted.b) return {};
+  return a < b ? found->slip : -found->slip;
+}
+
+}  // namespace
+
+GrainSolver::GrainSolver(const Model& model, const std::vector<int>* objects) {
+  const int count = static_cast<int>(objects != nullptr ? objects->size() : model.objects.size());
+  for (int i = 0; i < count; ++i) {
+    const int o = objects != nullptr ? (*objects)[at(i)] : i;
+    const CompiledObject& object = model.objects[at(o)];
+    if (!object.grains) continue;
+    const GrainTraits traits{
+        object.grains->radius, contact_friction(object.grains->friction), 0, o, object.groups, object.mask};
+    largest_radius_ = std::max(largest_radius_, traits.radius);
+    for (int p = model.first[at(o)]; p < model.end_of(o); ++p) {
+      points_.push_back(p);
+      traits_.push_back(traits);
+    }
+  }
+}
+
+GrainSolver::~GrainSolver() = default;
+
+void GrainSolver::begin_frame() { is_new_frame_ = true; }
+
+void GrainSolver::find_neighbours(Substep& s, const std::vector<GrainContact>& known) {
+  Records by_point(points_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) by_point[i] = predicted(s, points_[i]);
+  lists_.find(s.context.executor, s.kernels.neighbours, by_point, (2 + skin) * largest_radius_);
+  const std::vector<std::int32_t>& order = lists_.order().points();
+  of_slot_.resize(order.size());
+  of_grain_.resize(order.size());
+  found_at_.resize(order.size());
+  for (std::size_t slot = 0; slot < order.size(); ++slot) {
+    const std::size_t point = at(order[slot]);
+    of_slot_[slot] = points_[point];
+    of_grain_[slot] = traits_[point];
+    of_grain_[slot].inverse_mass = s.state.positions[at(of_slot_[slot])].w;
+    found_at_[slot] = by_point[point];
+  }
+  count_neighbours();
+  for_all_slots(s, "neighbours: grains", lists_, [&](int slot) { list_neighbours(slot, known); });
+}
+
+/// Makes room for the neighbours of each slot.
+void GrainSolver::count_neighbours() {
+  constexpr int lanes = NeighbourLists::lanes;
+  first_.assign(at(lists_.slots()) + 1, 0);
+  for (int slot = 0; slot < lists_.slots(); ++slot) {
+    const NeighbourGroup& group = lists_.group(slot / lanes);
+    int count = 0;
+    while (count < group.rows && group.slots[count * lanes + slot % lanes] != lists_.nobody()) ++count;
+    first_[at(slot) + 1] = first_[at(slot)] + count;
+  }
+  neighbours_.assign(at(first_.back()), {});
+}
+
+/// Orders the neighbours of a slot by particle, so that sums do not depend on cells, nor on when neighbours are found.
+void GrainSolver::list_neighbours(int slot, const std::vector<GrainContact>& known) {
+  constexpr int lanes = NeighbourLists::lanes;
+  const NeighbourGroup& group = lists_.group(slot / lanes);
+  GrainNeighbour* const first = neighbours_.data() + first_[at(slot)];
+  const int count = first_[at(slot) + 1] - first_[at(slot)];
+  for (int k = 0; k < count; ++k) first[k].slot = group.slots[k * lanes + slot % lanes];
+  std::sort(first, first + count,
+            [&](const GrainNeighbour& a, const GrainNeighbour& b) { return of_slot_[at(a.slot)] < of_slot_[at(b.slot)]; });
+  for (int k = 0; k < count; ++k) first[k].slip = known_slip(known, of_slot_[at(slot)], of_slot_[at(first[k].slot)]);
+}
+
+/// False if a grain has moved so far that it may touch one that is not listed.
+bool GrainSolver::are_neighbours_known(Substep& s) {
+  task_moves_.assign(at(lists_.tasks()), 0);
+  s.context.executor.parallel_for("neighbours: grains", lists_.tasks(), [&](int task) {
+    float largest = 0;
+    for_slots(lists_, task, [&](int slot) {
+      const Vec3f move = vector_of(predicted(s, of_slot_[at(slot)])) - vector_of(found_at_[at(slot)]);
+      largest = std::max(largest, dot(move, move));
+    });
+    task_moves_[at(task)] = largest;
+  });
+  const float largest = *std::max_element(task_moves_.begin(), task_moves_.end());
+  const float most = skin / 2 * largest_radius_;
+  return largest < most * most;
+}
+
+/// Adds the last substep's motion to the slip of a slot's contacts. What does not press, or exceeds the friction, slides.
+void GrainSolver::slide(const State& state, int slot) {
+  const auto move = [&](std::int32_t of) {
+    const Record &x = state.positions[at(of_slot_[at(of)])], &r = state.remainders[at(of_slot_[at(of)])];
+    return (vector_of(x) - vector_of(starts_[at(of)])) + (vector_of(r) - vector_of(residues_[at(of)]));
+  };
+  const auto place = [&](std::int32_t of) { return vector_of(state.positions[at(of_slot_[at(of)])]); };
+  const Vec3f own_move = move(slot), own = place(slot);
+  for (std::int32_t k = first_[at(slot)]; k < first_[at(slot) + 1]; ++k) {
+    GrainNeighbour& n = neighbours_[at(k)];
+    if (!(n.push > 0)) {
+      n.slip = {};
+      continue;
+    }
+    const float friction = grain_formulas::common_friction(of_grain_[at(slot)].friction, of_grain_[at(n.slot)].friction);
+    const Vec3f normal = grain_formulas::normal_of(own - place(n.slot), of_slot_[at(slot)] < of_slot_[at(n.slot)]);
+    n.slip = grain_formulas::after_motion(n.slip, own_move - move(n.slot), normal, friction * n.push);
+  }
+}
+
+void GrainSolver::collide(Substep& s) {
+  if (!is_new_frame_) for_all_slots(s, "neighbours: grains", lists_, [&](int slot) { slide(s.state, slot); });
+  if (is_new_frame_ || !are_neighbours_known(s)) {
+    std::vector<GrainContact> known;
+    if (is_new_frame_) {
+      known = s.state.grain_contacts;
+    } else {
+      list_contacts(known);
+      std::sort(known.begin(), known.end(), in_order_of_particles);
+    }
+    find_neighbours(s, known);
+    is_new_frame_ = false;
+  }
+  const std::size_t slots = at(lists_.slots());
+  for (Records* records : {&places_, &moves_, &starts_, &residues_}) records->resize(slots);
+  for_all_slots(s, "neighbours: grains", lists_, [&](int slot) {
+    starts_[at(slot)] = s.state.positions[at(of_slot_[at(slot)])];
+    residues_[at(slot)] = s.state.remainders[at(of_slot_[at(slot)])];
+  });
+}
+
+void GrainSolver::project(Substep& s, bool is_first) {
+  for_all_slots(s, "solve: places of grains", lists_, [&](int slot) {
+    const Record &d = s.work.displacements[at(of_slot_[at(slot)])], &r = residues_[at(slot)];
+    places_[at(slot)] = predicted(s, of_slot_[at(slot)]);
+    moves_[at(slot)] = {d.x - r.x, d.y - r.y, d.z - r.z, 0};
+  });
+  for_all_slots(s, "solve: grains", lists_, [&](int slot) { project_grain(s, slot, is_first); });
+}
+
+void GrainSolver::project_grain(Substep& s, int slot, bool is_first) {
+  const GrainTraits& own = of_grain_[at(slot)];
+  const Vec3f place = vector_of(places_[at(slot)]), move = vector_of(moves_[at(slot)]);
+  Vec3f sum{};
+  for (std::int32_t k = first_[at(slot)]; k < first_[at(slot) + 1]; ++k) {
+    GrainNeighbour& n = neighbours_[at(k)];
+    const GrainTraits& other = of_grain_[at(n.slot)];
+    if (is_first) {
+      n.push = 0;
+      n.friction = {};
+    }
+    const Vec3f between = place - vector_of(places_[at(n.slot)]);
+    const float reach = own.radius + other.radius;
+    if (!(dot(between, between) < reach * reach) || !can_touch(own, other)) continue;
+    const float inverse_mass = own.inverse_mass + other.inverse_mass;
+    if (!(inverse_mass > 0)) continue;
+    const Vec3f normal = grain_formulas::normal_of(between, of_slot_[at(slot)] < of_slot_[at(n.slot)]);
+    const float gap = dot(between, normal) - reach;
+    const float friction = grain_formulas::common_friction(own.friction, other.friction);
+    const Vec3f by = grain_formulas::project(gap, normal, move - vector_of(moves_[at(n.slot)]), friction, n);
+    sum = sum + (own.inverse_mass / inverse_mass) * by;
+  }
+  Record& d = s.work.displacements[at(of_slot_[at(slot)])];
+  d = {d.x + sum.x, d.y + sum.y, d.z + sum.z, d.w};
+}
+
+void GrainSolver::list_contacts(std::vector<GrainContact>& to) const {
+  for (int slot = 0; slot < lists_.slots(); ++slot)
+    for (std::int32_t k = first_[at(slot)]; k < first_[at(slot) + 1]; ++k) {
+      const GrainNeighbour& n = neighbours_[at(k)];
+      const std::int32_t a = of_slot_[at(slot)], b = of_slot_[at(n.slot)];
+      if (n.push > 0 && a < b) to.push_back({a, b, n.slip});
+    }
+}
+
+void GrainSolver::append_contacts(const State& state, std::vector<GrainContact>& to) {
+  if (is_new_frame_) return;  // no substep was made
+  for (int slot = 0; slot < lists_.slots(); ++slot) slide(state, slot);
+  list_contacts(to);
+}
+
+}  // namespace pliant

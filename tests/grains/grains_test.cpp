@@ -1,0 +1,243 @@
+// Grains: contacts, momentum, Coulomb friction, and the angle of a heap.
+#include "pliant/grains.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "pliant/error.h"
+#include "pliant/liquid.h"
+#include "pliant/world.h"
+#include "solver/grains/grain_formulas.h"
+#include "solver/grains/grain_solver.h"
+
+namespace pliant {
+namespace {
+
+constexpr float radius = 0.01f, diameter = 2 * radius;
+
+Report run(World& world, int frames) {
+  Report report;
+  for (int i = 0; i < frames; ++i) report = world.step(1.f / 60);
+  return report;
+}
+
+Collider wall(const Vec3f& at, const Quatf& rotation, float friction) {
+  Collider plane;
+  plane.position = at;
+  plane.rotation = rotation;
+  plane.static_friction = plane.kinetic_friction = friction;
+  return plane;
+}
+
+/// A block of grains between planes without friction, free along x on one side, on ground that no grain slides on. Rows are shifted, so
+/// that no column stands.
+Scene block(const Vec3f& size, float friction) {
+  std::vector<Vec3f> places = fill_box({0, 0, 0}, size, 1.07f * diameter);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto part = [&](std::size_t prime) { return 0.05f * diameter * static_cast<float>(i * prime % 101) / 101; };
+    places[i] = places[i] + Vec3f{part(37), part(59), part(83)};
+  }
+  Scene scene;
+  scene.add(make_grains(places, {.grains = {.radius = radius, .friction = friction}}));
+  const float r = std::sqrt(0.5f);
+  scene.add(wall({0, 0, 0}, {0, 0, 0, 1}, 1000));
+  scene.add(wall({0, 0, 0}, {0, 0, -r, r}, 0));
+  scene.add(wall({0, 0, 0}, {r, 0, 0, r}, 0));
+  scene.add(wall({0, 0, size.z}, {-r, 0, 0, r}, 0));
+  scene.settings.threads = 1;
+  return scene;
+}
+
+TEST(Grains, KeepTheirMomentumWhenTheyCollide) {
+  Scene scene;
+  scene.gravity = {};
+  scene.add(make_grains({{0, 0, 0}}, {.grains = {.radius = radius}, .velocity = {1, 0, 0}}));
+  scene.add(make_grains({{0.1f, 0.005f, 0}}, {.name = "other", .grains = {.radius = 2 * radius}, .velocity = {0, 0, 0}}));
+  World world(scene);
+  run(world, 30);
+  const Vec3f a = world.object(0).velocities()[0], b = world.object(1).velocities()[0];
+  EXPECT_NEAR(a.x + 8 * b.x, 1, 1e-5);  // masses are as the cubes of the radii
+  EXPECT_NEAR(a.y + 8 * b.y, 0, 1e-5);
+  EXPECT_GT(b.x, 0.05f) << "they have not met";
+  EXPECT_LE(a.x, b.x);
+  EXPECT_LE(length_squared(a) + 8 * length_squared(b), 1);
+}
+
+/// Where a light grain on a fixed sphere of 1 m is after a second, `degrees` from its top at the start; how far it has moved [m].
+double slip_on_sphere(float friction, double degrees) {
+  Scene scene;
+  Object sphere = make_grains({{0, 0, 0}}, {.name = "sphere", .grains = {.radius = 1, .friction = friction}});
+  sphere.pins = {{0, {}}};
+  scene.add(sphere);
+  const double angle = degrees * 3.14159265 / 180, distance = 1.01 - 1e-5;
+  const Vec3f start{static_cast<float>(distance * std::sin(angle)), static_cast<float>(distance * std::cos(angle)), 0};
+  scene.add(make_grains({start}, {.grains = {.radius = radius, .friction = friction}}));
+  scene.settings.substeps = 20;
+  World world(scene);
+  run(world, 60);
+  return std::sqrt(static_cast<double>(length_squared(world.object(1).positions()[0] - start)));
+}
+
+TEST(Grains, StickBelowTheAngleOfFrictionAndSlideAboveIt) {
+  for (const float friction : {0.3f, 0.6f, 1.0f}) {
+    const double angle = std::atan(static_cast<double>(contact_friction(friction))) * 180 / 3.14159265;
+    EXPECT_LT(slip_on_sphere(friction, angle - 2), 1e-3) << friction;
+    EXPECT_GT(slip_on_sphere(friction, angle + 2), 5e-3) << friction;
+  }
+}
+
+/// All pairs of grains whose distance is below a share of their diameter.
+std::vector<GrainContact> pairs_within(const State& state, float share) {
+  std::vector<GrainContact> pairs;
+  const int count = static_cast<int>(state.positions.size());
+  for (int a = 0; a < count; ++a)
+    for (int b = a + 1; b < count; ++b) {
+      const Record &p = state.positions[static_cast<std::size_t>(a)], &q = state.positions[static_cast<std::size_t>(b)];
+      const Vec3f d{p.x - q.x, p.y - q.y, p.z - q.z};
+      if (length_squared(d) < share * share * diameter * diameter) pairs.push_back({a, b, {}});
+    }
+  return pairs;
+}
+
+/// The pairs that press by more than `least` [m] when a substep of h begins, by the formula of a contact.
+std::vector<GrainContact> pairs_that_press(const State& state, float h, double least) {
+  std::vector<GrainContact> pairs;
+  const int count = static_cast<int>(state.positions.size());
+  const auto move = [&](int i) {
+    const Record& v = state.velocities[static_cast<std::size_t>(i)];
+    return Vec3d{v.x, v.y - 9.81 * static_cast<double>(h), v.z} * static_cast<double>(h);
+  };
+  const auto place = [&](int i) {
+    const Record& p = state.positions[static_cast<std::size_t>(i)];
+    return Vec3d{p.x, p.y, p.z} + move(i);
+  };
+  for (int a = 0; a < count; ++a)
+    for (int b = a + 1; b < count; ++b) {
+      const Vec3d between = place(a) - place(b), moves = move(a) - move(b);
+      const double distance = std::sqrt(between.x * between.x + between.y * between.y + between.z * between.z);
+      const double gap = distance - 2 * static_cast<double>(radius);
+      const double along = (between.x * moves.x + between.y * moves.y + between.z * moves.z) / distance;
+      const double push =
+          -static_cast<double>(grain_formulas::stiffness) * gap - static_cast<double>(grain_formulas::damping) * along;
+      if (gap < -least && push > least) pairs.push_back({a, b, {}});
+    }
+  return pairs;
+}
+
+bool has_all(const std::vector<GrainContact>& these, const std::vector<GrainContact>& of) {
+  return std::includes(these.begin(), these.end(), of.begin(), of.end(), in_order_of_particles);
+}
+
+// Grains fall and mix for half a second, in frames in which lists are found again. One more substep then has the contacts that brute force
+// finds, but for those that hardly touch.
+TEST(Grains, TouchWhereBruteForceFindsThemTouching) {
+  Scene scene = block({0.3f, 0.2f, 0.1f}, 0.5f);
+  World world(scene);
+  scene.settings.substeps = 1;
+  World one(scene);
+  constexpr float h = 1.f / 1500;
+  constexpr double rounding = 1e-7;
+  for (int i = 0; i < 10; ++i) {
+    run(world, 3);
+    const State& state = world.state();
+    one.restore(state);
+    one.step(h);
+    const std::vector<GrainContact>& contacts = one.state().grain_contacts;
+    EXPECT_TRUE(has_all(contacts, pairs_that_press(state, h, rounding))) << "a contact is missing";
+    EXPECT_TRUE(has_all(pairs_that_press(state, h, -rounding), contacts)) << "a contact of grains that are apart";
+    EXPECT_TRUE(i < 5 || contacts.size() > state.positions.size() / 2) << "they have not come to lie";
+  }
+}
+
+TEST(Grains, DoNotOverlapMuchWhereTheyLie) {
+  World world(block({0.3f, 0.2f, 0.1f}, 0.5f));
+  ASSERT_TRUE(run(world, 90).ok());
+  EXPECT_TRUE(pairs_within(world.state(), 0.94f).empty());  // twice the overlap that the substeps are chosen for
+}
+
+std::string hash_after(const Scene& scene, int threads, const char* isa) {
+  Settings settings = scene.settings;
+  settings.threads = threads;
+  settings.isa = isa;
+  World world(scene, settings);
+  run(world, 20);
+  return hash(world.state());
+}
+
+TEST(Grains, HaveTheSameBitsOnAnyThreadsAndLevels) {
+  const Scene scene = block({0.3f, 0.2f, 0.1f}, 0.5f);
+  const std::string expected = hash_after(scene, 1, "sequential");
+  EXPECT_EQ(hash_after(scene, 1, ""), expected);
+  EXPECT_EQ(hash_after(scene, 3, ""), expected);
+  EXPECT_EQ(hash_after(scene, 2, "generic"), expected);
+}
+
+TEST(Grains, GoOnFromARestoredStateWithTheSameBits) {
+  const Scene scene = block({0.3f, 0.2f, 0.1f}, 0.5f);
+  World world(scene);
+  run(world, 15);
+  const State kept = world.state();
+  ASSERT_FALSE(kept.grain_contacts.empty());
+  run(world, 7);
+  const std::string expected = hash(world.state());
+  World other(scene);
+  other.restore(kept);
+  run(other, 7);
+  EXPECT_EQ(hash(other.state()), expected);
+  State without = kept;
+  without.grain_contacts.clear();
+  other.restore(without);
+  run(other, 7);
+  EXPECT_NE(hash(other.state()), expected) << "contacts have no effect";
+}
+
+TEST(Grains, OfAnotherGroupDoNotMeetThem) {
+  const auto gap = [](std::uint32_t mask) {
+    Scene scene;
+    scene.gravity = {};
+    scene.add(make_grains({{0, 0, 0}}, {.grains = {.radius = radius}}));
+    Object other = make_grains({{0.5f * radius, 0, 0}}, {.name = "other", .grains = {.radius = radius}});
+    other.mask = mask;
+    scene.add(other);
+    World world(scene);
+    run(world, 30);
+    return world.object(1).positions()[0].x - world.object(0).positions()[0].x;
+  };
+  EXPECT_GT(gap(~0u), 1.9f * radius);
+  EXPECT_EQ(gap(0), 0.5f * radius);
+}
+
+std::string why_not(const std::function<void()>& make) {
+  try {
+    make();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Grains, NameWhatIsOutOfRange) {
+  EXPECT_NE(why_not([] { make_grains({}); }).find("without particles"), std::string::npos);
+  EXPECT_NE(why_not([] { make_grains({{}}, {.grains = {.radius = 0}}); }).find("radius"), std::string::npos);
+  EXPECT_NE(why_not([] { make_grains({{}}, {.grains = {.density = -1}}); }).find("density"), std::string::npos);
+  EXPECT_NE(why_not([] { make_grains({{}}, {.grains = {.friction = NAN}}); }).find("friction"), std::string::npos);
+  EXPECT_NE(why_not([] {
+              Scene scene = block({0.1f, 0.1f, 0.1f}, 0.5f);
+              scene.objects[0].grains->radius = NAN;
+              const World world(scene);
+            }).find("radius"),
+            std::string::npos);
+  EXPECT_NE(why_not([] {
+              World world(block({0.1f, 0.1f, 0.1f}, 0.5f));
+              State state = world.state();
+              state.grain_contacts = {{3, 3, {}}};
+              world.restore(state);
+            }).find("grain contact 0"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace pliant
