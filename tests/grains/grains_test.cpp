@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <utility>
 
 #include "pliant/error.h"
 #include "pliant/liquid.h"
@@ -49,6 +51,18 @@ Scene block(const Vec3f& size, float friction) {
   scene.add(wall({0, 0, size.z}, {-r, 0, 0, r}, 0));
   scene.settings.threads = 1;
   return scene;
+}
+
+/// Places that fill a box loosely, in no order: a lattice of 1.3 diameters, each place moved by up to 0.14 along each axis.
+std::vector<Vec3f> shaken(const Vec3f& size) {
+  std::vector<Vec3f> places = fill_box({0, 0, 0}, size, 1.3f * diameter);
+  std::uint32_t seed = 1;
+  const auto next = [&] {
+    seed = seed * 1664525u + 1013904223u;
+    return (static_cast<float>(seed >> 8) / static_cast<float>(1 << 24) - 0.5f) * 0.28f * diameter;
+  };
+  for (Vec3f& p : places) p = {p.x + next(), p.y + next(), p.z + next()};
+  return places;
 }
 
 TEST(Grains, KeepTheirMomentumWhenTheyCollide) {
@@ -156,6 +170,55 @@ TEST(Grains, DoNotOverlapMuchWhereTheyLie) {
   World world(block({0.3f, 0.2f, 0.1f}, 0.5f));
   ASSERT_TRUE(run(world, 90).ok());
   EXPECT_TRUE(pairs_within(world.state(), 0.94f).empty());  // twice the overlap that the substeps are chosen for
+}
+
+/// The slope of a surface between 20 and 80 % of its height, by least squares over columns of grains across z [degrees].
+double slope_of(const std::vector<Vec3f>& grains) {
+  std::map<std::pair<int, int>, double> tops;  // by column along x, and along z of twice the width
+  for (const Vec3f& p : grains) {
+    double& top = tops[{static_cast<int>(p.x / diameter), static_cast<int>(p.z / (2 * diameter))}];
+    top = std::max(top, static_cast<double>(p.y));
+  }
+  std::map<int, std::pair<double, int>> sums;
+  for (const auto& [cell, top] : tops) sums[cell.first] = {sums[cell.first].first + top, sums[cell.first].second + 1};
+  double highest = 0, n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (const auto& [column, sum] : sums) highest = std::max(highest, sum.first / sum.second);
+  for (const auto& [column, sum] : sums) {
+    const double at = (column + 0.5) * static_cast<double>(diameter), height = sum.first / sum.second;
+    if (height < 0.2 * highest || height > 0.8 * highest) continue;
+    n += 1;
+    x += at;
+    y += height;
+    xx += at * at;
+    xy += at * height;
+  }
+  return -std::atan((n * xy - x * y) / (n * xx - x * x)) * 180 / 3.14159265358979;
+}
+
+/// The slope of a heap that comes to rest when a gate withdraws from a block that lay behind it.
+double angle_of_repose(float friction, int substeps, int iterations) {
+  const Vec3f size{0.6f, 0.45f, 0.2f};
+  Scene scene = block(size, friction);
+  scene.objects[0].positions = shaken(size);
+  scene.objects[0].masses.resize(scene.objects[0].positions.size(), scene.objects[0].masses[0]);
+  const float r = std::sqrt(0.5f);
+  Collider gate = wall({size.x, 0, 0}, {0, 0, r, r}, 0);
+  gate.name = "gate";
+  gate.motion.keyframes = {{.time = 0.5}, {.time = 3, .position = {0.5f, 0, 0}}};
+  scene.add(gate);
+  scene.settings.substeps = substeps;
+  scene.settings.iterations = iterations;
+  scene.settings.threads = 2;
+  World world(scene);
+  run(world, 165);
+  return slope_of(world.object(0).positions());
+}
+
+// The bound for heaps. The slope of one heap of 3 600 grains scatters by some 2 degrees (docs/guide/grains.md).
+TEST(Grains, LieAtTheAngleOfTheirFriction) {
+  for (const float friction : {0.4f, 0.7f})
+    EXPECT_NEAR(angle_of_repose(friction, 0, 1), std::atan(static_cast<double>(friction)) * 180 / 3.14159265358979, 3)
+        << friction;
 }
 
 std::string hash_after(const Scene& scene, int threads, const char* isa) {

@@ -12,7 +12,7 @@ struct Measured {
 
 /// Spheres that do not turn lock: heaps of them are steeper than the friction of their contacts. Each is the coefficient of contacts with
 /// which blocks of 3 120 spheres that a gate lets go come to rest at the slope of the bulk, between 20 and 80 % of the height.
-constexpr std::array<Measured, 5> measured{{{0, 0}, {0.3f, 0.063f}, {0.5f, 0.158f}, {0.7f, 0.245f}, {1, 0.52f}}};
+constexpr std::array<Measured, 5> measured{{{0, 0}, {0.3f, 0.061f}, {0.5f, 0.153f}, {0.7f, 0.257f}, {1, 0.475f}}};
 
 }  // namespace
 
