@@ -230,8 +230,9 @@ std::string hash_after(const Scene& scene, int threads, const char* isa) {
   return hash(world.state());
 }
 
+// Several tasks of 512 grains.
 TEST(Grains, HaveTheSameBitsOnAnyThreadsAndLevels) {
-  const Scene scene = block({0.3f, 0.2f, 0.1f}, 0.5f);
+  const Scene scene = block({0.5f, 0.3f, 0.2f}, 0.5f);
   const std::string expected = hash_after(scene, 1, "sequential");
   EXPECT_EQ(hash_after(scene, 1, ""), expected);
   EXPECT_EQ(hash_after(scene, 3, ""), expected);
@@ -255,6 +256,28 @@ TEST(Grains, GoOnFromARestoredStateWithTheSameBits) {
   other.restore(without);
   run(other, 7);
   EXPECT_NE(hash(other.state()), expected) << "contacts have no effect";
+}
+
+TEST(Grains, ForgetThoseThatAreRemoved) {
+  Scene scene = block({0.3f, 0.1f, 0.1f}, 0.5f);
+  Object above = scene.objects[0];
+  above.name = "above";
+  for (Vec3f& p : above.positions) p.y += 0.1f;
+  scene.add(above);
+  World world(scene);
+  run(world, 30);
+  const int first = static_cast<int>(scene.objects[0].positions.size());
+  const auto is_above = [&](const GrainContact& contact) { return contact.b >= first; };
+  const auto count = [&] {
+    return std::count_if(world.state().grain_contacts.begin(), world.state().grain_contacts.end(), is_above);
+  };
+  EXPECT_GT(count(), 0);
+  const std::size_t all = world.state().grain_contacts.size();
+  world.remove(ObjectId{1});
+  EXPECT_EQ(count(), 0);
+  EXPECT_GT(world.state().grain_contacts.size(), 0U);
+  EXPECT_LT(world.state().grain_contacts.size(), all);
+  EXPECT_TRUE(run(world, 5).ok());
 }
 
 TEST(Grains, OfAnotherGroupDoNotMeetThem) {
