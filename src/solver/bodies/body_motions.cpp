@@ -105,6 +105,15 @@ void BodyMotions::store_predicted(const Substep& s) {
   for_bodies(s, bodies(), [&](int first, int last) { s.kernels.motions.store_predicted(all, first, last, s.h); });
 }
 
+void BodyMotions::keep_pushes() {
+  for (int i = 0; i < bodies(); ++i) {
+    const BodyMotion& motion = motions_[at(i)];
+    const Quatf start = quaternion(start_orientations_[at(i)]);
+    pushed_[at(i)] = plus(pushed_[at(i)], motion.velocity - motion.kept_velocity);
+    pushed_spin_[at(i)] = plus(pushed_spin_[at(i)], rotate(conjugate(start), motion.spin - motion.kept_spin));
+  }
+}
+
 void BodyMotions::load_velocities(const Substep& s, FunctionRef<Vec3f(int object)> gravity) {
   for (int i = bodies(); i < static_cast<int>(motions_.size()); ++i) {
     BodyMotion& collider = motions_[at(i)];

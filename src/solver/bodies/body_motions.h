@@ -34,6 +34,13 @@ class BodyMotions {
   void load_predicted(const Substep& s, const ContactBodies& bodies, bool is_first, float share);
   /// Adds what contacts have changed to the prediction.
   void store_predicted(const Substep& s);
+  /// By how much contacts have changed the angular velocity of a body since load_predicted [rad/s].
+  float spin_change(int body) const {
+    const BodyMotion& motion = motions_[static_cast<std::size_t>(body)];
+    return length(motion.spin - motion.kept_spin);
+  }
+  /// Instead of store_predicted: the next load_predicted with `is_first` starts with what contacts have changed.
+  void keep_pushes();
   /// Gathers velocities. `gravity` is what those of an object lack of this frame's gravity [m/s].
   void load_velocities(const Substep& s, FunctionRef<Vec3f(int object)> gravity);
   /// Adds what contacts have changed to velocities.

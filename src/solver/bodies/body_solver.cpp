@@ -1,7 +1,9 @@
 #include "solver/bodies/body_solver.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 
 #include "math/motion.h"
 #include "solver/bodies/body_math.h"
@@ -15,6 +17,10 @@ using namespace bodies;
 
 /// Most rounds in which impacts are passed on from body to body in a substep.
 constexpr int most_rounds_of_impacts = 32;
+/// Where the contacts of the last substep turn a jointed body by more than this in a substep [rad], as where a long chain hits
+/// a peg, joints take up only what the position pass leaves of them: the solve of joints is linear. The same as |f| h^2 |r| over
+/// the inertia, for which joints have this limit, too (joint_forest_solve.cpp).
+constexpr float largest_turn_by_contact = 0.25f;
 
 /// Reads the part of a contact that manifold_of needs into the cache.
 void fetch(const BodyContact& contact) {
@@ -101,11 +107,28 @@ void BodySolver::collide(Substep& s) {
   points_.find_loads(s, motions_.present(), true);
 }
 
+bool BodySolver::press_joints(Substep& s) {
+  if (contacts_.all().empty()) return false;
+  std::vector<int> jointed;
+  for (int i = 0; i < bodies_.dynamic(); ++i)
+    if (s.work.joints[at(bodies_.places()[at(i)].object)].forest != nullptr) jointed.push_back(i);
+  if (jointed.empty()) return false;
+  const Stopwatch stopwatch(s.context.executor.timings(), "solve: bodies");
+  start_substep(s);
+  is_pressed_ = std::none_of(jointed.begin(), jointed.end(),
+                             [&](int i) { return motions_.spin_change(i) * s.h > largest_turn_by_contact; });
+  if (is_pressed_)
+    motions_.store_predicted(s);
+  else
+    motions_.keep_pushes();
+  return is_pressed_;
+}
+
 void BodySolver::project(Substep& s, bool is_first) {
   if (contacts_.all().empty() && !points_.has_any()) return;
   Executor& executor = s.context.executor;
   const Stopwatch stopwatch(executor.timings(), "solve: bodies");
-  if (is_first) {
+  if (is_first && !std::exchange(is_pressed_, false)) {
     start_substep(s);
   } else {
     motions_.load_predicted(s, bodies_, false, 0);

@@ -40,8 +40,12 @@ class BodySolver {
   void renew_contacts(Substep& s);
   /// Finds the contacts of points and bodies in a substep.
   void collide(Substep& s);
+  /// Starts a substep with the contact impulses of the last one, before joints are solved, so that joints balance them and gravity.
+  /// Otherwise joints would take up contact forces after friction, and bodies at rest would creep. Returns false, and moves nothing,
+  /// unless this group has contacts and joints that are solved directly, or if contacts turn a jointed body far.
+  bool press_joints(Substep& s);
   /// Corrects displacements and rotations of bodies, and of points that touch them. In the first iteration of a substep, starts from the impulses of the last
-  /// one, and makes bodies bounce.
+  /// one, unless press_joints has, and makes bodies bounce.
   void project(Substep& s, bool is_first);
   /// Projects the contacts of points of the objects for which `of` is not zero once more.
   void project_points(Substep& s, const std::vector<char>& of) { points_.project(s, motions_.present(), &of); }
@@ -96,6 +100,7 @@ class BodySolver {
   ManifoldColours colours_;                    ///< of contacts_
   ManifoldBlocks blocks_;                      ///< the manifolds of contacts_ in a frame
   bool pushes_are_known_ = false;              ///< false in the first substep of a frame
+  bool is_pressed_ = false;                    ///< true from press_joints to project
   float last_h_ = 0;                           ///< length of the last substep [s]
 };
 

@@ -39,7 +39,8 @@ void walk_stencils(Substep& s, bool first) {
 
 /// Runs one iteration: for each sweep group its phases and acceleration, then the phases of all groups together.
 void iterate(Substep& s, int iteration) {
-  const bool is_pushed = s.has_pairs() && s.pairs->untangles();  // since the prediction
+  const bool is_pressed = iteration == 0 && s.bodies != nullptr && s.bodies->press_joints(s);
+  const bool is_pushed = is_pressed || (s.has_pairs() && s.pairs->untangles());  // since the prediction
   const bool is_first = iteration == 0 && !is_pushed;
   for (const auto& [sweep, group] : s.work.sweeps) {
     if (!uses(s, sweep)) continue;
