@@ -112,6 +112,7 @@ class Constraint final : public AnyConstraint {
 
   // PBD: k' = 1 - (1 - k)^(1/n). n projections of an isolated linear constraint remove the share k of its error.
   double pbd_change(double c, double weight, int projections) const {
+    // libm is allowed in this oracle: results are compared within a tolerance, never by their bits.
     const double each = 1 - std::pow(1 - hardness_.pbd, 1.0 / projections);
     return -each * c / weight;
   }
