@@ -127,7 +127,7 @@ void doubt_cost(Problems& problems, const Object& object) {
 void doubt_thickness(Problems& problems, const Object& object) {
   if (!object.self_collision && !object.collides) return;
   const double edge = median_edge(object), kept = 2 * static_cast<double>(object.thickness);
-  if (object.fluid || (edge == 0 && object.bodies.size() == object.positions.size())) return;
+  if (object.fluid || object.grains || (edge == 0 && object.bodies.size() == object.positions.size())) return;
   if (edge == 0)
     return problems.doubtful("", "has neither triangles nor links: its particles collide as spheres of its thickness",
                              "add triangles or links if it is meant as a surface or a rope");
@@ -148,7 +148,7 @@ bool masks_allow(const A& a, const B& b) {
 
 /// Warns of an object that is set to collide but can meet nothing: it would pass through everything.
 void doubt_company(Problems& problems, const Object& object, const Scene& scene) {
-  if (!object.collides || !object.bodies.empty()) return;  // bodies collide by default
+  if (!object.collides || !object.bodies.empty() || object.fluid || object.grains) return;  // which collide by default
   const auto is_met_by_object = [&](const Object& other) {
     return &other != &object && other.collides && masks_allow(object, other);
   };

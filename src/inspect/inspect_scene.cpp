@@ -171,6 +171,30 @@ void doubt_settings(Problems& problems, const Scene& scene) {
                       "more substeps with fewer iterations converge far better at the same cost");
 }
 
+/// Warns of grains for which the named substeps are too few: those at the bottom yield, and heaps are flatter.
+void doubt_substeps_of_grains(Problems& problems, const Scene& scene) {
+  constexpr double planned = 0.03,
+                   tolerated = 0.05;  // overlaps over the diameter: of the default substeps, and without a warning
+  const int substeps = scene.settings.substeps;
+  if (substeps <= 0) return;
+  std::vector<SetMember> members;
+  for (const Object& object : scene.objects)
+    members.push_back(member_of(object, 0, SubstepRule::any, static_cast<double>(scene.frame_time)));
+  for (const MeshCollider& collider : scene.mesh_colliders) members.push_back(member_of(collider));
+  const std::vector<SetSubsteps> sets = substeps_of_sets(members);
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    if (!scene.objects[o].grains) continue;
+    const double share = static_cast<double>(sets[o].substeps) / substeps;
+    const double overlap = planned * share * share / scene.settings.iterations;
+    if (overlap <= tolerated) continue;
+    problems.doubtful("settings, substeps",
+                      "are " + std::to_string(substeps) + ", too few for the grains of '" + scene.objects[o].name +
+                          "': those at the bottom would overlap by " + words(std::round(100 * overlap)) +
+                          " % of their diameter, and heaps would be too flat",
+                      "leave substeps out, or give " + std::to_string(sets[o].substeps) + " or more");
+  }
+}
+
 /// Names bounds that no object uses.
 void doubt_bounds(Problems& problems, const Scene& scene) {
   const Settings& settings = scene.settings;
@@ -253,6 +277,7 @@ void look_through(Problems& problems, const Scene& scene) {
   if (!problems.wants_doubts() || !surroundings_are_sound) return;
   doubt_settings(problems, scene);
   doubt_bounds(problems, scene);
+  doubt_substeps_of_grains(problems, scene);
   doubt_tolerance(problems, scene);
   doubt_names(problems, scene);
   if (problems.grave_count() == 0) doubt_contact(problems, scene);

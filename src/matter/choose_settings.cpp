@@ -197,7 +197,7 @@ std::vector<int> substeps_of_objects(const Scene& scene, const Settings& setting
   for (std::size_t o = 0; o < sweeps.size(); ++o)
     members.push_back(member_of(scene.objects[o],
                                 own_substeps(scene.objects[o], sweeps[o], is_blown, static_cast<double>(scene.frame_time)),
-                                substep_rule(scene.objects[o], sweeps[o], gravity)));
+                                substep_rule(scene.objects[o], sweeps[o], gravity), static_cast<double>(scene.frame_time)));
   for (const MeshCollider& collider : scene.mesh_colliders) members.push_back(member_of(collider));
   std::vector<SetSubsteps> sets = substeps_of_sets(members);
   sets.resize(scene.objects.size());

@@ -31,6 +31,7 @@ Object make_grains(const std::vector<Vec3f>& positions, const GrainsOptions& opt
   if (length_squared(options.velocity) > 0) object.velocities.assign(positions.size(), options.velocity);
   object.grains = grains;
   object.thickness = grains.radius;
+  object.collides = true;
   object.static_friction = object.kinetic_friction = grains.friction;
   object.colour = {0.60f, 0.42f, 0.22f};
   return object;

@@ -61,6 +61,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   out.user_particles = static_cast<int>(object.positions.size());
   const float slack = tether_slack(object, options);  // before the constraints are moved out of the object
   out.own_substeps = own_substeps(object, options.sweep, options.is_blown, options.frame_time);
+  out.grain_heights = heights_of_grains(object, options.frame_time);
   out.substep_rule = substep_rule(object, options.sweep, static_cast<double>(options.gravity));
 
   std::vector<ConstraintList> lists = given_away != nullptr ? gather_constraints(std::move(*given_away), options.passes)

@@ -117,6 +117,7 @@ struct CompiledObject {
   bool self_collision = false, collides = false, is_collider = false;
   int own_substeps = 0;  ///< own_substeps() of model/object_sets.h; 0: a collider
   SubstepRule substep_rule = SubstepRule::any;
+  GrainHeights grain_heights;
   std::uint32_t groups = 1, mask = 0xffffffffu;
   float thickness = 0, static_friction = 0, kinetic_friction = 0, restitution = 0, drag = 0, lift = 0, damping = 0;
   float rolling_friction = 0, spinning_friction = 0;  ///< of bodies [m]

@@ -221,10 +221,17 @@ double depth_of(const Object& object) {
   return static_cast<double>(high - low);
 }
 
-int substeps_of_grains(const Object& object, double frame_time) {
-  constexpr double overlap = 0.03, stiffness = 0.2;  // over the diameter; of solver/grains/grain_solver.cpp
-  const double diameter = 2 * static_cast<double>(object.grains->radius);
-  const double depth = std::max(depth_of(object), 10 * diameter);
+GrainHeights heights_of_grains(const Object& object, double frame_time) {
+  if (!object.grains || object.positions.empty()) return {};
+  const auto [low, high] = std::minmax_element(object.positions.begin(), object.positions.end(),
+                                               [](const Vec3f& a, const Vec3f& b) { return a.y < b.y; });
+  return {low->y, high->y, 2 * object.grains->radius, static_cast<float>(frame_time)};
+}
+
+int substeps_of_grains(const GrainHeights& grains, double height) {
+  constexpr double overlap = 0.03, stiffness = static_cast<double>(stiffness_of_grains);  // over the diameter
+  const double diameter = static_cast<double>(grains.diameter), frame_time = static_cast<double>(grains.frame_time);
+  const double depth = std::max(height, 10 * diameter);
   // A grain bears `depth / diameter` others, each of which falls by g h^2 in a substep; it yields by twice that over the stiffness.
   const double h = diameter * std::sqrt(overlap * stiffness / (2 * least_acceleration * depth));
   return std::clamp(static_cast<int>(std::ceil(std::min(frame_time / h, 1e4))), 8, 1000);
@@ -241,7 +248,7 @@ int substeps_of_fluid(const Object& object, double frame_time) {
 
 int own_substeps(const Object& object, Sweep sweep, bool is_blown, double frame_time) {
   if (object.fluid) return substeps_of_fluid(object, frame_time);
-  if (object.grains) return substeps_of_grains(object, frame_time);
+  if (object.grains) return substeps_of_grains(heights_of_grains(object, frame_time), depth_of(object));
   const bool is_of_bodies = !object.bodies.empty() && object.bodies.size() == object.positions.size();
   if (is_of_bodies && !has_converted(object)) return substeps_of_bodies;
   if (object.volume && solves_chains(sweep) && !has_converted(object)) {
@@ -266,17 +273,25 @@ bool is_meant_to_stretch(const Object& object, double gravity) {
 
 SubstepRule substep_rule(const Object& object, Sweep sweep, double gravity) {
   if (has_converted(object)) return SubstepRule::fixed;
-  if (!object.bodies.empty()) return SubstepRule::constant;
+  if (!object.bodies.empty() || object.grains) return SubstepRule::constant;
   if (object.volume) return SubstepRule::any;  // chosen by measurements of volumes, not of strain
   if (!solves_chains(sweep)) return SubstepRule::any;
   const std::optional<double> strain = strain_by_weight(object, gravity);
   return strain && *strain <= most_strain_by_weight ? SubstepRule::by_state : SubstepRule::any;
 }
 
-SetMember member_of(const Object& object, int substeps, SubstepRule rule) {
+SetMember member_of(const Object& object, int substeps, SubstepRule rule, double frame_time) {
   const Fluid fluid = object.fluid.value_or(Fluid{.spacing = 0});
-  return {object.groups, object.mask,          object.collides,          false, substeps, rule,
-          fluid.spacing, fluid.speed_of_sound, object.grains.has_value()};
+  return {object.groups,
+          object.mask,
+          object.collides,
+          false,
+          substeps,
+          rule,
+          fluid.spacing,
+          fluid.speed_of_sound,
+          object.grains.has_value(),
+          heights_of_grains(object, frame_time)};
 }
 
 SetMember member_of(const MeshCollider& collider) {
@@ -303,13 +318,42 @@ std::vector<int> find_sets(const std::vector<SetMember>& members) {
   return sets;
 }
 
+namespace {
+
+/// The heights of a set's grains at the start. They come to lie upon one another: no higher than all together, nor than the sum of each.
+struct SetHeight {
+  double low = std::numeric_limits<double>::infinity(), high = -low, sum = 0;
+
+  void add(const GrainHeights& grains) {
+    low = std::min(low, static_cast<double>(grains.low));
+    high = std::max(high, static_cast<double>(grains.high));
+    sum += static_cast<double>(grains.high - grains.low + grains.diameter);
+  }
+  double height() const { return std::min(high - low, sum); }
+};
+
+/// By first member of a set: the substeps that its grains need together.
+std::vector<int> needs_of_grains(const std::vector<SetMember>& members, const std::vector<int>& sets) {
+  std::vector<int> substeps(members.size(), 0);
+  std::vector<SetHeight> heights(members.size());
+  for (std::size_t i = 0; i < members.size(); ++i)
+    if (members[i].grains.frame_time > 0) heights[sets[i]].add(members[i].grains);
+  for (std::size_t i = 0; i < members.size(); ++i)
+    if (members[i].grains.frame_time > 0)
+      substeps[sets[i]] = std::max(substeps[sets[i]], substeps_of_grains(members[i].grains, heights[sets[i]].height()));
+  return substeps;
+}
+
+}  // namespace
+
 std::vector<SetSubsteps> substeps_of_sets(const std::vector<SetMember>& members) {
   const std::vector<int> sets = find_sets(members);
-  std::vector<int> most(members.size(), 0), least(members.size(), 0), of_solids(members.size(), 0);
+  std::vector<int> most = needs_of_grains(members, sets), least = most, of_solids(members.size(), 0);
   std::vector<SubstepRule> rule(members.size(), SubstepRule::any);
   for (std::size_t i = 0; i < members.size(); ++i) {
     most[sets[i]] = std::max(most[sets[i]], members[i].substeps);
-    if (!(members[i].spacing > 0)) of_solids[sets[i]] = std::max(of_solids[sets[i]], members[i].substeps);
+    if (!(members[i].spacing > 0) && !members[i].is_of_grains)
+      of_solids[sets[i]] = std::max(of_solids[sets[i]], members[i].substeps);
     if (members[i].rule != SubstepRule::by_state) least[sets[i]] = std::max(least[sets[i]], members[i].substeps);
     rule[sets[i]] = std::max(rule[sets[i]], members[i].rule);
   }

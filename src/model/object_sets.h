@@ -55,8 +55,22 @@ bool can_follow_volume(const Object& object, double substep = 1.0 / 60 / substep
 /// above a particle, times the square of the substep.
 int substeps_of_fluid(const Object& object, double frame_time);
 
-/// The substeps of grains, with which those at the bottom of the object overlap by 3 % of their diameter at rest.
-int substeps_of_grains(const Object& object, double frame_time);
+/// The share of its overlap that a contact of two grains removes in an iteration (solver/grains/grain_formulas.h).
+inline constexpr float stiffness_of_grains = 0.2f;
+
+/// What the substeps of grains follow from, at the start.
+struct GrainHeights {
+  float low = 0, high = 0;  ///< of their centres [m]
+  float diameter = 0;       ///< 0: no grains [m]
+  float frame_time = 0;     ///< [s]
+};
+
+/// Empty for what has no grains.
+GrainHeights heights_of_grains(const Object& object, double frame_time);
+
+/// The substeps of grains below which others lie up to a height [m], in all, so that those at the bottom overlap by 3 % of their
+/// diameter at rest.
+int substeps_of_grains(const GrainHeights& grains, double height);
 
 /// True if wind or a force field acts on objects.
 bool blows(const Wind& wind, const std::vector<ForceField>& forces);
@@ -65,8 +79,8 @@ bool blows(const Wind& wind, const std::vector<ForceField>& forces);
 enum class SubstepRule {
   any,       ///< at least own_substeps; the rule of others in the set
   by_state,  ///< by the State of each quarter of a frame (solver/substep_law.h), unless one of the set needs a fixed number
-  /// The same in every frame, where rigid bodies can meet what deforms: contact stores energy in proportion to 1 / h^2, so a smaller h
-  /// in the middle of an impact would increase it.
+  /// The same in every frame, where rigid bodies or grains can meet what deforms: contact stores energy in proportion to 1 / h^2, so a
+  /// smaller h in the middle of an impact would increase it.
   constant,
   fixed,  ///< own_substeps, because PBD stiffness is converted for that number
 };
@@ -92,9 +106,10 @@ struct SetMember {
   SubstepRule rule = SubstepRule::any;
   float spacing = 0, speed_of_sound = 0;  ///< of a liquid, which meets those that have the same; 0: it is none
   bool is_of_grains = false;              ///< grains meet by their masks
+  GrainHeights grains{};                  ///< if it is to have its substeps
 };
 
-SetMember member_of(const Object& object, int substeps, SubstepRule rule);
+SetMember member_of(const Object& object, int substeps, SubstepRule rule, double frame_time = 0);
 SetMember member_of(const MeshCollider& collider);
 
 /// For each member, the first member of its set.

@@ -50,7 +50,8 @@ std::vector<int> ContactRules::find_classes(const std::vector<int>& among, std::
   class_of.reserve(among.size());
   for (const int number : among) {
     const ContactBody& body = bodies_[static_cast<std::size_t>(number)];
-    const int flags = (body.collides ? 1 : 0) + (body.is_collider ? 2 : 0) + (body.is_immovable ? 4 : 0);
+    const int flags =
+        (body.collides ? 1 : 0) + (body.is_collider ? 2 : 0) + (body.is_immovable ? 4 : 0) + (body.is_of_grains ? 8 : 0);
     const bool is_alone = std::binary_search(alone.begin(), alone.end(), number);
     const Key key{body.groups, body.mask, flags, is_alone ? number : -1, body.spacing, body.speed_of_sound};
     if (last == nullptr || last->first != key) last = &*numbers.try_emplace(key, static_cast<int>(classes.size())).first;

@@ -16,13 +16,16 @@ struct ContactBody {
   std::uint32_t groups = 1, mask = ~0u;
   bool collides = true;                   ///< meets other bodies whose `collides` is true
   float spacing = 0, speed_of_sound = 0;  ///< of a liquid: liquids that mix do not touch; 0: no liquid
+  bool is_of_grains = false;              ///< contacts of grains with one another are found elsewhere (solver/grains/)
   bool is_collider = false;               ///< a collider, which also meets bodies whose `collides` is false
   bool is_immovable = false;              ///< static or kinematic: two such bodies never meet
   bool meets_itself = false;
   float thickness = 0;  ///< distance that the body keeps from others; two bodies keep the sum of theirs [m]
   float static_friction = 0, kinetic_friction = 0, restitution = 0;
 
+  /// True if what the particles of both do to one another is not contact of this kind.
   bool mixes_with(const ContactBody& other) const {
+    if (is_of_grains && other.is_of_grains) return true;
     return spacing > 0 && spacing == other.spacing && speed_of_sound == other.speed_of_sound && groups == other.groups &&
            mask == other.mask;
   }

@@ -25,6 +25,7 @@ ContactBody body_of(const CompiledObject& object) {
     body.spacing = object.fluid->spacing;
     body.speed_of_sound = object.fluid->speed_of_sound;
   }
+  body.is_of_grains = object.grains.has_value();
   body.is_immovable = is_immovable(object);
   body.meets_itself = is_there && object.self_collision;
   body.thickness = object.thickness;

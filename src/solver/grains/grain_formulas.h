@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "math/vector.h"
+#include "model/object_sets.h"
 #include "solver/grains/grain_solver.h"
 
 namespace pliant::grain_formulas {
@@ -12,7 +13,7 @@ namespace pliant::grain_formulas {
 /// Shares of overlap and of slip that a correction removes, and what it removes beyond of their change in the substep, which damps. For
 /// grains with k contacts, A being the sum of the first and B of both over these, a Jacobi iteration a substep is stable for A + 2 B < 4:
 /// in the densest packing, where neighbours cannot all move against one another, A = 0.96 and B = 1.31.
-inline constexpr float stiffness = 0.2f, damping = 0.05f, slip_stiffness = 0.08f, slip_damping = 0.04f;
+inline constexpr float stiffness = stiffness_of_grains, damping = 0.05f, slip_stiffness = 0.08f, slip_damping = 0.04f;
 
 /// Of two kinds of grains, those with less friction decide.
 inline float common_friction(float a, float b) { return std::min(a, b); }
