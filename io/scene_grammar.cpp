@@ -245,7 +245,7 @@ const Record& object_record() {
            "self_collision", boolean(), "false; true for bodies",
            "The surface does not pass through itself; without triangles, the links do not (docs/guide/contact.md). Bodies "
            "do not pass through each other."),
-       field("collides", boolean(), "false; true for bodies",
+       field("collides", boolean(), "false; true for bodies, liquids and grains",
              "The object does not pass through other objects with `collides`. Mesh colliders always collide."),
        field("groups", bits(), "[0]",
              "Indices of its groups, 0 to 31. Two objects collide if the `mask` of each contains a group of the other."),

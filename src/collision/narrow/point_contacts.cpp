@@ -13,6 +13,8 @@ namespace {
 constexpr float reach_over_thickness = 1.25f;
 /// Packets of the BVH per task.
 constexpr int packets_a_task = 32;
+/// Points per task that look for lines.
+constexpr int points_a_task = 256;
 
 Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
 
@@ -31,13 +33,8 @@ float first_within(const Vec3f& x, const Vec3f& m, float distance) {
   return min(c / max(root - b, 1e-30f), 1.f);
 }
 
-}  // namespace
-
-bool find_point_contact(int i, int j, const PairMaterial& material, const PairParticles& particles, Contact& contact) {
-  const Record &p = particles.positions[i], &q = particles.positions[j];
-  if (!(p.w + q.w > 0)) return false;
-  const Vec3f x = vector_of(p) - vector_of(q);
-  const Vec3f m = vector_of(particles.displacements[i]) - vector_of(particles.displacements[j]);
+/// Fills the normal, gap and material of a contact; false if the path from x to x + m stays clear of the origin.
+bool find_contact(const Vec3f& x, const Vec3f& m, const PairMaterial& material, float h, Contact& contact) {
   const float thickness = material.thickness, distance = length(x), mm = dot(m, m);
   const float closest = mm > 0 ? clamp(-dot(x, m) / mm, 0.f, 1.f) : 0.f;
   const float least = length(x + m * closest);
@@ -45,7 +42,7 @@ bool find_point_contact(int i, int j, const PairMaterial& material, const PairPa
   float t = closest, kept = thickness;
   if (distance <= thickness) {
     t = 0;
-    kept = min(thickness, distance + largest_pair_separation_speed * particles.h);
+    kept = min(thickness, distance + largest_pair_separation_speed * h);
   } else if (least < thickness) {
     t = first_within(x, m, thickness);
   }
@@ -56,14 +53,93 @@ bool find_point_contact(int i, int j, const PairMaterial& material, const PairPa
   contact.static_friction = material.static_friction;
   contact.kinetic_friction = material.kinetic_friction;
   contact.restitution = material.restitution;
-  contact.point = {i, j, i, i};
-  contact.weight = {1, -1, 0, 0};
-  complete_contact(contact, particles.positions, particles.remainders);
-  if (material.restitution > 0) contact.approach = approach_of(contact, particles.displacements, particles.h);
   return true;
 }
 
+void complete(const PairMaterial& material, const PairParticles& particles, Contact& contact) {
+  complete_contact(contact, particles.positions, particles.remainders);
+  if (material.restitution > 0) contact.approach = approach_of(contact, particles.displacements, particles.h);
+}
+
+}  // namespace
+
+bool find_point_contact(int i, int j, const PairMaterial& material, const PairParticles& particles, Contact& contact) {
+  const Record &p = particles.positions[i], &q = particles.positions[j];
+  if (!(p.w + q.w > 0)) return false;
+  const Vec3f x = vector_of(p) - vector_of(q);
+  const Vec3f m = vector_of(particles.displacements[i]) - vector_of(particles.displacements[j]);
+  if (!find_contact(x, m, material, particles.h, contact)) return false;
+  contact.point = {i, j, i, i};
+  contact.weight = {1, -1, 0, 0};
+  complete(material, particles, contact);
+  return true;
+}
+
+bool find_line_contact(int i, const std::array<int, 2>& line, const PairMaterial& material, const PairParticles& particles,
+                       Contact& contact) {
+  const Record &p = particles.positions[i], &a = particles.positions[line[0]], &b = particles.positions[line[1]];
+  if (!(p.w + a.w + b.w > 0)) return false;
+  const Vec3f along = vector_of(b) - vector_of(a), from = vector_of(p) - vector_of(a);
+  const float squared = dot(along, along), share = squared > 0 ? clamp(dot(from, along) / squared, 0.f, 1.f) : 0.f;
+  const Vec3f start = vector_of(particles.displacements[line[0]]), end = vector_of(particles.displacements[line[1]]);
+  const Vec3f m = vector_of(particles.displacements[i]) - (start + (end - start) * share);
+  if (!find_contact(from - along * share, m, material, particles.h, contact)) return false;
+  contact.point = {i, line[0], line[1], i};
+  contact.weight = {1, share - 1, -share, 0};
+  complete(material, particles, contact);
+  return true;
+}
+
+PairMaterial PointContacts::material_of(int i, int j) const {
+  const std::vector<int>& body = model_.shared->vertex_body;
+  return model_.shared->rules.material(body[static_cast<std::size_t>(i)], body[static_cast<std::size_t>(j)]);
+}
+
+bool PointContacts::meet(int i, int j) const {
+  const std::vector<int>& body = model_.shared->vertex_body;
+  return model_.shared->rules.meet(body[static_cast<std::size_t>(i)], body[static_cast<std::size_t>(j)]);
+}
+
 void PointContacts::detect(Executor& executor, const PairParticles& particles, std::vector<Contact>& contacts) {
+  detect_points(executor, particles, contacts);
+  detect_lines(executor, particles, contacts);
+}
+
+void PointContacts::detect_lines(Executor& executor, const PairParticles& particles, std::vector<Contact>& contacts) {
+  const std::vector<int>& points = model_.points_at_lines;
+  const int lines = static_cast<int>(model_.lines.size()), count = static_cast<int>(points.size());
+  if (lines == 0 || count == 0) return;
+  const auto box_of = [&](int i) {
+    return swept_box(particles.positions[i], particles.displacements[i], model_.largest_thickness);
+  };
+  boxes_.resize(static_cast<std::size_t>(lines));
+  for (std::size_t l = 0; l < boxes_.size(); ++l) {
+    const BoxBounds a = box_of(model_.lines[l][0]), b = box_of(model_.lines[l][1]);
+    boxes_[l] = {min(a.low, b.low), max(a.high, b.high)};
+  }
+  tree_.build(boxes_);
+  tasks_.resize(static_cast<std::size_t>(ranges_of(count, points_a_task)));
+  for_ranges(executor, "detect contacts", count, points_a_task, [&](int first, int last) {
+    Task& task = tasks_[static_cast<std::size_t>(first / points_a_task)];
+    task.pairs.clear();
+    for (int k = first; k < last; ++k) {
+      const int i = points[static_cast<std::size_t>(k)];
+      tree_.query(box_of(i), [&](int l) {
+        if (meet(i, model_.lines[static_cast<std::size_t>(l)][0])) task.pairs.push_back({i, l});
+      });
+    }
+  });
+  pairs_.clear();
+  for (const Task& task : tasks_) pairs_.insert(pairs_.end(), task.pairs.begin(), task.pairs.end());
+  std::sort(pairs_.begin(), pairs_.end());
+  for (const auto& [i, l] : pairs_) {
+    const std::array<int, 2>& line = model_.lines[static_cast<std::size_t>(l)];
+    Contact contact;
+    if (find_line_contact(i, line, material_of(i, line[0]), particles, contact)) contacts.push_back(contact);
+  }
+}
+
+void PointContacts::detect_points(Executor& executor, const PairParticles& particles, std::vector<Contact>& contacts) {
   const std::vector<int>& points = model_.free_points;
   if (points.empty()) return;
   boxes_.resize(points.size());
@@ -76,12 +152,8 @@ void PointContacts::detect(Executor& executor, const PairParticles& particles, s
     for (const int b : others) {
       if (b <= a) continue;
       const int i = points[static_cast<std::size_t>(a)], j = points[static_cast<std::size_t>(b)];
-      const int first = model_.shared->vertex_body[static_cast<std::size_t>(i)],
-                second = model_.shared->vertex_body[static_cast<std::size_t>(j)];
       Contact contact;
-      if (model_.shared->rules.meet(first, second) &&
-          find_point_contact(i, j, model_.shared->rules.material(first, second), particles, contact))
-        task.pairs.push_back({i, j});
+      if (meet(i, j) && find_point_contact(i, j, material_of(i, j), particles, contact)) task.pairs.push_back({i, j});
     }
   };
   for_ranges(executor, "detect contacts", packets, packets_a_task, [&](int first, int last) {
@@ -95,10 +167,8 @@ void PointContacts::detect(Executor& executor, const PairParticles& particles, s
   for (const Task& task : tasks_) pairs_.insert(pairs_.end(), task.pairs.begin(), task.pairs.end());
   std::sort(pairs_.begin(), pairs_.end());
   for (const auto& [i, j] : pairs_) {
-    const PairMaterial material = model_.shared->rules.material(model_.shared->vertex_body[static_cast<std::size_t>(i)],
-                                                                model_.shared->vertex_body[static_cast<std::size_t>(j)]);
     contacts.emplace_back();
-    find_point_contact(i, j, material, particles, contacts.back());
+    find_point_contact(i, j, material_of(i, j), particles, contacts.back());
   }
 }
 

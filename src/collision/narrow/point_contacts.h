@@ -1,4 +1,5 @@
-// Contacts between free particles: spheres with the radius of their thickness, found by swept boxes.
+// Contacts of free particles with one another and with lines (ropes): spheres and capsules with the radius of their thickness, found by
+// swept boxes.
 #pragma once
 
 #include <array>
@@ -18,14 +19,25 @@ namespace pliant {
 /// distance first reaches the thickness, so that a fast point that passes by is not stopped.
 bool find_point_contact(int i, int j, const PairMaterial& material, const PairParticles& particles, Contact& contact);
 
+/// The contact of point `i` with the line between points `a` and `b`, at the place that is nearest at the substep's start; false if
+/// their relative path stays clear.
+bool find_line_contact(int i, const std::array<int, 2>& line, const PairMaterial& material, const PairParticles& particles,
+                       Contact& contact);
+
 class PointContacts {
  public:
   explicit PointContacts(const PairModel& model) : model_(model) {}
 
-  /// Appends the contacts between all model.free_points, in ascending order of points.
+  /// Appends the contacts between all model.free_points, in ascending order of points, then those with lines.
   void detect(Executor& executor, const PairParticles& particles, std::vector<Contact>& contacts);
 
  private:
+  /// Finds the pairs of points and lines: numbers of the point and, in model.lines, of the line.
+  void detect_lines(Executor& executor, const PairParticles& particles, std::vector<Contact>& contacts);
+  void detect_points(Executor& executor, const PairParticles& particles, std::vector<Contact>& contacts);
+  PairMaterial material_of(int i, int j) const;
+  bool meet(int i, int j) const;
+
   const PairModel& model_;
   std::vector<BoxBounds> boxes_;
   Tree<BoxBounds> tree_;

@@ -144,23 +144,36 @@ void add_body(const Model& model, int body, PairModel& out) {
   out.triangles_around.add(out.elements, of.triangles, of.vertices);
 }
 
-/// Lists free particles that can meet others: of objects with self-collision, or that meet other objects of free particles.
+/// Appends the particles of an object that are in no body.
+void append_points(const Model& model, int object, std::vector<int>& points) {
+  const CompiledObject& of = model.objects[object];
+  for (int i = 0; i < of.particles; ++i)
+    if (of.order[static_cast<std::size_t>(i)] < of.user_particles && !of.bodies.has_centre(i))
+      points.push_back(model.first[object] + i);
+}
+
+/// Lists free particles that can meet others: of objects with self-collision, or that meet other objects of free particles or lines.
+/// Lists the lines that free particles meet.
 void find_free_points(const Model& model, PairModel& out) {
   out.free_points.clear();
-  std::vector<int> bodies;
+  out.points_at_lines.clear();
+  out.lines.clear();
+  std::vector<int> bodies, of_lines;
   for (const auto& [number, body] : out.bodies) {
     const CompiledObject& object = model.objects[number];
-    if (object.surface.triangles.empty() && object.lines.empty()) bodies.push_back(number);
+    if (object.surface.triangles.empty()) (object.lines.empty() ? bodies : of_lines).push_back(number);
   }
-  const auto meets_any = [&](int o) {
-    return std::any_of(bodies.begin(), bodies.end(), [&](int other) { return out.shared->rules.meet(o, other); });
+  const auto meets_any = [&](int o, const std::vector<int>& of) {
+    return std::any_of(of.begin(), of.end(), [&](int other) { return out.shared->rules.meet(o, other); });
   };
   for (const int o : bodies) {
-    if (!meets_any(o)) continue;
-    for (int i = 0; i < model.objects[o].particles; ++i)
-      if (model.objects[o].order[static_cast<std::size_t>(i)] < model.objects[o].user_particles &&
-          !model.objects[o].bodies.has_centre(i))
-        out.free_points.push_back(model.first[o] + i);
+    if (meets_any(o, bodies)) append_points(model, o, out.free_points);
+    if (meets_any(o, of_lines)) append_points(model, o, out.points_at_lines);
+  }
+  for (const int o : of_lines) {
+    const Block block = out.bodies.at(o).edges;
+    const auto first = out.elements.edges.begin() + block.first;
+    if (meets_any(o, bodies)) out.lines.insert(out.lines.end(), first, first + block.size);
   }
 }
 

@@ -67,6 +67,8 @@ struct PairModel {
   ContactElements elements;
   std::vector<int>
       free_points;  ///< particles of bodies without triangles and lines, ordered by body; they meet one another as spheres
+  std::vector<int> points_at_lines;       ///< free particles that meet bodies of lines, ordered by body
+  std::vector<std::array<int, 2>> lines;  ///< edges of bodies of lines that meet free particles, ordered by body
   /// Clusters: about 64 neighbouring vertices of one body, with the edges and triangles whose first vertex is one of them.
   int clusters = 0;                                               ///< one past the last cluster in use
   std::vector<int> edge_cluster, triangle_cluster, cluster_body;  ///< -1: none
