@@ -1,6 +1,7 @@
 // The public FrameWriter: reads a World's objects in each frame and passes them to the writer of the suffix's format.
 #include "pliant/error.h"
 #include "pliant/io.h"
+#include "pliant/surface.h"
 #include "write_frames.h"
 
 namespace pliant {
@@ -35,9 +36,11 @@ void require_fitting(const std::string& path, const Object& object, int particle
 
 class WorldWriter final : public FrameWriter {
  public:
-  WorldWriter(std::unique_ptr<output::FormatWriter> format, const Scene& scene, std::vector<ObjectId> objects)
+  WorldWriter(std::unique_ptr<output::FormatWriter> format, const Scene& scene, std::vector<ObjectId> objects,
+              const FrameWriterOptions& options)
       : format_(std::move(format)), objects_(std::move(objects)) {
     for (const Object& object : scene.objects) {
+      spacings_.push_back(object.fluid && options.liquid_surfaces ? object.fluid->spacing : 0);
       Object part;
       part.bodies = object.bodies;
       for (ObjectBody& body : part.bodies) body.solids.clear();
@@ -50,8 +53,7 @@ class WorldWriter final : public FrameWriter {
     output::Frame frame{.time = world.state().time, .positions = {}, .velocities = {}, .number = world.state().frame};
     for (std::size_t o = 0; o < objects_.size(); ++o) {
       const ObjectView object = world.object(objects_[o]);
-      frame.positions.push_back(object.positions());
-      frame.velocities.push_back(object.velocities());
+      add_matter(object, spacings_[o], world.threads(), frame);
       if (has_bodies_) frame.bodies.push_back(output::body_motions(bodies_[o], object));
     }
     format_->add(frame);
@@ -61,22 +63,48 @@ class WorldWriter final : public FrameWriter {
   std::vector<WrittenFile> written() const override { return format_->written(); }
 
  private:
+  /// Adds the particles of an object, or if it has a spacing the surface of its liquid.
+  static void add_matter(const ObjectView& object, float spacing, int threads, output::Frame& frame) {
+    if (spacing == 0) {
+      frame.positions.push_back(object.positions());
+      frame.velocities.push_back(object.velocities());
+      frame.triangles.emplace_back();
+      return;
+    }
+    SurfaceOptions options;
+    options.spacing = spacing;
+    options.threads = threads;
+    TriangleMesh mesh = liquid_surface(object.positions(), options);
+    frame.positions.push_back(std::move(mesh.positions));
+    frame.velocities.emplace_back();
+    frame.triangles.push_back(std::move(mesh.triangles));
+  }
+
   std::unique_ptr<output::FormatWriter> format_;
   std::vector<ObjectId> objects_;  ///< objects at the start of the run
   std::vector<Object> bodies_;     ///< for each object, which particles and frames are bodies
+  std::vector<float> spacings_;    ///< for each object, that of its liquid if its surface is written, else 0 [m]
   bool has_bodies_ = false;
 };
 
 }  // namespace
 
 std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Scene& scene, const World& world) {
+  return make_frame_writer(path, scene, world, FrameWriterOptions{});
+}
+
+std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Scene& scene, const World& world,
+                                               const FrameWriterOptions& options) {
   if (world.object_count() != static_cast<int>(scene.objects.size()))
     refuse(path, "", "", "the scene has another number of objects than the World");
   for (int o = 0; o < world.object_count(); ++o)
     require_fitting(path, scene.objects[static_cast<std::size_t>(o)], world.object(o).info().particles,
                     static_cast<int>(world.object(o).orientations().size()));
-  const output::Objects objects = output::describe(scene);
-  return std::make_unique<WorldWriter>(output::make_format_writer(path, objects, scene.frame_time), scene, world.objects());
+  output::Objects objects = output::describe(scene);
+  for (std::size_t o = 0; o < objects.size(); ++o)
+    objects[o].is_remeshed = options.liquid_surfaces && scene.objects[o].fluid.has_value();
+  return std::make_unique<WorldWriter>(output::make_format_writer(path, objects, scene.frame_time), scene, world.objects(),
+                                       options);
 }
 
 }  // namespace pliant

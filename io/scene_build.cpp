@@ -335,6 +335,7 @@ SceneFile build(const JsonDocument& document, const MeshFolder& folder) {
     if (particles > largest_scene) fail_too_large(document, item);
   }
   for (const JsonValue& item : elements(root, "pairs")) scene.pairs.push_back(pair_of(document, item, scene));
+  file.gauges = build_gauges(document, root, scene);
   require_known(folder, document, scene);
   return file;
 }

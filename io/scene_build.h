@@ -32,6 +32,9 @@ Object build_robot(const JsonDocument& document, const JsonValue& at, const std:
 /// Adds the joints of an object's record `at`, if it has any.
 void set_joints(const JsonDocument& document, const JsonValue& at, Object& object);
 
+/// Builds the gauges of the root, which measure objects and colliders of its scene.
+std::vector<Gauge> build_gauges(const JsonDocument& document, const JsonValue& root, const Scene& scene);
+
 /// Add the pins and attachments of a record, of an object or a part, to what it builds.
 void set_pins(const JsonDocument& document, const JsonValue& at, BuiltObject& built);
 void set_attachments(const JsonDocument& document, const JsonValue& at, BuiltObject& built);

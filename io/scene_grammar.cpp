@@ -412,7 +412,8 @@ const Record& scene_record() {
        field("settings", record(settings_record()), "the defaults", "Solver settings."),
        needed("objects", list(record(object_record())), "The objects, which move."),
        field("colliders", list(record(collider_record())), "none", "The colliders, which objects cannot push."),
-       field("pairs", list(record(pair_record())), "none", "Contact properties of single pairs of objects.")},
+       field("pairs", list(record(pair_record())), "none", "Contact properties of single pairs of objects."),
+       field("gauges", list(record(gauge_record())), "none", "Measurements of liquids; they change nothing.")},
       {}};
   return result;
 }

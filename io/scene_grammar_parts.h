@@ -27,4 +27,7 @@ const Record& body_record();
 const Record& joint_record();
 const Record& urdf_record();
 
+// Defined in scene_grammar_gauges.cpp.
+const Record& gauge_record();
+
 }  // namespace pliant::scene_file

@@ -73,9 +73,11 @@ class SurfaceWriter final : public FormatWriter {
       if (o >= objects_.size() || objects_[o].has_matter()) {
         expanded.positions.push_back(frame.positions[o]);
         if (!frame.velocities.empty()) expanded.velocities.push_back(frame.velocities[o]);
+        if (!frame.triangles.empty()) expanded.triangles.push_back(frame.triangles[o]);
       }
-      if (o < objects_.size() && !objects_[o].bodies.empty())
-        add_bodies(objects_[o], frame.bodies[o], !frame.velocities.empty(), expanded);
+      if (o >= objects_.size() || objects_[o].bodies.empty()) continue;
+      add_bodies(objects_[o], frame.bodies[o], !frame.velocities.empty(), expanded);
+      if (!frame.triangles.empty()) expanded.triangles.emplace_back();
     }
     format_->add(expanded);
   }

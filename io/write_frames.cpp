@@ -133,14 +133,30 @@ std::vector<FrameObject> describe(const Scene& scene) {
   return result;
 }
 
+bool is_any_remeshed(const std::vector<FrameObject>& objects) {
+  return std::any_of(objects.begin(), objects.end(), [](const FrameObject& object) { return object.is_remeshed; });
+}
+
+std::vector<FrameObject> present_objects(const std::vector<FrameObject>& objects, const Frame& frame) {
+  std::vector<FrameObject> result = objects;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    if (!result[i].is_remeshed) continue;
+    result[i].particles = static_cast<int>(frame.positions[i].size());
+    result[i].triangles = frame.triangles[i];
+  }
+  return result;
+}
+
 void check_frame(const std::string& path, const std::vector<FrameObject>& objects, const Frame& frame, double last_time) {
   if (!(frame.time > last_time)) refuse(path, {}, {}, "the time of a frame is not after that of the previous one");
   if (frame.positions.size() != objects.size())
     refuse(path, {}, {}, "a frame has another number of objects than the scene");
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const std::vector<Vec3f>& positions = frame.positions[i];
-    const bool fits = static_cast<int>(positions.size()) == objects[i].particles &&
-                      (frame.velocities.empty() || frame.velocities[i].size() == positions.size());
+    const bool is_mesh = objects[i].is_remeshed;
+    const bool fits = is_mesh ? frame.triangles.size() == objects.size()
+                              : static_cast<int>(positions.size()) == objects[i].particles &&
+                                    (frame.velocities.empty() || frame.velocities[i].size() == positions.size());
     if (!fits) refuse(path, objects[i].name, {}, "a frame has another number of particles than the scene");
     const auto bad = std::find_if_not(positions.begin(), positions.end(), finite);
     if (bad != positions.end())
@@ -206,6 +222,10 @@ std::string frame_number(std::int64_t frame) {
 std::unique_ptr<FormatWriter> make_format_writer(const std::string& path, const Objects& objects, double frame_time) {
   const SplitPath parts = split_path(path);
   const std::string& suffix = parts.suffix;
+  if (is_any_remeshed(objects) && (suffix == ".glb" || suffix == ".pc2"))
+    throw Error({.file = path, .line = 0, .object = {}, .element = {}},
+                "'" + suffix + "' cannot have the surface of a liquid, which is another mesh in each frame",
+                "end it in .obj, .ply, .usda or .pvd, or write particles");
   if (suffix == ".glb") return make_glb_writer(path, objects);
   if (suffix == ".usda") return make_usda_writer(path, objects, frame_time);
   const auto surfaces = [&](auto make) { return make_surface_writer(objects, make); };

@@ -38,9 +38,11 @@ struct FrameObject {
   std::vector<std::vector<int>> lines;  ///< particles along each line; a closed line ends with its first particle
   std::vector<TriangleMesh> solids{};   ///< surfaces of bodies, each in the body's principal axes about its centre of mass
   std::vector<FrameBody> bodies{};
+  bool is_remeshed = false;  ///< true: a surface that is another mesh in each frame (Frame::triangles)
 
   /// True if the object has particles to show that are no centres of bodies.
   bool has_matter() const { return bodies.empty() || !triangles.empty() || !lines.empty(); }
+  bool is_surface() const { return is_remeshed || !triangles.empty(); }
 };
 
 /// The motion of a rigid body at one time.
@@ -57,6 +59,9 @@ struct Frame {
   std::vector<std::vector<Vec3f>> velocities;     ///< velocities of each object's particles, or empty [m/s]
   std::int64_t number = 0;                        ///< number of the frame in the run, for file names
   std::vector<std::vector<BodyMotion>> bodies{};  ///< motions of each object's bodies; empty if no object has any
+  /// The triangles of each object that is remeshed, whose positions are then its vertices, without velocities; those of others are empty.
+  /// Empty if no object is remeshed.
+  std::vector<std::vector<std::array<int, 3>>> triangles{};
 };
 
 /// Writes frames in one format. Frames must be added in the order of time; finish() completes the files.
@@ -81,6 +86,11 @@ class FormatWriter {
 /// distance constraints: the links of a rope. Later groups (bending) are no part of its shape.
 std::vector<FrameObject> describe(const Scene& scene);
 FrameObject describe(const Object& object);
+
+/// True if a mesh differs from frame to frame.
+bool is_any_remeshed(const std::vector<FrameObject>& objects);
+/// The objects with the meshes of a frame.
+std::vector<FrameObject> present_objects(const std::vector<FrameObject>& objects, const Frame& frame);
 
 /// The motions of all bodies of an object of a World.
 std::vector<BodyMotion> body_motions(const Object& object, const ObjectView& view);
@@ -124,7 +134,8 @@ std::unique_ptr<FormatWriter> make_pvd_writer(const std::string& path, const Obj
 std::unique_ptr<FormatWriter> make_surface_writer(const Objects& objects,
                                                   const std::function<std::unique_ptr<FormatWriter>(const Objects&)>& make);
 
-/// Makes the writer for the suffix of `path`. Throws an Error that lists the known suffixes if it is unknown.
+/// Makes the writer for the suffix of `path`. Throws an Error that lists the known suffixes if it is unknown, or cannot have an object
+/// that is remeshed.
 std::unique_ptr<FormatWriter> make_format_writer(const std::string& path, const Objects& objects, double frame_time);
 
 }  // namespace pliant::output

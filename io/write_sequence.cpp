@@ -62,6 +62,7 @@ class ObjSequence final : public SequenceWriter {
     append(text, frame.time);
     file.write(text + " s, lengths in metres\n");
     const std::vector<std::string> names = identifiers(objects());
+    if (is_any_remeshed(objects())) elements_ = elements(present_objects(objects(), frame));
     for (std::size_t o = 0; o < objects().size(); ++o) {
       file.write("o " + names[o] + "\n" + obj_vertices(frame.positions[o]));
       file.write(elements_[o]);
@@ -82,7 +83,13 @@ std::array<unsigned char, 3> bytes(const Vec3f& linear) {
 
 class PlySequence final : public SequenceWriter {
  public:
-  PlySequence(const std::string& path, const Objects& objects) : SequenceWriter(path, objects) {
+  PlySequence(const std::string& path, const Objects& objects) : SequenceWriter(path, objects) { describe(objects); }
+
+ private:
+  /// Makes the header, the faces and the edges, which are the same in every frame unless an object is remeshed.
+  void describe(const Objects& objects) {
+    face_bytes_.clear(), edge_bytes_.clear();
+    faces_ = edges_ = 0;
     int first = 0;
     for (const FrameObject& object : objects) {
       add_elements(object, first);
@@ -96,7 +103,6 @@ class PlySequence final : public SequenceWriter {
     header_ += "end_header\n";
   }
 
- private:
   static void put(std::string& bytes, int value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
 
   void add_elements(const FrameObject& object, int first) {
@@ -115,6 +121,7 @@ class PlySequence final : public SequenceWriter {
   }
 
   void write(AtomicFile& file, const Frame& frame) override {
+    if (is_any_remeshed(objects())) describe(present_objects(objects(), frame));
     file.write(header_);
     for (std::size_t o = 0; o < objects().size(); ++o) {
       const auto colour = bytes(objects()[o].colour);

@@ -5,6 +5,7 @@
 // all samples of a prim together, so each object has a Spool of its own until the end.
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "atomic_file.h"
@@ -22,33 +23,59 @@ namespace {
 class Prim {
  public:
   Prim(const std::string& path, const FrameObject& object) : object_(object), points_(path), extents_(path) {
+    if (object.is_remeshed) counts_.emplace(path), indices_.emplace(path);
     for (const auto& line : object.lines) order_.insert(order_.end(), line.begin(), line.end());
   }
 
   void add(const std::string& time, const std::vector<Vec3f>& positions) {
     const std::vector<Vec3f>& points = curves() ? arranged(positions) : positions;
     points_.write("            " + time + ": " + listed(points, tuple) + ",\n");
-    extents_.write("            " + time + ": " + extent(points, object_.triangles.empty() ? object_.width / 2 : 0) +
-                   ",\n");
+    extents_.write("            " + time + ": " + extent(points, object_.is_surface() ? 0 : object_.width / 2) + ",\n");
+  }
+
+  /// Of an object that is remeshed: the triangles at that time.
+  void add_mesh(const std::string& time, const std::vector<std::array<int, 3>>& triangles) {
+    counts_->write("            " + time + ": " + counts_of(triangles) + ",\n");
+    indices_->write("            " + time + ": " + indices_of(triangles) + ",\n");
   }
 
   void write(AtomicFile& file, const std::string& name) {
     file.write("\n    def " + std::string(type()) + " \"" + name + "\" (\n        doc = " + quoted(object_.name) +
                "\n    )\n    {\n");
     file.write(topology());
+    if (object_.is_remeshed) {
+      write_samples(file, "int[] faceVertexCounts", *counts_);
+      write_samples(file, "int[] faceVertexIndices", *indices_);
+    }
     std::string colour;
     tuple(colour, object_.colour);
     file.write("        color3f[] primvars:displayColor = [" + colour + "]\n");
-    file.write("        float3[] extent.timeSamples = {\n");
-    extents_.copy_to(file);
-    file.write("        }\n        point3f[] points.timeSamples = {\n");
-    points_.copy_to(file);
-    file.write("        }\n    }\n");
+    write_samples(file, "float3[] extent", extents_);
+    write_samples(file, "point3f[] points", points_);
+    file.write("    }\n");
   }
 
  private:
-  bool curves() const { return object_.triangles.empty() && !object_.lines.empty(); }
-  const char* type() const { return curves() ? "BasisCurves" : object_.triangles.empty() ? "Points" : "Mesh"; }
+  bool curves() const { return !object_.is_surface() && !object_.lines.empty(); }
+  const char* type() const { return curves() ? "BasisCurves" : object_.is_surface() ? "Mesh" : "Points"; }
+
+  static void write_samples(AtomicFile& file, const std::string& attribute, Spool& samples) {
+    file.write("        " + attribute + ".timeSamples = {\n");
+    samples.copy_to(file);
+    file.write("        }\n");
+  }
+
+  static std::string listed_numbers(const std::vector<int>& numbers) {
+    return listed(numbers, [](std::string& text, int i) { append(text, i); });
+  }
+  static std::string counts_of(const std::vector<std::array<int, 3>>& triangles) {
+    return listed_numbers(std::vector<int>(triangles.size(), 3));
+  }
+  static std::string indices_of(const std::vector<std::array<int, 3>>& triangles) {
+    std::vector<int> indices;
+    for (const auto& triangle : triangles) indices.insert(indices.end(), triangle.begin(), triangle.end());
+    return listed_numbers(indices);
+  }
 
   const std::vector<Vec3f>& arranged(const std::vector<Vec3f>& positions) {
     arranged_.clear();
@@ -57,14 +84,11 @@ class Prim {
   }
 
   std::string topology() const {
-    const auto number = [](std::string& text, int i) { append(text, i); };
-    std::string text;
-    if (!object_.triangles.empty()) {
-      std::vector<int> indices;
-      for (const auto& triangle : object_.triangles) indices.insert(indices.end(), triangle.begin(), triangle.end());
-      text += "        uniform bool doubleSided = 1\n        uniform token subdivisionScheme = \"none\"\n";
-      text += "        int[] faceVertexCounts = " + listed(std::vector<int>(object_.triangles.size(), 3), number) + "\n";
-      return text + "        int[] faceVertexIndices = " + listed(indices, number) + "\n";
+    if (object_.is_surface()) {
+      std::string text = "        uniform bool doubleSided = 1\n        uniform token subdivisionScheme = \"none\"\n";
+      if (object_.is_remeshed) return text;
+      text += "        int[] faceVertexCounts = " + counts_of(object_.triangles) + "\n";
+      return text + "        int[] faceVertexIndices = " + indices_of(object_.triangles) + "\n";
     }
     std::string widths = "        float[] widths = [";
     append(widths, object_.width);
@@ -72,7 +96,7 @@ class Prim {
     if (!curves()) return widths;
     std::vector<int> counts;
     for (const auto& line : object_.lines) counts.push_back(static_cast<int>(line.size()));
-    return "        uniform token type = \"linear\"\n        int[] curveVertexCounts = " + listed(counts, number) + "\n" +
+    return "        uniform token type = \"linear\"\n        int[] curveVertexCounts = " + listed_numbers(counts) + "\n" +
            widths;
   }
 
@@ -80,6 +104,7 @@ class Prim {
   std::vector<int> order_;
   std::vector<Vec3f> arranged_;
   Spool points_, extents_;
+  std::optional<Spool> counts_, indices_;  // of triangles, where each frame has others
 };
 
 /// The shortest decimal frame rate whose inverse is `frame_time` as a float: 60, where 1 / 0.016666668 is 59.999997.
@@ -109,7 +134,11 @@ class UsdaWriter final : public FormatWriter {
     if (first_code_.empty()) first_code_ = text;
     last_code_ = text;
     last_time_ = frame.time;
-    for (std::size_t p = 0; p < prims_.size(); ++p) prims_[p].add(text, frame.positions[prim_objects_[p]]);
+    for (std::size_t p = 0; p < prims_.size(); ++p) {
+      const std::size_t o = prim_objects_[p];
+      prims_[p].add(text, frame.positions[o]);
+      if (objects_[o].is_remeshed) prims_[p].add_mesh(text, frame.triangles[o]);
+    }
     for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b].add(text, frame.bodies[body_objects_[b]]);
   }
 

@@ -78,7 +78,7 @@ struct Piece {
   std::string name, head, cells;
 
   Piece(std::string file, const FrameObject& object) : name(std::move(file)) {
-    const bool surface = !object.triangles.empty(), lines = !surface && !object.lines.empty();
+    const bool surface = object.is_surface(), lines = !surface && !object.lines.empty();
     std::vector<std::array<int, 1>> points;
     for (int i = 0; i < object.particles && !surface && !lines; ++i) points.push_back({i});
     const auto count = [](const char* kind, std::size_t n) {
@@ -136,10 +136,20 @@ class PvdWriter final : public FormatWriter {
   }
 
  private:
+  /// What the frame has of an object that is remeshed.
+  static Frame mesh_of(const Frame& frame, std::size_t o) {
+    Frame result;
+    result.positions = {frame.positions[o]};
+    result.triangles = {frame.triangles[o]};
+    return result;
+  }
+
   void write_piece(const std::string& name, const Frame& frame, std::size_t o) {
     AtomicFile file(folder_ + "/" + name);
+    if (objects_[o].is_remeshed)
+      pieces_[o] = Piece(pieces_[o].name, present_objects({objects_[o]}, mesh_of(frame, o)).front());
     file.write(pieces_[o].head);
-    if (!frame.velocities.empty())
+    if (!frame.velocities.empty() && !objects_[o].is_remeshed)
       file.write("<PointData Vectors=\"velocity\">\n" + array("Float32", "velocity", 3, frame.velocities[o]) +
                  "</PointData>\n");
     file.write("<Points>\n" + array("Float32", "Points", 3, frame.positions[o]) + "</Points>\n");

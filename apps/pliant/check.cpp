@@ -150,14 +150,20 @@ std::string substeps_in_words(const Scene& scene, const Settings& chosen) {
   return text;
 }
 
+/// True of a liquid or grains, whose constraints no sweep projects.
+bool has_no_sweep(const Object& object) { return object.fluid || object.grains; }
+
 /// One line; the caller breaks it.
 std::string how_it_is_solved(const Scene& scene) {
   std::string reason;
   const Settings settings = chosen_settings(scene, &reason);
   const std::string substeps = substeps_in_words(scene, settings);
+  if (!scene.objects.empty() && std::all_of(scene.objects.begin(), scene.objects.end(), has_no_sweep))
+    return "solved with " + substeps + "; liquids and grains need no sweep";
   if (settings.sweep == Sweep::automatic) return "solved with " + substeps + ": " + one_line(reason);
   std::string sweeps;  // an object's own sweep replaces that of the settings
   for (int o = 0; o < static_cast<int>(scene.objects.size()); ++o) {
+    if (has_no_sweep(scene.objects[static_cast<std::size_t>(o)])) continue;
     const std::string name = "'" + sweep_name(chosen_sweep(scene, o)) + "'";
     if (sweeps.find(name) == std::string::npos) sweeps += (sweeps.empty() ? "" : ", ") + name;
   }

@@ -25,7 +25,9 @@ struct RunOptions {
   std::string scene;
   Overrides overrides;
   std::vector<std::string> out;  ///< files for the geometry of each frame; the suffix selects the format
+  bool liquid_surfaces = false;  ///< true: these have the surfaces of liquids instead of their particles
   std::string report;            ///< file for the report as JSON; empty: none
+  std::string gauges;            ///< file for the readings of the scene's gauges as CSV; empty: none
   std::string checkpoint;        ///< file for the State, saved every `every` frames and at the end; empty: none
   int every = 60;                ///< frames between checkpoints
   std::string resume;            ///< checkpoint from which to continue; empty: none

@@ -70,6 +70,10 @@ void add_run(CLI::App& app, RunOptions& options, Chosen& chosen) {
   run_app->add_option("--out", options.out, "geometry file (.obj, .ply, .glb, .usda, .pc2 or .pvd); repeatable")
       ->type_name("FILE")
       ->allow_extra_args(false);
+  run_app->add_flag("--liquid-surfaces", options.liquid_surfaces,
+                    "write liquids as surfaces instead of particles (.obj, .ply, .usda or .pvd)");
+  run_app->add_option("--gauges", options.gauges, "write the readings of the scene's gauges to this CSV file")
+      ->type_name("FILE");
   run_app->add_option("--report", options.report, "write hashes, times, residuals and stretch to this JSON file")
       ->type_name("FILE");
   CLI::Option* checkpoint =

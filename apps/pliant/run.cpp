@@ -11,6 +11,7 @@
 #include "atomic_file.h"
 #include "checkpoint.h"
 #include "command.h"
+#include "gauge_table.h"
 #include "interrupt.h"
 #include "output.h"
 #include "pliant/error.h"
@@ -34,7 +35,7 @@ std::string summary(const RunOptions& options, const World& world, const RunRepo
 /// Throws an Error for files that cannot be written, or that would overwrite one another.
 void check_files(const RunOptions& options) {
   std::vector<std::string> files = options.out;
-  for (const std::string& file : {options.report, options.checkpoint})
+  for (const std::string& file : {options.report, options.gauges, options.checkpoint})
     if (!file.empty()) files.push_back(file);
   refuse_same_file_twice({options.scene}, files);
   // The file that the run resumes from may be overwritten only by the checkpoint.
@@ -77,29 +78,35 @@ bool simulate_with(Checkpoint& checkpoint, World& world, const Scene& scene, boo
 
 int run(const RunOptions& options) {
   check_files(options);
-  const Scene scene = read_scene_with(options.scene, options.overrides, options.quiet);
+  const SceneFile file = read_file_with(options.scene, options.overrides, options.quiet);
+  const Scene& scene = file.scene;
   World world = make_world(scene, options.scene);
   if (!options.resume.empty()) resume(world, options.resume, scene);
   for (const std::string& path : options.out) make_folder_of(path);
-  for (const std::string& path : {options.report, options.checkpoint}) make_folder_of(path);
+  for (const std::string& path : {options.report, options.gauges, options.checkpoint}) make_folder_of(path);
 
   std::vector<std::unique_ptr<FrameWriter>> writers;
-  for (const std::string& path : options.out) writers.push_back(make_frame_writer(path, scene, world));
+  for (const std::string& path : options.out)
+    writers.push_back(make_frame_writer(path, scene, world, {options.liquid_surfaces}));
+  GaugeTable gauges(options.gauges, file, world);
   std::unique_ptr<AtomicFile> report_file;
   if (!options.report.empty()) report_file = std::make_unique<AtomicFile>(options.report);
 
   RunReport report(options.hash_frames);
   Checkpoint checkpoint(options.checkpoint, options.every, scene);
   for (const auto& writer : writers) writer->add(world);
+  gauges.add(world);
   const bool finite = simulate_with(checkpoint, world, scene, options.quiet, [&](const Report& frame) {
     report.add(frame, world);
     if (!frame.ok()) return;
     for (const auto& writer : writers) writer->add(world);
+    gauges.add(world);
   });
 
   // If a run became infinite, its report, which says where, is written, but no geometry.
   if (finite) {
     for (const auto& writer : writers) writer->finish();
+    gauges.finish();
     checkpoint.write_last();
   }
   if (report_file) {
@@ -116,6 +123,7 @@ int run(const RunOptions& options) {
     if (const std::string advice = report.advice(world); !advice.empty()) print("warning: " + one_line(advice) + "\n");
     print(summary(options, world, report));
     for (const auto& writer : writers) print_written(writer->written());
+    print_written(gauges.written());
     if (report_file) print_written({{report_file->path(), report_file->size()}});
   }
   return 0;

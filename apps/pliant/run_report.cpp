@@ -1,5 +1,7 @@
 #include "run_report.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -78,6 +80,20 @@ Json tie_json(const World& world, const TieGap& tie, std::int64_t frame) {
           {"frame", frame}};
 }
 
+/// How much denser than at rest liquids were; null without a liquid.
+Json compression_json(const Scene& scene, const Compression& last, const Compression& worst, std::int64_t frame_of_mean,
+                      std::int64_t frame_of_largest) {
+  const auto is_liquid = [](const Object& object) { return object.fluid.has_value(); };
+  if (std::none_of(scene.objects.begin(), scene.objects.end(), is_liquid)) return nullptr;
+  return {{"mean", last.mean},
+          {"largest", last.largest},
+          {"worst_mean", worst.mean},
+          {"frame_of_worst_mean", frame_of_mean},
+          {"worst_largest", worst.largest},
+          {"frame_of_worst_largest", frame_of_largest},
+          {"crowded", last.crowded}};
+}
+
 std::size_t body_count(const Scene& scene) {
   std::size_t count = 0;
   for (const Object& object : scene.objects) count += object.bodies.size();
@@ -129,6 +145,7 @@ void RunReport::add(const Report& report, const World& world) {
     widest_tie_ = report.widest_tie;
     frame_of_tie_ = report.frame;
   }
+  add(report.compression, report.frame);
   iterations_.mean += report.iterations.mean;
   milliseconds_.push_back(report.milliseconds);
   most_substeps_ = std::max(most_substeps_, report.substeps);
@@ -136,6 +153,28 @@ void RunReport::add(const Report& report, const World& world) {
   for (const PhaseTime& phase : report.phases) phase_sums_[phase.name] += phase.milliseconds;
   if (hash_frames_) hashes_.push_back(world.state_hash());
   warnings_.add(report);
+}
+
+void RunReport::add(const Compression& compression, std::int64_t frame) {
+  if (compression.mean > worst_compression_.mean) {
+    worst_compression_.mean = compression.mean;
+    frame_of_mean_ = frame;
+  }
+  if (compression.largest > worst_compression_.largest) {
+    worst_compression_.largest = compression.largest;
+    frame_of_largest_ = frame;
+  }
+}
+
+std::vector<std::string> RunReport::warnings() const {
+  constexpr double tolerated = 0.01;
+  std::vector<std::string> lines = warnings_.lines();
+  if (worst_compression_.mean > tolerated)
+    lines.push_back(fmt::format(
+        "in frame {}, liquids were {:.2g} % denser than at rest on average; use more substeps, which compress a liquid by "
+        "the square of their length, or a higher speed_of_sound if it has one",
+        frame_of_mean_, 100 * worst_compression_.mean));
+  return lines;
 }
 
 std::string RunReport::advice(const World& world) const {
@@ -187,8 +226,9 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["p99_stretch"] = stretch.p99;
   json["overstretch"] = overstretch_json(last_);
   json["widest_tie"] = tie_json(world, widest_tie_, frame_of_tie_);
+  json["compression"] = compression_json(scene, last_.compression, worst_compression_, frame_of_mean_, frame_of_largest_);
   json["nonfinite"] = nonfinite_json(last_);
-  json["warnings"] = warnings_.lines();
+  json["warnings"] = warnings();
   json["advice"] = advice(world);
   json["threads"] = world.threads();
   json["isa"] = world.isa();

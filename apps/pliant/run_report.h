@@ -32,9 +32,12 @@ class RunReport {
   std::size_t frames() const { return milliseconds_.size(); }  ///< number of frames simulated in this run
   const Report& last() const { return last_; }
   /// For each kind of warning the first one, with its frame. Warnings that differ only in numbers are of one kind.
-  const std::vector<std::string>& warnings() const { return warnings_.lines(); }
+  /// A last one is of liquids that were compressed by more than 1 % on average.
+  std::vector<std::string> warnings() const;
 
  private:
+  void add(const Compression& compression, std::int64_t frame);
+
   bool hash_frames_;
   Report last_;
   IterationCount iterations_;  ///< until it is written, `mean` has the sum over frames
@@ -42,6 +45,8 @@ class RunReport {
   std::int64_t sum_of_substeps_ = 0;
   TieGap widest_tie_;  ///< of any frame
   std::int64_t frame_of_tie_ = 0;
+  Compression worst_compression_;  ///< the largest mean and the largest maximum of any frame
+  std::int64_t frame_of_mean_ = 0, frame_of_largest_ = 0;
   PairReport pairs_;  ///< candidates, contacts and intersections of the last frame; other counts summed
   std::vector<double> milliseconds_;
   std::map<std::string, double> phase_sums_;

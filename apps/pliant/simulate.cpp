@@ -51,11 +51,11 @@ SceneReadOptions options_of(const std::vector<std::string>& meshes) {
 
 }  // namespace
 
-Scene read_scene_with(const std::string& path, const Overrides& overrides, bool quiet) {
+SceneFile read_file_with(const std::string& path, const Overrides& overrides, bool quiet) {
   const GiveBackMemory during;
   SceneFile file = read_scene_file(path, options_of(overrides.meshes));
   if (!quiet) print_repairs(file.repairs);
-  Scene scene = std::move(file.scene);
+  Scene& scene = file.scene;
   if (overrides.frames) scene.frames = *overrides.frames;
   Settings& settings = scene.settings;
   if (!overrides.sweep.empty()) set_sweep(overrides.sweep, scene);
@@ -65,7 +65,11 @@ Scene read_scene_with(const std::string& path, const Overrides& overrides, bool 
   if (!overrides.isa.empty()) settings.isa = overrides.isa;
   if (overrides.sequential) set_plain(scene);
   if (!overrides.cache.empty()) use_cached_distances(scene, overrides.cache);
-  return scene;
+  return file;
+}
+
+Scene read_scene_with(const std::string& path, const Overrides& overrides, bool quiet) {
+  return read_file_with(path, overrides, quiet).scene;
 }
 
 Error of_file(const Error& error, const std::string& path) {

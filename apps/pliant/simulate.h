@@ -7,12 +7,15 @@
 
 #include "command.h"
 #include "pliant/error.h"
+#include "pliant/io.h"
 #include "pliant/scene.h"
 #include "pliant/world.h"
 
 namespace pliant::command {
 
-/// Reads a scene and applies the changes. Prints the repairs of its meshes unless `quiet`.
+/// Reads a scene file and applies the changes to its scene. Prints the repairs of its meshes unless `quiet`.
+SceneFile read_file_with(const std::string& path, const Overrides& overrides, bool quiet);
+/// Does the same, and returns the scene alone.
 Scene read_scene_with(const std::string& path, const Overrides& overrides, bool quiet);
 
 /// Makes the World of a scene that was read from `path`, which errors name.

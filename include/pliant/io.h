@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "pliant/gauges.h"
 #include "pliant/mesh.h"
 #include "pliant/scene.h"
 #include "pliant/world.h"
@@ -42,6 +43,7 @@ struct SceneFile {
   Scene scene;
   std::string description;  ///< the file's "description"; may be empty
   std::vector<std::string> repairs;
+  std::vector<Gauge> gauges;  ///< the file's "gauges"; they measure the scene and do not change it
 };
 
 /// Reads a scene in strict JSON (docs/reference/scene-format.md). Paths of meshes are relative to the scene's folder;
@@ -112,5 +114,16 @@ class FrameWriter {
 /// .usda (time samples), .pc2 (and NAME.obj), .pvd (a .vtp file per frame and object). Rigid bodies are nodes that move in
 /// .glb and .usda, and surfaces in the others. Throws an Error for other suffixes.
 std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Scene& scene, const World& world);
+
+/// How a frame writer shows liquids.
+struct FrameWriterOptions {
+  /// True: the surface of each liquid (liquid_surface), a new mesh in each frame, instead of its particles as points. Only .obj, .ply,
+  /// .usda and .pvd can have it; other suffixes throw an Error if the scene has a liquid.
+  bool liquid_surfaces = false;
+};
+
+/// Makes a writer with options.
+std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Scene& scene, const World& world,
+                                               const FrameWriterOptions& options);
 
 }  // namespace pliant

@@ -7,6 +7,7 @@
 #include "pliant/decompose.h"
 #include "pliant/edit.h"
 #include "pliant/error.h"
+#include "pliant/gauges.h"
 #include "pliant/grains.h"
 #include "pliant/handles.h"
 #include "pliant/io.h"

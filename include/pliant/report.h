@@ -109,15 +109,16 @@ struct Thing {
   friend auto operator<=>(const Thing&, const Thing&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// The contacts between two things at the end of a frame. Only active contacts count.
+/// The contacts between two things in a frame. Only active contacts count. A liquid also presses on what is near it without touching it.
 struct ContactEvent {
   enum class Change { begin, persist, end };
   Change change = Change::begin;
   Thing first, second;  ///< first < second; equal for self-contact
-  int contacts = 0;     ///< number of contacts active in the last substep
-  double impulse = 0;   ///< sum of the magnitudes of their normal impulses in the last substep [N s]
+  int contacts = 0;     ///< largest number of active contacts in a substep; can be 0 for a liquid
+  double impulse = 0;   ///< sum of the magnitudes of their normal impulses over the frame [N s]
   Vec3f position{};     ///< mean position of the contacts, weighted by impulse [m]
   Vec3f normal{};       ///< unit vector: mean direction of the push on `first`; zero if pushes cancel
+  Vec3d push{};         ///< sum of their normal impulses on `first` over the frame [N s]
 };
 
 /// A joint that broke, because it carried more than its break_force or break_torque.

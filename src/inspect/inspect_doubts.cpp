@@ -221,8 +221,25 @@ void doubt_overlaps(const Doubts& d) {
   }
 }
 
+/// Says by how much too few substeps compress a liquid: by the square of their length, over their iterations.
+void doubt_compression(const Doubts& d) {
+  constexpr double mean_by_default = 0.0035, tolerated = 0.01;
+  const Settings& settings = d.scene.settings;
+  if (!d.object.fluid || settings.substeps <= 0) return;
+  const int needed = substeps_of_fluid(d.object, static_cast<double>(d.scene.frame_time));
+  const double longer = static_cast<double>(needed) / settings.substeps;
+  const double mean = mean_by_default * longer * longer / settings.iterations;
+  if (mean <= tolerated) return;
+  d.problems.doubtful("settings, substeps",
+                      "are so few that the liquid will be about " + words(100 * mean) + " % denser than at rest on average",
+                      "use " + std::to_string(needed) + ", or leave substeps out");
+}
+
 void doubt_air(const Doubts& d) {
   const Wind& wind = d.scene.wind;
+  if (length_squared(wind.velocity) > 0 && wind.air_density > 0 && (d.object.fluid || d.object.grains))
+    d.problems.doubtful("", "is not pushed by the wind, which acts on triangles alone",
+                        "leave the wind out, or push the particles by a force field");
   if (length_squared(wind.velocity) > 0 && wind.air_density == 0 && !d.object.triangles.empty())
     d.problems.doubtful("", "has no effect from wind, because the air density is 0",
                         "set the wind's air_density, for example to 1.2 kg/m^3");
@@ -251,6 +268,7 @@ void doubt_object(Problems& problems, const Object& object, const Scene& scene) 
   doubt_volume(doubts);
   doubt_overlaps(doubts);
   doubt_air(doubts);
+  doubt_compression(doubts);
 }
 
 }  // namespace pliant

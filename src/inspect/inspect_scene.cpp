@@ -148,6 +148,12 @@ void check_count(Problems& problems, const Scene& scene) {
     problems.grave("", std::to_string(particles) + " particles exceed the limit of 536870911", "use fewer particles");
 }
 
+/// True if an object has what a sweep projects; liquids and grains have passes of their own.
+bool has_swept(const Scene& scene) {
+  return scene.objects.empty() || std::any_of(scene.objects.begin(), scene.objects.end(),
+                                              [](const Object& object) { return !object.fluid && !object.grains; });
+}
+
 void doubt_settings(Problems& problems, const Scene& scene) {
   const Settings settings = chosen_settings(scene);
   const int substeps = most_substeps_of(settings);
@@ -163,7 +169,7 @@ void doubt_settings(Problems& problems, const Scene& scene) {
                       "make substeps of " + words(substep) + " s, in which float precision loses small motions",
                       "use fewer");
   const bool solves_at_once = solves_chains(settings.sweep) || settings.sweep == Sweep::multigrid;
-  if (!solves_at_once && substeps * static_cast<std::int64_t>(settings.iterations) < 5)
+  if (has_swept(scene) && !solves_at_once && substeps * static_cast<std::int64_t>(settings.iterations) < 5)
     problems.doubtful("settings, substeps", "times iterations project each constraint fewer than 5 times per frame",
                       "stiff objects will stretch like rubber: 10 to 20 substeps are usual");
   if (settings.iterations > 10 && settings.iterations > substeps)

@@ -61,6 +61,14 @@ void add_push(const ContactPush& push, ContactLog& log) {
   sum.moment += push.at * push.impulse;
 }
 
+void add_pressure(int on, int by, const Vec3d& impulse, const Vec3d& at, ContactLog& log) {
+  ContactSum& sum = log[std::minmax(on, by)];
+  const double size = length(impulse);
+  sum.impulse += size;
+  sum.push += impulse * (on <= by ? 1. : -1.);
+  sum.moment += at * size;
+}
+
 void finish_substep(ContactLog& log) {
   for (auto& [bodies, sum] : log) {
     sum.contacts = std::max(sum.contacts, sum.in_substep);

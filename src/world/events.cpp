@@ -32,9 +32,11 @@ void make_events(WorldData& world) {
     event.impulse = sum.impulse;
     event.position = convert<float>(sum.moment * (1 / std::max(sum.impulse, 1e-300)));
     event.normal = direction_of(sum.push, sum.impulse);
+    event.push = sum.push;
     if (event.second < event.first) {
       std::swap(event.first, event.second);
       event.normal = -event.normal;
+      event.push = -event.push;
     }
     now.push_back(event);
   }

@@ -10,6 +10,7 @@
 
 #include "pliant/body.h"
 #include "pliant/joint.h"
+#include "pliant/liquid.h"
 #include "pliant/mesh.h"
 #include "pliant/scene.h"
 #include "pliant/substep_bounds.h"
@@ -122,6 +123,39 @@ TEST(InspectScene, NamesBodiesThatShareAName) {
   add_body(scene.objects[0], {{Sphere{0.1f}}}, {.name = "ball", .position = {3, 0, 0}});
   const std::string text = finding(scene, "has the name");
   EXPECT_NE(text.find("object 'ball', body 3 'ball': has the name of body 0"), std::string::npos) << text;
+}
+
+/// Water of 1 m depth, 30 cm wide.
+Scene water() {
+  Scene scene;
+  LiquidOptions options;
+  options.name = "water";
+  options.fluid.spacing = 0.05f;
+  scene.add(make_liquid(fill_box({}, {0.3f, 1, 0.3f}, 0.05f), options));
+  return scene;
+}
+
+TEST(InspectScene, SaysThatWindDoesNotPushLiquids) {
+  Scene scene = water();
+  EXPECT_EQ(finding(scene, "wind"), "");
+  scene.wind.velocity = {5, 0, 0};
+  scene.wind.air_density = 1.2f;
+  EXPECT_NE(finding(scene, "object 'water'").find("is not pushed by the wind"), std::string::npos);
+}
+
+TEST(InspectScene, SaysHowFarTooFewSubstepsCompressALiquid) {
+  Scene scene = water();
+  EXPECT_EQ(finding(scene, "denser"), "");
+  const int chosen = chosen_substeps(scene).front();
+  scene.settings.substeps = chosen;
+  EXPECT_EQ(finding(scene, "denser"), "");
+  scene.settings.substeps = chosen / 4;
+  scene.settings.sweep = Sweep::tiled;
+  const std::string text = finding(scene, "denser than at rest on average");
+  EXPECT_NE(text.find("use " + std::to_string(chosen)), std::string::npos) << text;
+  EXPECT_EQ(finding(scene, "like rubber"), "") << "of a liquid";
+  scene.add_cloth(sheet(3), {});
+  EXPECT_NE(finding(scene, "like rubber"), "") << "of the cloth beside it";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "solver/fluids/fluid_kernels.h"
+#include "solver/fluids/fluid_log.h"
 #include "solver/substep.h"
 
 namespace pliant {
@@ -152,6 +153,7 @@ void FluidSolver::project(Substep& s, FluidPool& pool, bool is_first) {
     kernels.find_multipliers(a, lists.group(g), g);
   });
   for_groups(s, "solve: density", lists, [&](int g) { kernels.move(a, lists.group(g), g); });
+  if (s.work.contact_log != nullptr) log_pressure(s, pool, bounds, *s.work.contact_log);
   if (a.squares != nullptr) pool.bodies.push(s, pool.walls, pool.weighted, pool.lightness, pool.mass);
 }
 

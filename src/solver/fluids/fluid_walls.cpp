@@ -131,4 +131,13 @@ void FluidWalls::measure(const FluidLaw& law, const FluidBounds& bounds, const R
   }
 }
 
+std::vector<WallGradient> FluidWalls::gradients(const FluidLaw& law, const FluidBounds& bounds, const Vec3f& place,
+                                                int group) const {
+  const std::int32_t *first = near_.data() + begin_[at(group)], *last = near_.data() + begin_[at(group) + 1];
+  const Walls walls = walls_near(law, bounds, first, last, place);
+  std::vector<WallGradient> all;
+  for (int i = 0; i < walls.count; ++i) all.push_back({walls.which[i], walls.gradient(i)});
+  return all;
+}
+
 }  // namespace pliant

@@ -33,6 +33,12 @@ struct NearSolid {
   Vec3f gradient[NeighbourLists::lanes] = {};  ///< of the solid's share in the density of each slot [1/m]
 };
 
+/// What a collider or solid has in the gradient of a particle's density.
+struct WallGradient {
+  std::int32_t which = 0;  ///< as FluidBounds::at() counts
+  Vec3f gradient{};        ///< [1/m]
+};
+
 class FluidWalls {
  public:
   /// Finds what is near each group of slots, for as long as no point moves farther than `motion` [m] against it.
@@ -40,6 +46,9 @@ class FluidWalls {
             float reach, float motion);
   /// Measures the share of colliders and solids at the present places of a group's slots.
   void measure(const FluidLaw& law, const FluidBounds& bounds, const Records& places, int group);
+
+  /// The gradient of each wall at the place of a slot of the group, as measure() sums them.
+  std::vector<WallGradient> gradients(const FluidLaw& law, const FluidBounds& bounds, const Vec3f& place, int group) const;
 
   const Records& shares() const { return shares_; }  ///< by slot: see FluidArrays::walls
   const std::vector<char>& has_any() const { return has_any_; }
