@@ -12,6 +12,7 @@
 #include "apps/bench/covered.h"
 #include "apps/bench/draped_meshes.h"
 #include "apps/bench/landing.h"
+#include "apps/bench/liquid.h"
 #include "apps/bench/memory.h"
 #include "apps/bench/piles.h"
 #include "apps/bench/scene_table.h"
@@ -149,6 +150,20 @@ std::string bench_joints(const BenchOptions& options) {
   return to_json(pliant::bench::measure_chains(wanted));
 }
 
+std::string bench_liquids(const BenchOptions& options) {
+  pliant::bench::LiquidOptions wanted;
+  if (!options.sizes.empty()) wanted.sizes = options.sizes;
+  wanted.frames = options.frames.value_or(wanted.frames);
+  print("particles  engine      isa         substeps  median, ms  slowest, ms  ns/particle  compression   ratio\n");
+  wanted.on_row = [](const pliant::bench::LiquidRow& row) {
+    throw_if_interrupted();
+    print(fmt::format("{:9}  {:<10}  {:<10} {:9} {:11.2f} {:12.2f} {:12.2f} {:11.3f}% {:7.2f}\n", row.particles, row.engine,
+                      row.isa, row.substeps, row.median_ms, row.largest_ms, row.ns_per_particle, 100 * row.compression,
+                      row.ratio));
+  };
+  return to_json(pliant::bench::measure_liquids(wanted));
+}
+
 std::string bench_default(const BenchOptions& options) {
   if (options.scenes.empty() && options.meshes.empty())
     throw Error({}, "'default' measures scene files", "name them: --scenes scenes/*.json, or --meshes FOLDER");
@@ -190,7 +205,7 @@ void refuse_unknown(const std::string& workload) {
   std::vector<std::string> names;
   for (const pliant::bench::Workload& frames : pliant::bench::workloads()) names.push_back(frames.name);
   for (const char* other : {"bodies", "bodies-pyramid", "bodies-tower", "bodies-pour", "contact", "covered", "default",
-                            "joints", "memory", "W3", "W3-ball", "W3-cloth"})
+                            "joints", "memory", "W3", "W3-ball", "W3-cloth", "W5"})
     names.emplace_back(other);
   if (workload.empty() || std::find(names.begin(), names.end(), workload) != names.end()) return;
   const std::string near = scene_file::nearest_name(workload, names);
@@ -210,6 +225,7 @@ std::optional<std::string> bench_by_name(const BenchOptions& options) {
   if (options.workload == "memory") return bench_memory(options);
   if (options.workload == "W3" || options.workload == "W3-ball" || options.workload == "W3-cloth")
     return bench_landings(options);
+  if (options.workload == "W5") return bench_liquids(options);
   return std::nullopt;
 }
 
