@@ -230,10 +230,10 @@ void momentum_rows_of_liquid(Result& result) {
   const Momentum after = momentum_of(world);
   const std::string how = "two blocks that meet at 4 m/s, 60 frames";
   result.rows.push_back(absolute("liquids: linear momentum", 0, length(after.linear - before.linear) / before.size, 1e-6,
-                                 "", how + "; change over the sum of m |v|"));
+                                 "", how + "; change over the sum of the magnitudes of m v"));
   result.rows.push_back(absolute("liquids: angular momentum", 0,
                                  length(after.angular - before.angular) / before.angular_size, 0.01, "",
-                                 how + "; change over the sum of m |x| |v|, of the first order of the substep"));
+                                 how + "; change over that of arm times momentum, of the first order of the substep"));
 }
 
 }  // namespace
