@@ -22,6 +22,17 @@ void for_bodies(const Substep& s, int count, const Body& body) {
   for_ranges(s.context.executor, nullptr, count, bodies_a_task, body);
 }
 
+/// Calls body(first, last) for each range of numbers with 1 in `of`.
+template <class Body>
+void for_runs(const std::vector<char>& of, const Body& body) {
+  const auto number = [&](auto place) { return static_cast<int>(place - of.begin()); };
+  for (auto first = std::find(of.begin(), of.end(), 1); first != of.end();) {
+    const auto last = std::find(first, of.end(), 0);
+    body(number(first), number(last));
+    first = std::find(last, of.end(), 1);
+  }
+}
+
 /// Moves with a collider: its velocities in the substep.
 void follow(const std::pair<Posed, Posed>& poses, float h, BodyMotion& motion) {
   const auto& [before, after] = poses;
@@ -105,12 +116,24 @@ void BodyMotions::store_predicted(const Substep& s) {
   for_bodies(s, bodies(), [&](int first, int last) { s.kernels.motions.store_predicted(all, first, last, s.h); });
 }
 
-void BodyMotions::keep_pushes() {
-  for (int i = 0; i < bodies(); ++i) {
-    const BodyMotion& motion = motions_[at(i)];
-    const Quatf start = quaternion(start_orientations_[at(i)]);
-    pushed_[at(i)] = plus(pushed_[at(i)], motion.velocity - motion.kept_velocity);
-    pushed_spin_[at(i)] = plus(pushed_spin_[at(i)], rotate(conjugate(start), motion.spin - motion.kept_spin));
+void BodyMotions::store_predicted(const Substep& s, const std::vector<char>& of, const Pushes& before) {
+  const BodyArrays all = arrays(s);
+  for_runs(of, [&](int first, int last) { s.kernels.motions.store_predicted(all, first, last, s.h); });
+  restore(before, of, 0);
+}
+
+void BodyMotions::reload_predicted(const Substep& s, const std::vector<char>& of, const Pushes& pushes) {
+  const BodyArrays all = arrays(s);
+  for_runs(of, [&](int first, int last) { s.kernels.motions.load_predicted(all, first, last, s.h, false, 0); });
+  restore(pushes, of, 1);
+}
+
+/// Puts back what contacts did to the bodies with `value` in `of`.
+void BodyMotions::restore(const Pushes& pushes, const std::vector<char>& of, char value) {
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    if (of[i] != value) continue;
+    pushed_[i] = pushes.linear[i];
+    pushed_spin_[i] = pushes.angular[i];
   }
 }
 

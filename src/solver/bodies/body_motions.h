@@ -34,13 +34,22 @@ class BodyMotions {
   void load_predicted(const Substep& s, const ContactBodies& bodies, bool is_first, float share);
   /// Adds what contacts have changed to the prediction.
   void store_predicted(const Substep& s);
+  /// What contacts have done to each body in this substep.
+  struct Pushes {
+    Records linear, angular;
+  };
+  Pushes pushes() const { return {pushed_, pushed_spin_}; }
+  /// Does the same for the bodies with 1 in `of` [body]. For the others, undoes load_predicted with `is_first`, before which contacts had
+  /// done `before`.
+  void store_predicted(const Substep& s, const std::vector<char>& of, const Pushes& before);
+  /// Gathers once more the motions of the bodies with 1 in `of`, without what contacts did in the last substep. In this one they have done
+  /// `pushes`.
+  void reload_predicted(const Substep& s, const std::vector<char>& of, const Pushes& pushes);
   /// By how much contacts have changed the angular velocity of a body since load_predicted [rad/s].
   float spin_change(int body) const {
     const BodyMotion& motion = motions_[static_cast<std::size_t>(body)];
     return length(motion.spin - motion.kept_spin);
   }
-  /// Instead of store_predicted: the next load_predicted with `is_first` starts with what contacts have changed.
-  void keep_pushes();
   /// Gathers velocities. `gravity` is what those of an object lack of this frame's gravity [m/s].
   void load_velocities(const Substep& s, FunctionRef<Vec3f(int object)> gravity);
   /// Adds what contacts have changed to velocities.
@@ -59,6 +68,7 @@ class BodyMotions {
   };
 
   BodyArrays arrays(const Substep& s, std::vector<BodyMotion>& motions);
+  void restore(const Pushes& pushes, const std::vector<char>& of, char value);
   BodyArrays arrays(const Substep& s) { return arrays(s, motions_); }
   int bodies() const { return static_cast<int>(particles_.size()); }
 

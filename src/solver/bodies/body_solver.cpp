@@ -66,6 +66,7 @@ void BodySolver::begin_frame(Substep& s) {
   motions_.begin_frame(s);
   pushes_are_known_ = false;
   last_h_ = s.h;
+  last_substep_ = -1;
   make_manifolds(s);
   points_.begin_frame(s);
   shares_.clear();
@@ -85,10 +86,13 @@ void BodySolver::renew_contacts(Substep& s) {
 void BodySolver::start_substep(const Substep& s) {
   Executor& executor = s.context.executor;
   const ManifoldKernels& kernels = s.kernels.manifolds;
-  const float share = s.h / last_h_;
-  if (last_h_ != s.h) blocks_.scale_impulses(executor, share);
-  last_h_ = s.h;
-  motions_.load_predicted(s, bodies_, true, pushes_are_known_ ? share : 0);
+  if (last_substep_ != s.number) {
+    push_share_ = s.h / last_h_;
+    if (last_h_ != s.h) blocks_.scale_impulses(executor, push_share_);
+    last_h_ = s.h;
+    last_substep_ = s.number;
+  }
+  motions_.load_predicted(s, bodies_, true, pushes_are_known_ ? push_share_ : 0);
   if (!pushes_are_known_) blocks_.warm_start(executor, kernels, motions_.all());
   pushes_are_known_ = true;
   if (!blocks_.bounces()) return;
@@ -107,28 +111,76 @@ void BodySolver::collide(Substep& s) {
   points_.find_loads(s, motions_.present(), true);
 }
 
-bool BodySolver::press_joints(Substep& s) {
-  if (contacts_.all().empty()) return false;
-  std::vector<int> jointed;
-  for (int i = 0; i < bodies_.dynamic(); ++i)
-    if (s.work.joints[at(bodies_.places()[at(i)].object)].forest != nullptr) jointed.push_back(i);
-  if (jointed.empty()) return false;
+/// Finds the bodies with joints that are solved directly. Returns false if there are none.
+bool BodySolver::find_jointed(const Substep& s) {
+  is_jointed_.assign(at(bodies_.dynamic()), 0);
+  bool any = false;
+  for (const BodyLink& link : islands_.links()) {
+    const auto& joints = s.work.joints[at(link.object)];
+    if (link.joint < 0 || joints.forest == nullptr) continue;
+    if (std::binary_search(joints.broken.begin(), joints.broken.end(), link.joint)) continue;
+    for (const int body : {link.a, link.b})
+      if (body < bodies_.dynamic()) is_jointed_[at(body)] = any = true;
+  }
+  return any;
+}
+
+/// Of the islands of jointed and touching bodies, those that have joints, and in which contacts turn no jointed body far.
+void BodySolver::find_pressed(const Substep& s) {
+  const auto is_free = [&](int place) { return place < bodies_.dynamic() && contacts_.is_fixed()[at(place)] == 0; };
+  const auto join = [&](int a, int b) {
+    if (is_free(a) && is_free(b)) jointed_islands_.unite(a, b);
+  };
+  jointed_islands_.reset(bodies_.dynamic());
+  for (const auto& [a, b] : contacts_.bodies()) join(a, b);
+  for (const BodyLink& link : islands_.links())
+    if (link.joint >= 0) join(link.a, link.b);
+  std::vector<char> has_joints(is_jointed_.size(), 0), turns_far(is_jointed_.size(), 0);
+  for (int i = 0; i < bodies_.dynamic(); ++i) {
+    if (is_jointed_[at(i)] == 0 || !is_free(i)) continue;
+    const std::size_t island = at(jointed_islands_.find(i));
+    has_joints[island] = 1;
+    if (motions_.spin_change(i) * s.h > largest_turn_by_contact) turns_far[island] = 1;
+  }
+  pressed_bodies_.assign(is_jointed_.size(), 0);
+  for (int i = 0; i < bodies_.dynamic(); ++i) {
+    const std::size_t island = at(jointed_islands_.find(i));
+    if (has_joints[island] == 0 || turns_far[island] != 0) continue;
+    pressed_bodies_[at(i)] = 1;
+    pressed_objects_[at(bodies_.places()[at(i)].object)] = 1;
+    is_pressed_ = true;
+  }
+}
+
+const std::vector<char>& BodySolver::press_joints(Substep& s) {
+  pressed_objects_.clear();
+  if (contacts_.all().empty() || !find_jointed(s)) return pressed_objects_;
   const Stopwatch stopwatch(s.context.executor.timings(), "solve: bodies");
+  const BodyMotions::Pushes before = motions_.pushes();
+  const bool are_known = pushes_are_known_;
   start_substep(s);
-  is_pressed_ = std::none_of(jointed.begin(), jointed.end(),
-                             [&](int i) { return motions_.spin_change(i) * s.h > largest_turn_by_contact; });
-  if (is_pressed_)
-    motions_.store_predicted(s);
-  else
-    motions_.keep_pushes();
-  return is_pressed_;
+  pressed_objects_.assign(s.model.objects.size(), 0);
+  find_pressed(s);
+  motions_.store_predicted(s, pressed_bodies_, before);
+  pushes_are_known_ = are_known;
+  if (!is_pressed_) pressed_objects_.clear();
+  return pressed_objects_;
+}
+
+/// The rest of a substep's start after press_joints: what has moved stays, and the other bodies start as if they were alone.
+void BodySolver::start_others(const Substep& s) {
+  const BodyMotions::Pushes pressed = motions_.pushes();
+  start_substep(s);
+  motions_.reload_predicted(s, pressed_bodies_, pressed);
 }
 
 void BodySolver::project(Substep& s, bool is_first) {
   if (contacts_.all().empty() && !points_.has_any()) return;
   Executor& executor = s.context.executor;
   const Stopwatch stopwatch(executor.timings(), "solve: bodies");
-  if (is_first && !std::exchange(is_pressed_, false)) {
+  if (is_first && std::exchange(is_pressed_, false)) {
+    start_others(s);
+  } else if (is_first) {
     start_substep(s);
   } else {
     motions_.load_predicted(s, bodies_, false, 0);

@@ -16,6 +16,7 @@
 #include "solver/bodies/body_sleep.h"
 #include "solver/bodies/contact_bodies.h"
 #include "solver/bodies/frame_contacts.h"
+#include "solver/bodies/islands.h"
 #include "solver/bodies/manifold_blocks.h"
 #include "solver/bodies/manifolds.h"
 #include "solver/bodies/velocity_shares.h"
@@ -41,9 +42,10 @@ class BodySolver {
   /// Finds the contacts of points and bodies in a substep.
   void collide(Substep& s);
   /// Starts a substep with the contact impulses of the last one, before joints are solved, so that joints balance them and gravity.
-  /// Otherwise joints would take up contact forces after friction, and bodies at rest would creep. Returns false, and moves nothing,
-  /// unless this group has contacts and joints that are solved directly, or if contacts turn a jointed body far.
-  bool press_joints(Substep& s);
+  /// Otherwise joints would take up contact forces after friction, and bodies at rest would creep. Moves only islands of jointed and
+  /// touching bodies that have joints solved directly, and none in which contacts turn a jointed body far. Returns the objects with bodies
+  /// that were moved, by 1 each [object]; empty if there are none.
+  const std::vector<char>& press_joints(Substep& s);
   /// Corrects displacements and rotations of bodies, and of points that touch them. In the first iteration of a substep, starts from the impulses of the last
   /// one, unless press_joints has, and makes bodies bounce.
   void project(Substep& s, bool is_first);
@@ -88,6 +90,9 @@ class BodySolver {
   void take_impulses(const Substep& s);
   void make_manifolds(const Substep& s);
   void start_substep(const Substep& s);
+  bool find_jointed(const Substep& s);
+  void find_pressed(const Substep& s);
+  void start_others(const Substep& s);
 
   ContactBodies bodies_;
   FrameContacts contacts_;
@@ -100,7 +105,13 @@ class BodySolver {
   ManifoldColours colours_;                    ///< of contacts_
   ManifoldBlocks blocks_;                      ///< the manifolds of contacts_ in a frame
   bool pushes_are_known_ = false;              ///< false in the first substep of a frame
-  bool is_pressed_ = false;                    ///< true from press_joints to project
+  bool is_pressed_ = false;                    ///< true from press_joints to project, if any body is
+  float push_share_ = 0;                       ///< of the last substep's pushes, with which this one starts
+  int last_substep_ = -1;                      ///< the last substep of the frame that was started
+  Islands jointed_islands_;                    ///< of bodies that are jointed or have contacts
+  std::vector<char> is_jointed_;               ///< [body] by a joint that is solved directly
+  std::vector<char> pressed_bodies_;           ///< [body] started by press_joints
+  std::vector<char> pressed_objects_;          ///< [object] with such bodies
   float last_h_ = 0;                           ///< length of the last substep [s]
 };
 

@@ -37,18 +37,28 @@ void walk_stencils(Substep& s, bool first) {
   }
 }
 
+/// Conserves the momentum of what a sweep has done. Objects with 1 in `pressed` have been moved since their prediction.
+void conserve_sweep(Substep& s, bool is_first, const std::vector<char>& pressed) {
+  if (!is_first || pressed.empty()) return conserve_momentum(s, is_first ? Since::prediction : Since::note);
+  std::vector<char> others(pressed.size());
+  std::transform(pressed.begin(), pressed.end(), others.begin(), [](char is_pressed) { return is_pressed == 0; });
+  conserve_momentum(s, Since::prediction, &others);
+  conserve_momentum(s, Since::note, &pressed);
+}
+
 /// Runs one iteration: for each sweep group its phases and acceleration, then the phases of all groups together.
 void iterate(Substep& s, int iteration) {
-  const bool is_pressed = iteration == 0 && s.bodies != nullptr && s.bodies->press_joints(s);
-  const bool is_pushed = is_pressed || (s.has_pairs() && s.pairs->untangles());  // since the prediction
+  static const std::vector<char> none;
+  const std::vector<char>& pressed = iteration == 0 && s.bodies != nullptr ? s.bodies->press_joints(s) : none;
+  const bool is_pushed = s.has_pairs() && s.pairs->untangles();  // since the prediction
   const bool is_first = iteration == 0 && !is_pushed;
   for (const auto& [sweep, group] : s.work.sweeps) {
     if (!uses(s, sweep)) continue;
     s.group = &group;
     if (group.acceleration) keep_iterate(s, iteration);
-    if (!is_first) note_momentum(s);
+    if (!is_first || !pressed.empty()) note_momentum(s, is_first ? &pressed : nullptr);
     group.method->iterate(s, iteration == 0);
-    conserve_momentum(s, is_first ? Since::prediction : Since::note);
+    conserve_sweep(s, is_first, pressed);
     if (group.acceleration) accelerate(s, iteration);
   }
   s.group = nullptr;
