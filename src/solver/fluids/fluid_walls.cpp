@@ -136,6 +136,7 @@ std::vector<WallGradient> FluidWalls::gradients(const FluidLaw& law, const Fluid
   const std::int32_t *first = near_.data() + begin_[at(group)], *last = near_.data() + begin_[at(group) + 1];
   const Walls walls = walls_near(law, bounds, first, last, place);
   std::vector<WallGradient> all;
+  all.reserve(at(walls.count));
   for (int i = 0; i < walls.count; ++i) all.push_back({walls.which[i], walls.gradient(i)});
   return all;
 }
