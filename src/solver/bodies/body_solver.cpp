@@ -8,6 +8,7 @@
 #include "math/motion.h"
 #include "solver/bodies/body_math.h"
 #include "solver/substep.h"
+#include "solver/sweeps/sweep.h"
 
 namespace pliant {
 
@@ -44,6 +45,19 @@ BodySolver::BodySolver(const Model& model, const std::vector<int>* objects, Body
   points_ = BodyPoints(model, objects == nullptr ? all : *objects, touched, bodies_.rules());
   islands_ = BodyIslands(model, bodies_);
   sleep_ = BodySleep(model, bodies_, islands_);
+  find_tied(model);
+}
+
+void BodySolver::find_tied(const Model& model) {
+  for (int i = 0; i < bodies_.dynamic(); ++i) {
+    const BodyPlace& place = bodies_.places()[at(i)];
+    const CompiledObject& object = model.objects[at(place.object)];
+    const auto& attached = object.bodies.attached;
+    const auto is_of_body = [&](const std::pair<int, int>& tie) { return tie.second == place.body; };
+    if (!solves_chains(object.sweep) || std::none_of(attached.begin(), attached.end(), is_of_body)) continue;
+    is_tied_.resize(at(bodies_.dynamic()), 0);
+    is_tied_[at(i)] = 1;
+  }
 }
 
 void BodySolver::make_manifolds(const Substep& s) {
@@ -111,10 +125,11 @@ void BodySolver::collide(Substep& s) {
   points_.find_loads(s, motions_.present(), true);
 }
 
-/// Finds the bodies with joints that are solved directly. Returns false if there are none.
+/// Finds the bodies with joints that are solved directly, and tied ones. Returns false if there are none.
 bool BodySolver::find_jointed(const Substep& s) {
-  is_jointed_.assign(at(bodies_.dynamic()), 0);
-  bool any = false;
+  bool any = !is_tied_.empty();
+  is_jointed_ = is_tied_;
+  is_jointed_.resize(at(bodies_.dynamic()), 0);
   for (const BodyLink& link : islands_.links()) {
     const auto& joints = s.work.joints[at(link.object)];
     if (link.joint < 0 || joints.forest == nullptr) continue;

@@ -41,10 +41,10 @@ class BodySolver {
   void renew_contacts(Substep& s);
   /// Finds the contacts of points and bodies in a substep.
   void collide(Substep& s);
-  /// Starts a substep with the contact impulses of the last one, before joints are solved, so that joints balance them and gravity.
-  /// Otherwise joints would take up contact forces after friction, and bodies at rest would creep. Moves only islands of jointed and
-  /// touching bodies that have joints solved directly, and none in which contacts turn a jointed body far. Returns the objects with bodies
-  /// that were moved, by 1 each [object]; empty if there are none.
+  /// Starts a substep with the contact impulses of the last one, before joints and chains are solved, so that these balance them and
+  /// gravity. Otherwise they would take up contact forces after friction, and bodies at rest would creep or hum. Moves only islands of
+  /// jointed and touching bodies that have joints solved directly, or ties to chains, and none in which contacts turn such a body far.
+  /// Returns the objects with bodies that were moved, by 1 each [object]; empty if there are none.
   const std::vector<char>& press_joints(Substep& s);
   /// Corrects displacements and rotations of bodies, and of points that touch them. In the first iteration of a substep, starts from the impulses of the last
   /// one, unless press_joints has, and makes bodies bounce.
@@ -90,6 +90,7 @@ class BodySolver {
   void take_impulses(const Substep& s);
   void make_manifolds(const Substep& s);
   void start_substep(const Substep& s);
+  void find_tied(const Model& model);
   bool find_jointed(const Substep& s);
   void find_pressed(const Substep& s);
   void start_others(const Substep& s);
@@ -109,7 +110,8 @@ class BodySolver {
   float push_share_ = 0;                       ///< of the last substep's pushes, with which this one starts
   int last_substep_ = -1;                      ///< the last substep of the frame that was started
   Islands jointed_islands_;                    ///< of bodies that are jointed or have contacts
-  std::vector<char> is_jointed_;               ///< [body] by a joint that is solved directly
+  std::vector<char> is_tied_;                  ///< [body] to a particle of chains; empty if none is
+  std::vector<char> is_jointed_;               ///< [body] by a joint that is solved directly, or tied
   std::vector<char> pressed_bodies_;           ///< [body] started by press_joints
   std::vector<char> pressed_objects_;          ///< [object] with such bodies
   float last_h_ = 0;                           ///< length of the last substep [s]

@@ -24,6 +24,8 @@ struct Pass {
   Order order = Order::forward;
   int number = 0;                           ///< index of this pass over the stencils within the iteration
   const std::vector<char>* only = nullptr;  ///< for each object, 1 if chains of it are solved; null: all
+  const std::vector<char>* tied =
+      nullptr;  ///< for each object, 1 if project_ties has begun its ties in this substep; null: none
 };
 
 struct PhaseDriver {
@@ -37,6 +39,8 @@ const PhaseDriver& driver_of(const Phase& phase);
 /// Projects once all phases whose driver has this Turn, or all phases of one driver.
 void walk(Substep& s, Turn turn, const Pass& pass);
 void walk(Substep& s, Driver driver, const Pass& pass);
+/// Projects the ties of particles to bodies of the objects with 1 in `of` that are solved by chains, before anything else of a substep.
+void project_ties(Substep& s, const std::vector<char>& of);
 
 /// Calls body(task) for the tasks of objects whose sweep runs (is_swept). Uses all threads if the phase has at least
 /// `fewest_to_share` batches or steps of work; with less, waking them takes longer than the work. The call is timed

@@ -26,13 +26,14 @@ bool uses(const Substep& s, Sweep sweep) {
   return s.part == nullptr || std::find(s.part->sweeps.begin(), s.part->sweeps.end(), sweep) != s.part->sweeps.end();
 }
 
-/// Projects stencil constraints as often as the sweep of their object projects the other constraints.
-void walk_stencils(Substep& s, bool first) {
+/// Projects stencil constraints as often as the sweep of their object projects the other constraints. Ties of the objects with 1 in `tied`
+/// have begun.
+void walk_stencils(Substep& s, bool first, const std::vector<char>& tied) {
   int passes = 0;
   for (const auto& [sweep, group] : s.work.sweeps)
     if (uses(s, sweep)) passes = std::max(passes, group.method->passes);
   for (int pass = 0; pass < passes; ++pass) {
-    walk(s, Turn::stencil, {first && pass == 0, Order::forward, pass});
+    walk(s, Turn::stencil, {first && pass == 0, Order::forward, pass, nullptr, tied.empty() ? nullptr : &tied});
     solve_joint_trees(s, first && pass == 0);
   }
 }
@@ -52,6 +53,7 @@ void iterate(Substep& s, int iteration) {
   const std::vector<char>& pressed = iteration == 0 && s.bodies != nullptr ? s.bodies->press_joints(s) : none;
   const bool is_pushed = s.has_pairs() && s.pairs->untangles();  // since the prediction
   const bool is_first = iteration == 0 && !is_pushed;
+  if (!pressed.empty()) project_ties(s, pressed);
   for (const auto& [sweep, group] : s.work.sweeps) {
     if (!uses(s, sweep)) continue;
     s.group = &group;
@@ -62,7 +64,7 @@ void iterate(Substep& s, int iteration) {
     if (group.acceleration) accelerate(s, iteration);
   }
   s.group = nullptr;
-  walk_stencils(s, iteration == 0);
+  walk_stencils(s, iteration == 0, pressed);
   if (s.bodies != nullptr) {
     s.bodies->project(s, iteration == 0);
     close_joint_trees(s);
