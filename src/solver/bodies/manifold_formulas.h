@@ -201,21 +201,46 @@ struct Aim {
   R bias, kept, leak;
 };
 
-/// One pass over the points, one after another.
+/// A point in a pass: what it goes for, what it opposes to an impulse and had before, and the motion of its unit impulse.
+template <class R>
+struct PressedPoint {
+  Aim<R> aim;
+  R mass, before;
+  Wrench<R> answer;
+};
+
+/// Solves a point alone, and returns the change of its impulse.
+template <class R, int lanes>
+PLIANT_HD R press_point(const ManifoldRows<lanes>& m, int i, const PressedPoint<R>& point, Wrench<R>& motion) {
+  const Aim<R>& aim = point.aim;
+  const R wanted = -aim.kept * (at_point(m, i, motion) + aim.bias) * point.mass - aim.leak * point.before;
+  const R change = max(point.before + wanted, R(0.f)) - point.before;
+  push(point.answer, change, motion);
+  return change;
+}
+
+/// One pass over the points, one after another, in two orders from the same start: 0 1 2 3 and 2 3 0 1. The mean of both impulses counts:
+/// points of a flat contact lie around its centre, so what one order tilts, the other one tilts back. With one order, the fall of a
+/// tower of boxes into its contacts leans it, and it sways for minutes.
 template <class R, int lanes, class AimOf>
 PLIANT_HD void press(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b, const AimOf& aim_of) {
-  Wrench<R> motion = along(m, approach(m, a, b), b.spin - a.spin);
+  Wrench<R> motion = along(m, approach(m, a, b), b.spin - a.spin), other = motion;
   const Mobility<R> mobility = mobility_of<R>(m);
+  PressedPoint<R> points[4];
   PointImpulses<R> change;
   PLIANT_UNROLL
+  for (int i = 0; i < 4; ++i) points[i] = {aim_of(i), get<R>(m.mass[i]), get<R>(m.impulse[i]), answer(m, mobility, i)};
+  PLIANT_UNROLL
+  for (int k = 0; k < 4; ++k) {
+    const int opposite = k ^ 2;
+    const R first = press_point(m, k, points[k], motion), second = press_point(m, opposite, points[opposite], other);
+    change.at[k] = k < 2 ? first : change.at[k] + first;
+    change.at[opposite] = k < 2 ? second : change.at[opposite] + second;
+  }
+  PLIANT_UNROLL
   for (int i = 0; i < 4; ++i) {
-    const Aim<R> aim = aim_of(i);
-    const R before = get<R>(m.impulse[i]);
-    const R wanted = -aim.kept * (at_point(m, i, motion) + aim.bias) * get<R>(m.mass[i]) - aim.leak * before;
-    const R after = max(before + wanted, R(0.f));
-    change.at[i] = after - before;
-    store_row(m.impulse[i], after);
-    push(answer(m, mobility, i), change.at[i], motion);
+    change.at[i] = change.at[i] * R(0.5f);
+    store_row(m.impulse[i], points[i].before + change.at[i]);
   }
   apply(m, change, a, b);
 }

@@ -1,6 +1,25 @@
 #include "solver/bodies/manifolds.h"
 
+#include <utility>
+
+#include "solver/bodies/manifold_rows.h"
+
 namespace pliant {
+
+namespace {
+
+/// Puts the second of two points into the third place, so that both orders of a pass (manifold_formulas.h) differ for them, too.
+void spread_two_points(Manifold& m) {
+  if (m.count != 2) return;
+  m.count = 3;
+  std::swap(m.x[1], m.x[2]);
+  std::swap(m.y[1], m.y[2]);
+  std::swap(m.gap[1], m.gap[2]);
+  std::swap(m.impulse[1], m.impulse[2]);
+  m.gap[1] = no_point;
+}
+
+}  // namespace
 
 void scale_impulses(float factor, Manifold& m) {
   for (float& impulse : m.impulse) impulse *= factor;
@@ -32,11 +51,13 @@ Manifold manifold_of(const BodyContact& contact, int a, int b, const BodyMateria
   m.twist_impulse = contact.twist_impulse;
   m.rolling_impulse = contact.rolling_impulse;
   if (contact.substep > 0 && contact.substep != h) scale_impulses(h / contact.substep, m);
+  spread_two_points(m);
   return m;
 }
 
 void keep_impulses(const Manifold& manifold, float h, BodyContact& contact) {
   contact.impulse = manifold.impulse;
+  if (contact.count == 2) std::swap(contact.impulse[1], contact.impulse[2]);
   contact.friction_impulse = manifold.friction_impulse;
   contact.twist_impulse = manifold.twist_impulse;
   contact.rolling_impulse = manifold.rolling_impulse;
