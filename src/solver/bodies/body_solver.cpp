@@ -30,6 +30,14 @@ void fetch(const BodyContact& contact) {
     __builtin_prefetch(first + byte);
 }
 
+/// Turns the arm of a body that is driven round by half of what it turns in `left` seconds, so that displacement and friction of linear
+/// motion along the arm follow the chord of its circle, and what rides on a turntable does not drift outward.
+void turn_arm(const BodyState& body, double left, Vec3f& arm) {
+  if (!body.is_fixed) return;
+  const Vec3f half = body.spin * static_cast<float>(left / 2), along = cross(half, arm);
+  arm += along + cross(half, along) * 0.5f;
+}
+
 }  // namespace
 
 BodySolver::BodySolver(const Model& model, const std::vector<int>* objects, BodyMeshes& meshes)
@@ -65,10 +73,14 @@ void BodySolver::make_manifolds(const Substep& s) {
   const Stopwatch stopwatch(executor.timings(), "bodies: manifolds");
   const std::vector<std::pair<int, int>>& bodies_of = contacts_.bodies();
   colours_.colour(bodies_of, contacts_.is_fixed());
+  const double left = time_left(s);
   const auto prefetch = [&](int i) { fetch(contacts_.all()[at(i)]); };
   blocks_.fill(executor, colours_, contacts_.is_fixed(), prefetch, [&](int i) {
     const auto& [a, b] = bodies_of[at(i)];
-    return manifold_of(contacts_.all()[at(i)], a, b, bodies_.material(s.model, a, b), s.h);
+    Manifold m = manifold_of(contacts_.all()[at(i)], a, b, bodies_.material(s.model, a, b), s.h);
+    turn_arm(contacts_.states()[at(a)], left, m.arm_a);
+    turn_arm(contacts_.states()[at(b)], left, m.arm_b);
+    return m;
   });
   blocks_.prepare(executor, s.kernels.manifolds, motions_.all());
 }
