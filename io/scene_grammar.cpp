@@ -106,11 +106,15 @@ const Record& particles_record() {
 }
 
 const Record& fill_record() {
-  static const Record result{"fill",
-                             "Particles on a cubic lattice that fills an axis-aligned box.",
-                             {needed("min", place(), "Corner with the smallest coordinates."),
-                              needed("max", place(), "Corner with the largest coordinates.")},
-                             {}};
+  static const Record result{
+      "fill",
+      "Particles on a cubic lattice that fills an axis-aligned box, from `min` to `max`, or a closed mesh.",
+      {either("min", place(), "Corner of the box with the smallest coordinates."),
+       either("mesh", record(mesh_record()), "A closed mesh, with its placement."),
+       field("max", place(), "none", "Corner of the box with the largest coordinates; only with `min`, which needs it."),
+       field("clearance", number("m", 0, largest_place), 0.f,
+             "Only for a mesh: distance of particles from its surface. Half the spacing if it is a vessel's wall.")},
+      {"min", "mesh"}};
   return result;
 }
 
@@ -118,7 +122,7 @@ const Record& liquid_record() {
   static const Record result{
       "liquid",
       "A liquid of particles. Liquids with the same spacing, speed of sound, groups and mask mix; others do not meet.",
-      {either("fill", record(fill_record()), "The box that it fills at the start."),
+      {either("fill", record(fill_record()), "The box or mesh that it fills at the start."),
        either("positions", list(place(), 1), "Positions of the particles at the start, about a spacing apart."),
        field("spacing", positive("m", largest_place), Fluid{}.spacing, "Distance of particles at rest."),
        field("density", positive("kg/m^3"), Fluid{}.density, "Density at rest."),
@@ -132,7 +136,7 @@ const Record& grains_record() {
   static const Record result{
       "grains",
       "Sand or gravel: spheres with friction, which do not turn. Those whose objects meet by groups and masks touch.",
-      {either("fill", record(fill_record()), "The box that it fills at the start, a diameter apart."),
+      {either("fill", record(fill_record()), "The box or mesh that it fills at the start, a diameter apart."),
        either("positions", list(place(), 1), "Centres of the grains at the start, a diameter or more apart."),
        field("radius", positive("m", largest_place), Grains{}.radius, "Radius of each grain."),
        field("density", positive("kg/m^3"), Grains{}.density, "Density of the solid, not of the bulk with its voids."),

@@ -60,38 +60,74 @@ BuiltObject rope_of(const JsonDocument& document, const JsonValue& at, const std
   return {make_rope(points, options)};
 }
 
-/// The places in `positions`, or those that fill a box at a spacing.
-std::vector<Vec3f> places_of(const JsonDocument& document, const JsonValue& at, float spacing) {
+/// What particles are made with: where they are read, and how far apart they are.
+struct Filling {
+  const JsonDocument& document;
+  const MeshFolder& folder;
+  const std::string& name;
+  std::vector<std::string>& repairs;
+  float spacing = 0;
+};
+
+/// Throws an Error at `at` if a box has room for more particles than a scene may have.
+void limit_particles(const Filling& by, const JsonValue& at, const Vec3f& low, const Vec3f& high) {
+  const auto along = [&](float from, float to) {
+    return std::max(1., (static_cast<double>(to) - static_cast<double>(from)) / static_cast<double>(by.spacing));
+  };
+  if (along(low.x, high.x) * along(low.y, high.y) * along(low.z, high.z) > largest_scene)
+    by.document.fail(at, "more than " + std::to_string(largest_scene) + " particles",
+                     "use a larger spacing, or a smaller box");
+}
+
+std::vector<Vec3f> places_in_mesh(const Filling& by, const JsonValue& fill) {
+  if (const JsonValue* high = fill.find("max"))
+    by.document.fail(*high, "is the corner of a box, but a mesh is filled", "give 'min' and 'max', or 'mesh'");
+  SceneMesh surface = make_mesh(by.document, *fill.find("mesh"), by.folder, by.name);
+  for (const std::string& repair : surface.repairs) by.repairs.push_back("object '" + by.name + "', " + repair);
+  float clearance = 0;
+  set(fill, "clearance", clearance);
+  Vec3f low = surface.mesh.positions.front(), high = low;
+  for (const Vec3f& p : surface.mesh.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  limit_particles(by, fill, low, high);
+  return fill_mesh(surface.mesh, by.spacing, clearance);
+}
+
+/// The places in `positions`, or those that fill a box or mesh at a spacing.
+std::vector<Vec3f> places_of(const Filling& by, const JsonValue& at) {
   std::vector<Vec3f> positions;
   for (const JsonValue& position : elements(at, "positions")) positions.push_back(vector_of(position));
   const JsonValue* fill = at.find("fill");
   if (fill == nullptr) return positions;
+  if (fill->find("mesh") != nullptr) return places_in_mesh(by, *fill);
+  if (fill->find("max") == nullptr) by.document.fail(*fill, "has 'min' without 'max'", "give both corners of the box");
+  if (const JsonValue* clearance = fill->find("clearance"))
+    by.document.fail_key(*clearance, "is only for a mesh", "remove it, or make the box smaller");
   const Vec3f low = vector_of(*fill->find("min")), high = vector_of(*fill->find("max"));
-  const auto along = [&](float from, float to) {
-    return std::max(1., (static_cast<double>(to) - static_cast<double>(from)) / static_cast<double>(spacing));
-  };
-  if (along(low.x, high.x) * along(low.y, high.y) * along(low.z, high.z) > largest_scene)
-    document.fail(*fill, "more than " + std::to_string(largest_scene) + " particles",
-                  "use a larger spacing, or a smaller box");
-  return fill_box(low, high, spacing);
+  limit_particles(by, *fill, low, high);
+  return fill_box(low, high, by.spacing);
 }
 
-BuiltObject liquid_of(const JsonDocument& document, const JsonValue& at, const std::string& name) {
+BuiltObject liquid_of(const JsonDocument& document, const JsonValue& at, const std::string& name, const MeshFolder& folder,
+                      std::vector<std::string>& repairs) {
   LiquidOptions options;
   options.name = name;
   set(at, "spacing", options.fluid.spacing);
   set(at, "density", options.fluid.density);
   set(at, "speed_of_sound", options.fluid.speed_of_sound);
-  return {make_liquid(places_of(document, at, options.fluid.spacing), options)};
+  return {make_liquid(places_of({document, folder, name, repairs, options.fluid.spacing}, at), options)};
 }
 
-BuiltObject grains_of(const JsonDocument& document, const JsonValue& at, const std::string& name) {
+BuiltObject grains_of(const JsonDocument& document, const JsonValue& at, const std::string& name, const MeshFolder& folder,
+                      std::vector<std::string>& repairs) {
   GrainsOptions options;
   options.name = name;
   set(at, "radius", options.grains.radius);
   set(at, "density", options.grains.density);
   set(at, "friction", options.grains.friction);
-  return {make_grains(places_of(document, at, 2 * options.grains.radius), options)};
+  return {make_grains(places_of({document, folder, name, repairs, 2 * options.grains.radius}, at), options)};
 }
 
 std::vector<float> masses_of(const JsonDocument& document, const JsonValue& at, std::size_t particles) {
@@ -206,8 +242,8 @@ BuiltObject build_matter(const JsonDocument& document, const JsonValue& what, co
                          const MeshFolder& folder, std::vector<std::string>& repairs) {
   try {
     if (what.key == "cloth") return cloth_of(document, what, name, folder, repairs);
-    if (what.key == "liquid") return liquid_of(document, what, name);
-    if (what.key == "grains") return grains_of(document, what, name);
+    if (what.key == "liquid") return liquid_of(document, what, name, folder, repairs);
+    if (what.key == "grains") return grains_of(document, what, name, folder, repairs);
     if (what.key == "rope") return rope_of(document, what, name);
     if (what.key == "bodies") return {build_bodies(document, what, name, folder, repairs)};
     if (what.key == "urdf") return {build_robot(document, what, name, folder, repairs)};

@@ -19,6 +19,12 @@ struct LiquidOptions {
 /// Throws an Error if a size or the spacing is not positive and finite, or if there would be over 2^26 points.
 std::vector<Vec3f> fill_box(const Vec3f& low, const Vec3f& high, float spacing);
 
+/// The points of the lattice with which fill_box fills the mesh's box that lie inside a closed mesh, `clearance` or more from its surface [m].
+/// Without clearance there are as many as the enclosed volume holds, to a lattice's rounding, and the outermost lie closer to the surface than
+/// half a spacing: for a vessel whose wall is the mesh, give half the spacing. The inside is decided exactly. Throws an Error if the mesh is
+/// not closed or not finite, if no point is inside, if a number is out of range, or if the box would have over 2^26 points.
+std::vector<Vec3f> fill_mesh(const TriangleMesh& mesh, float spacing, float clearance = 0);
+
 /// Makes a liquid of particles at given places, about a spacing apart. Each has the mass of a cube of that side, and touches colliders at
 /// half the spacing, without friction. Throws an Error that names an option that is out of range.
 Object make_liquid(const std::vector<Vec3f>& positions, const LiquidOptions& options = {});

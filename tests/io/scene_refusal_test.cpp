@@ -45,6 +45,23 @@ TEST(SceneRefusal, SaysWhatIsWrongAndWhatToDo) {
             "x.json:1:30: /settings/gravity: 'gravity' is unknown in settings; it is a member of scene");
 }
 
+TEST(SceneRefusal, SaysWhatAFillLacks) {
+  const auto message = [](const std::string& fill) {
+    return scene_message(R"({"objects": [{"name": "a", "liquid": {"spacing": 0.25, "fill": )" + fill + "}}]}");
+  };
+  const auto says = [&](const std::string& fill, const std::string& words) {
+    EXPECT_NE(message(fill).find(words), std::string::npos) << message(fill);
+  };
+  says(R"({})", "give exactly one of 'min' and 'mesh'");
+  says(R"({"min": [0, 0, 0]})", "has 'min' without 'max'; give both corners of the box");
+  says(R"({"min": [0, 0, 0], "max": [1, 1, 1], "clearance": 0.1})", "is only for a mesh");
+  says(R"({"mesh": {"box": {"size": [1, 1, 1]}}, "max": [1, 1, 1]})", "is the corner of a box, but a mesh is filled");
+  says(R"({"mesh": {"tube": {"columns": 6, "rows": 2, "length": 1, "top_radius": 1, "bottom_radius": 1}}})",
+       "so the mesh is not closed");
+  says(R"({"mesh": {"box": {"size": [1, 1, 1]}}, "clearance": 0.6})", "has no room for a particle");
+  says(R"({"mesh": {"box": {"size": [1000, 1000, 1000]}}})", "more than");
+}
+
 TEST(SceneRefusal, NamesThePlaceOfBoundsThatLeaveNoSubsteps) {
   EXPECT_EQ(scene_message("{\"objects\": [], \"settings\":\n {\"least_substeps\": 48, \"most_substeps\": 20}}"),
             "x.json:2:21: /settings/least_substeps: is 48, more than most_substeps, 20; "
