@@ -1,28 +1,47 @@
 #include "apps/bench/liquid.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/bench/memory.h"
 #include "pliant/error.h"
 #include "pliant/liquid.h"
+#include "pliant/surface.h"
 #include "pliant/world.h"
 
 namespace pliant::bench {
 
 namespace {
 
-constexpr float frame_time = 1.f / 60;
+constexpr float spacing = 0.05f, step_time = 0.005f, frame_time = 1.f / 60;
+constexpr int most_for_plain_loop = 400000;
 
 double processor_ms() { return 1000. * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-Scene splash(int particles) {
-  const auto across = static_cast<float>(std::lround(std::cbrt(particles / 2.)));
+double wall_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double median(std::vector<double> of) {
+  if (of.empty()) return 0;
+  std::nth_element(of.begin(), of.begin() + static_cast<std::ptrdiff_t>(of.size() / 2), of.end());
+  return of[of.size() / 2];
+}
+
+/// A block about 1.26 times as high as it is wide.
+Scene splash(int particles, bool has_stray) {
+  const auto across = static_cast<float>(std::lround(std::cbrt(particles / 1.26)));
+  const Vec3f size = spacing * Vec3f{across, std::round(static_cast<float>(particles) / (across * across)), across};
   Scene scene;
   scene.settings.threads = 1;
-  scene.add(make_liquid(fill_box({}, {1, 2, 1}, 1 / across), {.fluid = {.spacing = 1 / across}}));
+  scene.settings.substeps = 5;
+  std::vector<Vec3f> places = fill_box({}, size, spacing);
+  if (has_stray) places[places.size() / 2] = {0.5f, 1000, 0.5f};
+  scene.add(make_liquid(places, {.fluid = {.spacing = spacing}}));
   const auto add = [&](const Vec3f& at, const Vec3f& axis, float degrees) {
     Collider plane;
     plane.position = at;
@@ -32,72 +51,113 @@ Scene splash(int particles) {
   };
   add({}, {0, 0, 1}, 0);
   add({}, {0, 0, 1}, -90);
-  add({3, 0, 0}, {0, 0, 1}, 90);
+  add({5 * size.x, 0, 0}, {0, 0, 1}, 90);
   add({}, {1, 0, 0}, 90);
-  add({0, 0, 1}, {1, 0, 0}, -90);
+  add({0, 0, size.z}, {1, 0, 0}, -90);
   return scene;
 }
 
 /// One of the ways to step the same splash.
 class Splash {
  public:
-  Splash(Scene scene, const std::string& engine, const std::string& isa) : world_(with(std::move(scene), isa)) {
+  Splash(const Scene& scene, const std::string& engine) : world_(for_engine(scene, engine)) {
     row_.engine = engine;
-    row_.isa = isa.empty() ? world_.isa() : isa;
+    row_.isa = engine == "plain loop" ? "sequential" : world_.isa();
     row_.particles = world_.object(ObjectId(0)).info().particles;
   }
 
   void step() {
-    const double before = processor_ms();
-    const Report report = world_.step(frame_time);
+    const double before = processor_ms(), wall_before = wall_ms();
+    const Report report = world_.step(row_.engine == "1/60 s" ? frame_time : step_time);
     times_.push_back(processor_ms() - before);
+    wall_times_.push_back(wall_ms() - wall_before);
+    double search = 0;
+    for (const PhaseTime& phase : report.phases)
+      if (phase.name.rfind("neighbours", 0) == 0) search += phase.milliseconds;
+    searches_.push_back(search / report.milliseconds);
     row_.substeps = report.substeps;
     row_.compression = std::max(row_.compression, report.compression.mean);
   }
 
-  LiquidRow row() {
-    std::sort(times_.begin(), times_.end());
-    row_.median_ms = times_[times_.size() / 2];
-    row_.largest_ms = times_.back();
+  /// Compares the times with those of the same steps.
+  LiquidRow row(const Splash& other) {
+    const bool is_parallel = has_two_threads(row_.engine);
+    const std::vector<double>&mine = is_parallel ? wall_times_ : times_,
+          &theirs = is_parallel ? other.wall_times_ : other.times_;
+    row_.median_ms = median(mine);
+    row_.largest_ms = *std::max_element(mine.begin(), mine.end());
     row_.ns_per_particle = 1e6 * row_.median_ms / (static_cast<double>(row_.particles) * row_.substeps);
+    row_.search = median(searches_);
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < mine.size(); ++i) ratios.push_back(theirs[i] / mine[i]);
+    row_.ratio = median(ratios);
     return row_;
   }
 
+  void measure_surface() {
+    const std::vector<Vec3f> places = world_.object(ObjectId(0)).positions();
+    const double before = processor_ms();
+    liquid_surface(places, {.spacing = spacing, .threads = 1});
+    row_.surface = (processor_ms() - before) / median(times_);
+  }
+
+  LiquidRow& row() { return row_; }
   std::string hash() const { return world_.state_hash(); }
 
  private:
-  static Scene with(Scene scene, const std::string& isa) {
-    scene.settings.isa = isa;
+  static bool has_two_threads(const std::string& engine) { return engine == "two threads" || engine == "1/60 s"; }
+
+  static Scene for_engine(Scene scene, const std::string& engine) {
+    if (engine == "plain loop") scene.settings.isa = "sequential";
+    if (has_two_threads(engine)) scene.settings.threads = 2;
+    if (engine == "1/60 s") scene.settings.substeps = 0;
     return scene;
   }
 
   World world_;
   LiquidRow row_;
-  std::vector<double> times_;
+  std::vector<double> times_, wall_times_, searches_;
 };
+
+double bytes_for_each(int size) {
+  return measure_bytes([&] { return splash(100, false); }, [&] { return splash(size, false); }) / size;
+}
+
+std::vector<Splash> ways_to_splash(int size) {
+  std::vector<Splash> all;
+  const Scene scene = splash(size, false);
+  if (size < most_for_plain_loop) all.emplace_back(scene, "plain loop");
+  for (const char* engine : {"pliant", "two threads", "1/60 s"}) all.emplace_back(scene, engine);
+  all.emplace_back(splash(size, true), "stray");
+  return all;
+}
 
 }  // namespace
 
 std::vector<LiquidRow> measure_liquids(const LiquidOptions& options) {
   std::vector<LiquidRow> rows;
+  std::vector<double> bytes;  // before there are threads
   for (const int size : options.sizes) {
     if (size < 100 || size > 10000000)
       throw Error({}, "a liquid of " + std::to_string(size) + " particles", "give 100 to 10000000");
-    const Scene scene = splash(size);
-    std::vector<Splash> splashes;
-    splashes.emplace_back(scene, "plain loop", "sequential");
-    splashes.emplace_back(scene, "pliant", "");
+    bytes.push_back(bytes_for_each(size));
+  }
+  for (std::size_t i = 0; i < options.sizes.size(); ++i) {
+    const int size = options.sizes[i];
+    std::vector<Splash> splashes = ways_to_splash(size);
     for (int frame = 0; frame < options.frames; ++frame)
       for (Splash& one : splashes) one.step();
-    if (splashes.front().hash() != splashes.back().hash())
-      throw Error({}, "the plain loop and the lanes give other bits", "report this as a bug");
-    double of_plain = 0;
+    const Splash& plain = splashes.front();
+    const auto pliant =
+        std::find_if(splashes.begin(), splashes.end(), [](Splash& one) { return one.row().engine == "pliant"; });
+    for (const Splash* other : {static_cast<const Splash*>(&plain), static_cast<const Splash*>(&pliant[1])})
+      if (pliant->hash() != other->hash())
+        throw Error({}, "the plain loop, the lanes and two threads do not give the same bits", "report this as a bug");
+    pliant->row().bytes = bytes[i];
+    pliant->measure_surface();
     for (Splash& one : splashes) {
-      LiquidRow row = one.row();
-      if (of_plain == 0) of_plain = row.median_ms;
-      row.ratio = of_plain / row.median_ms;
-      rows.push_back(row);
-      if (options.on_row) options.on_row(row);
+      rows.push_back(one.row(one.row().engine == "two threads" ? *pliant : plain));
+      if (options.on_row) options.on_row(rows.back());
     }
   }
   return rows;
@@ -113,8 +173,11 @@ std::string to_json(const std::vector<LiquidRow>& rows) {
                     {"median_ms", row.median_ms},
                     {"largest_ms", row.largest_ms},
                     {"ns_per_particle", row.ns_per_particle},
+                    {"search", row.search},
                     {"compression", row.compression},
-                    {"ratio", row.ratio}});
+                    {"ratio", row.ratio},
+                    {"bytes", row.bytes},
+                    {"surface", row.surface}});
   return list.dump(2) + "\n";
 }
 

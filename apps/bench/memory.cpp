@@ -56,18 +56,19 @@ MemoryRow measure_here(int size, Sweep sweep, bool is_given_away) {
   return row;
 }
 
-/// Measures in a process of its own, so that the high-water mark is that of this cloth.
-MemoryRow measure(int size, Sweep sweep, bool is_given_away) {
+/// Calls measure_here() in a process of its own, so that the high-water mark is that of what it makes.
+template <class Row, class Measure>
+Row measure_apart(const Measure& measure_here) {
   int ends[2];
   if (pipe(ends) != 0) throw Error({}, "cannot start a process in which to measure memory");
   const pid_t child = fork();
   if (child == 0) {
-    const MemoryRow row = measure_here(size, sweep, is_given_away);
+    const Row row = measure_here();
     const bool is_written = write(ends[1], &row, sizeof row) == static_cast<ssize_t>(sizeof row);
     _exit(is_written ? 0 : 1);
   }
   close(ends[1]);
-  MemoryRow row;
+  Row row{};
   const bool is_read = child > 0 && read(ends[0], &row, sizeof row) == static_cast<ssize_t>(sizeof row);
   close(ends[0]);
   int status = 0;
@@ -76,7 +77,22 @@ MemoryRow measure(int size, Sweep sweep, bool is_given_away) {
   return row;
 }
 
+MemoryRow measure(int size, Sweep sweep, bool is_given_away) {
+  return measure_apart<MemoryRow>([&] { return measure_here(size, sweep, is_given_away); });
+}
+
 }  // namespace
+
+double measure_bytes(const std::function<Scene()>& small, const std::function<Scene()>& scene) {
+  return measure_apart<double>([&] {
+    World first(small());
+    step_twice(first);  // loads code, as above
+    const double before = resident("VmRSS");
+    World world(scene());
+    step_twice(world);
+    return resident("VmRSS") - before;
+  });
+}
 
 std::vector<MemoryRow> measure_memory(const MemoryOptions& options) {
   if (resident("VmHWM") == 0) throw Error({}, "this system does not report the memory of a process", "measure on Linux");

@@ -154,12 +154,15 @@ std::string bench_liquids(const BenchOptions& options) {
   pliant::bench::LiquidOptions wanted;
   if (!options.sizes.empty()) wanted.sizes = options.sizes;
   wanted.frames = options.frames.value_or(wanted.frames);
-  print("particles  engine      isa         substeps  median, ms  slowest, ms  ns/particle  compression   ratio\n");
+  print(
+      "particles  engine       isa         substeps  median, ms  slowest, ms  ns/particle  search  compression   ratio  "
+      "bytes/particle  surface/step\n");
   wanted.on_row = [](const pliant::bench::LiquidRow& row) {
     throw_if_interrupted();
-    print(fmt::format("{:9}  {:<10}  {:<10} {:9} {:11.2f} {:12.2f} {:12.2f} {:11.3f}% {:7.2f}\n", row.particles, row.engine,
-                      row.isa, row.substeps, row.median_ms, row.largest_ms, row.ns_per_particle, 100 * row.compression,
-                      row.ratio));
+    print(fmt::format("{:9}  {:<11}  {:<10} {:9} {:11.2f} {:12.2f} {:12.2f} {:6.1f}% {:11.3f}% {:7.2f}", row.particles,
+                      row.engine, row.isa, row.substeps, row.median_ms, row.largest_ms, row.ns_per_particle,
+                      100 * row.search, 100 * row.compression, row.ratio));
+    print(row.bytes > 0 ? fmt::format(" {:15.0f} {:13.2f}\n", row.bytes, row.surface) : "\n");
   };
   return to_json(pliant::bench::measure_liquids(wanted));
 }
