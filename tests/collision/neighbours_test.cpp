@@ -96,6 +96,27 @@ TEST(Neighbours, AreFoundBesidePointsAtBothEndsOfTheGrid) {
   EXPECT_EQ(by_lists(points, neighbour_kernels_generic()), by_brute_force(points));
 }
 
+TEST(Neighbours, AreFoundBesideThousandsOfCandidatesThatAreNone) {
+  constexpr int crowd = 563 * 16;  // whole groups, in the row of cells before that of the others
+  std::vector<Record> points = cloud(crowd, 0.02f, 13);
+  for (Record& p : points) p = {p.x + 0.15f, p.y + 0.05f, p.z - 0.02f, 0};
+  for (int i = 0; i < 16; ++i) points.push_back({i < 8 ? 0.f : 0.29f, 0.05f, 0.05f + 0.001f * static_cast<float>(i), 0});
+  for (const Level& level : levels())
+    for (const int threads : {1, 3}) {
+      Executor executor(threads);
+      NeighbourLists lists;
+      lists.find(executor, level.kernels(), points, reach);
+      EXPECT_EQ(lists.left_out(), crowd) << level.name;
+      EXPECT_EQ(lists.group(0).rows, most_neighbours) << level.name;
+      ASSERT_EQ(lists.group(563).rows, 7) << level.name;
+      for (int lane = 0; lane < 16; ++lane)
+        for (int k = 0; k < 7; ++k) {
+          const int other = lane / 8 * 8 + k;
+          EXPECT_EQ(lists.group(563).slots[16 * k + lane], crowd + (other < lane ? other : other + 1)) << level.name;
+        }
+    }
+}
+
 TEST(Neighbours, OfNoPointAndOfOneAreNone) {
   EXPECT_TRUE(by_lists({}, neighbour_kernels_generic()).empty());
   EXPECT_TRUE(by_lists({{1, 2, 3, 0}}, neighbour_kernels_generic()).front().empty());
@@ -125,8 +146,9 @@ TEST(Neighbours, ConsecutiveSlotsOfALiquidLieTogether) {
   for (float z = 0; z < 12; ++z)
     for (float y = 0; y < 12; ++y)
       for (float x = 0; x < 60; ++x) points.push_back({0.05f * x, 0.05f * y, 0.05f * z, 0});
+  Executor executor(1);
   CellOrder order;
-  order.sort(points, reach);
+  order.sort(executor, points, reach);
   for (std::size_t slot = 1; slot < points.size(); ++slot) {
     const Record &a = points[order.points()[slot - 1]], &b = points[order.points()[slot]];
     EXPECT_LT(std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)}), 2 * reach) << slot;

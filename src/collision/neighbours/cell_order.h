@@ -5,6 +5,7 @@
 // and time do not depend on how far apart points are.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,14 +13,16 @@
 
 #include "collision/neighbours/neighbour_group.h"
 #include "math/vector.h"
+#include "parallel/executor.h"
 #include "pliant/state.h"
 
 namespace pliant {
 
 class CellOrder {
  public:
-  /// Sorts points by cells of the given size [m]. Points of a cell keep their order. Coordinates that are not finite count as far away.
-  void sort(std::span<const Record> points, float cell);
+  /// Sorts points by cells of the given size [m], on all threads. Points of a cell keep their order. Coordinates that are not finite count
+  /// as far away.
+  void sort(Executor& executor, std::span<const Record> points, float cell);
 
   /// For each slot, in the order of cells, the index of its point.
   const std::vector<std::int32_t>& points() const { return order_; }
@@ -32,28 +35,41 @@ class CellOrder {
   struct Cell {
     std::int32_t column, layer, row;
   };
+  /// Places count from the first in the order of slots.
   struct Row {
-    std::int32_t row, first, last;  ///< its place along z, and its slots
+    std::int32_t place, first, last;      ///< along z, and its slots
+    std::int32_t column = 0, extent = 0;  ///< of its first slot, and to that of its last one
+    std::int64_t starts = -1;             ///< where in `starts_` its columns are; -1: it has none
   };
   struct Layer {
-    std::int32_t layer, first, last;  ///< its place along y, and its rows
+    std::int32_t place, first, last;  ///< along y, and its rows
   };
+  struct Box {
+    Cell least, most;
+  };
+  static constexpr int most_digit_bits = 11;
+  using Counts = std::array<std::int32_t, 1 << most_digit_bits>;
 
   Cell cell_of(float x, float y, float z) const;
-  void make_keys(std::span<const Record> points);
-  void sort_keys();
-  void sort_by_digit(int shift);
+  void find_cells(Executor& executor, std::span<const Record> points);
+  std::uint64_t key_of(std::uint64_t packed_cell) const;
+  void sort_keys(Executor& executor);
+  bool sort_by_digit(Executor& executor, int shift, int bits);
   void list_rows();
-  std::int32_t first_column(const Row& row, bool runs_back, std::int32_t column) const;
+  void list_columns(Row& row);
+  std::int32_t column_of(std::int32_t slot) const;
+  std::int32_t first_at(const Row& row, std::int32_t column) const;
 
   float inverse_cell_ = 1;
   Cell least_{}, most_{};
   int column_bits_ = 0, row_bits_ = 0, layer_bits_ = 0;
-  std::vector<Cell> cells_;  ///< of each point, then of each slot
-  std::vector<std::uint64_t> keys_, keys_before_;
+  std::vector<std::uint64_t> keys_, keys_before_;  ///< by slot: layer, row and column in their order
   std::vector<std::int32_t> order_, order_before_;
+  std::vector<Box> boxes_;      ///< of each chunk
+  std::vector<Counts> counts_;  ///< of each chunk
   std::vector<Row> rows_;
   std::vector<Layer> layers_;
+  std::vector<std::int32_t> starts_;  ///< of rows that are full: the first slot at or behind each column
 };
 
 }  // namespace pliant

@@ -1,9 +1,9 @@
 // The search for neighbours in sixteen SIMD lanes, compiled per instruction set level under the rules of solver/lanes.cpp.
 //
 // Slots that lie together share their candidates: the points near the box around them, packed one behind another. Each slot is then
-// compared with sixteen candidates at a time.
+// compared with a register of candidates at a time, and those that are near are packed onto its list.
 #include "collision/neighbours/neighbour_kernels.h"
-#include "math/lane_bits.h"
+#include "math/pack_lanes.h"
 #include "math/vector.h"
 #include "math/wide.h"
 
@@ -11,65 +11,93 @@ namespace pliant {
 inline namespace PLIANT_ISA {
 namespace {
 
-struct Sides {
-  float low, high;
-};
+PLIANT_HD Part load_part(const float* from) {
+  Part a;
+  std::memcpy(&a, from, sizeof a);
+  return a;
+}
+PLIANT_HD PartMask load_part(const std::int32_t* from) {
+  PartMask a;
+  std::memcpy(&a, from, sizeof a);
+  return a;
+}
+PLIANT_HD Part all_lanes(float a) { return a - Part{}; }
 
-PLIANT_HD Sides sides(const float* x, std::int32_t first, std::int32_t last) {
-  Sides s{x[first], x[first]};
-  for (std::int32_t i = first + 1; i < last; ++i) s = {x[i] < s.low ? x[i] : s.low, x[i] > s.high ? x[i] : s.high};
-  return s;
+PLIANT_HD PartMask lane_numbers() {
+  constexpr std::int32_t numbers[wide_width] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  return load_part(numbers);
 }
 
 /// How far places are from an interval, along one axis.
-PLIANT_HD Wide beyond(const Wide& x, const Sides& s) { return max(max(Wide(s.low) - x, x - Wide(s.high)), Wide(0.f)); }
-
-/// Packs the points near the box around the query's slots. Returns their number. The box is a little larger than the reach, so that
-/// rounding loses none.
-PLIANT_HD int pack_candidates(const NeighbourQuery& q, NeighbourScratch& s) {
-  const Sides x = sides(q.x, q.first, q.last), y = sides(q.y, q.first, q.last), z = sides(q.z, q.first, q.last);
-  const Wide reach2(q.reach * q.reach * 1.0001f);
-  int count = 0;
-  for (int r = 0; r < q.range_count; ++r) {
-    for (std::int32_t i = q.ranges[r].first; i < q.ranges[r].last; i += wide_width) {
-      const Wide dx = beyond(load_wide(q.x + i), x), dy = beyond(load_wide(q.y + i), y), dz = beyond(load_wide(q.z + i), z);
-      std::uint32_t bits = lane_bits(dx * dx + dy * dy + dz * dz <= reach2);
-      if (q.ranges[r].last - i < wide_width) bits &= (1u << (q.ranges[r].last - i)) - 1;
-      for (; bits != 0 && count < most_candidates; bits &= bits - 1) {
-        const std::int32_t slot = i + __builtin_ctz(bits);
-        s.candidate[count] = slot;
-        s.x[count] = q.x[slot];
-        s.y[count] = q.y[slot];
-        s.z[count++] = q.z[slot];
-      }
-    }
-  }
-  return count;
+PLIANT_HD Part beyond(const Part& x, const Part& low, const Part& high) {
+  return max_part(max_part(low - x, x - high), Part{});
 }
 
-void find(const NeighbourQuery& q, int lane, NeighbourScratch& s) {
-  const int candidates = pack_candidates(q, s);
-  const Wide reach2(q.reach * q.reach);
+/// Appends the candidates that are near to the lists of the query's slots.
+PLIANT_HD void compare(const NeighbourQuery& q, int candidates, int lane, NeighbourScratch& s) {
+  const Part nowhere = all_lanes(__builtin_nanf(""));
+  std::memcpy(s.x + candidates, &nowhere, sizeof nowhere);  // the last register is filled with places that are near to none
+  const Part reach2 = all_lanes(q.reach * q.reach);
   for (std::int32_t slot = q.first; slot < q.last; ++slot, ++lane) {
-    const Wide x(q.x[slot]), y(q.y[slot]), z(q.z[slot]);
-    std::int32_t* found = s.found[lane];
-    int count = 0;
-    bool fits = candidates < most_candidates;
-    for (int i = 0; i < candidates; i += wide_width) {
-      const Wide dx = x - load_wide(s.x + i), dy = y - load_wide(s.y + i), dz = z - load_wide(s.z + i);
-      std::uint32_t bits = lane_bits(dx * dx + dy * dy + dz * dz <= reach2);
-      if (candidates - i < wide_width) bits &= (1u << (candidates - i)) - 1;
-      for (; bits != 0; bits &= bits - 1) {
-        const std::int32_t other = s.candidate[i + __builtin_ctz(bits)];
-        if (other == slot) continue;
-        if (count < most_neighbours)
-          found[count++] = other;
-        else
-          fits = false;
-      }
+    const Part x = all_lanes(q.x[slot]), y = all_lanes(q.y[slot]), z = all_lanes(q.z[slot]);
+    std::int32_t* const found = s.found[lane];
+    int count = s.count[lane], all = count;
+    for (int i = 0; i < candidates; i += part_width) {
+      const Part dx = x - load_part(s.x + i), dy = y - load_part(s.y + i), dz = z - load_part(s.z + i);
+      const PartMask others = load_part(s.candidate + i);
+      const std::uint32_t bits = bits_at_most(dx * dx + dy * dy + dz * dz, reach2) & bits_other_than(others, slot);
+      Packing(bits).store(found + count, others);
+      all += count_bits(bits);
+      count = all < most_neighbours ? all : most_neighbours;
     }
     s.count[lane] = count;
-    s.left_out += fits ? 0 : 1;
+    s.has_more[lane] |= all > most_neighbours ? 1 : 0;
+  }
+}
+
+/// The box of candidates is a little larger than the reach, so that rounding loses none.
+void find(const NeighbourQuery& q, int lane, NeighbourScratch& s) {
+  const Part low_x = all_lanes(q.low.x), low_y = all_lanes(q.low.y), low_z = all_lanes(q.low.z);
+  const Part high_x = all_lanes(q.high.x), high_y = all_lanes(q.high.y), high_z = all_lanes(q.high.z);
+  const Part reach2 = all_lanes(q.reach * q.reach * 1.0001f);
+  int count = 0;
+  for (int r = 0; r < q.range_count; ++r) {
+    const std::int32_t last = q.ranges[r].last;
+    for (std::int32_t i = q.ranges[r].first; i < last; i += part_width) {
+      const Part x = load_part(q.x + i), y = load_part(q.y + i), z = load_part(q.z + i);
+      const Part dx = beyond(x, low_x, high_x), dy = beyond(y, low_y, high_y), dz = beyond(z, low_z, high_z);
+      std::uint32_t bits = bits_at_most(dx * dx + dy * dy + dz * dz, reach2);
+      if (last - i < part_width) bits &= (1u << (last - i)) - 1;
+      const Packing packing(bits);
+      packing.store(s.x + count, (PartMask)x);
+      packing.store(s.y + count, (PartMask)y);
+      packing.store(s.z + count, (PartMask)z);
+      packing.store(s.candidate + count, lane_numbers() + i);
+      count += count_bits(bits);
+      if (count <= most_candidates - part_width) continue;
+      compare(q, count, lane, s);
+      count = 0;
+    }
+  }
+  compare(q, count, lane, s);
+}
+
+/// Four neighbours of each of sixteen lanes at a time, as a transpose of records.
+void write_rows(NeighbourScratch& s, std::int32_t nobody, int rows, std::int32_t* to) {
+  constexpr int records = neighbour_stride / 4;
+  constexpr std::int32_t first[wide_width] = {
+      0 * records, 1 * records, 2 * records,  3 * records,  4 * records,  5 * records,  6 * records,  7 * records,
+      8 * records, 9 * records, 10 * records, 11 * records, 12 * records, 13 * records, 14 * records, 15 * records};
+  const PartMask nobodies = nobody - PartMask{};
+  for (int lane = 0; lane < wide_width; ++lane)
+    for (int k = s.count[lane]; k < rows; k += part_width) std::memcpy(s.found[lane] + k, &nobodies, sizeof nobodies);
+  for (int k = 0; k < rows; k += 4) {
+    const WideRecords four = from_registers(load_indexed(reinterpret_cast<const Record*>(&s.found[0][0]) + k / 4, first));
+    std::int32_t* const row = to + k * wide_width;
+    std::memcpy(row, &four.position.x, sizeof(Wide));
+    std::memcpy(row + wide_width, &four.position.y, sizeof(Wide));
+    std::memcpy(row + 2 * wide_width, &four.position.z, sizeof(Wide));
+    std::memcpy(row + 3 * wide_width, &four.w, sizeof(Wide));
   }
 }
 
@@ -77,7 +105,7 @@ void find(const NeighbourQuery& q, int lane, NeighbourScratch& s) {
 }  // namespace PLIANT_ISA
 
 const NeighbourKernels& PLIANT_OF_LEVEL(neighbour_kernels)() {
-  static const NeighbourKernels table{find};
+  static const NeighbourKernels table{find, write_rows};
   return table;
 }
 

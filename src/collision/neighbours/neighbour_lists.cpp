@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 
 namespace pliant {
 
@@ -9,8 +10,17 @@ namespace {
 
 /// Slots farther apart than this many reaches do not share candidates: they would have those between them too.
 constexpr float largest_box = 3;
+/// Rows that NeighbourKernels::write_rows may write behind those wanted.
+constexpr int most_rows_beyond = 3;
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+/// Resizes without the reserve of vectors that grow by themselves.
+template <class T>
+void resize_to(std::vector<T>& vector, std::size_t size) {
+  vector.reserve(size);
+  vector.resize(size);
+}
 
 }  // namespace
 
@@ -31,33 +41,34 @@ void NeighbourLists::find_together(const NeighbourKernels& kernels, std::int32_t
   }
   const Vec3f reach{reach_, reach_, reach_};
   order_.find(low - reach, high + reach, task.ranges);
-  kernels.find(
-      {x_.data(), y_.data(), z_.data(), reach_, task.ranges.data(), static_cast<int>(task.ranges.size()), first, last},
-      lane, scratch);
+  kernels.find({x_.data(), y_.data(), z_.data(), reach_, low, high, task.ranges.data(),
+                static_cast<int>(task.ranges.size()), first, last},
+               lane, scratch);
 }
 
 /// Appends the lists of sixteen slots side by side. Returns their number of rows.
-int NeighbourLists::append(const NeighbourScratch& scratch, Task& task) const {
+int NeighbourLists::append(const NeighbourKernels& kernels, NeighbourScratch& scratch, Task& task) const {
   const int rows = *std::max_element(scratch.count, scratch.count + lanes);
-  const std::size_t first = task.slots.size();
-  task.slots.resize(first + at(rows) * lanes, nobody());
-  for (int lane = 0; lane < lanes; ++lane)
-    for (int k = 0; k < scratch.count[lane]; ++k) task.slots[first + at(k) * lanes + at(lane)] = scratch.found[lane][k];
+  const std::size_t needed = task.used + at(rows + most_rows_beyond) * lanes;
+  if (task.slots.size() < needed) resize_to(task.slots, needed + needed / 8);
+  kernels.write_rows(scratch, nobody(), rows, task.slots.data() + task.used);
+  task.used += at(rows) * lanes;
   return rows;
 }
 
 void NeighbourLists::find_in_task(const NeighbourKernels& kernels, int number, NeighbourScratch& scratch) {
   Task& task = tasks_[at(number)];
-  task.slots.clear();
-  scratch.left_out = 0;
+  task.used = 0;
+  task.left_out = 0;
   const int first = number * groups_in_a_task, last = std::min(first + groups_in_a_task, groups());
   for (int g = first; g < last; ++g) {
     std::fill_n(scratch.count, lanes, 0);
+    std::fill_n(scratch.has_more, lanes, 0);
     find_together(kernels, g * lanes, std::min((g + 1) * lanes, slots()), 0, task, scratch);
-    groups_[at(g)].rows = append(scratch, task);
+    groups_[at(g)].rows = append(kernels, scratch, task);
+    task.left_out += std::accumulate(scratch.has_more, scratch.has_more + lanes, 0);
   }
-  task.left_out = scratch.left_out;
-  if (task.factors.size() < task.slots.size()) task.factors.resize(task.slots.size() + task.slots.size() / 8);
+  if (task.factors.size() < task.used) resize_to(task.factors, task.used + task.used / 16);
   std::size_t from = 0;
   for (int g = first; g < last; ++g) {
     groups_[at(g)].slots = task.slots.data() + from;
@@ -71,15 +82,18 @@ void NeighbourLists::find(Executor& executor, const NeighbourKernels& kernels, s
   reach_ = reach;
   {
     const Stopwatch watch(executor.timings(), "neighbours: order");
-    order_.sort(points, reach);
+    order_.sort(executor, points, reach);
     const std::size_t padded = at(nobody()) + lanes;
     for (std::vector<float>* axis : {&x_, &y_, &z_}) axis->resize(padded);
-    for (int slot = 0; slot < slots(); ++slot) {
-      const Record& p = points[at(order_.points()[at(slot)])];
-      x_[at(slot)] = p.x;
-      y_[at(slot)] = p.y;
-      z_[at(slot)] = p.z;
-    }
+    executor.parallel_for(nullptr, tasks(), [&](int task) {
+      const int first = task * groups_in_a_task * lanes, last = std::min(first + groups_in_a_task * lanes, slots());
+      for (int slot = first; slot < last; ++slot) {
+        const Record& p = points[at(order_.points()[at(slot)])];
+        x_[at(slot)] = p.x;
+        y_[at(slot)] = p.y;
+        z_[at(slot)] = p.z;
+      }
+    });
     groups_.resize(at(groups()));
     tasks_.resize(at(tasks()));
   }

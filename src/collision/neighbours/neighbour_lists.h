@@ -33,8 +33,9 @@ class NeighbourLists {
 
  private:
   struct Task {
-    std::vector<std::int32_t> slots;
+    std::vector<std::int32_t> slots;  ///< the first `used` of them
     std::vector<float> factors;
+    std::size_t used = 0;
     std::vector<SlotRange> ranges;
     int left_out = 0;
   };
@@ -42,7 +43,7 @@ class NeighbourLists {
   void find_in_task(const NeighbourKernels& kernels, int number, NeighbourScratch& scratch);
   void find_together(const NeighbourKernels& kernels, std::int32_t first, std::int32_t last, int lane, Task& task,
                      NeighbourScratch& scratch) const;
-  int append(const NeighbourScratch& scratch, Task& task) const;
+  int append(const NeighbourKernels& kernels, NeighbourScratch& scratch, Task& task) const;
 
   float reach_ = 0;
   CellOrder order_;

@@ -11,7 +11,7 @@ namespace pliant {
 inline namespace PLIANT_ISA {
 namespace fluid_formulas {
 
-using pliant::inverse_root, pliant::max, pliant::min;  // of floats, which those of lanes hide
+using pliant::inverse_root, pliant::max, pliant::min, pliant::select;  // of floats, which those of lanes hide
 
 /// The squared distance of coincident particles [m^2].
 inline constexpr float least_squared = 1e-12f;

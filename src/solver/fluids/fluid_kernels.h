@@ -5,7 +5,9 @@
 #include <cstdint>
 
 #include "collision/neighbours/neighbour_group.h"
+#include "geometry/shapes.h"
 #include "math/levels.h"
+#include "math/quat.h"
 #include "pliant/state.h"
 #include "solver/fluids/fluid_law.h"
 
@@ -30,11 +32,34 @@ struct FluidArrays {
   int slots = 0;
 };
 
+/// The most colliders and solids that bound one particle.
+inline constexpr int most_walls = 16;
+
+/// A collider or solid at the substep's end.
+struct Wall {
+  LocalShape shape;
+  Pose<float> pose;
+  float thickness = 0;         ///< [m]
+  Vec3f* gradients = nullptr;  ///< of each slot: gradient of the wall's share in its density [1/m]; null: not wanted
+  int* touched = nullptr;      ///< likewise: to how many slots the wall is near is added
+};
+
+/// The walls near sixteen slots.
+struct WallQuery {
+  FluidLaw law;
+  Wall walls[most_walls];
+  int count = 0;
+  const Record* places = nullptr;  ///< of the slots [m]
+  Record* shares = nullptr;        ///< see FluidArrays::walls
+};
+
 struct FluidKernels {
   /// The density of a group's particles, and how far their multipliers change.
   void (*find_multipliers)(const FluidArrays& arrays, const NeighbourGroup& group, int number);
   /// Moves a group's particles by these changes and those of their neighbours.
   void (*move)(const FluidArrays& arrays, const NeighbourGroup& group, int number);
+  /// The share of walls in the density of a group's particles.
+  void (*measure_walls)(const WallQuery& query);
 };
 
 PLIANT_DECLARE_LEVELS(FluidKernels, fluid_kernels)

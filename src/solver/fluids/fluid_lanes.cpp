@@ -1,4 +1,5 @@
 // The passes of a liquid in sixteen SIMD lanes, compiled per instruction set level under the rules of solver/lanes.cpp.
+#include "math/lane_bits.h"
 #include "math/wide.h"
 
 namespace pliant {
@@ -39,6 +40,12 @@ struct WideLanes {
   PLIANT_HD static void store_own(Record* to, const Vec3<Wide>& position, const Wide& w) {
     constexpr std::int32_t lanes[wide_width] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     store_indexed(to, lanes, to_registers({position, w}));
+  }
+  PLIANT_HD static int number_of(const WideMask& mask) { return __builtin_popcount(lane_bits(mask)); }
+  PLIANT_HD static void store_vectors(Vec3f* to, const Vec3<Wide>& a) {
+    Record records[wide_width];
+    store_own(records, a, Wide(0.f));
+    for (int lane = 0; lane < wide_width; ++lane) to[lane] = {records[lane].x, records[lane].y, records[lane].z};
   }
   /// Moves the particles of sixteen slots.
   PLIANT_HD static void add(const FluidArrays& a, int slot, const Vec3<Wide>& way) {

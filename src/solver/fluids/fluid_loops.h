@@ -66,11 +66,57 @@ struct Loops {
     }
   }
 
+  static void measure_walls(const WallQuery& q) {
+    for (int lane = 0; lane < neighbour_lanes; lane += Lanes::count) {
+      const auto own = Lanes::load_own(q.places + lane);
+      R share[most_walls];
+      Vec3<R> slope[most_walls];
+      R left(1.f);
+      for (int i = 0; i < q.count; ++i) {
+        const R distance = distance_to(q.walls[i], own.position, slope[i]), zero(0.f);
+        const R t = R(1.f) - max(distance, zero) / R(q.law.reach);
+        const auto is_near = distance < R(q.law.reach);
+        share[i] = select(is_near, R(q.law.wall_scale) * share_behind_plane(t), zero);
+        const R size = R(q.law.wall_scale) * slope_behind_plane(t) / R(q.law.reach);
+        slope[i] = {select(is_near, slope[i].x * size, zero), select(is_near, slope[i].y * size, zero),
+                    select(is_near, slope[i].z * size, zero)};
+        left = left * (R(1.f) - share[i]);
+        if (q.walls[i].touched != nullptr) *q.walls[i].touched += Lanes::number_of(is_near);
+      }
+      const Vec3<R> gradient = sum_gradients(q, share, slope, lane);
+      Lanes::store_own(q.shares + lane, gradient, R(1.f) - left);
+    }
+  }
+
+  /// The distance to a wall, and its normal in world axes.
+  static R distance_to(const Wall& wall, const Vec3<R>& place, Vec3<R>& normal) {
+    const Pose<R> pose{
+        {R(wall.pose.position.x), R(wall.pose.position.y), R(wall.pose.position.z)},
+        {R(wall.pose.rotation.x), R(wall.pose.rotation.y), R(wall.pose.rotation.z), R(wall.pose.rotation.w)}};
+    const SurfaceDistance<R> to = signed_distance(wall.shape, to_local(pose, place));
+    normal = rotate(pose.rotation, to.normal);
+    return to.distance - R(wall.thickness);
+  }
+
+  /// The gradient of 1 - product of (1 - share).
+  static Vec3<R> sum_gradients(const WallQuery& q, const R* share, const Vec3<R>* slope, int lane) {
+    Vec3<R> sum{R(0.f), R(0.f), R(0.f)};
+    for (int wall = 0; wall < q.count; ++wall) {
+      R others(1.f);
+      for (int i = 0; i < q.count; ++i)
+        if (i != wall) others = others * (R(1.f) - share[i]);
+      const Vec3<R> gradient{slope[wall].x * others, slope[wall].y * others, slope[wall].z * others};
+      sum = {sum.x + gradient.x, sum.y + gradient.y, sum.z + gradient.z};
+      if (q.walls[wall].gradients != nullptr) Lanes::store_vectors(q.walls[wall].gradients + lane, gradient);
+    }
+    return sum;
+  }
+
   static const FluidKernels table;
 };
 
 template <class Lanes, class Unit>
-const FluidKernels Loops<Lanes, Unit>::table{find_multipliers, move};
+const FluidKernels Loops<Lanes, Unit>::table{find_multipliers, move, measure_walls};
 
 }  // namespace fluid_formulas
 }  // namespace PLIANT_ISA

@@ -20,6 +20,8 @@ struct OneLane {
   static float load(const float* from) { return *from; }
   static void store(float* to, float a) { *to = a; }
   static void store_own(Record* to, const Vec3f& position, float w) { *to = {position.x, position.y, position.z, w}; }
+  static int number_of(bool is_set) { return is_set ? 1 : 0; }
+  static void store_vectors(Vec3f* to, const Vec3f& a) { *to = a; }
   static void add(const FluidArrays& a, int slot, const Vec3f& way) {
     if (slot >= a.slots) return;
     Record& d = a.displacements[a.points[slot]];

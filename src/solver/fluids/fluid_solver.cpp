@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "parallel/launch.h"
 #include "solver/fluids/fluid_kernels.h"
 #include "solver/fluids/fluid_log.h"
 #include "solver/substep.h"
@@ -29,6 +30,15 @@ auto kind_of(const CompiledObject& object) {
 Record predicted(const Substep& s, std::int32_t particle) {
   const Record &x = s.state.positions[at(particle)], &d = s.work.displacements[at(particle)];
   return {x.x + d.x, x.y + d.y, x.z + d.z, 0};
+}
+
+/// Calls body(i) for each i in [0, count) on all threads.
+template <class Body>
+void for_all(Substep& s, const char* name, int count, const Body& body) {
+  s.context.executor.parallel_for(name, launch_blocks(count), [&](int block) {
+    const int first = block * launch_block, last = std::min(first + launch_block, count);
+    for (int i = first; i < last; ++i) body(i);
+  });
 }
 
 /// Calls body(group) for all groups on all threads.
@@ -82,20 +92,24 @@ void FluidSolver::begin_frame() {
 void FluidSolver::find_neighbours(Substep& s, FluidPool& pool) {
   Records& by_point = pool.weighted;  // scratch
   by_point.resize(pool.points.size());
-  for (std::size_t i = 0; i < pool.points.size(); ++i) by_point[i] = predicted(s, pool.points[i]);
+  for_all(s, "neighbours: order", static_cast<int>(by_point.size()),
+          [&](int i) { by_point[at(i)] = predicted(s, pool.points[at(i)]); });
   pool.neighbours.find(s.context.executor, s.kernels.neighbours, by_point, pool.law.reach);
   const std::vector<std::int32_t>& order = pool.neighbours.order().points();
   const std::size_t padded = at(pool.neighbours.nobody()) + NeighbourLists::lanes;
   pool.of_slot.resize(order.size());
-  for (std::size_t slot = 0; slot < order.size(); ++slot) pool.of_slot[slot] = pool.points[at(order[slot])];
-  pool.places.assign(padded, {nowhere, nowhere, nowhere, 0});
-  for (std::size_t slot = 0; slot < order.size(); ++slot) pool.places[slot] = by_point[at(order[slot])];
-  pool.weighted.assign(padded, {nowhere, nowhere, nowhere, 0});
+  pool.places.resize(padded);
+  for_all(s, "neighbours: order", pool.neighbours.slots(), [&](int slot) {
+    pool.of_slot[at(slot)] = pool.points[at(order[at(slot)])];
+    pool.places[at(slot)] = by_point[at(order[at(slot)])];
+  });
+  pool.weighted.resize(padded);
+  for (Records* records : {&pool.places, &pool.weighted})
+    std::fill(records->begin() + pool.neighbours.slots(), records->end(), Record{nowhere, nowhere, nowhere, 0});
   find_lightness(s.state, pool);
   pool.multipliers.assign(padded, 0);
   pool.densities.assign(padded, 0);
-  const Stopwatch watch(s.context.executor.timings(), "neighbours: walls");
-  pool.walls.find(s.model.objects[at(pool.objects.front())], pool.neighbours, pool.places,
+  pool.walls.find(s.context.executor, s.model.objects[at(pool.objects.front())], pool.neighbours, pool.places,
                   FluidBodies::bounds(s, pool.objects.front()), pool.law.reach, pool.law.reach / 2);
   pool.squares.assign(pool.walls.near_solids().empty() ? 0 : padded, 0);
 }
@@ -132,7 +146,7 @@ void FluidSolver::project(Substep& s, FluidPool& pool, bool is_first) {
   for_groups(s, "solve: places of liquids", lists, [&](int group) {
     const int first = group * NeighbourLists::lanes, last = std::min(first + NeighbourLists::lanes, lists.slots());
     for (int slot = first; slot < last; ++slot) pool.places[at(slot)] = predicted(s, pool.of_slot[at(slot)]);
-    pool.walls.measure(pool.law, bounds, pool.places, group);
+    pool.walls.measure(s.kernels.fluids, pool.law, bounds, pool.places, group);
   });
   pool.bodies.count(s, pool.walls);
   FluidArrays a{pool.law, relaxation, pool.softness / (s.h * s.h)};

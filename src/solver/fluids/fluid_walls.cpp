@@ -21,9 +21,6 @@ bool can_meet(const CompiledObject& liquid, const MovingCollider& collider) {
   return collider.field == nullptr || ((liquid.groups & collider.mask) != 0 && (collider.groups & liquid.mask) != 0);
 }
 
-/// The most colliders and solids that bound one particle.
-constexpr int most_walls = 16;
-
 /// What the walls near a place take of its kernel.
 struct Walls {
   std::int32_t which[most_walls] = {};
@@ -82,7 +79,29 @@ const MovingCollider& FluidBounds::at(std::int32_t i) const {
   return i < first ? (*colliders)[static_cast<std::size_t>(i)] : (*solids)[static_cast<std::size_t>(i - first)];
 }
 
-void FluidWalls::find(const CompiledObject& liquid, const NeighbourLists& lists, const Records& places,
+void FluidWalls::find_in_task(const CompiledObject& liquid, const NeighbourLists& lists, const Records& places,
+                              const FluidBounds& bounds, float distance, int task) {
+  auto& [near, ends] = found_[at(task)];
+  near.clear();
+  ends.clear();
+  const int colliders = bounds.number_of_colliders(), all = colliders + bounds.number_of_solids();
+  const int first_group = task * NeighbourLists::groups_in_a_task;
+  const int last_group = std::min(first_group + NeighbourLists::groups_in_a_task, lists.groups());
+  for (int g = first_group; g < last_group; ++g) {
+    const int first = g * NeighbourLists::lanes, last = std::min(first + NeighbourLists::lanes, lists.slots());
+    const BoundingBox<float> box = box_of(places, first, last);
+    for (int c = 0; c < all; ++c) {
+      const MovingCollider& wall = bounds.at(c);
+      if (c < colliders ? !can_meet(liquid, wall) : bounds.meets[at(c - colliders)] == 0) continue;
+      if (!is_within(box, wall.swept, distance)) continue;
+      const auto is_near = [&](const Record& p) { return distance_to(wall, {p.x, p.y, p.z}).distance < distance; };
+      if (std::any_of(places.begin() + first, places.begin() + last, is_near)) near.push_back(c);
+    }
+    ends.push_back(static_cast<std::int32_t>(near.size()));
+  }
+}
+
+void FluidWalls::find(Executor& executor, const CompiledObject& liquid, const NeighbourLists& lists, const Records& places,
                       const FluidBounds& bounds, float reach, float motion) {
   begin_.assign(1, 0);
   near_.clear();
@@ -90,28 +109,56 @@ void FluidWalls::find(const CompiledObject& liquid, const NeighbourLists& lists,
   first_solid_.assign(1, 0);
   has_any_.assign(at(lists.groups()), 0);
   shares_.resize(places.size());
-  const int colliders = bounds.number_of_colliders(), all = colliders + bounds.number_of_solids();
-  for (int g = 0; g < lists.groups(); ++g) {
-    const int first = g * NeighbourLists::lanes, last = std::min(first + NeighbourLists::lanes, lists.slots());
-    const BoundingBox<float> box = box_of(places, first, last);
-    for (int c = 0; c < all; ++c) {
-      const MovingCollider& wall = bounds.at(c);
-      if (c < colliders ? !can_meet(liquid, wall) : bounds.meets[at(c - colliders)] == 0) continue;
-      if (!is_within(box, wall.swept, reach + motion)) continue;
-      const auto is_near = [&](const Record& p) { return distance_to(wall, {p.x, p.y, p.z}).distance < reach + motion; };
-      if (!std::any_of(places.begin() + first, places.begin() + last, is_near)) continue;
-      near_.push_back(c);
-      if (c >= colliders) near_solids_.push_back({g, c - colliders});
+  found_.resize(at(lists.tasks()));
+  executor.parallel_for("neighbours: walls", lists.tasks(),
+                        [&](int task) { find_in_task(liquid, lists, places, bounds, reach + motion, task); });
+  const int colliders = bounds.number_of_colliders();
+  for (const Found& found : found_) {
+    std::int32_t first = 0;
+    for (const std::int32_t last : found.last) {
+      const auto group = static_cast<std::int32_t>(begin_.size()) - 1;
+      for (; first < last; ++first) {
+        const std::int32_t wall = found.near[at(first)];
+        near_.push_back(wall);
+        if (wall >= colliders) near_solids_.push_back({group, wall - colliders});
+      }
+      begin_.push_back(static_cast<std::int32_t>(near_.size()));
+      first_solid_.push_back(static_cast<int>(near_solids_.size()));
     }
-    begin_.push_back(static_cast<std::int32_t>(near_.size()));
-    first_solid_.push_back(static_cast<int>(near_solids_.size()));
   }
 }
 
-void FluidWalls::measure(const FluidLaw& law, const FluidBounds& bounds, const Records& places, int group) {
+void FluidWalls::measure(const FluidKernels& kernels, const FluidLaw& law, const FluidBounds& bounds, const Records& places,
+                         int group) {
   const std::int32_t *first = near_.data() + begin_[at(group)], *last = near_.data() + begin_[at(group) + 1];
   has_any_[at(group)] = first != last ? 1 : 0;
   if (first == last) return;
+  const auto is_field = [&](std::int32_t wall) { return bounds.at(wall).field != nullptr; };
+  if (last - first > most_walls || std::any_of(first, last, is_field))
+    return measure_one_by_one(law, bounds, places, group);
+  const int colliders = bounds.number_of_colliders();
+  WallQuery query;
+  query.law = law;
+  NearSolid* solid = near_solids_.data() + first_solid_[at(group)];
+  for (; first != last; ++first) {
+    const MovingCollider& from = bounds.at(*first);
+    Wall& wall = query.walls[query.count++];
+    wall.shape = from.shape;
+    wall.pose = from.after;
+    wall.thickness = from.thickness;
+    if (*first < colliders) continue;
+    solid->touched = 0;
+    wall.gradients = solid->gradient;
+    wall.touched = &solid++->touched;
+  }
+  query.places = places.data() + at(group) * NeighbourLists::lanes;
+  query.shares = shares_.data() + at(group) * NeighbourLists::lanes;
+  kernels.measure_walls(query);
+}
+
+/// The same for walls with distance fields, or very many of them.
+void FluidWalls::measure_one_by_one(const FluidLaw& law, const FluidBounds& bounds, const Records& places, int group) {
+  const std::int32_t *first = near_.data() + begin_[at(group)], *last = near_.data() + begin_[at(group) + 1];
   const int first_solid = first_solid_[at(group)], colliders = bounds.number_of_colliders();
   for (int i = first_solid; i < first_solid_[at(group) + 1]; ++i) near_solids_[at(i)] = {group, near_solids_[at(i)].solid};
   for (int lane = 0; lane < NeighbourLists::lanes; ++lane) {

@@ -11,6 +11,7 @@
 #include "collision/narrow/contact.h"
 #include "collision/neighbours/neighbour_lists.h"
 #include "parallel/executor.h"
+#include "solver/fluids/fluid_kernels.h"
 #include "solver/fluids/fluid_law.h"
 
 namespace pliant {
@@ -42,10 +43,11 @@ struct WallGradient {
 class FluidWalls {
  public:
   /// Finds what is near each group of slots, for as long as no point moves farther than `motion` [m] against it.
-  void find(const CompiledObject& liquid, const NeighbourLists& lists, const Records& places, const FluidBounds& bounds,
-            float reach, float motion);
+  void find(Executor& executor, const CompiledObject& liquid, const NeighbourLists& lists, const Records& places,
+            const FluidBounds& bounds, float reach, float motion);
   /// Measures the share of colliders and solids at the present places of a group's slots.
-  void measure(const FluidLaw& law, const FluidBounds& bounds, const Records& places, int group);
+  void measure(const FluidKernels& kernels, const FluidLaw& law, const FluidBounds& bounds, const Records& places,
+               int group);
 
   /// The gradient of each wall at the place of a slot of the group, as measure() sums them.
   std::vector<WallGradient> gradients(const FluidLaw& law, const FluidBounds& bounds, const Vec3f& place, int group) const;
@@ -57,6 +59,17 @@ class FluidWalls {
   int first_solid(int group) const { return first_solid_[static_cast<std::size_t>(group)]; }
 
  private:
+  /// What is near the groups of a task, one behind another.
+  struct Found {
+    std::vector<std::int32_t> near;
+    std::vector<std::int32_t> last;  ///< of each group: the end of its part of `near`
+  };
+
+  void find_in_task(const CompiledObject& liquid, const NeighbourLists& lists, const Records& places,
+                    const FluidBounds& bounds, float distance, int task);
+  void measure_one_by_one(const FluidLaw& law, const FluidBounds& bounds, const Records& places, int group);
+
+  std::vector<Found> found_;                ///< [task]
   std::vector<std::int32_t> begin_, near_;  ///< of each group: indices of colliders, then of solids behind them
   std::vector<char> has_any_;               ///< [group]
   std::vector<int> first_solid_;            ///< [group]

@@ -1,0 +1,120 @@
+// Moves the lanes of a vector whose bits are set to its front, in order: by one instruction (AVX-512), by a permutation from a table
+// (AVX2, SSSE3), or lane by lane.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+
+#include "math/wide.h"
+
+namespace pliant {
+inline namespace PLIANT_ISA {
+
+/// Bit i is set where lane i of a is at most that of b.
+PLIANT_HD std::uint32_t bits_at_most(const Part& a, const Part& b) {
+#if PLIANT_X86_BITS == 512
+  return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LE_OQ);
+#elif PLIANT_X86_BITS == 256
+  return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps((__m256)a, (__m256)b, _CMP_LE_OQ)));
+#elif PLIANT_X86_BITS == 128
+  return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmple_ps((__m128)a, (__m128)b)));
+#else
+  const PartMask mask = a <= b;
+  std::uint32_t bits = 0;
+  for (int lane = 0; lane < part_width; ++lane) bits |= mask[lane] != 0 ? 1u << lane : 0u;
+  return bits;
+#endif
+}
+
+/// The bits of the lanes that differ from a number.
+PLIANT_HD std::uint32_t bits_other_than(const PartMask& a, std::int32_t number) {
+#if PLIANT_X86_BITS == 512
+  return _mm512_cmpneq_epi32_mask((__m512i)a, _mm512_set1_epi32(number));
+#elif PLIANT_X86_BITS == 256
+  const __m256i equal = _mm256_cmpeq_epi32((__m256i)a, _mm256_set1_epi32(number));
+  return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(equal))) ^ 0xffu;
+#elif PLIANT_X86_BITS == 128
+  const __m128i equal = _mm_cmpeq_epi32((__m128i)a, _mm_set1_epi32(number));
+  return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_castsi128_ps(equal))) ^ 0xfu;
+#else
+  std::uint32_t bits = 0;
+  for (int lane = 0; lane < part_width; ++lane) bits |= a[lane] != number ? 1u << lane : 0u;
+  return bits;
+#endif
+}
+
+PLIANT_HD int count_bits(std::uint32_t bits) { return __builtin_popcount(bits); }
+
+#if PLIANT_X86_BITS == 256
+/// For each set of bits: the lanes that are set, as bytes.
+constexpr std::array<std::uint64_t, 256> make_packing_table() {
+  std::array<std::uint64_t, 256> table{};
+  for (std::uint32_t bits = 0; bits < 256; ++bits) {
+    int to = 0;
+    for (std::uint64_t lane = 0; lane < 8; ++lane)
+      if ((bits >> lane & 1u) != 0) table[bits] |= lane << (8 * to++);
+  }
+  return table;
+}
+#elif PLIANT_X86_BITS == 128
+/// For each set of bits: the bytes of the lanes that are set.
+constexpr std::array<std::array<std::uint8_t, 16>, 16> make_packing_table() {
+  std::array<std::array<std::uint8_t, 16>, 16> table{};
+  for (std::uint32_t bits = 0; bits < 16; ++bits) {
+    int to = 0;
+    for (int lane = 0; lane < 4; ++lane)
+      if ((bits >> lane & 1u) != 0)
+        for (int byte = 0; byte < 4; ++byte) table[bits][to++] = static_cast<std::uint8_t>(4 * lane + byte);
+  }
+  return table;
+}
+#endif
+
+#if PLIANT_X86_BITS == 256 || PLIANT_X86_BITS == 128
+constexpr auto packing_table = make_packing_table();  // of each unit its own: a local of a function would be shared by all
+#endif
+
+/// How lanes move for a set of bits; for several vectors.
+class Packing {
+ public:
+  PLIANT_HD explicit Packing(std::uint32_t bits) : bits_(bits) {
+#if PLIANT_X86_BITS == 256
+    lanes_ = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(packing_table[bits])));
+#elif PLIANT_X86_BITS == 128
+    std::memcpy(&bytes_, packing_table[bits].data(), sizeof bytes_);
+#endif
+  }
+
+  /// Stores all lanes of a; the first of them are those that are set.
+  PLIANT_HD void store(void* to, const PartMask& a) const {
+#if PLIANT_X86_BITS == 512
+    const __m512i packed = _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits_), (__m512i)a);
+    std::memcpy(to, &packed, sizeof packed);
+#elif PLIANT_X86_BITS == 256
+    const __m256i packed = _mm256_permutevar8x32_epi32((__m256i)a, lanes_);
+    std::memcpy(to, &packed, sizeof packed);
+#elif PLIANT_X86_BITS == 128
+    const __m128i packed = _mm_shuffle_epi8((__m128i)a, bytes_);
+    std::memcpy(to, &packed, sizeof packed);
+#else
+    auto* next = static_cast<unsigned char*>(to);
+    for (int lane = 0; lane < part_width; ++lane) {
+      const std::int32_t value = a[lane];
+      std::memcpy(next, &value, sizeof value);
+      next += (bits_ >> lane & 1u) != 0 ? sizeof value : 0;
+    }
+#endif
+  }
+
+ private:
+  std::uint32_t bits_;
+#if PLIANT_X86_BITS == 256
+  __m256i lanes_;
+#elif PLIANT_X86_BITS == 128
+  __m128i bytes_;
+#endif
+};
+
+}  // namespace PLIANT_ISA
+}  // namespace pliant
