@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "collision/bodies/kept_side.h"
 #include "collision/bodies/manifold.h"
 #include "collision/bodies/mesh_contacts.h"
 #include "geometry/convex_contact.h"
@@ -281,8 +282,12 @@ struct BodyContacts::Task {
       found.made.push_back(contact);
       ++found.count;
     };
-    if (one.mesh == nullptr)
-      return add(touch_of(one, other, apart(relative, one.body, other.body, size), reach, turning), 0);
+    if (one.mesh == nullptr) {
+      const Touch now = touch_of(one, other, apart(relative, one.body, other.body, size), reach, turning);
+      if (one.is_half_space || !has_changed_sides(now, a.pose, old)) return add(now, 0);
+      const Vec3d kept = rotate(conjugate(a.pose.rotation), convert<double>(old.front().normal));
+      return add(touch_along(one, other, relative, kept, turning), 0);
+    }
     std::vector<MeshTouch> touches;
     touch_mesh(other.shape, compose(relative, other.pose), *one.mesh, reach, touches, turning);
     for (const MeshTouch& touching : touches) add(touching.touch, touching.piece);

@@ -1,0 +1,84 @@
+#include "collision/bodies/kept_side.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "geometry/convex_contact.h"
+#include "math/vector.h"
+
+namespace pliant {
+
+namespace {
+
+/// Normals that agree less than this have changed sides: by more than 120 degrees since the last search.
+constexpr double other_way = -0.5;
+
+/// A convex part in the frame of body a.
+struct Placed {
+  const ConvexShape& shape;
+  Posed pose;
+
+  /// How far it reaches along a unit vector from the origin of the frame.
+  double reach(const Vec3d& direction) const {
+    const Vec3d far = to_world(pose, support(shape, rotate(conjugate(pose.rotation), direction)));
+    return dot(direction, far) + static_cast<double>(shape.radius);
+  }
+  double extent(const Vec3d& direction) const { return reach(direction) + reach(-direction); }
+};
+
+/// Two unit vectors perpendicular to a third and to one another.
+std::pair<Vec3d, Vec3d> across(const Vec3d& normal) {
+  const Vec3d axis = std::fabs(normal.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
+  const Vec3d first = unit_or(cross(normal, axis), axis);
+  return {first, cross(normal, first)};
+}
+
+double area(const Placed& part, const Vec3d& normal) {
+  const auto [first, second] = across(normal);
+  return part.extent(first) * part.extent(second);
+}
+
+/// The surface of a half-space that contains a part, with its normal along y.
+Posed surface(const Placed& part, const Vec3d& normal) {
+  const Quatd half = normal.y > -0.9999 ? Quatd{normal.z, 0, -normal.x, 1 + normal.y} : Quatd{1, 0, 0, 0};
+  return {normal * part.reach(normal), normalise(half)};
+}
+
+/// Contact points of a half-space with a part. Those on the half-space are on_a.
+Touch touch_surface(const Posed& surface, const Placed& part, double turning) {
+  const Posed pose{to_local(surface, part.pose.position),
+                   normalise(multiply(conjugate(surface.rotation), part.pose.rotation))};
+  Touch found = touch_half_space(part.shape, pose, 0, turning);
+  found.normal = rotate(surface.rotation, found.normal);
+  for (int i = 0; i < found.count; ++i) {
+    TouchPoint& point = found.points[static_cast<std::size_t>(i)];
+    point.on_a = to_world(surface, point.on_a);
+    point.on_b = to_world(surface, point.on_b);
+  }
+  return found;
+}
+
+}  // namespace
+
+bool has_changed_sides(const Touch& found, const Posed& a, std::span<const BodyContact> before) {
+  if (found.count == 0 || before.size() != 1) return false;
+  const bool overlap = std::any_of(found.points.begin(), found.points.begin() + found.count,
+                                   [](const TouchPoint& point) { return point.separation < 0; });
+  return overlap && dot(rotate(a.rotation, found.normal), convert<double>(before.front().normal)) < other_way;
+}
+
+Touch touch_along(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, const Vec3d& normal, double turning) {
+  const Placed one{a.shape, a.pose}, other{b.shape, compose(b_in_a, b.pose)};
+  if (area(one, normal) >= area(other, normal)) return touch_surface(surface(one, normal), other, turning);
+  Touch found = touch_surface(surface(other, -normal), one, turning);
+  found.normal = normal;
+  for (int i = 0; i < found.count; ++i) {
+    TouchPoint& point = found.points[static_cast<std::size_t>(i)];
+    std::swap(point.on_a, point.on_b);
+  }
+  return found;
+}
+
+}  // namespace pliant
