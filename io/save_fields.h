@@ -42,6 +42,11 @@ void fields(A& a, Is<Motion> auto& of) {
   a(keyframes, pivot, repeat);
 }
 template <class A>
+void fields(A& a, Is<Cluster> auto& of) {
+  auto& [particles, rest, mode, share, stiffness] = of;
+  a(particles, rest, mode, share, stiffness);
+}
+template <class A>
 void fields(A& a, Is<Pin> auto& of) {
   auto& [particle, motion] = of;
   a(particle, motion);
@@ -113,11 +118,11 @@ void fields(A& a, Is<Grains> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<Object> auto& of) {
-  auto& [name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains, pins,
-         attachments, thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution,
-         rolling_friction, spinning_friction, drag, lift, sweep, damping, colour] = of;
-  a(name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains, pins,
-    attachments, thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution,
+  auto& [name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains,
+         clusters, pins, attachments, thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction,
+         restitution, rolling_friction, spinning_friction, drag, lift, sweep, damping, colour] = of;
+  a(name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains, clusters,
+    pins, attachments, thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution,
     rolling_friction, spinning_friction, drag, lift, sweep, damping);
   a.aside(colour);
 }
@@ -229,6 +234,7 @@ void fields(A& a, Is<Scene> auto& of) {
 }
 
 /// The last value of an enumeration, so that a reader can reject larger ones.
+constexpr int last_value(Cluster::Mode) { return static_cast<int>(Cluster::Mode::quadratic); }
 constexpr int last_value(Stiffness::Kind) { return static_cast<int>(Stiffness::Kind::pbd); }
 constexpr int last_value(MeshCollider::As) { return static_cast<int>(MeshCollider::As::heightfield); }
 constexpr int last_value(Sweep) { return static_cast<int>(Sweep::tethered_chains); }

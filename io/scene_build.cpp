@@ -142,6 +142,7 @@ Object object_of(const JsonDocument& document, const JsonValue& at, const MeshFo
   add_parts(document, at, folder, built.object, repairs);
   set_joints(document, at, built.object);
   set_properties(document, at, built.object);
+  set_clusters(document, at, built);
   set_pins(document, at, built);
   set_attachments(document, at, built);
   return std::move(built.object);

@@ -36,6 +36,7 @@ void set_joints(const JsonDocument& document, const JsonValue& at, Object& objec
 std::vector<Gauge> build_gauges(const JsonDocument& document, const JsonValue& root, const Scene& scene);
 
 /// Add the pins and attachments of a record, of an object or a part, to what it builds.
+void set_clusters(const JsonDocument& document, const JsonValue& at, BuiltObject& built);
 void set_pins(const JsonDocument& document, const JsonValue& at, BuiltObject& built);
 void set_attachments(const JsonDocument& document, const JsonValue& at, BuiltObject& built);
 

@@ -182,6 +182,23 @@ const Record& pin_record() {
   return result;
 }
 
+const Record& cluster_record() {
+  static const Record result{
+      "cluster",
+      "Particles that keep the shape in which they are at the start: shape matching.",
+      {field("particles", selection(), "\"all\"", selection_meaning),
+       field("size", positive("m", largest_place), "none",
+             "Divides all particles into overlapping clusters of cells of this size, so that the whole bends; instead of "
+             "`particles`."),
+       field("mode", choice({"rigid", "linear", "quadratic"}), "rigid",
+             "What the shape may do to fit: move and turn; also stretch and shear; also bend and twist."),
+       field("share", share(), Cluster{}.share, "Share of the deformation that `linear` and `quadratic` keep."),
+       field("stiffness", stiffness(), "\"rigid\"",
+             "Stiffness; the compliance is per mass, in s^2: particles swing at 1 / (2 pi sqrt(compliance)) Hz.")},
+      {}};
+  return result;
+}
+
 const Record& attachment_record() {
   static const Record result{"attachment",
                              "Ties particles to targets by distance constraints of rest length 0; targets may move.",
@@ -240,6 +257,7 @@ const Record& object_record() {
        field("parts", list(record(part_record())), "none",
              "Ropes and cloth that are tied to its bodies. Their particles follow those of the bodies."),
        field("velocity", vector("m/s", largest_velocity), Vec3f{}, "Initial velocity of all its particles."),
+       field("clusters", list(record(cluster_record())), "none", "Groups of its particles that keep their shape."),
        field("pins", list(record(pin_record())), "none", "Kinematic particles."),
        field("attachments", list(record(attachment_record())), "none", "Particles tied to targets."),
        field("thickness", number("m", 0, largest_place),

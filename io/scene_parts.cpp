@@ -1,13 +1,25 @@
 // Builds what holds an object's particles: pins, attachments, and the parts that are tied to its bodies.
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "pliant/body.h"
+#include "pliant/cluster.h"
 #include "scene_build.h"
 #include "scene_hints.h"
 #include "scene_values.h"
 
 namespace pliant::scene_file {
+
+namespace {
+
+std::vector<int> all_particles(const Object& object) {
+  std::vector<int> all(object.positions.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+}  // namespace
 
 void set_pins(const JsonDocument& document, const JsonValue& at, BuiltObject& built) {
   std::vector<bool> taken(built.object.positions.size(), false);
@@ -21,6 +33,36 @@ void set_pins(const JsonDocument& document, const JsonValue& at, BuiltObject& bu
       taken[static_cast<std::size_t>(particle)] = true;
       pin.particle = particle;
       built.object.pins.push_back(pin);
+    }
+  }
+}
+
+void set_clusters(const JsonDocument& document, const JsonValue& at, BuiltObject& built) {
+  for (const JsonValue& item : elements(at, "clusters")) {
+    ClusterOptions options;
+    std::string mode;
+    set(item, "mode", mode);
+    if (mode == "linear") options.mode = Cluster::Mode::linear;
+    if (mode == "quadratic") options.mode = Cluster::Mode::quadratic;
+    set(item, "share", options.share);
+    set(document, item, "stiffness", options.stiffness);
+    const JsonValue *particles = item.find("particles"), *size = item.find("size");
+    if (particles != nullptr && size != nullptr)
+      document.fail_key(*size, "clusters of a size are of all particles", "give `particles` or `size`");
+    try {
+      if (size != nullptr) {
+        add_clusters(built.object, static_cast<float>(size->number), options);
+      } else if (particles != nullptr) {
+        add_cluster(built.object, selected(document, *particles, built), options);
+      } else {
+        add_cluster(built.object, all_particles(built.object), options);
+      }
+    } catch (const Error& error) {
+      if (!error.where().file.empty()) throw;
+      Location place = document.locate(item);
+      place.object = built.object.name;
+      place.element += ", " + error.where().element;
+      throw Error(place, error.problem(), error.advice());
     }
   }
 }

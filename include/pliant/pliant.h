@@ -3,6 +3,7 @@
 
 #include "pliant/advise.h"
 #include "pliant/body.h"
+#include "pliant/cluster.h"
 #include "pliant/constraint.h"
 #include "pliant/decompose.h"
 #include "pliant/edit.h"

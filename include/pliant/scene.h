@@ -53,6 +53,21 @@ struct Volume {
   Stiffness stiffness{};  ///< its compliance is in m^5/N, for C as written above, which is six volumes
 };
 
+/// Particles that keep their shape (Mueller, Heidelberger, Teschner, Gross 2005): each is pulled to its place in the rest shape, moved,
+/// turned and perhaps deformed to where the particles are. pliant/cluster.h makes clusters.
+struct Cluster {
+  /// What the rest shape may do to fit: move and turn; also stretch and shear at constant volume; also bend and twist.
+  enum class Mode { rigid, linear, quadratic };
+
+  std::vector<int> particles;  ///< two or more, none of them twice
+  std::vector<Vec3f> rest;     ///< their rest shape [m]; empty: their initial positions
+  Mode mode = Mode::rigid;
+  float share = 0.8f;  ///< of the deformation that `linear` and `quadratic` keep, 0..1; the rest of it is pulled back [-]
+  /// Its compliance is per mass, alpha in s^2: particles swing about their places at 1 / (2 pi sqrt(alpha)) Hz, whatever
+  /// their masses. Its damping is per mass too, in 1/s.
+  Stiffness stiffness{};
+};
+
 /// A kinematic particle: it has infinite mass and follows `motion` from its rest position.
 struct Pin {
   int particle = 0;
@@ -134,6 +149,7 @@ struct Object {
   std::optional<Volume> volume;               ///< keeps the enclosed volume; needs a closed surface
   std::optional<Fluid> fluid;                 ///< its particles are a liquid (pliant/liquid.h)
   std::optional<Grains> grains;               ///< its particles are grains (pliant/grains.h)
+  std::vector<Cluster> clusters;              ///< particles that keep their shape (pliant/cluster.h)
   std::vector<Pin> pins;
   std::vector<Attachment> attachments;
   float thickness = 0.001f;           ///< distance kept from colliders; two surfaces keep the sum of both [m]

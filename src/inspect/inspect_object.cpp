@@ -285,6 +285,7 @@ void check_object(Problems& problems, const Object& object) {
   for (const ConstraintGroup& group : object.constraints) check_group(problems, object, group);
   const bool sound = check_triangles(problems, object);
   check_volume(problems, object, sound);
+  check_clusters(problems, object);
   check_control(problems, object);
   require_range(problems, "thickness", object.thickness, 0, largest_place);
   check_fluid(problems, object);

@@ -87,6 +87,10 @@ int append(Object& object, const Object& other) {
   for (const ConstraintGroup& group : other.constraints) object.constraints.push_back(shifted(group, particles, frames));
   append_joints(object, other, bodies, groups);
   for (const auto& [a, b, c] : other.triangles) object.triangles.push_back({a + particles, b + particles, c + particles});
+  for (Cluster cluster : other.clusters) {
+    for (int& particle : cluster.particles) particle += particles;
+    object.clusters.push_back(std::move(cluster));
+  }
   for (Pin pin : other.pins) {
     pin.particle += particles;
     object.pins.push_back(std::move(pin));

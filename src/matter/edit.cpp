@@ -117,7 +117,10 @@ class Cut {
     for (std::size_t t = 0; t < object_.triangles.size(); ++t)
       for (int& corner : edit.object.triangles[t]) corner = copy(corner, static_cast<int>(t));
     for (ConstraintGroup& group : edit.object.constraints) group = split(group);
-    for (std::size_t i = 0; i < origins_.size(); ++i) add_pins(origins_[i], particles() + static_cast<int>(i), edit.object);
+    for (std::size_t i = 0; i < origins_.size(); ++i) {
+      add_pins(origins_[i], particles() + static_cast<int>(i), edit.object);
+      add_to_clusters(origins_[i], particles() + static_cast<int>(i), edit.object);
+    }
     return edit;
   }
 
@@ -221,6 +224,17 @@ class Cut {
     const std::vector<Pin> pins = object.pins;
     for (const Pin& pin : pins)
       if (pin.particle == of) object.pins.push_back({copy, pin.motion});
+  }
+
+  /// A copy joins the clusters of its origin, at the same rest place.
+  static void add_to_clusters(int of, int copy, Object& object) {
+    for (Cluster& cluster : object.clusters) {
+      const auto found = std::find(cluster.particles.begin(), cluster.particles.end(), of);
+      if (found == cluster.particles.end()) continue;
+      const std::ptrdiff_t at = found - cluster.particles.begin();
+      if (!cluster.rest.empty()) cluster.rest.push_back(cluster.rest[static_cast<std::size_t>(at)]);
+      cluster.particles.push_back(copy);
+    }
   }
 
   const Object& object_;

@@ -40,9 +40,17 @@ std::vector<int> anchors_of(const Object& object, double gravity, const Compiled
   return anchors;
 }
 
-/// Adds the phases of volume and tethers, and sorts all phases by driver.
+void fill_clusters(const Object& object, int passes, CompiledObject& out) {
+  if (object.clusters.empty()) return;
+  std::vector<float> inverse_masses;
+  for (const Record& position : out.positions) inverse_masses.push_back(position.w);
+  out.clusters = compile_clusters(object, out.place, inverse_masses, passes);
+}
+
+/// Adds the phases of volume, clusters, fluids, grains and tethers, and sorts all phases by driver.
 void add_whole_object_phases(CompiledObject& out) {
   if (out.has_volume) out.phases.push_back({Driver::volume, 0, 1});
+  for (const auto& [first, last] : out.clusters.colours) out.phases.push_back({Driver::cluster, first, last});
   if (out.fluid) out.phases.push_back({Driver::fluid, 0, 1});
   if (out.grains) out.phases.push_back({Driver::grain, 0, 1});
   if (out.tethers.slots > 0) out.phases.push_back({Driver::tether, 0, 1});
@@ -85,6 +93,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
     out.tethers = find_tethers(lists, slack, anchors_of(object, static_cast<double>(options.gravity), out), out);
   if (options.sweep == Sweep::multigrid) out.multigrid = build_multigrid(lists, out.positions, options.gravity);
   fill_volume(object, options.passes, out);
+  fill_clusters(object, options.passes, out);
   out.fluid = object.fluid;
   out.grains = object.grains;
   add_whole_object_phases(out);

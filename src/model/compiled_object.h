@@ -10,6 +10,7 @@
 
 #include "model/carrier.h"
 #include "model/compiled_bodies.h"
+#include "model/compiled_clusters.h"
 #include "model/compiled_joints.h"
 #include "model/multigrid.h"
 #include "model/object_sets.h"
@@ -104,6 +105,7 @@ struct CompiledObject {
   std::vector<ChainBatch> chains;
   AlignedVector<float> chain_softness;  ///< sixteen per ChainBatch: regularisation added to the diagonal [1/kg]
   std::vector<LengthRange> lengths;     ///< all distance constraints
+  CompiledClusters clusters;
   Tethers tethers;
   Multigrid multigrid;
   std::vector<Kinematic> kinematics;  ///< particles with keyframes

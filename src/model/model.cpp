@@ -13,6 +13,9 @@ namespace {
 /// Orientation of unused frame records: the identity, which stays finite under prediction.
 constexpr Record unrotated{0, 0, 0, 1};
 
+/// A batch has sixteen constraints; shape matching takes about eight times as long for a particle.
+int work_of(const CompiledCluster& cluster) { return 1 + (cluster.last - cluster.first) / 2; }
+
 /// The cost of one item of a driver, in batches or chain steps.
 int work_of(const CompiledObject& object, Driver driver, int item) {
   switch (driver) {
@@ -21,6 +24,8 @@ int work_of(const CompiledObject& object, Driver driver, int item) {
       return object.segments[item].batches;
     case Driver::chain:
       return object.chains[item].steps;
+    case Driver::cluster:
+      return work_of(object.clusters.clusters[item]);
     default:
       return 1;
   }

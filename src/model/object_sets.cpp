@@ -23,6 +23,9 @@ bool is_converted(const Stiffness& stiffness, bool has_own_values) {
 
 bool has_converted(const Object& object) {
   if (object.volume && is_converted(object.volume->stiffness, false)) return true;
+  if (std::any_of(object.clusters.begin(), object.clusters.end(),
+                  [](const Cluster& cluster) { return is_converted(cluster.stiffness, false); }))
+    return true;
   const auto group_is = [](const ConstraintGroup& group) {
     return !group.particles.empty() && is_converted(group.stiffness, !group.compliances.empty());
   };

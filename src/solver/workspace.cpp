@@ -45,6 +45,7 @@ void resize(const Model& model, Workspace& workspace) {
   workspace.multiplier_pointers.resize(objects);
   workspace.stores_in_last.resize(objects);
   workspace.volume_multipliers.resize(objects);
+  workspace.cluster_multipliers.resize(objects);
   workspace.triangle_forces.resize(objects);
   workspace.gravity.resize(objects);
   workspace.last_h.resize(objects);
@@ -79,6 +80,7 @@ void prepare(const Model& model, int object, Multipliers kept, Workspace& worksp
   const bool has_stencils = std::any_of(from.pools.begin(), from.pools.end(), [](const Pool& p) { return !p.in_lanes; });
   workspace.stores_in_last[object] = kept == Multipliers::lengths_in_last && !has_stencils ? 1 : 0;
   workspace.volume_multipliers[object] = 0;
+  workspace.cluster_multipliers[object].assign(from.clusters.has_multipliers ? from.clusters.members.size() : 0, {});
   workspace.joints[object] = {};
   prepare_joints(from, workspace.joints[object]);
   workspace.last_h[object] = 0;

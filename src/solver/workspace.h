@@ -89,7 +89,8 @@ struct Workspace {
   std::vector<char> stores_in_last;  ///< [object] 1: multipliers are stored in the last substep of a frame only
   std::vector<ObjectJoints> joints;  ///< [object]
   FrameScratch frames;
-  std::vector<double> volume_multipliers;           ///< multiplier of each object's volume constraint
+  std::vector<std::vector<Vec3f>> cluster_multipliers;  ///< [object][member of a cluster]; empty if not stored [m]
+  std::vector<double> volume_multipliers;               ///< multiplier of each object's volume constraint
   Records volume_gradients;                         ///< gradient at each particle, if any object has a volume constraint
   std::vector<std::vector<Vec3f>> triangle_forces;  ///< [object][triangle], if there is air
   std::vector<TileScratch> tiles;                   ///< scratch data of each tile of the model

@@ -1,4 +1,5 @@
 // Tests reading scenes: every field is stored, the project's scenes are readable, and the documents match the table.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -200,6 +201,21 @@ TEST_F(FullScene, HasItsLiquids) {
   EXPECT_EQ(oil.thickness, 0.125f);
   EXPECT_EQ(oil.static_friction, 0);
   EXPECT_EQ(scene.objects.at(10).positions.at(1), (Vec3f{-8, 8.5f, 1}));
+}
+
+TEST_F(FullScene, HasClusters) {
+  const auto rope =
+      std::find_if(scene.objects.begin(), scene.objects.end(), [](const Object& o) { return !o.clusters.empty(); });
+  ASSERT_NE(rope, scene.objects.end());
+  ASSERT_EQ(rope->clusters.size(), 2u);
+  const Cluster& first = rope->clusters[0];
+  EXPECT_EQ(first.particles, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(first.mode, Cluster::Mode::quadratic);
+  EXPECT_EQ(first.share, 0.25f);
+  EXPECT_EQ(first.stiffness.value, 0.5f);
+  EXPECT_EQ(first.stiffness.damping, 2.f);
+  EXPECT_EQ(rope->clusters[1].particles.size(), 5u);
+  EXPECT_EQ(rope->clusters[1].mode, Cluster::Mode::linear);
 }
 
 TEST_F(FullScene, HasItsGrains) {

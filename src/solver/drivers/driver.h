@@ -68,6 +68,7 @@ void project_inter_tile(Substep& s, const Phase& phase, const Pass& pass);      
 void project_chains(Substep& s, const Phase& phase, const Pass& pass);             // defined in chain.cpp
 void project_volumes(Substep& s, const Phase& phase, const Pass& pass);            // defined in volume.cpp
 void project_stencils(Substep& s, const Phase& phase, const Pass& pass);           // defined in stencil.cpp
+void project_clusters(Substep& s, const Phase& phase, const Pass& pass);           // defined in cluster.cpp
 void project_fluids(Substep& s, const Phase& phase, const Pass& pass);             // defined in fluid.cpp
 void project_grains(Substep& s, const Phase& phase, const Pass& pass);             // defined in grain.cpp
 void hold_tethers(Substep& s, const Phase& phase, const Pass& pass);               // defined in tether.cpp

@@ -13,6 +13,7 @@ constexpr std::array<PhaseDriver, driver_count> drivers{{
     {Turn::sweep, false, &project_chains},
     {Turn::sweep, false, &project_volumes},
     {Turn::stencil, false, &project_stencils},
+    {Turn::stencil, false, &project_clusters},
     {Turn::stencil, false, &project_fluids},
     {Turn::stencil, false, &project_grains},
     {Turn::last, false, &hold_tethers},

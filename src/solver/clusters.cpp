@@ -1,0 +1,206 @@
+#include "solver/clusters.h"
+
+#include <algorithm>
+#include <array>
+
+#include "math/best_rotation.h"
+#include "model/cluster_moments.h"
+
+namespace pliant {
+
+namespace {
+
+using Vec3d = Vec3<double>;
+
+/// Positions relative to a cluster's first particle, so that rounding does not grow with the distance from the origin.
+struct ClusterPlaces {
+  const Record* positions;
+  const Record* displacements;
+  int origin;
+  Vec3d at(int particle) const {
+    const Record &p = positions[particle], &o = positions[origin], &d = displacements[particle];
+    return {(double(p.x) - o.x) + d.x, (double(p.y) - o.y) + d.y, (double(p.z) - o.z) + d.z};
+  }
+};
+
+/// The goal of a rest place: centre + deformation q.
+struct Fit {
+  Vec3d centre{};
+  Quatd turn{};
+  double deformation[3][most_moments] = {};
+  int moments = 3;
+
+  Vec3d goal(const Vec3d& rest, const std::array<double, 6>& means) const {
+    const std::array<double, most_moments> q = moments_at(rest, means);
+    double out[3] = {centre.x, centre.y, centre.z};
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < moments; ++k) out[i] += deformation[i][k] * q[k];
+    return {out[0], out[1], out[2]};
+  }
+};
+
+double determinant(const double (&f)[3][most_moments]) {
+  return f[0][0] * (f[1][1] * f[2][2] - f[1][2] * f[2][1]) - f[0][1] * (f[1][0] * f[2][2] - f[1][2] * f[2][0]) +
+         f[0][2] * (f[1][0] * f[2][1] - f[1][1] * f[2][0]);
+}
+
+/// The factor that gives a deformation the volume of the rest shape. Where little volume is left, the full factor would throw particles.
+double volume_factor(const double (&f)[3][most_moments], double size) {
+  constexpr double least = 0.1;
+  return 1 / pow(max(determinant(f) / (size * size * size), least), 1.0 / 3);
+}
+
+/// Adds `share` of the fitted deformation to (1 - share) of the rotation that `fit` has. An inverted fit is left out.
+void add_deformation(const CompiledCluster& cluster, const double* inverse, const double (&sums)[3][most_moments],
+                     Fit& fit) {
+  const int n = moments_of(cluster.mode);
+  double fitted[3][most_moments] = {};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) fitted[i][j] += sums[i][k] * inverse[k * n + j];
+  if (!cluster.is_flat && !(determinant(fitted) > 0)) return;
+  const double factor = cluster.share * (cluster.is_flat ? 1 : volume_factor(fitted, cluster.size));
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) fit.deformation[i][j] *= 1 - cluster.share;
+    for (int j = 0; j < n; ++j) fit.deformation[i][j] += factor * fitted[i][j];
+  }
+  fit.moments = n;
+}
+
+Fit fit(const CompiledClusters& clusters, const CompiledCluster& cluster, const ClusterPlaces& places) {
+  Fit out;
+  for (int m = cluster.first; m < cluster.last; ++m)
+    out.centre += clusters.members[m].weight * places.at(clusters.members[m].particle);
+  const int n = cluster.mode == Cluster::Mode::quadratic ? most_moments : 3;
+  double sums[3][most_moments] = {};  // of w (x - c) q^T
+  for (int m = cluster.first; m < cluster.last; ++m) {
+    const ClusterMember& member = clusters.members[m];
+    const Vec3d r = member.weight * (places.at(member.particle) - out.centre);
+    const std::array<double, most_moments> q = moments_at(member.rest, cluster.means);
+    for (int k = 0; k < n; ++k) {
+      sums[0][k] += r.x * q[k];
+      sums[1][k] += r.y * q[k];
+      sums[2][k] += r.z * q[k];
+    }
+  }
+  out.turn = best_rotation(
+      {sums[0][0], sums[0][1], sums[0][2], sums[1][0], sums[1][1], sums[1][2], sums[2][0], sums[2][1], sums[2][2]});
+  const Vec3d axes[3] = {rotate(out.turn, Vec3d{1, 0, 0}), rotate(out.turn, Vec3d{0, 1, 0}),
+                         rotate(out.turn, Vec3d{0, 0, 1})};
+  for (int j = 0; j < 3; ++j) {
+    out.deformation[0][j] = cluster.size * axes[j].x;
+    out.deformation[1][j] = cluster.size * axes[j].y;
+    out.deformation[2][j] = cluster.size * axes[j].z;
+  }
+  if (cluster.mode != Cluster::Mode::rigid)
+    add_deformation(cluster, clusters.inverse_moments.data() + cluster.inverse_moments, sums, out);
+  return out;
+}
+
+Vec3d vector(const Vec3f& v) { return convert<double>(v); }
+
+/// How an error C = x - goal becomes a correction: XPBD with masses cancelled, or a share of it.
+struct Yield {
+  double compliance = 0, gamma = 0, scale = 1;
+
+  Yield(const CompiledCluster& cluster, const SweepArguments& a) {
+    if (cluster.law == Law::pbd) {
+      scale = cluster.response;
+      return;
+    }
+    compliance = min(cluster.response * a.inverse_h2, 1e30);
+    gamma = min(cluster.response * cluster.damping * a.inverse_h, 1e30);
+    scale = 1 / (1 + gamma + compliance);
+  }
+};
+
+/// A cluster in a substep. Corrections are zero to first order in the torque about the positions at the substep's start, as the velocities
+/// that they change act there: with the torque about the prediction alone, which the rotation makes zero, a spin would decay by omega^2 h.
+class Projection {
+ public:
+  Projection(const CompiledClusters& clusters, const CompiledCluster& cluster, const SweepArguments& a,
+             const Vec3f* multipliers)
+      : clusters_(clusters),
+        cluster_(cluster),
+        yield_(cluster, a),
+        multipliers_(multipliers),
+        places_{a.positions, a.displacements, clusters.members[cluster.first].particle},
+        starts_{a.positions, a.remainders, clusters.members[cluster.first].particle},
+        now_(fit(clusters, cluster, places_)) {
+    if (yield_.gamma > 0) before_ = fit(clusters, cluster, starts_);
+    turn_ = multiply(now_.turn, conjugate(before_.turn));
+    settle_ = torque_free_turn();
+  }
+
+  Vec3d correction(int member) const {
+    const Vec3d arm = goal(now_, member) - now_.centre;
+    return -yield_.scale * (pull(member) - (1 + yield_.gamma) * cross(settle_, arm));
+  }
+
+ private:
+  Vec3d goal(const Fit& fit, int member) const { return fit.goal(clusters_.members[member].rest, cluster_.means); }
+
+  /// (1 + gamma) C + compliance lambda - gamma C at the start, which has turned with the cluster since.
+  Vec3d pull(int member) const {
+    const int particle = clusters_.members[member].particle;
+    const Vec3d c = places_.at(particle) - goal(now_, member);
+    Vec3d sum = (1 + yield_.gamma) * c;
+    if (multipliers_ != nullptr) sum += yield_.compliance * vector(multipliers_[member]);
+    if (yield_.gamma > 0) sum -= yield_.gamma * rotate(turn_, starts_.at(particle) - goal(before_, member));
+    return sum;
+  }
+
+  /// The small rotation of all goals after which corrections have no torque about the start; zero where the shape is far from both.
+  Vec3d torque_free_turn() const {
+    Vec3d torque{};
+    double rows[3][3] = {};
+    for (int m = cluster_.first; m < cluster_.last; ++m) {
+      const ClusterMember& member = clusters_.members[m];
+      const Vec3d x = starts_.at(member.particle) - now_.centre, g = goal(now_, m) - now_.centre;
+      torque += member.weight * cross(x, pull(m));
+      const double along = member.weight * dot(x, g), xs[3] = {x.x, x.y, x.z}, gs[3] = {g.x, g.y, g.z};
+      for (int i = 0; i < 3; ++i)  // x cross (d cross g) = (x . g) d - (x . d) g
+        for (int j = 0; j < 3; ++j) rows[i][j] += (i == j ? along : 0) - member.weight * gs[i] * xs[j];
+    }
+    return solve(rows, (1 / (1 + yield_.gamma)) * torque);
+  }
+
+  Vec3d solve(double (&m)[3][3], const Vec3d& b) const {
+    const double trace = m[0][0] + m[1][1] + m[2][2], least = 1e-9 * cluster_.size * cluster_.size;
+    if (!(trace > least)) return {};
+    for (int i = 0; i < 3; ++i) m[i][i] += 1e-9 * trace;
+    const Vec3d x{m[0][0], m[1][0], m[2][0]}, y{m[0][1], m[1][1], m[2][1]}, z{m[0][2], m[1][2], m[2][2]};
+    const double volume = dot(x, cross(y, z)), whole = trace * trace * trace;
+    constexpr double thinnest = 1e-12, largest = 0.2;  // of the matrix; [rad]
+    if (!(volume > thinnest * whole)) return {};
+    const Vec3d turn = (1 / volume) * Vec3d{dot(b, cross(y, z)), dot(x, cross(b, z)), dot(x, cross(y, b))};
+    return dot(turn, turn) < largest * largest ? turn : Vec3d{};
+  }
+
+  const CompiledClusters& clusters_;
+  const CompiledCluster& cluster_;
+  Yield yield_;
+  const Vec3f* multipliers_;
+  ClusterPlaces places_, starts_;
+  Fit now_, before_;
+  Quatd turn_;
+  Vec3d settle_{};
+};
+
+}  // namespace
+
+void project_cluster(const CompiledClusters& clusters, int number, const SweepArguments& a, Vec3f* multipliers) {
+  const CompiledCluster& cluster = clusters.clusters[number];
+  if (multipliers != nullptr && a.first_pass) std::fill(multipliers + cluster.first, multipliers + cluster.last, Vec3f{});
+  const Projection projection(clusters, cluster, a, multipliers);
+  for (int m = cluster.first; m < cluster.last; ++m) {
+    const int particle = clusters.members[m].particle;
+    if (!(a.positions[particle].w > 0)) continue;
+    const Vec3d move = double(a.relaxation) * projection.correction(m);
+    if (multipliers != nullptr) multipliers[m] += convert<float>(move);
+    Record& d = a.displacements[particle];
+    d = {d.x + float(move.x), d.y + float(move.y), d.z + float(move.z), 0};
+  }
+}
+
+}  // namespace pliant
