@@ -28,8 +28,8 @@ void fields(A& a, Is<ConstraintGroup> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<Volume> auto& of) {
-  auto& [pressure, stiffness] = of;
-  a(pressure, stiffness);
+  auto& [pressure, stiffness, lift] = of;
+  a(pressure, stiffness, lift);
 }
 template <class A>
 void fields(A& a, Is<Keyframe> auto& of) {
@@ -117,13 +117,35 @@ void fields(A& a, Is<Grains> auto& of) {
   a(radius, density, friction);
 }
 template <class A>
+void fields(A& a, Is<Region> auto& of) {
+  auto& [centre, half_size, radius] = of;
+  a(centre, half_size, radius);
+}
+template <class A>
+void fields(A& a, Is<GasHeater> auto& of) {
+  auto& [region, temperature, rate] = of;
+  a(region, temperature, rate);
+}
+template <class A>
+void fields(A& a, Is<Gas> auto& of) {
+  auto& [temperature, ambient_temperature, ambient_density, cooling_time, diffusivity, drag, vorticity, heaters] = of;
+  a(temperature, ambient_temperature, ambient_density, cooling_time, diffusivity, drag, vorticity, heaters);
+}
+template <class A>
+void fields(A& a, Is<Tracers> auto& of) {
+  auto& [source, rate, lifetime, start, end, radius, opacity] = of;
+  a(source, rate, lifetime, start, end);
+  a.aside(radius);
+  a.aside(opacity);
+}
+template <class A>
 void fields(A& a, Is<Object> auto& of) {
-  auto& [name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains,
-         clusters, pins, attachments, thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction,
+  auto& [name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains, clusters, gas,
+         tracers, pins, attachments, thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction,
          restitution, rolling_friction, spinning_friction, drag, lift, sweep, damping, colour] = of;
-  a(name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains, clusters,
-    pins, attachments, thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution,
-    rolling_friction, spinning_friction, drag, lift, sweep, damping);
+  a(name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains, clusters, gas,
+    tracers, pins, attachments, thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction,
+    restitution, rolling_friction, spinning_friction, drag, lift, sweep, damping);
   a.aside(colour);
 }
 template <class A>

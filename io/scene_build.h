@@ -47,4 +47,21 @@ void add_parts(const JsonDocument& document, const JsonValue& at, const MeshFold
 /// The particles that a checked selection denotes, each once.
 std::vector<int> selected(const JsonDocument& document, const JsonValue& at, const BuiltObject& built);
 
+/// What particles are made with: where they are read, and how far apart they are [m].
+struct Filling {
+  const JsonDocument& document;
+  const MeshFolder& folder;
+  const std::string& name;
+  std::vector<std::string>& repairs;
+  float spacing = 0;
+};
+
+/// The places in `positions`, or those that fill the box or mesh `fill` at a spacing.
+std::vector<Vec3f> places_of(const Filling& by, const JsonValue& at);
+
+// Defined in scene_gases.cpp.
+BuiltObject gas_of(const JsonDocument& document, const JsonValue& at, const std::string& name, const MeshFolder& folder,
+                   std::vector<std::string>& repairs);
+BuiltObject tracers_of(const JsonValue& at, const std::string& name);
+
 }  // namespace pliant::scene_file

@@ -105,6 +105,8 @@ const Record& particles_record() {
   return result;
 }
 
+}  // namespace
+
 const Record& fill_record() {
   static const Record result{
       "fill",
@@ -117,6 +119,8 @@ const Record& fill_record() {
       {"min", "mesh"}};
   return result;
 }
+
+namespace {
 
 const Record& liquid_record() {
   static const Record result{
@@ -244,12 +248,14 @@ std::vector<std::string> sweep_names() {
 const Record& object_record() {
   static const Record result{
       "object",
-      "A cloth, a rope, a liquid, grains, particles with constraints, rigid bodies, or a robot.",
+      "A cloth, a rope, a liquid, a gas, tracers, grains, particles with constraints, rigid bodies, or a robot.",
       {field("name", string(), "the kind, with a number if it is taken", "Unique name, used in messages and files."),
        either("cloth", record(cloth_record()), "A cloth, garment or balloon."),
        either("rope", record(rope_record()), "A rope."),
        either("liquid", record(liquid_record()), "A liquid."),
        either("grains", record(grains_record()), "Sand or gravel."),
+       either("gas", record(gas_record()), "A gas."),
+       either("tracers", record(tracers_record()), "Points that gases carry along, as smoke."),
        either("particles", record(particles_record()), "Particles with constraints."),
        either("bodies", list(record(body_record()), 1), "Rigid bodies: one, a pile, or the parts of a mechanism."),
        either("urdf", record(urdf_record()), "A robot description."),
@@ -261,21 +267,21 @@ const Record& object_record() {
        field("pins", list(record(pin_record())), "none", "Kinematic particles."),
        field("attachments", list(record(attachment_record())), "none", "Particles tied to targets."),
        field("thickness", number("m", 0, largest_place),
-             "the material's; 0.005 for a rope, half the spacing for a liquid, the radius of grains, else 0.001",
+             "the material's; 0.005 for a rope, half the spacing for a liquid or gas, the radius of grains, else 0.001",
              "Distance kept from colliders; two surfaces keep the sum of both."),
        field(
            "self_collision", boolean(), "false; true for bodies",
            "The surface does not pass through itself; without triangles, the links do not (docs/guide/contact.md). Bodies "
            "do not pass through each other."),
-       field("collides", boolean(), "false; true for bodies, liquids and grains",
+       field("collides", boolean(), "false; true for bodies, liquids, gases and grains",
              "The object does not pass through other objects with `collides`. Mesh colliders always collide."),
        field("groups", bits(), "[0]",
              "Indices of its groups, 0 to 31. Two objects collide if the `mask` of each contains a group of the other."),
        field("mask", bits(), "all", "Indices of the groups that it collides with; [] for none."),
-       field("static_friction", number("-", 0, 1000), "the material's; 0 for a liquid, that of grains, else 0.4",
+       field("static_friction", number("-", 0, 1000), "the material's; 0 for a liquid or gas, that of grains, else 0.4",
              "Coefficient of static friction."),
        field("kinetic_friction", number("-", 0, 1000),
-             "the material's; 0 for a liquid, that of grains, else 0.3; at most the static one",
+             "the material's; 0 for a liquid or gas, that of grains, else 0.3; at most the static one",
              "Coefficient of kinetic friction, at most the static one."),
        field("restitution", share(), Object{}.restitution,
              "Coefficient of restitution: the share of the normal speed kept in a bounce."),
@@ -291,7 +297,7 @@ const Record& object_record() {
        field("damping", number("1/s", 0, 1e6), Object{}.damping,
              "Velocity damping: in a second a share of 1 - exp(-damping) is lost."),
        field("colour", colour(), Object{}.colour, "Colour as linear red, green and blue.")},
-      {"cloth", "rope", "liquid", "grains", "particles", "bodies", "urdf"}};
+      {"cloth", "rope", "liquid", "gas", "tracers", "grains", "particles", "bodies", "urdf"}};
   return result;
 }
 

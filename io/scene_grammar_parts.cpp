@@ -70,7 +70,11 @@ const Record& volume_record() {
       "A volume constraint: holds the volume inside a closed surface, as in a balloon.",
       {field("pressure", number("-", 0, 1000), Volume{}.pressure,
              "Rest volume over the volume of the given mesh: above 1 inflates, below 1 deflates."),
-       field("stiffness", stiffness(), "\"rigid\"", "Compliance of the constraint on six times the volume, in m^5/N.")},
+       field("stiffness", stiffness(), "\"rigid\"", "Compliance of the constraint on six times the volume, in m^5/N."),
+       field("lift", number("kg/m^3", -1e6, 1e6), Volume{}.lift,
+             "By how much the air outside is denser than the gas inside, which bears the surface up by this times g times "
+             "the "
+             "volume: 1.04 for helium.")},
       {}};
   return result;
 }

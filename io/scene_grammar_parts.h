@@ -13,6 +13,12 @@ const Record& mesh_record();
 const Record& fabric_record();
 std::vector<std::string> fabric_names();
 
+const Record& fill_record();
+
+// Defined in scene_grammar_gases.cpp.
+const Record& gas_record();
+const Record& tracers_record();
+
 // Defined in scene_grammar_colliders.cpp.
 const Record& sphere_record();
 const Record& capsule_record();

@@ -60,15 +60,6 @@ BuiltObject rope_of(const JsonDocument& document, const JsonValue& at, const std
   return {make_rope(points, options)};
 }
 
-/// What particles are made with: where they are read, and how far apart they are.
-struct Filling {
-  const JsonDocument& document;
-  const MeshFolder& folder;
-  const std::string& name;
-  std::vector<std::string>& repairs;
-  float spacing = 0;
-};
-
 /// Throws an Error at `at` if a box has room for more particles than a scene may have.
 void limit_particles(const Filling& by, const JsonValue& at, const Vec3f& low, const Vec3f& high) {
   const auto along = [&](float from, float to) {
@@ -95,7 +86,8 @@ std::vector<Vec3f> places_in_mesh(const Filling& by, const JsonValue& fill) {
   return fill_mesh(surface.mesh, by.spacing, clearance);
 }
 
-/// The places in `positions`, or those that fill a box or mesh at a spacing.
+}  // namespace
+
 std::vector<Vec3f> places_of(const Filling& by, const JsonValue& at) {
   std::vector<Vec3f> positions;
   for (const JsonValue& position : elements(at, "positions")) positions.push_back(vector_of(position));
@@ -109,6 +101,8 @@ std::vector<Vec3f> places_of(const Filling& by, const JsonValue& at) {
   limit_particles(by, *fill, low, high);
   return fill_box(low, high, by.spacing);
 }
+
+namespace {
 
 BuiltObject liquid_of(const JsonDocument& document, const JsonValue& at, const std::string& name, const MeshFolder& folder,
                       std::vector<std::string>& repairs) {
@@ -243,6 +237,8 @@ BuiltObject build_matter(const JsonDocument& document, const JsonValue& what, co
   try {
     if (what.key == "cloth") return cloth_of(document, what, name, folder, repairs);
     if (what.key == "liquid") return liquid_of(document, what, name, folder, repairs);
+    if (what.key == "gas") return gas_of(document, what, name, folder, repairs);
+    if (what.key == "tracers") return tracers_of(what, name);
     if (what.key == "grains") return grains_of(document, what, name, folder, repairs);
     if (what.key == "rope") return rope_of(document, what, name);
     if (what.key == "bodies") return {build_bodies(document, what, name, folder, repairs)};

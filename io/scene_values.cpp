@@ -108,6 +108,7 @@ bool set(const JsonDocument& document, const JsonValue& at, const char* name, st
   target.emplace();
   set(*value, "pressure", target->pressure);
   set(document, *value, "stiffness", target->stiffness);
+  set(*value, "lift", target->lift);
   return true;
 }
 

@@ -151,7 +151,7 @@ std::string substeps_in_words(const Scene& scene, const Settings& chosen) {
 }
 
 /// True of a liquid or grains, whose constraints no sweep projects.
-bool has_no_sweep(const Object& object) { return object.fluid || object.grains; }
+bool has_no_sweep(const Object& object) { return object.fluid || object.grains || object.tracers; }
 
 /// One line; the caller breaks it.
 std::string how_it_is_solved(const Scene& scene) {

@@ -83,7 +83,7 @@ Json tie_json(const World& world, const TieGap& tie, std::int64_t frame) {
 /// How much denser than at rest liquids were; null without a liquid.
 Json compression_json(const Scene& scene, const Compression& last, const Compression& worst, std::int64_t frame_of_mean,
                       std::int64_t frame_of_largest) {
-  const auto is_liquid = [](const Object& object) { return object.fluid.has_value(); };
+  const auto is_liquid = [](const Object& object) { return object.fluid && !object.gas; };
   if (std::none_of(scene.objects.begin(), scene.objects.end(), is_liquid)) return nullptr;
   return {{"mean", last.mean},
           {"largest", last.largest},

@@ -51,6 +51,8 @@ class ObjectView {
   /// The positions of the particles in the user's order [m].
   std::vector<Vec3f> positions() const;
   std::vector<Vec3f> velocities() const;  ///< in the user's order [m/s]
+  /// A channel of the State, as "temperature" of a gas: the values of the particles in the user's order. Empty if there is none.
+  std::vector<float> channel(const std::string& name) const;
   /// The orientations of the frames, in the order of Object::frames.
   std::vector<Quatf> orientations() const;
   std::vector<Vec3f> angular_velocities() const;  ///< in world axes, in the order of Object::frames [rad/s]

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "pliant/vec3.h"
+
 namespace pliant {
 
 /// How strongly a constraint is enforced: by compliance, or by stiffness k.
@@ -55,6 +57,45 @@ struct Grains {
   float radius = 0.01f;   ///< of each sphere [m]
   float density = 2650;   ///< of the solid, not of the bulk with its voids [kg/m^3]
   float friction = 0.6f;  ///< of the bulk: tangent of the angle of repose [-]
+};
+
+/// An axis-aligned box, or a ball.
+struct Region {
+  Vec3f centre{};     ///< [m]
+  Vec3f half_size{};  ///< of a box, along each axis [m]
+  float radius = 0;   ///< above 0: a ball, and `half_size` has no effect [m]
+};
+
+/// Heats the gas in a region, in proportion to what is missing: dT/dt = rate (temperature - T).
+struct GasHeater {
+  Region region{};
+  float temperature = 500;  ///< [K]
+  float rate = 10;          ///< [1/s]
+};
+
+/// Makes a liquid (Fluid) a gas that air surrounds: it has a temperature, and the air bears it up. The temperature of each particle is
+/// in the channel "temperature" of the State [K]. Boussinesq: temperature changes weight and not volume.
+struct Gas {
+  float temperature = 293.15f;          ///< at the start [K]
+  float ambient_temperature = 293.15f;  ///< of the air around; Fluid::density is that of the gas at this temperature [K]
+  /// Of the air around; the gas is accelerated by -g (ambient_density / density T / ambient_temperature - 1) [kg/m^3].
+  float ambient_density = 1.2f;
+  float cooling_time = 0;  ///< time constant of cooling to the ambient temperature; 0: none [s]
+  float diffusivity = 0;   ///< of heat [m^2/s]
+  float drag = 0;  ///< of the air on the surface: 1/time in which a particle without neighbours takes its velocity [1/s]
+  float vorticity = 0;  ///< confinement: accelerates by this times N x omega (Steinhoff and Underhill 1994) [m/s]
+  std::vector<GasHeater> heaters{};
+};
+
+/// Makes the particles of an object tracers: points without weight that the gas carries along, as smoke. They are emitted from a region
+/// at a rate, and vanish after a lifetime. The age of each is in the channel "age" of the State [s]; below 0 it is not there.
+struct Tracers {
+  Region source{};
+  float rate = 1000;         ///< [1/s]
+  float lifetime = 4;        ///< [s]
+  float start = 0, end = 0;  ///< of emission; an end of 0 is never [s]
+  float radius = 0.03f;      ///< of a puff in pictures [m]
+  float opacity = 0.5f;      ///< of a puff in pictures: how much of the light through its middle it takes [0..1)
 };
 
 /// Properties of a fabric. They do not depend on a mesh.

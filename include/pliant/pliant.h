@@ -8,6 +8,7 @@
 #include "pliant/decompose.h"
 #include "pliant/edit.h"
 #include "pliant/error.h"
+#include "pliant/gas.h"
 #include "pliant/gauges.h"
 #include "pliant/grains.h"
 #include "pliant/handles.h"

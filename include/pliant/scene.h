@@ -51,6 +51,9 @@ const std::vector<ConstraintType>& constraint_types();
 struct Volume {
   float pressure = 1;     ///< target volume over rest volume, k_pressure >= 0 [-]
   Stiffness stiffness{};  ///< its compliance is in m^5/N, for C as written above, which is six volumes
+  /// By how much the air outside is denser than the gas inside [kg/m^3]. The difference of their pressures grows with height and bears the
+  /// surface up, in all by this times g V. The gas has no inertia. filled_with of pliant/gas.h sets it.
+  float lift = 0;
 };
 
 /// Particles that keep their shape (Mueller, Heidelberger, Teschner, Gross 2005): each is pulled to its place in the rest shape, moved,
@@ -150,6 +153,8 @@ struct Object {
   std::optional<Fluid> fluid;                 ///< its particles are a liquid (pliant/liquid.h)
   std::optional<Grains> grains;               ///< its particles are grains (pliant/grains.h)
   std::vector<Cluster> clusters;              ///< particles that keep their shape (pliant/cluster.h)
+  std::optional<Gas> gas;                     ///< its `fluid` is a gas (pliant/gas.h)
+  std::optional<Tracers> tracers;             ///< its particles are tracers in gases (pliant/gas.h)
   std::vector<Pin> pins;
   std::vector<Attachment> attachments;
   float thickness = 0.001f;           ///< distance kept from colliders; two surfaces keep the sum of both [m]

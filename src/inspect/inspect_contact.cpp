@@ -127,7 +127,8 @@ void doubt_cost(Problems& problems, const Object& object) {
 void doubt_thickness(Problems& problems, const Object& object) {
   if (!object.self_collision && !object.collides) return;
   const double edge = median_edge(object), kept = 2 * static_cast<double>(object.thickness);
-  if (object.fluid || object.grains || (edge == 0 && object.bodies.size() == object.positions.size())) return;
+  if (object.fluid || object.grains || object.tracers || (edge == 0 && object.bodies.size() == object.positions.size()))
+    return;
   if (edge == 0)
     return problems.doubtful("", "has neither triangles nor links: its particles collide as spheres of its thickness",
                              "add triangles or links if it is meant as a surface or a rope");

@@ -86,7 +86,7 @@ void doubt_pins(const Doubts& d) {
 }
 
 void doubt_references(const Doubts& d) {
-  if (d.object.fluid || d.object.grains) return;  // whose particles are in no constraint of their own
+  if (d.object.fluid || d.object.grains || d.object.tracers) return;  // whose particles are in no constraint of their own
   std::vector<bool> used = d.fixed;
   const auto use = [&](int particle) { used[static_cast<std::size_t>(particle)] = true; };
   for (const ConstraintGroup& group : d.object.constraints)
@@ -237,7 +237,7 @@ void doubt_compression(const Doubts& d) {
 
 void doubt_air(const Doubts& d) {
   const Wind& wind = d.scene.wind;
-  if (length_squared(wind.velocity) > 0 && wind.air_density > 0 && (d.object.fluid || d.object.grains))
+  if (length_squared(wind.velocity) > 0 && wind.air_density > 0 && (d.object.fluid || d.object.grains) && !d.object.gas)
     d.problems.doubtful("", "is not pushed by the wind, which acts on triangles alone",
                         "leave the wind out, or push the particles by a force field");
   if (length_squared(wind.velocity) > 0 && wind.air_density == 0 && !d.object.triangles.empty())

@@ -233,6 +233,7 @@ void check_volume(Problems& problems, const Object& object, bool triangles_are_s
   if (!object.volume) return;
   require_range(problems, "volume, pressure", object.volume->pressure, 0, largest_place);
   check_stiffness(problems, "volume", object.volume->stiffness);
+  require_range(problems, "volume, lift", object.volume->lift, -1e6, 1e6);
   if (triangles_are_sound) check_closed(problems, object);
 }
 
@@ -276,6 +277,47 @@ void check_grains(Problems& problems, const Object& object) {
   if (object.fluid) problems.grave("grains", "are a liquid too", "give grains or fluid, in two objects if both are wanted");
 }
 
+void check_region(Problems& problems, const std::string& what, const Region& region) {
+  for (const float size : {region.half_size.x, region.half_size.y, region.half_size.z, region.radius})
+    require_range(problems, what, size, 0, largest_place);
+  for (const float place : {region.centre.x, region.centre.y, region.centre.z})
+    require_range(problems, what, place, -largest_place, largest_place);
+}
+
+void check_gas(Problems& problems, const Object& object) {
+  constexpr double least = 1e-3, hottest = 1e9, most = 1e12;  // temperatures [K]
+  if (!object.gas) return;
+  const Gas& gas = *object.gas;
+  if (!object.fluid) problems.grave("gas", "has no fluid", "set Object::fluid too, as make_gas does");
+  require_range(problems, "gas, temperature", gas.temperature, least, hottest);
+  require_range(problems, "gas, ambient_temperature", gas.ambient_temperature, least, hottest);
+  require_range(problems, "gas, ambient_density", gas.ambient_density, 0, most);
+  require_range(problems, "gas, cooling_time", gas.cooling_time, 0, most);
+  require_range(problems, "gas, diffusivity", gas.diffusivity, 0, most);
+  require_range(problems, "gas, drag", gas.drag, 0, most);
+  require_range(problems, "gas, vorticity", gas.vorticity, 0, most);
+  for (const GasHeater& heater : gas.heaters) {
+    check_region(problems, "gas, heater, region", heater.region);
+    require_range(problems, "gas, heater, temperature", heater.temperature, least, hottest);
+    require_range(problems, "gas, heater, rate", heater.rate, 0, most);
+  }
+}
+
+void check_tracers(Problems& problems, const Object& object) {
+  constexpr double most = 1e9;
+  if (!object.tracers) return;
+  const Tracers& tracers = *object.tracers;
+  if (object.fluid || object.grains || !object.triangles.empty() || !object.constraints.empty() || !object.bodies.empty())
+    problems.grave("tracers", "are a liquid, grains, a surface or constrained too", "give tracers an object of their own");
+  check_region(problems, "tracers, source", tracers.source);
+  require_range(problems, "tracers, rate", tracers.rate, 1e-9, most);
+  require_range(problems, "tracers, lifetime", tracers.lifetime, 1e-9, most);
+  require_range(problems, "tracers, start", tracers.start, -most, most);
+  require_range(problems, "tracers, end", tracers.end, -most, most);
+  require_range(problems, "tracers, radius", tracers.radius, 1e-9, largest_place);
+  require_range(problems, "tracers, opacity", tracers.opacity, 0, 0.999);
+}
+
 void check_object(Problems& problems, const Object& object) {
   check_positions(problems, object);
   check_velocities(problems, object);
@@ -290,6 +332,8 @@ void check_object(Problems& problems, const Object& object) {
   require_range(problems, "thickness", object.thickness, 0, largest_place);
   check_fluid(problems, object);
   check_grains(problems, object);
+  check_gas(problems, object);
+  check_tracers(problems, object);
   check_friction(problems, object.static_friction, object.kinetic_friction, object.restitution);
   check_rolling(problems, object.rolling_friction, object.spinning_friction);
   require_range(problems, "drag", object.drag, 0, largest_place);

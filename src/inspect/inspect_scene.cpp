@@ -150,8 +150,9 @@ void check_count(Problems& problems, const Scene& scene) {
 
 /// True if an object has what a sweep projects; liquids and grains have passes of their own.
 bool has_swept(const Scene& scene) {
-  return scene.objects.empty() || std::any_of(scene.objects.begin(), scene.objects.end(),
-                                              [](const Object& object) { return !object.fluid && !object.grains; });
+  return scene.objects.empty() || std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& object) {
+           return !object.fluid && !object.grains && !object.tracers;
+         });
 }
 
 void doubt_settings(Problems& problems, const Scene& scene) {

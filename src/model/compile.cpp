@@ -96,6 +96,8 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   fill_clusters(object, options.passes, out);
   out.fluid = object.fluid;
   out.grains = object.grains;
+  out.gas = object.gas;
+  out.tracers = object.tracers;
   add_whole_object_phases(out);
   out.lengths = find_length_ranges(out);
 

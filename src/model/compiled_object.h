@@ -74,6 +74,7 @@ struct CompiledVolume {
   Law law = Law::compliant;
   float response = 0;  ///< compliance alpha or PBD stiffness k'
   float damping = 0;
+  float lift = 0;  ///< Volume::lift [kg/m^3]
   bool keeps_momentum =
       false;  ///< true: its own constraints may not turn or move the object as a whole (solver/momentum.h)
 };
@@ -114,6 +115,8 @@ struct CompiledObject {
   std::vector<std::array<int, 2>> lines;  ///< contact lines of an object without triangles
   std::optional<Fluid> fluid;             ///< its particles are a liquid
   std::optional<Grains> grains;           ///< its particles are grains
+  std::optional<Gas> gas;                 ///< its liquid is a gas
+  std::optional<Tracers> tracers;         ///< its particles are tracers
   bool has_volume = false;
   CompiledVolume volume;
   bool self_collision = false, collides = false, is_collider = false;

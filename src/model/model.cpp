@@ -177,6 +177,19 @@ void clear_frames(int first, int count, FrameRecords& frames) {
   std::fill_n(frames.inverse_inertias.begin() + first, count, Record{});
 }
 
+namespace {
+
+/// Sets a channel of an object's particles. Channels are ordered by name, so that their order does not depend on that of objects.
+void fill_channel(const Model& model, int object, const char* name, float value, State& state) {
+  auto channel =
+      std::find_if(state.channels.begin(), state.channels.end(), [&](const Channel& one) { return one.name >= name; });
+  if (channel == state.channels.end() || channel->name != name)
+    channel = state.channels.insert(channel, {name, 1, std::vector<float>(state.positions.size(), 0.f)});
+  std::fill_n(channel->values.begin() + model.first[object], model.objects[object].particles, value);
+}
+
+}  // namespace
+
 void put_at_start(const Model& model, int object, State& state) {
   const CompiledObject& from = model.objects[object];
   const auto particles = static_cast<std::size_t>(model.particles());
@@ -194,6 +207,9 @@ void put_at_start(const Model& model, int object, State& state) {
   std::fill_n(state.velocities.begin() + model.first[object], from.particles, Record{});
   std::copy(from.velocities.begin(), from.velocities.end(), state.velocities.begin() + model.first[object]);
   std::fill_n(state.remainders.begin() + model.first[object], from.particles, Record{});
+  for (Channel& channel : state.channels) channel.values.resize(particles * static_cast<std::size_t>(channel.components));
+  if (from.gas) fill_channel(model, object, temperature_channel, from.gas->temperature, state);
+  if (from.tracers) fill_channel(model, object, age_channel, no_age, state);
 }
 
 State initial_state(const Model& model) {

@@ -60,6 +60,10 @@ struct Model {
   int object_of(int particle) const { return blocks.owner_of(particle); }
 };
 
+/// Channels of a State: of gases [K], and of tracers [s], where `no_age` says that one is not there.
+inline constexpr const char *temperature_channel = "temperature", *age_channel = "age";
+inline constexpr float no_age = -1;
+
 /// The State at time 0.
 State initial_state(const Model& model);
 

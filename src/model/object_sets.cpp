@@ -133,7 +133,7 @@ bool are_of_a_kind(const SetMember& a, const SetMember& b) {
 bool can_meet(const SetMember& a, const SetMember& b) {
   if (are_of_a_kind(a, b)) return true;
   const bool by_masks = (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
-  if (a.is_of_grains && b.is_of_grains && by_masks) return true;
+  if (((a.is_of_grains && b.is_of_grains) || (a.is_of_gas && b.is_of_gas)) && by_masks) return true;
   const bool by_kind = a.is_collider != b.is_collider || (a.collides && b.collides && !a.is_collider);
   return by_masks && by_kind;
 }
@@ -159,15 +159,15 @@ class Forest {
 
 /// Divides members into classes that meet the same members. Scenes with many objects have few classes.
 std::vector<std::vector<int>> classes_of(const std::vector<SetMember>& members) {
-  std::map<std::tuple<std::uint32_t, std::uint32_t, bool, bool, float, float, bool>, std::size_t> numbers;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, bool, bool, float, float, bool, bool>, std::size_t> numbers;
   std::vector<std::vector<int>> classes;
   for (int i = 0; i < static_cast<int>(members.size()); ++i) {
     const SetMember& m = members[i];
-    const std::size_t number =
-        numbers
-            .try_emplace({m.groups, m.mask, m.collides, m.is_collider, m.spacing, m.speed_of_sound, m.is_of_grains},
-                         classes.size())
-            .first->second;
+    const std::size_t number = numbers
+                                   .try_emplace({m.groups, m.mask, m.collides, m.is_collider, m.spacing, m.speed_of_sound,
+                                                 m.is_of_grains, m.is_of_gas},
+                                                classes.size())
+                                   .first->second;
     if (number == classes.size()) classes.emplace_back();
     classes[number].push_back(i);
   }
@@ -240,16 +240,36 @@ int substeps_of_grains(const GrainHeights& grains, double height) {
   return std::clamp(static_cast<int>(std::ceil(std::min(frame_time / h, 1e4))), 8, 1000);
 }
 
+namespace {
+
+/// The largest acceleration of what weighs in an object of fluid [m/s^2]. A gas weighs what its weight differs from that of air.
+double acceleration_of_fluid(const Object& object) {
+  constexpr double least = 0.2;  // of gravity: what moves presses too
+  if (!object.gas) return least_acceleration;
+  double lightest = static_cast<double>(object.gas->temperature), share = least;
+  for (const GasHeater& heater : object.gas->heaters)
+    lightest = std::max(lightest, static_cast<double>(heater.temperature));
+  for (const double temperature : {lightest, static_cast<double>(object.gas->temperature)})
+    share = std::max(share, std::abs(static_cast<double>(object.gas->ambient_density / object.fluid->density) *
+                                         temperature / static_cast<double>(object.gas->ambient_temperature) -
+                                     1));
+  return least_acceleration * share;
+}
+
+}  // namespace
+
 int substeps_of_fluid(const Object& object, double frame_time) {
   constexpr double error = 0.0035, relaxation = 0.4;        // of solver/fluids/fluid_solver.cpp
   constexpr double squared_gradients = 0.98, excess = 1.3;  // over 1 / reach^2 in a liquid at rest; over a plain sum
   const double reach = 2 * static_cast<double>(object.fluid->spacing);
   const double depth = std::max(depth_of(object), 5 * reach);
-  const double h = std::sqrt(error * relaxation / (squared_gradients * excess * least_acceleration * depth / 2)) * reach;
+  const double h =
+      std::sqrt(error * relaxation / (squared_gradients * excess * acceleration_of_fluid(object) * depth / 2)) * reach;
   return std::clamp(static_cast<int>(std::ceil(std::min(frame_time / h, 1e4))), 4, 1000);
 }
 
 int own_substeps(const Object& object, Sweep sweep, bool is_blown, double frame_time) {
+  if (object.tracers) return 1;
   if (object.fluid) return substeps_of_fluid(object, frame_time);
   if (object.grains) return substeps_of_grains(heights_of_grains(object, frame_time), depth_of(object));
   const bool is_of_bodies = !object.bodies.empty() && object.bodies.size() == object.positions.size();
@@ -294,7 +314,8 @@ SetMember member_of(const Object& object, int substeps, SubstepRule rule, double
           fluid.spacing,
           fluid.speed_of_sound,
           object.grains.has_value(),
-          heights_of_grains(object, frame_time)};
+          heights_of_grains(object, frame_time),
+          object.gas || object.tracers};
 }
 
 SetMember member_of(const MeshCollider& collider) {

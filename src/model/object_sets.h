@@ -107,6 +107,7 @@ struct SetMember {
   float spacing = 0, speed_of_sound = 0;  ///< of a liquid, which meets those that have the same; 0: it is none
   bool is_of_grains = false;              ///< grains meet by their masks
   GrainHeights grains{};                  ///< if it is to have its substeps
+  bool is_of_gas = false;                 ///< gases and tracers meet by their masks
 };
 
 SetMember member_of(const Object& object, int substeps, SubstepRule rule, double frame_time = 0);

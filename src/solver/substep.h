@@ -7,6 +7,7 @@ namespace pliant {
 
 class BodySolver;
 class FluidSolver;
+class GasSolver;
 class GrainSolver;
 
 /// Views of the data of a step, and the numbers of one substep. Over fifteen members, because stages are free
@@ -24,6 +25,7 @@ struct Substep {
   BodySolver* bodies = nullptr;        ///< contact of rigid bodies; null if there are none
   FluidSolver* fluids = nullptr;       ///< density of liquids; null if there are none
   GrainSolver* grains = nullptr;       ///< contacts of grains; null if there are none
+  GasSolver* gases = nullptr;          ///< buoyancy and heat of gases, and tracers; null if there are none
   double frame_start = 0, dt = 0;      ///< start and length of the frame [s]
   float h = 0;                         ///< length of a substep [s]
   int number = 0;                      ///< index of the substep in the frame, from 0

@@ -22,10 +22,17 @@ constexpr int most_to_hang = 100;
 SetMember member_of(const CompiledObject& object) {
   if (object.particles == 0) return {};  // the object was removed
   const Fluid fluid = object.fluid.value_or(Fluid{.spacing = 0});
-  return {object.groups,       object.mask,          object.collides && !object.is_collider,
-          object.is_collider,  object.own_substeps,  object.substep_rule,
-          fluid.spacing,       fluid.speed_of_sound, object.grains.has_value(),
-          object.grain_heights};
+  return {object.groups,
+          object.mask,
+          object.collides && !object.is_collider,
+          object.is_collider,
+          object.own_substeps,
+          object.substep_rule,
+          fluid.spacing,
+          fluid.speed_of_sound,
+          object.grains.has_value(),
+          object.grain_heights,
+          object.gas || object.tracers};
 }
 
 /// True if the limit of overstretch applies: other sweeps leave whole regions too long, which shortening one constraint

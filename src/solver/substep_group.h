@@ -14,6 +14,7 @@
 #include "model/object_sets.h"
 #include "solver/bodies/body_solver.h"
 #include "solver/fluids/fluid_solver.h"
+#include "solver/gases/gas_solver.h"
 #include "solver/grains/grain_solver.h"
 
 namespace pliant {
@@ -37,6 +38,7 @@ struct SubstepGroup {
   std::unique_ptr<BodySolver> bodies{};   ///< also where it has all; null without rigid bodies
   std::unique_ptr<FluidSolver> fluids{};  ///< likewise; null without liquids
   std::unique_ptr<GrainSolver> grains{};  ///< likewise; null without grains
+  std::unique_ptr<GasSolver> gases{};     ///< likewise; null without gases and tracers
   std::unique_ptr<PairModel> pair_model{};
   std::unique_ptr<SurfaceContact> pairs{};  ///< contact between surfaces; null if no two of the group can touch
 

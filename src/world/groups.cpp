@@ -140,6 +140,8 @@ void make_particle_solvers(WorldData& world) {
     if (!group.grains->has_grains()) group.grains = nullptr;
     group.fluids = std::make_unique<FluidSolver>(world.model, group.has_all ? nullptr : &group.objects);
     if (!group.fluids->has_fluids()) group.fluids = nullptr;
+    group.gases = std::make_unique<GasSolver>(world.model, group.has_all ? nullptr : &group.objects);
+    if (!group.gases->has_gases()) group.gases = nullptr;
   }
 }
 

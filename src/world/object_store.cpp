@@ -103,7 +103,7 @@ void give_back_state(WorldData& world, int number, const ObjectState& kept, cons
     x = {kept.positions[from].x, kept.positions[from].y, kept.positions[from].z, x.w};
     world.state.remainders[at] = kept.remainders[from];
     world.state.velocities[at] = x.w > 0 ? kept.velocities[from] : Record{};
-    for (std::size_t c = 0; c < world.state.channels.size(); ++c) {
+    for (std::size_t c = 0; c < kept.channels.size(); ++c) {
       const auto components = static_cast<std::size_t>(world.state.channels[c].components);
       for (std::size_t k = 0; k < components; ++k)
         world.state.channels[c].values[at * components + k] = kept.channels[c][from * components + k];

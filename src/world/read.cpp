@@ -63,6 +63,19 @@ std::vector<Vec3f> ObjectView::velocities() const {
   return in_given_order(*read_, read_->number(id_), read_->state.velocities);
 }
 
+std::vector<float> ObjectView::channel(const std::string& name) const {
+  const int number = read_->number(id_);
+  const CompiledObject& object = read_->model.objects[number];
+  for (const Channel& channel : read_->state.channels) {
+    if (channel.name != name || channel.components != 1) continue;
+    std::vector<float> out;
+    for (int user = 0; user < object.user_particles; ++user)
+      out.push_back(channel.values[static_cast<std::size_t>(read_->model.first[number] + object.place[user])]);
+    return out;
+  }
+  return {};
+}
+
 void ObjectView::read_positions(std::span<Vec3f> into) const { read(read_->object(id_), positions_of(*read_, id_), into); }
 void ObjectView::read_velocities(std::span<Vec3f> into) const {
   read(read_->object(id_), velocities_of(*read_, id_), into);

@@ -59,6 +59,25 @@ void require_substeps(const State& state) {
       throw Error({}, "the state has an object of " + std::to_string(substeps) + " substeps", "give 0 to 10000");
 }
 
+/// What gases and tracers read of the State must be there.
+void require_channels_of(const Model& model, const State& state) {
+  const auto require = [&](const CompiledObject& object, const char* name) {
+    const auto found = std::find_if(state.channels.begin(), state.channels.end(), [&](const Channel& channel) {
+      return channel.name == name && channel.components == 1;
+    });
+    if (found == state.channels.end())
+      throw Error({.object = object.name, .element = std::string("channel '") + name + "'"}, "is missing in the state",
+                  "restore a state of this world");
+    if (std::any_of(found->values.begin(), found->values.end(), [](float value) { return !std::isfinite(value); }))
+      throw Error({.object = object.name, .element = std::string("channel '") + name + "'"},
+                  "has a value that is not finite", "restore an earlier state");
+  };
+  for (const CompiledObject& object : model.objects) {
+    if (object.gas) require(object, temperature_channel);
+    if (object.tracers) require(object, age_channel);
+  }
+}
+
 /// All numbers of a contact that must be finite.
 bool is_finite(const BodyContact& c) {
   float sum = c.substep + c.twist_impulse;
@@ -236,6 +255,7 @@ void World::restore(const State& state) {
   }
   require_frames_of(data_->state.frames, state.frames);
   require_channels(state);
+  require_channels_of(data_->model, state);
   require_substeps(state);
   require_body_contacts(state);
   require_grain_contacts(state);

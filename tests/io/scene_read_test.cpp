@@ -167,6 +167,7 @@ TEST_F(FullScene, HasItsBalloonAndTube) {
   ASSERT_TRUE(balloon.volume.has_value());
   EXPECT_EQ(balloon.volume->pressure, 1.5f);
   EXPECT_EQ(balloon.volume->stiffness.value, 0.0625f);
+  EXPECT_EQ(balloon.volume->lift, 1.0625f);
   for (const Vec3f& p : balloon.positions) EXPECT_NEAR(length_squared(p), 0.25, 1e-5);
   EXPECT_EQ(balloon.static_friction, fabric("rubber sheet").static_friction);
   const Object& tube = scene.objects.at(2);
@@ -216,6 +217,43 @@ TEST_F(FullScene, HasClusters) {
   EXPECT_EQ(first.stiffness.damping, 2.f);
   EXPECT_EQ(rope->clusters[1].particles.size(), 5u);
   EXPECT_EQ(rope->clusters[1].mode, Cluster::Mode::linear);
+}
+
+TEST_F(FullScene, HasItsGases) {
+  const auto named = [&](const char* name) {
+    return *std::find_if(scene.objects.begin(), scene.objects.end(), [&](const Object& one) { return one.name == name; });
+  };
+  const Object steam = named("steam");
+  ASSERT_TRUE(steam.gas && steam.fluid);
+  EXPECT_EQ(steam.fluid->spacing, 0.25f);
+  EXPECT_EQ(steam.fluid->density, 0.5f);
+  EXPECT_EQ(steam.fluid->speed_of_sound, 12.5f);
+  EXPECT_EQ(steam.gas->temperature, 380);
+  EXPECT_EQ(steam.gas->ambient_temperature, 280);
+  EXPECT_EQ(steam.gas->ambient_density, 1.25f);
+  EXPECT_EQ(steam.gas->cooling_time, 2);
+  EXPECT_EQ(steam.gas->diffusivity, 0.125f);
+  EXPECT_EQ(steam.gas->drag, 3);
+  EXPECT_EQ(steam.gas->vorticity, 0.25f);
+  ASSERT_EQ(steam.gas->heaters.size(), 2u);
+  EXPECT_EQ(steam.gas->heaters[0].region.centre, (Vec3f{-8, 14, 1}));
+  EXPECT_EQ(steam.gas->heaters[0].region.radius, 0.5f);
+  EXPECT_EQ(steam.gas->heaters[0].temperature, 600);
+  EXPECT_EQ(steam.gas->heaters[0].rate, 4);
+  EXPECT_EQ(steam.gas->heaters[1].region.centre, (Vec3f{-7.5f, 14.5f, 2}));
+  EXPECT_EQ(steam.gas->heaters[1].region.half_size, (Vec3f{0.5f, 0.5f, 1}));
+  const Object breath = named("breath");
+  EXPECT_EQ(breath.gas->temperature, 400);
+  EXPECT_EQ(breath.gas->ambient_density, 1.204f);
+  const Object smoke = named("smoke");
+  ASSERT_TRUE(smoke.tracers);
+  EXPECT_EQ(smoke.positions.size(), 64u);
+  EXPECT_EQ(smoke.tracers->rate, 32);
+  EXPECT_EQ(smoke.tracers->lifetime, 2);
+  EXPECT_EQ(smoke.tracers->start, 1);
+  EXPECT_EQ(smoke.tracers->end, 8);
+  EXPECT_EQ(smoke.tracers->radius, 0.125f);
+  EXPECT_EQ(smoke.tracers->opacity, 0.25f);
 }
 
 TEST_F(FullScene, HasItsGrains) {
@@ -344,7 +382,7 @@ TEST(SceneSchema, HoldsEveryFieldWithItsRange) {
   EXPECT_EQ(settings.at("properties").at("substeps").at("maximum"), 10000);
   EXPECT_EQ(schema.at("$defs").at("sphere").at("properties").at("radius").at("exclusiveMinimum"), 0);
   EXPECT_EQ(schema.at("$defs").at("scene").at("required"), nlohmann::json({"objects"}));
-  EXPECT_EQ(schema.at("$defs").at("object").at("oneOf").size(), 7U);
+  EXPECT_EQ(schema.at("$defs").at("object").at("oneOf").size(), 9U);
 }
 
 TEST(SceneSchema, NamesEveryConstraintType) {

@@ -37,7 +37,7 @@ TEST(SceneRefusal, SaysWhatIsWrongAndWhatToDo) {
             "'stiffness'), found a number");
   EXPECT_EQ(scene_message(R"({"objects": [{}]})"),
             "x.json:1:14: /objects/0: the kind of this object is missing; "
-            "give exactly one of 'cloth', 'rope', 'liquid', 'grains', 'particles', 'bodies' and 'urdf'");
+            "give exactly one of 'cloth', 'rope', 'liquid', 'gas', 'tracers', 'grains', 'particles', 'bodies' and 'urdf'");
   EXPECT_EQ(scene_message(R"({"objects": [], "colliders": [{"box": {}, "plane": {}}]})"),
             "x.json:1:31: /colliders/0: more than one kind is given; "
             "give exactly one of 'plane', 'sphere', 'capsule', 'box' and 'mesh'");
@@ -157,7 +157,8 @@ TEST_F(EveryField, MeetsItsLimits) {
     if (!value.is_number()) return;
     const std::string name = at.back();
     const bool may_be_negative = name.size() == 1 || name == "degrees" || name == "low" || name == "high" ||
-                                 name == "speed" || name == "position";  // parts of vectors, rest data, joints
+                                 name == "speed" || name == "position" || name == "lift" || name == "start" ||
+                                 name == "end";  // parts of vectors, rest data, joints, balloons, times
     Json changed = scene;
     changed[at] = -0.001;
     const bool refused = std::string(scene_error(changed.dump()).what()) != "";

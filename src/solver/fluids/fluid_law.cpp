@@ -11,6 +11,7 @@ struct Lattice {
   double cubes = 0;         ///< of q^3, with the point itself
   double fourths = 0;       ///< of q^4, without it
   double moments = 0;       ///< of q^2 r
+  double steepness = 0;     ///< of q^2 / r, without it
   double cubes_beyond = 0;  ///< of q^3 behind a plane at half a spacing
 };
 
@@ -24,7 +25,10 @@ Lattice lattice() {
         sums.cubes += q * q * q;
         sums.moments += q * q * r;
         if (x < 0) sums.cubes_beyond += q * q * q;
-        if (x != 0 || y != 0 || z != 0) sums.fourths += q * q * q * q;
+        if (x != 0 || y != 0 || z != 0) {
+          sums.fourths += q * q * q * q;
+          sums.steepness += q * q / r;
+        }
       }
   return sums;
 }
@@ -55,6 +59,8 @@ FluidLaw fluid_law(float spacing) {
   law.density_scale = static_cast<float>(1 / cubes);
   law.gradient_scale = static_cast<float>(3 / cubes);
   law.least_sum = static_cast<float>(share_of_least * squared_gradients_at_rest(spacing));
+  law.passed_on = static_cast<float>(sums.moments / sums.cubes);
+  law.laplacian = static_cast<float>(6 * sums.steepness / sums.moments / (s * s));
   law.wall_scale = static_cast<float>(sums.cubes_beyond / sums.cubes / share_behind_plane(0.75));
   return law;
 }

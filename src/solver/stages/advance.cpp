@@ -26,7 +26,8 @@ bool settles(const Substep& s) { return s.is_last() || ends_quarter(s); }
 /// deferred. Nor is it where a share of the corrections becomes velocity, because the pass of both knows one h.
 bool velocities_are_read(const Substep& s) {
   return settles(s) || s.is_guarded || s.has_pairs() || s.bodies != nullptr || s.fluids != nullptr || s.grains != nullptr ||
-         !s.own->shape_contacts.empty() || has_forces(s.model, s.work.control) || s.context.separate_phases;
+         s.gases != nullptr || !s.own->shape_contacts.empty() || has_forces(s.model, s.work.control) ||
+         s.context.separate_phases;
 }
 
 /// Moves a kinematic particle to its position at the substep's end.

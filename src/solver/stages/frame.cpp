@@ -5,6 +5,7 @@
 #include "solver/bodies/body_solver.h"
 #include "solver/diagnose.h"
 #include "solver/fluids/fluid_solver.h"
+#include "solver/gases/gas_solver.h"
 #include "solver/grains/grain_solver.h"
 #include "solver/pair_words.h"
 #include "solver/stages/stages.h"
@@ -35,6 +36,7 @@ Substep begin_group(const StepContext& context, const GroupFrame& of, double dt)
   if (of.group != nullptr) s.bodies = of.group->bodies.get();
   if (of.group != nullptr) s.fluids = of.group->fluids.get();
   if (of.group != nullptr) s.grains = of.group->grains.get();
+  if (of.group != nullptr) s.gases = of.group->gases.get();
   if (of.group != nullptr) s.own_lengths = &of.group->lengths;
   for_objects(s, [&](int o) {
     s.work.gravity[o] = {0, static_cast<double>(s.h), 0, 1 / (1 + s.h * s.model.objects[o].damping)};
@@ -46,6 +48,7 @@ Substep begin_group(const StepContext& context, const GroupFrame& of, double dt)
   if (s.bodies != nullptr) s.bodies->begin_frame(s);
   if (s.fluids != nullptr) s.fluids->begin_frame();
   if (s.grains != nullptr) s.grains->begin_frame();
+  if (s.gases != nullptr) s.gases->begin_frame();
   s.sweeps_on_entry = may_sweep_on_entry(s);
   return s;
 }

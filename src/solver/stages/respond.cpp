@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "solver/bodies/body_solver.h"
+#include "solver/gases/gas_solver.h"
 #include "solver/stages/stages.h"
 #include "solver/substep_law.h"
 
@@ -68,6 +69,7 @@ void respond(Substep& s) {
   if (s.bodies != nullptr) s.bodies->respond(s, gravity);
   if (s.bodies != nullptr && s.work.contact_log != nullptr) s.bodies->log_contacts(s, *s.work.contact_log);
   respond_to_shapes(s, slow, gravity);
+  if (s.gases != nullptr) s.gases->respond(s, gravity);
   if (!s.has_pairs()) return;
   Record* velocities = s.state.velocities.data();
   s.own->contact_solver.for_each(s.context.executor, "respond", s.pairs->contacts(), [&](const Contact& contact) {
