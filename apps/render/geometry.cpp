@@ -280,6 +280,8 @@ std::vector<Vec3f> points_of_interest(const RenderScene& scene) {
     if (!mesh.is_solid) points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
   for (const RenderTube& tube : scene.tubes) points.insert(points.end(), tube.points.begin(), tube.points.end());
   for (const RenderBalls& balls : scene.balls) points.insert(points.end(), balls.centres.begin(), balls.centres.end());
+  for (const RenderSmoke& smoke : scene.smokes) points.insert(points.end(), smoke.centres.begin(), smoke.centres.end());
+  points.insert(points.end(), scene.unseen.begin(), scene.unseen.end());
   include_bodies(scene, false, std::numeric_limits<float>::infinity(), points);
   const float size = bounds(points).radius();
   include_bodies(scene, true, size == 0 ? std::numeric_limits<float>::infinity() : 2.5f * size, points);

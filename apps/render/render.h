@@ -41,6 +41,15 @@ struct RenderBalls {
   Vec3f colour{0.75f, 0.35f, 0.30f};
 };
 
+/// Puffs of smoke, drawn as one volume with self-shadow.
+struct RenderSmoke {
+  std::vector<Vec3f> centres;
+  std::vector<float> strengths;  ///< of each puff: factor of its density, 0..1
+  float radius = 0.05f;          ///< [m]
+  float opacity = 0.5f;          ///< how much of the light through the middle of a puff of strength 1 it takes
+  Vec3f colour{0.8f, 0.8f, 0.8f};
+};
+
 /// A rigid body in its present pose. Bodies of equal solids share their mesh.
 struct RenderBody {
   std::shared_ptr<const TriangleMesh> mesh;  ///< in the body's principal axes, about its centre of mass
@@ -81,10 +90,12 @@ struct RenderScene {
   std::optional<Extent> extent;       ///< none: the extent of this scene
   std::vector<RenderBody> bodies{};
   std::vector<RenderBalls> balls{};
+  std::vector<RenderSmoke> smokes{};
+  std::vector<Vec3f> unseen{};  ///< points that the camera frames, though nothing is drawn there
 };
 
 /// Makes what to draw of a World at present: objects with triangles as surfaces, ropes as tubes, free particles as balls, rigid
-/// bodies as their solids.
+/// bodies as their solids, tracers as smoke. Gases are not seen.
 RenderScene make_render_scene(const Scene& scene, const World& world);
 
 /// A camera at the front, to the right and above, that shows all of every scene in `scenes` in a picture of this shape.

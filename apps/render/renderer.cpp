@@ -11,6 +11,7 @@
 #include "pliant/error.h"
 #include "render.h"
 #include "shaders.h"
+#include "smoke.h"
 
 namespace pliant::render {
 
@@ -153,6 +154,7 @@ struct Renderer::Implementation {
   void draw_thickness(const Eye& eye, const Range& range, float middle) const;
   void draw_liquids(const Eye& eye, const Sun& sun, const Extent& extent) const;
   std::vector<std::uint8_t> read_back() const;
+  std::vector<float> read_depths() const;
 
   int width, height, half_width, half_height;
   Context context;
@@ -440,6 +442,15 @@ std::vector<std::uint8_t> Renderer::Implementation::read_back() const {
   return result;
 }
 
+std::vector<float> Renderer::Implementation::read_depths() const {
+  std::vector<float> depths(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, depth.framebuffer.get());
+  glReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+  if (glGetError() != GL_NO_ERROR) throw Error({}, "the OpenGL driver failed while drawing", "choose a smaller picture");
+  return depths;
+}
+
 std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scene) {
   check(scene);
   context.make_current();
@@ -468,7 +479,19 @@ std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scen
   draw_sky(eye);
   draw_surfaces(eye, sun, extent, pixel);
   draw_liquids(eye, sun, extent);
-  return read_back();
+  std::vector<std::uint8_t> result = read_back();
+  if (scene.smokes.empty()) return result;
+  const SmokeView view{.eye = camera.eye,
+                       .frame = eye.frame,
+                       .half_width = eye.half_width,
+                       .half_height = eye.half_height,
+                       .near = eye.near,
+                       .far = eye.far,
+                       .width = width,
+                       .height = height,
+                       .sun = sun.direction};
+  draw_smoke(scene.smokes, view, read_depths(), result);
+  return result;
 }
 
 Renderer::Renderer(int width, int height) {

@@ -72,7 +72,9 @@ float ground_height(const Scene& scene, const std::vector<RenderCollider>& at_re
                             .camera = {},
                             .extent = {},
                             .bodies = {},
-                            .balls = {}}))
+                            .balls = {},
+                            .smokes = {},
+                            .unseen = {}}))
     low = std::min(low, point.y);
   for (const MeshCollider& collider : scene.mesh_colliders)
     for (const Vec3f& position : collider.mesh.positions) low = std::min(low, position.y);
@@ -156,12 +158,38 @@ void add_liquid(RenderScene& result, const Object& object, std::vector<Vec3f> po
                            .is_liquid = true});
 }
 
+/// Draws tracers as smoke that thins out with age.
+void add_smoke(RenderScene& result, const Object& object, const ObjectView& view, const std::vector<Vec3f>& positions) {
+  const std::vector<float> ages = view.channel("age");
+  RenderSmoke smoke{.centres = {},
+                    .strengths = {},
+                    .radius = object.tracers->radius,
+                    .opacity = object.tracers->opacity,
+                    .colour = object.colour};
+  for (std::size_t i = 0; i < ages.size(); ++i) {
+    if (ages[i] < 0) continue;
+    const float left = std::clamp(1 - ages[i] / object.tracers->lifetime, 0.f, 1.f);
+    smoke.centres.push_back(positions[i]);
+    smoke.strengths.push_back(left * std::min(1.f, 8 * (1 - left) + 0.2f));
+  }
+  result.smokes.push_back(std::move(smoke));
+}
+
 void add_object(RenderScene& result, const Object& object, const ObjectView& view) {
   const output::FrameObject shape = output::describe(object);
   std::vector<Vec3f> positions = view.positions();
   add_bodies(result, object, shape, view);
   add_threads(result, object, view);
   if (!shape.has_matter()) return;
+  if (object.tracers) return add_smoke(result, object, view, positions);
+  if (object.gas) {  // clear, but smoke will be where it is
+    Bounds box;
+    for (const Vec3f& p : object.positions) box.include(p);
+    for (const float x : {box.low.x, box.high.x})
+      for (const float y : {box.low.y, box.high.y})
+        for (const float z : {box.low.z, box.high.z}) result.unseen.push_back({x, y, z});
+    return;
+  }
   if (object.fluid) return add_liquid(result, object, std::move(positions), shape.colour);
   if (!shape.triangles.empty()) {
     result.meshes.push_back({std::move(positions), shape.triangles, shape.colour, false});
