@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "pliant/liquid.h"
 #include "pliant/scene.h"
 #include "scene_grammar_parts.h"
 #include "scene_grammar_words.h"
@@ -121,6 +122,11 @@ const Record& fill_record() {
 }
 
 namespace {
+std::vector<std::string> liquid_names() {
+  std::vector<std::string> names;
+  for (const LiquidKind& one : liquids()) names.push_back(one.name);
+  return names;
+}
 
 const Record& liquid_record() {
   static const Record result{
@@ -129,9 +135,13 @@ const Record& liquid_record() {
       {either("fill", record(fill_record()), "The box or mesh that it fills at the start."),
        either("positions", list(place(), 1), "Positions of the particles at the start, about a spacing apart."),
        field("spacing", positive("m", largest_place), Fluid{}.spacing, "Distance of particles at rest."),
-       field("density", positive("kg/m^3"), Fluid{}.density, "Density at rest."),
+       field("kind", choice(liquid_names()), "none", "A real liquid, whose density and viscosity are the defaults."),
+       field("density", positive("kg/m^3"), "that of `kind`, else 1000", "Density at rest."),
        field("speed_of_sound", number("m/s", 0, largest_velocity), Fluid{}.speed_of_sound,
-             "By which it yields to a pressure p: by p / (density c^2). 0: it does not yield.")},
+             "By which it yields to a pressure p: by p / (density c^2). 0: it does not yield."),
+       field("viscosity", number("Pa s", 0, 1e6), "that of `kind`, else 0",
+             "Dynamic viscosity: water 0.001, honey 10. 0: none. A liquid with viscosity does not slip along colliders and "
+             "bodies.")},
       {"fill", "positions"}};
   return result;
 }

@@ -108,9 +108,15 @@ BuiltObject liquid_of(const JsonDocument& document, const JsonValue& at, const s
                       std::vector<std::string>& repairs) {
   LiquidOptions options;
   options.name = name;
+  if (const JsonValue* kind = at.find("kind")) {
+    const LiquidKind& of = liquid(kind->text);
+    options.fluid.density = of.density;
+    options.fluid.viscosity = of.viscosity;
+  }
   set(at, "spacing", options.fluid.spacing);
   set(at, "density", options.fluid.density);
   set(at, "speed_of_sound", options.fluid.speed_of_sound);
+  set(at, "viscosity", options.fluid.viscosity);
   return {make_liquid(places_of({document, folder, name, repairs, options.fluid.spacing}, at), options)};
 }
 

@@ -2,11 +2,26 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pliant/scene.h"
 
 namespace pliant {
+
+/// What a real liquid is like at about 20 degrees Celsius.
+struct LiquidKind {
+  std::string name;
+  float density = 1000;  ///< [kg/m^3]
+  float viscosity = 0;   ///< dynamic [Pa s]
+  std::string source;    ///< where the numbers come from
+};
+
+/// Returns a built-in liquid: "water", "oil", "glycerine" or "honey". For any other name throws an Error that lists the names.
+const LiquidKind& liquid(std::string_view name);
+
+/// All built-in liquids.
+const std::vector<LiquidKind>& liquids();
 
 /// Options of make_liquid.
 struct LiquidOptions {

@@ -49,6 +49,7 @@ struct Fluid {
   float spacing = 0.02f;     ///< distance of particles at rest [m]
   float density = 1000;      ///< at rest [kg/m^3]
   float speed_of_sound = 0;  ///< by which it yields to pressure p: by p / (density c^2); 0: it does not yield [m/s]
+  float viscosity = 0;       ///< dynamic: water 0.001, honey 10; 0: none; at most 1e6 [Pa s]
 };
 
 /// Makes the particles of an object grains: spheres that press on one another with friction, and do not turn. Grains whose objects meet by

@@ -147,6 +147,20 @@ struct Compression {
   int crowded = 0;               ///< particles with over 256 neighbours, of which the rest was left out
 };
 
+/// How the solves for the viscosity of liquids went in a frame (docs/guide/liquids.md).
+struct ViscositySolves {
+  int iterations = 0;   ///< the most of any solve
+  int unfinished = 0;   ///< solves that the limit of 200 iterations ended; a warning says so
+  double residual = 0;  ///< of those, the largest residual over that at the start of its solve [-]
+
+  ViscositySolves& operator+=(const ViscositySolves& other) {
+    iterations = iterations > other.iterations ? iterations : other.iterations;
+    unfinished += other.unfinished;
+    residual = residual > other.residual ? residual : other.residual;
+    return *this;
+  }
+};
+
 /// The result of a step. A step never throws, except for exceptions of the user's force fields.
 struct Report {
   std::int64_t frame = 0;
@@ -164,6 +178,7 @@ struct Report {
   TieGap widest_tie;                           ///< of this frame, by gap / length; a warning says so if not tolerable
   std::vector<IterationResidual> convergence;  ///< last substep by iteration, if Settings::record_residuals is set
   Compression compression;                     ///< of liquids
+  ViscositySolves viscosity;                   ///< of liquids
   int sleeping_bodies = 0;                     ///< rigid bodies that sleep at the end of the step (SleepOptions)
   std::vector<JointBreak> broken_joints;       ///< joints that broke in this step, by object and index
   std::optional<NonFinite> nonfinite;

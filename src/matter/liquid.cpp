@@ -28,6 +28,9 @@ Object make_liquid(const std::vector<Vec3f>& positions, const LiquidOptions& opt
   if (!(fluid.speed_of_sound >= 0) || !std::isfinite(fluid.speed_of_sound))
     throw Error({.object = options.name, .element = "speed_of_sound"}, "is " + std::to_string(fluid.speed_of_sound),
                 "give a positive speed [m/s], or 0 for a liquid that does not yield");
+  if (!(fluid.viscosity >= 0) || !std::isfinite(fluid.viscosity))
+    throw Error({.object = options.name, .element = "viscosity"}, "is " + std::to_string(fluid.viscosity),
+                "give a positive viscosity [Pa s], or 0 for none");
   Object liquid;
   liquid.name = options.name;
   liquid.positions = positions;

@@ -10,15 +10,14 @@ using namespace bodies;
 
 namespace {
 
-/// The present centre of a body.
-Vec3f centre_of(const Substep& s, int body) {
-  const TouchedBody& of = s.bodies->touched_bodies()[at(body)];
-  return xyz(s.state.positions[at(of.particle)]) + xyz(s.work.displacements[at(of.particle)]);
-}
-
 int body_of(const Substep& s, const NearSolid& near) { return s.bodies->solids().body_of_solid()[at(near.solid)]; }
 
 }  // namespace
+
+Vec3f FluidBodies::centre_of(const Substep& s, int body) {
+  const TouchedBody& of = s.bodies->touched_bodies()[at(body)];
+  return xyz(s.state.positions[at(of.particle)]) + xyz(s.work.displacements[at(of.particle)]);
+}
 
 FluidBounds FluidBodies::bounds(const Substep& s, int object) {
   FluidBounds all{&s.own->colliders, nullptr, {}};

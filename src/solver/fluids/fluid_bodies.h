@@ -17,6 +17,8 @@ class FluidBodies {
  public:
   /// The colliders and bodies that bound an object's liquid in the present substep.
   static FluidBounds bounds(const Substep& s, int object);
+  /// The present centre of mass of one of BodySolver::touched_bodies().
+  static Vec3f centre_of(const Substep& s, int body);
 
   /// After the walls are measured: counts the slots that touch each body.
   void count(const Substep& s, const FluidWalls& walls);

@@ -65,6 +65,7 @@ FluidSolver::FluidSolver(const Model& model, const std::vector<int>* objects) {
     p.objects.push_back(o);
     p.law = fluid_law(object.fluid->spacing);
     p.softness = fluid_compliance(object.fluid->speed_of_sound);
+    p.viscosity.add(object.fluid->viscosity, object.particles);
     for (int i = model.first[at(o)]; i < model.end_of(o); ++i) p.points.push_back(i);
   };
   const auto densities = [&](FluidPool& p) {
@@ -86,7 +87,10 @@ FluidSolver::FluidSolver(const Model& model, const std::vector<int>* objects) {
 FluidSolver::~FluidSolver() = default;
 
 void FluidSolver::begin_frame() {
-  for (auto& pool : pools_) pool->age = -1;
+  for (auto& pool : pools_) {
+    pool->age = -1;
+    pool->viscosity.begin_frame();
+  }
 }
 
 void FluidSolver::find_neighbours(Substep& s, FluidPool& pool) {
@@ -172,7 +176,16 @@ void FluidSolver::project(Substep& s, FluidPool& pool, bool is_first) {
 }
 
 void FluidSolver::project(Substep& s, bool is_first) {
-  for (auto& pool : pools_) project(s, *pool, is_first);
+  for (auto& pool : pools_) {
+    project(s, *pool, is_first);
+    pool->viscosity.solve(s, *pool, is_first);
+  }
+}
+
+ViscositySolves FluidSolver::viscosity() const {
+  ViscositySolves all;
+  for (const auto& pool : pools_) all += pool->viscosity.solves();
+  return all;
 }
 
 Compression FluidSolver::compression() const {

@@ -11,6 +11,7 @@
 #include "pliant/report.h"
 #include "solver/fluids/fluid_bodies.h"
 #include "solver/fluids/fluid_walls.h"
+#include "solver/fluids/viscosity.h"
 
 namespace pliant {
 
@@ -26,6 +27,7 @@ struct FluidPool {
   NeighbourLists neighbours;
   FluidWalls walls;
   FluidBodies bodies;
+  FluidViscosity viscosity;
   float mass = 0;                             ///< of a particle of the lightest liquid [kg]; 0 if all are fixed
   std::vector<float> squares;                 ///< by slot: what bodies add to the squared gradients [1/m^2]
   std::vector<float> lightness_of_point;      ///< the least density over that of each point; empty if all have one
@@ -51,6 +53,8 @@ class FluidSolver {
   void project(Substep& s, bool is_first);
   /// Of the last projection.
   Compression compression() const;
+  /// Of all pools in this frame.
+  ViscositySolves viscosity() const;
   const std::vector<std::unique_ptr<FluidPool>>& pools() const { return pools_; }
 
  private:

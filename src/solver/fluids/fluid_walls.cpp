@@ -8,14 +8,6 @@ namespace {
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-/// The distance from a place to a collider at the substep's end, and its normal in world axes.
-SurfaceDistance<float> distance_to(const MovingCollider& collider, const Vec3f& place) {
-  const Vec3f local = to_local(collider.after, place);
-  SurfaceDistance<float> to =
-      collider.field != nullptr ? collider.field->distance(local) : signed_distance(collider.shape, local);
-  return {to.distance - collider.thickness, rotate(collider.after.rotation, to.normal)};
-}
-
 /// Primitive colliders meet every object.
 bool can_meet(const CompiledObject& liquid, const MovingCollider& collider) {
   return collider.field == nullptr || ((liquid.groups & collider.mask) != 0 && (collider.groups & liquid.mask) != 0);
@@ -73,6 +65,13 @@ bool is_within(const BoundingBox<float>& a, const BoundingBox<float>& b, float d
 }
 
 }  // namespace
+
+SurfaceDistance<float> distance_to(const MovingCollider& collider, const Vec3f& place) {
+  const Vec3f local = to_local(collider.after, place);
+  SurfaceDistance<float> to =
+      collider.field != nullptr ? collider.field->distance(local) : signed_distance(collider.shape, local);
+  return {to.distance - collider.thickness, rotate(collider.after.rotation, to.normal)};
+}
 
 const MovingCollider& FluidBounds::at(std::int32_t i) const {
   const int first = number_of_colliders();

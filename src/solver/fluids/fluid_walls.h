@@ -40,6 +40,14 @@ struct WallGradient {
   Vec3f gradient{};        ///< [1/m]
 };
 
+/// The distance from a place to a collider at the substep's end, and its normal in world axes.
+SurfaceDistance<float> distance_to(const MovingCollider& collider, const Vec3f& place);
+
+/// The colliders and solids near a group of slots: [first, last), as FluidBounds::at() counts.
+struct NearWalls {
+  const std::int32_t *first = nullptr, *last = nullptr;
+};
+
 class FluidWalls {
  public:
   /// Finds what is near each group of slots, for as long as no point moves farther than `motion` [m] against it.
@@ -54,6 +62,10 @@ class FluidWalls {
 
   const Records& shares() const { return shares_; }  ///< by slot: see FluidArrays::walls
   const std::vector<char>& has_any() const { return has_any_; }
+  NearWalls near(int group) const {
+    const auto g = static_cast<std::size_t>(group);
+    return {near_.data() + begin_[g], near_.data() + begin_[g + 1]};
+  }
   /// In the order of groups; those of a group are [first_solid(group), first_solid(group + 1)).
   const std::vector<NearSolid>& near_solids() const { return near_solids_; }
   int first_solid(int group) const { return first_solid_[static_cast<std::size_t>(group)]; }

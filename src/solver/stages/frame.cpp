@@ -1,6 +1,7 @@
 // Starts and ends a frame.
 #include <algorithm>
 #include <iterator>
+#include <string>
 
 #include "solver/bodies/body_solver.h"
 #include "solver/diagnose.h"
@@ -130,6 +131,14 @@ void add(const Compression& c, Compression& sum) {
   sum.crowded += c.crowded;
 }
 
+void add(const ViscositySolves& solves, Report& sum) {
+  sum.viscosity += solves;
+  if (solves.unfinished == 0) return;
+  sum.warnings.push_back("the viscosity of liquids was not solved to the end in " + std::to_string(solves.unfinished) +
+                         " substeps, at worst to " + std::to_string(100 * solves.residual) +
+                         " % of its residual; use more substeps, a larger spacing, or a lower viscosity");
+}
+
 void add(Substep& s, Report& sum) {
   Report& own = s.report;
   sum.substeps = std::max(sum.substeps, s.made);
@@ -139,6 +148,7 @@ void add(Substep& s, Report& sum) {
   std::move(own.broken_joints.begin(), own.broken_joints.end(), std::back_inserter(sum.broken_joints));
   std::move(own.warnings.begin(), own.warnings.end(), std::back_inserter(sum.warnings));
   if (s.fluids != nullptr) add(s.fluids->compression(), sum.compression);
+  if (s.fluids != nullptr) add(s.fluids->viscosity(), sum);
   if (!s.has_pairs()) return;
   add(s.pairs->counts(), sum.pairs);
   warn_of_pairs(s.model, *s.pairs, sum.warnings);
