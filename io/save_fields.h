@@ -140,11 +140,11 @@ void fields(A& a, Is<Tracers> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<Object> auto& of) {
-  auto& [name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains, clusters, gas,
-         tracers, pins, attachments, thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction,
-         restitution, rolling_friction, spinning_friction, drag, lift, sweep, damping, colour] = of;
-  a(name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains, clusters, gas,
-    tracers, pins, attachments, thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction,
+  auto& [name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains,
+         clusters, gas, tracers, pins, attachments, thickness, self_collision, collides, groups, mask, static_friction,
+         kinetic_friction, restitution, rolling_friction, spinning_friction, drag, lift, sweep, damping, colour] = of;
+  a(name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains, clusters,
+    gas, tracers, pins, attachments, thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction,
     restitution, rolling_friction, spinning_friction, drag, lift, sweep, damping);
   a.aside(colour);
 }
