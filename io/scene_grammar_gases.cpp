@@ -18,12 +18,20 @@ const Record& ball_record() {
   return result;
 }
 
+const Record& region_box_record() {
+  static const Record result{"region box",
+                             "An axis-aligned box in space.",
+                             {needed("min", place(), "Its low corner."), needed("max", place(), "Its high corner.")},
+                             {}};
+  return result;
+}
+
 const Record& region_record() {
-  static const Record result{
-      "region",
-      "A part of space.",
-      {either("box", record(fill_record()), "An axis-aligned box."), either("ball", record(ball_record()), "A ball.")},
-      {"box", "ball"}};
+  static const Record result{"region",
+                             "A part of space.",
+                             {either("box", record(region_box_record()), "An axis-aligned box."),
+                              either("ball", record(ball_record()), "A ball.")},
+                             {"box", "ball"}};
   return result;
 }
 

@@ -45,6 +45,9 @@ void check_clusters(Problems& problems, const Object& object) {
                  "names a particle that does not exist; there are " + std::to_string(object.positions.size()),
                  "indices count from 0");
   problems.grave(repeated, "cluster", "names a particle twice", "name each once");
+  if (!object.clusters.empty() && !object.bodies.empty())
+    problems.grave("clusters", "are of an object with rigid bodies",
+                   "use joints, or an object of its own for the particles");
   if (!object.clusters.empty() && object.fluid)
     problems.grave("clusters", "are of a liquid, which keeps no shape", "leave out the clusters, or the liquid");
 }

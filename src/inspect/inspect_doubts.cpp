@@ -94,6 +94,7 @@ void doubt_references(const Doubts& d) {
   for (const auto& triangle : d.object.triangles) std::for_each(triangle.begin(), triangle.end(), use);
   for (const Attachment& attachment : d.object.attachments) use(attachment.particle);
   for (const ObjectBody& body : d.object.bodies) use(body.particle);
+  for (const Cluster& cluster : d.object.clusters) std::for_each(cluster.particles.begin(), cluster.particles.end(), use);
   Tally loose;
   for (std::size_t i = 0; i < used.size(); ++i)
     if (!used[i]) loose.add(static_cast<std::int64_t>(i));

@@ -310,6 +310,10 @@ void check_tracers(Problems& problems, const Object& object) {
   const Tracers& tracers = *object.tracers;
   if (object.fluid || object.grains || !object.triangles.empty() || !object.constraints.empty() || !object.bodies.empty())
     problems.grave("tracers", "are a liquid, grains, a surface or constrained too", "give tracers an object of their own");
+  if (!object.clusters.empty() || !object.pins.empty() || !object.attachments.empty() ||
+      std::any_of(object.masses.begin(), object.masses.end(), [](float m) { return std::isinf(m); }))
+    problems.grave("tracers", "have clusters, pins, attachments or infinite masses",
+                   "leave these out: tracers follow gases");
   check_region(problems, "tracers, source", tracers.source);
   require_range(problems, "tracers, rate", tracers.rate, 1e-9, most);
   require_range(problems, "tracers, lifetime", tracers.lifetime, 1e-9, most);

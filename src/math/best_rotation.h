@@ -1,15 +1,17 @@
 // The rotation nearest to a 3 x 3 matrix.
 #pragma once
 
-#include <array>
-
 #include "math/functions.h"
 #include "math/quat.h"
 
 namespace pliant {
 
 /// A 3 x 3 matrix, row by row.
-using Matrix3d = std::array<double, 9>;
+struct Matrix3d {
+  double elements[9] = {};
+  PLIANT_HD double operator[](int i) const { return elements[i]; }
+  PLIANT_HD double& operator[](int i) { return elements[i]; }
+};
 
 namespace detail {
 

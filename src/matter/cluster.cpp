@@ -76,6 +76,11 @@ void add_clusters(Object& object, float size, const ClusterOptions& options) {
   if (!(size > 0) || !std::isfinite(size))
     throw Error(where, "have a size of " + std::to_string(size), "give a positive size in metres");
   if (object.positions.empty()) return;
+  constexpr float most_cells = 1e6f;  // along an axis
+  for (const Vec3f& p : object.positions)
+    if (!(length_squared(p) < most_cells * size * most_cells * size))
+      throw Error(where, "of " + std::to_string(size) + " m are too small for the object, or a position is not finite",
+                  "give a larger size");
   constexpr std::size_t fewest = 4;
   std::vector<char> is_in_one(object.positions.size(), 0);
   for (auto& [cell, particles] : particles_by_cell(object.positions, double(size))) {

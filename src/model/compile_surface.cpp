@@ -56,7 +56,7 @@ void fill_volume(const Object& object, int passes, CompiledObject& out) {
   out.volume.law = pbd ? Law::pbd : stiffness.damping > 0 ? Law::damped : Law::compliant;
   out.volume.response = pbd ? static_cast<float>(stiffness_per_projection(stiffness.value, passes)) : stiffness.value;
   out.volume.damping = stiffness.damping;
-  out.volume.lift = object.volume->lift;
+  out.volume.lift = six_volumes < 0 ? -object.volume->lift : object.volume->lift;
   for (int p = 0; p < out.particles; ++p) {
     const bool is_free = out.positions[p].w > 0 && out.surface.corner_begin[p] < out.surface.corner_begin[p + 1];
     out.volume.mass += is_free ? 1.0 / out.positions[p].w : 0;

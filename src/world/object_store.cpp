@@ -27,8 +27,8 @@ Multipliers kept_multipliers(const Settings& settings, Sweep sweep) {
 /// The part of the State that belongs to one object, in storage order.
 struct ObjectState {
   Records positions, remainders, velocities, orientations, angular_velocities;
-  std::vector<std::vector<float>> channels;
-  float substeps = 0;  ///< State::substeps
+  std::vector<Channel> channels;  ///< those that the object owns
+  float substeps = 0;             ///< State::substeps
 };
 
 /// Resizes the State to the model's particles and frames.
@@ -40,6 +40,13 @@ void fit_state(WorldData& world) {
   if (!world.state.substeps.empty()) world.state.substeps.resize(world.model.objects.size());
   for (Channel& channel : world.state.channels)
     channel.values.resize(particles * static_cast<std::size_t>(channel.components));
+}
+
+/// True if a channel has values of an object's particles: of a gas or of tracers alone, or of every object.
+bool owns(const CompiledObject& object, const Channel& channel) {
+  if (channel.name == temperature_channel) return object.gas.has_value();
+  if (channel.name == age_channel) return object.tracers.has_value();
+  return true;
 }
 
 /// Returns the State of an object, and sets that part of the State to zero.
@@ -63,7 +70,8 @@ ObjectState take_state(WorldData& world, int number) {
   for (Channel& channel : world.state.channels) {
     const std::ptrdiff_t begin = std::ptrdiff_t{first} * channel.components,
                          count = std::ptrdiff_t{particles} * channel.components;
-    out.channels.push_back(slice(channel.values, begin, count));
+    if (owns(world.model.objects[number], channel))
+      out.channels.push_back({channel.name, channel.components, slice(channel.values, begin, count)});
     std::fill_n(channel.values.begin() + begin, count, 0.f);
   }
   return out;
@@ -103,10 +111,12 @@ void give_back_state(WorldData& world, int number, const ObjectState& kept, cons
     x = {kept.positions[from].x, kept.positions[from].y, kept.positions[from].z, x.w};
     world.state.remainders[at] = kept.remainders[from];
     world.state.velocities[at] = x.w > 0 ? kept.velocities[from] : Record{};
-    for (std::size_t c = 0; c < kept.channels.size(); ++c) {
-      const auto components = static_cast<std::size_t>(world.state.channels[c].components);
-      for (std::size_t k = 0; k < components; ++k)
-        world.state.channels[c].values[at * components + k] = kept.channels[c][from * components + k];
+    for (const Channel& channel : kept.channels) {
+      if (!owns(world.model.objects[number], channel)) continue;
+      const auto components = static_cast<std::size_t>(channel.components);
+      const auto to = std::find_if(world.state.channels.begin(), world.state.channels.end(),
+                                   [&](const Channel& one) { return one.name == channel.name; });
+      for (std::size_t k = 0; k < components; ++k) to->values[at * components + k] = channel.values[from * components + k];
     }
   }
   if (!world.state.substeps.empty()) world.state.substeps[static_cast<std::size_t>(number)] = kept.substeps;

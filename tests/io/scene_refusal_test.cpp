@@ -62,6 +62,14 @@ TEST(SceneRefusal, SaysWhatAFillLacks) {
   says(R"({"mesh": {"box": {"size": [1000, 1000, 1000]}}})", "more than");
 }
 
+TEST(SceneRefusal, SaysWhatARegionLacks) {
+  const auto message = [](const std::string& box) {
+    return scene_message(R"({"objects": [{"name": "a", "tracers": {"source": {"box": )" + box + "}}}]}");
+  };
+  EXPECT_NE(message(R"({"min": [0, 0, 0]})").find("max"), std::string::npos) << message(R"({"min": [0, 0, 0]})");
+  EXPECT_NE(message(R"({"mesh": {"box": {"size": [1, 1, 1]}}})").find("mesh"), std::string::npos);
+}
+
 TEST(SceneRefusal, NamesThePlaceOfBoundsThatLeaveNoSubsteps) {
   EXPECT_EQ(scene_message("{\"objects\": [], \"settings\":\n {\"least_substeps\": 48, \"most_substeps\": 20}}"),
             "x.json:2:21: /settings/least_substeps: is 48, more than most_substeps, 20; "

@@ -16,7 +16,7 @@ Matrix3d product_sum(const std::vector<Vec3d>& r, const std::vector<Vec3d>& q) {
   for (std::size_t i = 0; i < r.size(); ++i) {
     const double rows[3] = {r[i].x, r[i].y, r[i].z}, columns[3] = {q[i].x, q[i].y, q[i].z};
     for (int j = 0; j < 3; ++j)
-      for (int k = 0; k < 3; ++k) a[static_cast<std::size_t>(3 * j + k)] += rows[j] * columns[k];
+      for (int k = 0; k < 3; ++k) a[3 * j + k] += rows[j] * columns[k];
   }
   return a;
 }

@@ -7,6 +7,7 @@
 #include "solver/gases/gas_formulas.h"
 #include "solver/gases/tracers.h"
 #include "solver/substep.h"
+#include "solver/substep_law.h"
 
 namespace pliant {
 
@@ -110,6 +111,7 @@ GasSolver::~GasSolver() = default;
 void GasSolver::begin_frame() {
   substeps_ = 0;
   seconds_ = 0;
+  last_pass_ = -1;
 }
 
 void GasSolver::bear_up(Substep& s) const {
@@ -173,7 +175,7 @@ void GasSolver::store(Substep& s, const GasPass& pass, FunctionRef<Vec3f(int)> g
 
 void GasSolver::respond(Substep& s, FunctionRef<Vec3f(int)> gravity) {
   seconds_ += s.h;
-  if (++substeps_ < longest_pause && !s.is_last()) return;
+  if (++substeps_ < longest_pause && !s.is_last() && !ends_quarter(s)) return;  // a frame may stop where a quarter ends
   std::size_t used = 0;
   if (s.fluids != nullptr)
     for (const auto& pool : s.fluids->pools()) {
@@ -187,8 +189,10 @@ void GasSolver::respond(Substep& s, FunctionRef<Vec3f(int)> gravity) {
       store(s, pass, gravity);
     }
   passes_.resize(used);
-  for (const int o : tracers_) advance_tracers(s, passes_, {o, substeps_, seconds_, gravity(o)});
+  for (const int o : tracers_)
+    advance_tracers(s, passes_, {o, last_pass_ < 0 ? s.frame_start : last_pass_, seconds_, gravity(o)});
   begin_frame();
+  last_pass_ = time_of(s, s.number + 1);
 }
 
 }  // namespace pliant

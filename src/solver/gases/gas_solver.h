@@ -58,6 +58,7 @@ class GasSolver {
 
   std::vector<int> gases_, tracers_, balloons_;  ///< objects, ascending; of the last, closed surfaces that hold gas
   std::vector<GasPass> passes_;                  ///< of pools with gases
+  double last_pass_ = -1;                        ///< when it was; -1: none in this frame [s]
   int substeps_ = 0;                             ///< since the last pass
   float seconds_ = 0;                            ///< likewise
 };

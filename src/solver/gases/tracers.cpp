@@ -25,10 +25,12 @@ std::uint64_t mixed(std::uint64_t x) {
 float symmetric(std::uint64_t bits) { return static_cast<float>(bits >> 40) / static_cast<float>(1 << 23) - 1; }
 
 /// The velocity of the gases at a place: the mean of the particles around, weighted by the kernel. That of the air where there is none.
-Vec3f velocity_at(const std::vector<GasPass>& gases, const Vec3f& place, const Vec3f& air, std::vector<SlotRange>& ranges) {
+Vec3f velocity_at(const std::vector<const GasPass*>& gases, const Vec3f& place, const Vec3f& air,
+                  std::vector<SlotRange>& ranges) {
   Vec3f sum{};
   float weights = 0;
-  for (const GasPass& gas : gases) {
+  for (const GasPass* met : gases) {
+    const GasPass& gas = *met;
     const float reach = gas.pool->law.reach;
     const Vec3f around{reach, reach, reach};
     gas.pool->neighbours.order().find(place - around, place + around, ranges);
@@ -45,14 +47,23 @@ Vec3f velocity_at(const std::vector<GasPass>& gases, const Vec3f& place, const V
   return weights > 0 ? sum * (1 / weights) : air;
 }
 
+/// The gases that an object meets by groups and masks. Those of a pool have the same.
+std::vector<const GasPass*> met_by(const Substep& s, const CompiledObject& object, const std::vector<GasPass>& gases) {
+  std::vector<const GasPass*> met;
+  for (const GasPass& gas : gases) {
+    const CompiledObject& other = s.model.objects[at(gas.pool->objects.front())];
+    if ((object.mask & other.groups) != 0 && (other.mask & object.groups) != 0) met.push_back(&gas);
+  }
+  return met;
+}
+
 /// Puts the tracers that were emitted since the last pass at their places, with their ages.
 void emit(Substep& s, const TracerPass& pass, std::vector<float>& ages) {
   const CompiledObject& object = s.model.objects[at(pass.object)];
   const Tracers& tracers = *object.tracers;
   const double now = time_of(s, s.number + 1);
   const std::int64_t until = emitted_until(tracers, now);
-  const std::int64_t from =
-      std::max(emitted_until(tracers, time_of(s, s.number + 1 - pass.substeps)), until - object.user_particles);
+  const std::int64_t from = std::max(emitted_until(tracers, pass.since), until - object.user_particles);
   for (std::int64_t n = from; n < until; ++n) {
     const std::int64_t i = s.model.first[at(pass.object)] + object.place[at(n % object.user_particles)];
     const Vec3f place = place_in(tracers.source, static_cast<std::uint64_t>(n));
@@ -94,12 +105,13 @@ void advance_tracers(Substep& s, const std::vector<GasPass>& gases, const Tracer
   for (int i = first; i < last; ++i)
     if (ages[at(i)] >= 0 && (ages[at(i)] += pass.seconds) > tracers.lifetime) ages[at(i)] = no_age;
   emit(s, pass, ages);
+  const std::vector<const GasPass*> met = met_by(s, object, gases);
   s.context.executor.parallel_for("respond: tracers", (object.particles + in_a_task - 1) / in_a_task, [&](int task) {
     std::vector<SlotRange> ranges;
     for (int i = first + task * in_a_task; i < std::min(first + (task + 1) * in_a_task, last); ++i) {
       Record& x = s.state.positions[at(i)];
       if (ages[at(i)] < 0) x = {tracers.source.centre.x, tracers.source.centre.y, tracers.source.centre.z, x.w};
-      const Vec3f v = ages[at(i)] < 0 ? Vec3f{} : velocity_at(gases, {x.x, x.y, x.z}, air, ranges);
+      const Vec3f v = ages[at(i)] < 0 ? Vec3f{} : velocity_at(met, {x.x, x.y, x.z}, air, ranges);
       s.state.velocities[at(i)] = {v.x - pass.gravity.x, v.y - pass.gravity.y, v.z - pass.gravity.z, 0};
     }
   });

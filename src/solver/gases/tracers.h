@@ -10,8 +10,8 @@ namespace pliant {
 /// A pass over the tracers of an object.
 struct TracerPass {
   int object = 0;
-  int substeps = 0;   ///< since the last pass
-  float seconds = 0;  ///< likewise
+  double since = 0;   ///< time of the last pass [s]
+  float seconds = 0;  ///< since then
   Vec3f gravity{};    ///< that velocities do not include yet [m/s]
 };
 
